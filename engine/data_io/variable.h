@@ -1,0 +1,24 @@
+#pragma once
+#include <map>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "numerics/linalg/types.h"
+
+namespace dynlab {
+
+struct Variable;
+using VariableTable = std::map<std::string, Variable>;
+using VariableList = std::vector<Variable>;
+
+/// What a data file holds under one name. Vectors (1 x n or n x 1) come as columns; 1 x 1 as a number.
+struct Variable {
+    std::variant<double, bool, std::string, Vector, Matrix, Eigen::VectorXcd, Eigen::MatrixXcd,
+                 std::shared_ptr<VariableTable>,  // a struct
+                 std::shared_ptr<VariableList>>   // a cell array or an array of structs, column by column
+        value;
+};
+
+}  // namespace dynlab

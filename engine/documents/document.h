@@ -1,0 +1,50 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "documents/run_record.h"
+#include "documents/weave.h"
+
+namespace dynlab {
+
+enum class DocumentFormat { kPdf, kHtml, kMarkdown };
+DocumentFormat document_format(
+    const std::filesystem::path& file);  ///< by extension; throws DocumentError naming the three
+
+/// What a document is made of: a template (Pandoc Markdown with slots, metadata in its YAML header), the run
+/// record that fills the slots and, for templates with a `::: {.cells}` block, the woven script.
+struct DocumentSource {
+    std::filesystem::path template_file;
+    std::map<std::string, std::string> metadata;  ///< title, subtitle, lang, date...: override the template's own
+    const RunRecord* record = nullptr;
+    MarkdownText cells;  ///< put in place of `::: {.cells}` ... `:::`
+};
+
+/// Makes documents: template -> Markdown -> Pandoc with our filter -> HTML, or LaTeX -> pdflatex with a
+/// precompiled preamble and only the passes that references need. The figures named by the record must have
+/// been drawn (record figures' `file`): PDF for kPdf, SVG for kHtml, when `wait_for_figures` returns. Throws
+/// DocumentError (with file and line or section): a slot without entry or of the wrong kind, dangling or
+/// duplicate references, a missing image, metadata keys that are not allowed, file or macro commands in
+/// mathematics, characters LaTeX cannot print, the first real LaTeX error; MissingProgram for pandoc and
+/// pdflatex.
+class DocumentMaker {
+  public:
+    struct Options {
+        bool use_cache = true;  ///< preamble format and .aux; never while grading
+        std::vector<std::pair<std::string, double>>* timings = nullptr;  ///< seconds of each step, appended
+    };
+    explicit DocumentMaker(Options options) : options_(options) {}
+
+    /// Writes `output` whole or not at all. `wait_for_figures` is called after Pandoc and before LaTeX, so
+    /// that drawing and Pandoc overlap.
+    void make(const DocumentSource& source, const std::filesystem::path& output, DocumentFormat format,
+              const std::function<void()>& wait_for_figures) const;
+
+  private:
+    Options options_;
+};
+
+}  // namespace dynlab

@@ -1,0 +1,13 @@
+#pragma once
+#include <stdexcept>
+
+namespace dynlab {
+
+/// A script or document cannot be made. The message starts with "file:line: " where a line is known. Exit
+/// code 1.
+class DocumentError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+}  // namespace dynlab

@@ -1,0 +1,53 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace dynlab {
+
+/// The kind of value a script promises under a name in its header's `answers`.
+struct ExpectedAnswer {
+    std::string name, kind;
+};
+
+/// The comment header of a literate script: lines `-- key: value` between two `-- ---` lines.
+struct ScriptHeader {
+    std::string title, lesson, subtitle;
+    std::string template_name = "lesson";
+    std::string language = "en";  ///< "en" or "fr"
+    std::uint32_t seed = 1;
+    std::vector<ExpectedAnswer> answers;
+};
+
+struct Cell {
+    enum class Kind { kText, kCode };
+    Kind kind = Kind::kCode;
+    std::string id;                              ///< from `-- %% id=q2`, else "cell-N"
+    std::map<std::string, std::string> options;  ///< further key=value pairs; echo=false, output=false are known
+    int first_line = 1;                          ///< 1-based line of the cell's first content line in the script
+    std::string content;                         ///< text cells: Markdown with the comment signs taken off
+    int last_line() const;
+};
+
+/// A Lua script in the percent format: `-- %% [markdown]` starts a text cell (Lua comment lines), `-- %%` a
+/// code cell.
+/// `-- BEGIN SOLUTION` ... `-- END SOLUTION` enclose what a student's copy must not contain; the marker lines
+/// themselves are never shown.
+struct PercentScript {
+    std::filesystem::path file;
+    ScriptHeader header;
+    std::vector<Cell> cells;
+    std::string source;  ///< the whole file, unchanged: what Lua runs
+
+    const Cell* cell_at_line(int line) const;
+};
+
+/// Throws DocumentError with file and line: unknown or malformed header key (suggesting the nearest), header
+/// not closed, unknown cell option, a text cell line that is not a comment, duplicate cell id, solution
+/// markers that do not pair up.
+PercentScript read_percent_script(const std::filesystem::path& file);
+PercentScript parse_percent_script(const std::string& source, const std::filesystem::path& name);
+
+}  // namespace dynlab

@@ -1,0 +1,70 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "figures/figure.h"
+
+namespace dynlab {
+
+/// `report.value`: a number with the text that documents show, or a text.
+struct RecordedValue {
+    std::optional<double> number;
+    std::string text;  ///< formatted; plain text, never Markdown
+};
+
+/// `report.table`: a header row and rows of plain text cells. Columns whose cells are all numbers are set
+/// right-aligned.
+struct RecordedTable {
+    std::vector<std::string> header;
+    std::vector<std::vector<std::string>> rows;
+};
+
+/// `report.figure`, or a figure a cell made and dropped (then `name` is "<cell id>-figure-K" and the caption
+/// is the figure's title).
+struct RecordedFigure {
+    Figure figure;
+    std::string caption;
+    std::filesystem::path file;  ///< where it was drawn, once it was
+};
+
+/// `report.text`: Markdown written by the script.
+struct RecordedText {
+    std::string markdown;
+};
+
+/// One piece of what a code cell produced, in the order it was produced.
+struct CellOutput {
+    std::string printed;                ///< text printed since the piece before
+    std::optional<std::string> figure;  ///< name of a captured figure
+};
+
+struct RecordedError {
+    std::string message;  ///< the whole readable sentence, with file and line
+    int line = 0;         ///< of the script; 0 when unknown
+};
+
+/// Everything a run of a script produced: the one thing documents are made from.
+struct RunRecord {
+    std::string script;  ///< file name without folders
+    std::uint32_t seed = 1;
+    std::map<std::string, RecordedValue> values;
+    std::map<std::string, RecordedTable> tables;
+    std::map<std::string, RecordedFigure> figures;
+    std::map<std::string, RecordedText> texts;
+    std::map<std::string, std::vector<CellOutput>> outputs;  ///< by cell id, in the order produced
+    std::optional<RecordedError> error;                      ///< the run stopped here
+    std::vector<std::filesystem::path> files_read;           ///< data files, in the order first read
+    std::map<std::string, double> timings;                   ///< seconds by cell id; never part of to_json
+};
+
+/// JSON text (UTF-8, keys sorted, numbers with 17 digits) without timings, so that equal runs give equal
+/// bytes.
+std::string to_json(const RunRecord& record);
+std::string timings_to_json(const RunRecord& record);
+
+}  // namespace dynlab

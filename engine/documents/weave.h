@@ -1,0 +1,28 @@
+#pragma once
+#include <string>
+
+#include "documents/percent_script.h"
+#include "documents/run_record.h"
+
+namespace dynlab {
+
+/// Where a line of assembled Markdown came from, for messages.
+struct SourceLine {
+    std::filesystem::path file;
+    int line = 0;
+};
+
+/// Markdown with the origin of every line.
+struct MarkdownText {
+    std::string text;
+    std::vector<SourceLine> origin;  ///< one per line of text
+
+    void append(const std::string& lines, const std::filesystem::path& file, int first_line);
+    SourceLine origin_of(int line) const;  ///< 1-based
+};
+
+/// The script's cells in reading order: text, code, printed output, captured figures. Solution markers are
+/// left out; a recorded error appears at its cell.
+MarkdownText weave_cells(const PercentScript& script, const RunRecord& record);
+
+}  // namespace dynlab

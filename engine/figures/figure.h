@@ -1,0 +1,75 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "numerics/linalg/types.h"
+
+namespace dynlab {
+
+/// A picture as plain data: rows x columns of panels, each with curves and marks. Nothing here knows how it
+/// is drawn.
+
+enum class CurveStyle { kLine, kPoints, kLinePoints, kStairs, kStems, kBars, kBand };
+
+struct Curve {
+    Vector x, y;
+    Vector y_upper;  ///< kBand only: the band lies between y and y_upper
+    CurveStyle style = CurveStyle::kLine;
+    std::string label;          ///< legend entry; none when empty
+    std::optional<int> colour;  ///< place in the house palette, 0-based; the curve's own place unless given
+    std::optional<int> dash;    ///< 0 solid, 1 dashed, 2 dotted, 3 dash-dot; chosen with the colour unless given
+    double line_width = 1.6;    ///< points
+    std::optional<int> marker;  ///< point shape, 0-based; chosen with the colour unless given
+};
+
+/// A straight reference: a level (horizontal) or an instant (vertical), over the whole panel.
+struct ReferenceLine {
+    bool horizontal = true;
+    double at = 0;
+    std::string label;  ///< written beside the line when not empty
+    int dash = 1;
+};
+
+/// A marked reading point with its text, placed so that it stays inside the panel.
+struct Annotation {
+    double x = 0, y = 0;
+    std::string text;
+    bool marker = true;
+};
+
+struct Arrow {
+    double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+    std::string text;  ///< at its middle
+    bool both_heads = false;
+};
+
+enum class LegendPlace { kAutomatic, kAbove, kRight, kNone };  ///< outside the curves, always
+
+struct Panel {
+    std::string title, x_label, y_label;
+    bool log_x = false, log_y = false;
+    std::optional<std::pair<double, double>> x_range, y_range;
+    bool equal_axes = false;  ///< one unit the same length on both axes (pole-zero maps, Nyquist)
+    LegendPlace legend = LegendPlace::kAutomatic;
+    std::vector<Curve> curves;
+    std::vector<ReferenceLine> references;
+    std::vector<Annotation> annotations;
+    std::vector<Arrow> arrows;
+};
+
+struct Figure {
+    int rows = 1, columns = 1;
+    std::vector<Panel> panels;            ///< row by row, at most rows * columns
+    std::string title;                    ///< above all panels; documents use captions instead
+    double width_cm = 14, height_cm = 0;  ///< height 0: chosen from the rows
+
+    Figure() = default;
+    explicit Figure(Panel panel) : panels{std::move(panel)} {}
+    /// Throws InvalidArgument for curves whose x and y differ in length, no finite sample, too many panels,
+    /// or a range that is empty or not positive on a logarithmic axis; names panel and curve.
+    void validate() const;
+};
+
+}  // namespace dynlab

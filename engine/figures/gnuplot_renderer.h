@@ -1,0 +1,33 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "figures/figure.h"
+
+namespace dynlab {
+
+enum class FigureFormat { kPdf, kSvg, kPng };
+FigureFormat figure_format(
+    const std::filesystem::path& file);  ///< by extension; throws InvalidArgument naming the three
+
+/// One gnuplot process that draws any number of figures in the house style. Starts with the first figure. All
+/// data go through the pipe; all text is quoted so that none of it can become gnuplot code or a shell
+/// command. Files appear whole (temporary name, then rename) once finish() or the next finish() returns.
+class GnuplotRenderer {
+  public:
+    GnuplotRenderer();
+    ~GnuplotRenderer();  ///< ends the process; files not finished are removed
+
+    /// Queues `figure` for `file`; returns at once. Throws MissingProgram when gnuplot is not installed.
+    void draw(const Figure& figure, const std::filesystem::path& file, FigureFormat format);
+    /// Waits until all queued files are whole. Throws FigureError with gnuplot's first complaint.
+    void finish();
+
+  private:
+    struct Process;
+    std::unique_ptr<Process> process_;
+};
+
+}  // namespace dynlab

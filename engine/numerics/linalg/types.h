@@ -1,0 +1,17 @@
+#pragma once
+#include <Eigen/Core>
+#include <complex>
+
+namespace dynlab {
+
+using Vector = Eigen::VectorXd;
+using Matrix = Eigen::MatrixXd;
+using Complex = std::complex<double>;
+using ComplexVector = Eigen::VectorXcd;
+using Index = Eigen::Index;
+
+/// Read-only arguments: bind to vectors and to memory owned by others (a Lua userdata) without a copy.
+using VectorView = Eigen::Ref<const Vector>;
+using MatrixView = Eigen::Ref<const Matrix>;
+
+}  // namespace dynlab

@@ -1,0 +1,30 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace dynlab {
+
+/// The program's caches below $XDG_CACHE_HOME/dynlab (else ~/.cache/dynlab): folders keyed by content, safe
+/// to delete at any time, the least recently used dropped beyond `limit_bytes`. With DYNLAB_NO_CACHE set, a
+/// private folder per process.
+class Cache {
+  public:
+    explicit Cache(const std::string& name, std::uint64_t limit_bytes = 256u << 20);
+
+    /// The folder of `key` if it is there and complete; marks it as just used.
+    std::optional<std::filesystem::path> find(const std::string& key) const;
+    /// Makes an empty folder to be filled; commit() moves it into place under `key` (two writers: the first
+    /// wins).
+    std::filesystem::path prepare() const;
+    std::filesystem::path commit(const std::filesystem::path& prepared, const std::string& key) const;
+    const std::filesystem::path& root() const { return root_; }
+
+  private:
+    void drop_beyond_limit() const;
+    std::filesystem::path root_;
+    std::uint64_t limit_bytes_;
+};
+
+}  // namespace dynlab

@@ -1,0 +1,48 @@
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dynlab {
+
+struct ChildOptions {
+    std::vector<std::string> command;  ///< program (looked up in PATH) and its arguments; no shell
+    std::filesystem::path folder;      ///< working folder; the current one when empty
+    std::vector<std::pair<std::string, std::string>> environment;  ///< added to (replacing in) the inherited one
+    std::string input;                                             ///< given on standard input, then closed
+    std::optional<std::chrono::milliseconds> timeout;  ///< wall clock; the whole process group is killed after it
+    std::optional<std::uint64_t> memory_bytes;         ///< address-space limit of the child
+    std::uint64_t output_bytes = 64u << 20;            ///< more output than this ends the child
+};
+
+struct ChildResult {
+    int exit_code = -1;  ///< 128 + signal when ended by a signal
+    bool timed_out = false, output_exceeded = false;
+    std::string output, error_output;
+};
+
+/// Runs a program in a process group of its own and waits. Ctrl-C kills the group and throws Interrupted.
+/// Throws MissingProgram (with `package`, the Debian package that holds it) when the program is not found,
+/// EnvironmentError when it cannot be started.
+ChildResult run_child(const ChildOptions& options, const std::string& package);
+
+/// The same without waiting: start, do other work, then wait().
+class ChildProcess {
+  public:
+    ChildProcess(ChildOptions options, const std::string& package);
+    ~ChildProcess();  ///< kills the group when not waited for
+    ChildProcess(ChildProcess&&) noexcept;
+    ChildProcess& operator=(ChildProcess&&) noexcept;
+    ChildResult wait();
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace dynlab

@@ -1,0 +1,18 @@
+#pragma once
+
+namespace dynlab {
+
+/// Ctrl-C as a flag. While one of these lives, SIGINT sets the flag instead of ending the program; a second
+/// SIGINT within the same scope ends it at once. Long work polls interrupted() (async-signal-safe, cheap).
+class InterruptScope {
+  public:
+    InterruptScope();
+    ~InterruptScope();
+    InterruptScope(const InterruptScope&) = delete;
+    InterruptScope& operator=(const InterruptScope&) = delete;
+};
+
+bool interrupted();
+void throw_if_interrupted();  ///< throws Interrupted
+
+}  // namespace dynlab

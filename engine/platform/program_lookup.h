@@ -1,0 +1,22 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dynlab {
+
+std::optional<std::filesystem::path> find_program(const std::string& name);  ///< in PATH
+
+/// Folder with data/, lessons/ and report_templates/: $DYNLAB_HOME, else <prefix>/share/dynlab beside the
+/// running program, else the source tree that holds its build folder. Throws EnvironmentError that lists the
+/// places tried.
+std::filesystem::path shared_folder();
+
+/// A program or Debian package dynlab needs at run time, for `dynlab doctor`.
+struct NeededProgram {
+    std::string program, package, purpose;
+};
+const std::vector<NeededProgram>& needed_programs();
+
+}  // namespace dynlab

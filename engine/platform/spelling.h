@@ -1,0 +1,12 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dynlab {
+
+/// The candidate nearest to `word` by edit distance (case ignored, swapped neighbours count one), when near
+/// enough to be a slip: at most one third of the letters. Nothing otherwise.
+std::optional<std::string> nearest_word(const std::string& word, const std::vector<std::string>& candidates);
+
+}  // namespace dynlab

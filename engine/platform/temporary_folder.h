@@ -1,0 +1,19 @@
+#pragma once
+#include <filesystem>
+
+namespace dynlab {
+
+/// A private folder below $TMPDIR, removed with everything in it when this object goes.
+class TemporaryFolder {
+  public:
+    TemporaryFolder();
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+}  // namespace dynlab
