@@ -7,8 +7,9 @@
 namespace dynlab {
 
 /// The program's caches below $XDG_CACHE_HOME/dynlab (else ~/.cache/dynlab): folders keyed by content, safe
-/// to delete at any time, the least recently used dropped beyond `limit_bytes`. With DYNLAB_NO_CACHE set, a
-/// private folder per process.
+/// to delete at any time, the least recently used dropped beyond `limit_bytes` unless used within the last minute.
+/// With DYNLAB_NO_CACHE set, or where no cache folder can be made, a private folder per process. Keys are plain
+/// file names (a hash).
 class Cache {
   public:
     explicit Cache(const std::string& name, std::uint64_t limit_bytes = 256u << 20);

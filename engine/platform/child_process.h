@@ -26,15 +26,17 @@ struct ChildResult {
     std::string output, error_output;
 };
 
-/// Runs a program in a process group of its own and waits. Ctrl-C kills the group and throws Interrupted.
-/// Throws MissingProgram (with `package`, the Debian package that holds it) when the program is not found,
+/// Runs a program in a process group of its own and waits. What the program leaves running in that group is
+/// killed when it ends. Ctrl-C (see InterruptScope) kills the group and throws Interrupted. Throws
+/// MissingProgram (with `package`, the Debian package that holds it) when the program is not found,
 /// EnvironmentError when it cannot be started.
 ChildResult run_child(const ChildOptions& options, const std::string& package);
 
-/// The same without waiting: start, do other work, then wait().
+/// The same without waiting: start, do other work, then wait(). Output beyond a pipe's worth (about 1 MB) holds
+/// the child until wait(), and a timeout is enforced there. The thread that starts the child must outlive it.
 class ChildProcess {
   public:
-    ChildProcess(ChildOptions options, const std::string& package);
+    ChildProcess(const ChildOptions& options, const std::string& package);
     ~ChildProcess();  ///< kills the group when not waited for
     ChildProcess(ChildProcess&&) noexcept;
     ChildProcess& operator=(ChildProcess&&) noexcept;

@@ -6,12 +6,14 @@
 
 namespace dynlab {
 
-std::optional<std::filesystem::path> find_program(const std::string& name);  ///< in PATH
+std::optional<std::filesystem::path> find_program(const std::string& name);  ///< in PATH, or a path as it is
 
 /// Folder with data/, lessons/ and report_templates/: $DYNLAB_HOME, else <prefix>/share/dynlab beside the
 /// running program, else the source tree that holds its build folder. Throws EnvironmentError that lists the
 /// places tried.
 std::filesystem::path shared_folder();
+/// The same for a given program file, without the environment.
+std::filesystem::path shared_folder_of(const std::filesystem::path& program);
 
 /// A program or Debian package dynlab needs at run time, for `dynlab doctor`.
 struct NeededProgram {

@@ -1,8 +1,13 @@
 #pragma once
 #include <chrono>
+#include <cstddef>
 #include <string>
 
 namespace dynlab {
+
+/// "what  [#####-----]  50/100  3 s left", at most `width` characters; with total 0 only "what".
+std::string progress_line(const std::string& what, std::size_t done, std::size_t total, double seconds_so_far,
+                          std::size_t width);
 
 /// A bar with count and time left on standard error when that is a terminal, silent otherwise. Appears after
 /// 0.3 s.
@@ -10,15 +15,18 @@ class ProgressBar {
   public:
     ProgressBar(std::string what, std::size_t total);
     ~ProgressBar();  ///< clears the line
-    void advance(std::size_t done);
+    ProgressBar(const ProgressBar&) = delete;
+    ProgressBar& operator=(const ProgressBar&) = delete;
+    void advance(std::size_t done);         ///< so many of the total are done now
     void message(const std::string& text);  ///< replaces the description (for steps instead of counts)
 
   private:
-    void show();
+    void show_now_and_then();
     std::string what_;
     std::size_t total_, done_ = 0;
     bool on_terminal_;
-    std::chrono::steady_clock::time_point start_, shown_;
+    std::chrono::steady_clock::time_point start_, last_shown_;
+    bool visible_ = false;
 };
 
 }  // namespace dynlab

@@ -1,0 +1,132 @@
+#include "platform/child_process.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "platform/error.h"
+#include "platform/process_group.h"
+#include "platform/program_lookup.h"
+
+namespace dynlab {
+namespace {
+
+/// Everything exec needs, made before the fork: between fork and exec only async-signal-safe calls are allowed.
+struct Launch {
+    std::string program, folder;
+    std::vector<std::string> arguments, environment;
+    std::vector<char*> argument_pointers, environment_pointers;
+    std::optional<std::uint64_t> memory_bytes;
+    FileDescriptor input;
+};
+
+std::string program_file(const std::string& name, const std::string& package) {
+    const auto found = find_program(name);
+    if (!found) throw MissingProgram(name, package);
+    return *found;
+}
+
+std::vector<std::string> merged_environment(const std::vector<std::pair<std::string, std::string>>& changes) {
+    std::vector<std::string> merged;
+    for (char** entry = environ; *entry; ++entry) {
+        const std::string text = *entry;
+        const std::string name = text.substr(0, text.find('='));
+        const auto replaces = [&](const auto& change) { return change.first == name; };
+        if (std::find_if(changes.begin(), changes.end(), replaces) == changes.end()) merged.push_back(text);
+    }
+    for (const auto& [name, value] : changes) merged.push_back(name + "=" + value);
+    return merged;
+}
+
+std::vector<char*> pointers_to(std::vector<std::string>& texts) {
+    std::vector<char*> pointers;
+    for (std::string& text : texts) pointers.push_back(text.data());
+    pointers.push_back(nullptr);
+    return pointers;
+}
+
+/// The input as a file in memory: no pipe to feed, so a child that does not read its input cannot block us.
+FileDescriptor input_file(const std::string& input) {
+    if (input.empty()) return FileDescriptor(::open("/dev/null", O_RDONLY | O_CLOEXEC));
+    FileDescriptor file(::memfd_create("dynlab-input", MFD_CLOEXEC));
+    if (!file || !write_all(file.get(), input.data(), input.size()) || ::lseek(file.get(), 0, SEEK_SET) != 0) {
+        throw EnvironmentError("cannot hand input to a child process: " + system_reason(errno));
+    }
+    return file;
+}
+
+Launch prepare_launch(const ChildOptions& options, const std::string& package) {
+    if (options.command.empty()) throw std::invalid_argument("a child process needs a command");
+    Launch launch;
+    launch.program = program_file(options.command.front(), package);
+    launch.folder = options.folder.string();
+    launch.arguments = options.command;
+    launch.environment = merged_environment(options.environment);
+    launch.argument_pointers = pointers_to(launch.arguments);
+    launch.environment_pointers = pointers_to(launch.environment);
+    launch.memory_bytes = options.memory_bytes;
+    launch.input = input_file(options.input);
+    return launch;
+}
+
+/// Runs in the child. On failure errno goes up the `failure` pipe, which a successful exec closes.
+[[noreturn]] void become_program(const Launch& launch, pid_t parent, int output, int error_output, int failure) {
+    if (!become_group_leader(parent)) ::_exit(127);
+    const bool ready = ::dup2(launch.input.get(), STDIN_FILENO) >= 0 && ::dup2(output, STDOUT_FILENO) >= 0 &&
+                       ::dup2(error_output, STDERR_FILENO) >= 0 &&
+                       (launch.folder.empty() || ::chdir(launch.folder.c_str()) == 0);
+    if (ready) {
+        if (launch.memory_bytes) limit_memory(*launch.memory_bytes);
+        ::execve(launch.program.c_str(), launch.argument_pointers.data(), launch.environment_pointers.data());
+    }
+    const int reason = errno;
+    write_all(failure, reinterpret_cast<const char*>(&reason), sizeof reason);
+    ::_exit(127);
+}
+
+std::unique_ptr<ProcessGroup> start(const ChildOptions& options, const std::string& package) {
+    const Launch launch = prepare_launch(options, package);
+    Pipe output, error_output, failure;
+    const pid_t parent = ::getpid();
+    const pid_t child = ::fork();
+    if (child < 0) throw EnvironmentError("cannot start " + launch.program + ": " + system_reason(errno));
+    if (child == 0) {
+        become_program(launch, parent, output.write_end.get(), error_output.write_end.get(), failure.write_end.get());
+    }
+    auto group = std::make_unique<ProcessGroup>(child, std::move(output.read_end), std::move(error_output.read_end),
+                                                ProcessGroup::Limits{options.timeout, options.output_bytes});
+    failure.write_end.close();
+    int reason = 0;
+    if (retry_interrupted([&] { return ::read(failure.read_end.get(), &reason, sizeof reason); }) > 0) {
+        throw EnvironmentError("cannot start " + launch.program + ": " + system_reason(reason) +
+                               (launch.folder.empty() ? "" : " (in " + launch.folder + ")"));
+    }
+    return group;
+}
+
+}  // namespace
+
+ChildResult run_child(const ChildOptions& options, const std::string& package) {
+    return start(options, package)->wait();
+}
+
+struct ChildProcess::State {
+    std::unique_ptr<ProcessGroup> group;
+};
+
+ChildProcess::ChildProcess(const ChildOptions& options, const std::string& package)
+    : state_(std::make_unique<State>(start(options, package))) {}
+ChildProcess::~ChildProcess() = default;
+ChildProcess::ChildProcess(ChildProcess&&) noexcept = default;
+ChildProcess& ChildProcess::operator=(ChildProcess&&) noexcept = default;
+
+ChildResult ChildProcess::wait() {
+    if (!state_->group) throw std::logic_error("a child process can be waited for only once");
+    const auto group = std::move(state_->group);
+    return group->wait();
+}
+
+}  // namespace dynlab

@@ -1,0 +1,47 @@
+#include "platform/interrupt.h"
+
+#include <csignal>
+
+#include "platform/error.h"
+
+namespace dynlab {
+namespace {
+
+volatile std::sig_atomic_t interrupt_count = 0;
+int open_scopes = 0;  // scopes are made by the main thread only
+struct sigaction action_before;
+
+void count_interrupt(int) {
+    interrupt_count = interrupt_count + 1;
+    if (interrupt_count < 2) return;
+    ::signal(SIGINT, SIG_DFL);
+    ::raise(SIGINT);  // held back until this handler returns, then ends the program
+}
+
+}  // namespace
+
+InterruptScope::InterruptScope() {
+    if (open_scopes++ > 0) return;
+    interrupt_count = 0;
+    struct sigaction action {};
+    action.sa_handler = count_interrupt;
+    sigemptyset(&action.sa_mask);
+    action.sa_flags = SA_RESTART;  // libraries need not know about interrupted reads; poll() returns all the same
+    ::sigaction(SIGINT, &action, &action_before);
+}
+
+InterruptScope::~InterruptScope() {
+    if (--open_scopes > 0) return;
+    ::sigaction(SIGINT, &action_before, nullptr);
+    interrupt_count = 0;
+}
+
+bool interrupted() {
+    return interrupt_count > 0;
+}
+
+void throw_if_interrupted() {
+    if (interrupted()) throw Interrupted();
+}
+
+}  // namespace dynlab

@@ -1,0 +1,136 @@
+#include "platform/process_group.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+
+#include "platform/error.h"
+#include "platform/interrupt.h"
+
+namespace dynlab {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kPipeBytes = 1 << 20;         // a megabyte of output never holds a child up
+constexpr int kLookForInterruptEvery = 50;  // milliseconds; Ctrl-C may reach another thread than the waiting one
+constexpr int kLookForExitEvery = 2;        // milliseconds, where the kernel has no pidfd_open
+
+/// A descriptor that becomes readable when the process ends (Linux 5.3); empty where that is refused.
+FileDescriptor open_process(pid_t process) {
+    return FileDescriptor(static_cast<int>(::syscall(SYS_pidfd_open, process, 0)));
+}
+
+}  // namespace
+
+Pipe::Pipe() {
+    int ends[2];
+    if (::pipe2(ends, O_CLOEXEC) != 0) throw EnvironmentError("cannot make a pipe: " + system_reason(errno));
+    read_end = FileDescriptor(ends[0]);
+    write_end = FileDescriptor(ends[1]);
+}
+
+bool become_group_leader(pid_t parent) {
+    ::setpgid(0, 0);
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    for (const int number : {SIGINT, SIGPIPE, SIGTERM, SIGQUIT, SIGHUP, SIGCHLD}) ::signal(number, SIG_DFL);
+    sigset_t none;
+    sigemptyset(&none);
+    ::sigprocmask(SIG_SETMASK, &none, nullptr);
+    return ::getppid() == parent;
+}
+
+void limit_memory(std::uint64_t bytes) {
+    const rlimit limit{bytes, bytes};
+    ::setrlimit(RLIMIT_AS, &limit);
+}
+
+ProcessGroup::ProcessGroup(pid_t leader, FileDescriptor output, FileDescriptor error_output, const Limits& limits)
+    : leader_(leader),
+      output_(std::move(output)),
+      error_output_(std::move(error_output)),
+      leader_exit_(open_process(leader)),
+      output_bytes_(limits.output_bytes) {
+    ::setpgid(leader, leader);  // by parent and child, so that the group exists whoever runs first
+    if (limits.timeout) deadline_ = Clock::now() + *limits.timeout;
+    for (const FileDescriptor* stream : {&output_, &error_output_}) {
+        ::fcntl(stream->get(), F_SETFL, O_NONBLOCK);
+        ::fcntl(stream->get(), F_SETPIPE_SZ, kPipeBytes);
+    }
+}
+
+ProcessGroup::~ProcessGroup() {
+    if (leader_ > 0) kill_and_reap();
+}
+
+ChildResult ProcessGroup::wait() {
+    collect_until_exit();
+    kill_and_reap();
+    // What was written before the end still lies in the pipes.
+    collect(output_, result_.output);
+    collect(error_output_, result_.error_output);
+    return std::move(result_);
+}
+
+void ProcessGroup::collect_until_exit() {
+    while (!leader_exited()) {
+        pollfd waiting[3] = {{output_.get(), POLLIN, 0},
+                             {error_output_.get(), POLLIN, 0},
+                             {leader_exit_.get(), POLLIN, 0}};  // closed ones (-1) are passed over
+        ::poll(waiting, 3, milliseconds_to_poll());
+        throw_if_interrupted();
+        collect(output_, result_.output);
+        collect(error_output_, result_.error_output);
+        result_.timed_out = deadline_ && Clock::now() >= *deadline_ && !leader_exited();
+        if (result_.timed_out || result_.output_exceeded) return;
+    }
+}
+
+int ProcessGroup::milliseconds_to_poll() const {
+    const int longest = leader_exit_ ? kLookForInterruptEvery : kLookForExitEvery;
+    if (!deadline_) return longest;
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(*deadline_ - Clock::now()).count();
+    return static_cast<int>(std::clamp<long long>(left, 0, longest));
+}
+
+void ProcessGroup::collect(FileDescriptor& stream, std::string& text) {
+    char block[1 << 16];
+    while (stream) {
+        const ssize_t count = retry_interrupted([&] { return ::read(stream.get(), block, sizeof block); });
+        if (count < 0 && errno == EAGAIN) return;
+        if (count <= 0) {
+            stream.close();
+            return;
+        }
+        const std::uint64_t room = output_bytes_ - result_.output.size() - result_.error_output.size();
+        text.append(block, std::min<std::uint64_t>(static_cast<std::uint64_t>(count), room));
+        if (static_cast<std::uint64_t>(count) > room) {
+            result_.output_exceeded = true;
+            stream.close();
+        }
+    }
+}
+
+bool ProcessGroup::leader_exited() const {
+    siginfo_t info{};
+    ::waitid(P_PID, static_cast<id_t>(leader_), &info, WEXITED | WNOHANG | WNOWAIT);
+    return info.si_pid == leader_;
+}
+
+/// The leader is reaped last: until then its number, and so the group's, cannot belong to anybody else.
+void ProcessGroup::kill_and_reap() {
+    ::kill(-leader_, SIGKILL);
+    int status = 0;
+    retry_interrupted([&] { return ::waitpid(leader_, &status, 0); });
+    result_.exit_code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+    leader_ = 0;
+}
+
+}  // namespace dynlab

@@ -1,0 +1,54 @@
+#pragma once
+#include <sys/types.h>
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "platform/child_process.h"
+#include "platform/system_call.h"
+
+namespace dynlab {
+
+struct Pipe {
+    Pipe();  ///< throws EnvironmentError
+    FileDescriptor read_end, write_end;
+};
+
+/// What a freshly forked child does first (async-signal-safe): a group of its own, death with its parent, default
+/// signals. Returns false when the parent is gone already.
+bool become_group_leader(pid_t parent);
+
+void limit_memory(std::uint64_t bytes);  ///< address space of this process from now on
+
+/// The parent's side of a forked child that leads its own process group and writes into two pipes.
+class ProcessGroup {
+  public:
+    struct Limits {
+        std::optional<std::chrono::milliseconds> timeout;  ///< from construction
+        std::uint64_t output_bytes;
+    };
+    ProcessGroup(pid_t leader, FileDescriptor output, FileDescriptor error_output, const Limits& limits);
+    ~ProcessGroup();  ///< kills the group when wait() has not reaped the leader
+    ProcessGroup(const ProcessGroup&) = delete;
+    ProcessGroup& operator=(const ProcessGroup&) = delete;
+
+    /// Collects output until the leader ends, by itself or killed at a limit. Throws Interrupted.
+    ChildResult wait();
+
+  private:
+    void collect_until_exit();
+    void collect(FileDescriptor& stream, std::string& text);
+    int milliseconds_to_poll() const;
+    bool leader_exited() const;
+    void kill_and_reap();
+
+    pid_t leader_;
+    FileDescriptor output_, error_output_, leader_exit_;
+    std::optional<std::chrono::steady_clock::time_point> deadline_;
+    std::uint64_t output_bytes_;
+    ChildResult result_;
+};
+
+}  // namespace dynlab

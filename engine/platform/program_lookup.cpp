@@ -1,0 +1,72 @@
+#include "platform/program_lookup.h"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <sstream>
+
+#include "platform/error.h"
+
+namespace dynlab {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool can_be_run(const fs::path& file) {
+    std::error_code error;
+    return fs::is_regular_file(file, error) && ::access(file.c_str(), X_OK) == 0;
+}
+
+bool is_folder(const fs::path& path) {
+    std::error_code error;
+    return fs::is_directory(path, error);
+}
+
+bool is_source_tree(const fs::path& folder) {
+    return is_folder(folder / "data") && is_folder(folder / "lessons") && is_folder(folder / "report_templates");
+}
+
+}  // namespace
+
+std::optional<fs::path> find_program(const std::string& name) {
+    if (name.find('/') != std::string::npos) {
+        return can_be_run(name) ? std::optional<fs::path>(name) : std::nullopt;
+    }
+    const char* path = std::getenv("PATH");
+    std::istringstream folders(path ? path : "/usr/local/bin:/usr/bin:/bin");
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        const fs::path file = fs::path(folder.empty() ? "." : folder) / name;
+        if (can_be_run(file)) return file;
+    }
+    return std::nullopt;
+}
+
+fs::path shared_folder_of(const fs::path& program) {
+    const fs::path installed = program.parent_path().parent_path() / "share/dynlab";
+    if (is_folder(installed / "data")) return installed;
+    for (fs::path folder = program.parent_path(); folder.has_relative_path(); folder = folder.parent_path()) {
+        if (is_source_tree(folder)) return folder;
+    }
+    throw EnvironmentError("the data sets and lessons were not found: neither in " + installed.string() +
+                           " nor in a folder above " + program.string() +
+                           "; set DYNLAB_HOME to the folder that holds data, lessons and report_templates");
+}
+
+fs::path shared_folder() {
+    if (const char* home = std::getenv("DYNLAB_HOME"); home && *home) {
+        if (is_folder(fs::path(home) / "data")) return home;
+        throw EnvironmentError("DYNLAB_HOME is " + std::string(home) + ", but there is no folder data in it");
+    }
+    return shared_folder_of(fs::read_symlink("/proc/self/exe"));
+}
+
+const std::vector<NeededProgram>& needed_programs() {
+    static const std::vector<NeededProgram> programs = {
+        {"gnuplot", "gnuplot-nox", "draws the figures"},
+        {"pandoc", "pandoc", "turns templates into LaTeX and HTML"},
+        {"pdflatex", "texlive-latex-base", "sets the PDF documents"},
+    };
+    return programs;
+}
+
+}  // namespace dynlab

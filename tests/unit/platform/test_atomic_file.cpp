@@ -1,0 +1,164 @@
+#include "platform/atomic_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <csignal>
+#include <functional>
+
+#include "platform/error.h"
+#include "platform/temporary_folder.h"
+
+namespace dynlab {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+std::string message_of(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const EnvironmentError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+std::size_t files_in(const fs::path& folder) {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+/// Files may not grow beyond `bytes` while this lives: what a full disk does, without one.
+class FileSizeLimit {
+  public:
+    explicit FileSizeLimit(rlim_t bytes) {
+        getrlimit(RLIMIT_FSIZE, &before_);
+        signal_before_ = signal(SIGXFSZ, SIG_IGN);
+        const rlimit limit{bytes, before_.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    ~FileSizeLimit() {
+        setrlimit(RLIMIT_FSIZE, &before_);
+        signal(SIGXFSZ, signal_before_);
+    }
+
+  private:
+    rlimit before_;
+    sighandler_t signal_before_;
+};
+
+TEST(atomic_file, holds_what_was_written) {
+    const TemporaryFolder folder;
+    const fs::path file = folder.path() / "a b.bin";
+    const std::string content("line\n\0binary\xff", 13);
+    write_file_atomically(file, content);
+    EXPECT_EQ(read_file(file), content);
+    write_file_atomically(file, "");
+    EXPECT_EQ(read_file(file), "");
+    EXPECT_EQ(files_in(folder.path()), 1u);
+}
+
+TEST(atomic_file, keeps_the_old_file_when_the_disk_is_full) {
+    const TemporaryFolder folder;
+    const fs::path file = folder.path() / "report.pdf";
+    write_file_atomically(file, "old");
+    std::string message;
+    {
+        const FileSizeLimit limit(1000);
+        message = message_of([&] { write_file_atomically(file, std::string(5000, 'n')); });
+    }
+    EXPECT_EQ(message, "cannot write report.pdf: file too large (in " + folder.path().string() + ")");
+    EXPECT_EQ(read_file(file), "old");
+    EXPECT_EQ(files_in(folder.path()), 1u);
+}
+
+TEST(atomic_file, says_that_the_disk_is_full) {  // oracle: /dev/full refuses every byte with ENOSPC
+    EXPECT_EQ(message_of([] { write_file_atomically("/dev/full", "x"); }),
+              "cannot write full: no space left on device (in /dev)");
+    EXPECT_FALSE(fs::is_regular_file("/dev/full"));
+}
+
+TEST(atomic_file, writes_into_devices_and_leaves_them_in_place) {
+    write_file_atomically("/dev/null", "x");
+    EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST(atomic_file, names_the_reason_when_the_folder_cannot_be_written) {
+    const TemporaryFolder folder;
+    write_file_atomically(folder.path() / "plain", "x");
+    EXPECT_THAT(message_of([&] { write_file_atomically(folder.path() / "plain/report.pdf", "x"); }),
+                HasSubstr("cannot write report.pdf: not a directory (in " + (folder.path() / "plain").string() + ")"));
+    EXPECT_THAT(message_of([&] { write_file_atomically(folder.path() / "none/report.pdf", "x"); }),
+                HasSubstr("no such file or directory"));
+    EXPECT_THAT(message_of([&] { write_file_atomically(folder.path(), "x"); }), HasSubstr("is a directory"));
+    EXPECT_THAT(message_of([] { write_file_atomically("/proc/report.pdf", "x"); }),
+                HasSubstr("cannot write report.pdf: "));
+}
+
+TEST(atomic_file, keeps_permissions_and_symbolic_links) {
+    const TemporaryFolder folder;
+    const fs::path file = folder.path() / "real", link = folder.path() / "link";
+    write_file_atomically(file, "old");
+    fs::permissions(file, fs::perms(0640));
+    fs::create_symlink("real", link);
+    write_file_atomically(link, "new");
+    EXPECT_TRUE(fs::is_symlink(link));
+    EXPECT_EQ(read_file(file), "new");
+    EXPECT_EQ(fs::status(file).permissions(), fs::perms(0640));
+}
+
+TEST(atomic_file, new_files_follow_the_umask) {
+    const TemporaryFolder folder;
+    const mode_t before = umask(027);
+    write_file_atomically(folder.path() / "x", "x");
+    umask(before);
+    EXPECT_EQ(fs::status(folder.path() / "x").permissions(), fs::perms(0640));
+}
+
+TEST(atomic_file, places_a_finished_file) {
+    const TemporaryFolder folder;
+    const fs::path from = folder.path() / "from", to = folder.path() / "to";
+    write_file_atomically(from, "content");
+    write_file_atomically(to, "old");
+    place_file_atomically(from, to);
+    EXPECT_EQ(read_file(to), "content");
+    EXPECT_FALSE(fs::exists(from));
+}
+
+TEST(atomic_file, places_a_file_across_file_systems) {
+    if (!fs::is_directory("/dev/shm")) GTEST_SKIP() << "no second file system";
+    const TemporaryFolder folder;
+    const fs::path shared_memory = fs::path("/dev/shm") / folder.path().filename(), to = folder.path() / "to";
+    write_file_atomically(shared_memory, std::string(600000, 'c'));
+    write_file_atomically(to, "old");
+    {
+        const FileSizeLimit limit(1000);
+        EXPECT_THROW(place_file_atomically(shared_memory, to), EnvironmentError);
+    }
+    EXPECT_EQ(read_file(to), "old");
+    place_file_atomically(shared_memory, to);
+    EXPECT_EQ(read_file(to), std::string(600000, 'c'));
+    EXPECT_FALSE(fs::exists(shared_memory));
+    EXPECT_EQ(files_in(folder.path()), 1u);
+}
+
+TEST(atomic_file, placing_needs_a_source_and_leaves_the_destination) {
+    const TemporaryFolder folder;
+    write_file_atomically(folder.path() / "to", "old");
+    EXPECT_THAT(message_of([&] { place_file_atomically(folder.path() / "none", folder.path() / "to"); }),
+                HasSubstr("none"));
+    EXPECT_EQ(read_file(folder.path() / "to"), "old");
+}
+
+TEST(atomic_file, reading_names_the_reason) {
+    const TemporaryFolder folder;
+    EXPECT_EQ(message_of([&] { read_file(folder.path() / "none"); }),
+              "cannot read " + (folder.path() / "none").string() + ": no such file or directory");
+    EXPECT_EQ(message_of([&] { read_file(folder.path()); }),
+              "cannot read " + folder.path().string() + ": is a directory");
+}
+
+}  // namespace
+}  // namespace dynlab

@@ -1,0 +1,214 @@
+#include "platform/child_process.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <fstream>
+#include <thread>
+
+#include "platform/atomic_file.h"
+#include "platform/error.h"
+#include "platform/interrupt.h"
+#include "platform/temporary_folder.h"
+
+namespace dynlab {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+using Clock = std::chrono::steady_clock;
+
+ChildOptions shell(const std::string& script) {
+    ChildOptions options;
+    options.command = {"sh", "-c", script};
+    return options;
+}
+
+/// Gone, or dead and only waiting to be reaped by its new parent.
+bool has_ended(const std::string& process) {
+    std::ifstream file("/proc/" + process + "/stat");
+    std::string line;
+    return !std::getline(file, line) || line.find(") Z ") != std::string::npos;
+}
+
+bool ends_soon(const std::string& process) {
+    const auto deadline = Clock::now() + 2s;
+    while (!has_ended(process) && Clock::now() < deadline) std::this_thread::sleep_for(1ms);
+    return has_ended(process);
+}
+
+TEST(child_process, returns_exit_code_and_both_outputs) {
+    const ChildResult result = run_child(shell("printf out; printf err >&2; exit 7"), "dash");
+    EXPECT_EQ(result.exit_code, 7);
+    EXPECT_EQ(result.output, "out");
+    EXPECT_EQ(result.error_output, "err");
+    EXPECT_FALSE(result.timed_out);
+    EXPECT_FALSE(result.output_exceeded);
+}
+
+TEST(child_process, passes_arguments_without_a_shell) {
+    ChildOptions options;
+    options.command = {"printf", "%s|", "a b", "$HOME", "`id`", "*", ""};
+    EXPECT_EQ(run_child(options, "coreutils").output, "a b|$HOME|`id`|*||");
+}
+
+TEST(child_process, echoes_more_than_a_pipe_holds_on_both_streams) {
+    ChildOptions options = shell("tee /dev/stderr");
+    for (int i = 0; i < 400000; ++i) options.input += std::to_string(i);
+    const ChildResult result = run_child(options, "dash");
+    EXPECT_EQ(result.output, options.input);
+    EXPECT_EQ(result.error_output, options.input);
+}
+
+TEST(child_process, input_not_read_does_no_harm) {
+    ChildOptions options = shell("exit 0");
+    options.input = std::string(5 << 20, 'x');
+    EXPECT_EQ(run_child(options, "dash").exit_code, 0);
+}
+
+TEST(child_process, no_input_is_an_empty_input) {
+    EXPECT_EQ(run_child(shell("cat; echo end"), "dash").output, "end\n");
+}
+
+TEST(child_process, runs_in_the_folder_with_the_environment) {
+    const TemporaryFolder folder;
+    setenv("DYNLAB_TEST_REPLACED", "old", 1);
+    setenv("DYNLAB_TEST_KEPT", "kept", 1);
+    ChildOptions options = shell("pwd -P; echo $DYNLAB_TEST_REPLACED $DYNLAB_TEST_KEPT $DYNLAB_TEST_NEW");
+    options.folder = folder.path();
+    options.environment = {{"DYNLAB_TEST_REPLACED", "new"}, {"DYNLAB_TEST_NEW", "a=b"}};
+    EXPECT_EQ(run_child(options, "dash").output, fs::canonical(folder.path()).string() + "\nnew kept a=b\n");
+}
+
+TEST(child_process, timeout_kills_the_whole_group) {
+    ChildOptions options = shell("sleep 60 & echo $!; sleep 60");
+    options.timeout = 200ms;
+    const auto start = Clock::now();
+    const ChildResult result = run_child(options, "dash");
+    EXPECT_LT(Clock::now() - start, 5s);
+    EXPECT_TRUE(result.timed_out);
+    EXPECT_EQ(result.exit_code, 128 + SIGKILL);
+    EXPECT_TRUE(ends_soon(result.output.substr(0, result.output.find('\n'))));
+}
+
+TEST(child_process, does_not_wait_for_what_the_program_leaves_running) {
+    const auto start = Clock::now();
+    const ChildResult result = run_child(shell("sleep 60 & echo $!"), "dash");
+    EXPECT_LT(Clock::now() - start, 5s);
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_TRUE(ends_soon(result.output.substr(0, result.output.find('\n'))));
+}
+
+TEST(child_process, timeout_holds_when_the_outputs_are_closed) {
+    ChildOptions options = shell("exec >&- 2>&-; sleep 60");
+    options.timeout = 100ms;
+    EXPECT_TRUE(run_child(options, "dash").timed_out);
+}
+
+TEST(child_process, endless_output_is_cut_and_ends_the_child) {
+    ChildOptions options = shell("yes");
+    options.output_bytes = 100000;
+    const ChildResult result = run_child(options, "dash");
+    EXPECT_TRUE(result.output_exceeded);
+    EXPECT_EQ(result.output.size(), 100000u);
+    EXPECT_EQ(result.exit_code, 128 + SIGKILL);
+}
+
+TEST(child_process, output_of_exactly_the_limit_is_allowed) {
+    ChildOptions options = shell("printf 12345678");
+    options.output_bytes = 8;
+    const ChildResult result = run_child(options, "dash");
+    EXPECT_FALSE(result.output_exceeded);
+    EXPECT_EQ(result.output, "12345678");
+}
+
+TEST(child_process, memory_is_limited) {
+    // dd asks for one block of the given size: granted without the limit, refused with it.
+    ChildOptions options = shell("dd if=/dev/zero of=/dev/null bs=300M count=1");
+    EXPECT_EQ(run_child(options, "dash").exit_code, 0);
+    options.memory_bytes = 100u << 20;
+    EXPECT_NE(run_child(options, "dash").exit_code, 0);
+}
+
+TEST(child_process, death_by_a_signal_is_128_plus_its_number) {
+    EXPECT_EQ(run_child(shell("kill -SEGV $$"), "dash").exit_code, 128 + SIGSEGV);
+}
+
+TEST(child_process, missing_program_names_the_package) {
+    ChildOptions options;
+    options.command = {"pandoc-of-another-world", "--version"};
+    try {
+        run_child(options, "pandoc");
+        FAIL();
+    } catch (const MissingProgram& error) {
+        EXPECT_STREQ(error.what(), "pandoc-of-another-world is not installed: sudo apt install pandoc");
+    }
+}
+
+TEST(child_process, failure_to_start_names_the_reason) {
+    const TemporaryFolder folder;
+    ChildOptions options = shell("true");
+    options.folder = folder.path() / "none";
+    try {
+        run_child(options, "dash");
+        FAIL();
+    } catch (const EnvironmentError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("no such file or directory (in " + options.folder.string() + ")"));
+    }
+    write_file_atomically(folder.path() / "broken", "#!/none/such\n");
+    fs::permissions(folder.path() / "broken", fs::perms(0755));
+    options = {};
+    options.command = {(folder.path() / "broken").string()};
+    EXPECT_THROW(run_child(options, "none"), EnvironmentError);
+}
+
+TEST(child_process, interrupt_kills_the_group_and_throws) {
+    const InterruptScope scope;
+    const TemporaryFolder folder;
+    ChildOptions options = shell("echo $$ > pid; sleep 60");
+    options.folder = folder.path();
+    std::thread ctrl_c([&, waiting = pthread_self()] {
+        while (!fs::exists(folder.path() / "pid")) std::this_thread::sleep_for(1ms);
+        while (read_file(folder.path() / "pid").empty()) std::this_thread::sleep_for(1ms);
+        pthread_kill(waiting, SIGINT);
+    });
+    EXPECT_THROW(run_child(options, "dash"), Interrupted);
+    ctrl_c.join();
+    std::string process = read_file(folder.path() / "pid");
+    EXPECT_TRUE(ends_soon(process.substr(0, process.size() - 1)));
+}
+
+TEST(child_process, works_while_others_do) {
+    ChildProcess first(shell("sleep 0.2; echo first"), "dash"), second(shell("echo second"), "dash");
+    EXPECT_EQ(second.wait().output, "second\n");
+    EXPECT_EQ(first.wait().output, "first\n");
+    EXPECT_THROW(first.wait(), std::logic_error);
+}
+
+TEST(child_process, dropped_without_waiting_is_killed) {
+    const TemporaryFolder folder;
+    ChildOptions options = shell("echo $$ > pid; sleep 60");
+    options.folder = folder.path();
+    {
+        const ChildProcess child(options, "dash");
+        while (!fs::exists(folder.path() / "pid") || read_file(folder.path() / "pid").empty()) {
+            std::this_thread::sleep_for(1ms);
+        }
+    }
+    std::string process = read_file(folder.path() / "pid");
+    EXPECT_TRUE(ends_soon(process.substr(0, process.size() - 1)));
+}
+
+TEST(child_process, starts_in_a_few_milliseconds) {
+    run_child(shell("exit 0"), "dash");
+    const auto start = Clock::now();
+    for (int i = 0; i < 20; ++i) run_child(shell("exit 0"), "dash");
+    EXPECT_LT(Clock::now() - start, 1s);  // 50 ms each on a loaded machine; about 1 ms each when idle
+}
+
+}  // namespace
+}  // namespace dynlab

@@ -1,0 +1,66 @@
+#include "platform/guarded_call.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <stdexcept>
+
+#include "platform/atomic_file.h"
+#include "platform/temporary_folder.h"
+
+namespace dynlab {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+
+TEST(guarded_call, returns_the_result) {
+    const std::string large(3 << 20, 'r');
+    const ChildResult result = run_guarded([&] { return large; }, {});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_EQ(result.output, large);
+}
+
+TEST(guarded_call, returns_the_message_of_an_exception) {
+    const ChildResult result = run_guarded([]() -> std::string { throw std::runtime_error("no good"); }, {});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_EQ(result.error_output, "no good");
+}
+
+TEST(guarded_call, survives_crash_hang_and_gluttony) {
+    const auto crash = [] { return std::raise(SIGSEGV), std::string(); };
+    EXPECT_EQ(run_guarded(crash, {}).exit_code, 128 + SIGSEGV);
+    const auto hang = []() -> std::string {
+        for (;;) pause();
+    };
+    EXPECT_TRUE(run_guarded(hang, {.timeout = 100ms}).timed_out);
+    const auto gluttony = [] { return std::string(1u << 30, 'x'); };
+    const ChildResult result = run_guarded(gluttony, {.memory_bytes = 100u << 20});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.error_output, HasSubstr("bad_alloc"));
+    const auto flood = [] { return std::string(1u << 20, 'x'); };
+    EXPECT_TRUE(run_guarded(flood, {.output_bytes = 1000}).output_exceeded);
+}
+
+TEST(guarded_call, sees_no_open_file_of_the_caller) {
+    const TemporaryFolder folder;
+    std::FILE* kept_open = std::fopen((folder.path() / "f").c_str(), "w");
+    const int fd = fileno(kept_open);
+    const auto write_there = [&] { return std::string(write(fd, "x", 1) == 1 ? "written" : "closed"); };
+    const std::string result = run_guarded(write_there, {}).output;
+    std::fclose(kept_open);
+    // The number may have become one of the copy's own two pipes; the file must be untouched in any case.
+    EXPECT_EQ(read_file(folder.path() / "f"), "") << result;
+}
+
+TEST(guarded_call, prints_nowhere) {
+    testing::internal::CaptureStdout();
+    run_guarded([] { return std::printf("noise\n"), std::fflush(stdout), std::string(); }, {});
+    EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+}
+
+}  // namespace
+}  // namespace dynlab

@@ -1,0 +1,68 @@
+#include "platform/interrupt.h"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+
+#include "platform/error.h"
+
+namespace dynlab {
+namespace {
+
+TEST(interrupt, sets_the_flag_within_a_scope_only) {
+    EXPECT_FALSE(interrupted());
+    {
+        const InterruptScope scope;
+        EXPECT_FALSE(interrupted());
+        throw_if_interrupted();
+        std::raise(SIGINT);
+        EXPECT_TRUE(interrupted());
+        EXPECT_THROW(throw_if_interrupted(), Interrupted);
+    }
+    EXPECT_FALSE(interrupted());
+}
+
+TEST(interrupt, inner_scopes_share_the_flag) {
+    const InterruptScope outer;
+    {
+        const InterruptScope inner;
+        std::raise(SIGINT);
+    }
+    EXPECT_TRUE(interrupted());
+}
+
+/// Status of a child that raises SIGINT so many times within a scope, then exits with 5.
+int status_after_interrupts(int count, bool within_scope) {
+    const pid_t child = fork();
+    if (child == 0) {
+        if (within_scope) {
+            const InterruptScope scope;
+            for (int i = 0; i < count; ++i) std::raise(SIGINT);
+            _exit(5);
+        }
+        { const InterruptScope ended; }
+        for (int i = 0; i < count; ++i) std::raise(SIGINT);
+        _exit(5);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    return status;
+}
+
+TEST(interrupt, second_one_ends_the_program) {
+    EXPECT_EQ(WEXITSTATUS(status_after_interrupts(1, true)), 5);
+    const int status = status_after_interrupts(2, true);
+    ASSERT_TRUE(WIFSIGNALED(status));
+    EXPECT_EQ(WTERMSIG(status), SIGINT);
+}
+
+TEST(interrupt, after_the_scope_the_program_ends_as_usual) {
+    const int status = status_after_interrupts(1, false);
+    ASSERT_TRUE(WIFSIGNALED(status));
+    EXPECT_EQ(WTERMSIG(status), SIGINT);
+}
+
+}  // namespace
+}  // namespace dynlab
