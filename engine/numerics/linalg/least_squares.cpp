@@ -1,0 +1,59 @@
+#include "numerics/linalg/least_squares.h"
+
+#include <Eigen/Dense>
+#include <limits>
+#include <string>
+
+#include "numerics/error.h"
+
+namespace dynlab {
+
+namespace {
+
+void check_sizes(const MatrixView& A, const VectorView& b) {
+    if (A.rows() != b.size())
+        throw InvalidArgument("least squares: the matrix has " + std::to_string(A.rows()) +
+                              " rows but the right-hand side has " + std::to_string(b.size()) + " values");
+    if (A.cols() == 0) throw InvalidArgument("least squares: the matrix has no columns");
+    if (A.rows() < A.cols())
+        throw InvalidArgument("least squares: " + std::to_string(A.rows()) + " equations cannot determine " +
+                              std::to_string(A.cols()) + " parameters; more data are needed");
+    if (!A.allFinite()) throw InvalidArgument("least squares: the matrix holds a value that is not finite");
+    if (!b.allFinite()) throw InvalidArgument("least squares: the right-hand side holds a value that is not finite");
+}
+
+Vector column_scale(const MatrixView& A) {
+    Vector scale = A.colwise().stableNorm().transpose();
+    for (double& value : scale)
+        if (value == 0) value = 1;
+    return scale;
+}
+
+}  // namespace
+
+LeastSquares solve_least_squares(const MatrixView& A, const VectorView& b) {
+    check_sizes(A, b);
+    const Index columns = A.cols();
+    const Vector unscale = column_scale(A).cwiseInverse();
+    const Eigen::HouseholderQR<Matrix> qr(A * unscale.asDiagonal());
+    const Matrix R = qr.matrixQR().topRows(columns).triangularView<Eigen::Upper>();
+    const Vector rotated = (qr.householderQ().adjoint() * b).head(columns);
+
+    const Eigen::JacobiSVD<Matrix> svd(R, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const Vector& singular = svd.singularValues();
+    const double smallest_kept = static_cast<double>(A.rows()) * std::numeric_limits<double>::epsilon() * singular(0);
+    const Index rank = (singular.array() > smallest_kept).count();
+    const Matrix V =
+        (unscale.asDiagonal() * svd.matrixV().leftCols(rank)) * singular.head(rank).cwiseInverse().asDiagonal();
+
+    LeastSquares result;
+    result.solution = V * (svd.matrixU().leftCols(rank).transpose() * rotated);
+    result.residuals = b - A * result.solution;
+    result.inverse_gram = V * V.transpose();
+    result.rank = rank;
+    result.condition_number =
+        rank == columns ? singular(0) / singular(columns - 1) : std::numeric_limits<double>::infinity();
+    return result;
+}
+
+}  // namespace dynlab

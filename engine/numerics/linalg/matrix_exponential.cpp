@@ -1,0 +1,39 @@
+#include "numerics/linalg/matrix_exponential.h"
+
+#include <Eigen/Dense>
+#include <unsupported/Eigen/MatrixFunctions>
+
+#include "numerics/error.h"
+#include "numerics/linalg/balance.h"
+
+namespace dynlab {
+
+Matrix matrix_exponential(const MatrixView& A) {
+    if (A.rows() != A.cols())
+        throw InvalidArgument("matrix exponential: the matrix must be square, but it has " + std::to_string(A.rows()) +
+                              " rows and " + std::to_string(A.cols()) + " columns");
+    if (!A.allFinite()) throw InvalidArgument("matrix exponential: the matrix holds a value that is not finite");
+    if (A.size() == 0) return A;
+    Matrix balanced = A;
+    const Vector scale = balance(balanced);
+    const Matrix exponential = balanced.exp();
+    return scale.asDiagonal() * exponential * scale.cwiseInverse().asDiagonal();
+}
+
+StepMatrices exact_step(const MatrixView& A, const MatrixView& B, double h) {
+    // In steps of h, with s = t/h: d/ds [x; a; b - a] = [hA hB 0; 0 0 I; 0 0 0] [x; a; b - a].
+    const Index n = A.rows(), m = B.cols();
+    Matrix block = Matrix::Zero(n + 2 * m, n + 2 * m);
+    block.topLeftCorner(n, n) = h * A;
+    block.block(0, n, n, m) = h * B;
+    block.block(n, n + m, m, m).setIdentity();
+    const Matrix exponential = matrix_exponential(block);
+    StepMatrices step;
+    step.F = exponential.topLeftCorner(n, n);
+    step.G = exponential.block(0, n, n, m);
+    step.H1 = exponential.block(0, n + m, n, m);
+    step.H0 = step.G - step.H1;
+    return step;
+}
+
+}  // namespace dynlab

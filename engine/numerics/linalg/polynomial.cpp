@@ -1,0 +1,93 @@
+#include "numerics/linalg/polynomial.h"
+
+#include <Eigen/Eigenvalues>
+
+#include "numerics/error.h"
+#include "numerics/linalg/balance.h"
+
+namespace dynlab {
+
+namespace {
+
+template <class Scalar>
+Scalar horner(const VectorView& p, Scalar x) {
+    Scalar value = 0;
+    for (const double coefficient : p) value = value * x + coefficient;
+    return value;
+}
+
+Index trailing_zeros(const VectorView& p) {
+    Index count = 0;
+    while (count + 1 < p.size() && p(p.size() - 1 - count) == 0) ++count;
+    return count;
+}
+
+}  // namespace
+
+Vector strip_leading_zeros(const VectorView& p) {
+    if (p.size() == 0) throw InvalidArgument("a polynomial needs at least one coefficient, but none was given");
+    Index first = 0;
+    while (first + 1 < p.size() && p(first) == 0) ++first;
+    return p.tail(p.size() - first);
+}
+
+Matrix companion(const VectorView& p) {
+    const Index n = p.size() - 1;
+    Matrix A = Matrix::Zero(n, n);
+    if (n == 0) return A;
+    A.row(0) = -p.tail(n).transpose() / p(0);
+    A.diagonal(-1).setOnes();
+    return A;
+}
+
+ComplexVector roots(const VectorView& p) {
+    const Vector stripped = strip_leading_zeros(p);
+    if (!stripped.allFinite()) throw InvalidArgument("roots: the polynomial holds a coefficient that is not finite");
+    if (stripped(0) == 0) throw InvalidArgument("roots: every number is a root of the zero polynomial");
+    const Index zero_roots = trailing_zeros(stripped);
+    Matrix A = companion(stripped.head(stripped.size() - zero_roots));
+    ComplexVector result = ComplexVector::Zero(A.rows() + zero_roots);
+    if (A.rows() == 0) return result;
+    balance(A);
+    result.head(A.rows()) = A.eigenvalues();
+    return result;
+}
+
+Vector polynomial_from_roots(const ComplexVector& roots) {
+    ComplexVector p = ComplexVector::Ones(1);
+    for (const Complex& root : roots) {
+        ComplexVector next = ComplexVector::Zero(p.size() + 1);
+        next.head(p.size()) = p;
+        next.tail(p.size()) -= root * p;
+        p = std::move(next);
+    }
+    return p.real();
+}
+
+Vector multiply(const VectorView& a, const VectorView& b) {
+    Vector product = Vector::Zero(a.size() + b.size() - 1);
+    for (Index i = 0; i < a.size(); ++i) product.segment(i, b.size()) += a(i) * b;
+    return product;
+}
+
+Vector add(const VectorView& a, const VectorView& b) {
+    Vector sum = Vector::Zero(std::max(a.size(), b.size()));
+    sum.tail(a.size()) = a;
+    sum.tail(b.size()) += b;
+    return sum;
+}
+
+Vector power(const VectorView& base, int exponent) {
+    Vector result = Vector::Ones(1);
+    for (int i = 0; i < exponent; ++i) result = multiply(result, base);
+    return result;
+}
+
+double evaluate(const VectorView& p, double x) {
+    return horner(p, x);
+}
+Complex evaluate(const VectorView& p, Complex x) {
+    return horner(p, x);
+}
+
+}  // namespace dynlab

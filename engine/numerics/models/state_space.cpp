@@ -1,0 +1,102 @@
+#include "numerics/models/state_space.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "numerics/error.h"
+#include "numerics/linalg/balance.h"
+#include "numerics/linalg/polynomial.h"
+#include "numerics/models/transfer_function.h"
+#include "numerics/number_text.h"
+
+namespace dynlab {
+
+namespace {
+
+void check_matrix(const Matrix& matrix, const char* name, Index rows, Index columns) {
+    if (matrix.rows() != rows || matrix.cols() != columns)
+        throw InvalidArgument(std::string("state space: ") + name + " must be " + std::to_string(rows) + " x " +
+                              std::to_string(columns) + ", but it is " + std::to_string(matrix.rows()) + " x " +
+                              std::to_string(matrix.cols()));
+    if (!matrix.allFinite())
+        throw InvalidArgument(std::string("state space: ") + name + " holds a value that is not finite");
+}
+
+/// One input, one output, seen through its zeros: c (sI-A)^-1 b + d = gain prod(s - zeros)/det(sI-A).
+struct ZerosAndGain {
+    ComplexVector zeros;
+    double gain = 0;
+};
+
+ComplexVector balanced_eigenvalues(Matrix A) {
+    if (A.rows() == 0) return ComplexVector();
+    balance(A);
+    return A.eigenvalues();
+}
+
+/// The output and its derivatives up to the first that the input reaches directly must vanish: the zeros are the
+/// eigenvalues of the motion left inside that null space (zero dynamics; Isidori 1995, section 4.3).
+ZerosAndGain zeros_and_gain(const Matrix& A, const Vector& b, const Eigen::RowVectorXd& c, double d) {
+    if (d != 0) return {balanced_eigenvalues(A - b * c / d), d};
+    constexpr double kRounding = 1e-13;
+    const Index n = A.rows();
+    Matrix derivatives(0, n);
+    Eigen::RowVectorXd row = c;
+    for (Index degree = 1; degree <= n; ++degree) {
+        derivatives.conservativeResize(degree, n);
+        derivatives.row(degree - 1) = row.stableNorm() > 0 ? Eigen::RowVectorXd(row.normalized()) : row;
+        const double gain = row.dot(b.transpose());
+        if (std::abs(gain) > kRounding * row.stableNorm() * b.stableNorm()) {
+            const Matrix inner = A - b * (row * A) / gain;
+            const Matrix Q = derivatives.transpose().householderQr().householderQ();
+            const Matrix null_space = Q.rightCols(n - degree);
+            return {balanced_eigenvalues(null_space.transpose() * inner * null_space), gain};
+        }
+        row = row * A;
+    }
+    return {};
+}
+
+}  // namespace
+
+StateSpace::StateSpace(Matrix A_, Matrix B_, Matrix C_, Matrix D_, double Ts_)
+    : A(std::move(A_)), B(std::move(B_)), C(std::move(C_)), D(std::move(D_)), Ts(Ts_) {
+    check_matrix(A, "A", A.rows(), A.rows());
+    check_matrix(B, "B", A.rows(), B.cols());
+    check_matrix(C, "C", C.rows(), A.rows());
+    check_matrix(D, "D", C.rows(), B.cols());
+    if (!(Ts >= 0) || !std::isfinite(Ts))
+        throw InvalidArgument(
+            "state space: Ts must be a positive number of seconds, or 0 for continuous time, but it is " +
+            number_text(Ts));
+}
+
+StateSpace to_state_space(const TransferFunction& G) {
+    if (!G.proper())
+        throw InvalidArgument(
+            "a transfer function with " + std::to_string(G.zero_count()) + " zeros and " +
+            std::to_string(G.pole_count()) +
+            " poles is improper and has no state space form; it needs at least as many poles as zeros");
+    const Index n = G.pole_count();
+    Vector num = Vector::Zero(n + 1);
+    num.tail(G.num().size()) = G.num();
+    Matrix B = Matrix::Zero(n, 1);
+    if (n > 0) B(0, 0) = 1;
+    const Matrix C = (num.tail(n) - num(0) * G.den().tail(n)).transpose();
+    return StateSpace(companion(G.den()), B, C, Matrix::Constant(1, 1, num(0)), G.Ts());
+}
+
+TransferFunction to_transfer_function(const StateSpace& system, Index output, Index input) {
+    if (output < 0 || output >= system.C.rows() || input < 0 || input >= system.B.cols())
+        throw InvalidArgument("state space: there is no output " + std::to_string(output + 1) + " from input " +
+                              std::to_string(input + 1) + "; the system has " + std::to_string(system.C.rows()) +
+                              " outputs and " + std::to_string(system.B.cols()) + " inputs");
+    const Vector den = polynomial_from_roots(balanced_eigenvalues(system.A));
+    const auto [zeros, gain] =
+        zeros_and_gain(system.A, system.B.col(input), system.C.row(output), system.D(output, input));
+    return TransferFunction(gain * polynomial_from_roots(zeros), den, system.Ts);
+}
+
+}  // namespace dynlab

@@ -1,0 +1,139 @@
+#include "numerics/models/transfer_function.h"
+
+#include <cmath>
+#include <limits>
+
+#include "numerics/error.h"
+#include "numerics/linalg/polynomial.h"
+#include "numerics/number_text.h"
+
+namespace dynlab {
+
+namespace {
+
+void check_coefficients(const VectorView& p, const char* name) {
+    if (p.size() == 0) throw InvalidArgument(std::string("transfer function: the ") + name + " has no coefficients");
+    if (!p.allFinite())
+        throw InvalidArgument(std::string("transfer function: the ") + name +
+                              " holds a coefficient that is not finite");
+}
+
+/// A discrete delay as the exact multiple of Ts it stands for.
+double delay_on_grid(double delay, double Ts) {
+    constexpr double kRounding = 1e-9;
+    const double samples = delay / Ts, nearest = std::round(samples);
+    if (std::abs(samples - nearest) > kRounding * std::max(1.0, nearest))
+        throw InvalidArgument("transfer function: in discrete time the delay must be a multiple of Ts = " +
+                              number_text(Ts) + " s, but it is " + number_text(delay) + " s");
+    return nearest * Ts;
+}
+
+bool is_gain(const TransferFunction& G) {
+    return G.num().size() == 1 && G.den().size() == 1 && G.delay() == 0;
+}
+
+double common_sampling_time(const TransferFunction& a, const TransferFunction& b) {
+    if (a.Ts() == b.Ts() || is_gain(b)) return a.Ts();
+    if (is_gain(a)) return b.Ts();
+    throw InvalidArgument("transfer functions with the sampling times " + number_text(a.Ts()) + " s and " +
+                          number_text(b.Ts()) + " s cannot be combined (0 means continuous time)");
+}
+
+}  // namespace
+
+TransferFunction::TransferFunction(const VectorView& num, const VectorView& den, double Ts, double delay)
+    : Ts_(Ts), delay_(delay) {
+    check_coefficients(num, "numerator");
+    check_coefficients(den, "denominator");
+    if (!(Ts >= 0) || !std::isfinite(Ts))
+        throw InvalidArgument(
+            "transfer function: Ts must be a positive number of seconds, or 0 for continuous time, "
+            "but it is " +
+            number_text(Ts));
+    if (!(delay >= 0) || !std::isfinite(delay))
+        throw InvalidArgument("transfer function: the delay must not be negative, but it is " + number_text(delay) +
+                              " s");
+    if (den.isZero(0)) throw InvalidArgument("transfer function: the denominator is zero");
+    if (Ts > 0) delay_ = delay_on_grid(delay, Ts);
+    const Vector stripped = strip_leading_zeros(den);
+    den_ = stripped / stripped(0);
+    num_ = strip_leading_zeros(num) / stripped(0);
+}
+
+TransferFunction TransferFunction::variable(double Ts) {
+    return TransferFunction(Eigen::Vector2d(1, 0), Vector::Ones(1), Ts);
+}
+
+ComplexVector TransferFunction::poles() const {
+    return roots(den_);
+}
+
+ComplexVector TransferFunction::zeros() const {
+    return num_.isZero(0) ? ComplexVector() : roots(num_);
+}
+
+double TransferFunction::dc_gain() const {
+    const double point = continuous() ? 0 : 1;
+    const double below = evaluate(den_, point), above = evaluate(num_, point);
+    if (below != 0) return above / below;
+    return above == 0 ? std::numeric_limits<double>::quiet_NaN() : std::numeric_limits<double>::infinity();
+}
+
+bool TransferFunction::stable() const {
+    const ComplexVector all = poles();
+    return continuous() ? (all.real().array() < 0).all() : (all.array().abs() < 1).all();
+}
+
+Complex TransferFunction::at(Complex point) const {
+    const Complex rational = evaluate(num_, point) / evaluate(den_, point);
+    if (delay_ == 0) return rational;
+    return rational * (continuous() ? std::exp(-delay_ * point) : std::pow(point, -std::round(delay_ / Ts_)));
+}
+
+TransferFunction TransferFunction::with_delay(double delay) const {
+    return TransferFunction(num_, den_, Ts_, delay);
+}
+
+TransferFunction operator+(const TransferFunction& a, const TransferFunction& b) {
+    if (a.delay() != b.delay())
+        throw InvalidArgument("transfer functions with the delays " + number_text(a.delay()) + " s and " +
+                              number_text(b.delay()) + " s cannot be added: the sum is not a rational function");
+    const Vector num = add(multiply(a.num(), b.den()), multiply(b.num(), a.den()));
+    return TransferFunction(num, multiply(a.den(), b.den()), common_sampling_time(a, b), a.delay());
+}
+
+TransferFunction operator-(const TransferFunction& a, const TransferFunction& b) {
+    return a + TransferFunction(-b.num(), b.den(), b.Ts(), b.delay());
+}
+
+TransferFunction operator*(const TransferFunction& a, const TransferFunction& b) {
+    return TransferFunction(multiply(a.num(), b.num()), multiply(a.den(), b.den()), common_sampling_time(a, b),
+                            a.delay() + b.delay());
+}
+
+TransferFunction operator/(const TransferFunction& a, const TransferFunction& b) {
+    if (b.delay() > 0)
+        throw InvalidArgument("division by a transfer function with a delay of " + number_text(b.delay()) +
+                              " s: the quotient would have to know the future");
+    if (b.num().isZero(0)) throw InvalidArgument("division by a transfer function that is zero");
+    return a * TransferFunction(b.den(), b.num(), b.Ts());
+}
+
+TransferFunction pow(const TransferFunction& base, int exponent) {
+    if (exponent < 0) return TransferFunction() / pow(base, -exponent);
+    return TransferFunction(power(base.num(), exponent), power(base.den(), exponent), base.Ts(),
+                            exponent * base.delay());
+}
+
+TransferFunction feedback(const TransferFunction& forward, const TransferFunction& backward, int sign) {
+    if (forward.delay() > 0 || backward.delay() > 0)
+        throw InvalidArgument(
+            "feedback: a loop with a delay is not a rational transfer function; give both without delay");
+    const double Ts = common_sampling_time(forward, backward);
+    const Vector loop = multiply(forward.num(), backward.num());
+    const Vector den = add(multiply(forward.den(), backward.den()), sign > 0 ? Vector(-loop) : loop);
+    if (den.isZero(0)) throw InvalidArgument("feedback: the loop has no solution, its gain is one at all frequencies");
+    return TransferFunction(multiply(forward.num(), backward.den()), den, Ts);
+}
+
+}  // namespace dynlab

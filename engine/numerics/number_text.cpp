@@ -1,0 +1,22 @@
+#include "numerics/number_text.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace dynlab {
+
+std::string number_text(double value, int significant_digits) {
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), "%.*g", significant_digits, value);
+    return text.data();
+}
+
+std::string number_text(std::complex<double> value, int significant_digits) {
+    const std::string real = number_text(value.real(), significant_digits);
+    if (value.imag() == 0) return real;
+    const std::string imaginary = number_text(std::abs(value.imag()), significant_digits) + "i";
+    return real + (value.imag() < 0 ? " - " : " + ") + imaginary;
+}
+
+}  // namespace dynlab

@@ -1,0 +1,117 @@
+#include "numerics/simulation/lsim.h"
+
+#include <cmath>
+#include <string>
+
+#include "numerics/error.h"
+#include "numerics/kernels/exact_filter.h"
+#include "numerics/kernels/irregular_filter.h"
+#include "numerics/kernels/tapped_system.h"
+#include "numerics/linalg/polynomial.h"
+#include "numerics/number_text.h"
+#include "numerics/signals/checks.h"
+
+namespace dynlab {
+
+namespace {
+
+constexpr double kRounding = 1e-9;  // relative difference of two sampling times that mean the same
+
+void check_model(const TransferFunction& G) {
+    if (G.proper()) return;
+    throw InvalidArgument("lsim: the transfer function has " + std::to_string(G.zero_count()) + " zeros but only " +
+                          std::to_string(G.pole_count()) +
+                          " poles; an improper model cannot be simulated, it needs at least as many poles as zeros");
+}
+
+Vector initial_state(const VectorView& x0, Index order) {
+    if (x0.size() == 0) return Vector::Zero(order);
+    if (x0.size() != order)
+        throw InvalidArgument("lsim: the initial state x0 must have " + std::to_string(order) +
+                              " values, one for each state, but it has " + std::to_string(x0.size()));
+    if (!x0.allFinite()) throw InvalidArgument("lsim: the initial state x0 holds a value that is not finite");
+    return x0;
+}
+
+void check_discrete_sampling(double model_Ts, double Ts) {
+    if (std::abs(model_Ts - Ts) <= kRounding * Ts) return;
+    throw InvalidArgument("lsim: the model is discrete with Ts = " + number_text(model_Ts) +
+                          " s but the data are sampled every " + number_text(Ts) + " s; both must be equal");
+}
+
+/// The sampling time of equally spaced instants, 0 of others.
+double regular_sampling_time(const VectorView& t) {
+    const Index intervals = t.size() - 1;
+    const double Ts = (t(intervals) - t(0)) / static_cast<double>(intervals);
+    const double largest_rounding = kRounding * Ts;
+    for (Index k = 1; k < intervals; ++k)
+        if (std::abs(t(k) - t(0) - static_cast<double>(k) * Ts) > largest_rounding) return 0;
+    return Ts;
+}
+
+}  // namespace
+
+Vector lsim(const TransferFunction& G, const VectorView& u, double Ts, Hold hold, const VectorView& x0) {
+    check_model(G);
+    check_sampling_time("lsim", Ts);
+    check_samples("lsim", "the input", u);
+    if (!G.continuous()) check_discrete_sampling(G.Ts(), Ts);
+    const StateSpace form = to_state_space(G);
+    const ExactFilter filter(
+        G.continuous() ? discretise(form.A, form.B.col(0), form.C, form.D.col(0), Ts, hold, G.delay())
+                       : tapped(form.A, form.B.col(0), form.C, form.D.col(0), split_delay(G.delay(), Ts).samples));
+    Vector y(u.size());
+    filter.run(u, initial_state(x0, form.order()), y);
+    return y;
+}
+
+Vector lsim(const TransferFunction& G, const VectorView& u, const VectorView& t, Hold hold, const VectorView& x0) {
+    if (u.size() != t.size())
+        throw InvalidArgument("lsim: the input has " + std::to_string(u.size()) + " samples but the time vector has " +
+                              std::to_string(t.size()));
+    check_samples("lsim", "the input", u);
+    check_instants("lsim", t);
+    const double regular_Ts = t.size() > 1 ? regular_sampling_time(t) : G.continuous() ? 1 : G.Ts();
+    if (regular_Ts > 0) return lsim(G, u, regular_Ts, hold, x0);
+    if (!G.continuous())
+        throw InvalidArgument("lsim: a discrete model needs equally spaced instants, but the time vector is irregular");
+    check_model(G);
+    const StateSpace form = to_state_space(G);
+    IrregularFilter filter(form.A, form.B.col(0), form.C, form.D.col(0), hold, G.delay());
+    return filter.run(u, t, initial_state(x0, form.order()));
+}
+
+Matrix lsim(const StateSpace& system, const MatrixView& u, double Ts, Hold hold, const VectorView& x0) {
+    check_sampling_time("lsim", Ts);
+    check_samples("lsim", "the input", u);
+    if (u.cols() != system.B.cols())
+        throw InvalidArgument("lsim: the system has " + std::to_string(system.B.cols()) + " inputs but the data have " +
+                              std::to_string(u.cols()) + " input channels");
+    if (system.Ts > 0) check_discrete_sampling(system.Ts, Ts);
+    Vector state = initial_state(x0, system.order());
+    Matrix y = Matrix::Zero(u.rows(), system.C.rows()), share(u.rows(), system.C.rows());
+    for (Index input = 0; input < u.cols(); ++input) {
+        const auto B = system.B.col(input), D = system.D.col(input);
+        const ExactFilter filter(system.Ts > 0 ? tapped(system.A, B, system.C, D, 0)
+                                               : discretise(system.A, B, system.C, D, Ts, hold));
+        filter.run(u.col(input), state, share);
+        y += share;
+        state.setZero();  // the initial state moves the outputs once
+    }
+    return y;
+}
+
+Matrix state_variable_filter(const VectorView& x, int n, double lambda, double Ts, Hold hold) {
+    if (n < 1)
+        throw InvalidArgument("state-variable filter: the order must be at least 1, but it is " + std::to_string(n));
+    if (!(lambda > 0) || !std::isfinite(lambda))
+        throw InvalidArgument(
+            "state-variable filter: the cut-off frequency lambda must be a positive number of rad/s, "
+            "but it is " +
+            number_text(lambda));
+    check_sampling_time("state-variable filter", Ts);
+    check_samples("state-variable filter", "the signal", x);
+    return ExactFilter(derivative_filter(power(Eigen::Vector2d(1, lambda), n), Ts, hold)).run(x);
+}
+
+}  // namespace dynlab
