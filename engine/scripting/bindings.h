@@ -1,0 +1,14 @@
+#pragma once
+#include <lua.hpp>
+
+#include "scripting/function_entry.h"
+
+namespace dynlab {
+
+/// The functions of each area; catalogue_of_functions() joins them in the order of help().
+FunctionEntries vector_functions();
+FunctionEntries vector_comparisons();
+FunctionEntries random_functions();
+FunctionEntries help_functions();
+
+}  // namespace dynlab

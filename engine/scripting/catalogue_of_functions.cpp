@@ -1,0 +1,15 @@
+#include "scripting/bindings.h"
+
+namespace dynlab {
+
+const std::vector<FunctionEntry>& catalogue_of_functions() {
+    static const std::vector<FunctionEntry> catalogue = [] {
+        std::vector<FunctionEntry> all;
+        for (FunctionEntries area : {vector_functions(), vector_comparisons(), random_functions(), help_functions()})
+            all.insert(all.end(), area.begin(), area.end());
+        return all;
+    }();
+    return catalogue;
+}
+
+}  // namespace dynlab

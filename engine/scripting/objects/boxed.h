@@ -1,0 +1,73 @@
+#pragma once
+#include <new>
+#include <utility>
+
+#include "scripting/arguments.h"
+#include "scripting/objects/object_type.h"
+
+namespace dynlab {
+
+/// Each boxed C++ class says which object type it is and how many bytes it holds outside Lua:
+///   template <> struct Boxed<IdData> { static const ObjectType type; static std::size_t outside_bytes(const IdData&);
+///   };
+template <class T>
+struct Boxed;
+
+/// A C++ object inside a userdata, with the bytes it was charged for.
+template <class T>
+struct Box {
+    T object;
+    std::size_t outside_bytes;
+};
+
+template <class T>
+int destroy_box(lua_State* L) {
+    auto* box = static_cast<Box<T>*>(lua_touserdata(L, 1));
+    context_of(L).memory.remove_outside(box->outside_bytes);
+    box->~Box<T>();
+    return 0;
+}
+
+template <class T>
+void push_box_metatable(lua_State* L) {
+    push_metatable(L, Boxed<T>::type);
+    lua_pushliteral(L, "__gc");
+    if (lua_rawget(L, -2) == LUA_TNIL) {
+        lua_pushliteral(L, "__gc");
+        lua_pushcfunction(L, destroy_box<T>);
+        lua_rawset(L, -4);
+    }
+    lua_pop(L, 1);
+}
+
+void charge_outside_bytes(lua_State* L, std::size_t bytes, const char* what);
+
+/// Pushes `object`; its outside bytes count against the memory limit and drive the collector.
+template <class T>
+T& push_object(lua_State* L, T object) {
+    const std::size_t bytes = Boxed<T>::outside_bytes(object);
+    charge_outside_bytes(L, bytes, Boxed<T>::type.name);
+    void* memory = lua_newuserdatauv(L, sizeof(Box<T>), 0);
+    auto* box = new (memory) Box<T>{std::move(object), bytes};
+    context_of(L).memory.add_outside(bytes);
+    push_box_metatable<T>(L);
+    lua_setmetatable(L, -2);
+    return box->object;
+}
+
+/// The object at a stack place, nullptr when something else is there.
+template <class T>
+T* to_object(lua_State* L, int index) {
+    if (!is_object(L, index, Boxed<T>::type)) return nullptr;
+    return &static_cast<Box<T>*>(lua_touserdata(L, index))->object;
+}
+
+/// The object of argument `index`; throws InvalidArgument naming argument and wanted kind.
+template <class T>
+T& object_argument(const Call& call, int index, const char* what) {
+    T* object = index <= call.count() ? to_object<T>(call.state(), index) : nullptr;
+    if (object == nullptr) wrong_argument(call.state(), index, what, Boxed<T>::type.name);
+    return *object;
+}
+
+}  // namespace dynlab

@@ -1,0 +1,39 @@
+#pragma once
+#include <lua.hpp>
+
+#include "numerics/linalg/types.h"
+
+namespace dynlab {
+
+using VectorMap = Eigen::Map<const Vector>;
+using MatrixMap = Eigen::Map<const Matrix>;
+
+/// Numbers that lie inside the userdata itself, so that the collector and the memory limit see them. A vector has one
+/// column and the metatable of vectors; column-major doubles follow this header.
+struct NumericBlock {
+    Index rows, columns;
+    double* data() { return reinterpret_cast<double*>(this + 1); }
+    Eigen::Map<Matrix> matrix() { return {data(), rows, columns}; }
+    Eigen::Map<Vector> vector() { return {data(), rows * columns}; }
+};
+
+/// One truth value per element of the vector it was made from.
+struct MaskBlock {
+    Index size;
+    bool* data() { return reinterpret_cast<bool*>(this + 1); }
+};
+
+/// New objects on top of the stack, not filled. They throw InvalidArgument when the memory limit cannot hold them.
+NumericBlock& push_vector(lua_State* L, Index size);
+NumericBlock& push_matrix(lua_State* L, Index rows, Index columns);
+MaskBlock& push_mask(lua_State* L, Index size);
+
+/// The block at a stack place, nullptr when something else is there.
+NumericBlock* to_vector(lua_State* L, int index);
+NumericBlock* to_matrix(lua_State* L, int index);
+MaskBlock* to_mask(lua_State* L, int index);
+
+/// Throws InvalidArgument, naming size and limit, when `bytes` cannot be had.
+void need_memory(lua_State* L, double bytes, const char* what);
+
+}  // namespace dynlab

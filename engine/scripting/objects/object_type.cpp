@@ -1,0 +1,111 @@
+#include "scripting/objects/object_type.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "platform/spelling.h"
+#include "scripting/context.h"
+
+namespace dynlab {
+namespace {
+
+void push_members(lua_State* L, std::span<const Member> members) {
+    lua_createtable(L, 0, static_cast<int>(members.size()));
+    for (const Member& member : members) {
+        lua_pushlightuserdata(L, const_cast<char*>(member.name));
+        lua_pushcclosure(L, member.function, 1);
+        lua_setfield(L, -2, member.name);
+    }
+}
+
+std::string unknown_member_message(const ObjectType& type, const std::string& key) {
+    std::vector<std::string> names;
+    for (const Member& member : type.fields) names.emplace_back(member.name);
+    for (const Member& member : type.methods) names.emplace_back(member.name);
+    const auto near = nearest_word(key, names);
+    std::string message = fmt::format("a {} has no field or method '{}'", type.name, key);
+    if (near) return message + fmt::format("; did you mean '{}'?", *near);
+    return names.empty() ? message : message + fmt::format("; it has {}", fmt::join(names, ", "));
+}
+
+/// __index; upvalues: methods, fields, the type.
+int read_member(lua_State* L) {
+    const auto& type = *static_cast<const ObjectType*>(lua_touserdata(L, lua_upvalueindex(3)));
+    if (lua_type(L, 2) != LUA_TSTRING && type.element != nullptr) return type.element(L);
+    lua_pushvalue(L, 2);
+    if (lua_rawget(L, lua_upvalueindex(1)) != LUA_TNIL) return 1;
+    lua_pushvalue(L, 2);
+    if (lua_rawget(L, lua_upvalueindex(2)) != LUA_TNIL) {
+        lua_pushvalue(L, 1);
+        lua_call(L, 1, 1);
+        return 1;
+    }
+    const std::string key = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : luaL_typename(L, 2);
+    raise_error(L, unknown_member_message(type, key));
+}
+
+int refuse_writing(lua_State* L) {
+    const auto& type = *static_cast<const ObjectType*>(lua_touserdata(L, lua_upvalueindex(1)));
+    raise_error(L, fmt::format("a {} cannot be changed; make a new one", type.name));
+}
+
+/// __concat: Lua would say "concatenate a userdata value".
+int refuse_joining(lua_State* L) {
+    const auto& type = *static_cast<const ObjectType*>(lua_touserdata(L, lua_upvalueindex(1)));
+    raise_error(L, fmt::format(".. joins texts; make a text of the {} first: tostring(x)", type.name));
+}
+
+void set_with_type(lua_State* L, const char* name, lua_CFunction function, const ObjectType& type) {
+    lua_pushlightuserdata(L, const_cast<ObjectType*>(&type));
+    lua_pushcclosure(L, function, 1);
+    lua_setfield(L, -2, name);
+}
+
+void make_metatable(lua_State* L, const ObjectType& type) {
+    lua_createtable(L, 0, static_cast<int>(type.operators.size()) + 5);
+    lua_pushstring(L, type.name);
+    lua_setfield(L, -2, "__name");
+    lua_pushstring(L, type.name);
+    lua_setfield(L, -2, "__metatable");
+    set_with_type(L, "__newindex", refuse_writing, type);
+    set_with_type(L, "__concat", refuse_joining, type);
+    for (const Member& member : type.operators) {
+        lua_pushlightuserdata(L, const_cast<char*>(member.name));
+        lua_pushcclosure(L, member.function, 1);
+        lua_setfield(L, -2, member.name);
+    }
+    push_members(L, type.methods);
+    push_members(L, type.fields);
+    lua_pushlightuserdata(L, const_cast<ObjectType*>(&type));
+    lua_pushcclosure(L, read_member, 3);
+    lua_setfield(L, -2, "__index");
+}
+
+}  // namespace
+
+void push_metatable(lua_State* L, const ObjectType& type) {
+    if (lua_rawgetp(L, LUA_REGISTRYINDEX, &type) != LUA_TNIL) return;
+    lua_pop(L, 1);
+    make_metatable(L, type);
+    lua_pushvalue(L, -1);
+    lua_rawsetp(L, LUA_REGISTRYINDEX, &type);
+}
+
+bool is_object(lua_State* L, int index, const ObjectType& type) {
+    if (lua_type(L, index) != LUA_TUSERDATA || !lua_getmetatable(L, index)) return false;
+    lua_rawgetp(L, LUA_REGISTRYINDEX, &type);
+    const bool same = lua_rawequal(L, -1, -2) != 0;
+    lua_pop(L, 2);
+    return same;
+}
+
+std::string object_name(lua_State* L, int index) {
+    if (lua_type(L, index) != LUA_TUSERDATA || luaL_getmetafield(L, index, "__name") != LUA_TSTRING) return {};
+    std::string name = lua_tostring(L, -1);
+    lua_pop(L, 1);
+    return name;
+}
+
+}  // namespace dynlab

@@ -1,0 +1,62 @@
+#pragma once
+#include <chrono>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "documents/percent_script.h"
+#include "documents/run_record.h"
+
+namespace dynlab {
+
+/// A figure as a script holds it. `used`: it was put somewhere (report.figure, subplot, save), so that its cell does
+/// not capture it.
+struct ScriptFigure {
+    Figure figure;
+    bool used = false;
+    std::optional<long long> number;  ///< given by figure(n)
+};
+
+using FigurePointer = std::shared_ptr<ScriptFigure>;
+
+/// Collects what a run produces and gives each piece to the cell whose line the main chunk is at.
+class Recorder {
+  public:
+    using LineSource = std::function<int()>;  ///< current line of the main chunk, 0 when it is not running
+
+    void start(const PercentScript& script, std::uint32_t seed, LineSource current_line);
+    /// Ends the run: names the figures that were made and dropped, and hands the record over.
+    RunRecord finish();
+
+    void print(const std::string& text);
+    void add_figure(const FigurePointer& figure);  ///< just made
+    void set_next_figure_number(long long number) { next_number_ = number; }
+    void note_time();  ///< charges the time since the last call to the cell that was running
+    void note_file_read(const std::filesystem::path& file);
+
+    RunRecord& record() { return record_; }
+    std::size_t printed_bytes() const { return printed_bytes_; }
+
+  private:
+    struct Piece {
+        std::string printed;
+        FigurePointer figure;
+    };
+    std::string current_cell();
+    void capture_figures(const std::string& cell, const std::vector<Piece>& pieces);
+
+    RunRecord record_;
+    LineSource current_line_;
+    std::vector<std::pair<int, std::string>> cells_;  ///< first line and id of the code cells, in order
+    std::map<std::string, std::vector<Piece>> pieces_;
+    std::vector<std::weak_ptr<ScriptFigure>> numbered_;
+    std::optional<long long> next_number_;
+    std::size_t printed_bytes_ = 0;
+    std::string timed_cell_;
+    std::chrono::steady_clock::time_point timed_since_;
+};
+
+}  // namespace dynlab
