@@ -20,7 +20,7 @@ struct Curve {
     std::string label;          ///< legend entry; none when empty
     std::optional<int> colour;  ///< place in the house palette, 0-based; the curve's own place unless given
     std::optional<int> dash;    ///< 0 solid, 1 dashed, 2 dotted, 3 dash-dot; chosen with the colour unless given
-    double line_width = 1.6;    ///< points
+    double line_width = 0.9;    ///< points
     std::optional<int> marker;  ///< point shape, 0-based; chosen with the colour unless given
 };
 
@@ -51,7 +51,8 @@ struct Panel {
     std::string title, x_label, y_label;
     bool log_x = false, log_y = false;
     std::optional<std::pair<double, double>> x_range, y_range;
-    bool equal_axes = false;  ///< one unit the same length on both axes (pole-zero maps, Nyquist)
+    std::optional<double> y_tick_step;  ///< distance of the numbers on y, e.g. 45 for degrees; chosen unless given
+    bool equal_axes = false;            ///< one unit the same length on both axes (pole-zero maps, Nyquist)
     LegendPlace legend = LegendPlace::kAutomatic;
     std::vector<Curve> curves;
     std::vector<ReferenceLine> references;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "figures/error.h"
 #include "figures/figure.h"
 
 namespace dynlab {

@@ -1,0 +1,17 @@
+#pragma once
+#include "figures/decimation.h"
+#include "figures/figure_layout.h"
+
+namespace dynlab {
+
+/// What is drawn of one curve, in cm from the lower left corner of its panel's frame, thinned to what 300 dots per inch
+/// show. Parts that a style does not need stay empty.
+struct CurveTraces {
+    Trace line;
+    Trace points;        ///< markers; for lines, the samples that stand alone between gaps
+    Trace lower, upper;  ///< the edges of a band
+    std::vector<Box> bars;
+};
+CurveTraces traces_of(const Curve& curve, const PanelLayout& panel);
+
+}  // namespace dynlab

@@ -1,0 +1,102 @@
+#include "figures/decimation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <tuple>
+#include <unordered_set>
+
+namespace dynlab {
+namespace {
+
+constexpr std::size_t kMostPoints = 20000;
+
+std::int64_t cell_of(double value, double cell) {
+    return static_cast<std::int64_t>(std::floor(std::clamp(value / cell, -1e9, 1e9)));
+}
+
+/// Calls use(first, end) for every run of neighbours for which same(i, j) holds; a gap is a run of its own.
+template <class Same, class Use>
+void for_runs(const Trace& trace, Same same, Use use) {
+    for (std::size_t first = 0, end; first < trace.size(); first = end) {
+        end = first + 1;
+        if (!trace[first].gap())
+            while (end < trace.size() && !trace[end].gap() && same(trace[first], trace[end])) ++end;
+        use(first, end);
+    }
+}
+
+Trace keep_column_extremes(const Trace& trace, double cell) {
+    Trace kept;
+    const auto same_column = [cell](const PagePoint& a, const PagePoint& b) {
+        return cell_of(a.x, cell) == cell_of(b.x, cell);
+    };
+    for_runs(trace, same_column, [&](std::size_t first, std::size_t end) {
+        const auto by_height = [](const PagePoint& a, const PagePoint& b) { return a.y < b.y; };
+        const auto begin = trace.begin() + static_cast<std::ptrdiff_t>(first);
+        const auto stop = trace.begin() + static_cast<std::ptrdiff_t>(end);
+        auto lowest = begin, highest = begin;
+        if (end - first > 2) std::tie(lowest, highest) = std::minmax_element(begin, stop, by_height);
+        std::ptrdiff_t order[] = {0, lowest - begin, highest - begin, stop - begin - 1};
+        std::sort(std::begin(order), std::end(order));
+        const auto distinct = std::unique(std::begin(order), std::end(order));
+        for (auto place = std::begin(order); place != distinct; ++place) kept.push_back(begin[*place]);
+    });
+    return kept;
+}
+
+Trace keep_cell_entries(const Trace& trace, double cell) {
+    Trace kept;
+    const auto same_cell = [cell](const PagePoint& a, const PagePoint& b) {
+        return cell_of(a.x, cell) == cell_of(b.x, cell) && cell_of(a.y, cell) == cell_of(b.y, cell);
+    };
+    for_runs(trace, same_cell, [&](std::size_t first, std::size_t) { kept.push_back(trace[first]); });
+    if (!trace.empty() && !trace.back().gap()) kept.push_back(trace.back());
+    return kept;
+}
+
+}  // namespace
+
+Trace decimate_line(const Trace& trace, double cell) {
+    Trace kept = keep_column_extremes(trace, cell);
+    for (; kept.size() > kMostPoints && cell < 1; cell *= 2) kept = keep_cell_entries(kept, cell);
+    return kept;
+}
+
+Trace decimate_points(const Trace& trace, double cell) {
+    for (Trace kept;; cell *= 2, kept.clear()) {
+        std::unordered_set<std::uint64_t> taken;
+        for (const PagePoint& point : trace) {
+            if (point.gap()) continue;
+            const auto column = static_cast<std::uint64_t>(cell_of(point.x, cell)) << 32;
+            const auto row = static_cast<std::uint64_t>(cell_of(point.y, cell)) & 0xFFFFFFFFu;
+            if (taken.insert(column | row).second) kept.push_back(point);
+            if (kept.size() > kMostPoints) break;
+        }
+        if (kept.size() <= kMostPoints) return kept;
+    }
+}
+
+std::pair<Trace, Trace> decimate_band(const Trace& lower, const Trace& upper, double cell) {
+    std::pair<Trace, Trace> kept;
+    const auto same_column = [cell](const PagePoint& a, const PagePoint& b) {
+        return cell_of(a.x, cell) == cell_of(b.x, cell);
+    };
+    Trace both = lower;  // a gap in either edge is a gap of the band
+    for (std::size_t i = 0; i < both.size(); ++i)
+        if (upper[i].gap()) both[i] = upper[i];
+    for_runs(both, same_column, [&](std::size_t first, std::size_t end) {
+        PagePoint low = lower[first], high = upper[first];
+        for (std::size_t i = first + 1; i < end; ++i) {
+            low.y = std::min(low.y, lower[i].y);
+            high.y = std::max(high.y, upper[i].y);
+        }
+        if (both[first].gap()) low.y = high.y = std::numeric_limits<double>::quiet_NaN();
+        kept.first.push_back(low);
+        kept.second.push_back(high);
+    });
+    return kept;
+}
+
+}  // namespace dynlab

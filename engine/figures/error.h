@@ -1,0 +1,12 @@
+#pragma once
+#include "platform/error.h"
+
+namespace dynlab {
+
+/// A figure could not be drawn: names its file and says what gnuplot complained of.
+class FigureError : public EnvironmentError {
+  public:
+    using EnvironmentError::EnvironmentError;
+};
+
+}  // namespace dynlab

@@ -1,0 +1,85 @@
+#include "figures/figure_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cctype>
+#include <cerrno>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+#include "figures/style.h"
+#include "numerics/error.h"
+#include "platform/atomic_file.h"
+#include "platform/error.h"
+#include "platform/system_call.h"
+
+namespace dynlab {
+
+FigureFormat figure_format(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (extension == ".pdf") return FigureFormat::kPdf;
+    if (extension == ".svg") return FigureFormat::kSvg;
+    if (extension == ".png") return FigureFormat::kPng;
+    throw InvalidArgument(fmt::format("a figure is saved as .pdf, .svg or .png, but the file is called \"{}\"",
+                                      file.filename().string()));
+}
+
+bool is_whole(const std::filesystem::path& file, FigureFormat format) {
+    struct Ends {
+        std::string_view begin, end;
+    };
+    using namespace std::string_view_literals;
+    const Ends ends = format == FigureFormat::kPdf   ? Ends{"%PDF"sv, "%%EOF"sv}
+                      : format == FigureFormat::kSvg ? Ends{"<?xml"sv, "</svg>"sv}
+                                                     : Ends{"\x89PNG"sv, "IEND\xAE\x42\x60\x82"sv};
+    std::ifstream in(file, std::ios::binary);
+    std::string head(ends.begin.size(), '\0'), tail(64, '\0');
+    if (!in.read(head.data(), static_cast<std::streamsize>(head.size())) || head != ends.begin) return false;
+    in.seekg(-static_cast<std::streamoff>(tail.size()), std::ios::end);
+    return in.read(tail.data(), static_cast<std::streamsize>(tail.size())) && tail.find(ends.end) != std::string::npos;
+}
+
+void add_fallback_fonts(const std::filesystem::path& svg) {
+    const std::string content = read_file(svg);
+    const std::string text_font = fmt::format("font-family=\"{}\"", style::kTextFont);
+    const std::string math_font = fmt::format("font-family=\"{}\"", style::kMathFont);
+    std::string changed;
+    changed.reserve(content.size() + content.size() / 8);
+    std::size_t copied = 0;
+    for (std::size_t at = content.find("font-family=\""); at != std::string::npos;
+         at = content.find("font-family=\"", at + 1)) {
+        changed.append(content, copied, at - copied);
+        copied = at;
+        for (const std::string* font : {&text_font, &math_font}) {
+            if (content.compare(at, font->size(), *font) != 0) continue;
+            changed += font->substr(0, font->size() - 1) + ", 'LM Roman 10', 'CMU Serif', 'STIX Two Text', serif\"";
+            copied = at + font->size();
+        }
+    }
+    changed.append(content, copied, std::string::npos);
+    std::ofstream out(svg, std::ios::binary | std::ios::trunc);
+    if (!(out << changed << std::flush))
+        throw EnvironmentError(fmt::format("cannot write \"{}\": {}", svg.string(), system_reason(errno)));
+}
+
+std::filesystem::path make_temporary_beside(const std::filesystem::path& target) {
+    static std::atomic<unsigned> number = 0;
+    const std::filesystem::path file =
+        target.parent_path() / fmt::format(".figure-{}-{}{}", getpid(), number++, target.extension().string());
+    const int descriptor = open(file.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+    if (descriptor < 0)
+        throw EnvironmentError(fmt::format("cannot write the figure \"{}\" into the folder \"{}\": {}",
+                                           target.filename().string(), target.parent_path().string(),
+                                           system_reason(errno)));
+    close(descriptor);
+    return file;
+}
+
+}  // namespace dynlab

@@ -1,0 +1,17 @@
+#pragma once
+#include <filesystem>
+
+#include "figures/gnuplot_renderer.h"
+
+namespace dynlab {
+
+/// Whether a file has the beginning and the end that its format requires; a full disk leaves none.
+bool is_whole(const std::filesystem::path& file, FigureFormat format);
+
+/// Gives the texts of an SVG file fonts to fall back on where the reader's machine lacks the document's own.
+void add_fallback_fonts(const std::filesystem::path& svg);
+
+/// An empty file beside `target`, to be filled and renamed. Throws EnvironmentError that says why none can be made.
+std::filesystem::path make_temporary_beside(const std::filesystem::path& target);
+
+}  // namespace dynlab

@@ -1,0 +1,47 @@
+#pragma once
+#include <sys/types.h>
+
+#include <condition_variable>
+#include <cstdio>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "platform/system_call.h"
+
+namespace dynlab {
+
+/// A running gnuplot. Its complaints are collected by a thread, so that neither side ever waits
+/// for the other to read. It runs in a process group of its own, with no start-up files and no clock in what it draws.
+class GnuplotProcess {
+  public:
+    GnuplotProcess();  ///< throws MissingProgram, or EnvironmentError when it cannot be started
+    ~GnuplotProcess();
+    GnuplotProcess(const GnuplotProcess&) = delete;
+    GnuplotProcess& operator=(const GnuplotProcess&) = delete;
+
+    void end();               ///< at once; nothing that is under way is completed
+    std::FILE* take_input();  ///< where commands go; the caller's to close
+
+    /// The command that makes gnuplot report that it has done everything before it.
+    static std::string report_command(unsigned number);
+    /// Waits for that report; returns what gnuplot complained of since the report before. Nothing when gnuplot ended
+    /// instead or is stuck for two minutes. Throws Interrupted.
+    std::optional<std::string> wait_for_report(unsigned number);
+    std::string complaints() const;  ///< not yet taken by wait_for_report()
+
+  private:
+    void start(const std::string& program);
+    void collect();
+
+    pid_t pid_ = -1;
+    FileDescriptor commands_, complaints_;
+    std::thread reader_;
+    mutable std::mutex mutex_;
+    std::condition_variable heard_;
+    std::string text_;    ///< guarded by mutex_
+    bool ended_ = false;  ///< guarded by mutex_
+};
+
+}  // namespace dynlab

@@ -1,0 +1,97 @@
+#include "figures/panel_axes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "figures/style.h"
+
+namespace dynlab {
+namespace {
+
+using Range = std::pair<double, double>;
+
+bool has_style(const Panel& panel, std::initializer_list<CurveStyle> styles) {
+    return std::any_of(panel.curves.begin(), panel.curves.end(), [&](const Curve& curve) {
+        return std::find(styles.begin(), styles.end(), curve.style) != styles.end();
+    });
+}
+
+Range x_range_of(const Panel& panel) {
+    if (panel.x_range) return *panel.x_range;
+    Extent extent(panel.log_x);
+    for (const Curve& curve : panel.curves) {
+        extent.include(curve.x);
+        if (curve.style != CurveStyle::kBars) continue;
+        for (const Index i : {Index{0}, curve.x.size() - 1}) {
+            const auto [left, right] = bar_edges(curve.x, i);
+            extent.include(left), extent.include(right);
+        }
+    }
+    for (const ReferenceLine& line : panel.references)
+        if (!line.horizontal) extent.include(line.at);
+    for (const Annotation& mark : panel.annotations) extent.include(mark.x);
+    for (const Arrow& arrow : panel.arrows) extent.include(arrow.x0), extent.include(arrow.x1);
+    const bool markers =
+        has_style(panel, {CurveStyle::kPoints, CurveStyle::kLinePoints, CurveStyle::kStems, CurveStyle::kBars});
+    return extent.padded(panel.equal_axes ? 0.08 : markers ? 0.03 : 0.0);
+}
+
+Range y_range_of(const Panel& panel, Range x_range) {
+    if (panel.y_range) return *panel.y_range;
+    const auto shown = [&](double x) { return x >= x_range.first && x <= x_range.second; };
+    Extent extent(panel.log_y);
+    for (const Curve& curve : panel.curves)
+        for (Index i = 0; i < curve.y.size(); ++i) {
+            if (!shown(curve.x[i])) continue;
+            extent.include(curve.y[i]);
+            if (curve.style == CurveStyle::kBand) extent.include(curve.y_upper[i]);
+        }
+    const bool from_zero = !panel.log_y && has_style(panel, {CurveStyle::kBars, CurveStyle::kStems});
+    if (from_zero) extent.include(0);
+    for (const ReferenceLine& line : panel.references)
+        if (line.horizontal) extent.include(line.at);
+    for (const Annotation& mark : panel.annotations) extent.include(mark.y);
+    for (const Arrow& arrow : panel.arrows) extent.include(arrow.y0), extent.include(arrow.y1);
+    Range range = extent.padded(panel.equal_axes ? 0.08 : 0.06);
+    if (from_zero && extent.padded(0).first == 0) range.first = 0;
+    return range;
+}
+
+void widen(Range& range, double span) {
+    const double middle = 0.5 * (range.first + range.second);
+    range = {middle - 0.5 * span, middle + 0.5 * span};
+}
+
+/// As many numbers as fit side by side with air between them.
+Axis make_x_axis(Range range, bool log, double width) {
+    for (double count = std::max(2.0, width / 1.4);; count *= 0.75) {
+        Axis axis = make_axis(range, log, count);
+        double total = 0;
+        for (const Tick& tick : axis.ticks) total += text_width(tick.label, style::kTickSize) + 0.3;
+        if (total <= width || count < 1.2) return axis;
+    }
+}
+
+}  // namespace
+
+std::pair<double, double> bar_edges(const Vector& centres, Index i) {
+    const Index last = centres.size() - 1;
+    if (last < 1) return {centres[i] - 0.5, centres[i] + 0.5};
+    const double before = i > 0 ? centres[i] - centres[i - 1] : centres[1] - centres[0];
+    const double after = i < last ? centres[i + 1] - centres[i] : centres[last] - centres[last - 1];
+    return {centres[i] - 0.5 * before, centres[i] + 0.5 * after};
+}
+
+void choose_axes(const Panel& panel, double width, double height, Axis& x, Axis& y) {
+    Range x_range = x_range_of(panel), y_range = y_range_of(panel, x_range);
+    if (panel.equal_axes && !panel.log_x && !panel.log_y) {
+        const double scale =
+            std::max((x_range.second - x_range.first) / width, (y_range.second - y_range.first) / height);
+        widen(x_range, scale * width);
+        widen(y_range, scale * height);
+    }
+    x = make_x_axis(x_range, panel.log_x, width);
+    y = make_axis(y_range, panel.log_y, std::max(2.0, height / 0.75), panel.y_tick_step);
+}
+
+}  // namespace dynlab

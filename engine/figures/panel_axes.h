@@ -1,0 +1,13 @@
+#pragma once
+#include "figures/figure_layout.h"
+
+namespace dynlab {
+
+/// Left and right edges of a bar (x units): halfway to its neighbours.
+std::pair<double, double> bar_edges(const Vector& centres, Index i);
+
+/// Axes of a panel whose frame has the given size (cm): the given ranges, else ranges that hold all curves, references,
+/// marks and arrows; ticks as many as there is room for.
+void choose_axes(const Panel& panel, double width, double height, Axis& x, Axis& y);
+
+}  // namespace dynlab

@@ -1,0 +1,33 @@
+#include "figures/style.h"
+
+#include <array>
+
+namespace dynlab::style {
+namespace {
+
+constexpr std::array kPalette = {"#0072B2", "#E69F00", "#202020", "#009E73",
+                                 "#882255", "#56B4E9", "#D55E00", "#CC79A7"};
+constexpr std::array kDashOfColour = {0, 1, 3, 2, 0, 1, 3, 2};
+/// Filled circle, square, triangle, diamond, the same four open, cross, plus.
+constexpr std::array kPointTypes = {7, 5, 9, 13, 6, 4, 8, 12, 2, 1};
+
+template <class List>
+auto pick(const List& list, int place) {
+    const int size = static_cast<int>(list.size());
+    return list[static_cast<std::size_t>(((place % size) + size) % size)];
+}
+
+}  // namespace
+
+std::string dash_pattern(int dash) {
+    static constexpr std::array kPatterns = {"solid", "(9,4)", "(2,3)", "(9,3,2,3)"};
+    return pick(kPatterns, dash);
+}
+
+CurveLook look_of(const Curve& curve, int place) {
+    const int colour = curve.colour.value_or(place);
+    return {pick(kPalette, colour), dash_pattern(curve.dash.value_or(pick(kDashOfColour, colour))),
+            pick(kPointTypes, curve.marker.value_or(colour))};
+}
+
+}  // namespace dynlab::style

@@ -1,0 +1,44 @@
+#pragma once
+#include <string>
+
+#include "figures/figure.h"
+
+namespace dynlab::style {
+
+/// The house style, in one place. Lengths in cm on the page, type sizes and line widths in points.
+
+inline constexpr const char* kTextFont = "Latin Modern Roman";  ///< the document's own type
+inline constexpr const char* kMathFont = "Latin Modern Math";   ///< Greek and operators, which the text font lacks
+inline constexpr double kTextSize = 9, kTickSize = 8, kTitleSize = 10;
+
+inline constexpr double kPointsPerCm = 72.0 / 2.54;
+inline constexpr double kTextLine = 0.42;     ///< height of a line of text with its leading
+inline constexpr double kTickLine = 0.36;     ///< the same for the numbers on the axes
+inline constexpr double kTickLength = 0.1;    ///< outside the frame
+inline constexpr double kGap = 0.12;          ///< between neighbouring parts
+inline constexpr double kLegendSample = 0.8;  ///< the piece of line beside a legend's text
+
+inline constexpr const char* kFrameColour = "#404040";
+inline constexpr const char* kGridColour = "#dddddd";
+inline constexpr const char* kReferenceColour = "#606060";
+inline constexpr const char* kAnnotationColour = "#202020";
+inline constexpr double kFrameWidth = 0.45, kGridWidth = 0.3, kReferenceWidth = 0.55, kArrowWidth = 0.5;
+
+/// Places in the marker list with a meaning of their own.
+inline constexpr int kOpenCircle = 4, kCross = 8;
+/// Place in the palette used for measured data.
+inline constexpr int kDataColour = 2;
+
+/// How a curve looks once its place among its panel's curves is known.
+struct CurveLook {
+    std::string colour;  ///< "#rrggbb"
+    std::string dash;    ///< gnuplot's dash type
+    int point_type;      ///< gnuplot's number
+};
+
+/// Colours after Okabe and Ito (2008), ordered so that neighbours differ in luminance and stay apart for colour-blind
+/// readers and in grey print; the dash pattern changes with the colour.
+CurveLook look_of(const Curve& curve, int place);
+std::string dash_pattern(int dash);
+
+}  // namespace dynlab::style
