@@ -46,13 +46,31 @@ Trace keep_column_extremes(const Trace& trace, double cell) {
     return kept;
 }
 
-Trace keep_cell_entries(const Trace& trace, double cell) {
-    Trace kept;
-    const auto same_cell = [cell](const PagePoint& a, const PagePoint& b) {
-        return cell_of(a.x, cell) == cell_of(b.x, cell) && cell_of(a.y, cell) == cell_of(b.y, cell);
+/// Of all segments that join the same two square cells, in the same direction, the first.
+Trace keep_new_segments(const Trace& trace, double cell) {
+    const auto number = [cell](const PagePoint& p) {
+        const auto part = [cell](double value) {
+            return static_cast<std::uint64_t>(std::clamp<std::int64_t>(cell_of(value, cell), -32768, 32767) + 32768);
+        };
+        return part(p.x) << 16 | part(p.y);
     };
-    for_runs(trace, same_cell, [&](std::size_t first, std::size_t) { kept.push_back(trace[first]); });
-    if (!trace.empty() && !trace.back().gap()) kept.push_back(trace.back());
+    Trace kept;
+    std::unordered_set<std::uint64_t> drawn;
+    PagePoint pen = {0, std::numeric_limits<double>::quiet_NaN()};  // where the line drawn so far ends
+    for (const PagePoint& point : trace) {
+        if (!pen.gap() && !point.gap()) {
+            const std::uint64_t from = number(pen), to = number(point);
+            if (from == to) continue;
+            if (!drawn.insert(from << 32 | to).second) {
+                if (!kept.back().gap()) kept.push_back({0, std::numeric_limits<double>::quiet_NaN()});
+                pen = point;
+                continue;
+            }
+        }
+        if (!pen.gap() && kept.back().gap()) kept.push_back(pen);  // goes on after segments drawn already
+        kept.push_back(point);
+        pen = point;
+    }
     return kept;
 }
 
@@ -60,7 +78,7 @@ Trace keep_cell_entries(const Trace& trace, double cell) {
 
 Trace decimate_line(const Trace& trace, double cell) {
     Trace kept = keep_column_extremes(trace, cell);
-    for (; kept.size() > kMostPoints && cell < 1; cell *= 2) kept = keep_cell_entries(kept, cell);
+    for (; kept.size() > kMostPoints && cell < 1; cell *= 2) kept = keep_new_segments(kept, cell);
     return kept;
 }
 

@@ -13,8 +13,9 @@ using Trace = std::vector<PagePoint>;
 
 /// The same picture from fewer points. Of every run of neighbours that fall into one column of width `cell`, the
 /// first, lowest, highest and last remain, in their order: nothing a printer of that resolution shows is lost (the M4
-/// aggregation of Jugel, Jerzak, Hackenbroich and Markl 2014). Curves that run back and forth through the columns keep
-/// one point per run inside a square cell, coarser until at most about 20000 remain. Gaps stay.
+/// aggregation of Jugel, Jerzak, Hackenbroich and Markl 2014). Where a curve that runs to and fro keeps
+/// more than 20000 points so, segments between the same two square cells are drawn once, with cells as coarse as
+/// needed. Gaps stay.
 Trace decimate_line(const Trace& trace, double cell);
 
 /// Markers that would print on top of one another (same square cell) are drawn once.

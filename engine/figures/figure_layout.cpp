@@ -72,7 +72,7 @@ class LayoutWork {
         if (panel.legend == LegendPlace::kAbove || figure_.columns > 1 || figure_.width_cm < 10) return false;
         double widest = 0;
         for (const LegendEntry& entry : entries) widest = std::max(widest, entry_width(entry.text));
-        return entries.size() > 4 && widest < 0.3 * figure_.width_cm;
+        return entries.size() > 6 && widest < 0.3 * figure_.width_cm;
     }
 
     void fill_panel(std::size_t i) {

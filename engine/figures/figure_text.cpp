@@ -33,6 +33,7 @@ char32_t take_character(std::string_view& bytes) {
 char32_t printable(char32_t c) {
     if (c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0x2028 || c == 0x2029) return U' ';
     if (c == 0xFFFD) return U'?';
+    if (c == U'\'') return U'’';  // as LaTeX prints it; and no text holds the quote that ends gnuplot's strings
     const bool directs_text = (c >= 0x202A && c <= 0x202E) || (c >= 0x2066 && c <= 0x2069);
     if (directs_text || c == 0xFEFF || (c & 0xFFFE) == 0xFFFE) return U' ';  // not allowed in SVG, or reorders the rest
     return c;

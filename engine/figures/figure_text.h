@@ -31,10 +31,10 @@ FittedText fit_text(const std::string& text, double length, double size);
 /// One line, cut with an ellipsis to fit `length` cm.
 std::string cut_text(const std::string& text, double length, double size);
 
-/// The text as a gnuplot string: single quotes, inside which gnuplot substitutes nothing, with quotes doubled and every
-/// character escaped that enhanced text mode would read as markup.
+/// The text as a gnuplot string: single quotes, inside which gnuplot substitutes nothing, with apostrophes printed as
+/// LaTeX prints them and every character escaped that enhanced text mode would read as markup.
 std::string gnuplot_text(std::string_view utf8);
-/// The same for strings gnuplot does not typeset (file names).
+/// For strings gnuplot does not typeset (absolute file names): quotes doubled.
 std::string gnuplot_quoted(std::string_view text);
 
 std::string to_utf8(std::u32string_view text);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 
@@ -165,7 +166,9 @@ class PanelScript {
     static bool draws_points(CurveStyle style) {
         return style == CurveStyle::kPoints || style == CurveStyle::kLinePoints || style == CurveStyle::kStems;
     }
-    static double marker_line(const Curve& curve) { return std::max(0.6, 0.8 * curve.line_width); }
+    // A curve's line width makes its markers larger rather than bolder.
+    static double marker_size(const Curve& curve) { return kMarkerSize * std::clamp(curve.line_width / 0.9, 0.7, 3.0); }
+    static double marker_line(const Curve& curve) { return std::clamp(0.8 * curve.line_width, 0.6, 0.9); }
 
     void write_legend_entry(const LegendEntry& entry) {
         const Curve& curve = panel_.curves[entry.curve];
@@ -177,7 +180,7 @@ class PanelScript {
         else if (draws_line(curve.style))
             segment({x, y}, {x + kLegendSample, y}, "nohead", curve.line_width, look.colour, look.dash, "front");
         if (draws_points(curve.style))
-            marker({x + 0.5 * kLegendSample, y}, look.point_type, kMarkerSize, marker_line(curve), look.colour);
+            marker({x + 0.5 * kLegendSample, y}, look.point_type, marker_size(curve), marker_line(curve), look.colour);
         text(entry.text, x + kLegendSample + kGap, y, "left", kTextSize, kAnnotationColour);
     }
 
@@ -227,9 +230,9 @@ class PanelScript {
                                 look.colour, look.dash),
                     [&] { put_trace(traces.line); });
         if (!traces.points.empty())
-            element(fmt::format("u 1:2 w points pt {} ps {} lw {:.2f} lc rgb '{}'",
+            element(fmt::format("u 1:2 w points pt {} ps {:.2f} lw {:.2f} lc rgb '{}'",
                                 draws_points(curve.style) ? look.point_type : 7,
-                                draws_points(curve.style) ? kMarkerSize : 0.25, marker_line(curve), look.colour),
+                                draws_points(curve.style) ? marker_size(curve) : 0.25, marker_line(curve), look.colour),
                     [&] { put_trace(traces.points); });
     }
 

@@ -5,9 +5,9 @@
 namespace dynlab::style {
 namespace {
 
-constexpr std::array kPalette = {"#0072B2", "#E69F00", "#202020", "#009E73",
-                                 "#882255", "#56B4E9", "#D55E00", "#CC79A7"};
-constexpr std::array kDashOfColour = {0, 1, 3, 2, 0, 1, 3, 2};
+constexpr std::array kPalette = {"#0072B2", "#E69F00", "#202020", "#009E73", "#882255",
+                                 "#56B4E9", "#D55E00", "#CC79A7", "#8C8C8C"};
+constexpr std::array kDashOfColour = {0, 1, 3, 2, 0, 1, 3, 2, 0};
 /// Filled circle, square, triangle, diamond, the same four open, cross, plus.
 constexpr std::array kPointTypes = {7, 5, 9, 13, 6, 4, 8, 12, 2, 1};
 
@@ -25,7 +25,7 @@ std::string dash_pattern(int dash) {
 }
 
 CurveLook look_of(const Curve& curve, int place) {
-    const int colour = curve.colour.value_or(place);
+    const int colour = curve.colour.value_or(place % kGreyColour);
     return {pick(kPalette, colour), dash_pattern(curve.dash.value_or(pick(kDashOfColour, colour))),
             pick(kPointTypes, curve.marker.value_or(colour))};
 }

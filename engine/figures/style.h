@@ -26,8 +26,8 @@ inline constexpr double kFrameWidth = 0.45, kGridWidth = 0.3, kReferenceWidth = 
 
 /// Places in the marker list with a meaning of their own.
 inline constexpr int kOpenCircle = 4, kCross = 8;
-/// Place in the palette used for measured data.
-inline constexpr int kDataColour = 2;
+/// The grey beyond the palette's own eight places, for measured data and guiding curves.
+inline constexpr int kGreyColour = 8;
 
 /// How a curve looks once its place among its panel's curves is known.
 struct CurveLook {

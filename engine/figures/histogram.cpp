@@ -1,0 +1,77 @@
+#include "figures/histogram.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "numerics/error.h"
+
+namespace dynlab {
+namespace {
+
+constexpr Index kMostBins = 200;
+
+void check(const VectorView& values) {
+    if (values.size() == 0) throw InvalidArgument("a histogram needs at least one value, but there are none");
+    for (Index i = 0; i < values.size(); ++i)
+        if (!std::isfinite(values[i]))
+            throw InvalidArgument(fmt::format("a histogram needs finite values, but value {} is {}", i + 1, values[i]));
+}
+
+/// Linear interpolation between the order statistics that enclose the quantile.
+double quantile(const Vector& sorted, double part) {
+    const double place = part * static_cast<double>(sorted.size() - 1);
+    const Index below = static_cast<Index>(place), above = std::min(below + 1, sorted.size() - 1);
+    return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+}
+
+}  // namespace
+
+Index freedman_diaconis_bins(const VectorView& values) {
+    check(values);
+    Vector sorted = values;
+    std::sort(sorted.begin(), sorted.end());
+    const double n = static_cast<double>(sorted.size()), range = sorted[sorted.size() - 1] - sorted[0];
+    const double width = 2 * (quantile(sorted, 0.75) - quantile(sorted, 0.25)) / std::cbrt(n);
+    if (!(range > 0)) return 1;
+    const double bins = width > 0 ? range / width : std::sqrt(n);
+    return static_cast<Index>(std::clamp(std::ceil(bins - 1e-9), 1.0, static_cast<double>(kMostBins)));
+}
+
+HistogramBins histogram_bins(const VectorView& values, Index bins) {
+    check(values);
+    if (bins < 1) throw InvalidArgument(fmt::format("a histogram needs at least one bin, not {}", bins));
+    double low = values.minCoeff(), high = values.maxCoeff();
+    if (!(low < high)) {
+        const double room = low == 0 ? 0.5 : 0.05 * std::abs(low);
+        low -= room, high += room;
+    }
+    HistogramBins result{Vector::LinSpaced(bins + 1, low, high), Vector::Zero(bins)};
+    for (const double value : values) {
+        const auto right = std::upper_bound(result.edges.begin(), result.edges.end(), value);
+        result.counts[std::clamp(static_cast<Index>(right - result.edges.begin()) - 1, Index{0}, bins - 1)] += 1;
+    }
+    return result;
+}
+
+Figure histogram(const VectorView& values, const HistogramOptions& options) {
+    const HistogramBins bins = histogram_bins(values, options.bins > 0 ? options.bins : freedman_diaconis_bins(values));
+    const Index count = bins.counts.size();
+    Curve bars;
+    bars.style = CurveStyle::kBars;
+    bars.x = 0.5 * (bins.edges.head(count) + bins.edges.tail(count));
+    bars.y = bins.counts;
+    bars.label = options.label;
+    Panel panel;
+    panel.x_label = options.x_label;
+    panel.y_label = "Count";
+    const double width = bins.edges[1] - bins.edges[0];
+    panel.x_range = {std::min(bins.edges[0], options.truth.value_or(bins.edges[0])) - 0.5 * width,
+                     std::max(bins.edges[count], options.truth.value_or(bins.edges[count])) + 0.5 * width};
+    panel.curves = {std::move(bars)};
+    if (options.truth) panel.references = {{false, *options.truth, options.truth_label, 1}};
+    return Figure(std::move(panel));
+}
+
+}  // namespace dynlab

@@ -1,0 +1,29 @@
+#pragma once
+#include <optional>
+#include <string>
+
+#include "figures/figure.h"
+
+namespace dynlab {
+
+/// Bins of equal width; a value on an edge belongs to the bin right of it, the largest value to the last.
+struct HistogramBins {
+    Vector edges;   ///< bins + 1
+    Vector counts;  ///< sums to the number of values
+};
+
+/// Number of bins after Freedman and Diaconis (1981): width 2 IQR N^(-1/3), with quartiles interpolated between order
+/// statistics; the square root of N where the quartiles coincide. Between 1 and 200. Needs finite values.
+Index freedman_diaconis_bins(const VectorView& values);
+HistogramBins histogram_bins(const VectorView& values, Index bins);
+
+struct HistogramOptions {
+    Index bins = 0;               ///< after Freedman and Diaconis when 0
+    std::optional<double> truth;  ///< marked by a line
+    std::string label, x_label, truth_label = "true value";
+};
+
+/// Throws InvalidArgument for no values or values that are not finite.
+Figure histogram(const VectorView& values, const HistogramOptions& options = {});
+
+}  // namespace dynlab

@@ -1,0 +1,14 @@
+#pragma once
+#include <vector>
+
+#include "figures/figure.h"
+#include "figures/named_model.h"
+
+namespace dynlab {
+
+/// Poles (crosses) and zeros (circles) over lines of equal damping ratio 0.2, 0.4, 0.6, 0.8: rays of the s plane, or
+/// spirals inside the unit circle for discrete models. Throws InvalidArgument for no models, for continuous and
+/// discrete ones mixed, and when there is neither pole nor zero.
+Figure pole_zero_map(const std::vector<NamedModel>& models);
+
+}  // namespace dynlab

@@ -1,0 +1,234 @@
+#include "figures/gnuplot_renderer.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sys/wait.h>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <random>
+
+#include "numerics/error.h"
+#include "platform/atomic_file.h"
+#include "platform/temporary_folder.h"
+
+using namespace dynlab;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+namespace {
+
+Figure sine(const std::string& label = "a curve") {
+    Curve curve;
+    curve.x = Vector::LinSpaced(200, 0, 10);
+    curve.y = curve.x.array().sin();
+    curve.label = label;
+    Panel panel;
+    panel.x_label = "Time (s)";
+    panel.y_label = "Height (mm)";
+    panel.curves = {curve};
+    return Figure(panel);
+}
+
+std::size_t file_count(const std::filesystem::path& folder) {
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+
+std::filesystem::path draw_one(GnuplotRenderer& renderer, const Figure& figure, const std::filesystem::path& file) {
+    renderer.draw(figure, file, figure_format(file));
+    renderer.finish();
+    return file;
+}
+
+}  // namespace
+
+// Oracle: the formats' own signatures.
+TEST(gnuplot_renderer, writes_whole_files_of_all_formats) {
+    const TemporaryFolder folder;
+    GnuplotRenderer renderer;
+    for (const char* name : {"a.pdf", "a.svg", "a.png"})
+        renderer.draw(sine(), folder.path() / name, figure_format(name));
+    renderer.finish();
+    EXPECT_EQ(file_count(folder.path()), 3u);
+    EXPECT_THAT(read_file(folder.path() / "a.pdf"), StartsWith("%PDF"));
+    EXPECT_THAT(read_file(folder.path() / "a.png"), StartsWith("\x89PNG"));
+    const std::string svg = read_file(folder.path() / "a.svg");
+    for (const char* text : {"Time (s)", "Height (mm)", "a curve", "</svg>"}) EXPECT_THAT(svg, HasSubstr(text));
+}
+
+TEST(gnuplot_renderer, equal_figures_make_equal_files) {
+    const TemporaryFolder folder;
+    GnuplotRenderer first, second;
+    second.draw(sine("another"), folder.path() / "other.pdf", FigureFormat::kPdf);
+    for (const std::string kind : {".pdf", ".svg", ".png"}) {
+        const auto a = draw_one(first, sine("θ̂"), folder.path() / ("a" + kind));
+        const auto b = draw_one(second, sine("θ̂"), folder.path() / ("b" + kind));
+        EXPECT_EQ(read_file(a), read_file(b)) << kind;
+    }
+    EXPECT_THAT(read_file(folder.path() / "a.pdf"), Not(HasSubstr(folder.path().string())));
+}
+
+// Oracle: no side effect. Each text would create a file if gnuplot or a shell ever executed a part of it.
+TEST(gnuplot_renderer, texts_never_become_commands) {
+    const TemporaryFolder folder;
+    const std::string bad = (folder.path() / "bad").string();
+    const std::vector<std::string> attacks = {"`touch " + bad + "`",
+                                              "\"`touch " + bad + "`\"",
+                                              "'; system 'touch " + bad + "'; '",
+                                              "\\'; system \"touch " + bad + "\" #",
+                                              "x\nsystem 'touch " + bad + "'\n",
+                                              "x\r\n! touch " + bad + "\n",
+                                              "'\nset output '" + bad + "'\nplot 1\n",
+                                              "EOD\nsystem 'touch " + bad + "'",
+                                              "$(touch " + bad + ") @macro $d0 %s %n %d",
+                                              "{/'; system 'touch " + bad + "' '} _{'} ^{\\'} \\",
+                                              "\xC3' ; system 'touch " + bad + "' \xF0\x9F",
+                                              std::string(100000, '\''),
+                                              std::string("a\0'\nsystem 'touch ", 19) + bad + "'",
+                                              "</text><script>x</script>"};
+    GnuplotRenderer renderer;
+    int number = 0;
+    for (const std::string& attack : attacks) {
+        Figure figure = sine(attack);
+        figure.title = attack;
+        Panel& panel = figure.panels[0];
+        panel.title = panel.x_label = panel.y_label = attack;
+        panel.references = {{true, 0.5, attack, 1}, {false, 5, attack, 1}};
+        panel.annotations = {{3, 0.2, attack, true}};
+        panel.arrows = {{1, 0, 2, 0.5, attack, true}};
+        for (const char* kind : {".pdf", ".svg", ".png"}) {
+            const auto file = folder.path() / (std::to_string(number++) + kind);
+            ASSERT_NO_THROW(draw_one(renderer, figure, file)) << attack.substr(0, 60);
+        }
+        ASSERT_FALSE(std::filesystem::exists(bad)) << attack.substr(0, 60);
+        EXPECT_THAT(read_file(folder.path() / (std::to_string(number - 2) + ".svg")), Not(HasSubstr("<script>")));
+    }
+    EXPECT_EQ(file_count(folder.path()), static_cast<std::size_t>(number));
+}
+
+TEST(gnuplot_renderer, file_names_are_names_only) {
+    const TemporaryFolder folder;
+    GnuplotRenderer renderer;
+    const auto file = draw_one(renderer, sine(), folder.path() / "it's `touch bad` | $x \"y\".pdf");
+    EXPECT_TRUE(std::filesystem::exists(file));
+    EXPECT_EQ(file_count(folder.path()), 1u);
+    EXPECT_THROW(renderer.draw(sine(), folder.path() / "a\nb.pdf", FigureFormat::kPdf), InvalidArgument);
+}
+
+TEST(gnuplot_renderer, bad_targets_are_reported_and_leave_nothing) {
+    const TemporaryFolder folder;
+    GnuplotRenderer renderer;
+    EXPECT_THROW(renderer.draw(sine(), folder.path() / "absent" / "a.pdf", FigureFormat::kPdf), EnvironmentError);
+    EXPECT_THROW(figure_format("a.jpeg"), InvalidArgument);
+    draw_one(renderer, sine(), folder.path() / "a.pdf");  // the renderer still works
+    EXPECT_EQ(file_count(folder.path()), 1u);
+}
+
+TEST(gnuplot_renderer, figures_not_finished_leave_nothing) {
+    const TemporaryFolder folder;
+    {
+        GnuplotRenderer renderer;
+        for (int i = 0; i < 5; ++i)
+            renderer.draw(sine(), folder.path() / (std::to_string(i) + ".pdf"), FigureFormat::kPdf);
+    }
+    EXPECT_EQ(file_count(folder.path()), 0u);
+    EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "a child process was left behind";
+}
+
+// Oracle: a program in gnuplot's place that ends at once, complains, or is not there.
+class WithGnuplotReplaced : public testing::Test {
+  protected:
+    WithGnuplotReplaced() : path_(std::getenv("PATH")) { setenv("PATH", folder_.path().c_str(), 1); }
+    ~WithGnuplotReplaced() override { setenv("PATH", path_.c_str(), 1); }
+    void replace_by(const std::string& script) {
+        const auto program = folder_.path() / "gnuplot";
+        std::ofstream(program) << "#!/bin/sh\n" << script;
+        std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+    }
+    std::string failure() {
+        GnuplotRenderer renderer;
+        try {
+            renderer.draw(sine(), out_.path() / "a.pdf", FigureFormat::kPdf);
+            renderer.finish();
+        } catch (const FigureError& error) {
+            EXPECT_EQ(file_count(out_.path()), 0u);
+            return error.what();
+        }
+        return "";
+    }
+    TemporaryFolder folder_, out_;
+    std::string path_;
+};
+using gnuplot_renderer_replaced = WithGnuplotReplaced;
+
+TEST_F(gnuplot_renderer_replaced, missing_gnuplot_names_its_package) {
+    GnuplotRenderer renderer;
+    try {
+        renderer.draw(sine(), out_.path() / "a.pdf", FigureFormat::kPdf);
+        FAIL() << "no complaint";
+    } catch (const MissingProgram& error) {
+        EXPECT_THAT(error.what(), HasSubstr("gnuplot-nox"));
+    }
+    EXPECT_EQ(file_count(out_.path()), 0u);
+}
+
+TEST_F(gnuplot_renderer_replaced, death_is_reported_with_its_last_words) {
+    replace_by("echo 'cannot open terminal' >&2\nexit 1\n");
+    EXPECT_THAT(failure(), HasSubstr("a.pdf"));
+}
+
+TEST_F(gnuplot_renderer_replaced, complaints_become_one_sentence) {
+    replace_by(
+        "echo 'gnuplot> plot' >&2; echo '         line 0: all points y value undefined!' >&2\n"
+        "echo 'figure 1 done' >&2\nwhile read -r line; do :; done\n");
+    const std::string text = failure();
+    EXPECT_THAT(text, HasSubstr("all points y value undefined!"));
+    EXPECT_THAT(text, Not(HasSubstr("\n")));
+}
+
+TEST_F(gnuplot_renderer_replaced, files_that_are_not_whole_are_not_delivered) {
+    replace_by("echo 'figure 1 done' >&2\nwhile read -r line; do :; done\n");
+    EXPECT_THAT(failure(), HasSubstr("not complete"));
+}
+
+// Oracle: the bytes a reader would expect of a figure on paper: a million points weigh no more than a thousand would.
+TEST(gnuplot_renderer, a_million_points_stay_small) {
+    const TemporaryFolder folder;
+    std::mt19937 generator(1);
+    std::normal_distribution<double> normal;
+    Figure figure = sine();
+    Curve& curve = figure.panels[0].curves[0];
+    curve.x = Vector::LinSpaced(1000000, 0, 1);
+    curve.y.resize(1000000);
+    for (double& value : curve.y) value = normal(generator);
+    GnuplotRenderer renderer;
+    EXPECT_LT(std::filesystem::file_size(draw_one(renderer, figure, folder.path() / "a.pdf")), 150000u);
+}
+
+// Oracle: gnuplot accepts it without complaint; what a picture of extremes looks like is for the eye.
+TEST(gnuplot_renderer, extreme_data_are_drawn) {
+    const TemporaryFolder folder;
+    GnuplotRenderer renderer;
+    const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
+    const std::vector<Vector> extremes = {
+        Vector{{1e-300, 2e-300}},        Vector{{-1e308, 1e308}}, Vector{{5}},
+        Vector{{1, nan, infinity, 2}},   Vector{{0, 0, 0}},       Vector{{1e12, 1e12 + 1}},
+        Vector{{-1e-9, -2e-9, -1.5e-9}}, Vector{{1, 1 + 1e-16}}};
+    int number = 0;
+    for (const Vector& values : extremes)
+        for (const CurveStyle style : {CurveStyle::kLine, CurveStyle::kPoints, CurveStyle::kLinePoints,
+                                       CurveStyle::kStairs, CurveStyle::kStems, CurveStyle::kBars, CurveStyle::kBand})
+            for (const bool log : {false, true}) {
+                Figure figure = sine();
+                Panel& panel = figure.panels[0];
+                panel.log_y = log && values.maxCoeff<Eigen::PropagateNumbers>() > 0;
+                panel.curves[0].style = style;
+                panel.curves[0].x = Vector::LinSpaced(values.size(), 1, static_cast<double>(values.size()));
+                panel.curves[0].y = panel.curves[0].y_upper = values;
+                renderer.draw(figure, folder.path() / (std::to_string(number++) + ".svg"), FigureFormat::kSvg);
+            }
+    EXPECT_NO_THROW(renderer.finish());
+    EXPECT_EQ(file_count(folder.path()), static_cast<std::size_t>(number));
+}

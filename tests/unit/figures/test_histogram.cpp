@@ -1,0 +1,47 @@
+#include "figures/histogram.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "numerics/error.h"
+
+using namespace dynlab;
+
+// Oracle: Freedman and Diaconis' rule by hand. Of 1..1000 the quartiles are 250.75 and 750.25 (interpolated), the width
+// 2 * 499.5 / 10 = 99.9, and 999 / 99.9 = 10 bins.
+TEST(histogram, freedman_diaconis_by_hand) {
+    EXPECT_EQ(freedman_diaconis_bins(Vector::LinSpaced(1000, 1, 1000)), 10);
+    EXPECT_EQ(freedman_diaconis_bins(Vector::LinSpaced(8, 0, 7)), 2);  // IQR 3.5, width 3.5, range 7
+}
+
+TEST(histogram, equal_values_make_one_bin_that_holds_them) {
+    const Vector values = Vector::Constant(5, 3.0);
+    ASSERT_EQ(freedman_diaconis_bins(values), 1);
+    const HistogramBins bins = histogram_bins(values, 1);
+    EXPECT_LT(bins.edges[0], 3.0);
+    EXPECT_GT(bins.edges[1], 3.0);
+    EXPECT_EQ(bins.counts[0], 5);
+}
+
+// Oracle: counting by the definition, one bin after another.
+TEST(histogram, counts_agree_with_the_definition) {
+    std::mt19937 generator(5);
+    std::normal_distribution<double> normal;
+    Vector values(1000);
+    for (double& value : values) value = normal(generator);
+    const HistogramBins bins = histogram_bins(values, 17);
+    EXPECT_EQ(bins.counts.sum(), 1000);
+    for (Index b = 0; b < 17; ++b) {
+        double count = 0;
+        for (const double value : values)
+            count += value >= bins.edges[b] && (value < bins.edges[b + 1] || (b == 16 && value <= bins.edges[17]));
+        EXPECT_EQ(bins.counts[b], count) << "bin " << b;
+    }
+}
+
+TEST(histogram, refuses_nothing_and_not_a_number) {
+    EXPECT_THROW(histogram(Vector()), InvalidArgument);
+    EXPECT_THROW(histogram(Vector{{1, std::nan("")}}), InvalidArgument);
+}
