@@ -24,15 +24,14 @@ namespace {
 
 constexpr auto kPatience = std::chrono::minutes(2);
 
-/// The inherited environment without what steers gnuplot, and with the clock that cairo stamps on its files stopped.
+/// The inherited environment without what steers gnuplot.
 std::vector<std::string> gnuplot_environment() {
     std::vector<std::string> variables;
     for (char** variable = environ; *variable != nullptr; ++variable) {
         const std::string_view text = *variable;
         const bool steers = text.starts_with("GNUPLOT_") || text.starts_with("GNUTERM=") || text.starts_with("FIT_");
-        if (!steers && !text.starts_with("SOURCE_DATE_EPOCH=")) variables.emplace_back(text);
+        if (!steers) variables.emplace_back(text);
     }
-    variables.emplace_back("SOURCE_DATE_EPOCH=0");
     return variables;
 }
 

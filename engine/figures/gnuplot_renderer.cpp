@@ -13,6 +13,7 @@
 #include "figures/gnuplot_script.h"
 #include "numerics/error.h"
 #include "platform/interrupt.h"
+#include "platform/system_call.h"
 
 namespace dynlab {
 namespace {
@@ -112,9 +113,14 @@ struct GnuplotRenderer::Process {
             remove(figure);
             return fmt::format("gnuplot could not draw \"{}\": {}", figure.target.string(), *error);
         }
+        if (figure.format == FigureFormat::kPdf) blank_creation_date(figure.temporary);
         if (figure.format == FigureFormat::kSvg) add_fallback_fonts(figure.temporary);
-        std::filesystem::rename(figure.temporary, figure.target);
-        return {};
+        std::error_code failure;
+        std::filesystem::rename(figure.temporary, figure.target, failure);
+        if (!failure) return {};
+        remove(figure);
+        return fmt::format("cannot write the figure \"{}\": {}", figure.target.string(),
+                           system_reason(failure.value()));
     }
 };
 
