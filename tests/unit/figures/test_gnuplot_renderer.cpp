@@ -70,7 +70,7 @@ TEST(gnuplot_renderer, equal_figures_make_equal_files) {
         EXPECT_TRUE(read_file(a) == read_file(b)) << kind;
     }
     // Dates differ only when the clock ticks between two files, so look for the date itself.
-    for (const std::string trace : {std::string("CreationDate"), folder.path().string()})
+    for (const std::string& trace : {std::string("CreationDate"), folder.path().string()})
         EXPECT_EQ(read_file(folder.path() / "a.pdf").find(trace), std::string::npos) << trace;
 }
 
