@@ -79,7 +79,9 @@ void GnuplotProcess::start(const std::string& program) {
     posix_spawnattr_setsigdefault(&attributes, &defaults);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
 
-    std::vector<std::string> arguments = {"gnuplot", "--default-settings"}, environment = gnuplot_environment();
+    // Named as a file, standard input is read in blocks; otherwise gnuplot reads it byte by byte.
+    std::vector<std::string> arguments = {"gnuplot", "--default-settings", "/dev/stdin"};
+    std::vector<std::string> environment = gnuplot_environment();
     const int failure = posix_spawn(&pid_, program.c_str(), &files, &attributes, as_pointers(arguments).data(),
                                     as_pointers(environment).data());
     posix_spawnattr_destroy(&attributes);

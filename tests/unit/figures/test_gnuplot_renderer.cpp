@@ -192,6 +192,13 @@ TEST_F(gnuplot_renderer_replaced, complaints_become_one_sentence) {
     EXPECT_THAT(text, Not(HasSubstr("\n")));
 }
 
+TEST_F(gnuplot_renderer_replaced, an_error_that_ends_gnuplot_is_told) {
+    replace_by(
+        "read -r line; echo '\"/dev/stdin\" line 1: warning: odd' >&2\n"
+        "echo '\"/dev/stdin\" line 7: undefined variable: x' >&2; exit 1\n");
+    EXPECT_THAT(failure(), testing::EndsWith("a.pdf\": undefined variable: x"));
+}
+
 TEST_F(gnuplot_renderer_replaced, files_that_are_not_whole_are_not_delivered) {
     replace_by("echo 'figure 1 done' >&2\nwhile read -r line; do :; done\n");
     EXPECT_THAT(failure(), HasSubstr("not complete"));
