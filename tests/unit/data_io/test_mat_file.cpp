@@ -265,6 +265,10 @@ TEST_F(mat_file, writes_the_same_bytes_for_the_same_variables) {
     write_mat_file(file_, sample_variables());
     write_mat_file(folder_.path() / "again.mat", sample_variables());
     EXPECT_EQ(read_file(file_), read_file(folder_.path() / "again.mat"));
+    const std::string description = "MATLAB 5.0 MAT-file, written by dynlab";  // libmatio's own would hold the date
+    EXPECT_THAT(read_file(file_).substr(0, 116), testing::StartsWith(description));
+    EXPECT_EQ(read_file(file_).substr(0, 116).find_first_not_of(std::string_view(" \0", 2), description.size()),
+              std::string::npos);
 }
 
 TEST_F(mat_file, refuses_names_that_matlab_does_not_allow) {
