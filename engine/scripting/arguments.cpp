@@ -148,6 +148,14 @@ bool Call::holds_vector(int index) const {
     return numbers;
 }
 
+void Call::print(const std::string& text) const {
+    RuntimeContext& context = this->context();
+    if (context.recorder.printed_bytes() + text.size() > context.options.output_limit_bytes)
+        raise_stop(state_, StopReason::kOutputLimit);
+    context.recorder.print(text);
+    if (context.options.print) context.options.print(text);
+}
+
 int Call::give(double value) const {
     return lua_pushnumber(state_, value), 1;
 }

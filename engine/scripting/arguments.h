@@ -37,6 +37,8 @@ class Call {
     MatrixMap matrix(int index, const char* what) const;
     bool holds_vector(int index) const;  ///< vector userdata or plain table of numbers
 
+    void print(const std::string& text) const;  ///< into the record, and live
+
     int give(double value) const;
     int give_whole(Index value) const;
     int give(bool value) const;
@@ -70,6 +72,7 @@ class Options {
     std::optional<std::pair<double, double>> range(const char* name) const;  ///< {low, high}
     /// Place of the text among `choices`; throws for any other text, naming them.
     std::size_t choice(const char* name, std::initializer_list<const char*> choices, std::size_t fallback) const;
+    const Call& call() const { return call_; }
     /// Pushes the option's value (nil when absent) and returns its stack place.
     int push(const char* name) const;
 

@@ -20,8 +20,7 @@ int help(Call& call) {
     std::string text = help_overview(functions);
     if (call.given(1))
         text = help_text(call.type(1) == LUA_TFUNCTION ? name_of_function(call) : call.text(1, "name"), functions);
-    call.context().recorder.print(text);
-    if (call.context().options.print) call.context().options.print(text);
+    call.print(text);
     return 0;
 }
 

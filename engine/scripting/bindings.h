@@ -9,6 +9,11 @@ namespace dynlab {
 FunctionEntries vector_functions();
 FunctionEntries vector_comparisons();
 FunctionEntries random_functions();
+FunctionEntries model_functions();
+FunctionEntries data_functions();
+FunctionEntries simulation_functions();
+FunctionEntries figure_functions();
+FunctionEntries report_functions();
 FunctionEntries help_functions();
 
 }  // namespace dynlab

@@ -5,7 +5,9 @@ namespace dynlab {
 const std::vector<FunctionEntry>& catalogue_of_functions() {
     static const std::vector<FunctionEntry> catalogue = [] {
         std::vector<FunctionEntry> all;
-        for (FunctionEntries area : {vector_functions(), vector_comparisons(), random_functions(), help_functions()})
+        for (FunctionEntries area :
+             {data_functions(), vector_functions(), vector_comparisons(), random_functions(), model_functions(),
+              simulation_functions(), figure_functions(), report_functions(), help_functions()})
             all.insert(all.end(), area.begin(), area.end());
         return all;
     }();

@@ -53,6 +53,11 @@ void Recorder::add_figure(const FigurePointer& figure) {
     pieces_[timed_cell_].push_back({"", figure});
 }
 
+void Recorder::report_figure(const std::string& name, const FigurePointer& figure, const std::string& caption) {
+    figure->used = true;
+    reported_[name] = {figure, caption};
+}
+
 void Recorder::note_file_read(const std::filesystem::path& file) {
     auto& files = record_.files_read;
     if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
@@ -81,7 +86,11 @@ RunRecord Recorder::finish() {
     record_.timings[timed_cell_] +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - timed_since_).count();
     for (const auto& [cell, pieces] : pieces_) capture_figures(cell, pieces);
+    for (const auto& [name, reported] : reported_)
+        record_.figures[name] = {reported.figure->figure, reported.caption, {}};
     pieces_.clear();
+    reported_.clear();
+    numbered_.clear();
     current_line_ = nullptr;
     return std::move(record_);
 }

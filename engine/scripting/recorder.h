@@ -33,6 +33,9 @@ class Recorder {
 
     void print(const std::string& text);
     void add_figure(const FigurePointer& figure);  ///< just made
+    /// Gives a figure a name of the script's own; as it looks at the end of the run.
+    void report_figure(const std::string& name, const FigurePointer& figure, const std::string& caption);
+    bool has_reported_figure(const std::string& name) const { return reported_.count(name) != 0; }
     void set_next_figure_number(long long number) { next_number_ = number; }
     void note_time();  ///< charges the time since the last call to the cell that was running
     void note_file_read(const std::filesystem::path& file);
@@ -46,12 +49,17 @@ class Recorder {
         FigurePointer figure;
     };
     std::string current_cell();
+    struct ReportedFigure {
+        FigurePointer figure;
+        std::string caption;
+    };
     void capture_figures(const std::string& cell, const std::vector<Piece>& pieces);
 
     RunRecord record_;
     LineSource current_line_;
     std::vector<std::pair<int, std::string>> cells_;  ///< first line and id of the code cells, in order
     std::map<std::string, std::vector<Piece>> pieces_;
+    std::map<std::string, ReportedFigure> reported_;
     std::vector<std::weak_ptr<ScriptFigure>> numbered_;
     std::optional<long long> next_number_;
     std::size_t printed_bytes_ = 0;

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "scripting/context.h"
+#include "scripting/arguments.h"
 #include "scripting/sandbox.h"
 #include "scripting/text_form.h"
 
@@ -77,19 +77,9 @@ int script_setmetatable(lua_State* L) {
 }
 
 int script_print(lua_State* L) {
-    RuntimeContext& context = context_of(L);
-    bool too_much = false;
-    {
-        std::string line;
-        for (int i = 1; i <= lua_gettop(L); ++i) line += (i == 1 ? "" : "\t") + value_text(L, i);
-        line += '\n';
-        too_much = context.recorder.printed_bytes() + line.size() > context.options.output_limit_bytes;
-        if (!too_much) {
-            context.recorder.print(line);
-            if (context.options.print) context.options.print(line);
-        }
-    }
-    if (too_much) raise_stop(L, StopReason::kOutputLimit);
+    std::string line;
+    for (int i = 1; i <= lua_gettop(L); ++i) line += (i == 1 ? "" : "\t") + value_text(L, i);
+    Call(L).print(line + '\n');
     return 0;
 }
 

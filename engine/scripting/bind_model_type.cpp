@@ -1,0 +1,180 @@
+#include <array>
+#include <cmath>
+
+#include "scripting/objects/model.h"
+#include "scripting/text_form.h"
+
+namespace dynlab {
+namespace {
+
+const Model& self(Call& call) {
+    return object_argument<Model>(call, 1, "G");
+}
+
+const Estimate& estimate_of(Call& call) {
+    const Model& model = self(call);
+    if (!model.estimate)
+        throw InvalidArgument("this model was written down, not estimated, so it has no standard errors and no report");
+    return *model.estimate;
+}
+
+int field_num(Call& call) {
+    return call.give_vector(self(call).G.num());
+}
+int field_den(Call& call) {
+    return call.give_vector(self(call).G.den());
+}
+int field_delay(Call& call) {
+    return call.give(self(call).G.delay());
+}
+int field_sampling_time(Call& call) {
+    return call.give(self(call).G.Ts());
+}
+int field_param(Call& call) {
+    return call.give_vector(parameters_of(self(call)).values);
+}
+int field_std(Call& call) {
+    return call.give_vector(estimate_of(call).std);
+}
+int field_covariance(Call& call) {
+    return call.give_matrix(estimate_of(call).covariance);
+}
+
+int field_names(Call& call) {
+    lua_newtable(call.state());
+    lua_Integer place = 0;
+    for (const std::string& name : parameters_of(self(call)).names) {
+        lua_pushstring(call.state(), name.c_str());
+        lua_rawseti(call.state(), -2, ++place);
+    }
+    return 1;
+}
+
+/// G.report: a plain table.
+int field_report(Call& call) {
+    const Estimate& estimate = estimate_of(call);
+    lua_State* L = call.state();
+    lua_newtable(L);
+    lua_pushstring(L, estimate.method.c_str());
+    lua_setfield(L, -2, "method");
+    lua_pushstring(L, estimate.message.c_str());
+    lua_setfield(L, -2, "message");
+    lua_pushboolean(L, estimate.converged);
+    lua_setfield(L, -2, "converged");
+    for (const auto& [name, value] : estimate.numbers) {
+        lua_pushnumber(L, value);
+        lua_setfield(L, -2, name.c_str());
+    }
+    for (const auto& [name, values] : estimate.vectors) {
+        call.give_vector(values);
+        lua_setfield(L, -2, name.c_str());
+    }
+    lua_createtable(L, static_cast<int>(estimate.warnings.size()), 0);
+    for (std::size_t i = 0; i < estimate.warnings.size(); ++i) {
+        lua_pushstring(L, estimate.warnings[i].c_str());
+        lua_rawseti(L, -2, static_cast<lua_Integer>(i + 1));
+    }
+    lua_setfield(L, -2, "warnings");
+    return 1;
+}
+
+/// G.Kp, G.Tp1, ... of a process model; the field's name is the metamethod's upvalue.
+int field_process_parameter(Call& call) {
+    const char* name = static_cast<const char*>(lua_touserdata(call.state(), lua_upvalueindex(1)));
+    const Model& model = self(call);
+    if (!model.process)
+        throw InvalidArgument("only process models have this parameter; a transfer function has num, den and IODelay");
+    return call.give(model.process->parameter(name));
+}
+
+int to_text_of_model(Call& call) {
+    return call.give(to_text(self(call).G));
+}
+
+template <TransferFunction (*kOperator)(const TransferFunction&, const TransferFunction&)>
+int combine(Call& call) {
+    return give_model(call, kOperator(model_argument(call, 1, "left side").G, model_argument(call, 2, "right side").G));
+}
+TransferFunction plus(const TransferFunction& a, const TransferFunction& b) {
+    return a + b;
+}
+TransferFunction minus(const TransferFunction& a, const TransferFunction& b) {
+    return a - b;
+}
+TransferFunction times(const TransferFunction& a, const TransferFunction& b) {
+    return a * b;
+}
+TransferFunction over(const TransferFunction& a, const TransferFunction& b) {
+    return a / b;
+}
+
+int raise_to_power(Call& call) {
+    return give_model(call, pow(model_argument(call, 1, "base").G, static_cast<int>(call.whole(2, "exponent"))));
+}
+int negate(Call& call) {
+    const TransferFunction& G = self(call).G;
+    return give_model(call, TransferFunction(-G.num(), G.den(), G.Ts(), G.delay()));
+}
+
+constexpr std::array kFields = {
+    Member{"num", guarded<field_num>},
+    Member{"den", guarded<field_den>},
+    Member{"IODelay", guarded<field_delay>},
+    Member{"Ts", guarded<field_sampling_time>},
+    Member{"param", guarded<field_param>},
+    Member{"std", guarded<field_std>},
+    Member{"covariance", guarded<field_covariance>},
+    Member{"names", guarded<field_names>},
+    Member{"report", guarded<field_report>},
+    Member{"Kp", guarded<field_process_parameter>},
+    Member{"Tp1", guarded<field_process_parameter>},
+    Member{"Tp2", guarded<field_process_parameter>},
+    Member{"Tp3", guarded<field_process_parameter>},
+    Member{"Tw", guarded<field_process_parameter>},
+    Member{"Zeta", guarded<field_process_parameter>},
+    Member{"Tz", guarded<field_process_parameter>},
+    Member{"Td", guarded<field_process_parameter>},
+};
+constexpr std::array kOperators = {
+    Member{"__add", guarded<combine<plus>>},         Member{"__sub", guarded<combine<minus>>},
+    Member{"__mul", guarded<combine<times>>},        Member{"__div", guarded<combine<over>>},
+    Member{"__pow", guarded<raise_to_power>},        Member{"__unm", guarded<negate>},
+    Member{"__tostring", guarded<to_text_of_model>},
+};
+
+const StateSpace& system(Call& call) {
+    return object_argument<StateSpace>(call, 1, "system");
+}
+int system_A(Call& call) {
+    return call.give_matrix(system(call).A);
+}
+int system_B(Call& call) {
+    return call.give_matrix(system(call).B);
+}
+int system_C(Call& call) {
+    return call.give_matrix(system(call).C);
+}
+int system_D(Call& call) {
+    return call.give_matrix(system(call).D);
+}
+int system_Ts(Call& call) {
+    return call.give(system(call).Ts);
+}
+int system_text(Call& call) {
+    const StateSpace& s = system(call);
+    return call.give(fmt::format("A =\n{}\nB =\n{}\nC =\n{}\nD =\n{}{}", matrix_text(s.A), matrix_text(s.B),
+                                 matrix_text(s.C), matrix_text(s.D),
+                                 s.Ts > 0 ? fmt::format("\nTs = {} s", number_text(s.Ts)) : ""));
+}
+
+constexpr std::array kSystemFields = {Member{"A", guarded<system_A>}, Member{"B", guarded<system_B>},
+                                      Member{"C", guarded<system_C>}, Member{"D", guarded<system_D>},
+                                      Member{"Ts", guarded<system_Ts>}};
+constexpr std::array kSystemOperators = {Member{"__tostring", guarded<system_text>}};
+
+}  // namespace
+
+const ObjectType Boxed<Model>::type{"model", kFields, {}, kOperators};
+const ObjectType Boxed<StateSpace>::type{"state-space model", kSystemFields, {}, kSystemOperators};
+
+}  // namespace dynlab

@@ -1,0 +1,154 @@
+#include <array>
+
+#include "figures/bode_plot.h"
+#include "figures/histogram.h"
+#include "figures/impulse_plot.h"
+#include "figures/nyquist_plot.h"
+#include "figures/pole_zero_map.h"
+#include "figures/step_plot.h"
+#include "numerics/simulation/frequency_response.h"
+#include "numerics/simulation/lsim.h"
+#include "numerics/simulation/time_response.h"
+#include "scripting/bindings.h"
+#include "scripting/objects/figure_object.h"
+#include "scripting/objects/model.h"
+
+namespace dynlab {
+namespace {
+
+Hold hold_option(const Options& options, Hold fallback) {
+    return options.choice("hold", {"zoh", "foh"}, fallback == Hold::kZoh ? 0 : 1) == 0 ? Hold::kZoh : Hold::kFoh;
+}
+
+/// Several inputs or outputs: columns of a matrix.
+int simulate_system(Call& call, const StateSpace& system, const Options& options, const VectorView& x0) {
+    const Matrix y = lsim(system, call.matrix(2, "u"), call.number(3, "Ts"), hold_option(options, Hold::kZoh), x0);
+    return y.cols() == 1 ? call.give_vector(y.col(0)) : call.give_matrix(y);
+}
+
+int simulate(Call& call) {
+    call.at_most(4);
+    const Options options(call, 4, {"hold", "x0"});
+    const Vector x0 = options.has("x0") ? Vector(options.vector("x0")) : Vector();
+    if (const StateSpace* system = to_object<StateSpace>(call.state(), 1))
+        return simulate_system(call, *system, options, x0);
+    const Model model = model_argument(call, 1, "G");
+    const VectorMap u = call.vector(2, "u");
+    const Hold hold = hold_option(options, Hold::kZoh);
+    if (call.type(3) == LUA_TNUMBER) return call.give_vector(lsim(model.G, u, call.number(3, "Ts"), hold, x0));
+    return call.give_vector(lsim(model.G, u, call.vector(3, "t or Ts"), hold, x0));
+}
+
+int filter_states(Call& call) {
+    call.at_most(4);
+    const Options options(call, 4, {"hold", "Ts"});
+    const auto Ts = options.optional_number("Ts");
+    if (!Ts) throw InvalidArgument("the sampling time is needed: svf(x, n, lambda, {Ts = 0.01})");
+    const VectorMap x = call.vector(1, "x");
+    return call.give_matrix(state_variable_filter(x, static_cast<int>(call.size(2, "n")), call.number(3, "lambda"), *Ts,
+                                                  hold_option(options, Hold::kFoh)));
+}
+
+int frequency_response_of(Call& call) {
+    call.at_most(2);
+    const Model model = model_argument(call, 1, "G");
+    push_object(call.state(), frequency_response(model.G, call.vector(2, "w")));
+    return 1;
+}
+
+/// G1, G2, ... up to the vector of instants or frequencies, or the options, that end the arguments.
+std::vector<NamedModel> models_to_draw(const Call& call, int& next) {
+    std::vector<NamedModel> models;
+    for (next = 1; holds_model(call, next); ++next) models.push_back({"", model_argument(call, next, "G").G});
+    if (models.empty()) wrong_argument(call.state(), 1, "G", "model");
+    return models;
+}
+
+void name_models(const Call& call, const Options& options, std::vector<NamedModel>& models) {
+    const std::vector<std::string> labels = options.texts("labels");
+    if (!labels.empty() && labels.size() != models.size())
+        throw InvalidArgument(
+            fmt::format("option 'labels' has {} texts, but there are {} models", labels.size(), models.size()));
+    for (std::size_t i = 0; i < models.size(); ++i) {
+        if (!labels.empty()) {
+            models[i].name = labels[i];
+        } else if (models.size() > 1) {
+            const Model* model = to_object<Model>(call.state(), static_cast<int>(i + 1));
+            models[i].name =
+                model != nullptr && model->estimate ? model->estimate->method : fmt::format("model {}", i + 1);
+        }
+    }
+}
+
+template <Figure (*kPlot)(const std::vector<NamedModel>&, const Vector&)>
+int draw_models(Call& call) {
+    int next = 0;
+    std::vector<NamedModel> models = models_to_draw(call, next);
+    const Vector grid = call.holds_vector(next) ? Vector(call.vector(next++, "t or w")) : Vector();
+    call.at_most(next);
+    name_models(call, Options(call, next, {"labels"}), models);
+    return give_figure(call, kPlot(models, grid));
+}
+
+int draw_poles_and_zeros(Call& call) {
+    int next = 0;
+    std::vector<NamedModel> models = models_to_draw(call, next);
+    call.at_most(next);
+    name_models(call, Options(call, next, {"labels"}), models);
+    return give_figure(call, pole_zero_map(models));
+}
+
+/// step(G, t) with a vector of instants gives the response, without it a figure.
+template <TimeResponse (*kResponse)(const TransferFunction&, const VectorView&),
+          Figure (*kPlot)(const std::vector<NamedModel>&, const Vector&)>
+int time_response(Call& call) {
+    if (!(holds_model(call, 1) && call.holds_vector(2))) return draw_models<kPlot>(call);
+    call.at_most(2);
+    const TimeResponse response = kResponse(model_argument(call, 1, "G").G, call.vector(2, "t"));
+    return call.give_vector(response.y) + call.give_vector(response.t);
+}
+
+int draw_histogram(Call& call) {
+    call.at_most(2);
+    const Options options(call, 2, {"bins", "truth", "label", "xlabel", "truth_label"});
+    HistogramOptions wanted;
+    wanted.bins = options.size("bins", 0);
+    wanted.truth = options.optional_number("truth");
+    wanted.label = options.text("label", "");
+    wanted.x_label = options.text("xlabel", "");
+    wanted.truth_label = options.text("truth_label", wanted.truth_label);
+    return give_figure(call, histogram(call.vector(1, "values"), wanted));
+}
+
+constexpr const char* kArea = "simulation";
+constexpr const char* kFigures = "figures";
+constexpr std::array kFunctions = {
+    FunctionEntry{"lsim", kArea, "lsim(G, u, t_or_Ts, {hold = \"zoh\" | \"foh\", x0 =}) -> y",
+                  "response of a model to an input, exact at the samples", guarded<simulate>},
+    FunctionEntry{"svf", kArea, "svf(x, n, lambda, {Ts =, hold = \"zoh\" | \"foh\"}) -> matrix",
+                  "outputs of the state-variable filter, highest derivative first", guarded<filter_states>},
+    FunctionEntry{"step", kArea, "step(G, t) -> y, t; step(G1, G2, ..., {labels =}) -> fig",
+                  "response to a unit step, as numbers at given instants or as a figure",
+                  guarded<time_response<step_response, step_plot>>},
+    FunctionEntry{"impulse", kArea, "impulse(G, t) -> y, t; impulse(G1, G2, ..., {labels =}) -> fig",
+                  "response to a unit impulse, as numbers or as a figure",
+                  guarded<time_response<impulse_response, impulse_plot>>},
+    FunctionEntry{"freqresp", kArea, "freqresp(G, w) -> complex vector", "frequency response at w (rad/s)",
+                  guarded<frequency_response_of>},
+    FunctionEntry{"bode", kFigures, "bode(G1, G2, ..., w, {labels =}) -> fig", "magnitude and phase over frequency",
+                  guarded<draw_models<bode_plot>>},
+    FunctionEntry{"nyquist", kFigures, "nyquist(G1, G2, ..., w, {labels =}) -> fig",
+                  "frequency response in the complex plane", guarded<draw_models<nyquist_plot>>},
+    FunctionEntry{"pzmap", kFigures, "pzmap(G1, G2, ..., {labels =}) -> fig", "poles and zeros in the complex plane",
+                  guarded<draw_poles_and_zeros>},
+    FunctionEntry{"histogram", kFigures, "histogram(values, {bins =, truth =, xlabel =}) -> fig",
+                  "how often values fall into each interval", guarded<draw_histogram>},
+};
+
+}  // namespace
+
+FunctionEntries simulation_functions() {
+    return kFunctions;
+}
+
+}  // namespace dynlab

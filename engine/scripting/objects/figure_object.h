@@ -1,0 +1,19 @@
+#pragma once
+#include "scripting/objects/boxed.h"
+#include "scripting/recorder.h"
+
+namespace dynlab {
+
+template <>
+struct Boxed<FigurePointer> {
+    static const ObjectType type;
+    static std::size_t outside_bytes(const FigurePointer& figure);
+};
+
+/// Pushes a new figure, checked, and tells the recorder, so that its cell shows it unless it is used elsewhere.
+int give_figure(const Call& call, Figure figure);
+
+/// The figure of an argument that puts it somewhere: it no longer belongs to its cell alone.
+ScriptFigure& used_figure(const Call& call, int index, const char* what);
+
+}  // namespace dynlab

@@ -1,0 +1,54 @@
+#include "scripting/objects/model.h"
+
+namespace dynlab {
+
+std::size_t Boxed<Model>::outside_bytes(const Model& model) {
+    std::size_t numbers = static_cast<std::size_t>(model.G.num().size() + model.G.den().size());
+    if (model.estimate)
+        for (const auto& [name, values] : model.estimate->vectors) numbers += static_cast<std::size_t>(values.size());
+    return numbers * sizeof(double);
+}
+
+std::size_t Boxed<StateSpace>::outside_bytes(const StateSpace& system) {
+    return sizeof(double) *
+           static_cast<std::size_t>(system.A.size() + system.B.size() + system.C.size() + system.D.size());
+}
+
+bool holds_model(const Call& call, int index) {
+    return index <= call.count() &&
+           (to_object<Model>(call.state(), index) != nullptr || to_object<StateSpace>(call.state(), index) != nullptr);
+}
+
+Model model_argument(const Call& call, int index, const char* what) {
+    if (index <= call.count()) {
+        if (const Model* model = to_object<Model>(call.state(), index)) return *model;
+        if (call.type(index) == LUA_TNUMBER)
+            return {TransferFunction(Vector::Constant(1, call.number(index, what)), Vector::Ones(1))};
+        if (const StateSpace* system = to_object<StateSpace>(call.state(), index)) {
+            if (system->B.cols() == 1 && system->C.rows() == 1) return {to_transfer_function(*system)};
+            throw InvalidArgument(
+                fmt::format("argument {} ({}) must have one input and one output, but it has {} and {}", index, what,
+                            system->B.cols(), system->C.rows()));
+        }
+    }
+    wrong_argument(call.state(), index, what, "model");
+}
+
+int give_model(const Call& call, TransferFunction G) {
+    push_object(call.state(), Model{std::move(G)});
+    return 1;
+}
+
+ModelParameters parameters_of(const Model& model) {
+    if (model.estimate) return {model.estimate->names, model.estimate->theta, model.estimate->std};
+    if (model.process) return {model.process->structure.parameter_names(), model.process->parameters, {}};
+    ModelParameters result;
+    const Vector &num = model.G.num(), &den = model.G.den();
+    result.values.resize(den.size() - 1 + num.size());
+    result.values << den.tail(den.size() - 1), num;
+    for (Index i = 1; i < den.size(); ++i) result.names.push_back(fmt::format("a{}", i));
+    for (Index i = 0; i < num.size(); ++i) result.names.push_back(fmt::format("b{}", i));
+    return result;
+}
+
+}  // namespace dynlab

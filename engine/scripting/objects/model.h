@@ -1,0 +1,74 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "numerics/models/process_model.h"
+#include "numerics/models/state_space.h"
+#include "numerics/models/transfer_function.h"
+#include "scripting/objects/boxed.h"
+
+namespace dynlab {
+
+/// What an estimation method says of a model besides its coefficients.
+struct Estimate {
+    std::string method;              ///< Lua name
+    std::vector<std::string> names;  ///< of the parameters
+    Vector theta, std;               ///< std is empty when the method gives none
+    Matrix covariance;
+    std::string message;
+    std::vector<std::string> warnings;
+    std::vector<std::pair<std::string, double>> numbers;  ///< fit_percent, noise_variance, iterations, ...
+    std::vector<std::pair<std::string, Vector>> vectors;  ///< output, delay_grid, delay_loss, ...
+    bool converged = true;
+};
+
+/// A model as scripts hold it: a transfer function, with its process parameters and estimate where it has them.
+struct Model {
+    TransferFunction G;
+    std::optional<ProcessModel> process = {};
+    std::shared_ptr<const Estimate> estimate = {};
+};
+
+template <>
+struct Boxed<Model> {
+    static const ObjectType type;
+    static std::size_t outside_bytes(const Model& model);
+};
+
+template <>
+struct Boxed<StateSpace> {
+    static const ObjectType type;
+    static std::size_t outside_bytes(const StateSpace& system);
+};
+
+template <>
+struct Boxed<Complex> {
+    static const ObjectType type;
+    static std::size_t outside_bytes(const Complex&) { return 0; }
+};
+
+template <>
+struct Boxed<ComplexVector> {
+    static const ObjectType type;
+    static std::size_t outside_bytes(const ComplexVector& v) {
+        return sizeof(Complex) * static_cast<std::size_t>(v.size());
+    }
+};
+
+bool holds_model(const Call& call, int index);
+/// A tf, idproc or estimated model; a state-space model with one input and one output; a number as a gain.
+Model model_argument(const Call& call, int index, const char* what);
+int give_model(const Call& call, TransferFunction G);
+
+/// Names and values of theta = [a_1..a_n b_0..b_m] (F instead of A for process models their own names), and the
+/// standard errors where an estimate has them.
+struct ModelParameters {
+    std::vector<std::string> names;
+    Vector values, std;
+};
+ModelParameters parameters_of(const Model& model);
+
+}  // namespace dynlab

@@ -1,0 +1,125 @@
+#include "scripting/objects/panel_options.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+
+namespace dynlab {
+namespace {
+
+constexpr std::array kStyleNames = {"line", "points", "line_points", "stairs", "stems", "bars", "band"};
+
+/// Calls `read` with the stack place of every entry of the list under `name`.
+void for_each_entry(const Call& call, const Options& options, const char* name, const std::function<void(int)>& read) {
+    lua_State* L = call.state();
+    const int list = options.push(name);
+    if (!lua_isnil(L, list) && lua_type(L, list) != LUA_TTABLE)
+        throw InvalidArgument(
+            fmt::format("option '{}' must be a list of tables, but {} was given", name, given_text(L, list)));
+    if (!lua_isnil(L, list)) {
+        for (lua_Integer i = 1; lua_rawgeti(L, list, i) != LUA_TNIL; ++i) {
+            read(lua_gettop(L));
+            lua_settop(L, list);
+        }
+    }
+    lua_settop(L, list - 1);
+}
+
+double needed_number(const Options& options, const char* name, const char* whose) {
+    const auto value = options.optional_number(name);
+    if (!value) throw InvalidArgument(fmt::format("{} needs {} = number", whose, name));
+    return *value;
+}
+
+ReferenceLine read_reference(const Call& call, int index) {
+    const Options options(call, index, {"x", "y", "label", "dash"});
+    if (options.has("x") == options.has("y"))
+        throw InvalidArgument("a reference is {y = level} or {x = instant}, one of both");
+    ReferenceLine line;
+    line.horizontal = options.has("y");
+    line.at = line.horizontal ? options.number("y", 0) : options.number("x", 0);
+    line.label = options.text("label", "");
+    line.dash = static_cast<int>(options.size("dash", line.dash));
+    return line;
+}
+
+Annotation read_annotation(const Call& call, int index) {
+    const Options options(call, index, {"x", "y", "text", "marker"});
+    return {needed_number(options, "x", "an annotation"), needed_number(options, "y", "an annotation"),
+            options.text("text", ""), options.flag("marker", true)};
+}
+
+Arrow read_arrow(const Call& call, int index) {
+    const Options options(call, index, {"x0", "y0", "x1", "y1", "text", "both_heads"});
+    return {needed_number(options, "x0", "an arrow"),
+            needed_number(options, "y0", "an arrow"),
+            needed_number(options, "x1", "an arrow"),
+            needed_number(options, "y1", "an arrow"),
+            options.text("text", ""),
+            options.flag("both_heads", false)};
+}
+
+std::optional<int> optional_place(const Options& options, const char* name) {
+    if (!options.has(name)) return std::nullopt;
+    return static_cast<int>(options.size(name, 0));
+}
+
+}  // namespace
+
+CurveStyle parse_curve_style(const std::string& name) {
+    const auto found = std::find(kStyleNames.begin(), kStyleNames.end(), name);
+    if (found == kStyleNames.end())
+        throw InvalidArgument(fmt::format("option 'style' must be one of \"{}\", but \"{}\" was given",
+                                          fmt::join(kStyleNames, "\", \""), name));
+    return static_cast<CurveStyle>(found - kStyleNames.begin());
+}
+
+void read_curve_look(const Options& options, Curve& curve) {
+    if (options.has("style")) curve.style = parse_curve_style(options.text("style", ""));
+    curve.colour = optional_place(options, "colour");
+    curve.dash = optional_place(options, "dash");
+    curve.marker = optional_place(options, "marker");
+    curve.line_width = options.number("line_width", curve.line_width);
+}
+
+Curve read_curve(const Call& call, int index) {
+    const Options options(call, index, kCurveOptions);
+    Curve curve;
+    curve.y = options.vector("y");
+    curve.x = options.has("x") ? Vector(options.vector("x"))
+                               : Vector::LinSpaced(curve.y.size(), 1, static_cast<double>(curve.y.size()));
+    if (options.has("y_upper")) {
+        curve.y_upper = options.vector("y_upper");
+        curve.style = CurveStyle::kBand;
+    }
+    curve.label = options.text("label", "");
+    read_curve_look(options, curve);
+    return curve;
+}
+
+void read_panel_options(const Call& call, const Options& options, Panel& panel) {
+    panel.title = options.text("title", panel.title);
+    panel.x_label = options.text("xlabel", panel.x_label);
+    panel.y_label = options.text("ylabel", panel.y_label);
+    if (options.has("x_range")) panel.x_range = options.range("x_range");
+    if (options.has("y_range")) panel.y_range = options.range("y_range");
+    panel.log_x = options.flag("x_log", panel.log_x);
+    panel.log_y = options.flag("y_log", panel.log_y);
+    panel.equal_axes = options.flag("equal_axes", panel.equal_axes);
+    panel.legend = static_cast<LegendPlace>(
+        options.choice("legend", {"automatic", "above", "right", "none"}, static_cast<std::size_t>(panel.legend)));
+    for_each_entry(call, options, "curves", [&](int entry) { panel.curves.push_back(read_curve(call, entry)); });
+    for_each_entry(call, options, "references",
+                   [&](int entry) { panel.references.push_back(read_reference(call, entry)); });
+    for_each_entry(call, options, "annotations",
+                   [&](int entry) { panel.annotations.push_back(read_annotation(call, entry)); });
+    for_each_entry(call, options, "arrows", [&](int entry) { panel.arrows.push_back(read_arrow(call, entry)); });
+}
+
+Panel read_panel(const Call& call, int index) {
+    Panel panel;
+    read_panel_options(call, Options(call, index, kPanelOptions), panel);
+    return panel;
+}
+
+}  // namespace dynlab

@@ -1,0 +1,26 @@
+#pragma once
+#include <initializer_list>
+
+#include "figures/figure.h"
+#include "scripting/arguments.h"
+
+namespace dynlab {
+
+/// Options that describe a panel (axes and marks), a curve and a whole figure; the names scripts use.
+inline constexpr std::initializer_list<const char*> kCurveOptions = {"x",      "y",    "y_upper",    "label", "style",
+                                                                     "colour", "dash", "line_width", "marker"};
+inline constexpr std::initializer_list<const char*> kPanelOptions = {
+    "title",      "xlabel", "ylabel", "x_range",    "y_range",     "x_log", "y_log",
+    "equal_axes", "legend", "curves", "references", "annotations", "arrows"};
+
+/// Sets of `panel` what the options name.
+void read_panel_options(const Call& call, const Options& options, Panel& panel);
+/// A curve from its table; x defaults to 1, 2, 3, ...
+Curve read_curve(const Call& call, int index);
+/// Sets style, colour, dash, width and marker of `curve`.
+void read_curve_look(const Options& options, Curve& curve);
+CurveStyle parse_curve_style(const std::string& name);
+/// A panel from its table.
+Panel read_panel(const Call& call, int index);
+
+}  // namespace dynlab

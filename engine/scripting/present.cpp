@@ -1,0 +1,65 @@
+#include "scripting/present.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scripting/text_form.h"
+
+namespace dynlab {
+namespace {
+
+std::string kind_of(const Model& model) {
+    const std::string time = model.G.continuous() ? "continuous-time" : "discrete-time";
+    if (model.process) return fmt::format("{} process model {}", time, model.process->structure.text());
+    return time + " transfer function";
+}
+
+std::string parameter_lines(const Model& model) {
+    const ModelParameters parameters = parameters_of(model);
+    std::string text = "Parameters:\n";
+    for (std::size_t i = 0; i < parameters.names.size(); ++i) {
+        const auto place = static_cast<Index>(i);
+        text += fmt::format("  {:<5} {:>12}", parameters.names[i], number_text(parameters.values[place], 6));
+        if (parameters.std.size() > place) text += fmt::format("  +- {}", number_text(parameters.std[place], 3));
+        text += '\n';
+    }
+    return text;
+}
+
+std::string pole_lines(const TransferFunction& G) {
+    if (G.pole_count() == 0) return {};
+    std::string text = "Poles:\n";
+    for (const PoleDescription& row : damping(G)) {
+        text += fmt::format("  {:<24} natural frequency {} rad/s, damping {}", complex_text(row.pole),
+                            number_text(row.natural_frequency), number_text(row.damping_ratio, 4));
+        if (std::isfinite(row.time_constant))
+            text += fmt::format(", time constant {} s", number_text(row.time_constant));
+        text += '\n';
+    }
+    return text;
+}
+
+std::string estimate_lines(const Estimate& estimate) {
+    std::string text = fmt::format("Estimated by {}", estimate.method);
+    for (const auto& [name, value] : estimate.numbers) {
+        if (name == "fit_percent")
+            text += fmt::format(", fit to the estimation data {} % (simulation)", number_text(value, 4));
+        if (name == "noise_variance") text += fmt::format(", noise variance {}", number_text(value, 4));
+    }
+    return text + ".\n" + (estimate.message.empty() ? "" : estimate.message + "\n");
+}
+
+}  // namespace
+
+std::string presentation(const Model& model) {
+    const TransferFunction& G = model.G;
+    std::string text = kind_of(model) + "\n" + to_text(G) + "\n" + parameter_lines(model);
+    if (!G.continuous()) text += fmt::format("Sampling time: {} s\n", number_text(G.Ts()));
+    if (G.delay() > 0) text += fmt::format("Delay: {} s\n", number_text(G.delay()));
+    text += fmt::format("Steady-state gain: {}\n", number_text(G.dc_gain()));
+    text += pole_lines(G);
+    if (model.estimate) text += estimate_lines(*model.estimate);
+    return text;
+}
+
+}  // namespace dynlab

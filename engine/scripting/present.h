@@ -1,0 +1,12 @@
+#pragma once
+#include <string>
+
+#include "scripting/objects/model.h"
+
+namespace dynlab {
+
+/// What present(G) prints: transfer function, parameters with standard errors, gain, poles with damping and time
+/// constant, and for an estimate its fit, noise and message.
+std::string presentation(const Model& model);
+
+}  // namespace dynlab
