@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -7,21 +8,25 @@
 
 namespace dynlab {
 
-/// A loaded data set: its variables, the file they came from, and the units a CSV file states.
+/// A loaded data set: its variables, the file they came from, and the units a CSV file states (by variable).
+/// Columns of a CSV file are Vectors, text columns lists of strings, a stated sampling time the number Ts.
 struct LoadedData {
     VariableTable variables;
     std::filesystem::path file;
+    std::map<std::string, std::string> units;
 };
 
-/// Finds and reads a data set or file. `name_or_path` is a name of data/ ("heat_exchanger"), a course file
-/// name
-/// ("heatexchanger_data.mat", misspelled ones of the course too) or a path to a .mat or .csv file. Looked for
-/// in `script_folder`, then in data/NAME of the current project, then in the installed data. Within a data
-/// set's folder a course's original .mat is preferred over dynlab's own record. Throws EnvironmentError that
-/// lists the names that exist and suggests the nearest one.
+/// Finds and reads a data set or file. `name_or_path` is a name of data/ ("heat_exchanger"), a course file name
+/// ("heatexchanger_data.mat", misspelled ones of the course too, with or without .mat) or a path to a .mat or .csv
+/// file. A data set is a folder data/NAME with a SOURCE.md; a line `Course file: NAME.mat` there (several separated
+/// by commas) says under which names a course knows it, and that is the only place where such names stand. Looked
+/// for in `script_folder` (NAME.mat, NAME.csv, data/NAME), then in data/NAME of the current folder, then in the
+/// installed data. Within a data set's folder a course's original file is preferred, then NAME.csv (which states
+/// units), then NAME.mat. Files of the installed data are read without guard. Throws EnvironmentError that lists
+/// the names that exist and suggests the nearest one.
 LoadedData load_data(const std::string& name_or_path, const std::filesystem::path& script_folder);
 
-/// Names of the data sets in data/, sorted.
+/// Names of the data sets in the installed data/, sorted.
 std::vector<std::string> dataset_names();
 
 }  // namespace dynlab

@@ -5,18 +5,21 @@
 
 namespace dynlab {
 
-/// Reads a MATLAB file (v4, v5, v7, v7.3): numeric arrays of every class, logical, complex, char, struct,
-/// cell. Throws EnvironmentError that names the file and the reason: not there, not a MAT file, cut off, or a
-/// variable of a class that cannot be read (table, object, function handle, sparse), named. `guarded`: the
-/// file is read by a child process with limits (2 GiB, 3 s), so that a damaged one can neither crash nor hang
-/// the caller.
+/// Reads a MATLAB file (v4, v5, v7, v7.3): numeric arrays of every class, logical, complex, char, struct, cell.
+/// Integers and single precision become double (64-bit integers beyond 2^53 are rounded), a logical scalar a bool,
+/// a logical array a Vector or Matrix of 0 and 1, a char array of several rows a list of its rows without trailing
+/// blanks, [] an empty Vector. Throws EnvironmentError that names the file and the reason: not there, not a MAT
+/// file, of an unknown version, cut off, damaged, or a variable that cannot be represented (table, object, function
+/// handle, sparse, more than two dimensions), named.
+///
+/// `guarded`: a forked copy of this process with limits (2 GiB, 3 s) reads the file, so that a damaged one can
+/// neither crash nor hang the caller; costs a few milliseconds. Works from any program. Only files that ship with
+/// dynlab need no guard. Not to be called from several threads at once (libmatio and HDF5 keep global state).
 VariableTable read_mat_file(const std::filesystem::path& file, bool guarded = true);
 
-/// Writes MAT v5 (compressed), whole or not at all.
+/// Writes MAT v5 (compressed), whole or not at all, the same bytes for the same variables. Vectors are written as
+/// columns, lists as cell columns. Throws InvalidArgument for a name MATLAB does not allow (letter first, then
+/// letters, digits and _, at most 63), EnvironmentError when the file cannot be written.
 void write_mat_file(const std::filesystem::path& file, const VariableTable& variables);
-
-/// Entry of the child process that read_mat_file starts (the program calls itself with this hidden command):
-/// reads `file`, writes the variables in a private binary form to standard output, returns the exit code.
-int mat_reader_main(const std::filesystem::path& file);
 
 }  // namespace dynlab

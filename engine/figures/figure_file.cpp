@@ -69,6 +69,17 @@ void add_fallback_fonts(const std::filesystem::path& svg) {
         throw EnvironmentError(fmt::format("cannot write \"{}\": {}", svg.string(), system_reason(errno)));
 }
 
+void blank_creation_date(const std::filesystem::path& pdf) {
+    const std::string content = read_file(pdf);
+    const std::size_t start = content.rfind("/CreationDate (");
+    const std::size_t end = start == std::string::npos ? start : content.find(')', start);
+    if (end == std::string::npos) return;
+    std::fstream file(pdf, std::ios::binary | std::ios::in | std::ios::out);
+    file.seekp(static_cast<std::streamoff>(start));
+    if (!(file << std::string(end + 1 - start, ' ') << std::flush))
+        throw EnvironmentError(fmt::format("cannot write \"{}\": {}", pdf.string(), system_reason(errno)));
+}
+
 std::filesystem::path make_temporary_beside(const std::filesystem::path& target) {
     static std::atomic<unsigned> number = 0;
     const std::filesystem::path file =

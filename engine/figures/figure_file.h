@@ -11,6 +11,9 @@ bool is_whole(const std::filesystem::path& file, FigureFormat format);
 /// Gives the texts of an SVG file fonts to fall back on where the reader's machine lacks the document's own.
 void add_fallback_fonts(const std::filesystem::path& svg);
 
+/// Overwrites the date that cairo stamps on PDF files with blanks, so that equal figures are equal files.
+void blank_creation_date(const std::filesystem::path& pdf);
+
 /// An empty file beside `target`, to be filled and renamed. Throws EnvironmentError that says why none can be made.
 std::filesystem::path make_temporary_beside(const std::filesystem::path& target);
 

@@ -24,15 +24,14 @@ namespace {
 
 constexpr auto kPatience = std::chrono::minutes(2);
 
-/// The inherited environment without what steers gnuplot, and with the clock that cairo stamps on its files stopped.
+/// The inherited environment without what steers gnuplot.
 std::vector<std::string> gnuplot_environment() {
     std::vector<std::string> variables;
     for (char** variable = environ; *variable != nullptr; ++variable) {
         const std::string_view text = *variable;
         const bool steers = text.starts_with("GNUPLOT_") || text.starts_with("GNUTERM=") || text.starts_with("FIT_");
-        if (!steers && !text.starts_with("SOURCE_DATE_EPOCH=")) variables.emplace_back(text);
+        if (!steers) variables.emplace_back(text);
     }
-    variables.emplace_back("SOURCE_DATE_EPOCH=0");
     return variables;
 }
 
@@ -80,7 +79,9 @@ void GnuplotProcess::start(const std::string& program) {
     posix_spawnattr_setsigdefault(&attributes, &defaults);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
 
-    std::vector<std::string> arguments = {"gnuplot", "--default-settings"}, environment = gnuplot_environment();
+    // Named as a file, standard input is read in blocks; otherwise gnuplot reads it byte by byte.
+    std::vector<std::string> arguments = {"gnuplot", "--default-settings", "/dev/stdin"};
+    std::vector<std::string> environment = gnuplot_environment();
     const int failure = posix_spawn(&pid_, program.c_str(), &files, &attributes, as_pointers(arguments).data(),
                                     as_pointers(environment).data());
     posix_spawnattr_destroy(&attributes);

@@ -13,7 +13,7 @@
 namespace dynlab {
 
 /// A running gnuplot. Its complaints are collected by a thread, so that neither side ever waits
-/// for the other to read. It runs in a process group of its own, with no start-up files and no clock in what it draws.
+/// for the other to read. It runs in a process group of its own and reads no start-up files.
 class GnuplotProcess {
   public:
     GnuplotProcess();  ///< throws MissingProgram, or EnvironmentError when it cannot be started

@@ -4,15 +4,16 @@
 #include <gnuplot-iostream.h>
 #include <signal.h>
 
-#include <algorithm>
 #include <deque>
 #include <optional>
+#include <regex>
 
 #include "figures/figure_file.h"
 #include "figures/gnuplot_process.h"
 #include "figures/gnuplot_script.h"
 #include "numerics/error.h"
 #include "platform/interrupt.h"
+#include "platform/system_call.h"
 
 namespace dynlab {
 namespace {
@@ -39,22 +40,13 @@ class BrokenPipeHeld {
     sigset_t broken_pipe_, before_;
 };
 
-/// The first error in what gnuplot wrote, without its echo of the command; nothing when there are but warnings.
+/// The first error in what gnuplot wrote, as in `"/dev/stdin" line 7: undefined variable: x`, without its echo of the
+/// command; nothing when there are but warnings.
 std::optional<std::string> first_error(const std::string& complaints) {
-    static const std::string kMark = "line ";
-    std::size_t start = 0;
-    while (start < complaints.size()) {
-        const std::size_t end = std::min(complaints.find('\n', start), complaints.size());
-        std::string line = complaints.substr(start, end - start);
-        line.erase(0, std::min(line.find_first_not_of(" \t\""), line.size()));
-        const std::size_t colon = line.find(": ");
-        if (line.starts_with(kMark) && colon != std::string::npos) {
-            const std::string text = line.substr(colon + 2);
-            if (!text.starts_with("warning") && !text.starts_with("Warning")) return text;
-        }
-        start = end + 1;
-    }
-    return {};
+    static const std::regex kComplaint(R"((?:^|\n)[ \t]*(?:"[^"\n]*" )?line \d+: (?![Ww]arning)([^\n]+))");
+    std::smatch match;
+    if (!std::regex_search(complaints, match, kComplaint)) return {};
+    return match[1];
 }
 
 std::string last_words(const std::string& complaints) {
@@ -88,9 +80,13 @@ struct GnuplotRenderer::Process {
         std::filesystem::remove(figure.temporary, ignored);
     }
 
+    /// gnuplot ends at its first error; what it had in hand then is lost.
     [[noreturn]] void fail_as_ended(const std::filesystem::path& target) const {
+        const std::string complaints = child.complaints();
+        if (const auto error = first_error(complaints))
+            throw FigureError(fmt::format("gnuplot could not draw \"{}\": {}", target.string(), *error));
         throw FigureError(fmt::format("gnuplot ended or no longer answered while it drew \"{}\"; {}", target.string(),
-                                      last_words(child.complaints())));
+                                      last_words(complaints)));
     }
 
     void send(const std::string& script, const std::filesystem::path& target) {
@@ -112,9 +108,14 @@ struct GnuplotRenderer::Process {
             remove(figure);
             return fmt::format("gnuplot could not draw \"{}\": {}", figure.target.string(), *error);
         }
+        if (figure.format == FigureFormat::kPdf) blank_creation_date(figure.temporary);
         if (figure.format == FigureFormat::kSvg) add_fallback_fonts(figure.temporary);
-        std::filesystem::rename(figure.temporary, figure.target);
-        return {};
+        std::error_code failure;
+        std::filesystem::rename(figure.temporary, figure.target, failure);
+        if (!failure) return {};
+        remove(figure);
+        return fmt::format("cannot write the figure \"{}\": {}", figure.target.string(),
+                           system_reason(failure.value()));
     }
 };
 

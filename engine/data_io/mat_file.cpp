@@ -1,0 +1,127 @@
+#include "data_io/mat_file.h"
+
+#include <fmt/format.h>
+
+#include <new>
+
+#include "data_io/mat_layout.h"
+#include "data_io/mat_variable.h"
+#include "data_io/variable_bytes.h"
+#include "platform/atomic_file.h"
+#include "platform/error.h"
+#include "platform/guarded_call.h"
+#include "platform/temporary_folder.h"
+
+namespace dynlab {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Values that one byte of a file can stand for: deflate makes at most 1032 bytes from one.
+constexpr std::size_t kDensest = 1032;
+
+/// libmatio reports most damage to its log only. The log is global, so this keeps the first complaint while it
+/// lives.
+class MatioComplaints {
+  public:
+    MatioComplaints() {
+        first_.clear();
+        Mat_LogInitFunc("dynlab", [](int level, char* message) {
+            const bool serious = level == (MATIO_LOG_LEVEL_ERROR) || level == (MATIO_LOG_LEVEL_CRITICAL);
+            if (serious && first_.empty()) first_ = message;
+        });
+    }
+    const std::string& first() const { return first_; }
+
+  private:
+    static inline std::string first_;
+};
+
+[[noreturn]] void fail_damaged(const fs::path& file, const std::string& how) {
+    throw EnvironmentError(fmt::format("{} is damaged: {}", file.string(), how));
+}
+
+std::string without_line_end(std::string text) {
+    text.erase(text.find_last_not_of("\r\n. ") + 1);
+    return text;
+}
+
+/// libmatio does not find the names of tables and other objects, so messages tell their place instead.
+std::string name_of(const matvar_t& variable, std::size_t place, const std::string& last_name) {
+    if (variable.class_type != MAT_C_OPAQUE) return variable.name ? variable.name : "";
+    return fmt::format("number {}{}", place, last_name.empty() ? "" : " (after " + last_name + ")");
+}
+
+VariableTable read_variables(const fs::path& file) {
+    const MatLayout layout = check_mat_layout(file);
+    const MatioComplaints complaints;
+    const MatFile mat(Mat_Open(file.c_str(), MAT_ACC_RDONLY));
+    if (!mat) fail_damaged(file, "it cannot be opened as a MATLAB file");
+    const std::size_t most_values = layout.version == MatVersion::k73 ? 0 : kDensest * fs::file_size(file);
+    VariableTable variables;
+    std::size_t count = 0;
+    std::string last_name;
+    while (const MatVariable variable{Mat_VarReadNextInfo(mat.get())}) {
+        const std::string name = name_of(*variable, ++count, last_name);
+        if (name.empty()) continue;  // MATLAB keeps the private data of objects in a nameless variable
+        try {
+            check_mat_header(*variable, name, most_values);
+            const bool whole = Mat_VarReadDataAll(mat.get(), variable.get()) == 0 && complaints.first().empty();
+            if (!whole) break;
+            variables[name] = from_mat(*variable, name);
+            last_name = name;
+        } catch (const EnvironmentError& error) {
+            throw EnvironmentError(fmt::format("{}: {}", file.string(), error.what()));
+        }
+    }
+    if (!complaints.first().empty()) fail_damaged(file, without_line_end(complaints.first()));
+    if (layout.variables > count) {
+        fail_damaged(file, fmt::format("only {} of its {} variables can be read", count, layout.variables));
+    }
+    return variables;
+}
+
+VariableTable read_guarded(const fs::path& file) {
+    const GuardLimits limits;
+    const auto read = [&file] {
+        try {
+            return bytes_of(read_variables(file));
+        } catch (const std::bad_alloc&) {
+            fail_damaged(file, "reading it takes more than 2 GiB of memory");
+        }
+    };
+    const ChildResult result = run_guarded(read, limits);
+    if (result.timed_out)
+        fail_damaged(file, fmt::format("reading it takes more than {} s", limits.timeout.count() / 1000));
+    if (result.output_exceeded) fail_damaged(file, "it unpacks to more than 2 GiB");
+    if (result.exit_code == 1 && !result.error_output.empty()) throw EnvironmentError(result.error_output);
+    if (result.exit_code != 0) fail_damaged(file, "reading it ends in a crash");
+    return variables_of(result.output);
+}
+
+}  // namespace
+
+VariableTable read_mat_file(const fs::path& file, bool guarded) {
+    return guarded ? read_guarded(file) : read_variables(file);
+}
+
+void write_mat_file(const fs::path& file, const VariableTable& variables) {
+    const TemporaryFolder folder;
+    const fs::path draft = folder.path() / "draft.mat";
+    const MatioComplaints complaints;
+    MatFile mat(Mat_CreateVer(draft.c_str(), "MATLAB 5.0 MAT-file, written by dynlab", MAT_FT_MAT5));
+    bool written = mat != nullptr;
+    for (const auto& [name, variable] : variables) {
+        const MatVariable converted = to_mat(variable, name);
+        written = written && Mat_VarWrite(mat.get(), converted.get(), MAT_COMPRESSION_ZLIB) == 0;
+    }
+    written = written && Mat_Close(mat.release()) == 0 && complaints.first().empty();
+    // libmatio does not notice every failed write; a file cut off by a full disk is seen here.
+    if (!written || check_mat_layout(draft).variables != variables.size()) {
+        throw EnvironmentError(fmt::format("cannot write {}: no room for its draft in {}", file.string(),
+                                           folder.path().parent_path().string()));
+    }
+    place_file_atomically(draft, file);
+}
+
+}  // namespace dynlab

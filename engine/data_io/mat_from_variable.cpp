@@ -1,0 +1,104 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdint>
+
+#include "data_io/mat_text.h"
+#include "data_io/mat_variable.h"
+#include "numerics/error.h"
+#include "platform/error.h"
+
+namespace dynlab {
+namespace {
+
+void check_name(const std::string& name) {
+    constexpr std::size_t kLongest = 63;
+    const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)); };
+    const auto is_allowed = [&](char c) {
+        return is_letter(c) || std::isdigit(static_cast<unsigned char>(c)) || c == '_';
+    };
+    if (name.empty() || name.size() > kLongest || !is_letter(name[0]) ||
+        !std::all_of(name.begin(), name.end(), is_allowed)) {
+        throw InvalidArgument(fmt::format(
+            "\"{}\" cannot name a MATLAB variable: wanted a letter, then letters, digits and _, at most {} in all",
+            name, kLongest));
+    }
+}
+
+MatVariable created(matvar_t* variable) {
+    if (!variable) throw EnvironmentError("cannot make a MATLAB variable: not enough memory");
+    return MatVariable(variable);
+}
+
+/// Makes the libmatio variable for the alternative it is called with; the data are copied.
+class ToMat {
+  public:
+    explicit ToMat(const char* name) : name_(name) {}
+
+    MatVariable operator()(double number) const { return array(MAT_C_DOUBLE, MAT_T_DOUBLE, 1, 1, &number); }
+    MatVariable operator()(bool truth) const {
+        const std::uint8_t byte = truth;
+        return array(MAT_C_UINT8, MAT_T_UINT8, 1, 1, &byte, MAT_F_LOGICAL);
+    }
+    MatVariable operator()(const std::string& text) const {
+        const std::u16string units = utf16_of(text);
+        return array(MAT_C_CHAR, MAT_T_UINT16, units.empty() ? 0 : 1, units.size(), units.data());
+    }
+    MatVariable operator()(const Vector& v) const { return real(v.rows(), v.size() == 0 ? 0 : 1, v.data()); }
+    MatVariable operator()(const Matrix& m) const { return real(m.rows(), m.cols(), m.data()); }
+    MatVariable operator()(const Eigen::VectorXcd& v) const { return complex(v); }
+    MatVariable operator()(const Eigen::MatrixXcd& m) const { return complex(m); }
+
+    MatVariable operator()(const std::shared_ptr<VariableTable>& table) const {
+        std::vector<const char*> names;
+        std::vector<MatVariable> fields;
+        for (const auto& [field, value] : *table) {
+            names.push_back(field.c_str());
+            fields.push_back(to_mat(value, field));
+        }
+        std::size_t size[2] = {1, 1};
+        auto variable = created(Mat_VarCreateStruct(name_, 2, size, names.data(), static_cast<unsigned>(names.size())));
+        for (std::size_t i = 0; i < fields.size(); ++i) {
+            Mat_VarSetStructFieldByIndex(variable.get(), i, 0, fields[i].release());
+        }
+        return variable;
+    }
+    MatVariable operator()(const std::shared_ptr<VariableList>& list) const {
+        std::vector<MatVariable> parts;
+        for (const Variable& part : *list) parts.push_back(std::visit(ToMat(nullptr), part.value));
+        std::vector<matvar_t*> pointers;
+        for (const MatVariable& part : parts) pointers.push_back(part.get());
+        auto variable = array(MAT_C_CELL, MAT_T_CELL, pointers.size(), pointers.empty() ? 0 : 1, pointers.data());
+        for (MatVariable& part : parts) part.release();  // now the cell array's
+        return variable;
+    }
+
+  private:
+    MatVariable array(matio_classes kind, matio_types type, std::size_t rows, std::size_t columns, const void* data,
+                      int flags = 0) const {
+        std::size_t size[2] = {rows, columns};
+        return created(Mat_VarCreate(name_, kind, type, 2, size, const_cast<void*>(data), flags));
+    }
+    MatVariable real(Index rows, Index columns, const double* data) const {
+        return array(MAT_C_DOUBLE, MAT_T_DOUBLE, static_cast<std::size_t>(rows), static_cast<std::size_t>(columns),
+                     data);
+    }
+    MatVariable complex(const Eigen::MatrixXcd& m) const {
+        Matrix re = m.real(), im = m.imag();
+        const mat_complex_split_t parts{re.data(), im.data()};
+        return array(MAT_C_DOUBLE, MAT_T_DOUBLE, static_cast<std::size_t>(m.rows()), static_cast<std::size_t>(m.cols()),
+                     &parts, MAT_F_COMPLEX);
+    }
+
+    const char* name_;
+};
+
+}  // namespace
+
+MatVariable to_mat(const Variable& variable, const std::string& name) {
+    check_name(name);
+    return std::visit(ToMat(name.c_str()), variable.value);
+}
+
+}  // namespace dynlab

@@ -1,0 +1,243 @@
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <limits>
+
+#include "data_io/mat_text.h"
+#include "data_io/mat_variable.h"
+#include "platform/error.h"
+
+namespace dynlab {
+namespace {
+
+constexpr int kDeepest = 50;  // levels of structs and cells
+
+[[noreturn]] void fail(const std::string& name, const std::string& what) {
+    throw EnvironmentError(fmt::format("variable {} {}", name, what));
+}
+
+void refuse_unsupported(const matvar_t& variable, const std::string& name, int depth) {
+    if (depth > kDeepest) fail(name, fmt::format("has more than {} levels of structs and cells", kDeepest));
+    switch (variable.class_type) {
+        case MAT_C_OBJECT:
+        case MAT_C_OPAQUE:
+            fail(name, "is an object, a table or a string array, which cannot be read; save its parts as plain arrays");
+        case MAT_C_FUNCTION:
+            fail(name, "is a function handle, which cannot be read");
+        case MAT_C_SPARSE:
+            fail(name, "is a sparse matrix, which cannot be read; save full(" + name + ") instead");
+        case MAT_C_EMPTY:  // as a part it is [], on its own a class libmatio does not know
+            if (depth == 0) fail(name, "is of a class that cannot be read; save its parts as plain arrays");
+            return;
+        default:
+            return;
+    }
+}
+
+/// The parts of a struct (field after field of each element) or cell array that are there.
+std::vector<const matvar_t*> parts_of(const matvar_t& variable) {
+    const bool has_parts = variable.class_type == MAT_C_STRUCT || variable.class_type == MAT_C_CELL;
+    if (!has_parts || !variable.data) return {};
+    const auto* parts = static_cast<const matvar_t* const*>(variable.data);
+    return {parts, parts + variable.nbytes / sizeof(matvar_t*)};
+}
+
+void check_header(const matvar_t& variable, const std::string& name, std::size_t most_values, int depth) {
+    refuse_unsupported(variable, name, depth);
+    bool is_empty = false;
+    double values = 1;  // not an integer, as hostile sizes overflow
+    for (int i = 0; variable.dims && i < variable.rank; ++i) {
+        is_empty = is_empty || variable.dims[i] == 0;
+        values *= static_cast<double>(variable.dims[i]);
+    }
+    if (most_values > 0 && !is_empty && values > static_cast<double>(most_values)) {
+        fail(name, fmt::format("is damaged: it claims {:g} values, more than the file can hold", values));
+    }
+    for (const matvar_t* part : parts_of(variable)) {
+        if (part) check_header(*part, part->name ? name + "." + part->name : name + "{}", most_values, depth + 1);
+    }
+}
+
+class Converter {
+  public:
+    Converter(const matvar_t& variable, const std::string& name, int depth)
+        : variable_(variable), name_(name), depth_(depth) {}
+
+    Variable convert() {
+        refuse_unsupported(variable_, name_, depth_);
+        find_size();
+        switch (variable_.class_type) {
+            case MAT_C_EMPTY:
+                return {Vector()};
+            case MAT_C_CHAR:
+                return text();
+            case MAT_C_STRUCT:
+                return structs();
+            case MAT_C_CELL:
+                return cells();
+            default:
+                return variable_.isComplex ? complex_numbers() : numbers();
+        }
+    }
+
+  private:
+    [[noreturn]] void fail(const std::string& what) const { dynlab::fail(name_, what); }
+
+    void find_size() {
+        if (variable_.class_type == MAT_C_EMPTY) return;
+        if (variable_.rank < 1 || !variable_.dims) fail("has no size");
+        for (int i = 2; i < variable_.rank; ++i) {
+            if (variable_.dims[i] != 1) {
+                fail(fmt::format("has {} dimensions; only vectors and matrices can be read", variable_.rank));
+            }
+        }
+        rows_ = variable_.dims[0];
+        columns_ = variable_.rank > 1 ? variable_.dims[1] : 1;
+        constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
+        if (rows_ > kMost || columns_ > kMost || (rows_ > 0 && columns_ > kMost / rows_)) fail("is too large");
+    }
+
+    std::size_t count() const { return rows_ * columns_; }
+    bool is_vector() const { return rows_ == 1 || columns_ == 1 || count() == 0; }
+
+    /// Calls `use` with a typed pointer to the first of count() stored numbers.
+    template <class Use>
+    void with_numbers(const void* data, Use use) const {
+        if (!data) fail("is damaged: its values are missing");
+        switch (variable_.data_type) {
+            case MAT_T_DOUBLE:
+                return use(static_cast<const double*>(data));
+            case MAT_T_SINGLE:
+                return use(static_cast<const float*>(data));
+            case MAT_T_INT8:
+                return use(static_cast<const std::int8_t*>(data));
+            case MAT_T_UINT8:
+                return use(static_cast<const std::uint8_t*>(data));
+            case MAT_T_INT16:
+                return use(static_cast<const std::int16_t*>(data));
+            case MAT_T_UINT16:
+                return use(static_cast<const std::uint16_t*>(data));
+            case MAT_T_INT32:
+                return use(static_cast<const std::int32_t*>(data));
+            case MAT_T_UINT32:
+                return use(static_cast<const std::uint32_t*>(data));
+            case MAT_T_INT64:
+                return use(static_cast<const std::int64_t*>(data));
+            case MAT_T_UINT64:
+                return use(static_cast<const std::uint64_t*>(data));
+            default:
+                fail("is of a class that cannot be read");
+        }
+    }
+
+    Matrix matrix_of(const void* data) const {
+        Matrix matrix(static_cast<Index>(rows_), static_cast<Index>(columns_));
+        if (count() == 0) return matrix;
+        if (variable_.nbytes / Mat_SizeOf(variable_.data_type) < count()) {
+            fail("is damaged: it has fewer values than its size says");
+        }
+        with_numbers(data, [&](const auto* stored) {
+            for (std::size_t i = 0; i < count(); ++i) matrix.data()[i] = static_cast<double>(stored[i]);
+        });
+        return matrix;
+    }
+
+    Variable numbers() const {
+        Matrix matrix = matrix_of(variable_.data);
+        if (matrix.size() == 1 && variable_.isLogical) return {matrix(0) != 0};
+        if (matrix.size() == 1) return {matrix(0)};
+        if (is_vector() && !is_empty_matrix()) return {Vector(matrix.reshaped())};
+        return {std::move(matrix)};
+    }
+
+    Variable complex_numbers() const {
+        const auto* parts = static_cast<const mat_complex_split_t*>(variable_.data);
+        if (!parts && count() > 0) fail("is damaged: its values are missing");
+        Eigen::MatrixXcd matrix(static_cast<Index>(rows_), static_cast<Index>(columns_));
+        if (count() > 0) {
+            matrix.real() = matrix_of(parts->Re);
+            matrix.imag() = matrix_of(parts->Im);
+        }
+        if (is_vector() && !is_empty_matrix()) return {Eigen::VectorXcd(matrix.reshaped())};
+        return {std::move(matrix)};
+    }
+
+    /// Empty, but with a size worth keeping, as 0 x 3.
+    bool is_empty_matrix() const { return count() == 0 && std::max(rows_, columns_) > 1; }
+
+    Variable text() const {
+        if (count() == 0) return {std::string()};
+        std::vector<std::string> rows;
+        try {
+            rows = text_rows(variable_, rows_, columns_);
+        } catch (const EnvironmentError& error) {
+            fail(std::string("is damaged: it ") + error.what());
+        }
+        if (rows.size() == 1) return {rows.front()};
+        auto list = std::make_shared<VariableList>();
+        for (std::string& row : rows) {
+            row.erase(row.find_last_not_of(' ') + 1);
+            list->push_back({std::move(row)});
+        }
+        return {std::move(list)};
+    }
+
+    Variable element(const matvar_t* part, const std::string& part_name) const {
+        if (!part) return {Vector()};
+        return Converter(*part, part_name, depth_ + 1).convert();
+    }
+
+    Variable structs() const {
+        const unsigned fields = Mat_VarGetNumberOfFields(const_cast<matvar_t*>(&variable_));
+        char* const* names = Mat_VarGetStructFieldnames(&variable_);
+        check_parts(fields);
+        const auto* parts = static_cast<matvar_t* const*>(variable_.data);
+        auto list = std::make_shared<VariableList>();
+        for (std::size_t i = 0; i < count(); ++i) {
+            auto table = std::make_shared<VariableTable>();
+            for (std::size_t field = 0; field < fields; ++field) {
+                if (!names || !names[field]) fail("is damaged: a field has no name");
+                (*table)[names[field]] = element(parts[i * fields + field], name_ + "." + names[field]);
+            }
+            list->push_back({std::move(table)});
+        }
+        if (count() == 1) return list->front();
+        return {std::move(list)};
+    }
+
+    Variable cells() const {
+        check_parts(1);
+        const auto* parts = static_cast<matvar_t* const*>(variable_.data);
+        auto list = std::make_shared<VariableList>();
+        for (std::size_t i = 0; i < count(); ++i) {
+            list->push_back(element(parts[i], fmt::format("{}{{{}}}", name_, i + 1)));
+        }
+        return {std::move(list)};
+    }
+
+    /// The pointers to the parts must be there, as many as the size says.
+    void check_parts(std::size_t each) const {
+        const std::size_t wanted = count() * each;
+        if (wanted == 0) return;
+        if (!variable_.data || variable_.nbytes / sizeof(matvar_t*) < wanted) {
+            fail("is damaged: it has fewer parts than its size says");
+        }
+    }
+
+    const matvar_t& variable_;
+    const std::string& name_;
+    int depth_;
+    std::size_t rows_ = 0, columns_ = 0;
+};
+
+}  // namespace
+
+void check_mat_header(const matvar_t& variable, const std::string& name, std::size_t most_values) {
+    check_header(variable, name, most_values, 0);
+}
+
+Variable from_mat(const matvar_t& variable, const std::string& name) {
+    return Converter(variable, name, 0).convert();
+}
+
+}  // namespace dynlab

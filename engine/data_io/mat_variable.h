@@ -1,0 +1,33 @@
+#pragma once
+#include <matio.h>
+
+#include <memory>
+#include <string>
+
+#include "data_io/variable.h"
+
+namespace dynlab {
+
+struct MatVariableDeleter {
+    void operator()(matvar_t* variable) const { Mat_VarFree(variable); }
+};
+using MatVariable = std::unique_ptr<matvar_t, MatVariableDeleter>;
+
+struct MatFileDeleter {
+    void operator()(mat_t* file) const { Mat_Close(file); }
+};
+using MatFile = std::unique_ptr<mat_t, MatFileDeleter>;
+
+/// Looks at a variable whose header has been read, before its data are: throws EnvironmentError when it or a part
+/// of it is of a class that cannot be represented, or claims more than `most_values` values (0: any number), which
+/// would make libmatio take memory for nothing.
+void check_mat_header(const matvar_t& variable, const std::string& name, std::size_t most_values);
+
+/// libmatio's variable as ours. `name` is for messages: throws EnvironmentError "variable NAME is ..." when it
+/// cannot be represented or is inconsistent.
+Variable from_mat(const matvar_t& variable, const std::string& name);
+
+/// The other way; lists become cell columns. Throws InvalidArgument for a name MATLAB does not allow.
+MatVariable to_mat(const Variable& variable, const std::string& name);
+
+}  // namespace dynlab

@@ -1,0 +1,180 @@
+#include "data_io/dataset_index.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "data_io/csv_file.h"
+#include "data_io/mat_file.h"
+#include "platform/atomic_file.h"
+#include "platform/error.h"
+#include "platform/temporary_folder.h"
+#include "sample_variables.h"
+
+namespace dynlab {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// An installation with two data sets, and a folder of scripts.
+class dataset_index : public testing::Test {
+  protected:
+    void SetUp() override {
+        home_before_ = getenv("DYNLAB_HOME");
+        kept_ = home_before_ ? home_before_ : "";
+        folder_before_ = fs::current_path();
+        setenv("DYNLAB_HOME", home_.path().c_str(), 1);
+        fs::current_path(project_.path());
+        add_set(home_.path() / "data", "heat_exchanger", "Course file: heatexchanger_data.mat\n");
+        add_set(home_.path() / "data", "step_response", "Text.\nCourse file: step_reponse_data.mat, step_data.mat\n");
+        fs::create_directories(home_.path() / "data/not_a_set");
+    }
+    void TearDown() override {
+        home_before_ ? setenv("DYNLAB_HOME", kept_.c_str(), 1) : unsetenv("DYNLAB_HOME");
+        fs::current_path(folder_before_);
+    }
+
+    static void add_set(const fs::path& data, const std::string& name, const std::string& source) {
+        fs::create_directories(data / name);
+        write_file_atomically(data / name / "SOURCE.md", source);
+        write_file_atomically(data / name / (name + ".csv"), "# Ts: 0.5\n# unit y: deg C\ny,label\n1,one\n2,two\n");
+    }
+    static void write_mat(const fs::path& file, double marker) {
+        VariableTable variables;
+        variables["y"] = {marker};
+        write_mat_file(file, variables);
+    }
+    LoadedData load(const std::string& name) { return load_data(name, scripts_.path()); }
+    std::string complaint(const std::string& name) {
+        try {
+            load(name);
+        } catch (const EnvironmentError& error) {
+            return error.what();
+        }
+        return "no error";
+    }
+
+    TemporaryFolder home_, project_, scripts_;
+    const char* home_before_ = nullptr;
+    std::string kept_;
+    fs::path folder_before_;
+};
+
+TEST_F(dataset_index, loads_a_table_by_name) {
+    const LoadedData data = load("heat_exchanger");
+    EXPECT_EQ(std::get<Vector>(data.variables.at("y").value), (Vector{{1, 2}}));
+    const auto labels = std::get<std::shared_ptr<VariableList>>(data.variables.at("label").value);
+    EXPECT_EQ(std::get<std::string>(labels->at(1).value), "two");
+    EXPECT_EQ(std::get<double>(data.variables.at("Ts").value), 0.5);
+    EXPECT_EQ(data.units.at("y"), "deg C");
+    EXPECT_EQ(data.file, home_.path() / "data/heat_exchanger/heat_exchanger.csv");
+}
+
+TEST_F(dataset_index, knows_the_course_names) {
+    const fs::path file = load("heat_exchanger").file;
+    EXPECT_EQ(load("heatexchanger_data.mat").file, file);
+    EXPECT_EQ(load("heatexchanger_data").file, file);
+    EXPECT_EQ(load("step_reponse_data.mat").file, load("step_response").file);
+    EXPECT_EQ(load("step_data").file, load("step_response").file);
+}
+
+TEST_F(dataset_index, prefers_the_original_of_the_course) {
+    const fs::path folder = home_.path() / "data/heat_exchanger";
+    write_mat(folder / "heat_exchanger.mat", 3);
+    EXPECT_EQ(load("heat_exchanger").file, folder / "heat_exchanger.csv");
+    EXPECT_EQ(load("heat_exchanger.mat").file, folder / "heat_exchanger.mat");
+    write_mat(folder / "heatexchanger_data.mat", 4);
+    for (const char* name : {"heat_exchanger", "heatexchanger_data.mat"}) {
+        const LoadedData data = load(name);
+        EXPECT_EQ(data.file, folder / "heatexchanger_data.mat");
+        EXPECT_EQ(std::get<double>(data.variables.at("y").value), 4);
+    }
+    EXPECT_EQ(load("heat_exchanger.csv").file, folder / "heat_exchanger.csv");
+}
+
+TEST_F(dataset_index, searches_script_then_project_then_installation) {
+    EXPECT_EQ(load("heat_exchanger").file.string().rfind(home_.path().string(), 0), 0u);
+    add_set(project_.path() / "data", "heat_exchanger", "Mine.\n");
+    EXPECT_TRUE(fs::equivalent(load("heat_exchanger").file.parent_path(), project_.path() / "data/heat_exchanger"));
+    add_set(scripts_.path() / "data", "heat_exchanger", "Mine.\n");
+    EXPECT_EQ(load("heat_exchanger").file.parent_path(), scripts_.path() / "data/heat_exchanger");
+    write_mat(scripts_.path() / "heat_exchanger.mat", 5);
+    EXPECT_EQ(load("heat_exchanger").file, scripts_.path() / "heat_exchanger.mat");
+    write_mat(scripts_.path() / "heatexchanger_data.mat", 6);
+    EXPECT_EQ(load("heatexchanger_data.mat").file, scripts_.path() / "heatexchanger_data.mat");
+}
+
+TEST_F(dataset_index, loads_files_by_path) {
+    fs::create_directories(scripts_.path() / "records");
+    write_mat(scripts_.path() / "records/a.MAT", 7);
+    EXPECT_EQ(std::get<double>(load("records/a.MAT").variables.at("y").value), 7);
+    EXPECT_EQ(std::get<double>(load((scripts_.path() / "records/a.MAT").string()).variables.at("y").value), 7);
+    write_file_atomically(scripts_.path() / "b.csv", "y\n1\n");
+    EXPECT_EQ(std::get<Vector>(load("b.csv").variables.at("y").value).size(), 1);
+    EXPECT_EQ(std::get<Vector>(load("b").variables.at("y").value).size(), 1);
+}
+
+TEST_F(dataset_index, unknown_names_list_the_known_ones) {
+    EXPECT_EQ(complaint("heat_exchangr"),
+              "there is no data set \"heat_exchangr\", did you mean \"heat_exchanger\"? the data sets are "
+              "heat_exchanger, step_response; files of your own are looked for in " +
+                  scripts_.path().string());
+    EXPECT_THAT(complaint("pendulum"), HasSubstr("\"pendulum\"; the data sets are heat_exchanger, step_response"));
+    EXPECT_THAT(complaint("step_respose.csv"), HasSubstr("did you mean \"step_response\"?"));
+    EXPECT_EQ(complaint("records/none.csv"), "there is no file " + (scripts_.path() / "records/none.csv").string());
+    write_file_atomically(scripts_.path() / "notes.txt", "x");
+    EXPECT_THAT(complaint("./notes.txt"), HasSubstr("is neither a .mat nor a .csv file"));
+    for (const char* name : {"", ".", "..", "not_a_set"}) EXPECT_NE(complaint(name), "no error") << name;
+}
+
+TEST_F(dataset_index, lists_the_installed_sets) {
+    EXPECT_THAT(dataset_names(), ElementsAre("heat_exchanger", "step_response"));
+}
+
+TEST_F(dataset_index, damaged_files_of_a_student_are_refused) {
+    write_mat(scripts_.path() / "mine.mat", 1);
+    const std::string bytes = read_file(scripts_.path() / "mine.mat");
+    write_file_atomically(scripts_.path() / "mine.mat", bytes.substr(0, bytes.size() - 3));
+    EXPECT_THAT(complaint("mine.mat"), HasSubstr("is cut off"));
+}
+
+// Facts: 30 Games from 1896 to 2024, none in 1916, 1940 and 1944; automatic timing since 1968; records of 1968 and
+// 2012.
+TEST(winning_times, hold_the_facts) {
+    const LoadedData data = load_data("winning_time.mat", "/");
+    EXPECT_EQ(data.file, fs::path(getenv("DYNLAB_HOME")) / "data/winning_times/winning_times.csv");
+    const Vector year = std::get<Vector>(data.variables.at("year").value);
+    const Vector time = std::get<Vector>(data.variables.at("time").value);
+    ASSERT_EQ(year.size(), 30);
+    std::vector<double> games;
+    for (double y = 1896; y <= 2024; y += 4) {
+        if (y != 1916 && y != 1940 && y != 1944) games.push_back(y);
+    }
+    EXPECT_EQ(std::vector<double>(year.begin(), year.end()), games);
+    const auto timing = std::get<std::shared_ptr<VariableList>>(data.variables.at("timing").value);
+    for (Index i = 0; i < 30; ++i) {
+        const bool automatic = std::get<std::string>(timing->at(static_cast<std::size_t>(i)).value) == "auto";
+        EXPECT_EQ(automatic, year[i] >= 1968) << year[i];
+        const double decimals = automatic ? 100 : 10;
+        EXPECT_NEAR(std::round(time[i] * decimals), time[i] * decimals, 1e-9) << year[i];
+    }
+    EXPECT_EQ(time[0], 12.0);
+    EXPECT_EQ(time[15], 9.95);
+    EXPECT_EQ(time.minCoeff(), 9.63);
+    EXPECT_EQ(time[29], 9.79);
+    EXPECT_EQ(data.units.at("time"), "s");
+    EXPECT_EQ(std::get<std::shared_ptr<VariableList>>(data.variables.at("athlete").value)->size(), 30u);
+}
+
+// Oracle: a second route; both files of the set must say the same.
+TEST(winning_times, are_the_same_in_both_files) {
+    const LoadedData csv = load_data("winning_times.csv", "/"), mat = load_data("winning_times.mat", "/");
+    EXPECT_EQ(mat.file.filename(), "winning_times.mat");
+    EXPECT_TRUE(equal(mat.variables, csv.variables));
+}
+
+}  // namespace
+}  // namespace dynlab

@@ -1,0 +1,82 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "figures/pole_zero_map.h"
+#include "figures/regression_plot.h"
+#include "figures/step_construction.h"
+#include "numerics/error.h"
+
+using namespace dynlab;
+using testing::HasSubstr;
+
+namespace {
+
+const Curve& curve_called(const Figure& figure, const std::string& label) {
+    for (const Curve& curve : figure.panels[0].curves)
+        if (curve.label == label) return curve;
+    throw std::runtime_error("no curve " + label);
+}
+
+}  // namespace
+
+// Oracle: roots by hand, 1/((s + 1)(s + 2)).
+TEST(pole_zero_map, shows_every_pole_inside_the_axes) {
+    const Figure figure = pole_zero_map({{"", TransferFunction(Vector{{1.0}}, Vector{{1.0, 3.0, 2.0}})}});
+    figure.validate();
+    Vector real = curve_called(figure, "poles").x;
+    std::sort(real.begin(), real.end());
+    EXPECT_NEAR((real - Vector{{-2, -1}}).norm(), 0, 1e-10);
+    EXPECT_LT(figure.panels[0].x_range->first, -2);
+    EXPECT_GT(figure.panels[0].x_range->second, 0);
+}
+
+// Oracle: a discrete pole on a damping spiral has that damping ratio, -Re(log z)/|log z|.
+TEST(pole_zero_map, spirals_have_their_damping_ratio) {
+    const Figure figure = pole_zero_map({{"", TransferFunction(Vector{{1.0}}, Vector{{1.0, -0.5}}, 0.1)}});
+    std::vector<double> ratios;
+    for (const Curve& curve : figure.panels[0].curves) {
+        if (!curve.label.empty()) continue;
+        const Complex logarithm = std::log(Complex(curve.x[40], curve.y[40]));
+        ratios.push_back(-logarithm.real() / std::abs(logarithm));
+    }
+    using testing::DoubleNear;
+    EXPECT_THAT(ratios,
+                testing::UnorderedElementsAre(DoubleNear(0, 1e-9), DoubleNear(0.2, 1e-9), DoubleNear(0.2, 1e-9),
+                                              DoubleNear(0.4, 1e-9), DoubleNear(0.4, 1e-9), DoubleNear(0.6, 1e-9),
+                                              DoubleNear(0.6, 1e-9), DoubleNear(0.8, 1e-9), DoubleNear(0.8, 1e-9)));
+}
+
+TEST(pole_zero_map, refuses_nothing_and_mixtures) {
+    const TransferFunction gain(Vector{{2.0}}, Vector{{1.0}});
+    const TransferFunction slow(Vector{{1.0}}, Vector{{1.0, 1.0}}), discrete(Vector{{1.0}}, Vector{{1.0, 0.5}}, 0.1);
+    EXPECT_THROW(pole_zero_map({}), InvalidArgument);
+    EXPECT_THROW(pole_zero_map({{"gain", gain}}), InvalidArgument);
+    EXPECT_THROW(pole_zero_map({{"a", slow}, {"b", discrete}}), InvalidArgument);
+}
+
+TEST(regression_plot, refuses_bands_that_do_not_fit_the_line) {
+    RegressionPicture picture;
+    picture.line_x = picture.line_y = Vector::LinSpaced(5, 0, 1);
+    picture.confidence_lower = picture.confidence_upper = Vector::Zero(4);
+    EXPECT_THROW(regression_plot(picture), InvalidArgument);
+}
+
+// Oracle: 1 - exp(-t/T) by hand; the band is 5 % of the change, not of the level, and times count from the step.
+TEST(step_construction, draws_the_band_of_the_change_and_times_from_the_step) {
+    StepConstruction input;
+    input.t = Vector::LinSpaced(101, 0, 50);
+    input.y = 20 + 10 * (1 - (-(input.t.array() - 10).max(0) / 5).exp());
+    input.step_time = 10;
+    input.initial = 20, input.final = 30;
+    input.readings = {{"settling", 25, 29.5}};
+    const Figure figure = step_construction(input);
+    figure.validate();
+    const Curve& band = curve_called(figure, "±5 % band");
+    EXPECT_NEAR(band.y[0], 29.5, 1e-12);
+    EXPECT_NEAR(band.y_upper[0], 30.5, 1e-12);
+    ASSERT_EQ(figure.panels[0].arrows.size(), 1u);
+    EXPECT_THAT(figure.panels[0].arrows[0].text, HasSubstr("= 15 s"));
+}
