@@ -1,0 +1,26 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "documents/weave.h"
+
+namespace dynlab {
+
+/// Collects what is wrong with a document, so that its author sees everything at once.
+class Complaints {
+  public:
+    void add(const SourceLine& where, const std::string& sentence);
+    void add_all(const Complaints& others);
+    bool empty() const { return sentences_.empty(); }
+    void throw_if_any() const;  ///< DocumentError with the first ten, one a line
+
+  private:
+    std::vector<std::string> sentences_;
+};
+
+/// The origin of the `occurrence`-th line (1-based) of `markdown` that contains `text`, the last such line when
+/// there are fewer; `fallback` without line when there is none.
+SourceLine find_in(const MarkdownText& markdown, const std::string& text, const std::filesystem::path& fallback,
+                   int occurrence = 1);
+
+}  // namespace dynlab

@@ -1,0 +1,214 @@
+#include "documents/document.h"
+
+#include <chrono>
+
+#include "documents/characters.h"
+#include "documents/complaints.h"
+#include "documents/error.h"
+#include "documents/latex.h"
+#include "documents/pandoc.h"
+#include "documents/pictures.h"
+#include "documents/template_file.h"
+#include "documents/text_lines.h"
+#include "platform/atomic_file.h"
+#include "platform/program_lookup.h"
+#include "platform/temporary_folder.h"
+
+namespace dynlab {
+namespace {
+
+namespace fs = std::filesystem;
+using Timings = std::vector<std::pair<std::string, double>>;
+
+class Stopwatch {
+  public:
+    explicit Stopwatch(Timings* timings) : timings_(timings) {}
+    void note(const std::string& step) {
+        const auto now = std::chrono::steady_clock::now();
+        if (timings_) timings_->emplace_back(step, std::chrono::duration<double>(now - start_).count());
+        start_ = now;
+    }
+
+  private:
+    Timings* timings_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// The place in the source that LaTeX's complaint is about: formulas and words reach LaTeX as they were written, so
+/// the longest end of the text before the error that occurs in the source shows the line.
+SourceLine origin_of_refusal(const LatexRefusal& refusal, const MarkdownText& markdown, const fs::path& file) {
+    const std::string before = trimmed(refusal.text_before);
+    constexpr std::size_t kLongest = 60, kShortest = 5;
+    for (std::size_t length = std::min(kLongest, before.size()); length >= kShortest; --length) {
+        const SourceLine found = find_in(markdown, before.substr(before.size() - length), file);
+        if (found.line > 0) return found;
+    }
+    return {file, 0};
+}
+
+/// " in section "Results"": the last heading above a line of the LaTeX text.
+std::string section_of(const std::string& body, int line) {
+    std::string heading;
+    const std::vector<std::string> lines = lines_of(body);
+    for (int i = 0; i < std::min<int>(line, static_cast<int>(lines.size())); ++i) {
+        const std::string& text = lines[static_cast<std::size_t>(i)];
+        const std::size_t open = text.find('{');
+        const bool is_heading =
+            text.find("section{") != std::string::npos && text.starts_with("\\") && open < text.size();
+        const std::size_t close = std::min(text.find("}\\label{"), text.rfind('}'));
+        if (is_heading) heading = text.substr(open + 1, close - open - 1);
+    }
+    return heading.empty() ? "" : " in section \"" + heading + "\"";
+}
+
+/// One document on its way: each member function is one step.
+class Making {
+  public:
+    Making(const DocumentSource& source, const fs::path& output, DocumentFormat format,
+           const DocumentMaker::Options& options)
+        : source_(source),
+          output_(output),
+          format_(format),
+          options_(options),
+          shared_templates_(shared_folder() / "report_templates"),
+          template_(read_template(source.template_file)),
+          markdown_(with_cells(template_, source.cells)),
+          metadata_(template_.metadata) {
+        for (const auto& [key, value] : source.metadata) {
+            check_metadata(key, value, source.template_file.string() + ": ");
+            metadata_[key] = value;
+        }
+        if (metadata_.count("lang") && !metadata_.at("lang").empty()) language_ = metadata_.at("lang");
+        record_ = source.record ? source.record : &nothing_reported_;
+    }
+
+    void make(const std::function<void()>& wait_for_figures) {
+        Stopwatch watch(options_.timings);
+        Complaints complaints;
+        check_characters(complaints);
+        const PandocResult written = run_pandoc(pandoc_job(), complaints);
+        std::vector<PlacedPicture> pictures =
+            find_picture_files(written.pictures, markdown_, source_.template_file, format_, prefix(), complaints);
+        complaints.throw_if_any();
+        watch.note("pandoc");
+        if (wait_for_figures) wait_for_figures();
+        const auto figures =
+            find_figures(written.pictures, markdown_, source_.template_file, *record_, format_, prefix(), complaints);
+        complaints.throw_if_any();
+        pictures.insert(pictures.end(), figures.begin(), figures.end());
+        watch.note("figures");
+        write(written.text, pictures);
+    }
+
+  private:
+    std::string prefix() const {
+        if (format_ == DocumentFormat::kMarkdown) return output_.stem().string() + "_files/picture-";
+        return "dynlab-picture-";
+    }
+
+    PandocJob pandoc_job() const {
+        return {markdown_,         metadata_, language_,   record_, format_, source_.template_file,
+                shared_templates_, prefix(),  work_.path()};
+    }
+
+    void check_characters(Complaints& complaints) const {
+        const PrintableCharacters printable =
+            format_ == DocumentFormat::kPdf
+                ? PrintableCharacters::of_latex(read_file(shared_templates_ / "latex/characters.tex"))
+                : PrintableCharacters::of_html();
+        int number = 0;
+        for (const std::string& line : lines_of(markdown_.text)) {
+            ++number;
+            if (const auto sentence = printable.complaint(line)) complaints.add(markdown_.origin_of(number), *sentence);
+        }
+        for (const auto& [key, value] : metadata_)
+            if (const auto sentence = printable.complaint(value))
+                complaints.add({source_.template_file, 0}, "in " + key + ": " + *sentence);
+        check_record(printable, complaints);
+    }
+
+    /// Only what a slot shows: other entries never reach the document.
+    void check_record(const PrintableCharacters& printable, Complaints& complaints) const {
+        const auto check = [&](const std::string& slot, const std::string& what, const std::string& text) {
+            const SourceLine where = find_in(markdown_, slot, source_.template_file);
+            const auto sentence = where.line > 0 ? printable.complaint(text) : std::nullopt;
+            if (sentence) complaints.add(where, "in the " + what + " the script reported: " + *sentence);
+        };
+        for (const auto& [name, value] : record_->values) check("`" + name + "`", "value \"" + name + "\"", value.text);
+        for (const auto& [name, text] : record_->texts) check("name=" + name, "text \"" + name + "\"", text.markdown);
+        for (const auto& [name, figure] : record_->figures)
+            check("figure:" + name, "caption of figure \"" + name + "\"", figure.caption);
+        for (const auto& [name, table] : record_->tables) {
+            std::string cells;
+            for (const std::string& cell : table.header) cells += cell + " ";
+            for (const auto& row : table.rows)
+                for (const std::string& cell : row) cells += cell + " ";
+            check("name=" + name, "table \"" + name + "\"", cells);
+        }
+    }
+
+    void write(const std::string& text, const std::vector<PlacedPicture>& pictures) const {
+        if (format_ == DocumentFormat::kPdf) {
+            for (const PlacedPicture& picture : pictures)
+                fs::copy_file(picture.file, work_.path() / picture.written_name);
+            place_file_atomically(latex(text), output_);
+        } else if (format_ == DocumentFormat::kHtml) {
+            write_file_atomically(output_, with_inlined_pictures(text, pictures));
+        } else {
+            const fs::path folder = output_.parent_path() / (output_.stem().string() + "_files");
+            if (!pictures.empty()) fs::create_directories(folder);
+            for (const PlacedPicture& picture : pictures)
+                write_file_atomically(folder / fs::path(picture.written_name).filename(), read_file(picture.file));
+            write_file_atomically(output_, text);
+        }
+    }
+
+    fs::path latex(const std::string& body) const {
+        const std::string identity = fs::absolute(output_).lexically_normal().string() + "\n" +
+                                     fs::absolute(source_.template_file).lexically_normal().string();
+        try {
+            return run_latex(
+                {body, language_, work_.path(), shared_templates_, identity, options_.use_cache, options_.timings});
+        } catch (const LatexRefusal& refusal) {
+            const SourceLine where = origin_of_refusal(refusal, markdown_, source_.template_file);
+            const std::string line = where.line > 0 ? ":" + std::to_string(where.line) : "";
+            std::string message = where.file.string() + line + ": LaTeX cannot set this document" +
+                                  section_of(body, refusal.line) + ": " + refusal.what();
+            const std::string& before = refusal.text_before;
+            if (!trimmed(before).empty())
+                message += " after \"" +
+                           trimmed(before.substr(before.size() - std::min<std::size_t>(before.size(), 50))) + "\"";
+            throw DocumentError(message);
+        }
+    }
+
+    const DocumentSource& source_;
+    const fs::path& output_;
+    DocumentFormat format_;
+    const DocumentMaker::Options& options_;
+    fs::path shared_templates_;
+    TemplateFile template_;
+    MarkdownText markdown_;
+    std::map<std::string, std::string> metadata_;
+    std::string language_ = "en";
+    RunRecord nothing_reported_;
+    const RunRecord* record_ = nullptr;
+    TemporaryFolder work_;
+};
+
+}  // namespace
+
+DocumentFormat document_format(const fs::path& file) {
+    const std::string extension = file.extension().string();
+    if (extension == ".pdf") return DocumentFormat::kPdf;
+    if (extension == ".html") return DocumentFormat::kHtml;
+    if (extension == ".md") return DocumentFormat::kMarkdown;
+    throw DocumentError(file.string() + ": a document's name ends in .pdf, .html or .md");
+}
+
+void DocumentMaker::make(const DocumentSource& source, const fs::path& output, DocumentFormat format,
+                         const std::function<void()>& wait_for_figures) const {
+    Making(source, output, format, options_).make(wait_for_figures);
+}
+
+}  // namespace dynlab

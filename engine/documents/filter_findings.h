@@ -1,0 +1,28 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "documents/complaints.h"
+#include "documents/run_record.h"
+
+namespace dynlab {
+
+/// A picture the document shows: the filter gave it a number and wrote `file_name` into the output.
+struct UsedPicture {
+    int number = 0;
+    bool is_figure = false;  ///< a figure of the run record, else a file
+    std::string name;        ///< of the figure, or the path as written
+};
+
+/// What our Pandoc filter and Pandoc itself wrote on standard error.
+struct FilterFindings {
+    std::vector<UsedPicture> pictures;
+};
+
+/// Adds a sentence with its place in the source for every error of the filter and every warning of Pandoc.
+FilterFindings read_filter_findings(const std::string& error_output, const MarkdownText& markdown,
+                                    const std::filesystem::path& template_file, const RunRecord& record,
+                                    Complaints& complaints);
+
+}  // namespace dynlab

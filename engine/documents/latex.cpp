@@ -1,0 +1,192 @@
+#include "documents/latex.h"
+
+#include <array>
+#include <chrono>
+#include <map>
+#include <regex>
+
+#include "documents/latex_format.h"
+#include "documents/text_lines.h"
+#include "documents/work_file.h"
+#include "platform/cache.h"
+#include "platform/child_process.h"
+#include "platform/content_hash.h"
+
+namespace dynlab {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+constexpr int kMostPasses = 4;
+constexpr std::uint64_t kMemoryLimit = 1u << 30;
+constexpr std::array kAuxiliaryFiles = {"main.aux", "main.out", "main.toc"};
+
+/// What a pass reads from the pass before. Lines for a table of contents count only where there is one.
+std::string references(const fs::path& folder, bool has_contents) {
+    std::string result;
+    for (const char* name : kAuxiliaryFiles) {
+        if (!has_contents && std::string_view(name) == "main.toc") continue;
+        for (const std::string& line : lines_of(read_work_file(folder / name)))
+            if (has_contents || !line.starts_with("\\@writefile{")) result += line + "\n";
+    }
+    return result;
+}
+
+/// The auxiliary files of a document's last run, kept between runs.
+class KeptAuxiliaryFiles {
+  public:
+    explicit KeptAuxiliaryFiles(const LatexJob& job) : job_(job), key_(hash_of(job.identity + "\n" + job.language)) {
+        if (!job.use_cache) return;
+        if (const auto kept = cache().find(key_)) copy(*kept, job.work_folder);
+    }
+
+    void keep() const {
+        if (!job_.use_cache) return;
+        if (const auto kept = cache().find(key_)) {
+            copy(job_.work_folder, *kept);
+            return;
+        }
+        const fs::path folder = cache().prepare();
+        copy(job_.work_folder, folder);
+        cache().commit(folder, key_);
+    }
+
+  private:
+    static const Cache& cache() {
+        static const Cache aux("latex-references", 16u << 20);
+        return aux;
+    }
+
+    static void copy(const fs::path& from, const fs::path& to) {
+        for (const char* name : kAuxiliaryFiles) {
+            const std::string content = read_work_file(from / name);
+            if (content.empty())
+                fs::remove(to / name);
+            else if (content != read_work_file(to / name))
+                write_work_file(to / name, content);
+        }
+    }
+
+    const LatexJob& job_;
+    std::string key_;
+};
+
+/// "./main.tex:12: Undefined control sequence." and the line "l.12 text so far" below it.
+LatexRefusal refusal_in(const std::string& log, int lines_before_body) {
+    static const std::regex placed(R"((?:^|\n)(?:\./)?main\.tex:(\d+): ([^\n]*))");
+    static const std::regex unplaced(R"((?:^|\n)! ?([^\n]*))");
+    static const std::regex context(R"(\nl\.(\d+) ([^\n]*))");
+    std::smatch found, shown;
+    int line = 0;
+    std::string message = "pdflatex stopped without a message";
+    if (std::regex_search(log, found, placed)) {
+        line = std::stoi(found[1]) - lines_before_body;
+        message = found[2];
+    } else if (std::regex_search(log, found, unplaced)) {
+        message = found[1];
+    } else {
+        return LatexRefusal(message, 0, "");
+    }
+    const std::string rest = found.suffix();
+    const bool has_context = std::regex_search(rest, shown, context);
+    const std::string before = has_context ? shown[2].str() : "";
+    return LatexRefusal(trimmed(message), line, before.starts_with("...") ? before.substr(3) : before);
+}
+
+/// Complaints that LaTeX itself passes over, though something is missing on the page.
+void check_nothing_dropped(const std::string& log) {
+    static const std::regex dropped(
+        R"(\n(Missing character: [^\n]*|[^\n]*invalid in math mode[^\n]*?)(?: on input line (\d+))?\.?\n)");
+    std::smatch found;
+    if (std::regex_search(log, found, dropped))
+        throw LatexRefusal(trimmed(found[1].str()), found[2].matched ? std::stoi(found[2]) : 0, "");
+}
+
+class LatexRun {
+  public:
+    explicit LatexRun(const LatexJob& job) : job_(job) {
+        if (job.use_cache) {
+            const auto start = std::chrono::steady_clock::now();
+            format_folder_ = latex_format_folder(job.shared_templates, job.language);
+            note("latex format", start);
+        } else {
+            write_preamble(job.shared_templates, job.language, job.work_folder);
+            lines_before_body_ = 1;
+        }
+        write_work_file(job.work_folder / "main.tex", (job.use_cache ? "" : "\\input{preamble}\n") + job.body);
+    }
+
+    fs::path pdf() {
+        const bool has_contents = job_.body.find("\n\\tableofcontents\n") != std::string::npos;
+        const KeptAuxiliaryFiles kept(job_);
+        std::string before = references(job_.work_folder, has_contents), after;
+        for (int pass = 1; pass <= kMostPasses; ++pass) {
+            run_pass(pass);
+            after = references(job_.work_folder, has_contents);
+            if (after == before) break;
+            before = after;
+        }
+        kept.keep();
+        return job_.work_folder / "main.pdf";
+    }
+
+  private:
+    void note(const std::string& step, std::chrono::steady_clock::time_point start) const {
+        if (!job_.timings) return;
+        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+        job_.timings->emplace_back(step, seconds.count());
+    }
+
+    ChildOptions command() const {
+        ChildOptions child;
+        child.command = {"pdflatex", "-no-shell-escape", "-interaction=nonstopmode", "-halt-on-error",
+                         "-file-line-error"};
+        if (job_.use_cache) child.command.push_back(std::string("-fmt=") + kLatexFormatName);
+        child.command.push_back("main.tex");
+        child.folder = job_.work_folder;
+        child.environment = {{"SOURCE_DATE_EPOCH", "0"},
+                             {"FORCE_SOURCE_DATE", "1"},
+                             {"openin_any", "p"},
+                             {"openout_any", "p"},
+                             {"max_print_line", "10000"},
+                             {"error_line", "254"},
+                             {"half_error_line", "238"},
+                             {"MKTEXPK", "0"},
+                             {"MKTEXTFM", "0"},
+                             {"MKTEXFMT", "0"},
+                             {"TEXMFHOME", "/nonexistent"},
+                             {"TEXMFOUTPUT", ""},
+                             {"LC_ALL", "C.UTF-8"}};
+        if (job_.use_cache) child.environment.emplace_back("TEXFORMATS", format_folder_.string() + ":");
+        child.timeout = 120s;
+        child.memory_bytes = kMemoryLimit;
+        return child;
+    }
+
+    void run_pass(int pass) const {
+        const auto start = std::chrono::steady_clock::now();
+        const ChildResult run = run_child(command(), "texlive-latex-base");
+        note("latex pass " + std::to_string(pass), start);
+        if (run.timed_out) throw LatexRefusal("pdflatex did not finish within two minutes", 0, "");
+        if (run.output_exceeded) throw LatexRefusal("pdflatex wrote messages without end", 0, "");
+        const std::string log = "\n" + run.output;
+        if (run.exit_code != 0) {
+            check_missing_packages(log);
+            throw refusal_in(log, lines_before_body_);
+        }
+        check_nothing_dropped("\n" + read_work_file(job_.work_folder / "main.log"));
+    }
+
+    const LatexJob& job_;
+    fs::path format_folder_;
+    int lines_before_body_ = 0;
+};
+
+}  // namespace
+
+fs::path run_latex(const LatexJob& job) {
+    return LatexRun(job).pdf();
+}
+
+}  // namespace dynlab

@@ -1,0 +1,34 @@
+#pragma once
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dynlab {
+
+struct LatexJob {
+    std::string body;  ///< from \begin{document} on
+    std::string language = "en";
+    std::filesystem::path work_folder;       ///< private; holds the pictures the body names
+    std::filesystem::path shared_templates;  ///< the folder report_templates
+    std::string identity;                    ///< of the document: its auxiliary files are kept under this name
+    bool use_cache = true;
+    std::vector<std::pair<std::string, double>>* timings = nullptr;
+};
+
+/// LaTeX refused the document: its first real complaint, the line of the body (1-based, 0 unknown) and the text of
+/// that line up to the place where it stopped.
+struct LatexRefusal : std::runtime_error {
+    LatexRefusal(const std::string& message, int body_line, std::string before)
+        : std::runtime_error(message), line(body_line), text_before(std::move(before)) {}
+    int line;
+    std::string text_before;
+};
+
+/// Runs pdflatex without shell, with reading and writing confined to the working folder, within limits of time and
+/// memory, as often as page counts, contents and bookmarks need (once, when they are as in the run before). Returns
+/// the PDF. Throws LatexRefusal, MissingProgram.
+std::filesystem::path run_latex(const LatexJob& job);
+
+}  // namespace dynlab

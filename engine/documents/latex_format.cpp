@@ -1,0 +1,93 @@
+#include "documents/latex_format.h"
+
+#include <regex>
+
+#include "documents/text_lines.h"
+#include "documents/work_file.h"
+#include "platform/atomic_file.h"
+#include "platform/cache.h"
+#include "platform/child_process.h"
+#include "platform/content_hash.h"
+#include "platform/error.h"
+#include "platform/program_lookup.h"
+
+namespace dynlab {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+std::string preamble_text(const fs::path& shared_templates, const std::string& language) {
+    return replaced(read_file(shared_templates / "latex/preamble.tex"), "LANGUAGE",
+                    language == "fr" ? "french" : "english");
+}
+
+/// Size and date of the installed program and of Debian's LaTeX format, which every update of TeX rewrites.
+std::string tex_version() {
+    const auto pdflatex = find_program("pdflatex");
+    if (!pdflatex) throw MissingProgram("pdflatex", "texlive-latex-base");
+    std::string stamp;
+    for (const fs::path& file : {*pdflatex, fs::path("/var/lib/texmf/web2c/pdftex/pdflatex.fmt")}) {
+        std::error_code missing;
+        const auto size = fs::file_size(file, missing);
+        if (missing) continue;
+        const auto date = fs::last_write_time(file, missing).time_since_epoch().count();
+        stamp += fs::canonical(file).string() + " " + std::to_string(size) + " " + std::to_string(date) + "\n";
+    }
+    return stamp;
+}
+
+void compile_format(const fs::path& folder) {
+    ChildOptions child;
+    child.command = {"pdflatex",
+                     "-ini",
+                     "-interaction=nonstopmode",
+                     "-halt-on-error",
+                     "-no-shell-escape",
+                     std::string("-jobname=") + kLatexFormatName,
+                     "&pdflatex \\input{preamble}\\dump"};
+    child.folder = folder;
+    child.environment = {{"max_print_line", "10000"}, {"openin_any", "p"}, {"openout_any", "p"}, {"MKTEXFMT", "0"}};
+    child.timeout = 60s;
+    const ChildResult run = run_child(child, "texlive-latex-base");
+    const fs::path format = folder / (std::string(kLatexFormatName) + ".fmt");
+    if (run.exit_code == 0 && fs::exists(format)) return;
+    check_missing_packages(run.output);
+    std::smatch error;
+    const bool found = std::regex_search(run.output, error, std::regex("(^|\n)! ([^\n]*)"));
+    throw EnvironmentError("the layout of documents (report_templates/latex/preamble.tex) cannot be prepared: " +
+                           (found ? error[2].str() : "pdflatex ended with code " + std::to_string(run.exit_code)));
+}
+
+}  // namespace
+
+void write_preamble(const fs::path& shared_templates, const std::string& language, const fs::path& folder) {
+    write_work_file(folder / "preamble.tex", preamble_text(shared_templates, language));
+    write_work_file(folder / "characters.tex", read_file(shared_templates / "latex/characters.tex"));
+}
+
+void check_missing_packages(const std::string& log) {
+    std::smatch found;
+    if (std::regex_search(log, found, std::regex("Unknown option [`'\"](french)['\"]")) ||
+        std::regex_search(log, found, std::regex("(?:file|File) [`'\"]?(french\\.ldf)")))
+        throw MissingProgram("the French language of LaTeX (babel's french.ldf)", "texlive-lang-french");
+    if (std::regex_search(log, found, std::regex("File [`']([^']+\\.(sty|cls|def|fd))' not found")))
+        throw MissingProgram("the LaTeX file " + found[1].str(),
+                             "texlive-latex-recommended texlive-fonts-recommended lmodern");
+}
+
+fs::path latex_format_folder(const fs::path& shared_templates, const std::string& language) {
+    const Cache cache("latex-format");
+    const std::string key = ContentHash()
+                                .add(preamble_text(shared_templates, language))
+                                .add(read_file(shared_templates / "latex/characters.tex"))
+                                .add(tex_version())
+                                .hex();
+    if (const auto folder = cache.find(key)) return *folder;
+    const fs::path folder = cache.prepare();
+    write_preamble(shared_templates, language, folder);
+    compile_format(folder);
+    return cache.commit(folder, key);
+}
+
+}  // namespace dynlab

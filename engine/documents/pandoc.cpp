@@ -1,0 +1,146 @@
+#include "documents/pandoc.h"
+
+#include <fmt/format.h>
+
+#include "documents/error.h"
+#include "documents/text_lines.h"
+#include "documents/work_file.h"
+#include "platform/child_process.h"
+
+namespace dynlab {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// What authors write: no raw TeX or HTML output, no metadata or macros in the text. raw_html stays on so that
+/// comments are read as such; the filter drops these and refuses all other HTML.
+const char* const kReader =
+    "markdown-raw_tex-raw_attribute-yaml_metadata_block-pandoc_title_block-latex_macros-native_divs-native_spans"
+    "-markdown_in_html_blocks";
+const char* const kMarkdownWriter =
+    "markdown-raw_html-raw_tex-raw_attribute-native_divs-native_spans-fenced_divs-bracketed_spans-header_attributes"
+    "-link_attributes-fenced_code_attributes-inline_code_attributes-citations-simple_tables-multiline_tables-grid_"
+    "tables"
+    "-implicit_figures-smart";
+
+/// A Lua string that holds exactly these bytes.
+std::string lua_string(const std::string& text) {
+    std::string result = "\"";
+    for (char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (c == '"' || c == '\\')
+            result += std::string("\\") + c;
+        else if (byte < 0x20 || byte == 0x7F)
+            result += fmt::format("\\{:03d}", byte);
+        else
+            result += c;
+    }
+    return result + "\"";
+}
+
+std::string lua_list(const std::vector<std::string>& cells) {
+    std::string result = "{";
+    for (const std::string& cell : cells) result += lua_string(cell) + ",";
+    return result + "}";
+}
+
+/// "{["name"]=...,}" of a map, each entry written by `write`.
+template <typename Entry, typename Write>
+std::string lua_map(const std::map<std::string, Entry>& entries, Write write) {
+    std::string result = "{";
+    for (const auto& [name, entry] : entries) result += "[" + lua_string(name) + "]=" + write(entry) + ",\n";
+    return result + "}";
+}
+
+std::string one_line(const std::string& text) {
+    return replaced(text, "\n", " ");
+}
+
+std::string lua_table_entry(const RecordedTable& table) {
+    std::string rows = "{";
+    for (const auto& row : table.rows) {
+        std::vector<std::string> cells = row;
+        cells.resize(table.header.size());
+        for (std::string& cell : cells) cell = trimmed(one_line(cell));
+        rows += lua_list(cells) + ",";
+    }
+    return "{header=" + lua_list(table.header) + ",rows=" + rows + "}}";
+}
+
+bool is_switch(const std::string& key) {
+    return key == "toc" || key == "numbersections";
+}
+
+std::string format_name(DocumentFormat format) {
+    if (format == DocumentFormat::kPdf) return "latex";
+    return format == DocumentFormat::kHtml ? "html" : "markdown";
+}
+
+std::string slots_file(const PandocJob& job) {
+    std::map<std::string, std::string> shown, switches;
+    for (const auto& [key, value] : job.metadata)
+        if (key != "lang" && !value.empty()) (is_switch(key) ? switches : shown)[key] = value;
+    const auto as_string = [](const std::string& text) { return lua_string(text); };
+    const bool numbered = switches.count("numbersections") && switches.at("numbersections") == "true";
+    std::string variables =
+        "{lang=" + lua_string(job.language) + ",pagetitle=" + lua_string(job.template_file.stem().string());
+    if (switches.count("toc") && switches.at("toc") == "true") variables += ",toc=true";
+    const RunRecord& record = *job.record;
+    return "return {\nformat=" + lua_string(format_name(job.format)) + ",language=" + lua_string(job.language) +
+           ",reader=" + lua_string(kReader) + ",numbersections=" + (numbered ? "true" : "false") +
+           ",\npicture_prefix=" + lua_string(job.picture_prefix) +
+           ",figure_extension=" + lua_string(figure_extension(job.format)) + ",\nvariables=" + variables +
+           "},\nmetadata=" + lua_map(shown, as_string) +
+           ",\nvalue=" + lua_map(record.values, [](const RecordedValue& v) { return lua_string(one_line(v.text)); }) +
+           ",\ntable=" + lua_map(record.tables, lua_table_entry) + ",\nfigure=" +
+           lua_map(record.figures, [](const RecordedFigure& f) { return "{caption=" + lua_string(f.caption) + "}"; }) +
+           ",\ntext=" + lua_map(record.texts, [](const RecordedText& t) { return lua_string(t.markdown); }) + "}\n";
+}
+
+std::vector<std::string> command_line(const PandocJob& job) {
+    const std::filesystem::path& shared = job.shared_templates;
+    // -A32m: one large nursery, so that documents of usual size are made without garbage collection
+    std::vector<std::string> command = {"pandoc", "+RTS", "-A32m", "-M1g", "-RTS", "-f", kReader, "-t"};
+    if (job.format == DocumentFormat::kMarkdown)
+        command.insert(command.end(), {kMarkdownWriter, "--wrap=preserve"});
+    else if (job.format == DocumentFormat::kHtml)
+        command.insert(command.end(), {"html5", "--mathml", "--wrap=preserve"});
+    else
+        command.insert(command.end(), {"latex", "--wrap=preserve"});
+    const char* const layout = job.format == DocumentFormat::kPdf    ? "latex/document.latex"
+                               : job.format == DocumentFormat::kHtml ? "html/document.html"
+                                                                     : "markdown/document.md";
+    command.insert(command.end(), {"--template", (shared / layout).string(), "--lua-filter",
+                                   (shared / "filters/document.lua").string(), "--data-dir", job.work_folder.string()});
+    return command;
+}
+
+}  // namespace
+
+std::string figure_extension(DocumentFormat format) {
+    return format == DocumentFormat::kPdf ? "pdf" : "svg";
+}
+
+PandocResult run_pandoc(const PandocJob& job, Complaints& complaints) {
+    write_work_file(job.work_folder / "slots.lua", slots_file(job));
+    ChildOptions child;
+    child.command = command_line(job);
+    child.folder = job.work_folder;
+    child.environment = {{"LC_ALL", "C.UTF-8"}};
+    child.input = job.markdown.text;
+    child.timeout = 60s;
+    ChildResult run = run_child(child, "pandoc");
+    if (run.timed_out || run.output_exceeded)
+        throw DocumentError(job.template_file.string() + ": Pandoc did not finish this document within a minute");
+    Complaints found;
+    PandocResult result;
+    result.pictures =
+        read_filter_findings(run.error_output, job.markdown, job.template_file, *job.record, found).pictures;
+    if (run.exit_code != 0 && found.empty())
+        found.add({job.template_file, 0}, "Pandoc stopped with exit code " + std::to_string(run.exit_code));
+    if (found.empty()) result.text = std::move(run.output);
+    complaints.add_all(found);
+    return result;
+}
+
+}  // namespace dynlab

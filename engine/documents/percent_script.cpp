@@ -1,0 +1,135 @@
+#include "documents/percent_script.h"
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+#include "documents/cell_marker.h"
+#include "documents/error.h"
+#include "documents/script_header.h"
+#include "documents/solutions.h"
+#include "documents/text_lines.h"
+#include "platform/atomic_file.h"
+#include "platform/spelling.h"
+
+namespace dynlab {
+namespace {
+
+const std::vector<std::string> kCellOptions = {"id", "echo", "output"};
+
+class CellReader {
+  public:
+    CellReader(const std::vector<std::string>& lines, const std::filesystem::path& file) : lines_(lines), file_(file) {}
+
+    std::vector<Cell> read(std::size_t first) {
+        Cell cell;
+        std::size_t start = first;
+        bool marked = false;
+        for (std::size_t i = first; i <= lines_.size(); ++i) {
+            if (i < lines_.size() && !is_cell_marker(lines_[i])) continue;
+            finish(cell, start, i, marked);
+            if (i == lines_.size()) break;
+            cell = Cell{};
+            read_marker(cell, i);
+            start = i + 1;
+            marked = true;
+        }
+        return std::move(cells_);
+    }
+
+  private:
+    [[noreturn]] void fail(std::size_t index, const std::string& what) const {
+        throw DocumentError(file_.string() + ":" + std::to_string(index + 1) + ": " + what);
+    }
+
+    void read_marker(Cell& cell, std::size_t index) const {
+        std::istringstream words{std::string(cell_marker_options(lines_[index]))};
+        std::string word;
+        for (bool first = true; words >> word; first = false) {
+            if (first && word == "[markdown]") {
+                cell.kind = Cell::Kind::kText;
+                continue;
+            }
+            const std::size_t equals = word.find('=');
+            if (equals == std::string::npos || equals + 1 == word.size())
+                fail(index, "cell option \"" + word + "\" is not of the form key=value (or [markdown] in first place)");
+            read_option(cell, index, word.substr(0, equals), word.substr(equals + 1));
+        }
+    }
+
+    void read_option(Cell& cell, std::size_t index, const std::string& key, const std::string& value) const {
+        if (std::find(kCellOptions.begin(), kCellOptions.end(), key) == kCellOptions.end()) {
+            const auto near = nearest_word(key, kCellOptions);
+            fail(index, "unknown cell option \"" + key + "\"; " +
+                            (near ? "did you mean \"" + *near + "\"?" : "known are id, echo, output"));
+        }
+        if (key == "id") {
+            if (!is_name(value)) fail(index, "cell id \"" + value + "\" may have letters, digits, _ and - only");
+            cell.id = value;
+            return;
+        }
+        if (value != "true" && value != "false")
+            fail(index, "cell option " + key + " is true or false, not \"" + value + "\"");
+        if (!cell.options.emplace(key, value).second) fail(index, "cell option " + key + " stands there twice");
+    }
+
+    /// Takes lines [start, end) as the content of `cell`, blank lines at both ends left out.
+    void finish(Cell& cell, std::size_t start, std::size_t end, bool marked) {
+        const std::size_t after_marker = start;
+        while (start < end && is_blank(lines_[start])) ++start;
+        while (end > start && is_blank(lines_[end - 1])) --end;
+        if (!marked && start == end) return;
+        cell.first_line = static_cast<int>(start < end ? start : after_marker) + 1;
+        for (std::size_t i = start; i < end; ++i) cell.content += content_line(cell, i) + "\n";
+        if (cell.id.empty()) cell.id = "cell-" + std::to_string(cells_.size() + 1);
+        if (!ids_.insert(cell.id).second)
+            fail(start == 0 ? 0 : start - 1, "another cell has the id \"" + cell.id + "\" already");
+        cells_.push_back(std::move(cell));
+    }
+
+    std::string content_line(const Cell& cell, std::size_t index) const {
+        const std::string& line = lines_[index];
+        if (cell.kind == Cell::Kind::kCode || is_blank(line)) return line;
+        if (!line.starts_with("--"))
+            fail(index, "\"" + trimmed(line) +
+                            "\" stands in a text cell, whose lines start with \"-- \"; a code cell " +
+                            "starts with a line \"-- %%\"");
+        return line.substr(line.starts_with("-- ") ? 3 : 2);
+    }
+
+    const std::vector<std::string>& lines_;
+    const std::filesystem::path& file_;
+    std::vector<Cell> cells_;
+    std::set<std::string> ids_;
+};
+
+}  // namespace
+
+int Cell::last_line() const {
+    const auto lines = static_cast<int>(std::count(content.begin(), content.end(), '\n'));
+    return first_line + std::max(lines - 1, 0);
+}
+
+const Cell* PercentScript::cell_at_line(int line) const {
+    const Cell* found = nullptr;
+    for (const Cell& cell : cells)
+        if (cell.first_line <= line) found = &cell;
+    return found;
+}
+
+PercentScript parse_percent_script(const std::string& source, const std::filesystem::path& name) {
+    PercentScript script;
+    script.file = name;
+    script.source = source;
+    without_solutions(source, name);  // throws for markers that do not pair up
+    const std::vector<std::string> lines = lines_of(source);
+    const std::size_t used = read_script_header(lines, name, script.header);
+    script.cells = CellReader(lines, name).read(used);
+    return script;
+}
+
+PercentScript read_percent_script(const std::filesystem::path& file) {
+    return parse_percent_script(read_file(file), file);
+}
+
+}  // namespace dynlab

@@ -1,0 +1,32 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "documents/complaints.h"
+#include "documents/document.h"
+#include "documents/filter_findings.h"
+
+namespace dynlab {
+
+/// Where a picture of the document lies and what the writer calls it.
+struct PlacedPicture {
+    std::filesystem::path file;
+    std::string written_name;  ///< prefix + number + extension
+};
+
+/// Finds the picture files (not figures) of a document. They must be files inside the folder of the template or
+/// script that shows them, of a kind the format can hold; everything else is a complaint.
+std::vector<PlacedPicture> find_picture_files(const std::vector<UsedPicture>& pictures, const MarkdownText& markdown,
+                                              const std::filesystem::path& template_file, DocumentFormat format,
+                                              const std::string& prefix, Complaints& complaints);
+
+/// The same for the figures of the run, once they are drawn; a figure that was not drawn is a complaint.
+std::vector<PlacedPicture> find_figures(const std::vector<UsedPicture>& pictures, const MarkdownText& markdown,
+                                        const std::filesystem::path& template_file, const RunRecord& record,
+                                        DocumentFormat format, const std::string& prefix, Complaints& complaints);
+
+/// HTML with every `src="WRITTEN_NAME"` replaced by the picture itself (RFC 2397 data URL).
+std::string with_inlined_pictures(const std::string& html, const std::vector<PlacedPicture>& pictures);
+
+}  // namespace dynlab

@@ -1,0 +1,131 @@
+#include "documents/script_header.h"
+
+#include <charconv>
+
+#include "documents/error.h"
+#include "documents/text_lines.h"
+#include "platform/spelling.h"
+
+namespace dynlab {
+namespace {
+
+const std::vector<std::string> kKeys = {"title", "subtitle", "lesson", "template", "language", "seed", "answers"};
+
+/// Lines of the header, their comment signs taken off, read into a ScriptHeader: scalars and one level of names.
+class HeaderReader {
+  public:
+    HeaderReader(const std::filesystem::path& file, ScriptHeader& header) : file_(file), header_(header) {}
+
+    void read_line(const std::string& line, int number) {
+        number_ = number;
+        if (is_blank(line)) return;
+        const std::size_t colon = line.find(':');
+        if (colon == std::string::npos) fail("\"" + trimmed(line) + "\" is not of the form \"key: value\"");
+        const std::string key = trimmed(line.substr(0, colon)), value = unquoted(trimmed(line.substr(colon + 1)));
+        const bool nested = line[0] == ' ' || line[0] == '\t';
+        if (nested)
+            read_answer(key, value);
+        else
+            read_key(key, value);
+    }
+
+  private:
+    [[noreturn]] void fail(const std::string& what) const {
+        throw DocumentError(file_.string() + ":" + std::to_string(number_) + ": script header: " + what);
+    }
+
+    std::string unquoted(const std::string& value) const {
+        if (value.empty() || (value[0] != '"' && value[0] != '\'')) return value;
+        if (value.size() < 2 || value.back() != value[0]) fail("the quotation mark of " + value + " is not closed");
+        return value.substr(1, value.size() - 2);
+    }
+
+    void read_answer(const std::string& name, const std::string& kind) {
+        if (!in_answers_) fail("\"" + name + "\" is indented, but only names below \"answers:\" are");
+        if (!is_name(name)) fail("\"" + name + "\" cannot be the name of an answer");
+        if (kind.empty()) fail("answer \"" + name + "\" needs a kind, such as \"" + name + ": number\"");
+        for (const ExpectedAnswer& answer : header_.answers)
+            if (answer.name == name) fail("answer \"" + name + "\" is declared twice");
+        header_.answers.push_back({name, kind});
+    }
+
+    void read_key(const std::string& key, const std::string& value) {
+        for (const std::string& known : seen_)
+            if (known == key) fail("key \"" + key + "\" stands there twice");
+        seen_.push_back(key);
+        in_answers_ = key == "answers";
+        if (in_answers_) {
+            if (!value.empty()) fail("\"answers:\" is followed by lines \"  name: kind\", not by a value");
+            return;
+        }
+        std::string* const text = text_field(key);
+        if (!text && key != "seed") unknown(key);
+        if (value.empty()) fail("key \"" + key + "\" has no value");
+        if (!text)
+            header_.seed = seed_of(value);
+        else
+            *text = value;
+        if (key == "language" && value != "en" && value != "fr")
+            fail("language \"" + value + "\" is not known; write en or fr");
+        if (key == "template" && !is_name(value))
+            fail("template \"" + value + "\" must be the name of a template, such as lesson, without folder or .md");
+    }
+
+    std::string* text_field(const std::string& key) {
+        if (key == "title") return &header_.title;
+        if (key == "subtitle") return &header_.subtitle;
+        if (key == "lesson") return &header_.lesson;
+        if (key == "template") return &header_.template_name;
+        if (key == "language") return &header_.language;
+        return nullptr;
+    }
+
+    std::uint32_t seed_of(const std::string& value) const {
+        std::uint32_t seed = 0;
+        const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), seed);
+        if (error != std::errc{} || end != value.data() + value.size())
+            fail("seed \"" + value + "\" must be a whole number from 0 to 4294967295");
+        return seed;
+    }
+
+    [[noreturn]] void unknown(const std::string& key) const {
+        std::string message = "unknown key \"" + key + "\"";
+        if (const auto near = nearest_word(key, kKeys)) fail(message + "; did you mean \"" + *near + "\"?");
+        message += "; known are";
+        for (const std::string& known : kKeys) message += (known == kKeys.front() ? " " : ", ") + known;
+        fail(message);
+    }
+
+    const std::filesystem::path& file_;
+    ScriptHeader& header_;
+    std::vector<std::string> seen_;
+    bool in_answers_ = false;
+    int number_ = 0;
+};
+
+bool is_fence(const std::string& line) {
+    return line.starts_with("--") && trimmed(line.substr(2)) == "---";
+}
+
+}  // namespace
+
+std::size_t read_script_header(const std::vector<std::string>& lines, const std::filesystem::path& file,
+                               ScriptHeader& header) {
+    const std::size_t first = !lines.empty() && lines[0].starts_with("#!") ? 1 : 0;
+    if (lines.size() <= first || !is_fence(lines[first])) return 0;
+    HeaderReader reader(file, header);
+    for (std::size_t i = first + 1; i < lines.size(); ++i) {
+        const int number = static_cast<int>(i) + 1;
+        if (is_fence(lines[i])) return i + 1;
+        if (!lines[i].starts_with("--"))
+            throw DocumentError(file.string() + ":" + std::to_string(number) +
+                                ": the script header is not closed: a line \"-- ---\" is missing before this line");
+        std::string content = lines[i].substr(2);
+        if (content.starts_with(' ')) content.erase(0, 1);
+        reader.read_line(content, number);
+    }
+    throw DocumentError(file.string() + ":" + std::to_string(first + 1) +
+                        ": the script header is not closed: a line \"-- ---\" is missing after it");
+}
+
+}  // namespace dynlab

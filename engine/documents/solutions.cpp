@@ -1,0 +1,98 @@
+#include "documents/solutions.h"
+
+#include <algorithm>
+#include <cctype>
+#include <optional>
+
+#include "documents/cell_marker.h"
+#include "documents/error.h"
+#include "documents/text_lines.h"
+
+namespace dynlab {
+namespace {
+
+const std::string_view kStarterSign = "STARTER:";
+
+std::string lower_case(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+/// The text of a line that is nothing but a comment.
+std::optional<std::string> comment_of(std::string_view line) {
+    const std::string text = trimmed(line);
+    if (!text.starts_with("--")) return std::nullopt;
+    return trimmed(std::string_view(text).substr(2));
+}
+
+std::string_view indentation_of(std::string_view line) {
+    return line.substr(0, line.find_first_not_of(" \t"));
+}
+
+std::string_view end_of(std::string_view line) {
+    if (line.ends_with("\r\n")) return "\r\n";
+    return line.ends_with('\n') ? "\n" : "";
+}
+
+/// "local K = 1" of "  -- STARTER: local K = 1", with the line's indentation and end.
+std::string starter_text(std::string_view line, bool in_text) {
+    std::string text(line.substr(line.find(kStarterSign) + kStarterSign.size()));
+    if (text.starts_with(' ')) text.erase(0, 1);
+    return std::string(indentation_of(line)) + (in_text ? "-- " : "") + text;
+}
+
+}  // namespace
+
+SolutionLine solution_line(std::string_view line, const std::filesystem::path& file, int number) {
+    const std::optional<std::string> comment = comment_of(line);
+    if (!comment) return SolutionLine::kNone;
+    if (*comment == "BEGIN SOLUTION") return SolutionLine::kBegin;
+    if (*comment == "END SOLUTION") return SolutionLine::kEnd;
+    if (comment->starts_with(kStarterSign)) return SolutionLine::kStarter;
+    const std::string lower = lower_case(*comment);
+    for (const char* marker : {"begin solution", "end solution", "begin the solution", "end of solution"})
+        if (lower.starts_with(marker) && lower.size() <= std::string_view(marker).size() + 2)
+            throw DocumentError(file.string() + ":" + std::to_string(number) + ": \"" + trimmed(line) +
+                                "\" is not a solution marker; write \"-- BEGIN SOLUTION\" or \"-- END SOLUTION\"");
+    return SolutionLine::kNone;
+}
+
+std::string without_solutions(const std::string& source, const std::filesystem::path& name) {
+    std::string result;
+    int begun = 0;  // line of the open BEGIN SOLUTION, 0 outside
+    bool in_text = false;
+    int number = 0;
+    const auto fail = [&](int line, const std::string& what) {
+        throw DocumentError(name.string() + ":" + std::to_string(line) + ": " + what);
+    };
+    for (std::string_view line : lines_with_ends(source)) {
+        ++number;
+        if (is_cell_marker(line)) {
+            if (begun) fail(begun, "this solution is not closed with \"-- END SOLUTION\" in its cell");
+            in_text = is_text_cell_marker(line);
+        }
+        switch (solution_line(line, name, number)) {
+            case SolutionLine::kBegin:
+                if (begun) fail(number, "a solution begins inside the solution of line " + std::to_string(begun));
+                begun = number;
+                result += std::string(indentation_of(line)) + (in_text ? "-- *Your answer:*" : "-- YOUR CODE HERE");
+                result += end_of(line);
+                break;
+            case SolutionLine::kEnd:
+                if (!begun) fail(number, "\"-- END SOLUTION\" without a \"-- BEGIN SOLUTION\" in its cell");
+                begun = 0;
+                break;
+            case SolutionLine::kStarter:
+                if (!begun) fail(number, "\"-- STARTER:\" stands outside a solution");
+                result += starter_text(line, in_text);
+                break;
+            case SolutionLine::kNone:
+                if (!begun) result += line;
+        }
+    }
+    if (begun) fail(begun, "this solution is not closed with \"-- END SOLUTION\" in its cell");
+    return result;
+}
+
+}  // namespace dynlab

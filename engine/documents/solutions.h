@@ -1,0 +1,28 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace dynlab {
+
+/// Worked solutions inside a literate script. In a code or a text cell,
+///
+///     -- BEGIN SOLUTION
+///     local K = dy/du
+///     -- STARTER: local K = 1    (what the student's copy starts from, so that it runs)
+///     -- END SOLUTION
+///
+/// encloses what a student must find. The student's copy keeps the cell with `-- YOUR CODE HERE` (in a text cell
+/// `-- *Your answer:*`) in place of the solution, followed by the STARTER lines without their sign: code in a code
+/// cell, text in a text cell. Documents never show markers or STARTER lines.
+enum class SolutionLine { kNone, kBegin, kEnd, kStarter };
+
+/// What a line of a script is. Throws DocumentError for a line that is nearly a marker (wrong case, plural), which
+/// would otherwise give the solution away.
+SolutionLine solution_line(std::string_view line, const std::filesystem::path& file, int number);
+
+/// The script without its solutions, everything else byte for byte. Throws DocumentError with file and line for
+/// markers that do not pair up within one cell, or a STARTER line outside a solution.
+std::string without_solutions(const std::string& source, const std::filesystem::path& name = "script.lua");
+
+}  // namespace dynlab

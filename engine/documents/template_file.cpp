@@ -1,0 +1,151 @@
+#include "documents/template_file.h"
+
+#include <algorithm>
+#include <optional>
+#include <regex>
+
+#include "documents/error.h"
+#include "documents/text_lines.h"
+#include "platform/atomic_file.h"
+#include "platform/spelling.h"
+
+namespace dynlab {
+namespace {
+
+const std::vector<std::string> kAllowedKeys = {"title",    "subtitle", "date",          "lang",
+                                               "abstract", "toc",      "numbersections"};
+
+std::string place(const std::filesystem::path& file, std::size_t index) {
+    return file.string() + ":" + std::to_string(index + 1) + ": ";
+}
+
+std::string scalar(const std::string& value, const std::string& where) {
+    if (value.empty()) return value;
+    const char first = value[0];
+    if (first == '"' || first == '\'') {
+        if (value.size() < 2 || value.back() != first)
+            throw DocumentError(where + "the quotation mark of " + value + " is not closed");
+        return value.substr(1, value.size() - 2);
+    }
+    if (std::string("[{&*!%@").find(first) != std::string::npos)
+        throw DocumentError(where + "the value " + value + " must be plain text; put it between quotation marks");
+    const std::size_t comment = value.find(" #");
+    return trimmed(value.substr(0, comment));
+}
+
+bool is_block_sign(const std::string& value) {
+    return value == "|" || value == ">" || value == "|-" || value == ">-";
+}
+
+/// Reads header lines [1, end) of `lines`.
+void read_metadata(const std::vector<std::string>& lines, std::size_t end, TemplateFile& result) {
+    for (std::size_t i = 1; i < end; ++i) {
+        const std::string& line = lines[i];
+        if (is_blank(line) || line[0] == '#') continue;
+        const std::size_t colon = line.find(':');
+        const std::string where = place(result.file, i);
+        if (colon == std::string::npos || line[0] == ' ' || line[0] == '-')
+            throw DocumentError(where + "\"" + trimmed(line) + "\" is not of the form \"key: value\"");
+        const std::string key = trimmed(line.substr(0, colon));
+        std::string value = trimmed(line.substr(colon + 1));
+        if (is_block_sign(value)) {
+            value.clear();
+            while (i + 1 < end && (is_blank(lines[i + 1]) || lines[i + 1][0] == ' '))
+                value += trimmed(lines[++i]) + "\n";
+        } else {
+            value = scalar(value, where);
+        }
+        check_metadata(key, value, where);
+        if (!result.metadata.emplace(key, value).second)
+            throw DocumentError(where + "key \"" + key + "\" stands there twice");
+    }
+}
+
+std::size_t end_of_metadata(const std::vector<std::string>& lines, const std::filesystem::path& file) {
+    for (std::size_t i = 1; i < lines.size(); ++i)
+        if (trimmed(lines[i]) == "---" || trimmed(lines[i]) == "...") return i;
+    throw DocumentError(place(file, 0) + "the header is not closed: a line \"---\" is missing after it");
+}
+
+/// Which lines of Markdown are inside fenced code.
+class FenceState {
+  public:
+    bool inside(const std::string& line) {
+        const std::string text = trimmed(line);
+        const std::size_t length = std::min(text.find_first_not_of('`'), text.size());
+        if (open_ == 0) {
+            if (length >= 3) open_ = length;
+            return length >= 3;
+        }
+        if (length >= open_ && length == text.size()) open_ = 0;
+        return true;
+    }
+
+  private:
+    std::size_t open_ = 0;
+};
+
+}  // namespace
+
+void check_metadata(const std::string& key, const std::string& value, const std::string& where) {
+    if (std::find(kAllowedKeys.begin(), kAllowedKeys.end(), key) == kAllowedKeys.end()) {
+        if (key == "author" || key == "authors")
+            throw DocumentError(
+                where + "documents name no author, because reports are reviewed anonymously; remove \"" + key + "\"");
+        std::string message = where + "metadata key \"" + key + "\" is not allowed; ";
+        if (const auto near = nearest_word(key, kAllowedKeys))
+            throw DocumentError(message + "did you mean \"" + *near + "\"?");
+        throw DocumentError(message + "allowed are title, subtitle, date, lang, abstract, toc, numbersections");
+    }
+    if (key == "lang" && value != "en" && value != "fr")
+        throw DocumentError(where + "lang \"" + value + "\" is not known; write en or fr");
+    if ((key == "toc" || key == "numbersections") && value != "true" && value != "false")
+        throw DocumentError(where + key + " is true or false, not \"" + value + "\"");
+}
+
+TemplateFile read_template(const std::filesystem::path& file) {
+    TemplateFile result;
+    result.file = file;
+    const std::vector<std::string> lines = lines_of(read_file(file));
+    std::size_t first = 0;
+    if (!lines.empty() && trimmed(lines[0]) == "---") {
+        const std::size_t end = end_of_metadata(lines, file);
+        read_metadata(lines, end, result);
+        first = end + 1;
+    }
+    for (std::size_t i = first; i < lines.size(); ++i)
+        result.body.append(lines[i] + "\n", file, static_cast<int>(i) + 1);
+    return result;
+}
+
+MarkdownText with_cells(const TemplateFile& source, const MarkdownText& cells) {
+    static const std::regex opening(R"(:::+\s*(\{\s*\.cells\s*\}|cells)\s*:*\s*)");
+    const std::vector<std::string> lines = lines_of(source.body.text);
+    MarkdownText result;
+    FenceState fence;
+    bool placed = false;
+    const auto fail = [&](std::size_t i, const std::string& what) {
+        throw DocumentError(place(source.file, static_cast<std::size_t>(source.body.origin[i].line) - 1) + what);
+    };
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const SourceLine from = source.body.origin[i];
+        if (fence.inside(lines[i]) || !std::regex_match(lines[i], opening)) {
+            result.append(lines[i] + "\n", from.file, from.line);
+            continue;
+        }
+        if (placed) fail(i, "the block ::: {.cells} stands there twice");
+        placed = true;
+        std::size_t end = i + 1;
+        while (end < lines.size() && is_blank(lines[end])) ++end;
+        if (end == lines.size() || !trimmed(lines[end]).starts_with(":::"))
+            fail(i, "the block ::: {.cells} must be empty and closed with a line \":::\"");
+        result.append("\n", from.file, from.line);
+        result.text += cells.text;
+        result.origin.insert(result.origin.end(), cells.origin.begin(), cells.origin.end());
+        result.append("\n", from.file, from.line);
+        i = end;
+    }
+    return result;
+}
+
+}  // namespace dynlab

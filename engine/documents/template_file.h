@@ -1,0 +1,29 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "documents/weave.h"
+
+namespace dynlab {
+
+/// A template: the metadata of its YAML header (scalars and `|` blocks; a white-list of keys, all else is an
+/// error) and its body.
+struct TemplateFile {
+    std::filesystem::path file;
+    std::map<std::string, std::string> metadata;
+    MarkdownText body;
+};
+
+/// Throws DocumentError with file and line.
+TemplateFile read_template(const std::filesystem::path& file);
+
+/// Throws DocumentError for a key a document may not set, or a value it cannot have (lang other than en and fr, toc
+/// and numbersections other than true and false); `where` starts the message.
+void check_metadata(const std::string& key, const std::string& value, const std::string& where);
+
+/// The body with `cells` in place of the block `::: {.cells}` ... `:::`. Throws DocumentError when the block has
+/// content or stands there twice.
+MarkdownText with_cells(const TemplateFile& source, const MarkdownText& cells);
+
+}  // namespace dynlab

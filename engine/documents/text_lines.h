@@ -1,0 +1,18 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dynlab {
+
+/// The lines of a text without their ends (\n or \r\n). A last line without an end counts; after a last \n
+/// there is no further line.
+std::vector<std::string> lines_of(std::string_view text);
+/// The lines of a text, each with the end it has: joined, they give the text back byte for byte.
+std::vector<std::string_view> lines_with_ends(std::string_view text);
+std::string trimmed(std::string_view text);  ///< without spaces, tabs and line ends at both sides
+bool is_blank(std::string_view text);
+bool is_name(std::string_view text);  ///< a letter or underscore, then letters, digits, underscores, hyphens
+std::string replaced(std::string text, std::string_view from, std::string_view to);  ///< every occurrence
+
+}  // namespace dynlab

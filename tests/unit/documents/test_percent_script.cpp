@@ -1,0 +1,145 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "documents/error.h"
+#include "documents/percent_script.h"
+#include "documents/solutions.h"
+
+namespace dynlab {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+PercentScript parse(const std::string& source) {
+    return parse_percent_script(source, "lesson.lua");
+}
+
+std::string refusal(const std::string& source) {
+    try {
+        parse(source);
+    } catch (const DocumentError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+// Oracle of this file: the definition of the format in percent_script.h and solutions.h.
+
+TEST(percent_script, reads_every_key_of_the_header) {
+    const PercentScript script = parse(
+        "-- ---\n-- title: \"Least squares: lines\"\n-- subtitle: Part 2\n-- lesson: 02\n-- template: lesson\n"
+        "-- language: fr\n-- seed: 4294967295\n-- answers:\n--   G1: model\n--   slope: number\n-- ---\nx = 1\n");
+    EXPECT_EQ(script.header.title, "Least squares: lines");
+    EXPECT_EQ(script.header.subtitle, "Part 2");
+    EXPECT_EQ(script.header.lesson, "02");
+    EXPECT_EQ(script.header.template_name, "lesson");
+    EXPECT_EQ(script.header.language, "fr");
+    EXPECT_EQ(script.header.seed, 4294967295u);
+    ASSERT_EQ(script.header.answers.size(), 2u);
+    EXPECT_EQ(script.header.answers[0].name, "G1");
+    EXPECT_EQ(script.header.answers[0].kind, "model");
+    EXPECT_EQ(script.header.answers[1].name, "slope");
+    ASSERT_EQ(script.cells.size(), 1u);
+    EXPECT_EQ(script.cells[0].first_line, 12);
+}
+
+TEST(percent_script, a_script_without_header_or_markers_is_one_code_cell) {
+    const PercentScript script = parse("\nlocal x = 1\nprint(x)\n\n");
+    EXPECT_EQ(script.header.language, "en");
+    EXPECT_EQ(script.header.seed, 1u);
+    ASSERT_EQ(script.cells.size(), 1u);
+    EXPECT_EQ(script.cells[0].id, "cell-1");
+    EXPECT_EQ(script.cells[0].content, "local x = 1\nprint(x)\n");
+    EXPECT_EQ(script.cells[0].first_line, 2);
+    EXPECT_EQ(script.cells[0].last_line(), 3);
+}
+
+TEST(percent_script, splits_cells_and_keeps_their_lines) {
+    const std::string source =
+        "-- %% [markdown]\n-- # Title\n--\n--text\n\n-- %% id=q2 echo=false\n\nlocal x = 1\n--%% output=false\ny = 2\n";
+    const PercentScript script = parse(source);
+    EXPECT_EQ(script.source, source);
+    ASSERT_EQ(script.cells.size(), 3u);
+    EXPECT_EQ(script.cells[0].kind, Cell::Kind::kText);
+    EXPECT_EQ(script.cells[0].content, "# Title\n\ntext\n");
+    EXPECT_EQ(script.cells[0].first_line, 2);
+    EXPECT_EQ(script.cells[1].id, "q2");
+    EXPECT_EQ(script.cells[1].options.at("echo"), "false");
+    EXPECT_EQ(script.cells[1].first_line, 8);
+    EXPECT_EQ(script.cells[2].id, "cell-3");
+    EXPECT_EQ(script.cell_at_line(3), &script.cells[0]);
+    EXPECT_EQ(script.cell_at_line(8), &script.cells[1]);
+    EXPECT_EQ(script.cell_at_line(1), nullptr);
+}
+
+TEST(percent_script, reads_windows_line_ends) {
+    const PercentScript script = parse("-- ---\r\n-- title: A\r\n-- ---\r\n-- %% [markdown]\r\n-- text\r\n");
+    EXPECT_EQ(script.header.title, "A");
+    ASSERT_EQ(script.cells.size(), 1u);
+    EXPECT_EQ(script.cells[0].content, "text\n");
+}
+
+TEST(percent_script, header_mistakes_name_the_line_and_the_mend) {
+    EXPECT_THAT(refusal("-- ---\n-- titel: A\n-- ---\n"), StartsWith("lesson.lua:2: "));
+    EXPECT_THAT(refusal("-- ---\n-- titel: A\n-- ---\n"), HasSubstr("did you mean \"title\"?"));
+    EXPECT_THAT(refusal("-- ---\n-- colour: A\n-- ---\n"), HasSubstr("known are title, subtitle"));
+    EXPECT_THAT(refusal("-- ---\n-- title\n-- ---\n"), HasSubstr("\"key: value\""));
+    EXPECT_THAT(refusal("-- ---\n-- title:\n-- ---\n"), HasSubstr("has no value"));
+    EXPECT_THAT(refusal("-- ---\n-- title: \"A\n-- ---\n"), HasSubstr("not closed"));
+    EXPECT_THAT(refusal("-- ---\n-- title: A\n-- title: B\n-- ---\n"), HasSubstr("twice"));
+    EXPECT_THAT(refusal("-- ---\n-- title: A\nx = 1\n"), StartsWith("lesson.lua:3: the script header is not closed"));
+    EXPECT_THAT(refusal("-- ---\n-- title: A\n"), HasSubstr("not closed"));
+    EXPECT_THAT(refusal("-- ---\n-- seed: -1\n-- ---\n"), HasSubstr("0 to 4294967295"));
+    EXPECT_THAT(refusal("-- ---\n-- seed: 4294967296\n-- ---\n"), HasSubstr("0 to 4294967295"));
+    EXPECT_THAT(refusal("-- ---\n-- language: de\n-- ---\n"), HasSubstr("en or fr"));
+    EXPECT_THAT(refusal("-- ---\n-- template: ../../x\n-- ---\n"), HasSubstr("without folder"));
+    EXPECT_THAT(refusal("-- ---\n-- answers:\n--   G1:\n-- ---\n"), HasSubstr("needs a kind"));
+    EXPECT_THAT(refusal("-- ---\n--   G1: model\n-- ---\n"), HasSubstr("answers:"));
+}
+
+TEST(percent_script, cell_mistakes_name_the_line_and_the_mend) {
+    EXPECT_THAT(refusal("-- %% ecoh=false\n"), StartsWith("lesson.lua:1: "));
+    EXPECT_THAT(refusal("-- %% ecoh=false\n"), HasSubstr("did you mean \"echo\"?"));
+    EXPECT_THAT(refusal("-- %% echo=no\n"), HasSubstr("true or false"));
+    EXPECT_THAT(refusal("-- %% plot\n"), HasSubstr("key=value"));
+    EXPECT_THAT(refusal("-- %% id=a\nx=1\n-- %% id=a\ny=1\n"), StartsWith("lesson.lua:3: "));
+    EXPECT_THAT(refusal("-- %% [markdown]\n-- text\nlocal x = 1\n"), StartsWith("lesson.lua:3: "));
+    EXPECT_THAT(refusal("-- %%\n-- BEGIN SOLUTION\nx = 1\n"), StartsWith("lesson.lua:2: "));
+    EXPECT_THAT(refusal("-- %%\n-- BEGIN SOLUTION\nx = 1\n-- %%\n-- END SOLUTION\n"), StartsWith("lesson.lua:2: "));
+    EXPECT_THAT(refusal("-- %%\n-- END SOLUTION\n"), StartsWith("lesson.lua:2: "));
+    EXPECT_THAT(refusal("-- BEGIN SOLUTION\n-- BEGIN SOLUTION\n-- END SOLUTION\n"), StartsWith("lesson.lua:2: "));
+}
+
+TEST(percent_script, a_misspelled_solution_marker_is_refused_before_it_gives_the_solution_away) {
+    for (const char* marker : {"-- begin solution", "-- BEGIN SOLUTIONS", "--End Solution", "-- END SOLUTION."})
+        EXPECT_THAT(refusal(std::string("x = 1\n") + marker + "\n"), StartsWith("lesson.lua:2: ")) << marker;
+    EXPECT_EQ(refusal("-- begin solutions of the equation by substitution\n"), "");
+}
+
+TEST(percent_script, the_students_copy_differs_in_the_solutions_only) {
+    const std::string source =
+        "-- %%\r\nlocal u = 1  \n    -- BEGIN SOLUTION\n    local K = 2\n    -- STARTER: local K = 1\n    -- END "
+        "SOLUTION\n"
+        "print(K)\n-- %% [markdown]\n-- Why?\n--\n-- BEGIN SOLUTION\n-- Because.\n-- END SOLUTION\n\nlast line";
+    EXPECT_EQ(
+        without_solutions(source),
+        "-- %%\r\nlocal u = 1  \n    -- YOUR CODE HERE\n    local K = 1\nprint(K)\n-- %% [markdown]\n-- Why?\n--\n"
+        "-- *Your answer:*\n\nlast line");
+    EXPECT_EQ(without_solutions("x = 1\r\n\r\n"), "x = 1\r\n\r\n");
+    EXPECT_EQ(without_solutions(""), "");
+    EXPECT_THROW(without_solutions("-- STARTER: x = 1\n"), DocumentError);
+}
+
+TEST(percent_script, a_file_that_is_not_there_is_named) {
+    try {
+        read_percent_script("/nowhere/lesson.lua");
+        FAIL() << "no error";
+    } catch (const std::runtime_error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("/nowhere/lesson.lua"));
+    }
+}
+
+}  // namespace
+}  // namespace dynlab

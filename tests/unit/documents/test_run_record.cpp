@@ -1,0 +1,62 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "documents/run_record.h"
+
+namespace dynlab {
+namespace {
+
+RunRecord sample() {
+    RunRecord record;
+    record.script = "lesson.lua";
+    record.seed = 7;
+    record.values["fit"] = {0.1, "0.1"};
+    record.values["name"] = {std::nullopt, "P1 \"quoted\"\n"};
+    record.tables["models"] = {{"Model", "Fit"}, {{"P1", "93"}}};
+    record.figures["raw"].caption = "Raw";
+    record.figures["raw"].file = "/tmp/somewhere/raw.pdf";
+    record.texts["end"] = {"**done**"};
+    record.outputs["cell-1"] = {{"x\n", "raw"}};
+    record.error = RecordedError{"lesson.lua:3: no", 3};
+    record.files_read = {"/home/someone/data.csv"};
+    record.timings["cell-1"] = 0.25;
+    return record;
+}
+
+// Oracle: a second JSON reading of the text gives back what was put in.
+TEST(run_record, json_holds_everything_that_was_recorded) {
+    const auto json = nlohmann::json::parse(to_json(sample()));
+    EXPECT_EQ(json["script"], "lesson.lua");
+    EXPECT_EQ(json["seed"], 7);
+    EXPECT_EQ(json["values"]["fit"]["number"].get<double>(), 0.1);
+    EXPECT_EQ(json["values"]["name"]["text"], "P1 \"quoted\"\n");
+    EXPECT_FALSE(json["values"]["name"].contains("number"));
+    EXPECT_EQ(json["tables"]["models"]["rows"][0][1], "93");
+    EXPECT_EQ(json["figures"]["raw"]["caption"], "Raw");
+    EXPECT_EQ(json["texts"]["end"], "**done**");
+    EXPECT_EQ(json["outputs"]["cell-1"][0]["printed"], "x\n");
+    EXPECT_EQ(json["outputs"]["cell-1"][1]["figure"], "raw");
+    EXPECT_EQ(json["error"]["line"], 3);
+}
+
+TEST(run_record, json_has_no_timings_and_no_folders) {
+    const std::string text = to_json(sample());
+    EXPECT_EQ(text, to_json(sample()));
+    EXPECT_EQ(text.find("timings"), std::string::npos);
+    EXPECT_EQ(text.find("/home"), std::string::npos);
+    EXPECT_EQ(text.find("/tmp"), std::string::npos);
+    EXPECT_EQ(nlohmann::json::parse(timings_to_json(sample()))["cell-1"].get<double>(), 0.25);
+}
+
+TEST(run_record, numbers_read_back_exactly) {
+    for (double number : {0.1, 1.0 / 3.0, 9.79, 1e300, std::numeric_limits<double>::denorm_min()}) {
+        RunRecord record;
+        record.values["x"] = {number, ""};
+        EXPECT_EQ(nlohmann::json::parse(to_json(record))["values"]["x"]["number"].get<double>(), number);
+    }
+}
+
+}  // namespace
+}  // namespace dynlab

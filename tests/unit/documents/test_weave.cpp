@@ -1,0 +1,81 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "documents/text_lines.h"
+#include "documents/weave.h"
+
+namespace dynlab {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+MarkdownText weave(const std::string& source, const RunRecord& record = {}) {
+    return weave_cells(parse_percent_script(source, "lesson.lua"), record);
+}
+
+// Oracle of this file: the definition in weave.h; every origin is checked by looking the line up in the script.
+
+TEST(weave, every_line_knows_its_line_of_the_script) {
+    const std::string source = "-- %% [markdown]\n-- # One\n--\n-- two\n-- %%\n\nlocal x = 1\nlocal y = 2\n";
+    const MarkdownText text = weave(source);
+    const std::vector<std::string> script = lines_of(source), woven = lines_of(text.text);
+    ASSERT_EQ(woven.size(), text.origin.size());
+    for (std::size_t i = 0; i < woven.size(); ++i) {
+        if (woven[i].empty() || woven[i].starts_with("```")) continue;
+        const SourceLine from = text.origin_of(static_cast<int>(i) + 1);
+        EXPECT_EQ(from.file, "lesson.lua");
+        EXPECT_THAT(script.at(static_cast<std::size_t>(from.line) - 1), HasSubstr(woven[i]));
+    }
+    EXPECT_EQ(text.origin_of(0).line, 0);
+    EXPECT_EQ(text.origin_of(1000).line, 0);
+}
+
+TEST(weave, shows_code_output_and_figures_in_order) {
+    RunRecord record;
+    record.outputs["cell-1"] = {{"first\n", "cell-1-figure-1"}, {"second\n", std::nullopt}};
+    record.figures["cell-1-figure-1"].caption = "Title";
+    const std::string text = weave("-- %%\nplot(x)\n", record).text;
+    const std::size_t code = text.find("```{.lua .cell}\nplot(x)\n```"), first = text.find("```{.output}\nfirst\n```"),
+                      figure = text.find("![](figure:cell-1-figure-1){#fig:cell-1-figure-1}"),
+                      second = text.find("```{.output}\nsecond\n```");
+    ASSERT_NE(second, std::string::npos);
+    EXPECT_LT(code, first);
+    EXPECT_LT(first, figure);
+    EXPECT_LT(figure, second);
+}
+
+TEST(weave, options_hide_code_or_output) {
+    RunRecord record;
+    record.outputs["a"] = record.outputs["b"] = {{"printed\n", std::nullopt}};
+    EXPECT_THAT(weave("-- %% id=a echo=false\nx = 1\n", record).text, Not(HasSubstr("x = 1")));
+    EXPECT_THAT(weave("-- %% id=a echo=false\nx = 1\n", record).text, HasSubstr("printed"));
+    EXPECT_THAT(weave("-- %% id=b output=false\nx = 1\n", record).text, Not(HasSubstr("printed")));
+}
+
+TEST(weave, markers_and_starters_are_never_shown) {
+    const std::string text = weave(
+                                 "-- %%\n-- BEGIN SOLUTION\nlocal K = 2\n-- STARTER: local K = 1\n-- END SOLUTION\n"
+                                 "-- %% [markdown]\n-- BEGIN SOLUTION\n-- Because.\n-- END SOLUTION\n")
+                                 .text;
+    EXPECT_THAT(text, HasSubstr("local K = 2"));
+    EXPECT_THAT(text, HasSubstr("Because."));
+    EXPECT_THAT(text, Not(HasSubstr("SOLUTION")));
+    EXPECT_THAT(text, Not(HasSubstr("STARTER")));
+}
+
+TEST(weave, no_output_can_close_its_block) {
+    RunRecord record;
+    record.outputs["cell-1"] = {{"```\n# not a heading\n````\n", std::nullopt}};
+    EXPECT_THAT(weave("-- %%\nx = 1\n", record).text, HasSubstr("`````{.output}\n```\n# not a heading\n````\n`````\n"));
+}
+
+TEST(weave, a_recorded_error_stands_at_its_cell) {
+    RunRecord record;
+    record.error = RecordedError{"lesson.lua:2: x is nil", 2};
+    const std::string text = weave("-- %%\nx()\n-- %% [markdown]\n-- after\n", record).text;
+    EXPECT_LT(text.find("```{.error}\nlesson.lua:2: x is nil\n```"), text.find("after"));
+}
+
+}  // namespace
+}  // namespace dynlab
