@@ -1,0 +1,380 @@
+-- Turns a dynlab document into what Pandoc writes: fills the slots from slots.lua (written by the engine into the
+-- working folder), numbers figures, tables, equations and sections, resolves cross references, and refuses what a
+-- document may not contain. Everything found is told to the engine on standard error, one line each:
+--   dynlab:use <TAB> number <TAB> figure|image <TAB> name        a picture to be placed under that number
+--   dynlab:error <TAB> code <TAB> text to look for <TAB> details...
+local folder = PANDOC_SCRIPT_FILE:match("^(.*)/") or "."
+local safety = dofile(folder .. "/safety.lua")
+local slots = dofile("slots.lua")
+local layout = dofile(folder .. "/layout.lua").new(slots.format, slots.language)
+
+local failed = false
+local function clean(text) return (tostring(text):gsub("[%c]", " ")) end
+
+local function report(code, needle, ...)
+  failed = true
+  local fields = { "dynlab:error", code, clean(needle) }
+  for _, field in ipairs { ... } do fields[#fields + 1] = clean(field) end
+  io.stderr:write(table.concat(fields, "\t"), "\n")
+end
+
+-- Slots ----------------------------------------------------------------------------------------------------------
+
+local kinds = { "value", "table", "figure", "text" }
+
+local function entry(kind, name, needle)
+  local found = slots[kind][name]
+  if found then return found end
+  for _, other in ipairs(kinds) do
+    if slots[other][name] then
+      report("wrong-kind", needle, kind, name, other)
+      return nil
+    end
+  end
+  report("no-entry", needle, kind, name)
+end
+
+local pictures = {}
+local picture_count = 0
+
+-- The name under which the engine puts a picture for the writer.
+local function picture_file(kind, name)
+  local key = kind .. ":" .. name
+  if not pictures[key] then
+    picture_count = picture_count + 1
+    local extension = kind == "figure" and slots.figure_extension or name:match("%.(%w+)$") or ""
+    pictures[key] = slots.picture_prefix .. picture_count .. "." .. extension
+    io.stderr:write(table.concat({ "dynlab:use", tostring(picture_count), kind, clean(name) }, "\t"), "\n")
+  end
+  return pictures[key]
+end
+
+local function read_blocks(markdown) return pandoc.read(markdown, slots.reader).blocks end
+
+local checked_inlines  -- Markdown to inlines, safely; defined below, with the checks
+
+-- Numbers and labels ---------------------------------------------------------------------------------------------
+
+local counters = { fig = 0, tbl = 0, eq = 0 }
+local labels = {}  -- label -> what a reference to it shows
+
+local function define(label, shown)
+  if labels[label] then
+    report("duplicate-label", "#" .. label, label)
+  else
+    labels[label] = shown
+  end
+end
+
+local function number(kind, label)
+  counters[kind] = counters[kind] + 1
+  if label then define(label, layout:name_with_number(kind, counters[kind])) end
+  return tostring(counters[kind])
+end
+
+local function label_of(identifier, kind)
+  if identifier == "" then return nil end
+  if identifier:match("^" .. kind .. ":[%w_.:-]+$") then return identifier end
+  report("label-kind", "#" .. identifier, identifier, kind)
+end
+
+-- Takes a trailing "{#kind:name}" off a list of inlines.
+local function take_label(inlines, kind)
+  local last = inlines[#inlines]
+  local label = last and last.t == "Str" and last.text:match("^{#(.-)}$")
+  if not label then return nil end
+  inlines:remove()
+  while #inlines > 0 and (inlines[#inlines].t == "Space" or inlines[#inlines].t == "SoftBreak") do inlines:remove() end
+  return label_of(label, kind)
+end
+
+-- Elements -------------------------------------------------------------------------------------------------------
+
+local picture_attributes = { width = true }
+
+local function checked_width(image)
+  local bad = safety.unknown_attribute(image.attributes, picture_attributes)
+  if bad then report("attribute", bad, bad, "a picture") end
+  local width = image.attributes.width
+  if width and not width:match("^%d+%.?%d*%%$") and not width:match("^%d+%.?%d*[cm]m$") then
+    report("width", width, width)
+    return nil
+  end
+  return width
+end
+
+local function picture(image)
+  local name = image.src:match("^figure:(.+)$")
+  if not name then return picture_file("image", image.src), image.caption end
+  local found = entry("figure", name, image.src)
+  if not found then return nil end
+  local caption = image.caption
+  if #caption == 0 then caption = checked_inlines(found.caption) end
+  return picture_file("figure", name), caption, name
+end
+
+local function figure(image)
+  local file, caption, name = picture(image)
+  local label = label_of(image.identifier, "fig")
+  if not file then return {} end
+  local alternative = pandoc.utils.stringify(caption)
+  if alternative == "" then alternative = name or image.src end
+  if #caption > 0 or label then
+    local shown = number("fig", label)
+    caption = layout:numbered_caption("fig", shown, caption)
+  end
+  return layout:figure(file, label, caption, alternative, checked_width(image))
+end
+
+local function inline_image(image)
+  if image.src:find("^figure:") or image.identifier ~= "" then
+    report("figure-not-alone", image.src, image.src)
+    return {}
+  end
+  local alternative = pandoc.utils.stringify(image.caption)
+  return layout:inline_image(picture_file("image", image.src), alternative, checked_width(image))
+end
+
+local function table_slot(division)
+  local name = division.attributes.name or ""
+  local label = label_of(division.identifier, "tbl")
+  local caption = pandoc.List {}
+  if #division.content > 1 or (division.content[1] and not division.content[1].content) then
+    report("table-content", "name=" .. name, name)
+  elseif division.content[1] then
+    caption = division.content[1].content
+    label = take_label(caption, "tbl") or label
+  end
+  local found = entry("table", name, "name=" .. name)
+  if not found then return {} end
+  if #caption > 0 or label then caption = layout:numbered_caption("tbl", number("tbl", label), caption) end
+  local element, size = layout:table(found, caption)
+  if not element then
+    report("table-width", "name=" .. name, name, #found.header)
+    return {}
+  end
+  return layout:place_table(element, label, size), false
+end
+
+local function written_table(element)
+  local blocks = element.caption.long
+  local label
+  if blocks[1] then
+    local caption = blocks[1].content
+    label = take_label(caption, "tbl")
+    blocks[1].content = layout:numbered_caption("tbl", number("tbl", label), caption)
+    element.caption.long = blocks
+  end
+  return layout:place_table(element, label), false
+end
+
+-- The content was written by a script; no text slots inside it, or two texts could name each other for ever.
+local function text_slot(division)
+  local name = division.attributes.name or ""
+  local found = entry("text", name, "name=" .. name)
+  if not found then return {} end
+  return pandoc.Div(read_blocks(found)):walk {
+    Div = function(inner)
+      if inner.classes[1] == "text" then
+        report("nested-text", "name=" .. name, name)
+        return {}
+      end
+    end,
+  }.content
+end
+
+local function equations(inlines)
+  local changed = pandoc.List {}
+  local i = 1
+  while i <= #inlines do
+    local element = inlines[i]
+    local display = element.t == "Math" and element.mathtype == "DisplayMath"
+    local after = i + 1
+    if display and inlines[after] and (inlines[after].t == "Space" or inlines[after].t == "SoftBreak") then
+      after = after + 1
+    end
+    local label, rest
+    if display and inlines[after] and inlines[after].t == "Str" then
+      label, rest = inlines[after].text:match("^{#(.-)}(.*)$")
+    end
+    if label then
+      label = label_of(label, "eq")
+      if label then changed:extend(layout:equation(element, label, number("eq", label))) end
+      if rest ~= "" then changed:insert(pandoc.Str(rest)) end
+      i = after
+    else
+      changed:insert(element)
+    end
+    i = i + 1
+  end
+  return changed
+end
+
+local section_numbers = { 0, 0, 0, 0, 0, 0 }
+
+local function header(element)
+  local bad = safety.unknown_attribute(element.attributes, {})
+  if bad then report("attribute", bad, bad, "a heading") end
+  local shown = "“" .. pandoc.utils.stringify(element.content) .. "”"
+  if slots.numbersections and not element.classes:includes("unnumbered") then
+    section_numbers[element.level] = section_numbers[element.level] + 1
+    for level = element.level + 1, 6 do section_numbers[level] = 0 end
+    local section = table.concat(section_numbers, ".", 1, element.level)
+    element.content:insert(1, pandoc.Str(section .. "\u{2002}"))
+    shown = layout:name_with_number("sec", section)
+  end
+  if element.identifier:find("^sec:") then
+    define(element.identifier, shown)
+  elseif element.identifier:find("^%a+:") then
+    label_of(element.identifier, "sec")
+  end
+  element.classes = {}
+  element.level = layout:heading_level(element.level, slots.metadata.title)
+  return element
+end
+
+local function check_mathematics(element)
+  local bad = safety.forbidden_in_mathematics(element.text)
+  if bad then report("mathematics", bad, bad) end
+end
+
+local function division(element)
+  local class = element.classes[1]
+  local bad = safety.unknown_division_class(element.classes)
+  if bad or not class then
+    report("division-class", bad or element.identifier, bad or "")
+    return {}, false
+  end
+  local allowed = (class == "table" or class == "text") and { name = true } or {}
+  local attribute = safety.unknown_attribute(element.attributes, allowed)
+  if attribute then report("attribute", attribute, attribute, "a block of class " .. class) end
+  if class == "table" then return table_slot(element) end
+  if class == "pagebreak" then return layout:page_break() end
+  return layout:box(element, class)
+end
+
+local function check_code(element)
+  if element.classes:includes("value") then return nil end
+  local bad = safety.unknown_code_class(element.classes, false)
+  if bad then report("code-class", "." .. bad, bad, element.text) end
+end
+
+local function code(element)
+  if element.classes:includes("value") then
+    local found = entry("value", element.text, "`" .. element.text .. "`")
+    return found and pandoc.Str(found) or {}
+  end
+  return layout:inline_code(element)
+end
+
+local function check_code_block(element)
+  local bad = safety.unknown_code_class(element.classes, true)
+  if bad then report("block-class", bad, bad) end
+  local attribute = safety.unknown_attribute(element.attributes, {})
+  if attribute then report("attribute", attribute, attribute, "a code block") end
+end
+
+local function code_block(element) return layout:code_block(element) end
+
+local function raw(element)
+  if element.format ~= "html" or not safety.is_comment(element.text) then
+    report("raw", element.text:match("^[^\n]*"), element.text:match("^[^\n]*"))
+  end
+  return {}
+end
+
+local function span(element)
+  local bad = safety.unknown_attribute(element.attributes, {})
+  if bad then report("attribute", bad, bad, "a span") end
+  if #element.classes > 0 then report("span-class", "." .. element.classes[1], element.classes[1]) end
+  return element.content
+end
+
+local function link(element)
+  if not safety.link_allowed(element.target) then report("link", element.target, element.target) end
+  element.attributes = {}
+  element.classes = {}
+end
+
+local function plain_image(blocks_content)
+  local image = blocks_content[1]
+  return #blocks_content == 1 and image.t == "Image" and image or nil
+end
+
+local function paragraph(element)
+  local image = plain_image(element.content)
+  if image then return figure(image), false end
+end
+
+local function string(element)
+  if element.text:match("^{=%w+}") then report("raw-attribute", element.text, element.text) end
+end
+
+-- First what the author wrote is checked, then slots are filled in document order, so that numbers are given as the
+-- elements come and nothing the filter itself writes is checked again.
+local check = {
+  RawBlock = raw, RawInline = raw, Span = span, Link = link, Str = string, Math = check_mathematics,
+  Code = check_code, CodeBlock = check_code_block,
+}
+local fill = {
+  traverse = "topdown",
+  Para = paragraph, Table = written_table, Div = division, Header = header, CodeBlock = code_block,
+  Inlines = equations, Code = code, Image = inline_image,
+}
+
+local function checked(markdown) return pandoc.Pandoc(read_blocks(markdown)):walk(check) end
+
+function checked_inlines(markdown) return pandoc.utils.blocks_to_inlines(checked(markdown).blocks) end
+
+-- References -----------------------------------------------------------------------------------------------------
+
+local function reference(citation)
+  local id = citation.id
+  local kind = id:match("^(%a+):")
+  if kind ~= "sec" and not counters[kind] then
+    report("reference-kind", "@" .. id, id)
+  elseif not labels[id] then
+    report("dangling", "@" .. id, id)
+  else
+    local shown = labels[id]
+    if citation.mode == "SuppressAuthor" then shown = shown:match("\u{A0}(.*)$") or shown end
+    if slots.format == "markdown" then return pandoc.Str(shown) end
+    return pandoc.Link({ pandoc.Str(shown) }, "#" .. id)
+  end
+end
+
+local function references(cite)
+  if not cite.citations[1].id:find(":", 1, true) then return cite.content end
+  local shown = pandoc.List {}
+  for i, citation in ipairs(cite.citations) do
+    if i > 1 then shown:extend { pandoc.Str(","), pandoc.Space() } end
+    if #citation.prefix > 0 then
+      shown:extend(citation.prefix)
+      shown:insert(pandoc.Space())
+    end
+    shown:insert(reference(citation) or pandoc.Str(citation.id))
+    shown:extend(citation.suffix)
+  end
+  return shown
+end
+
+local function expand(element)
+  if element.classes[1] == "text" and #element.classes == 1 then return text_slot(element) end
+end
+
+local function finished(document) return document:walk(check):walk(fill):walk { Cite = references } end
+
+function Pandoc(document)
+  for key, markdown in pairs(slots.metadata) do
+    document.meta[key] = pandoc.MetaBlocks(finished(pandoc.Pandoc(read_blocks(markdown))).blocks)
+  end
+  document = finished(document:walk { Div = expand })
+  for _, key in ipairs { "title", "subtitle", "date" } do
+    local value = document.meta[key]
+    if value then document.meta[key] = pandoc.MetaInlines(pandoc.utils.blocks_to_inlines(value)) end
+  end
+  for key, text in pairs(slots.variables) do document.meta[key] = text end
+  if document.meta.title then document.meta.pagetitle = pandoc.utils.stringify(document.meta.title) end
+  if failed then os.exit(64) end
+  return document
+end

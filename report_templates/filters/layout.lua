@@ -1,0 +1,236 @@
+-- How figures, tables, equations, code and boxes look in LaTeX, HTML and Markdown.
+local layout = {}
+
+local words = {
+  en = { fig = "Figure", tbl = "Table", eq = "Equation", sec = "Section", note = "Note", warning = "Take care",
+         exercise = "Exercise" },
+  fr = { fig = "Figure", tbl = "Tableau", eq = "Équation", sec = "Section", note = "Remarque", warning = "Attention",
+         exercise = "Exercice" },
+}
+
+local latex_escapes = { ["\\"] = "\\textbackslash{}", ["{"] = "\\{", ["}"] = "\\}" }
+local html_escapes = { ["&"] = "&amp;", ["<"] = "&lt;", [">"] = "&gt;", ['"'] = "&quot;" }
+local zero_width_space = "\u{200B}"
+local no_break_space = "\u{A0}"
+
+function layout.new(format, language)
+  return setmetatable({ format = format, words = words[language] }, { __index = layout })
+end
+
+local function html(text) return (text:gsub('[&<>"]', html_escapes)) end
+
+local function raw(format, text) return pandoc.RawInline(format, text) end
+
+function layout:name_with_number(kind, number)
+  return self.words[kind] .. no_break_space .. number
+end
+
+-- "Figure 1." before the caption, the same in every format: LaTeX's own counters are not used.
+function layout:numbered_caption(kind, number, caption)
+  local start = { pandoc.Strong { pandoc.Str(self:name_with_number(kind, number) .. (#caption > 0 and "." or "")) } }
+  if #caption > 0 then start[#start + 1] = pandoc.Space() end
+  return pandoc.List(start) .. caption
+end
+
+local function latex_size(width)
+  if not width then return "" end
+  local percent = width:match("^(%d+%.?%d*)%%$")
+  if percent then return string.format("[width=%.4f\\linewidth]", tonumber(percent) / 100) end
+  return "[width=" .. width .. "]"
+end
+
+-- file: what the engine put the picture under; caption: inlines, number included, or empty
+function layout:figure(file, id, caption, alternative, width)
+  if self.format == "latex" then
+    local content = pandoc.List { raw("latex", "\\begin{figure}[H]\\centering" ..
+      (id and "\\hypertarget{" .. id .. "}{}" or "") .. "\\includegraphics" .. latex_size(width) .. "{" .. file .. "}") }
+    if #caption > 0 then
+      content:insert(raw("latex", "\\caption{"))
+      content:extend(caption)
+      content:insert(raw("latex", "}"))
+    end
+    content:insert(raw("latex", "\\end{figure}"))
+    return { pandoc.Plain(content) }
+  elseif self.format == "html" then
+    local content = pandoc.List { raw("html", "<figure" .. (id and ' id="' .. id .. '"' or "") .. ">" ..
+      self:html_image(file, alternative, width)) }
+    if #caption > 0 then
+      content:insert(raw("html", "<figcaption>"))
+      content:extend(caption)
+      content:insert(raw("html", "</figcaption>"))
+    end
+    content:insert(raw("html", "</figure>"))
+    return { pandoc.Plain(content) }
+  end
+  local blocks = { pandoc.Para { pandoc.Image({ pandoc.Str(alternative) }, file) } }
+  if #caption > 0 then blocks[2] = pandoc.Para(caption) end
+  return blocks
+end
+
+function layout:html_image(file, alternative, width)
+  return '<img src="' .. file .. '" alt="' .. html(alternative) .. '"' ..
+    (width and ' style="width:' .. width .. '"' or "") .. " />"
+end
+
+function layout:inline_image(file, alternative, width)
+  if self.format == "latex" then return raw("latex", "\\includegraphics" .. latex_size(width) .. "{" .. file .. "}") end
+  if self.format == "html" then return raw("html", self:html_image(file, alternative, width)) end
+  return pandoc.Image({ pandoc.Str(alternative) }, file)
+end
+
+function layout:equation(mathematics, id, number)
+  if self.format == "latex" then
+    return { pandoc.Math("DisplayMath", mathematics.text .. "\\tag{" .. number .. "}\\hypertarget{" .. id .. "}{}") }
+  elseif self.format == "html" then
+    return { pandoc.Span({ mathematics, pandoc.Span({ pandoc.Str("(" .. number .. ")") }, { class = "number" }) },
+                         { id = id, class = "equation" }) }
+  end
+  return { mathematics, pandoc.Space(), pandoc.Str("(" .. number .. ")") }
+end
+
+-- Long words get places where a line may break; LaTeX needs them in code, HTML scrolls.
+local function breakable(text, longest)
+  return (text:gsub("%S+", function(word)
+    if utf8.len(word) and utf8.len(word) > longest then
+      return (word:gsub(utf8.charpattern, "%0" .. zero_width_space))
+    end
+  end))
+end
+
+function layout:inline_code(code)
+  if self.format ~= "latex" then return nil end
+  code.text = breakable(code.text, 24)
+  return code
+end
+
+local verbatim_environments = { output = "dynlaboutput", error = "dynlaberror" }
+
+function layout:code_block(block)
+  if self.format == "latex" then
+    block.text = breakable(block.text, 60)
+    local class = block.classes[1]
+    if class and not verbatim_environments[class] and class ~= "text" then return block end
+    local environment = verbatim_environments[class] or "Highlighting"
+    return pandoc.RawBlock("latex", "\\begin{Shaded}\n\\begin{" .. environment .. "}\n" ..
+      block.text:gsub("[\\{}]", latex_escapes) .. "\n\\end{" .. environment .. "}\n\\end{Shaded}")
+  elseif self.format == "markdown" then
+    block.classes = block.classes:filter(function(class) return class ~= "cell" end)
+    return block
+  end
+end
+
+function layout:box(division, kind)
+  local title = self.words[kind]
+  if self.format == "latex" then
+    local colour = kind == "warning" and "dlerror" or "dlnote"
+    division.content:insert(1, pandoc.RawBlock("latex", "\\begin{dynlabbox}{" .. colour .. "}{" .. title .. "}"))
+    division.content:insert(pandoc.RawBlock("latex", "\\end{dynlabbox}"))
+    return division.content
+  elseif self.format == "html" then
+    division.content:insert(1, pandoc.Para { pandoc.Strong { pandoc.Str(title) } })
+    return pandoc.Div(division.content, { class = "box " .. kind })
+  end
+  division.content:insert(1, pandoc.Para { pandoc.Strong { pandoc.Str(title) } })
+  return pandoc.BlockQuote(division.content)
+end
+
+-- Below the title, HTML and Markdown sections start at the second level.
+function layout:heading_level(level, has_title)
+  return (has_title and self.format ~= "latex") and math.min(level + 1, 6) or level
+end
+
+function layout:page_break()
+  if self.format == "latex" then return pandoc.RawBlock("latex", "\\clearpage") end
+  if self.format == "html" then return pandoc.RawBlock("html", '<div class="pagebreak"></div>') end
+  return {}
+end
+
+-- Tables ---------------------------------------------------------------------------------------------------------
+
+local function is_number(cell)
+  return cell == "" or cell == "-" or tonumber((cell:gsub("%s*%%$", ""))) ~= nil or
+    cell:match("^[+-]?[%d.]+e?[+-]?%d*%s*±%s*[%d.]+e?[+-]?%d*$") ~= nil
+end
+
+local function longest_word(text)
+  local longest = 0
+  for word in text:gmatch("%S+") do longest = math.max(longest, utf8.len(word) or #word) end
+  return longest
+end
+
+-- Type sizes with the width of a character in points; the text is 455 points wide, columns stand 12 points apart.
+local sizes = { { "\\normalsize", 5.5 }, { "\\small", 5.0 }, { "\\footnotesize", 4.6 }, { "\\scriptsize", 4.25 } }
+local text_width, column_gap = 455, 12
+
+-- least, natural: characters each column needs at least and would like. Returns relative widths (0: natural) and the
+-- type size with which the table stays inside the text; nothing when it cannot.
+local function fit_columns(least, natural)
+  local room = text_width - column_gap * (#least - 1)
+  local least_sum, natural_sum, widths = 0, 0, {}
+  for c = 1, #least do
+    least_sum, natural_sum, widths[c] = least_sum + least[c], natural_sum + natural[c], 0
+  end
+  for _, size in ipairs(sizes) do
+    local name, character = size[1], size[2]
+    if natural_sum * character <= room then return widths, name end
+    if least_sum < natural_sum and (least_sum + 8) * character <= room then
+      -- What the longest words leave of the line goes to the columns that have more text.
+      local left = room / character - least_sum
+      for c = 1, #least do
+        local more = left * (natural[c] - least[c]) / (natural_sum - least_sum)
+        widths[c] = (least[c] + more) * character / room
+      end
+      return widths, name
+    end
+  end
+end
+
+-- data: {header = {...}, rows = {{...}, ...}} of plain text; returns Pandoc's table and its type size, nil when it is
+-- too wide for the page
+function layout:table(data, caption)
+  local columns = #data.header
+  local numeric, natural, least, alignments = {}, {}, {}, {}
+  for c = 1, columns do
+    numeric[c], natural[c] = #data.rows > 0, utf8.len(data.header[c]) or #data.header[c]
+    least[c] = longest_word(data.header[c])
+    for _, row in ipairs(data.rows) do
+      numeric[c] = numeric[c] and is_number(row[c])
+      natural[c] = math.max(natural[c], utf8.len(row[c]) or #row[c])
+      least[c] = math.max(least[c], longest_word(row[c]))
+    end
+    if numeric[c] then least[c] = natural[c] end
+    alignments[c] = numeric[c] and pandoc.AlignRight or pandoc.AlignLeft
+  end
+  local widths, size = fit_columns(least, natural)
+  if self.format ~= "latex" then
+    widths = {}
+    for c = 1, columns do widths[c] = 0 end
+  elseif not widths then
+    return nil
+  end
+  local function cell(text, is_numeric)
+    if text == "" then return {} end
+    if is_numeric and self.format ~= "markdown" then text = text:gsub("^%-(%d)", "\u{2212}%1") end
+    return { pandoc.Plain { pandoc.Str(text) } }
+  end
+  local header, rows = {}, {}
+  for c = 1, columns do header[c] = cell(data.header[c]) end
+  for r, row in ipairs(data.rows) do
+    rows[r] = {}
+    for c = 1, columns do rows[r][c] = cell(row[c], numeric[c]) end
+  end
+  local simple = pandoc.SimpleTable(caption, alignments, widths, header, rows)
+  return pandoc.utils.from_simple_table(simple), size
+end
+
+function layout:place_table(element, id, size)
+  if self.format == "latex" then
+    local start = "{" .. (size or "\\normalsize") .. (id and "\\hypertarget{" .. id .. "}{}" or "")
+    return { pandoc.RawBlock("latex", start), element, pandoc.RawBlock("latex", "}") }
+  elseif self.format == "html" then
+    return { pandoc.Div({ element }, { id = id or "", class = "table" }) }
+  end
+  return { element }
+end
+
+return layout

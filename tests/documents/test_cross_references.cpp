@@ -1,0 +1,72 @@
+#include <gmock/gmock.h>
+
+#include "document_fixture.h"
+
+namespace dynlab {
+namespace {
+
+using cross_references = DocumentTest;
+using testing::HasSubstr;
+using testing::Not;
+
+// Oracle of this file: counting by hand.
+
+TEST_F(cross_references, figures_tables_and_equations_are_counted_each_for_itself) {
+    add_figure("a", "A", DocumentFormat::kHtml);
+    add_figure("b", "B", DocumentFormat::kHtml);
+    const std::string text = html(
+        "See @fig:b, @eq:two and [@tbl:t; @fig:a]; -@eq:one is -@eq:two.\n\n![](figure:a){#fig:a}\n\n$$ x $$ "
+        "{#eq:one}\n\n"
+        "$$ unnumbered $$\n\n![](figure:b){#fig:b}\n\nIn $$ y $$ {#eq:two} text.\n\n| a |\n|---|\n| 1 |\n\n: T "
+        "{#tbl:t}\n");
+    EXPECT_THAT(text, HasSubstr("<a href=\"#fig:b\">Figure 2</a>, <a href=\"#eq:two\">Equation 2</a> and "
+                                "<a href=\"#tbl:t\">Table 1</a>, <a href=\"#fig:a\">Figure 1</a>"));
+    EXPECT_THAT(text, HasSubstr("<span class=\"number\">(2)</span>"));
+    EXPECT_THAT(text, Not(HasSubstr("<span class=\"number\">(3)</span>")));
+    EXPECT_THAT(text, HasSubstr("id=\"eq:two\""));
+}
+
+TEST_F(cross_references, french_documents_use_french_words) {
+    add_figure("a", "A", DocumentFormat::kHtml);
+    const std::string text = html(
+        "---\nlang: fr\n---\nVoir @fig:a, @tbl:t, @eq:e.\n\n![](figure:a){#fig:a}\n\n$$ x $$ {#eq:e}\n\n"
+        "| a |\n|---|\n| 1 |\n\n: T {#tbl:t}\n\n::: note\nOui.\n:::\n");
+    EXPECT_THAT(text, HasSubstr("<html lang=\"fr\">"));
+    EXPECT_THAT(text, HasSubstr(">Figure 1</a>, "));
+    EXPECT_THAT(text, HasSubstr(">Tableau 1</a>, "));
+    EXPECT_THAT(text, HasSubstr(">Équation 1</a>"));
+    EXPECT_THAT(text, HasSubstr("Remarque"));
+}
+
+TEST_F(cross_references, sections_are_referred_to_by_number_or_title) {
+    EXPECT_THAT(html("# First {#sec:a}\n\n@sec:a\n"), HasSubstr("<a href=\"#sec:a\">“First”</a>"));
+    const std::string text = html(
+        "---\nnumbersections: true\n---\n# One\n\n## Two {#sec:two}\n\n## Three {#sec:three}\n\n# Four\n\n"
+        "## Five {#sec:five}\n\n@sec:three, @sec:five\n");
+    EXPECT_THAT(text, HasSubstr("<a href=\"#sec:three\">Section 1.2</a>, <a href=\"#sec:five\">Section 2.1</a>"));
+}
+
+TEST_F(cross_references, a_dangling_reference_is_an_error_with_line_and_suggestion) {
+    EXPECT_THAT(
+        refusal("$$ x $$ {#eq:model}\n\nSee @eq:modle.\n"),
+        HasSubstr("report.md:3: the cross reference @eq:modle points to nothing: there is no {#eq:modle}; did you "
+                  "mean \"eq:model\"?"));
+    EXPECT_THAT(refusal("See @figure:raw.\n"), HasSubstr("must start with @fig:, @tbl:, @eq: or @sec:"));
+}
+
+TEST_F(cross_references, a_label_used_twice_is_an_error_at_the_second_place) {
+    EXPECT_THAT(refusal("$$ x $$ {#eq:m}\n\n$$ y $$ {#eq:m}\n"),
+                HasSubstr("report.md:3: the label \"eq:m\" is used twice"));
+    EXPECT_THAT(refusal("# A {#sec:a}\n\n# B {#sec:a}\n"), HasSubstr("report.md:3: "));
+}
+
+TEST_F(cross_references, a_label_of_the_wrong_kind_is_an_error) {
+    EXPECT_THAT(refusal("$$ x $$ {#fig:m}\n"), HasSubstr("report.md:1: the label \"fig:m\" must start with \"eq:\""));
+}
+
+TEST_F(cross_references, what_is_no_reference_stays_as_it_was_written) {
+    EXPECT_THAT(html("Write to me@example.org or @someone.\n"), HasSubstr("@someone."));
+}
+
+}  // namespace
+}  // namespace dynlab

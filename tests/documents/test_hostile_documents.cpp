@@ -1,0 +1,102 @@
+#include <gmock/gmock.h>
+
+#include "document_fixture.h"
+#include "documents/pdf_inspection.h"
+
+namespace dynlab {
+namespace {
+
+using hostile_documents = DocumentTest;
+using testing::HasSubstr;
+using testing::Not;
+
+// Oracle of this file: a file with a known secret, which must not turn up, and commands that must be refused by name.
+
+TEST_F(hostile_documents, tex_commands_in_text_are_printed_not_run) {
+    write("secret.tex", "SECRETWORD");
+    const std::string path = file("secret.tex").string();
+    const PdfContent pdf = inspect_pdf(make("Text \\input{" + path + "} and \\write18{touch x}.\n", "out.pdf"));
+    ASSERT_EQ(pdf.pages.size(), 1u);
+    EXPECT_THAT(pdf.pages[0], HasSubstr("\\input{"));
+    EXPECT_THAT(pdf.pages[0], HasSubstr("\\write18{touch x}"));
+    EXPECT_THAT(pdf.pages[0], Not(HasSubstr("SECRETWORD")));
+    EXPECT_FALSE(std::filesystem::exists(file("x")));
+}
+
+TEST_F(hostile_documents, commands_that_reach_files_or_macros_are_refused_in_formulas) {
+    for (const std::string command :
+         {"\\input",     "\\include",         "\\openin",      "\\openout",    "\\read",       "\\write",
+          "\\immediate", "\\special",         "\\def",         "\\let",        "\\newcommand", "\\catcode",
+          "\\csname",    "\\includegraphics", "\\pdffiledump", "\\pdfobj",     "\\directlua",  "\\usepackage",
+          "\\loop",      "\\label",           "\\href",        "\\scantokens", "\\@@input",    "\\lstinputlisting"}) {
+        EXPECT_THAT(refusal("A\n\n$$ " + command + "{/etc/passwd} $$\n", "out.pdf"),
+                    HasSubstr("report.md:3: the command " + command))
+            << command;
+        EXPECT_THAT(refusal("A $" + command + "{x}$ b\n", "out.html"), HasSubstr(command)) << command;
+    }
+    EXPECT_THAT(refusal("$$ ^^5cinput{/etc/passwd} $$\n", "out.pdf"), HasSubstr("^^"));
+    EXPECT_THAT(refusal("$$ \\begin{filecontents}{x}y\\end{filecontents} $$\n", "out.pdf"), HasSubstr("filecontents"));
+    EXPECT_THAT(refusal("$$ a \\] text \\[ b $$\n", "out.pdf"), HasSubstr("\\]"));
+    EXPECT_THAT(refusal("$$ a \\end{document} $$\n", "out.pdf"), HasSubstr("\\end{document}"));
+}
+
+TEST_F(hostile_documents, formulas_of_the_course_are_not_refused) {
+    EXPECT_NE(
+        html("$$ z = \\sqrt{\\frac{(\\ln D_1)^2}{(\\ln D_1)^2 + \\pi^2}}, \\quad \\begin{bmatrix} a & b \\\\ c & d "
+             "\\end{bmatrix} \\left[ \\hat{\\theta} \\right]^{\\mathrm{T}} \\underbrace{x}_{y} \\text{if } x \\le 3 "
+             "$$\n"),
+        "");
+}
+
+TEST_F(hostile_documents, raw_output_html_and_metadata_are_refused) {
+    EXPECT_THAT(refusal("A\n\n`\\input{x}`{=latex}\n"), HasSubstr("report.md:3: raw output marked {=latex}"));
+    EXPECT_THAT(refusal("```{=latex}\n\\input{x}\n```\n"), testing::Ne(""));
+    EXPECT_THAT(refusal("A <script>alert(1)</script>\n"), HasSubstr("report.md:1: HTML such as <script>"));
+    EXPECT_THAT(refusal("<div onclick=\"x\">a</div>\n"), HasSubstr("HTML such as <div"));
+    EXPECT_THAT(refusal("---\nheader-includes: |\n  \\input{x}\n---\n"),
+                HasSubstr("report.md:2: metadata key \"header-includes\""));
+    EXPECT_THAT(refusal("# A {onclick=\"x\"}\n"), HasSubstr("\"onclick\""));
+    EXPECT_THAT(refusal("[a](javascript:alert(1))\n"), HasSubstr("javascript:"));
+    EXPECT_THAT(refusal("[a](file:///etc/passwd)\n"), HasSubstr("file:///etc/passwd"));
+}
+
+TEST_F(hostile_documents, metadata_in_the_middle_of_the_text_is_text) {
+    const std::string text = html("A\n\n---\ntitle: SECRETTITLE\nheader-includes: x\n---\n\nB\n");
+    EXPECT_THAT(text, Not(HasSubstr("<title>SECRETTITLE")));
+}
+
+TEST_F(hostile_documents, what_a_script_reported_passes_the_same_checks) {
+    record_.texts["end"] = {"$$ \\input{/etc/passwd} $$"};
+    EXPECT_THAT(refusal("::: {.text name=end}\n:::\n", "out.pdf"), HasSubstr("the command \\input"));
+    record_.texts["end"] = {"`\\input{x}`{=latex}"};
+    EXPECT_THAT(refusal("::: {.text name=end}\n:::\n", "out.pdf"), HasSubstr("{=latex}"));
+    record_.texts["end"] = {"::: {.text name=end}\n:::\n"};
+    EXPECT_THAT(refusal("::: {.text name=end}\n:::\n"), HasSubstr("cannot show another"));
+    add_figure("raw", "$\\write18{x}$", DocumentFormat::kPdf);
+    EXPECT_THAT(refusal("![](figure:raw)\n", "out.pdf"), HasSubstr("\\write"));
+    record_.figures.clear();
+    write("report.md", "");
+    record_.values["v"] = {std::nullopt, "\\input{/etc/passwd}"};
+    EXPECT_THAT(inspect_pdf(make("`v`{.value}\n", "out.pdf")).pages.at(0), HasSubstr("\\input{/etc/passwd}"));
+}
+
+TEST_F(hostile_documents, the_title_passes_the_same_checks) {
+    EXPECT_THAT(refusal("---\ntitle: $\\input{x}$\n---\n", "out.pdf"), HasSubstr("\\input"));
+    EXPECT_THAT(refusal("---\ntitle: A <b>b</b>\n---\n"), HasSubstr("<b>"));
+}
+
+TEST_F(hostile_documents, pictures_stay_inside_the_folder) {
+    write("inside/picture.svg", small_svg());
+    write("secret.svg", small_svg());
+    std::filesystem::create_symlink("/etc/hostname", file("link.svg"));
+    EXPECT_THAT(refusal("![a](missing.png)\n"), HasSubstr("report.md:1: the picture \"missing.png\" does not exist"));
+    EXPECT_THAT(refusal("![a](../secret.svg)\n"), HasSubstr("outside the folder"));
+    EXPECT_THAT(refusal("![a](/etc/passwd)\n"), HasSubstr("outside the folder"));
+    EXPECT_THAT(refusal("![a](https://example.org/x.png)\n"), HasSubstr("not an address"));
+    EXPECT_THAT(refusal("text ![a](link.svg)\n"), HasSubstr("outside the folder"));
+    EXPECT_THAT(refusal("![a](inside/picture.svg)\n", "out.pdf"), HasSubstr("use .pdf, .png or .jpg"));
+    EXPECT_THAT(html("![a](inside/picture.svg)\n"), HasSubstr("data:image/svg+xml"));
+}
+
+}  // namespace
+}  // namespace dynlab

@@ -1,0 +1,77 @@
+#include <gmock/gmock.h>
+
+#include "document_fixture.h"
+
+namespace dynlab {
+namespace {
+
+using html_documents = DocumentTest;
+using testing::HasSubstr;
+using testing::Not;
+
+// Oracle of this file: RFC 4648 test vectors for the inlined pictures; HTML's own rules; the definition in document.h.
+
+TEST_F(html_documents, the_file_needs_nothing_but_itself) {
+    add_figure("raw", "Raw", DocumentFormat::kHtml);
+    const std::string text = html("---\ntitle: A *b*\n---\n$x^2$\n\n![](figure:raw)\n\n[link](https://example.org)\n");
+    EXPECT_THAT(text, HasSubstr("<math "));
+    EXPECT_THAT(text, HasSubstr("<html lang=\"en\">"));
+    EXPECT_THAT(text, HasSubstr("<h1>A <em>b</em></h1>"));
+    for (const char* outside : {"<script", "<link", "src=\"http", "@import", "url("})
+        EXPECT_THAT(text, Not(HasSubstr(outside)));
+    EXPECT_THAT(text, Not(HasSubstr("dynlab-picture")));
+    EXPECT_THAT(text, Not(HasSubstr(folder_.path().string())));
+}
+
+TEST_F(html_documents, pictures_are_inlined_byte_for_byte) {
+    for (const auto& [bytes, encoded] :
+         {std::pair{"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foobar", "Zm9vYmFy"}}) {
+        write("p.svg", bytes);
+        EXPECT_THAT(html("text ![a](p.svg)\n"),
+                    HasSubstr(std::string("src=\"data:image/svg+xml;base64,") + encoded + "\""));
+    }
+}
+
+TEST_F(html_documents, a_formula_that_cannot_be_shown_is_an_error) {
+    EXPECT_THAT(refusal("A\n\n$$ \\frac{1}{ $$\n"),
+                HasSubstr("report.md:3: Pandoc reports: Could not convert TeX math"));
+}
+
+TEST_F(html_documents, markdown_output_has_slots_filled_and_pictures_beside_it) {
+    add_figure("raw", "Raw data", DocumentFormat::kHtml);
+    record_.values["fit"] = {93.2, "93.2"};
+    record_.tables["t"] = {{"Model", "Fit"}, {{"P1", "-93.2"}}};
+    const std::string text = read(make(
+        "---\ntitle: T\n---\nFit `fit`{.value}, @fig:raw.\n\n![](figure:raw){#fig:raw}\n\n::: {.table name=t}\n:::\n",
+        "x.md"));
+    EXPECT_THAT(text, HasSubstr("# T\n"));
+    EXPECT_THAT(text, HasSubstr("Fit 93.2, Figure"));
+    EXPECT_THAT(text, HasSubstr("(x_files/picture-1.svg)"));
+    EXPECT_THAT(text, HasSubstr("| P1    | -93.2 |"));
+    EXPECT_EQ(read(file("x_files/picture-1.svg")), small_svg());
+}
+
+TEST_F(html_documents, two_runs_give_the_same_bytes) {
+    add_figure("raw", "Raw", DocumentFormat::kHtml);
+    const std::string text = "# A\n\n![](figure:raw){#fig:raw}\n\n$x$ @fig:raw\n";
+    EXPECT_EQ(html(text), html(text));
+}
+
+TEST_F(html_documents, the_extension_chooses_the_format) {
+    EXPECT_EQ(document_format("a.pdf"), DocumentFormat::kPdf);
+    EXPECT_EQ(document_format("a.html"), DocumentFormat::kHtml);
+    EXPECT_EQ(document_format("a.md"), DocumentFormat::kMarkdown);
+    EXPECT_THROW(document_format("a.docx"), DocumentError);
+}
+
+TEST_F(html_documents, the_students_template_renders_without_its_guidance) {
+    const std::string sheet = read(std::string(DYNLAB_SOURCE_DIR) + "/report_templates/exercise_sheet.md");
+    cells_.append("# Answer\n", "analysis.lua", 2);
+    const std::string text = html(sheet);
+    EXPECT_THAT(text, HasSubstr("Answer"));
+    EXPECT_THAT(text, Not(HasSubstr("anonymously")));
+    EXPECT_THAT(text, Not(HasSubstr("three-line")));
+}
+
+}  // namespace
+}  // namespace dynlab

@@ -1,0 +1,277 @@
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <regex>
+
+#include "document_fixture.h"
+#include "documents/pdf_inspection.h"
+#include "platform/child_process.h"
+#include "platform/error.h"
+#include "platform/program_lookup.h"
+
+namespace dynlab {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// Documents made as PDF, read back with poppler.
+class latex_documents : public DocumentTest {
+  protected:
+    PdfContent pdf(const std::string& text) { return inspect_pdf(make(text, "out.pdf")); }
+
+    /// Right edges of all words in points, by pdftotext's bounding boxes.
+    double rightmost_word(const std::filesystem::path& path) const {
+        ChildOptions child;
+        child.command = {"pdftotext", "-bbox", path.string(), "-"};
+        const std::string boxes = run_child(child, "poppler-utils").output;
+        const std::regex edge("xMax=\"([0-9.]+)\"");
+        double right = 0;
+        for (auto it = std::sregex_iterator(boxes.begin(), boxes.end(), edge); it != std::sregex_iterator(); ++it)
+            right = std::max(right, std::stod((*it)[1]));
+        return right;
+    }
+
+    const double kPageWidth = 595.28, kMargin = 70.87;  // A4 and 25 mm in points
+};
+
+// Oracle: the text poppler reads back.
+TEST_F(latex_documents, symbols_print_in_text_formulas_and_code) {
+    const PdfContent content =
+        pdf("Prose ω θ° m² µ ± × ≤ ≥ ≈ ∞ → − √ ∂ Δ ∑ ∫ … “q” ‘q’ – — é œ.\n\n$ω ≤ θ$\n\n```lua\nlocal x = \"ω ≥ 1\" -- "
+            "θ°\n```\n");
+    ASSERT_EQ(content.pages.size(), 1u);
+    EXPECT_THAT(content.pages[0], HasSubstr("Prose ω θ"));
+    EXPECT_THAT(content.pages[0], HasSubstr("local x"));
+    EXPECT_THAT(content.pages[0], HasSubstr("≥"));
+}
+
+// Oracle: LaTeX itself prints every character that the check lets pass.
+TEST_F(latex_documents, every_character_that_is_let_pass_prints) {
+    const std::string table = read(std::string(DYNLAB_SOURCE_DIR) + "/report_templates/latex/characters.tex");
+    std::string symbols;
+    for (std::size_t at = table.find("} % "); at != std::string::npos; at = table.find("} % ", at + 1))
+        symbols += table.substr(at + 4, table.find('\n', at) - at - 4) + " ";
+    ASSERT_GT(symbols.size(), 400u);
+    std::string letters;
+    const auto add = [&](int from, int to) {
+        for (int c = from; c <= to; ++c) {
+            if (c == 0xAD) continue;  // the soft hyphen prints nothing
+            if (c < 0x800)
+                letters += {static_cast<char>(0xC0 | (c >> 6)), static_cast<char>(0x80 | (c & 0x3F)), ' '};
+            else
+                letters += {static_cast<char>(0xE0 | (c >> 12)), static_cast<char>(0x80 | ((c >> 6) & 0x3F)),
+                            static_cast<char>(0x80 | (c & 0x3F)), ' '};
+        }
+    };
+    for (const auto& [from, to] : {std::pair{0xA0, 0x125},
+                                   {0x128, 0x130},
+                                   {0x134, 0x137},
+                                   {0x139, 0x13E},
+                                   {0x141, 0x148},
+                                   {0x14A, 0x165},
+                                   {0x168, 0x17E},
+                                   {0x218, 0x21B},
+                                   {0x2012, 0x2016},
+                                   {0x2018, 0x201A},
+                                   {0x201C, 0x201E},
+                                   {0x2020, 0x2022},
+                                   {0x2030, 0x2030},
+                                   {0x2039, 0x203A},
+                                   {0x20AC, 0x20AC},
+                                   {0xFB00, 0xFB04}})
+        add(from, to);
+    EXPECT_EQ(
+        refusal(letters + "\n\n" + symbols + "\n\n*" + symbols + "*\n\n# " + symbols + "\n\n```lua\n-- " + symbols +
+                    "\n-- " + letters + "\n```\n\n```\n" + symbols + letters + "\n```\n\n$" + symbols + "$\n",
+                "out.pdf"),
+        "");
+}
+
+TEST_F(latex_documents, other_characters_are_named_with_file_and_line) {
+    EXPECT_THAT(refusal("A\n\nB 你 c\n", "out.pdf"),
+                HasSubstr("report.md:3: the character \"你\" (U+4F60) cannot be printed by LaTeX"));
+    record_.values["v"] = {std::nullopt, "你"};
+    EXPECT_THAT(refusal("A `v`{.value}\n", "out.pdf"),
+                HasSubstr("report.md:1: in the value \"v\" the script reported: "));
+    EXPECT_THAT(refusal("---\ntitle: 你\n---\n", "out.pdf"), HasSubstr("in title: the character"));
+    EXPECT_THAT(html("你 `v`{.value}\n"), HasSubstr("你 你"));
+}
+
+// Oracle: the definition of reproducible: two makings in different folders have the same bytes, which name nothing.
+TEST_F(latex_documents, two_runs_give_the_same_bytes_without_a_trace_of_the_machine) {
+    const std::string text =
+        "---\ntitle: T ω\n---\n# A\n\n@fig:raw, `v`{.value}\n\n![](figure:raw){#fig:raw}\n\n```lua\nx = 1\n```\n";
+    record_.values["v"] = {1.0, "1"};
+    add_figure("raw", "Raw", DocumentFormat::kPdf);
+    for (const char* folder : {"a", "b"}) std::filesystem::create_directory(file(folder));
+    const std::string first = read(make(text, "a/out.pdf"));
+    const std::string again = read(make(text, "a/out.pdf"));
+    const std::string elsewhere = read(make(text, "b/other.pdf"));
+    EXPECT_EQ(first, again);
+    EXPECT_EQ(first, elsewhere);
+    ChildOptions child;
+    child.command = {"qpdf", "--qdf", "--object-streams=disable", file("a/out.pdf").string(), "-"};
+    const std::string plain = run_child(child, "qpdf").output;
+    ASSERT_GT(plain.size(), 1000u);
+    for (const std::string& trace :
+         {folder_.path().string(), std::string("/tmp"), std::string("/home"), std::string("/root"),
+          std::string("/CreationDate"), std::string("/ModDate"), std::string("/PTEX"), std::string("dynlab-picture")})
+        EXPECT_THAT(plain, Not(HasSubstr(trace)));
+    for (const auto& [key, value] : inspect_pdf(file("a/out.pdf")).metadata)
+        EXPECT_TRUE(key == "Creator" || key == "Producer" || key == "Title" || key == "Trapped" || value.empty())
+            << key << value;
+}
+
+// Oracle: counting the passes in the timings.
+TEST_F(latex_documents, an_edit_of_the_prose_needs_one_pass) {
+    const std::string text = "# One {#sec:one}\n\nProse. @sec:one\n\n# Two\n\nMore.\n";
+    make(text, "out.pdf");
+    EXPECT_EQ(passes(), 2) << "the first run learns page count and bookmarks";
+    make(text + "\nAn edit of the prose.\n", "out.pdf");
+    EXPECT_EQ(passes(), 1);
+    make(text + "\n# Three\n\nA new bookmark.\n", "out.pdf");
+    EXPECT_EQ(passes(), 2);
+}
+
+TEST_F(latex_documents, pages_say_how_many_there_are) {
+    const PdfContent content = pdf("One\n\n::: pagebreak\n:::\n\nTwo\n");
+    ASSERT_EQ(content.pages.size(), 2u);
+    EXPECT_THAT(content.pages[0], HasSubstr("1/2"));
+    EXPECT_THAT(content.pages[1], HasSubstr("2/2"));
+}
+
+// Oracle: bounding boxes of the words against the margins of A4.
+TEST_F(latex_documents, long_code_and_output_lines_stay_inside_the_text) {
+    std::string spaces, solid;
+    for (int i = 0; i < 30; ++i) spaces += "word, ";
+    for (int i = 0; i < 130; ++i) solid += static_cast<char>('a' + i % 26);
+    const auto path =
+        make("```{.lua .cell}\nlocal x = " + spaces + "\nlocal y = \"" + solid + "\"\n```\n\n```{.output}\n" + solid +
+                 "\n" + spaces + "\n```\n\n```\n" + solid + "\n```\n\n`" + solid + "`\n",
+             "out.pdf");
+    EXPECT_LT(rightmost_word(path), kPageWidth - kMargin + 2);
+    std::string text = inspect_pdf(path).pages.at(0);
+    std::erase_if(text, [](char c) { return c == ' ' || c == '\n'; });
+    EXPECT_THAT(text, HasSubstr(solid)) << "nothing may be cut off";
+}
+
+TEST_F(latex_documents, wide_and_long_tables_stay_inside_the_page) {
+    const std::string sentence =
+        "a remark of some length that cannot stand on one line beside the other columns of the table, so wraps";
+    record_.tables["wide"] = {{"Model", "Remark", "Second remark"}, {{"P1", sentence, sentence}}};
+    record_.tables["numbers"] = {std::vector<std::string>(10, "value"), {std::vector<std::string>(10, "-1.234")}};
+    record_.tables["long"] = {{"k", "y"}, {}};
+    for (int i = 0; i < 120; ++i) record_.tables["long"].rows.push_back({std::to_string(i), "1.5"});
+    const auto path = make(
+        "::: {.table name=wide}\nW {#tbl:w}\n:::\n\n::: {.table name=numbers}\nN {#tbl:n}\n:::\n\n"
+        "::: {.table name=long}\nL {#tbl:l}\n:::\n",
+        "out.pdf");
+    EXPECT_LT(rightmost_word(path), kPageWidth - kMargin + 2);
+    const PdfContent content = inspect_pdf(path);
+    EXPECT_GE(content.pages.size(), 3u);
+    EXPECT_THAT(content.pages.back(), HasSubstr("119"));
+    record_.tables["wide"] = {std::vector<std::string>(14, "column"), {std::vector<std::string>(14, "-1.2345e-05")}};
+    EXPECT_THAT(refusal("::: {.table name=wide}\n:::\n", "other.pdf"),
+                HasSubstr("report.md:1: the table \"wide\" with its 14 columns is too wide"));
+}
+
+// Oracle: the order in the text poppler reads.
+TEST_F(latex_documents, figures_stay_where_they_were_placed) {
+    add_figure("raw", "The caption", DocumentFormat::kPdf);
+    std::string text = "BEFORE\n\n![](figure:raw){#fig:raw}\n\nAFTER\n";
+    const std::string page = pdf(text).pages.at(0);
+    EXPECT_LT(page.find("BEFORE"), page.find("The caption"));
+    EXPECT_LT(page.find("The caption"), page.find("AFTER"));
+    EXPECT_THAT(page, HasSubstr("Figure 1."));
+}
+
+TEST_F(latex_documents, a_failure_names_line_section_and_the_first_real_error) {
+    const std::string message =
+        refusal("# Start\n\nText.\n\n# The middle\n\nA formula $\\undefinedthing + 1$ here.\n", "out.pdf");
+    EXPECT_THAT(message, HasSubstr("report.md:7: "));
+    EXPECT_THAT(message, HasSubstr("section \"The middle\""));
+    EXPECT_THAT(message, HasSubstr("Undefined control sequence"));
+    EXPECT_THAT(message, HasSubstr("\\undefinedthing"));
+    EXPECT_LT(message.size(), 400u);
+    EXPECT_THAT(refusal("$$ \\frac{1}{2 $$\n", "out.pdf"), HasSubstr("LaTeX cannot set this document"));
+}
+
+TEST_F(latex_documents, an_accent_that_a_formula_would_lose_is_an_error) {
+    EXPECT_THAT(refusal("$é = 1$\n", "out.pdf"), HasSubstr("invalid in math mode"));
+}
+
+TEST_F(latex_documents, without_cache_the_document_reads_the_same) {
+    const std::string text = "# One\n\nProse ω.\n\n```lua\nx = 1\n```\n";
+    const PdfContent cached = pdf(text);
+    DocumentSource source;
+    source.template_file = file("report.md");
+    source.record = &record_;
+    DocumentMaker::Options options;
+    options.use_cache = false;
+    DocumentMaker(options).make(source, file("plain.pdf"), DocumentFormat::kPdf, nullptr);
+    EXPECT_EQ(inspect_pdf(file("plain.pdf")).pages, cached.pages);
+}
+
+TEST_F(latex_documents, french_documents_need_the_french_language_of_latex) {
+    ChildOptions look;
+    look.command = {"kpsewhich", "french.ldf"};
+    const bool installed = run_child(look, "texlive-binaries").exit_code == 0;
+    const std::string text = "---\nlang: fr\n---\nVoir @eq:m.\n\n$$ x $$ {#eq:m}\n";
+    try {
+        EXPECT_THAT(pdf(text).pages.at(0), HasSubstr("Équation 1"));
+        EXPECT_TRUE(installed);
+    } catch (const MissingProgram& missing) {
+        EXPECT_FALSE(installed) << missing.what();
+        EXPECT_THAT(missing.what(), HasSubstr("apt install texlive-lang-french"));
+    }
+}
+
+TEST_F(latex_documents, a_missing_program_is_named_with_its_package) {
+    const std::string path = std::getenv("PATH");
+    const auto missing = [&](const std::string& search_path) -> std::string {
+        ::setenv("PATH", search_path.c_str(), 1);
+        std::string message;
+        try {
+            make("Text\n", "out.pdf");
+        } catch (const MissingProgram& error) {
+            message = error.what();
+        }
+        ::setenv("PATH", path.c_str(), 1);
+        return message;
+    };
+    EXPECT_THAT(missing("/nowhere"), HasSubstr("apt install pandoc"));
+    std::filesystem::create_symlink(*find_program("pandoc"), file("pandoc"));
+    EXPECT_THAT(missing(folder_.path().string()), HasSubstr("apt install texlive-latex-base"));
+    EXPECT_FALSE(std::filesystem::exists(file("out.pdf")));
+}
+
+// Oracle: the old file's bytes.
+TEST_F(latex_documents, a_document_that_fails_leaves_the_old_file_as_it_was) {
+    const std::string before = read(make("Good.\n", "out.pdf"));
+    write("report.md", "");
+    EXPECT_THROW(make("`nothing`{.value}\n", "out.pdf"), DocumentError);
+    EXPECT_THROW(make("$\\undefinedthing$\n", "out.pdf"), DocumentError);
+    EXPECT_EQ(read(file("out.pdf")), before);
+    EXPECT_THROW(make("Good.\n", "no/such/folder/out.pdf"), EnvironmentError);
+}
+
+TEST_F(latex_documents, figures_are_awaited_between_pandoc_and_latex) {
+    write("report.md", "![](figure:late)\n");
+    record_.figures["late"].caption = "Late";
+    DocumentSource source;
+    source.template_file = file("report.md");
+    source.record = &record_;
+    DocumentMaker({}).make(source, file("out.pdf"), DocumentFormat::kPdf,
+                           [&] { add_figure("late", "Late", DocumentFormat::kPdf); });
+    EXPECT_THAT(inspect_pdf(file("out.pdf")).pages.at(0), HasSubstr("Late"));
+}
+
+TEST_F(latex_documents, damaged_and_missing_pdfs_are_refused_when_inspected) {
+    write("bad.pdf", "%PDF-1.5\nnothing\n");
+    EXPECT_THROW(inspect_pdf(file("bad.pdf")), EnvironmentError);
+    EXPECT_THROW(inspect_pdf(file("none.pdf")), EnvironmentError);
+}
+
+}  // namespace
+}  // namespace dynlab

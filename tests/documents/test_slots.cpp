@@ -1,0 +1,106 @@
+#include <gmock/gmock.h>
+
+#include "document_fixture.h"
+
+namespace dynlab {
+namespace {
+
+using slots = DocumentTest;
+using testing::HasSubstr;
+using testing::Not;
+
+// Oracle of this file: the slots of a template as document.h and report_templates/exercise_sheet.md describe them.
+
+TEST_F(slots, a_value_is_plain_text_never_markdown) {
+    record_.values["fit"] = {93.2, "93.2"};
+    record_.values["odd"] = {std::nullopt, "a*b* $x$ <b> `c` [d](e) \"]]\\n"};
+    EXPECT_THAT(html("The fit is `fit`{.value} %.\n"), HasSubstr("The fit is 93.2 %."));
+    EXPECT_THAT(html("`odd`{.value}\n"), HasSubstr("a*b* $x$ &lt;b&gt; `c` [d](e) \"]]\\n"));
+}
+
+TEST_F(slots, a_table_has_its_caption_and_numbers_to_the_right) {
+    record_.tables["models"] = {{"Model", "Fit"}, {{"P1 *", "-93.2"}, {"P2", "7"}}};
+    const std::string text = html("::: {.table name=models}\nTwo models. {#tbl:models}\n:::\n\nSee @tbl:models.\n");
+    EXPECT_THAT(text, HasSubstr("<strong>Table 1.</strong> Two models.</caption>"));
+    EXPECT_THAT(text, HasSubstr("<td style=\"text-align: right;\">−93.2</td>"));
+    EXPECT_THAT(text, HasSubstr("<td style=\"text-align: left;\">P1 *</td>"));
+    EXPECT_THAT(text, HasSubstr("<a href=\"#tbl:models\">Table 1</a>"));
+}
+
+TEST_F(slots, a_figure_takes_the_scripts_caption_unless_the_template_has_one) {
+    add_figure("raw", "Raw *data*", DocumentFormat::kHtml);
+    const std::string text = html("![](figure:raw){#fig:raw}\n\n![My own](figure:raw){#fig:own}\n");
+    EXPECT_THAT(text, HasSubstr("<strong>Figure 1.</strong> Raw <em>data</em></figcaption>"));
+    EXPECT_THAT(text, HasSubstr("<strong>Figure 2.</strong> My own</figcaption>"));
+    EXPECT_THAT(text, HasSubstr("alt=\"Raw data\""));
+    EXPECT_THAT(text, HasSubstr("src=\"data:image/svg+xml;base64,"));
+}
+
+TEST_F(slots, a_text_is_markdown_with_slots_and_references_of_its_own) {
+    record_.values["fit"] = {93.2, "93.2"};
+    record_.texts["end"] = {"All **good**: `fit`{.value}, @eq:m."};
+    const std::string text = html("$$ y = x $$ {#eq:m}\n\n::: {.text name=end}\n:::\n");
+    EXPECT_THAT(text, HasSubstr("All <strong>good</strong>: 93.2, <a href=\"#eq:m\">Equation 1</a>."));
+}
+
+TEST_F(slots, an_entry_that_is_missing_is_named_with_the_nearest_name_and_the_line) {
+    record_.values["fit"] = {93.2, "93.2"};
+    EXPECT_THAT(refusal("Text\n\nThe `fti`{.value}.\n"),
+                HasSubstr("report.md:3: the script reported no value \"fti\"; did you mean \"fit\"?"));
+    EXPECT_THAT(refusal("![A](figure:raw){#fig:raw}\n"),
+                HasSubstr("report.md:1: the script reported no figure \"raw\""));
+    EXPECT_THAT(refusal("::: {.table name=models}\n:::\n"),
+                HasSubstr("report.md:1: the script reported no table \"models\""));
+    EXPECT_THAT(refusal("::: {.text name=end}\n:::\n"), HasSubstr("report.md:1: the script reported no text \"end\""));
+}
+
+TEST_F(slots, an_entry_of_another_kind_is_named_with_its_kind) {
+    record_.tables["fit"] = {{"a"}, {{"1"}}};
+    EXPECT_THAT(refusal("`fit`{.value}\n"),
+                HasSubstr("report.md:1: \"fit\" is a table in the run's record, but this slot wants a value"));
+    record_.tables.clear();
+    record_.values["raw"] = {1.0, "1"};
+    EXPECT_THAT(refusal("![A](figure:raw)\n"), HasSubstr("\"raw\" is a value"));
+}
+
+TEST_F(slots, unknown_classes_are_errors_that_name_the_slot) {
+    EXPECT_THAT(refusal("`fit`{.valeu}\n"), HasSubstr("report.md:1: the slot `fit`{.valeu} has an unknown class"));
+    EXPECT_THAT(refusal("::: {.tabel name=x}\n:::\n"), HasSubstr("did you mean \"table\"?"));
+    EXPECT_THAT(refusal("[text]{.small}\n"), HasSubstr("\"small\""));
+    EXPECT_THAT(refusal("```{.brainfuck}\nx\n```\n"), HasSubstr("\"brainfuck\""));
+}
+
+TEST_F(slots, a_figure_inside_a_sentence_is_refused_not_misplaced) {
+    add_figure("raw", "Raw", DocumentFormat::kHtml);
+    EXPECT_THAT(refusal("See ![A](figure:raw) here.\n"), HasSubstr("must stand alone"));
+}
+
+TEST_F(slots, a_figure_that_was_never_drawn_or_whose_file_is_gone_is_an_error) {
+    record_.figures["raw"].caption = "Raw";
+    EXPECT_THAT(refusal("![](figure:raw)\n"), HasSubstr("report.md:1: the figure \"raw\" was not drawn"));
+    record_.figures["raw"].file = file("gone.svg");
+    EXPECT_THAT(refusal("![](figure:raw)\n"), HasSubstr("gone.svg does not exist"));
+}
+
+TEST_F(slots, every_mistake_is_told_at_once_up_to_ten) {
+    std::string text;
+    for (int i = 0; i < 12; ++i) text += "`name" + std::to_string(i) + "`{.value}\n\n";
+    const std::string message = refusal(text);
+    EXPECT_THAT(message, HasSubstr("report.md:1: "));
+    EXPECT_THAT(message, HasSubstr("report.md:19: "));
+    EXPECT_THAT(message, HasSubstr("and 2 more"));
+}
+
+TEST_F(slots, comments_never_reach_the_document) {
+    const std::string text = html("One <!-- secret --> two.\n\n<!-- secret\nblock -->\n\nThree.\n");
+    EXPECT_THAT(text, Not(HasSubstr("secret")));
+    EXPECT_THAT(text, HasSubstr("Three."));
+}
+
+TEST_F(slots, mistakes_in_woven_cells_name_the_script) {
+    cells_.append("text `nothing`{.value}\n", "lesson.lua", 42);
+    EXPECT_THAT(refusal("# T\n\n::: {.cells}\n:::\n"), HasSubstr("lesson.lua:42: the script reported no value"));
+}
+
+}  // namespace
+}  // namespace dynlab
