@@ -1,0 +1,48 @@
+#include "numerics/estimators/catalogue.h"
+
+#include <algorithm>
+
+namespace dynlab {
+
+const std::vector<MethodEntry>& method_catalogue() {
+    static const std::vector<MethodEntry> kMethods = {
+        {"step_test",
+         {"step_first_order", "step_second_order", "step_delayed"},
+         "parameters read off a step response",
+         "K/(1 + T s), K w0^2/(s^2 + 2 z w0 s + w0^2), K exp(-D s)/(1 + T s)",
+         TimeDomain::kContinuous,
+         "small against the step",
+         "Broida (1969) for the delayed first order; overshoot and settling time are classical"},
+        {"linear_regression",
+         {"lsq", "polyfit_report", "forecast"},
+         "linear least squares with standard errors and prediction intervals",
+         "y = Phi theta + e",
+         TimeDomain::kStatic,
+         "white, independent of the regressors",
+         "Ljung (1999), section 7.3; Seber and Lee (2003), chapter 5"},
+        {"gradient_descent",
+         {"gradient_descent"},
+         "linear least squares by steepest descent",
+         "y = Phi theta + e",
+         TimeDomain::kStatic,
+         "white, independent of the regressors",
+         "Boyd and Vandenberghe (2004), section 9.3"},
+        {"procsrivc",
+         {"procsrivc"},
+         "process models from any record, delay included",
+         "P1, P2, P2U, each with or without D",
+         TimeDomain::kContinuous,
+         "white at the output",
+         "Young, Garnier and Gilson in Garnier and Wang (2008), chapter 4; Ljung (1999), section 10.2"},
+    };
+    return kMethods;
+}
+
+std::optional<MethodEntry> find_method(const std::string& lua_name) {
+    for (const MethodEntry& method : method_catalogue())
+        if (std::find(method.lua_names.begin(), method.lua_names.end(), lua_name) != method.lua_names.end())
+            return method;
+    return std::nullopt;
+}
+
+}  // namespace dynlab

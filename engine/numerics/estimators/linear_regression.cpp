@@ -1,0 +1,157 @@
+#include "numerics/estimators/linear_regression.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "numerics/error.h"
+#include "numerics/linalg/least_squares.h"
+#include "numerics/linalg/polynomial.h"
+#include "numerics/number_text.h"
+#include "numerics/validation/student_t.h"
+
+namespace dynlab {
+
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+struct Solution {
+    Vector theta;
+    Matrix inverse_gram;
+};
+
+Solution solve_normal_equations(const MatrixView& Phi, const VectorView& y) {
+    const Matrix gram = Phi.transpose() * Phi;
+    const Eigen::LLT<Matrix> factor(gram);
+    if (factor.info() != Eigen::Success || factor.rcond() < std::numeric_limits<double>::epsilon())
+        throw InvalidArgument(
+            "The normal equations have no unique solution to working accuracy: columns of Phi depend on each other, "
+            "or are scaled too differently; use method \"qr\", or centre and scale the regressors");
+    return {factor.solve(Phi.transpose() * y), factor.solve(Matrix::Identity(gram.rows(), gram.cols()))};
+}
+
+double condition_of(const MatrixView& Phi) {
+    const Vector singular = Eigen::HouseholderQR<Matrix>(Phi)
+                                .matrixQR()
+                                .topRows(Phi.cols())
+                                .triangularView<Eigen::Upper>()
+                                .toDenseMatrix()
+                                .jacobiSvd()
+                                .singularValues();
+    const double smallest = singular[singular.size() - 1];
+    return smallest > 0 ? singular[0] / smallest : std::numeric_limits<double>::infinity();
+}
+
+void add_statistics(LinearRegression& fit, const Matrix& inverse_gram) {
+    const double N = static_cast<double>(fit.residuals.size()), free = N - static_cast<double>(fit.rank);
+    const double squares = fit.residuals.squaredNorm();
+    fit.rmse = std::sqrt(squares / N);
+    const double variance = free > 0 ? squares / free : kNaN;
+    fit.sigma = std::sqrt(variance);
+    fit.covariance = variance * inverse_gram;
+    fit.std = fit.covariance.diagonal().cwiseSqrt();
+}
+
+Matrix powers(const Vector& x, int degree) {
+    Matrix Phi = Matrix::Ones(x.size(), degree + 1);
+    for (Index j = degree - 1; j >= 0; --j) Phi.col(j) = Phi.col(j + 1).cwiseProduct(x);
+    return Phi;
+}
+
+// The polynomial in x whose value is that of `p` at x - centre, by Horner's scheme on polynomials.
+Vector shifted_back(const Vector& p, double centre) {
+    Vector result = p.head(1);
+    for (Index i = 1; i < p.size(); ++i) {
+        result = multiply(result, Vector{{1.0, -centre}});
+        result[result.size() - 1] += p[i];
+    }
+    return result;
+}
+
+Index distinct_values(const VectorView& x) {
+    std::vector<double> sorted(x.begin(), x.end());
+    std::sort(sorted.begin(), sorted.end());
+    return std::unique(sorted.begin(), sorted.end()) - sorted.begin();
+}
+
+}  // namespace
+
+RegressionMethod parse_regression_method(const std::string& text) {
+    if (text == "qr") return RegressionMethod::kQr;
+    if (text == "normal") return RegressionMethod::kNormal;
+    throw InvalidArgument("The method is \"qr\" or \"normal\", and not \"" + text + "\"");
+}
+
+LinearRegression lsq(const MatrixView& Phi, const VectorView& y, RegressionMethod method) {
+    const LeastSquares orthogonal = solve_least_squares(Phi, y);  // checks sizes and values, tells the rank
+    Solution solution{orthogonal.solution, orthogonal.inverse_gram};
+    if (method == RegressionMethod::kNormal) solution = solve_normal_equations(Phi, y);
+    LinearRegression fit;
+    fit.theta = solution.theta;
+    fit.fitted = Phi * fit.theta;
+    fit.residuals = y - fit.fitted;
+    fit.rank = orthogonal.rank;
+    fit.condition_number = condition_of(Phi);
+    add_statistics(fit, solution.inverse_gram);
+    fit.message = fit.rank == Phi.cols()
+                      ? "Least squares with " + std::to_string(Phi.rows()) + " equations and " +
+                            std::to_string(Phi.cols()) + " parameters: RMSE " + number_text(fit.rmse) + "."
+                      : "The columns of Phi depend on each other (rank " + std::to_string(fit.rank) + " of " +
+                            std::to_string(Phi.cols()) + "), so this is only the smallest of many solutions.";
+    return fit;
+}
+
+double PolynomialFit::at(double x) const {
+    return evaluate(regression.theta, x - centre);
+}
+
+PolynomialFit fit_polynomial(const VectorView& x, const VectorView& y, int degree, const PolynomialOptions& options) {
+    if (degree < 0) throw InvalidArgument("The degree must not be negative, and is " + std::to_string(degree));
+    if (x.size() != y.size())
+        throw InvalidArgument("x and y must be equally long, and hold " + std::to_string(x.size()) + " and " +
+                              std::to_string(y.size()) + " values");
+    if (!x.allFinite()) throw InvalidArgument("x holds a value that is not finite");
+    const Index distinct = distinct_values(x);
+    if (distinct <= degree)
+        throw InvalidArgument("A polynomial of degree " + std::to_string(degree) + " needs at least " +
+                              std::to_string(degree + 1) + " different x, and " + std::to_string(distinct) +
+                              " were given");
+    PolynomialFit fit;
+    fit.degree = degree;
+    fit.centre = options.centred ? x.mean() : 0;
+    fit.regression = lsq(powers(x.array() - fit.centre, degree), y, options.method);
+    fit.coefficients = shifted_back(fit.regression.theta, fit.centre);
+    return fit;
+}
+
+Forecast forecast(const LinearRegression& regression, const VectorView& phi, double level) {
+    if (phi.size() != regression.theta.size())
+        throw InvalidArgument("The forecast needs " + std::to_string(regression.theta.size()) + " regressors, and " +
+                              std::to_string(phi.size()) + " were given");
+    if (!(level > 0 && level < 1))
+        throw InvalidArgument("The level of an interval lies between 0 and 1, and " + number_text(level) +
+                              " was given; 0.95 means 95 %");
+    const Index degrees = regression.residuals.size() - regression.rank;
+    if (degrees < 1)
+        throw InvalidArgument(
+            "There are as many parameters as measurements, so nothing tells how far a forecast may err");
+    Forecast result;
+    result.value = phi.dot(regression.theta);
+    const double variance = phi.dot(regression.covariance * phi);
+    result.mean_std = std::sqrt(variance);
+    result.std = std::sqrt(regression.sigma * regression.sigma + variance);
+    const double t = student_t_quantile(0.5 + 0.5 * level, static_cast<double>(degrees));
+    result.low = result.value - t * result.std;
+    result.high = result.value + t * result.std;
+    result.level = level;
+    return result;
+}
+
+Forecast forecast(const PolynomialFit& fit, double x, double level) {
+    return forecast(fit.regression, powers(Vector::Constant(1, x - fit.centre), fit.degree).row(0).transpose(), level);
+}
+
+}  // namespace dynlab

@@ -1,0 +1,66 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "numerics/kernels/initial_conditions.h"
+#include "numerics/kernels/output_error.h"
+#include "numerics/models/process_model.h"
+#include "numerics/signals/iddata.h"
+
+namespace dynlab {
+
+struct ProcsrivcOptions {
+    InitialState initial_state = InitialState::kAuto;
+    Offset offset = Offset::kAuto;
+    double TdMin = 0;              ///< s
+    std::optional<double> TdMax;   ///< s; a quarter of the record unless given
+    int NumTd = 100;               ///< most delays on the grid between the two
+    int MaxIter = 50;              ///< of the search from the best start
+    double Tol = 1e-6;             ///< relative parameter change at which the search has converged
+    std::function<bool()> cancel;  ///< asked before every iteration
+
+    /// Throws InvalidArgument naming the option.
+    void validate() const;
+};
+
+struct ProcsrivcResult {
+    ProcessModel model;              ///< time constants in falling order
+    std::vector<std::string> names;  ///< of theta: Kp, Tp1, ... as the structure has them
+    Vector theta, std;               ///< model parameters and their standard errors (s for times)
+    Matrix covariance;               ///< of theta; zero for a parameter held at a bound
+    double noise_variance = 0;       ///< squares/(N - d), d all estimated values, initial state and offset included
+    double fit_percent = 0;          ///< simulation, 100 (1 - |y - ysim|/|y - mean(y)|)
+    double loss = 0;                 ///< mean square of the output error
+
+    StartCondition start{};  ///< what was assumed or chosen
+    Vector initial_values;   ///< with an estimated state: y, dy/dt (per s), ... at the first sample, from rest
+    double offset = 0;       ///< estimated constant, 0 without
+    OperatingPoint removed;  ///< what Offset "remove" took off
+    Vector output;           ///< N simulated outputs, offset and operating point included
+
+    Vector delay_grid, delay_loss;  ///< s and mean square error: the curve the delay was first looked for on
+    Termination termination = Termination::kIterationLimit;
+    std::vector<OutputErrorIteration> trace;  ///< of the search that won
+    std::vector<std::string> warnings;        ///< whole sentences
+    std::string message;                      ///< one sentence, then the warnings
+
+    explicit ProcsrivcResult(ProcessModel fitted) : model(std::move(fitted)) {}
+};
+
+/// Output-error estimate of a process model, P1, P2 or P2U each with or without D, from one experiment with
+/// one input and one output, sampled regularly (y = G u + e with white e; the SRIVC fixed point is the same optimum):
+///     minimise sum_k (y(k) - G(p, theta) u(k) - free motion(k) - offset)^2.
+/// Start values come from a grid (no guess is needed), then damped Gauss-Newton searches with exact
+/// sensitivities run from the best few, the best of them to the end; a real-valued delay is searched on a grid between
+/// TdMin and TdMax and refined jointly with the rest. Inputs are taken as the data's hold says, exactly, delays between
+/// samples included. For options "auto" every start condition the input allows is fitted and the smallest BIC wins.
+/// With a step at sample one the input is zero before it. Non-convergence and doubtful results are told in `warnings`,
+/// never thrown. Throws InvalidArgument for an unsupported structure, data of another shape, an input that is zero, or
+/// fewer than 3 samples per parameter. References: Young, Garnier and Gilson, in Garnier and Wang (2008), chapter 4;
+/// Ljung (1999), sections 10.2, 9.4.
+ProcsrivcResult procsrivc(const IdData& data, const ProcessStructure& structure, const ProcsrivcOptions& options = {});
+
+}  // namespace dynlab

@@ -1,0 +1,154 @@
+#include "numerics/estimators/step_test.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "numerics/error.h"
+#include "numerics/linalg/least_squares.h"
+#include "numerics/linalg/polynomial.h"
+
+namespace dynlab {
+
+namespace {
+
+StepTestResult begin_reading(const IdData& data, std::vector<std::string> names, double widest_window) {
+    StepTestResult result;
+    result.record = read_step_record(data, widest_window);
+    result.names = std::move(names);
+    result.parameters = Vector::Zero(static_cast<Index>(result.names.size()));
+    result.parameters[0] = result.record.output_change() / result.record.input_change();
+    return result;
+}
+
+double output_at(const StepRecord& record, double rise) {
+    return record.initial.value + rise * record.output_change();
+}
+
+double highest_rise(const StepRecord& record) {
+    double highest = 0;
+    for (Index k = record.step_index; k < record.smoothed.size(); ++k) highest = std::max(highest, record.rise(k));
+    return highest;
+}
+
+// The last instant at which the smoothed response lies outside the band, by linear interpolation.
+ReadingPoint settling_point(const StepRecord& record, double band) {
+    Index k = record.smoothed.size() - 1;
+    while (k > record.step_index && std::abs(record.rise(k) - 1) <= band) --k;
+    const double outside = record.rise(k), inside = record.rise(k + 1);
+    const double edge = outside < 1 ? 1 - band : 1 + band;
+    const double part = (edge - outside) / (inside - outside);
+    return {"settling", record.t[k] + part * (record.t[k + 1] - record.t[k]), output_at(record, edge)};
+}
+
+// Where the cubic through the upper quarter of the overshoot is highest; one sample alone would follow the noise.
+ReadingPoint peak_around(const StepRecord& record, Index top) {
+    const double floor = 1 + 0.75 * (record.rise(top) - 1);
+    Index first = top - 2, last = std::min(top + 2, record.smoothed.size() - 1);
+    while (first > record.step_index && record.rise(first - 1) > floor) --first;
+    while (last + 1 < record.smoothed.size() && record.rise(last + 1) > floor) ++last;
+    const Index count = last - first + 1;
+    const double span = record.t[last] - record.t[first];
+    const Vector x = (record.t.segment(first, count).array() - record.t[top]) / span;
+    Matrix basis(count, 4);
+    basis << x.array().cube(), x.cwiseAbs2(), x, Vector::Ones(count);
+    const Vector c = solve_least_squares(basis, record.smoothed.segment(first, count)).solution;
+    // Newton on the slope 3 c0 x^2 + 2 c1 x + c2 from the highest sample.
+    double peak = 0;
+    for (int i = 0; i < 20; ++i) {
+        const double curvature = 6 * c[0] * peak + 2 * c[1];
+        if (curvature == 0) break;
+        peak = std::clamp(peak - (3 * c[0] * peak * peak + 2 * c[1] * peak + c[2]) / curvature, x[0], x[count - 1]);
+    }
+    return {"overshoot", record.t[top] + peak * span, evaluate(c, peak)};
+}
+
+ReadingPoint overshoot_point(const StepRecord& record) {
+    const Index N = record.smoothed.size();
+    Index top = record.step_index;
+    for (Index k = top; k < N; ++k)
+        if (record.rise(k) > record.rise(top)) top = k;
+    // The level of rounding and of what the smoothing leaves of the noise; below it a peak means nothing.
+    const double least = std::max(0.01, 2 * record.noise_std / std::abs(record.output_change()));
+    if (record.rise(top) - 1 < least || top == N - 1) {
+        std::ostringstream text;
+        text << "The response does not overshoot its final level by more than " << 100 * least
+             << " %, so no damping can be read from it: use step_first_order or step_delayed";
+        throw InvalidArgument(text.str());
+    }
+    if (top < record.step_index + 3)
+        throw InvalidArgument("The response peaks within three samples after the step: sample faster");
+    return peak_around(record, top);
+}
+
+}  // namespace
+
+double StepTestResult::parameter(const std::string& name) const {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) throw InvalidArgument("The step test has no parameter called " + name);
+    return parameters[found - names.begin()];
+}
+
+StepTestResult step_first_order(const IdData& data) {
+    StepTestResult result = begin_reading(data, {"K", "T"}, 2);
+    const StepRecord& record = result.record;
+    const ReadingPoint settling = settling_point(record, 0.05);
+    const double settling_time = settling.time - record.step_time;
+    if (settling.time <= record.t[std::min(record.step_index + 2, record.t.size() - 1)])
+        throw InvalidArgument("The response settles within two samples after the step: sample faster");
+    const double K = result.parameters[0], T = settling_time / 3;
+    result.parameters << K, T;
+    result.points = {settling};
+    result.model = TransferFunction(Vector::Constant(1, K), Vector{{T, 1.0}});
+    std::ostringstream text;
+    text << "The smoothed response stays within 5 % of its final value from " << settling_time
+         << " s after the step on, three time constants.";
+    if (highest_rise(record) > 1.05) text << " It overshoots: a second-order model would suit it better.";
+    result.message = text.str();
+    return result;
+}
+
+StepTestResult step_second_order(const IdData& data) {
+    StepTestResult result = begin_reading(data, {"K", "z", "w0"}, 2);
+    const StepRecord& record = result.record;
+    const ReadingPoint peak = overshoot_point(record);
+    const double D1 = (peak.value - record.final.value) / record.output_change();
+    const double logarithm = std::log(D1), pi = std::numbers::pi;
+    if (D1 >= 1)
+        throw InvalidArgument(
+            "The first overshoot is as high as the step itself, as no damped second-order system does");
+    const double z = std::sqrt(logarithm * logarithm / (logarithm * logarithm + pi * pi));
+    const double w0 = pi / ((peak.time - record.step_time) * std::sqrt(1 - z * z));
+    const double K = result.parameters[0];
+    result.parameters << K, z, w0;
+    result.points = {peak};
+    result.model = TransferFunction(Vector::Constant(1, K * w0 * w0), Vector{{1.0, 2 * z * w0, w0 * w0}});
+    std::ostringstream text;
+    text << "The first overshoot is " << 100 * D1 << " % of the change, " << peak.time - record.step_time
+         << " s after the step.";
+    result.message = text.str();
+    return result;
+}
+
+StepTestResult step_delayed(const IdData& data) {
+    // A wider window would reach from the first point across the corner where the delay ends.
+    StepTestResult result = begin_reading(data, {"K", "T", "D"}, 1);
+    const StepRecord& record = result.record;
+    const double rise1 = -std::expm1(-1.0 / 3), rise2 = -std::expm1(-1.0);
+    const double t1 = record.crossing_time(rise1), t2 = record.crossing_time(rise2);
+    const double K = result.parameters[0], T = 1.5 * (t2 - t1);
+    if (!(T > 0)) throw InvalidArgument("The response rises from 28.3 % to 63.2 % within one sample: sample faster");
+    const double D = std::max(0.0, t2 - record.step_time - T);
+    result.parameters << K, T, D;
+    result.points = {{"28.3 %", t1, output_at(record, rise1)}, {"63.2 %", t2, output_at(record, rise2)}};
+    result.model = TransferFunction(Vector::Constant(1, K), Vector{{T, 1.0}}, 0, D);
+    std::ostringstream text;
+    text << "The smoothed response reaches 28.3 % and 63.2 % of its change " << t1 - record.step_time << " s and "
+         << t2 - record.step_time << " s after the step.";
+    if (D == 0) text << " The points leave no room for a delay: step_first_order suits this response.";
+    result.message = text.str();
+    return result;
+}
+
+}  // namespace dynlab

@@ -1,0 +1,219 @@
+#include "numerics/signals/step_record.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+#include "numerics/error.h"
+
+namespace dynlab {
+
+namespace {
+
+constexpr Index kSamplesAfterStep = 10;
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    if (values.size() % 2) return *middle;
+    return 0.5 * (*middle + *std::max_element(values.begin(), middle));
+}
+
+std::vector<double> to_std(const VectorView& x) {
+    return {x.begin(), x.end()};
+}
+
+double trimmed_mean(const VectorView& x) {
+    std::vector<double> values = to_std(x);
+    std::sort(values.begin(), values.end());
+    const std::size_t dropped = values.size() / 5;
+    double sum = 0;
+    for (std::size_t i = dropped; i < values.size() - dropped; ++i) sum += values[i];
+    return sum / static_cast<double>(values.size() - 2 * dropped);
+}
+
+// Second differences cancel a smooth response; their median is not moved by a few outliers.
+double noise_from_differences(const VectorView& y) {
+    if (y.size() < 3) return 0;
+    const Index n = y.size() - 2;
+    const Vector differences = (y.head(n) - 2 * y.segment(1, n) + y.tail(n)).cwiseAbs();
+    constexpr double kNormalMedian = 0.6744897501960817;
+    return median(to_std(differences)) / (kNormalMedian * std::sqrt(6.0));
+}
+
+void require_one_record(const IdData& data) {
+    if (data.experiments.size() != 1 || data.input_count() != 1 || data.output_count() != 1) {
+        std::ostringstream text;
+        text << "A step test needs one experiment with one input and one output, and the data hold "
+             << data.experiments.size() << " experiment(s), " << data.input_count() << " input(s) and "
+             << data.output_count() << " output(s): select one of each";
+        throw InvalidArgument(text.str());
+    }
+}
+
+// Sets step_index, step_time and the two input levels.
+void find_step(StepRecord& record) {
+    const Vector& u = record.u;
+    const double low = u.minCoeff(), high = u.maxCoeff();
+    if (high == low) {
+        if (low == 0)
+            throw InvalidArgument("The input is zero throughout, so there is no step to read the response of");
+        record.input_after = low;
+        record.step_time = record.t[0];
+        return;
+    }
+    const double middle = 0.5 * (low + high);
+    const bool starts_high = u[0] > middle;
+    Index changes = 0;
+    for (Index k = 1; k < u.size(); ++k) {
+        if ((u[k] > middle) == (u[k - 1] > middle)) continue;
+        if (changes++ == 0) record.step_index = k;
+    }
+    if (changes == 1) {
+        record.step_time = record.t[record.step_index];
+        record.input_before = median(to_std(u.head(record.step_index)));
+        record.input_after = median(to_std(u.tail(u.size() - record.step_index)));
+        const double tolerance = 0.1 * std::abs(record.input_change());
+        Vector departure = u.array() - record.input_before;
+        departure.tail(u.size() - record.step_index).array() -= record.input_change();
+        Index worst = 0;
+        if (departure.cwiseAbs().maxCoeff(&worst) <= tolerance) return;
+        std::ostringstream text;
+        text << "The input is not a step: at t = " << record.t[worst] << " it is " << u[worst]
+             << ", away from both levels " << record.input_before << " and " << record.input_after;
+        throw InvalidArgument(text.str());
+    }
+    std::ostringstream text;
+    text << "The input is not a step: it goes " << changes << " times between " << (starts_high ? "high" : "low")
+         << " and " << (starts_high ? "low" : "high") << " levels, and a step test needs one change: cut out one "
+         << "step with range";
+    throw InvalidArgument(text.str());
+}
+
+Level level_of(const StepRecord& record, Index first, Index count) {
+    return {trimmed_mean(record.y.segment(first, count)), record.t[first], record.t[first + count - 1]};
+}
+
+void read_levels(StepRecord& record) {
+    const Index N = record.y.size(), after = N - record.step_index;
+    if (after < kSamplesAfterStep) {
+        std::ostringstream text;
+        text << "The record holds " << after << " sample(s) from the step on, and at least " << kSamplesAfterStep
+             << " are needed to read the response";
+        throw InvalidArgument(text.str());
+    }
+    // The sample at the step itself still shows the old level: the output of a system with a lag cannot jump.
+    record.initial = level_of(record, 0, record.step_index + 1);
+    const Index tail = std::max<Index>(3, after / 10);
+    record.final = level_of(record, N - tail, tail);
+    record.noise_std = noise_from_differences(record.y.tail(after));
+    const double uncertainty = record.noise_std * std::sqrt(1.0 / static_cast<double>(record.step_index + 1) +
+                                                            1.0 / static_cast<double>(tail));
+    if (std::abs(record.output_change()) > 5 * uncertainty && record.output_change() != 0) return;
+    std::ostringstream text;
+    text << "The output does not answer the step: it goes from " << record.initial.value << " to " << record.final.value
+         << " with noise of standard deviation " << record.noise_std;
+    throw InvalidArgument(text.str());
+}
+
+// Value at t[k] of the least-squares parabola through samples first..last of y.
+double local_parabola(const StepRecord& record, const Vector& y, Index k, Index first, Index last) {
+    const Index count = last - first + 1;
+    const double span = record.t[last] - record.t[first];
+    const Vector x = (record.t.segment(first, count).array() - record.t[k]) / span;
+    Matrix basis(count, 3);
+    basis << Vector::Ones(count), x, x.cwiseAbs2();
+    const Eigen::Matrix3d gram = basis.transpose() * basis;
+    const Eigen::Vector3d moment = basis.transpose() * y.segment(first, count);
+    return gram.ldlt().solve(moment)[0];
+}
+
+// Samples from 28.3 % to 63.2 % of the rise, from a running median of five that no single outlier can pass.
+Index rough_rise(const StepRecord& record) {
+    const Index N = record.y.size();
+    Index from = -1;
+    for (Index k = record.step_index; k < N; ++k) {
+        const Index first = std::max(record.step_index, k - 2), count = std::min(N - 1, k + 2) - first + 1;
+        const double rise =
+            (median(to_std(record.y.segment(first, count))) - record.initial.value) / record.output_change();
+        if (from < 0 && rise > 0.283) from = k;
+        if (rise > 0.632) return k - from;
+    }
+    return 0;
+}
+
+Index smoothing_window(const StepRecord& record, double widest_window) {
+    // The centre of a parabola through w samples has the variance 9/4 noise^2/w.
+    const double wanted = 2.25 * std::pow(record.noise_std / (0.0025 * record.output_change()), 2);
+    return static_cast<Index>(std::min(wanted, widest_window * static_cast<double>(rough_rise(record))));
+}
+
+// The record's output with single outliers replaced by the middle one of three neighbours.
+Vector without_outliers(const StepRecord& record) {
+    const double allowed = 6 * record.noise_std + 0.25 * std::abs(record.output_change());
+    Vector y = record.y;
+    for (Index k = 1; k + 1 < y.size(); ++k) {
+        const double middle = median({record.y[k - 1], record.y[k], record.y[k + 1]});
+        if (std::abs(record.y[k] - middle) > allowed) y[k] = middle;
+    }
+    return y;
+}
+
+void smooth(StepRecord& record, Index window) {
+    const Index N = record.y.size(), half = window / 2;
+    const Vector y = without_outliers(record);
+    record.smoothed = y;
+    record.smoothed.head(record.step_index).setConstant(record.initial.value);
+    if (half < 2) return;
+    for (Index k = record.step_index; k < N; ++k) {
+        const Index first = std::max(record.step_index, k - half), last = std::min(N - 1, k + half);
+        record.smoothed[k] = local_parabola(record, y, k, first, last);
+    }
+}
+
+// A response that still moves over its last fifth has no final level to read.
+void require_settled(const StepRecord& record) {
+    const Index N = record.y.size(), tail = std::max<Index>(3, (N - record.step_index) / 10);
+    const double change = std::abs(record.output_change());
+    const double drift = std::abs(trimmed_mean(record.y.segment(N - 2 * tail, tail)) - record.final.value);
+    const double uncertainty = record.noise_std * std::sqrt(2.0 / static_cast<double>(tail));
+    const Vector last = record.smoothed.tail(tail);
+    const double swing = last.maxCoeff() - last.minCoeff();
+    const bool drifts = drift > 0.015 * change + 3 * uncertainty;
+    const bool swings = swing > 0.1 * change + 3 * record.noise_std;
+    if (!drifts && !swings) return;
+    std::ostringstream text;
+    text << "The response has not settled when the record ends: it still moves by "
+         << 100 * (drifts ? drift : swing) / change
+         << " % of its change, so the final level cannot be read: record longer";
+    throw InvalidArgument(text.str());
+}
+
+}  // namespace
+
+double StepRecord::crossing_time(double part) const {
+    for (Index k = std::max<Index>(step_index, 1); k < smoothed.size(); ++k) {
+        if (rise(k) < part) continue;
+        if (k == step_index) return t[k];
+        const double before = rise(k - 1), after = rise(k);
+        return t[k - 1] + (t[k] - t[k - 1]) * (part - before) / (after - before);
+    }
+    throw InvalidArgument("The response never reaches the wanted part of its change");
+}
+
+StepRecord read_step_record(const IdData& data, double widest_window) {
+    require_one_record(data);
+    StepRecord record;
+    record.t = data.time();
+    record.u = data.experiments.front().u.col(0);
+    record.y = data.experiments.front().y.col(0);
+    find_step(record);
+    read_levels(record);
+    smooth(record, smoothing_window(record, widest_window));
+    require_settled(record);
+    return record;
+}
+
+}  // namespace dynlab

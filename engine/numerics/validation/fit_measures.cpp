@@ -1,0 +1,82 @@
+#include "numerics/validation/fit_measures.h"
+
+#include <cmath>
+#include <limits>
+
+#include "numerics/error.h"
+
+namespace dynlab {
+
+namespace {
+
+void require_pair(const VectorView& y, const VectorView& y_sim) {
+    if (y.size() != y_sim.size())
+        throw InvalidArgument("The simulated output must be as long as the measured one: " + std::to_string(y.size()) +
+                              " values are wanted, and " + std::to_string(y_sim.size()) + " were given");
+    if (y.size() < 2)
+        throw InvalidArgument("A fit needs at least two samples, and " + std::to_string(y.size()) + " were given");
+}
+
+double square_about_mean(const VectorView& x) {
+    return (x.array() - x.mean()).matrix().squaredNorm();
+}
+
+double moving_square(const VectorView& y) {
+    if ((y.array() == y[0]).all())
+        throw InvalidArgument("The measured output never changes, so a fit relative to its variation has no meaning");
+    return square_about_mean(y);
+}
+
+}  // namespace
+
+double fit_percent(const VectorView& y, const VectorView& y_sim) {
+    require_pair(y, y_sim);
+    return 100 * (1 - (y - y_sim).norm() / std::sqrt(moving_square(y)));
+}
+
+double r_squared_simulation(const VectorView& y, const VectorView& y_sim) {
+    require_pair(y, y_sim);
+    return 1 - square_about_mean(y - y_sim) / moving_square(y);
+}
+
+YoungCriterion yic(const VectorView& y, const VectorView& y_sim, const VectorView& theta,
+                   const MatrixView& covariance) {
+    require_pair(y, y_sim);
+    if (covariance.rows() != theta.size() || covariance.cols() != theta.size())
+        throw InvalidArgument("YIC needs a covariance of " + std::to_string(theta.size()) + " x " +
+                              std::to_string(theta.size()) + ", and " + std::to_string(covariance.rows()) + " x " +
+                              std::to_string(covariance.cols()) + " was given");
+    YoungCriterion criterion;
+    double relative_variances = 0;
+    for (Index i = 0; i < theta.size(); ++i) {
+        if (theta[i] == 0)
+            criterion.skipped.push_back(i);
+        else
+            relative_variances += covariance(i, i) / (theta[i] * theta[i]);
+    }
+    const double used = static_cast<double>(theta.size()) - static_cast<double>(criterion.skipped.size());
+    if (used == 0) throw InvalidArgument("YIC needs at least one parameter that is not zero");
+    const double unexplained = square_about_mean(y - y_sim) / moving_square(y);
+    criterion.value = unexplained == 0 || relative_variances == 0
+                          ? -std::numeric_limits<double>::infinity()
+                          : std::log(unexplained) + std::log(relative_variances / used);
+    return criterion;
+}
+
+InformationCriteria information_criteria(double mean_square, Index samples, Index parameters) {
+    if (!(mean_square >= 0) || parameters < 0 || samples <= parameters + 1)
+        throw InvalidArgument(
+            "Information criteria need a mean square that is not negative and more samples than "
+            "parameters plus one, and got " +
+            std::to_string(mean_square) + ", " + std::to_string(samples) + " samples and " +
+            std::to_string(parameters) + " parameters");
+    const double N = static_cast<double>(samples), d = static_cast<double>(parameters);
+    InformationCriteria criteria;
+    criteria.fpe = mean_square * (1 + d / N) / (1 - d / N);
+    criteria.aic = std::log(mean_square) + 2 * d / N;
+    criteria.aicc = criteria.aic + 2 * d * (d + 1) / (N * (N - d - 1));
+    criteria.bic = std::log(mean_square) + d * std::log(N) / N;
+    return criteria;
+}
+
+}  // namespace dynlab

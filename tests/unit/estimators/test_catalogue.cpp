@@ -1,0 +1,40 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+
+#include "numerics/estimators/catalogue.h"
+
+using namespace dynlab;
+
+TEST(catalogue, every_method_has_its_files) {  // oracle: the source tree
+    const std::filesystem::path root = DYNLAB_SOURCE_DIR;
+    for (const MethodEntry& method : method_catalogue()) {
+        EXPECT_TRUE(exists(root / "engine/numerics/estimators" / (method.file + ".h"))) << method.file;
+        EXPECT_TRUE(exists(root / "engine/numerics/estimators" / (method.file + ".cpp"))) << method.file;
+        EXPECT_TRUE(exists(root / "tests/unit/estimators" / ("test_" + method.file + ".cpp"))) << method.file;
+    }
+}
+
+TEST(catalogue, every_file_is_a_method) {  // oracle: the source tree
+    std::set<std::string> known{"catalogue"};
+    for (const MethodEntry& method : method_catalogue()) known.insert(method.file);
+    const std::filesystem::path folder = std::filesystem::path(DYNLAB_SOURCE_DIR) / "engine/numerics/estimators";
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        EXPECT_TRUE(known.count(entry.path().stem())) << entry.path();
+}
+
+TEST(catalogue, names_are_unique_and_found) {  // oracle: definition
+    std::set<std::string> names;
+    for (const MethodEntry& method : method_catalogue()) {
+        ASSERT_FALSE(method.lua_names.empty());
+        EXPECT_FALSE(method.title.empty() || method.structure.empty() || method.noise.empty() ||
+                     method.reference.empty());
+        for (const std::string& name : method.lua_names) {
+            EXPECT_TRUE(names.insert(name).second) << name;
+            ASSERT_TRUE(find_method(name).has_value());
+            EXPECT_EQ(find_method(name)->file, method.file);
+        }
+    }
+    EXPECT_FALSE(find_method("srivc_of_nothing").has_value());
+}
