@@ -28,7 +28,7 @@ struct RecordedTable {
 /// is the figure's title).
 struct RecordedFigure {
     Figure figure;
-    std::string caption;
+    std::string caption;         ///< Markdown, read as safely as a template
     std::filesystem::path file;  ///< where it was drawn, once it was
 };
 

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <map>
 #include <regex>
 
 #include "document_fixture.h"
@@ -132,6 +133,13 @@ TEST_F(latex_documents, an_edit_of_the_prose_needs_one_pass) {
     EXPECT_EQ(passes(), 1);
     make(text + "\n# Three\n\nA new bookmark.\n", "out.pdf");
     EXPECT_EQ(passes(), 2);
+}
+
+TEST_F(latex_documents, the_title_stands_in_the_metadata) {
+    std::map<std::string, std::string> metadata;
+    for (const auto& [key, value] : pdf("---\ntitle: A *step* of ω\n---\nText\n").metadata) metadata[key] = value;
+    EXPECT_EQ(metadata["Title"], "A step of ω");
+    EXPECT_EQ(metadata["Author"], "");
 }
 
 TEST_F(latex_documents, pages_say_how_many_there_are) {
