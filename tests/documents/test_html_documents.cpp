@@ -16,6 +16,7 @@ TEST_F(html_documents, the_file_needs_nothing_but_itself) {
     const std::string text = html("---\ntitle: A *b*\n---\n$x^2$\n\n![](figure:raw)\n\n[link](https://example.org)\n");
     EXPECT_THAT(text, HasSubstr("<math "));
     EXPECT_THAT(text, HasSubstr("<html lang=\"en\">"));
+    EXPECT_THAT(text, HasSubstr("<style>\n:root {"));
     EXPECT_THAT(text, HasSubstr("<h1>A <em>b</em></h1>"));
     for (const char* outside : {"<script", "<link", "src=\"http", "@import", "url("})
         EXPECT_THAT(text, Not(HasSubstr(outside)));
