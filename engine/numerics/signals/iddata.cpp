@@ -1,0 +1,179 @@
+#include "numerics/signals/iddata.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "numerics/error.h"
+#include "numerics/number_text.h"
+#include "numerics/signals/checks.h"
+
+namespace dynlab {
+
+namespace {
+
+void check_channels(const Matrix& y, const Matrix& u) {
+    if (y.cols() == 0) throw InvalidArgument("iddata: the data need at least one output");
+    if (u.cols() > 0 && u.rows() != y.rows())
+        throw InvalidArgument("iddata: the output has " + std::to_string(y.rows()) + " samples but the input has " +
+                              std::to_string(u.rows()));
+    check_samples("iddata", "the output", y);
+    if (u.cols() > 0) check_samples("iddata", "the input", u);
+}
+
+std::vector<std::string> numbered_names(const std::string& stem, Index count) {
+    std::vector<std::string> names;
+    for (Index i = 1; i <= count; ++i) names.push_back(stem + std::to_string(i));
+    return names;
+}
+
+const Experiment& only_experiment(const IdData& data, const std::string& caller) {
+    if (data.experiments.size() != 1)
+        throw InvalidArgument(caller + ": the data must hold one experiment, but they hold " +
+                              std::to_string(data.experiments.size()));
+    return data.experiments.front();
+}
+
+/// Copies rows first, first + 1, ... (0-based) of one experiment.
+Experiment cut(const IdData& data, const Experiment& experiment, Index first, Index count) {
+    Experiment part;
+    part.y = experiment.y.middleRows(first, count);
+    part.u = experiment.u.middleRows(first, count);
+    part.name = experiment.name;
+    part.start_time = experiment.start_time + static_cast<double>(first) * data.Ts;
+    if (experiment.t.size() > 0) {
+        part.t = experiment.t.segment(first, count);
+        part.start_time = part.t(0);
+    }
+    return part;
+}
+
+template <class Value>
+std::vector<Value> pick(const std::vector<Value>& values, const std::vector<Index>& chosen) {
+    std::vector<Value> picked;
+    for (const Index channel : chosen) picked.push_back(values[static_cast<std::size_t>(channel - 1)]);
+    return picked;
+}
+
+Matrix pick_columns(const Matrix& signals, const std::vector<Index>& chosen) {
+    Matrix picked(signals.rows(), static_cast<Index>(chosen.size()));
+    for (std::size_t i = 0; i < chosen.size(); ++i) picked.col(static_cast<Index>(i)) = signals.col(chosen[i] - 1);
+    return picked;
+}
+
+void check_selection(const std::vector<Index>& chosen, Index count, const std::string& kind) {
+    for (const Index channel : chosen)
+        if (channel < 1 || channel > count)
+            throw InvalidArgument("select: there is no " + kind + " " + std::to_string(channel) + "; the data have " +
+                                  std::to_string(count) + " " + kind + (count == 1 ? "" : "s"));
+}
+
+}  // namespace
+
+IdData::IdData(Matrix y, Matrix u, double sampling_time) : Ts(sampling_time) {
+    check_sampling_time("iddata", Ts);
+    check_channels(y, u);
+    if (u.cols() == 0) u.resize(y.rows(), 0);
+    input_names = numbered_names("u", u.cols());
+    output_names = numbered_names("y", y.cols());
+    input_units.resize(input_names.size());
+    output_units.resize(output_names.size());
+    experiments.push_back({std::move(y), std::move(u), Vector(), 0, ""});
+}
+
+IdData::IdData(Matrix y, Matrix u, const VectorView& t) : IdData(std::move(y), std::move(u), 1.0) {
+    Experiment& experiment = experiments.front();
+    if (t.size() != experiment.y.rows())
+        throw InvalidArgument("iddata: the output has " + std::to_string(experiment.y.rows()) +
+                              " samples but the time vector has " + std::to_string(t.size()));
+    check_instants("iddata", t);
+    Ts = 0;
+    experiment.t = t;
+    experiment.start_time = t(0);
+}
+
+Index IdData::sample_count() const {
+    Index count = 0;
+    for (const Experiment& experiment : experiments) count += experiment.y.rows();
+    return count;
+}
+
+Vector IdData::time(std::size_t experiment) const {
+    const Experiment& record = experiments.at(experiment);
+    if (record.t.size() > 0) return record.t;
+    Vector t(record.y.rows());
+    for (Index k = 0; k < t.size(); ++k) t(k) = record.start_time + static_cast<double>(k) * Ts;
+    return t;
+}
+
+IdData IdData::range(Index first, Index last) const {
+    const Experiment& experiment = only_experiment(*this, "range");
+    const Index count = experiment.y.rows();
+    if (first < 1 || last > count || first > last)
+        throw InvalidArgument("range: samples " + std::to_string(first) + " to " + std::to_string(last) +
+                              " were asked for, but the data have samples 1 to " + std::to_string(count));
+    IdData part = *this;
+    part.experiments.front() = cut(*this, experiment, first - 1, last - first + 1);
+    return part;
+}
+
+IdData IdData::select(const std::vector<Index>& outputs, const std::vector<Index>& inputs) const {
+    check_selection(outputs, output_count(), "output");
+    check_selection(inputs, input_count(), "input");
+    if (outputs.empty()) throw InvalidArgument("select: choose at least one output");
+    IdData part = *this;
+    for (Experiment& experiment : part.experiments) {
+        experiment.y = pick_columns(experiment.y, outputs);
+        experiment.u = pick_columns(experiment.u, inputs);
+    }
+    part.input_names = pick(input_names, inputs);
+    part.input_units = pick(input_units, inputs);
+    part.output_names = pick(output_names, outputs);
+    part.output_units = pick(output_units, outputs);
+    return part;
+}
+
+std::pair<IdData, IdData> IdData::split(double fraction) const {
+    const Index count = only_experiment(*this, "split").y.rows();
+    const double wanted = std::round(fraction * static_cast<double>(count));
+    if (!(wanted >= 1) || !(wanted < static_cast<double>(count)))
+        throw InvalidArgument("split: the fraction must leave samples in both parts of the " + std::to_string(count) +
+                              ", but it is " + number_text(fraction));
+    const Index first_part = static_cast<Index>(wanted);
+    return {range(1, first_part), range(first_part + 1, count)};
+}
+
+IdData IdData::shifted(Index samples) const {
+    if (!regular()) throw InvalidArgument("shift: irregularly sampled data cannot be shifted by whole samples");
+    IdData result = *this;
+    for (Experiment& experiment : result.experiments) {
+        const Index lost = std::abs(samples), kept = experiment.y.rows() - lost;
+        if (kept < 1)
+            throw InvalidArgument("shift: a shift by " + std::to_string(samples) + " samples leaves nothing of " +
+                                  std::to_string(experiment.y.rows()) + " samples");
+        const Matrix u = experiment.u.middleRows(samples >= 0 ? 0 : lost, kept);
+        experiment = cut(*this, experiment, samples >= 0 ? lost : 0, kept);
+        experiment.u = u;
+    }
+    return result;
+}
+
+IdData IdData::merge(const std::vector<IdData>& parts) {
+    if (parts.empty()) throw InvalidArgument("merge: give at least one data object");
+    IdData merged = parts.front();
+    for (std::size_t i = 1; i < parts.size(); ++i) {
+        const IdData& part = parts[i];
+        if (part.output_count() != merged.output_count() || part.input_count() != merged.input_count())
+            throw InvalidArgument(
+                "merge: part " + std::to_string(i + 1) + " has " + std::to_string(part.output_count()) +
+                " outputs and " + std::to_string(part.input_count()) + " inputs, but the first has " +
+                std::to_string(merged.output_count()) + " and " + std::to_string(merged.input_count()));
+        if (part.Ts != merged.Ts)
+            throw InvalidArgument("merge: part " + std::to_string(i + 1) + " has the sampling time " +
+                                  number_text(part.Ts) + " but the first has " + number_text(merged.Ts));
+        merged.experiments.insert(merged.experiments.end(), part.experiments.begin(), part.experiments.end());
+    }
+    return merged;
+}
+
+}  // namespace dynlab

@@ -1,0 +1,28 @@
+#pragma once
+#include <vector>
+
+#include "numerics/signals/iddata.h"
+
+namespace dynlab {
+
+enum class TrendKind { kConstant, kLinear };
+
+/// What was taken from one experiment: channel i loses offset_i + slope_i (t - start_time), slopes in units per
+/// time unit.
+struct Trend {
+    Vector output_offset, output_slope, input_offset, input_slope;
+};
+
+struct Detrended {
+    IdData data;
+    std::vector<Trend> removed;  ///< one per experiment
+};
+
+/// Removes from every channel of every experiment its mean, or the straight line that fits it best in the least
+/// squares sense (over the true instants, when sampling is irregular). A line needs two samples.
+Detrended detrend(const IdData& data, TrendKind kind);
+inline Detrended remove_mean(const IdData& data) {
+    return detrend(data, TrendKind::kConstant);
+}
+
+}  // namespace dynlab
