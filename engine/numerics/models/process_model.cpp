@@ -5,7 +5,6 @@
 
 #include "numerics/error.h"
 #include "numerics/linalg/polynomial.h"
-#include "numerics/number_text.h"
 
 namespace dynlab {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "numerics/error.h"
 #include "numerics/number_text.h"
@@ -41,6 +42,16 @@ Eigen::ArrayXd instants(const std::string& caller, double duration, double Ts) {
     return Ts * Eigen::ArrayXd::LinSpaced(samples, 0, static_cast<double>(samples - 1));
 }
 
+/// Equal frequencies would add up to one line whose size depends on their phases.
+void check_distinct(const VectorView& frequencies) {
+    std::vector<double> sorted(frequencies.begin(), frequencies.end());
+    std::sort(sorted.begin(), sorted.end());
+    const auto repeated = std::adjacent_find(sorted.begin(), sorted.end());
+    if (repeated != sorted.end())
+        throw InvalidArgument("multisine: each frequency may occur once, but " + number_text(*repeated) +
+                              " Hz occurs more often");
+}
+
 }  // namespace
 
 Vector step_signal(Index count, Index first, double low, double high) {
@@ -72,6 +83,7 @@ Vector chirp(double start_frequency, double end_frequency, double duration, doub
 Vector multisine(const VectorView& frequencies, double duration, double Ts) {
     const Eigen::ArrayXd t = instants("multisine", duration, Ts);
     if (frequencies.size() == 0) throw InvalidArgument("multisine: give at least one frequency");
+    check_distinct(frequencies);
     const double count = static_cast<double>(frequencies.size());
     Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(t.size());
     for (Index k = 0; k < frequencies.size(); ++k) {

@@ -5,8 +5,8 @@
 namespace dynlab {
 
 /// Input signals for experiments. Frequencies in hertz, times in seconds; samples stand at 0, Ts, 2 Ts, ... and a
-/// signal of `duration` T holds round(T/Ts) of them. All throw InvalidArgument for sizes, times or frequencies that
-/// are not positive and for frequencies above half the sampling frequency.
+/// signal of `duration` T holds round(T/Ts) of them. All throw InvalidArgument for sizes or times that are
+/// not positive and for frequencies below zero or above half the sampling frequency.
 
 /// `low`, and from sample `first` (1-based, 1..count + 1) on `high`.
 Vector step_signal(Index count, Index first = 1, double low = 0, double high = 1);
@@ -21,7 +21,8 @@ Vector chirp(double start_frequency, double end_frequency, double duration, doub
              ChirpShape shape = ChirpShape::kSine);
 
 /// Sum of cosines of equal amplitude and root mean square one, with Schroeder's phases -pi k (k - 1)/F, which keep the
-/// peaks low (Schroeder 1970). All frequencies distinct.
+/// peaks low (Schroeder 1970). Throws when a frequency
+/// occurs twice.
 Vector multisine(const VectorView& frequencies, double duration, double Ts);
 
 /// Random binary signal: every `hold` samples a fair coin from `random` decides between `low` and `high`.
