@@ -52,11 +52,17 @@ TransferFunction feedback(const TransferFunction& forward, const TransferFunctio
 /// log(z)/Ts.
 struct PoleDescription {
     Complex pole;
-    double natural_frequency, damping_ratio, time_constant;
+    double natural_frequency;
+    double damping_ratio;  ///< NaN for an integrator
+    double time_constant;  ///< infinite without damping, negative for an unstable pole
 };
 std::vector<PoleDescription> damping(const TransferFunction& G);
 
-/// First frequency (rad/s) at which |G| falls 3 dB below its dc gain; infinite when it never does.
+/// Distances from the origin (rad/s, ascending) of the poles and zeros away from it; discrete ones by log(z)/Ts.
+Vector corner_frequencies(const TransferFunction& G);
+
+/// First frequency (rad/s) at which |G| falls 3 dB below its dc gain; infinite when it never does, NaN when the dc
+/// gain is zero or infinite.
 double bandwidth(const TransferFunction& G);
 
 /// Three lines, numerator over denominator, as a terminal shows it: names the delay and Ts.

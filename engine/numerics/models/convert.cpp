@@ -1,0 +1,155 @@
+#include "numerics/models/convert.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <string>
+
+#include "numerics/error.h"
+#include "numerics/kernels/tapped_system.h"
+#include "numerics/linalg/matrix_exponential.h"
+#include "numerics/linalg/polynomial.h"
+#include "numerics/number_text.h"
+#include "numerics/signals/checks.h"
+
+namespace dynlab {
+
+namespace {
+
+void check_convertible(const std::string& caller, const TransferFunction& G) {
+    if (G.proper()) return;
+    throw InvalidArgument(caller + ": the transfer function has " + std::to_string(G.zero_count()) +
+                          " zeros but only " + std::to_string(G.pole_count()) +
+                          " poles; it needs at least as many poles as zeros");
+}
+
+Hold hold_of(Discretisation method) {
+    return method == Discretisation::kFoh ? Hold::kFoh : Hold::kZoh;
+}
+
+/// The numerators over `den` (of degree n = order, or n + 1 with a factor z for a tap on the previous sample) of all
+/// outputs, one column each: den times the response to a single sample of one.
+Matrix discrete_numerators(const TappedSystem& system, const Vector& den) {
+    Matrix response(den.size(), system.C.rows());
+    Vector x = system.G.col(0);
+    for (Index k = 0; k < den.size(); ++k) {
+        response.row(k) = system.C * x;
+        if (k < 2) response.row(k) += system.D.col(k).transpose();
+        x = system.F * x;
+        if (k < 2) x += system.G.col(k + 1);
+    }
+    Matrix numerators = Matrix::Zero(den.size(), system.C.rows());
+    for (Index i = 0; i < den.size(); ++i)
+        numerators.bottomRows(den.size() - i) += den(i) * response.topRows(den.size() - i);
+    return numerators;
+}
+
+TransferFunction exact_c2d(const TransferFunction& G, double Ts, Hold hold) {
+    const StateSpace form = to_state_space(G);
+    const auto [samples, rest] = split_delay(G.delay(), Ts);
+    const TappedSystem system = discretise(form.A, form.B.col(0), form.C, form.D.col(0), Ts, hold, G.delay());
+    Vector den = polynomial_from_roots((Ts * G.poles()).array().exp().matrix());
+    if (rest > 0) den = multiply(den, Eigen::Vector2d(1, 0));
+    return TransferFunction(discrete_numerators(system, den).col(0), den, Ts, static_cast<double>(samples) * Ts);
+}
+
+/// bottom(x)^degree p(top(x)/bottom(x)), a polynomial of that degree.
+Vector substitute(const Vector& p, const Vector& top, const Vector& bottom, Index degree) {
+    Vector result = Vector::Zero(1);
+    for (Index i = 0; i < p.size(); ++i) {
+        const int exponent = static_cast<int>(p.size() - 1 - i);
+        const Vector term = multiply(power(top, exponent), power(bottom, static_cast<int>(degree) - exponent));
+        result = add(result, p(i) * term);
+    }
+    return result;
+}
+
+TransferFunction tustin_c2d(const TransferFunction& G, double Ts) {
+    if (split_delay(G.delay(), Ts).rest > 0)
+        throw InvalidArgument("c2d: the tustin method needs a delay that is a multiple of Ts = " + number_text(Ts) +
+                              " s, but it is " + number_text(G.delay()) + " s; zoh and foh take any delay");
+    const Vector top = 2 / Ts * Eigen::Vector2d(1, -1), bottom = Eigen::Vector2d(1, 1);
+    const Vector den = substitute(G.den(), top, bottom, G.pole_count());
+    if (den(0) == 0)
+        throw InvalidArgument("c2d: the tustin method has no result for a pole at 2/Ts = " + number_text(2 / Ts) +
+                              " rad/s; choose another Ts");
+    const double delay = static_cast<double>(split_delay(G.delay(), Ts).samples) * Ts;
+    return TransferFunction(substitute(G.num(), top, bottom, G.pole_count()), den, Ts, delay);
+}
+
+/// Leading coefficients that are only rounding of the others become zero.
+Vector without_rounding(Vector num) {
+    constexpr double kRounding = 1e-11;
+    const double largest = num.cwiseAbs().maxCoeff();
+    for (double& coefficient : num) {
+        if (std::abs(coefficient) > kRounding * largest) break;
+        coefficient = 0;
+    }
+    return num;
+}
+
+/// From time in samples to time in seconds: s becomes s Ts.
+Vector in_seconds(const Vector& p, double Ts) {
+    Vector scaled = p;
+    double factor = 1;
+    for (Index i = p.size(); i-- > 0; factor *= Ts) scaled(i) *= factor;
+    return scaled;
+}
+
+TransferFunction exact_d2c(const TransferFunction& G, Hold hold) {
+    const ComplexVector discrete_poles = G.poles();
+    for (const Complex& pole : discrete_poles)
+        if (pole.imag() == 0 && pole.real() <= 0)
+            throw InvalidArgument("d2c: the pole z = " + number_text(pole.real()) +
+                                  " is not the sample of a continuous-time pole of this order; with zoh and foh no "
+                                  "pole may lie on the negative real axis or at zero");
+    // The discrete numerator is linear in the continuous one: solve for its coefficients, with time in samples.
+    const Vector den = polynomial_from_roots(discrete_poles.array().log().matrix());
+    const Matrix map = discrete_numerators(derivative_filter(den, 1, hold), G.den());
+    Vector wanted = Vector::Zero(G.den().size());
+    wanted.tail(G.num().size()) = G.num();
+    const Vector num = without_rounding(map.fullPivLu().solve(wanted));
+    return TransferFunction(in_seconds(num, G.Ts()), in_seconds(den, G.Ts()), 0, G.delay());
+}
+
+TransferFunction tustin_d2c(const TransferFunction& G) {
+    const Vector top = Eigen::Vector2d(1, 2), bottom = Eigen::Vector2d(-1, 2);  // z, with time in samples
+    const Vector den = substitute(G.den(), top, bottom, G.pole_count());
+    if (den(0) == 0) throw InvalidArgument("d2c: the tustin method has no result for a pole at z = -1");
+    const Vector num = without_rounding(substitute(G.num(), top, bottom, G.pole_count()));
+    return TransferFunction(in_seconds(num, G.Ts()), in_seconds(den, G.Ts()), 0, G.delay());
+}
+
+}  // namespace
+
+TransferFunction c2d(const TransferFunction& G, double Ts, Discretisation method) {
+    if (!G.continuous())
+        throw InvalidArgument("c2d: the model is already discrete, with Ts = " + number_text(G.Ts()) + " s");
+    check_sampling_time("c2d", Ts);
+    check_convertible("c2d", G);
+    return method == Discretisation::kTustin ? tustin_c2d(G, Ts) : exact_c2d(G, Ts, hold_of(method));
+}
+
+StateSpace c2d(const StateSpace& system, double Ts, Discretisation method) {
+    if (system.Ts > 0)
+        throw InvalidArgument("c2d: the model is already discrete, with Ts = " + number_text(system.Ts) + " s");
+    check_sampling_time("c2d", Ts);
+    const Matrix &A = system.A, &B = system.B, &C = system.C;
+    if (method == Discretisation::kTustin) {
+        const Matrix I = Matrix::Identity(A.rows(), A.rows());
+        const Matrix inverse = (I - Ts / 2 * A).inverse();
+        return StateSpace(inverse * (I + Ts / 2 * A), Ts * inverse * B, C * inverse,
+                          system.D + Ts / 2 * C * inverse * B, Ts);
+    }
+    const StepMatrices step = exact_step(A, B, Ts);
+    if (method == Discretisation::kZoh) return StateSpace(step.F, step.G, C, system.D, Ts);
+    // x[k+1] = F x[k] + H0 u[k] + H1 u[k+1] with the state x - H1 u, which needs no input of the future.
+    return StateSpace(step.F, step.H0 + step.F * step.H1, C, system.D + C * step.H1, Ts);
+}
+
+TransferFunction d2c(const TransferFunction& G, Discretisation method) {
+    if (G.continuous()) throw InvalidArgument("d2c: the model is already continuous");
+    check_convertible("d2c", G);
+    return method == Discretisation::kTustin ? tustin_d2c(G) : exact_d2c(G, hold_of(method));
+}
+
+}  // namespace dynlab
