@@ -5,6 +5,7 @@
 #include <new>
 
 #include "platform/error.h"
+#include "platform/interrupt.h"
 #include "platform/spelling.h"
 #include "scripting/objects/boxed.h"
 #include "scripting/objects/numeric_tables.h"
@@ -146,6 +147,12 @@ bool Call::holds_vector(int index) const {
     const bool numbers = lua_rawgeti(state_, index, 1) == LUA_TNUMBER;
     lua_pop(state_, 1);
     return numbers;
+}
+
+std::function<bool()> Call::cancel() const {
+    return [deadline = context().deadline] {
+        return interrupted() || (deadline && std::chrono::steady_clock::now() > *deadline);
+    };
 }
 
 void Call::print(const std::string& text) const {

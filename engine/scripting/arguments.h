@@ -1,6 +1,7 @@
 #pragma once
 #include <fmt/format.h>
 
+#include <functional>
 #include <initializer_list>
 #include <optional>
 #include <string>
@@ -37,6 +38,7 @@ class Call {
     MatrixMap matrix(int index, const char* what) const;
     bool holds_vector(int index) const;  ///< vector userdata or plain table of numbers
 
+    std::function<bool()> cancel() const;       ///< for long work of the core: true after Ctrl-C or the time limit
     void print(const std::string& text) const;  ///< into the record, and live
 
     int give(double value) const;

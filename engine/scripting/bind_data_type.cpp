@@ -1,5 +1,6 @@
 #include <array>
 
+#include "numerics/signals/preprocess.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/text_form.h"
 
@@ -122,6 +123,12 @@ int shift(Call& call) {
     return give_data(call, self(call).shifted(call.whole(2, "samples")));
 }
 
+template <TrendKind kKind>
+int without_trend(Call& call) {
+    call.at_most(1);
+    return give_data(call, detrend(self(call), kKind).data);
+}
+
 int merge(Call& call) {
     std::vector<IdData> parts;
     for (int i = 1; i <= call.count(); ++i) parts.push_back(object_argument<IdData>(call, i, "data"));
@@ -153,8 +160,14 @@ constexpr std::array kFields = {
     Member{"OutputName", guarded<field_output_name>},
 };
 constexpr std::array kMethods = {
-    Member{"range", guarded<part>},    Member{"experiment", guarded<experiment>}, Member{"split", guarded<split>},
-    Member{"select", guarded<select>}, Member{"shift", guarded<shift>},           Member{"merge", guarded<merge>},
+    Member{"range", guarded<part>},
+    Member{"experiment", guarded<experiment>},
+    Member{"split", guarded<split>},
+    Member{"select", guarded<select>},
+    Member{"shift", guarded<shift>},
+    Member{"detrend", guarded<without_trend<TrendKind::kLinear>>},
+    Member{"remove_mean", guarded<without_trend<TrendKind::kConstant>>},
+    Member{"merge", guarded<merge>},
 };
 constexpr std::array kOperators = {Member{"__tostring", guarded<to_text>}};
 

@@ -78,13 +78,14 @@ int field_report(Call& call) {
     return 1;
 }
 
-/// G.Kp, G.Tp1, ... of a process model; the field's name is the metamethod's upvalue.
-int field_process_parameter(Call& call) {
-    const char* name = static_cast<const char*>(lua_touserdata(call.state(), lua_upvalueindex(1)));
-    const Model& model = self(call);
-    if (!model.process)
-        throw InvalidArgument("only process models have this parameter; a transfer function has num, den and IODelay");
-    return call.give(model.process->parameter(name));
+/// G.Kp, G.Tp1, G.K, ...: a parameter by its name, which is the field's own.
+int field_parameter(Call& call) {
+    const std::string name = static_cast<const char*>(lua_touserdata(call.state(), lua_upvalueindex(1)));
+    const ModelParameters parameters = parameters_of(self(call));
+    for (std::size_t i = 0; i < parameters.names.size(); ++i)
+        if (parameters.names[i] == name) return call.give(parameters.values[static_cast<Index>(i)]);
+    throw InvalidArgument(fmt::format("this model has no parameter of that name; its parameters are {}",
+                                      fmt::join(parameters.names, ", ")));
 }
 
 int to_text_of_model(Call& call) {
@@ -126,14 +127,19 @@ constexpr std::array kFields = {
     Member{"covariance", guarded<field_covariance>},
     Member{"names", guarded<field_names>},
     Member{"report", guarded<field_report>},
-    Member{"Kp", guarded<field_process_parameter>},
-    Member{"Tp1", guarded<field_process_parameter>},
-    Member{"Tp2", guarded<field_process_parameter>},
-    Member{"Tp3", guarded<field_process_parameter>},
-    Member{"Tw", guarded<field_process_parameter>},
-    Member{"Zeta", guarded<field_process_parameter>},
-    Member{"Tz", guarded<field_process_parameter>},
-    Member{"Td", guarded<field_process_parameter>},
+    Member{"Kp", guarded<field_parameter>},
+    Member{"Tp1", guarded<field_parameter>},
+    Member{"Tp2", guarded<field_parameter>},
+    Member{"Tp3", guarded<field_parameter>},
+    Member{"Tw", guarded<field_parameter>},
+    Member{"Zeta", guarded<field_parameter>},
+    Member{"Tz", guarded<field_parameter>},
+    Member{"Td", guarded<field_parameter>},
+    Member{"K", guarded<field_parameter>},
+    Member{"T", guarded<field_parameter>},
+    Member{"z", guarded<field_parameter>},
+    Member{"w0", guarded<field_parameter>},
+    Member{"D", guarded<field_parameter>},
 };
 constexpr std::array kOperators = {
     Member{"__add", guarded<combine<plus>>},         Member{"__sub", guarded<combine<minus>>},

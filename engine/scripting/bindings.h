@@ -9,6 +9,10 @@ namespace dynlab {
 FunctionEntries vector_functions();
 FunctionEntries vector_comparisons();
 FunctionEntries random_functions();
+FunctionEntries signal_functions();
+FunctionEntries estimator_functions();
+FunctionEntries regression_functions();
+FunctionEntries validation_functions();
 FunctionEntries model_functions();
 FunctionEntries data_functions();
 FunctionEntries simulation_functions();

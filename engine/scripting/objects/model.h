@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "numerics/estimators/step_test.h"
 #include "numerics/models/process_model.h"
 #include "numerics/models/state_space.h"
 #include "numerics/models/transfer_function.h"
@@ -23,6 +24,7 @@ struct Estimate {
     std::vector<std::pair<std::string, double>> numbers;  ///< fit_percent, noise_variance, iterations, ...
     std::vector<std::pair<std::string, Vector>> vectors;  ///< output, delay_grid, delay_loss, ...
     bool converged = true;
+    std::shared_ptr<const StepTestResult> step_test = {};  ///< of the graphical methods
 };
 
 /// A model as scripts hold it: a transfer function, with its process parameters and estimate where it has them.

@@ -1,0 +1,111 @@
+#include <array>
+#include <cmath>
+
+#include "figures/compare_plot.h"
+#include "numerics/validation/compare.h"
+#include "numerics/validation/fit_measures.h"
+#include "scripting/bindings.h"
+#include "scripting/objects/data_object.h"
+#include "scripting/objects/figure_object.h"
+#include "scripting/objects/model.h"
+
+namespace dynlab {
+namespace {
+
+CompareOptions compare_options(const Options& options) {
+    return {parse_initial_state(options.text("InitialState", "auto")), parse_offset(options.text("Offset", "auto"))};
+}
+
+std::string model_name(const Call& call, int index, const std::vector<std::string>& labels, std::size_t place) {
+    if (place < labels.size()) return labels[place];
+    const Model* model = to_object<Model>(call.state(), index);
+    return model != nullptr && model->estimate ? model->estimate->method : fmt::format("model {}", place + 1);
+}
+
+/// Draws measured and simulated output for the models from argument `first` on.
+int draw_comparison(Call& call, const IdData& data, int first, int options_index) {
+    const Options options(call, options_index, {"labels", "InitialState", "Offset"});
+    const std::vector<std::string> labels = options.texts("labels");
+    std::vector<ModelOutput> outputs;
+    for (int i = first; holds_model(call, i); ++i) {
+        const CompareResult result = compare(data, model_argument(call, i, "G").G, compare_options(options));
+        outputs.push_back(
+            {model_name(call, i, labels, outputs.size()), result.output, Vector::Constant(1, result.fit_percent)});
+    }
+    if (outputs.empty()) wrong_argument(call.state(), first, "G", "model");
+    return give_figure(call, compare_plot(data, outputs));
+}
+
+int compare_models(Call& call) {
+    const IdData& data = object_argument<IdData>(call, 1, "data");
+    int next = 2;
+    while (holds_model(call, next)) ++next;
+    call.at_most(next);
+    return draw_comparison(call, data, 2, next);
+}
+
+int test_model(Call& call) {
+    call.at_most(3);
+    const IdData& data = object_argument<IdData>(call, 2, "data");
+    return draw_comparison(call, data, 1, 3);
+}
+
+int fit(Call& call) {
+    call.at_most(3);
+    const IdData& data = object_argument<IdData>(call, 1, "data");
+    return call.give(
+        compare(data, model_argument(call, 2, "G").G, compare_options(Options(call, 3, {"InitialState", "Offset"})))
+            .fit_percent);
+}
+
+void set_number(lua_State* L, const char* name, double value) {
+    lua_pushnumber(L, value);
+    lua_setfield(L, -2, name);
+}
+
+int measure_fit(Call& call) {
+    call.at_most(3);
+    lua_State* L = call.state();
+    const IdData& data = object_argument<IdData>(call, 1, "data");
+    const Model model = model_argument(call, 2, "G");
+    const CompareResult result = compare(data, model.G, compare_options(Options(call, 3, {"InitialState", "Offset"})));
+    const Vector y = data.experiments.front().y.col(0);
+    const double mean_square = (y - result.output).squaredNorm() / static_cast<double>(y.size());
+    const InformationCriteria criteria =
+        information_criteria(mean_square, y.size(), parameters_of(model).values.size());
+    lua_createtable(L, 0, 10);
+    set_number(L, "fit_percent", result.fit_percent);
+    set_number(L, "r_squared_simulation", r_squared_simulation(y, result.output));
+    set_number(L, "rmse", std::sqrt(mean_square));
+    set_number(L, "fpe", criteria.fpe);
+    set_number(L, "aic", criteria.aic);
+    set_number(L, "aicc", criteria.aicc);
+    set_number(L, "bic", criteria.bic);
+    if (model.estimate && model.estimate->covariance.size() > 0)
+        set_number(L, "yic", yic(y, result.output, model.estimate->theta, model.estimate->covariance).value);
+    call.give_vector(result.output);
+    lua_setfield(L, -2, "output");
+    call.give(result.message);
+    lua_setfield(L, -2, "message");
+    return 1;
+}
+
+constexpr const char* kArea = "validation";
+constexpr std::array kFunctions = {
+    FunctionEntry{"test_your_model", "step tests", "test_your_model(G, data, {InitialState =, Offset =}) -> fig",
+                  "measured response and the model's over each other", guarded<test_model>},
+    FunctionEntry{"compare", kArea, "compare(data, G1, G2, ..., {labels =, InitialState =, Offset =}) -> fig",
+                  "measured and simulated outputs with their fits", guarded<compare_models>},
+    FunctionEntry{"fit", kArea, "fit(data, G, {InitialState =, Offset =}) -> percent",
+                  "fit of the simulated output, 100 % is perfect", guarded<fit>},
+    FunctionEntry{"fit_measures", kArea, "fit_measures(data, G, {InitialState =, Offset =}) -> table",
+                  "fit, R_T^2, RMSE, FPE, AIC, BIC and YIC of the simulated output", guarded<measure_fit>},
+};
+
+}  // namespace
+
+FunctionEntries validation_functions() {
+    return kFunctions;
+}
+
+}  // namespace dynlab
