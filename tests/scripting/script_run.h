@@ -1,0 +1,31 @@
+#pragma once
+#include <string>
+
+#include "figures/gnuplot_renderer.h"
+#include "scripting/runtime.h"
+
+namespace dynlab::test {
+
+inline RunRecord run(const std::string& code, RunOptions options = {}) {
+    GnuplotRenderer renderer;
+    Runtime runtime(std::move(options), renderer);
+    return runtime.run_code(code, "lesson.lua");
+}
+
+/// All text that `code` prints; its error message when it stops with one.
+inline std::string printed(const std::string& code, RunOptions options = {}) {
+    const RunRecord record = run(code, std::move(options));
+    if (record.error) return "ERROR " + record.error->message;
+    std::string text;
+    for (const auto& [cell, pieces] : record.outputs)
+        for (const CellOutput& piece : pieces) text += piece.printed;
+    return text;
+}
+
+/// The message with which `code` stops.
+inline std::string error_of(const std::string& code, RunOptions options = {}) {
+    const RunRecord record = run(code, std::move(options));
+    return record.error ? record.error->message : "(no error)";
+}
+
+}  // namespace dynlab::test

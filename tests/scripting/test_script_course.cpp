@@ -1,0 +1,85 @@
+// Oracle: the course's own lines with the truth they were written from, and analytic responses.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "script_run.h"
+#include "scripting/help.h"
+
+using namespace dynlab;
+using dynlab::test::error_of;
+using dynlab::test::printed;
+
+TEST(script_course, runs_the_lines_of_the_course) {
+    const RunRecord record = test::run(
+        "local s  = tf('s')\n"
+        "local Go = 2/(s^2 + 4*s + 3)\n"
+        "local Ts, N = 0.01, 1500\n"
+        "local u = prbs(4, 100)\n"
+        "local e = 0.2*randn(N)\n"
+        "local x = lsim(Go, u, Ts)\n"
+        "local y = x + e\n"
+        "local data0, data = iddata(x, u, Ts), iddata(y, u, Ts)\n"
+        "idplot(data)\n"
+        "print(#u, Go.num, Go.den, data.N, data)\n");
+    ASSERT_FALSE(record.error) << record.error->message;
+    const auto& pieces = record.outputs.at("cell-1");
+    EXPECT_EQ(pieces.at(0).figure, "cell-1-figure-1");
+    EXPECT_EQ(pieces.at(1).printed, "1500\t[2]\t[1 4 3]\t1500\tiddata: 1500 samples, 1 output, 1 input, Ts = 0.01 s\n");
+}
+
+TEST(script_course, simulates_a_first_order_step_exactly) {
+    // y(t) = 1 - exp(-t/2) at the samples.
+    EXPECT_EQ(printed("local s = tf('s')\nlocal y = lsim(1/(2*s + 1), ones(101), 0.1)\n"
+                      "print(norm(y - (1 - exp(-0.5*range(0, 0.1, 10)))) < 1e-12)"),
+              "true\n");
+}
+
+TEST(script_course, combines_models) {
+    EXPECT_EQ(printed("local G = tf({1}, {1, 2}, {IODelay = 0.5})\nprint(G.num, G.den, G.IODelay, dcgain(G), "
+                      "stable(G), pole(G)[1].re)"),
+              "[1]\t[1 2]\t0.5\t0.5\ttrue\t-2\n");
+    EXPECT_EQ(printed("local F = feedback(tf({1}, {1, 0}), 1)\nprint(F.num, F.den, series(F, 2).num)"),
+              "[1]\t[1 1]\t[2]\n");
+    EXPECT_EQ(printed("local G = idproc('P1D', {Kp = 2, Tp1 = 4, Td = 1})\nprint(G.Kp, G.param, G.den, G.names[3])"),
+              "2\t[2 4 1]\t[1 0.25]\tTd\n");
+    EXPECT_EQ(
+        error_of("print(tf({1}, {1, 2}).std)"),
+        "lesson.lua:1: std: this model was written down, not estimated, so it has no standard errors and no report");
+    EXPECT_EQ(error_of("tf({1}, {1}, {IODelya = 1})"),
+              "lesson.lua:1: tf: option 'IODelya' is unknown; did you mean 'IODelay'?");
+    EXPECT_EQ(error_of("lsim(1, 'x', 1)"),
+              "lesson.lua:1: lsim: argument 2 (u) must be a vector, but the text \"x\" was given");
+}
+
+TEST(script_course, fits_a_process_model_to_noise_free_data) {
+    EXPECT_EQ(printed("local G = idproc('P1', {Kp = 2, Tp1 = 3})\nlocal u = prbs(6, 20)\nlocal data = iddata(lsim(G, "
+                      "u, 0.1), u, 0.1)\n"
+                      "local M = procsrivc(data, 'P1', {InitialState = 'zero', Offset = 'none'})\n"
+                      "print(norm(M.param - {2, 3}) < 1e-6, M.report.fit_percent > 99.99, fit(data, M) > 99.99, "
+                      "M.report.converged)"),
+              "true\ttrue\ttrue\ttrue\n");
+    EXPECT_EQ(error_of("procsrivc(iddata({1, 2}, {1, 2}, 1), 'P1', {TdMx = 0})"),
+              "lesson.lua:1: procsrivc: option 'TdMx' is unknown; did you mean 'TdMax'?");
+}
+
+TEST(script_course, fits_lines) {
+    EXPECT_EQ(printed("local t = range(0, 3)\nlocal fit = lsq(matrix{t, ones(4)}, {1, 3, 5, 7})\nprint(norm(fit.theta "
+                      "- {2, 1}) < 1e-12, fit.rmse < 1e-12)\n"
+                      "print(norm(polyfit({0, 1, 2}, {1, 2, 5}, 2) - {1, 0, 1}) < 1e-12)\n"
+                      "local r = polyfit_report({0, 1, 2, 3}, {1, 3, 5, 7.1}, 1)\nlocal f = forecast(r, "
+                      "4)\nprint(f.low < f.value, f.value < f.high)"),
+              "true\ttrue\ntrue\ntrue\ttrue\n");
+}
+
+TEST(script_course, has_every_function_in_help) {
+    std::string text = printed("help()");
+    for (const FunctionEntry& entry : catalogue_of_functions()) {
+        EXPECT_NE(text.find(std::string("  ") + entry.name + " "), std::string::npos) << entry.name;
+        EXPECT_GT(std::string(entry.signature).size(), 3u);
+        EXPECT_EQ(printed(std::string("print(type(") + entry.name + "))"), "function\n") << entry.name;
+    }
+    EXPECT_NE(printed("help('matlab')").find("gt(x, 2)"), std::string::npos);
+    EXPECT_EQ(printed("help(rng)"), printed("help('rng')"));
+    EXPECT_EQ(error_of("help('lsimm')"), "lesson.lua:1: help: there is no help about 'lsimm'; did you mean 'lsim'?");
+}

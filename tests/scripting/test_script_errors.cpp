@@ -1,0 +1,164 @@
+// Oracle: the sentences that the language promises, written here by hand.
+#include <gtest/gtest.h>
+
+#include "script_run.h"
+
+using dynlab::test::error_of;
+using dynlab::test::printed;
+using dynlab::test::run;
+
+namespace {
+
+struct Expected {
+    const char* code;
+    const char* sentence;
+};
+
+void check(std::initializer_list<Expected> cases) {
+    for (const Expected& expected : cases) EXPECT_EQ(error_of(expected.code), expected.sentence) << expected.code;
+}
+
+}  // namespace
+
+TEST(script_errors, say_which_name_is_unknown_and_which_is_near) {
+    check({
+        {"\n\nlocal x = zeors(3)", "lesson.lua:3: there is no function or variable 'zeors'; did you mean 'zeros'?"},
+        {"local gain = 2\nprint(gian)", "lesson.lua:2: there is no function or variable 'gian'; did you mean 'gain'?"},
+        {"print(qqqqqqq)", "lesson.lua:1: there is no function or variable 'qqqqqqq'"},
+        {"string.fromat('%d', 1)", "lesson.lua:1: 'string' has no member 'fromat'; did you mean 'format'?"},
+        {"local v = vector{1}\nv:rnge(1, 1)",
+         "lesson.lua:2: a vector has no field or method 'rnge'; did you mean 'range'?"},
+    });
+}
+
+TEST(script_errors, name_the_lua_form_of_a_matlab_function) {
+    check({
+        {"disp(3)", "lesson.lua:1: there is no function 'disp' here; write print(x)"},
+        {"local n = length({1})", "lesson.lua:1: there is no function 'length' here; write #v"},
+        {"numel({1})", "lesson.lua:1: there is no function 'numel' here; write #v"},
+        {"size({1})",
+         "lesson.lua:1: there is no function 'size' here; write #v for a vector, A.rows and A.columns for a matrix"},
+        {"inv(eye(2))",
+         "lesson.lua:1: there is no function 'inv' here; write solve(A, b), which is also more accurate than an "
+         "inverse"},
+        {"fprintf('%d', 1)",
+         "lesson.lua:1: there is no function 'fprintf' here; write print(string.format(\"%.3f\", x))"},
+        {"local w = 2*pi", "lesson.lua:1: there is no function 'pi' here; write math.pi"},
+    });
+}
+
+TEST(script_errors, put_what_lua_says_into_plain_words) {
+    check({
+        {"local m\nprint(m.gain)",
+         "lesson.lua:2: the variable 'm' is nil (it has no value), so it has no fields or elements"},
+        {"local m = {}\nprint(m.model.gain)",
+         "lesson.lua:2: the field 'model' is nil (it has no value), so it has no fields or elements"},
+        {"local m = {}\nm.fit()",
+         "lesson.lua:2: the field 'fit' is nil (it has no value), so it cannot be called like a function"},
+        {"local v = vector{1, 2}\nprint(v(1))",
+         "lesson.lua:2: the variable 'v' is a vector, so it cannot be called like a function; the element i is written "
+         "v[i]"},
+        {"local a\nlocal b = a + 1",
+         "lesson.lua:2: the variable 'a' is nil (it has no value), so it cannot be calculated with"},
+        {"local a = {1, 2}\nlocal b = 2*a",
+         "lesson.lua:2: the variable 'a' is a table, so it cannot be calculated with; make a vector of it: vector(t)"},
+        {"local a\nlocal b = 'x' .. a",
+         "lesson.lua:2: the variable 'a' is nil (it has no value), so .. cannot join it to a text; use tostring(x)"},
+        {"local a\nlocal n = #a",
+         "lesson.lua:2: the variable 'a' is nil (it has no value), so # cannot count its elements"},
+        {"local ok = 1 < 'x'", "lesson.lua:1: a number cannot be compared with a text by < or >"},
+        {"local ok = {} < {}", "lesson.lua:1: two values of kind 'table' cannot be compared with < or >"},
+        {"string.rep()", "lesson.lua:1: rep: argument 1 must be a string, but no value was given"},
+        {"for i = 1, 'x' do end", "lesson.lua:1: the limit of a for loop must be a number, but a text was given"},
+        {"for i = 1, 2, 0 do end", "lesson.lua:1: the step of a for loop must not be zero"},
+        {"local t = {}\nt[nil] = 1", "lesson.lua:2: the place in the table is nil (it has no value)"},
+        {"local function f() return 1 + f() end\nf()",
+         "lesson.lua:1: functions call each other without end (stack overflow)"},
+        {"error()", "lesson.lua:1: error() was called without a message"},
+        {"error('my own words')", "lesson.lua:1: my own words"},
+        {"error({code = 2})", "lesson.lua:1: {code = 2}"},
+    });
+}
+
+TEST(script_errors, hint_at_lua_where_a_line_is_matlab) {
+    check({
+        {"local y = x'",
+         "lesson.lua:1: a text is not closed with its quote; the transpose is A:t(); vectors are columns already"},
+        {"local z = x.*y",
+         "lesson.lua:1: a name is missing before '*'; for vectors write x*y, for matrices A:times(B), instead of .*"},
+        {"local z = x./y", "lesson.lua:1: a name is missing before '/'; for vectors write x/y instead of ./"},
+        {"local z = x.^2", "lesson.lua:1: a name is missing before '^'; for vectors write x^2 instead of .^"},
+        {"local k = 0:N-1",
+         "lesson.lua:1: ':' cannot stand here; a range is range(first, last) or range(first, step, last), a part of a "
+         "vector v:range(i, j)"},
+        {"local v = [1 2 3]",
+         "lesson.lua:1: '[' cannot stand here; a vector is written vector{1, 2, 3}, a matrix matrix{{1, 2}, {3, 4}}"},
+        {"% a comment", "lesson.lua:1: '%' cannot stand here; a comment starts with -- in Lua"},
+        {"if a != b then end", "lesson.lua:1: 'then' is missing before '!'; 'not equal' is ~= in Lua"},
+        {"if a = b then end", "lesson.lua:1: 'then' is missing before '='; to compare, write == instead of ="},
+        {"local s = 1 + ...\n 2", "lesson.lua:2: '2' cannot stand here"},
+        {"for k = 1:10\nend", "lesson.lua:1: ',' is missing before ':'; a loop is written: for k = 1, N do ... end"},
+        {"local x = A\\b", "lesson.lua:1: '\\' cannot stand here; A\\b is written solve(A, b)"},
+        {"if true then\nprint(1)\n", "lesson.lua:3: the 'if' of line 1 has no 'end'"},
+        {"for i = 1, 2 do print(1)", "lesson.lua:1: an 'end' is missing at the end of the script"},
+        {"for i = 1, 2 do\nprint(1)", "lesson.lua:2: the 'for' of line 1 has no 'end'"},
+    });
+}
+
+TEST(script_errors, carry_the_line_of_the_script_record) {
+    const auto record = run("local x = 1\n\nvector(3)\n");
+    ASSERT_TRUE(record.error);
+    EXPECT_EQ(record.error->line, 3);
+    EXPECT_EQ(record.error->message, "lesson.lua:3: vector: a vector is written with braces: vector{1, 2, 3}");
+}
+
+TEST(script_errors, name_argument_wanted_and_given) {
+    check({
+        {"zeros('x')", "lesson.lua:1: zeros: argument 1 (n) must be a number, but the text \"x\" was given"},
+        {"zeros(2.5)", "lesson.lua:1: zeros: argument 1 (n) must be a whole number, but 2.5 was given"},
+        {"zeros(-1)", "lesson.lua:1: zeros: argument 1 (n) must not be negative, but -1 was given"},
+        {"zeros()", "lesson.lua:1: zeros: argument 1 (n) is missing; it must be a whole number"},
+        {"sum('x')", "lesson.lua:1: sum: argument 1 (v) must be a vector, but the text \"x\" was given"},
+        {"sum({1, 'a'})",
+         "lesson.lua:1: sum: argument 1 (v) must be a vector of numbers, but its element 2 is the text \"a\""},
+        {"mean({})", "lesson.lua:1: mean: argument 1 (v) has no elements"},
+        {"dot({1}, {1, 2})", "lesson.lua:1: dot: a has 1 values, but b has 2"},
+        {"rng(-1)", "lesson.lua:1: rng: the seed must be a whole number from 0 to 4294967295, but -1 was given"},
+        {"sqrt(-2)", "lesson.lua:1: sqrt: it is not defined for the negative number -2"},
+        {"norm({1}, {2})",
+         "lesson.lua:1: norm: takes at most 1 argument, but 2 were given; options are written as one table {name = "
+         "value}"},
+    });
+}
+
+TEST(script_errors, stay_with_their_line_in_coroutines_and_protected_calls) {
+    EXPECT_EQ(error_of("local f = coroutine.wrap(function()\n  zeors(1)\nend)\nf()"),
+              "lesson.lua:2: there is no function or variable 'zeors'; did you mean 'zeros'?");
+    EXPECT_EQ(printed("print(pcall(function() local a; return a.b end))"),
+              "false\tlesson.lua:1: the variable 'a' is nil (it has no value), so it has no fields or elements\n");
+    EXPECT_EQ(printed("print(xpcall(error, function(m) return 'seen ' .. m end, 'x', 0))"),
+              "false\tseen lesson.lua:1: x\n");
+    EXPECT_EQ(printed("local t = {}\nlocal ok, e = pcall(error, t)\nprint(e == t)"), "true\n");
+    EXPECT_EQ(printed("local co = coroutine.create(function() local x = nil + 1 end)\nprint(coroutine.resume(co))"),
+              "false\tlesson.lua:1: this value is nil (it has no value), so it cannot be calculated with\n");
+    EXPECT_EQ(printed("local g = coroutine.wrap(function() print(pcall(function() coroutine.yield(1) error('late', 0) "
+                      "end)) end)\n"
+                      "print(g())\ng()"),
+              "1\nfalse\tlesson.lua:1: late\n");
+}
+
+TEST(script_errors, refuse_to_replace_functions_of_dynlab) {
+    EXPECT_EQ(error_of("mean = 3"),
+              "lesson.lua:1: 'mean' is a function or table of dynlab and cannot be replaced; choose another name, or "
+              "write 'local mean = "
+              "...' to use the name for a variable of your own");
+    EXPECT_EQ(
+        error_of("string.trim = 1"),
+        "lesson.lua:1: 'string' belongs to dynlab and cannot be changed; use a table or a local function of your own");
+    EXPECT_EQ(
+        error_of("dynlab.mean = 1"),
+        "lesson.lua:1: 'dynlab' belongs to dynlab and cannot be changed; use a table or a local function of your own");
+    EXPECT_EQ(printed("answer_to_all = 42\nanswer_to_all = 43\nprint(answer_to_all, dynlab.sum{1, 2})\nlocal mean = "
+                      "5\nprint(mean)"),
+              "43\t3\n5\n");
+}

@@ -1,0 +1,123 @@
+// Oracle: results worked out by hand, and algebraic identities.
+#include <gtest/gtest.h>
+
+#include "script_run.h"
+
+using dynlab::test::error_of;
+using dynlab::test::printed;
+
+TEST(script_vectors, calculate_element_by_element) {
+    EXPECT_EQ(printed("local v, w = vector{1, 2, 3}, vector{4, 5, 6}\nprint(v + w, v - w, v*w, w/v, v^2, -v)"),
+              "[5 7 9]\t[-3 -3 -3]\t[4 10 18]\t[4 2.5 2]\t[1 4 9]\t[-1 -2 -3]\n");
+    EXPECT_EQ(printed("local v = vector{1, 2}\nprint(v + 1, 1 - v, 2*v, v/2, 2^v, 1/v)"),
+              "[2 3]\t[0 -1]\t[2 4]\t[0.5 1]\t[2 4]\t[1 0.5]\n");
+    EXPECT_EQ(printed("local v = vector{1, 2}\nprint(v + {10, 20}, {10, 20} - v)"), "[11 22]\t[9 18]\n");
+    EXPECT_EQ(error_of("local v = vector{1, 2} + vector{1, 2, 3}"),
+              "lesson.lua:1: x + y needs equal sizes, but x is a vector of 2 and y is a vector of 3");
+    EXPECT_EQ(error_of("local v = vector{1, 2} + 'a'"), "lesson.lua:1: x + y cannot work with the text \"a\"");
+}
+
+TEST(script_vectors, give_and_take_elements) {
+    EXPECT_EQ(printed("local v = vector{1, 2, 3}\nv[2] = 7\nprint(#v, v[2], v[3.0], v:range(2, 3), v:range(2, 1))"),
+              "3\t7\t3\t[7 3]\t[]\n");
+    EXPECT_EQ(printed("local s = 0\nfor i, x in ipairs(vector{1, 2, 3}) do s = s + i*x end\nprint(s)"), "14\n");
+    EXPECT_EQ(printed("print(vector{1, vector{2, 3}, 4}, vector{1, 2} == vector{1, 2}, vector{1} == vector{2})"),
+              "[1 2 3 4]\ttrue\tfalse\n");
+    EXPECT_EQ(printed("local t = vector{1, 2}:table()\nprint(#t, t[2], type(t))"), "2\t2\ttable\n");
+    EXPECT_EQ(error_of("local v = vector{1, 2, 3}\nprint(v[4])"),
+              "lesson.lua:2: v[4] does not exist: v has the elements 1 to 3");
+    EXPECT_EQ(error_of("local v = vector{1, 2, 3}\nprint(v[0])"),
+              "lesson.lua:2: v[0] does not exist: v has the elements 1 to 3");
+    EXPECT_EQ(error_of("local v = vector{1, 2, 3}\nprint(v[1.5])"),
+              "lesson.lua:2: v[1.5]: an element has a whole number from 1 to 3");
+    EXPECT_EQ(error_of("local v = vector{1, 2, 3}\nv[4] = 1"),
+              "lesson.lua:2: v[4] does not exist: v has the elements 1 to 3");
+    EXPECT_EQ(error_of("local v = vector{1, 2, 3}\nv:range(2, 4)"),
+              "lesson.lua:2: range: the elements 2 to 4 do not exist: v has the elements 1 to 3");
+    EXPECT_EQ(error_of("local s = 'v = ' .. vector{1}"),
+              "lesson.lua:1: .. joins texts; make a text of the vector first: tostring(x)");
+}
+
+TEST(script_vectors, compare_by_functions_that_give_masks) {
+    EXPECT_EQ(printed("local v = vector{3, 1, 2}\nprint(gt(v, 1), find(gt(v, 1)), v:select(gt(v, 1)), v:select{2, 1})"),
+              "mask: 2 of 3 true\t[1 3]\t[3 2]\t[1 3]\n");
+    EXPECT_EQ(printed("local v = vector{3, 1, 2}\nlocal w = vector{2, 2, 2}\n"
+                      "print(find(lt(v, w)), find(ge(v, w)), find(le(v, w)), find(eq(v, w)), find(gt(v, 1) & lt(v, "
+                      "3)), find(~gt(v, 1)), gt(v, 2)[1])"),
+              "[2]\t[1 3]\t[2 3]\t[3]\t[3]\t[2]\ttrue\n");
+    EXPECT_EQ(error_of("if vector{1} < 2 then end"),
+              "lesson.lua:1: vectors are compared element by element with the functions gt(x, y), lt, ge, le and eq, "
+              "which give a mask; x < y "
+              "would give a single true or false");
+}
+
+TEST(script_vectors, are_made_in_the_usual_ways) {
+    EXPECT_EQ(
+        printed(
+            "print(zeros(2), ones(2), linspace(0, 1, 3), range(1, 4), range(0, 0.5, 1), range(3, -1, 1), range(2, 1))"),
+        "[0 0]\t[1 1]\t[0 0.5 1]\t[1 2 3 4]\t[0 0.5 1]\t[3 2 1]\t[]\n");
+    EXPECT_EQ(printed("print(#range(0, 0.01, 15), range(0, 0.1, 0.3)[4] == 3*0.1)"), "1501\ttrue\n");
+}
+
+TEST(script_vectors, are_summed_up) {
+    EXPECT_EQ(
+        printed("local v = {4, 1, 3}\nprint(sum(v), mean(v), var(v), std{1, 3}^2, norm{3, 4}, dot({1, 2}, {3, 4}))"),
+        "8\t2.6666666666667\t2.3333333333333\t2\t5\t11\n");
+    EXPECT_EQ(
+        printed("print(min{4, 1, 3})\nprint(max{4, 1, 3})\nprint(max({1, 5}, 3), min(2, 1), max({1, 5}, {2, 4}))"),
+        "1\t2\n4\t1\n[3 5]\t1\t[2 5]\n");
+    EXPECT_EQ(printed("print(cumsum{1, 2, 3}, diff{1, 4, 9}, (sort{3, 1, 2}), select(2, sort{3, 1, 2}))"),
+              "[1 3 6]\t[3 5]\t[1 2 3]\t[2 3 1]\n");
+    EXPECT_EQ(printed("print(abs{-1, 2}, sqrt{4, 9}, exp(0), log(1), sin(0), cos{0})"), "[1 2]\t[2 3]\t1\t0\t0\t[1]\n");
+    EXPECT_EQ(
+        printed("print(polyval({1, 2, 3}, 2), polyval({1, 0}, {1, 2}), interp1({0, 1, 2}, {0, 10, 0}, {0.5, 1.5, 2}))"),
+        "11\t[1 2]\t[5 5 0]\n");
+    EXPECT_EQ(error_of("interp1({0, 1}, {0, 1}, 2)"),
+              "lesson.lua:1: interp1: there is no value at 2: x goes from 0 to 1");
+}
+
+TEST(script_vectors, form_matrices) {
+    EXPECT_EQ(printed("local A = matrix{{1, 2}, {3, 4}}\nprint(A*A)\nprint(A:times(A))\nprint(A:t(), A*vector{1, 1})"),
+              " 7  10\n15  22\n1   4\n9  16\n1  3\n2  4\t[3 7]\n");
+    EXPECT_EQ(printed("local A = matrix{vector{1, 2}, vector{3, 4}}\nprint(A[{1, 2}], A:at(2, 1), A:row(1), A:col(1), "
+                      "A.rows, A.columns)\n"
+                      "A[{1, 2}] = 9\nA:set(2, 2, 8)\nprint(A)"),
+              "3\t2\t[1 3]\t[1 2]\t2\t2\n1  9\n2  8\n");
+    EXPECT_EQ(printed("print(solve(matrix{{2, 0}, {0, 4}}, {2, 4}), solve(matrix{{1}, {1}, {1}}, {1, 2, 3}))"),
+              "[1 1]\t[2]\n");
+    EXPECT_EQ(printed("print(eye(2) == matrix{{1, 0}, {0, 1}}, 2*eye(2) - eye(2) == eye(2), zeros(2, 3))"),
+              "true\ttrue\t0  0  0\n0  0  0\n");
+    EXPECT_EQ(
+        error_of("local B = eye(2)*ones(3, 3)"),
+        "lesson.lua:1: A * B needs as many columns in A as rows in B, but A is a 2 x 2 matrix and B is a 3 x 3 matrix");
+    EXPECT_EQ(error_of("matrix{{1, 2}, {3}}"),
+              "lesson.lua:1: matrix: argument 1 (rows or columns): row 2 has 1 values, but row 1 has 2");
+    EXPECT_EQ(error_of("local x = eye(2)[1]"),
+              "lesson.lua:1: an element of a matrix is A[{i, j}], a row A:row(i), a column A:col(j), but 1 was given "
+              "in the brackets");
+    EXPECT_EQ(error_of("eye(2):at(3, 1)"), "lesson.lua:1: at: row 3 does not exist: there are 1 to 2");
+}
+
+TEST(script_vectors, print_short_forms) {
+    EXPECT_EQ(printed("print(range(1, 100))"), "[1 2 3 4 ... 97 98 99 100] (100 values)\n");
+    EXPECT_EQ(printed("print(6.0, 0.1, 1e300, -0/1, {1, 'a', b = {2}}, print, nil, 2^53)"),
+              "6\t0.1\t1e+300\t0\t{1, \"a\", b = {2}}\tfunction\tnil\t9.007199254741e+15\n");
+}
+
+TEST(script_vectors, draw_the_specified_random_numbers) {
+    // First normals of seed 1 from the specification (MT19937, 53-bit uniforms, Box-Muller in pairs).
+    EXPECT_EQ(printed("rng(1)\nfor _, x in ipairs(randn(4)) do print(string.format('%.10f', x)) end"),
+              "-0.1925803402\n-1.0208449868\n-0.0048841639\n0.0143145961\n");
+    EXPECT_EQ(
+        printed("rng(1) local a = randn(4) rng(1) local b = randn(2, 2)\nprint(a[3] == b:at(1, 2), #randn(5, 1))"),
+        "true\t5\n");
+    dynlab::RunOptions options;
+    options.seed = 1;
+    EXPECT_EQ(printed("print(string.format('%.10f', randn()))", options), "-0.1925803402\n");
+    EXPECT_EQ(printed("local u = rand(1000)\nprint(min(u) >= 0 and max(u) < 1, math.random(3) <= 3)"), "true\ttrue\n");
+}
+
+TEST(script_vectors, walk_tables_in_a_repeatable_order) {
+    EXPECT_EQ(printed("local t = {z = 1, a = 2, [3] = 3, 10, m = 4}\nfor k, v in pairs(t) do print(k, v) end"),
+              "1\t10\n3\t3\na\t2\nm\t4\nz\t1\n");
+}
