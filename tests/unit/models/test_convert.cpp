@@ -1,0 +1,101 @@
+#include "numerics/models/convert.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "numerics/signals/random.h"
+#include "numerics/simulation/lsim.h"
+#include "support/thrown_message.h"
+
+namespace dynlab {
+namespace {
+
+Vector from(std::initializer_list<double> values) {
+    return Eigen::Map<const Vector>(values.begin(), static_cast<Index>(values.size()));
+}
+
+const TransferFunction kSecondOrder(from({2}), from({1, 4, 3}));
+const TransferFunction kRaoGarnier(from({-6400, 1600}), from({1, 5, 408, 416, 1600}));
+
+TEST(convert, zoh_of_a_lag) {  // oracle: analytic, (1 - p)/(z - p)
+    const TransferFunction G = c2d(TransferFunction(from({1}), from({2, 1})), 0.3);
+    const double p = std::exp(-0.15);
+    EXPECT_TRUE(G.den().isApprox(from({1, -p}), 1e-15));
+    ASSERT_EQ(G.num().size(), 1);
+    EXPECT_NEAR(G.num()(0), 1 - p, 1e-16);
+    EXPECT_EQ(G.Ts(), 0.3);
+}
+
+TEST(convert, zoh_of_a_lag_with_a_fraction_of_delay) {  // oracle: analytic, modified z-transform
+    const TransferFunction G = c2d(TransferFunction(from({1}), from({2, 1}), 0, 0.7), 0.3);
+    const double p = std::exp(-0.15), early = std::exp(-0.1);  // 0.7 = 2 * 0.3 + 0.1; 0.2 s of the interval remain
+    EXPECT_TRUE(G.den().isApprox(from({1, -p, 0}), 1e-15));
+    EXPECT_TRUE(G.num().isApprox(from({1 - early, early - p}), 1e-14));
+    EXPECT_NEAR(G.delay(), 0.6, 1e-15);
+}
+
+TEST(convert, foh_of_an_integrator_is_the_trapezoidal_rule) {  // oracle: analytic
+    const TransferFunction G = c2d(TransferFunction(from({1}), from({1, 0})), 0.2, Discretisation::kFoh);
+    EXPECT_TRUE(G.num().isApprox(from({0.1, 0.1}), 1e-15));
+    EXPECT_TRUE(G.den().isApprox(from({1, -1}), 1e-15));
+}
+
+TEST(convert, tustin_is_the_substitution) {  // oracle: definition, values at z
+    const double Ts = 0.05;
+    const Complex z = std::polar(0.9, 0.7), s = 2 / Ts * (z - 1.0) / (z + 1.0);
+    for (const TransferFunction& G : {kSecondOrder, kRaoGarnier, TransferFunction(from({1, 2, 3}), from({1, 4, 3}))})
+        EXPECT_NEAR(std::abs(c2d(G, Ts, Discretisation::kTustin).at(z) / G.at(s) - 1.0), 0, 1e-12);
+}
+
+TEST(convert, discrete_model_simulates_like_the_continuous_one) {  // oracle: second route, lsim
+    Vector u = RandomStream(3).normal(120);
+    u(0) = 0;  // a discrete foh model sees a ramp before the first sample
+    for (const Hold hold : {Hold::kZoh, Hold::kFoh})
+        for (const double delay : {0.0, 0.1, 0.13})
+            for (const TransferFunction& plain :
+                 {kSecondOrder, kRaoGarnier, TransferFunction(from({1, 2, 3}), from({1, 4, 3}))}) {
+                const TransferFunction G = plain.with_delay(delay);
+                const auto method = hold == Hold::kZoh ? Discretisation::kZoh : Discretisation::kFoh;
+                const Vector continuous = lsim(G, u, 0.05, hold), discrete = lsim(c2d(G, 0.05, method), u, 0.05);
+                EXPECT_LT((continuous - discrete).cwiseAbs().maxCoeff(), 1e-9 * continuous.cwiseAbs().maxCoeff());
+            }
+}
+
+TEST(convert, d2c_undoes_c2d) {  // oracle: second route, there and back
+    const TransferFunction models[] = {kSecondOrder, kRaoGarnier.with_delay(0.06),
+                                       TransferFunction(from({1, 2, 3}), from({1, 4, 4})),  // double pole, feed-through
+                                       TransferFunction(from({1}), from({1, 0, 0}))};       // double integrator
+    for (const auto method : {Discretisation::kZoh, Discretisation::kFoh, Discretisation::kTustin})
+        for (const TransferFunction& G : models) {
+            const TransferFunction back = d2c(c2d(G, 0.02, method), method);
+            ASSERT_EQ(back.num().size(), G.num().size()) << back.num().transpose();
+            EXPECT_TRUE(back.den().isApprox(G.den(), 1e-7)) << back.den().transpose();
+            EXPECT_TRUE(back.num().isApprox(G.num(), 1e-7)) << back.num().transpose();
+            EXPECT_NEAR(back.delay(), G.delay(), 1e-15);
+            EXPECT_TRUE(back.continuous());
+        }
+}
+
+TEST(convert, state_space_agrees_with_transfer_function) {  // oracle: second route
+    for (const auto method : {Discretisation::kZoh, Discretisation::kFoh, Discretisation::kTustin}) {
+        const TransferFunction direct = c2d(kSecondOrder, 0.1, method);
+        const TransferFunction through = to_transfer_function(c2d(to_state_space(kSecondOrder), 0.1, method));
+        EXPECT_TRUE(through.den().isApprox(direct.den(), 1e-13));
+        EXPECT_NEAR(std::abs(through.at(Complex(0.3, 0.8)) / direct.at(Complex(0.3, 0.8)) - 1.0), 0, 1e-11);
+    }
+}
+
+TEST(convert, says_what_is_wrong) {
+    const TransferFunction discrete(from({1}), from({1, 0.5}), 0.1);
+    EXPECT_EQ(thrown_message([&] { c2d(discrete, 0.1); }), "c2d: the model is already discrete, with Ts = 0.1 s");
+    EXPECT_EQ(thrown_message([&] { d2c(kSecondOrder); }), "d2c: the model is already continuous");
+    EXPECT_EQ(thrown_message([&] { c2d(kSecondOrder, -1); }),
+              "c2d: the sampling time must be a positive number of seconds, but it is -1");
+    EXPECT_NE(thrown_message([&] { d2c(discrete); }).find("the pole z = -0.5"), std::string::npos);
+    EXPECT_NE(thrown_message([&] { c2d(kSecondOrder.with_delay(0.15), 0.1, Discretisation::kTustin); }).find("0.15 s"),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace dynlab
