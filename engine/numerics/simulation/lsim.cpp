@@ -102,8 +102,10 @@ Matrix lsim(const StateSpace& system, const MatrixView& u, double Ts, Hold hold,
 }
 
 Matrix state_variable_filter(const VectorView& x, int n, double lambda, double Ts, Hold hold) {
-    if (n < 1)
-        throw InvalidArgument("state-variable filter: the order must be at least 1, but it is " + std::to_string(n));
+    constexpr int kHighestOrder = 50;
+    if (n < 1 || n > kHighestOrder)
+        throw InvalidArgument("state-variable filter: the order must lie between 1 and " +
+                              std::to_string(kHighestOrder) + ", but it is " + std::to_string(n));
     if (!(lambda > 0) || !std::isfinite(lambda))
         throw InvalidArgument(
             "state-variable filter: the cut-off frequency lambda must be a positive number of rad/s, "

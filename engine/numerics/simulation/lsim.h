@@ -21,7 +21,7 @@ Matrix lsim(const StateSpace& system, const MatrixView& u, double Ts, Hold hold 
 
 /// Outputs of the state-variable filter: columns p^n x_f, ..., p x_f, x_f with x_f = 1/(p + lambda)^n x, zero
 /// state at the first sample; N x (n+1). The highest derivative comes from p^n x_f = x - sum e_i p^(n-i) x_f.
-/// (Garnier and Wang 2008, chapter 1.) lambda in rad/s.
+/// (Garnier and Wang 2008, chapter 1.) n from 1 to 50, lambda in rad/s.
 Matrix state_variable_filter(const VectorView& x, int n, double lambda, double Ts, Hold hold = Hold::kFoh);
 
 }  // namespace dynlab

@@ -145,6 +145,14 @@ TEST(lsim, says_what_is_wrong) {
               }),
               "lsim: the model is discrete with Ts = 0.2 s but the data are sampled every 0.1 s; both must be equal");
     EXPECT_EQ(thrown_message([] { lsim(kSecondOrder, Vector(), 0.1); }), "lsim: the input has no samples");
+    EXPECT_EQ(thrown_message([] {
+                  state_variable_filter(from({1, 2}), 1000000, 3, 0.1);
+              }),
+              "state-variable filter: the order must lie between 1 and 50, but it is 1000000");
+    EXPECT_EQ(thrown_message([] {
+                  state_variable_filter(from({1, 2}), 2, -3, 0.1);
+              }),
+              "state-variable filter: the cut-off frequency lambda must be a positive number of rad/s, but it is -3");
 }
 
 }  // namespace
