@@ -1,6 +1,7 @@
 #include "numerics/linalg/matrix_exponential.h"
 
 #include <Eigen/Dense>
+#include <cmath>
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "numerics/error.h"
@@ -20,18 +21,34 @@ Matrix matrix_exponential(const MatrixView& A) {
     return scale.asDiagonal() * exponential * scale.cwiseInverse().asDiagonal();
 }
 
+namespace {
+
+/// Powers of two that bring the columns below one: large inputs must not make the exponential scale and square more
+/// often than A itself needs, for every squaring costs accuracy.
+Eigen::RowVectorXd input_scale(const Matrix& B) {
+    Eigen::RowVectorXd scale = Eigen::RowVectorXd::Ones(B.cols());
+    for (Index j = 0; j < B.cols(); ++j) {
+        const double largest = B.rows() > 0 ? B.col(j).cwiseAbs().maxCoeff() : 0;
+        if (largest > 1) scale(j) = std::exp2(std::ceil(std::log2(largest)));
+    }
+    return scale;
+}
+
+}  // namespace
+
 StepMatrices exact_step(const MatrixView& A, const MatrixView& B, double h) {
     // In steps of h, with s = t/h: d/ds [x; a; b - a] = [hA hB 0; 0 0 I; 0 0 0] [x; a; b - a].
     const Index n = A.rows(), m = B.cols();
+    const Eigen::RowVectorXd scale = input_scale(h * B);
     Matrix block = Matrix::Zero(n + 2 * m, n + 2 * m);
     block.topLeftCorner(n, n) = h * A;
-    block.block(0, n, n, m) = h * B;
+    block.block(0, n, n, m) = h * B * scale.cwiseInverse().asDiagonal();
     block.block(n, n + m, m, m).setIdentity();
     const Matrix exponential = matrix_exponential(block);
     StepMatrices step;
     step.F = exponential.topLeftCorner(n, n);
-    step.G = exponential.block(0, n, n, m);
-    step.H1 = exponential.block(0, n + m, n, m);
+    step.G = exponential.block(0, n, n, m) * scale.asDiagonal();
+    step.H1 = exponential.block(0, n + m, n, m) * scale.asDiagonal();
     step.H0 = step.G - step.H1;
     return step;
 }

@@ -62,6 +62,11 @@ TEST(lsim, integrator_counts) {  // oracle: analytic
     for (Index k = 0; k < 9; ++k) EXPECT_NEAR(y(k), 0.5 * static_cast<double>(k), 1e-15);
 }
 
+TEST(lsim, integrator_counts_for_long_at_a_coarse_rate) {  // oracle: analytic; rounding must not add up
+    const Vector y = lsim(TransferFunction(from({1}), from({1, 0})), Vector::Ones(100000), 86400);
+    EXPECT_NEAR(y(99999) / (86400.0 * 99999), 1, 1e-14);
+}
+
 TEST(lsim, irregular_instants) {  // oracle: analytic, at instants without a pattern
     Vector t(60);
     RandomStream random(2);
