@@ -63,15 +63,24 @@ Vector substitute(const Vector& p, const Vector& top, const Vector& bottom, Inde
     return result;
 }
 
+/// Whether p(x) is zero but for rounding.
+bool has_root(const Vector& p, double x) {
+    constexpr double kRounding = 1e-14;
+    return std::abs(evaluate(p, x)) <= kRounding * evaluate(p.cwiseAbs(), std::abs(x));
+}
+
+[[noreturn]] void report_pole_without_image(double Ts) {
+    throw InvalidArgument("c2d: the tustin method has no result for a pole at 2/Ts = " + number_text(2 / Ts) +
+                          " rad/s; choose another Ts");
+}
+
 TransferFunction tustin_c2d(const TransferFunction& G, double Ts) {
     if (split_delay(G.delay(), Ts).rest > 0)
         throw InvalidArgument("c2d: the tustin method needs a delay that is a multiple of Ts = " + number_text(Ts) +
                               " s, but it is " + number_text(G.delay()) + " s; zoh and foh take any delay");
     const Vector top = 2 / Ts * Eigen::Vector2d(1, -1), bottom = Eigen::Vector2d(1, 1);
+    if (has_root(G.den(), 2 / Ts)) report_pole_without_image(Ts);
     const Vector den = substitute(G.den(), top, bottom, G.pole_count());
-    if (den(0) == 0)
-        throw InvalidArgument("c2d: the tustin method has no result for a pole at 2/Ts = " + number_text(2 / Ts) +
-                              " rad/s; choose another Ts");
     const double delay = static_cast<double>(split_delay(G.delay(), Ts).samples) * Ts;
     return TransferFunction(substitute(G.num(), top, bottom, G.pole_count()), den, Ts, delay);
 }
@@ -113,8 +122,8 @@ TransferFunction exact_d2c(const TransferFunction& G, Hold hold) {
 
 TransferFunction tustin_d2c(const TransferFunction& G) {
     const Vector top = Eigen::Vector2d(1, 2), bottom = Eigen::Vector2d(-1, 2);  // z, with time in samples
+    if (has_root(G.den(), -1)) throw InvalidArgument("d2c: the tustin method has no result for a pole at z = -1");
     const Vector den = substitute(G.den(), top, bottom, G.pole_count());
-    if (den(0) == 0) throw InvalidArgument("d2c: the tustin method has no result for a pole at z = -1");
     const Vector num = without_rounding(substitute(G.num(), top, bottom, G.pole_count()));
     return TransferFunction(in_seconds(num, G.Ts()), in_seconds(den, G.Ts()), 0, G.delay());
 }
@@ -136,7 +145,9 @@ StateSpace c2d(const StateSpace& system, double Ts, Discretisation method) {
     const Matrix &A = system.A, &B = system.B, &C = system.C;
     if (method == Discretisation::kTustin) {
         const Matrix I = Matrix::Identity(A.rows(), A.rows());
-        const Matrix inverse = (I - Ts / 2 * A).inverse();
+        const Eigen::FullPivLU<Matrix> solver(I - Ts / 2 * A);
+        if (!solver.isInvertible()) report_pole_without_image(Ts);
+        const Matrix inverse = solver.inverse();
         return StateSpace(inverse * (I + Ts / 2 * A), Ts * inverse * B, C * inverse,
                           system.D + Ts / 2 * C * inverse * B, Ts);
     }

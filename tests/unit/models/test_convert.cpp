@@ -77,6 +77,20 @@ TEST(convert, d2c_undoes_c2d) {  // oracle: second route, there and back
         }
 }
 
+TEST(convert, there_and_back_keeps_the_digits) {  // oracle: round trip; simple poles, fast and slow sampling
+    const TransferFunction models[] = {kSecondOrder, kRaoGarnier,
+                                       TransferFunction(from({3, 1}), from({1, 2, 0}), 0, 0.4)};
+    for (const auto method : {Discretisation::kZoh, Discretisation::kFoh, Discretisation::kTustin})
+        for (const double Ts : {0.001, 0.01, 0.1})
+            for (const TransferFunction& G : models) {
+                const TransferFunction discrete = c2d(G, Ts, method), back = d2c(discrete, method);
+                EXPECT_EQ(back.zero_count(), G.zero_count()) << "Ts " << Ts;  // no far zeros made of rounding
+                const TransferFunction again = c2d(back, Ts, method);
+                EXPECT_LT((again.den() - discrete.den()).norm(), 1e-12 * discrete.den().norm()) << "Ts " << Ts;
+                EXPECT_LT((again.num() - discrete.num()).norm(), 1e-9 * discrete.num().norm()) << "Ts " << Ts;
+            }
+}
+
 TEST(convert, state_space_agrees_with_transfer_function) {  // oracle: second route
     for (const auto method : {Discretisation::kZoh, Discretisation::kFoh, Discretisation::kTustin}) {
         const TransferFunction direct = c2d(kSecondOrder, 0.1, method);
@@ -95,6 +109,15 @@ TEST(convert, says_what_is_wrong) {
     EXPECT_NE(thrown_message([&] { d2c(discrete); }).find("the pole z = -0.5"), std::string::npos);
     EXPECT_NE(thrown_message([&] { c2d(kSecondOrder.with_delay(0.15), 0.1, Discretisation::kTustin); }).find("0.15 s"),
               std::string::npos);
+    const TransferFunction unstable(from({1}), from({1, -20}));  // a pole at 2/Ts
+    const std::string no_image =
+        "c2d: the tustin method has no result for a pole at 2/Ts = 20 rad/s; choose another Ts";
+    EXPECT_EQ(thrown_message([&] { c2d(unstable, 0.1, Discretisation::kTustin); }), no_image);
+    EXPECT_EQ(thrown_message([&] { c2d(to_state_space(unstable), 0.1, Discretisation::kTustin); }), no_image);
+    const TransferFunction alternating(from({1}), from({1, 0.7, -0.3}), 0.1);  // (z + 1)(z - 0.3) but for rounding
+    EXPECT_EQ(thrown_message([&] { d2c(alternating, Discretisation::kTustin); }),
+              "d2c: the tustin method has no result for a pole at z = -1");
+    EXPECT_NE(thrown_message([&] { c2d(TransferFunction::variable(), 0.1); }).find("zeros"), std::string::npos);
 }
 
 }  // namespace

@@ -78,6 +78,17 @@ TEST(transfer_function, bandwidth_of_known_systems) {  // oracle: analytic
     EXPECT_TRUE(std::isnan(bandwidth(TransferFunction(from({1}), from({1, 0})))));
 }
 
+TEST(transfer_function, bandwidth_ends_at_a_narrow_notch) {  // oracle: analytic, (1 - x)^2 (10^0.3 - 1) = 4e-6 x
+    const TransferFunction G(from({1, 0, 1}), from({1, 2e-3, 1}));
+    const double c = 4e-6 / (std::pow(10, 0.3) - 1), x = (2 + c - std::sqrt((2 + c) * (2 + c) - 4)) / 2;
+    EXPECT_NEAR(bandwidth(G), std::sqrt(x), 1e-9);
+}
+
+TEST(transfer_function, bandwidth_of_a_sampled_lag) {  // oracle: analytic, (1-p)^2/(1 - 2 p cos(w Ts) + p^2) = 10^-0.3
+    const double p = 0.8, Ts = 0.1, cosine = (1 + p * p - (1 - p) * (1 - p) * std::pow(10, 0.3)) / (2 * p);
+    EXPECT_NEAR(bandwidth(TransferFunction(from({1 - p}), from({1, -p}), Ts)), std::acos(cosine) / Ts, 1e-11);
+}
+
 TEST(transfer_function, text_shows_a_fraction) {  // oracle: by hand
     EXPECT_EQ(to_text(kSecondOrder), "      2\n-------------\ns^2 + 4 s + 3");
     EXPECT_EQ(to_text(TransferFunction(from({-4, 0.5}), from({1, 1, 4}), 0, 8)),
