@@ -1,0 +1,61 @@
+#include "numerics/linalg/matrix_exponential.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "support/thrown_message.h"
+
+namespace dynlab {
+namespace {
+
+TEST(matrix_exponential, of_a_rotation) {  // oracle: analytic, cos and sin
+    Matrix A(2, 2);
+    A << 0, -1.3, 1.3, 0;
+    Matrix expected(2, 2);
+    expected << std::cos(1.3), -std::sin(1.3), std::sin(1.3), std::cos(1.3);
+    EXPECT_TRUE(matrix_exponential(A).isApprox(expected, 1e-15));
+}
+
+TEST(matrix_exponential, of_a_nilpotent_matrix) {  // oracle: analytic, the series ends
+    Matrix A = Matrix::Zero(3, 3);
+    A(0, 1) = 3;
+    A(1, 2) = 2;
+    Matrix expected = Matrix::Identity(3, 3) + A + A * A / 2;
+    EXPECT_TRUE(matrix_exponential(A).isApprox(expected, 1e-15));
+}
+
+TEST(matrix_exponential, of_a_badly_scaled_companion_matrix) {  // oracle: analytic, poles -1e5 and -2e5, entry by entry
+    Matrix A(2, 2);
+    A << -3e5, -2e10, 1, 0;
+    const double h = 1e-5, fast = std::exp(-2e5 * h), slow = std::exp(-1e5 * h);
+    const Matrix F = matrix_exponential(A * h);
+    EXPECT_NEAR(F(0, 0) / (2 * fast - slow), 1, 1e-13);
+    EXPECT_NEAR(F(0, 1) / (2e5 * (fast - slow)), 1, 1e-14);
+    EXPECT_NEAR(F(1, 0) / ((slow - fast) / 1e5), 1, 1e-14);
+    EXPECT_NEAR(F(1, 1) / (2 * slow - fast), 1, 1e-14);
+}
+
+TEST(matrix_exponential, step_of_an_integrator_and_a_lag) {  // oracle: analytic integrals
+    const Matrix A = Matrix::Constant(1, 1, -2.0), B = Matrix::Constant(1, 1, 3.0);
+    const double h = 0.25, decay = std::exp(-2 * h);
+    const StepMatrices step = exact_step(A, B, h);
+    EXPECT_NEAR(step.F(0), decay, 1e-16);
+    EXPECT_NEAR(step.G(0), 1.5 * (1 - decay), 1e-15);
+    EXPECT_NEAR(step.H1(0), 3 * (2 * h - 1 + decay) / (4 * h), 1e-15);  // int_0^h e^(-2(h-s)) 3 s/h ds
+    EXPECT_NEAR(step.H0(0) + step.H1(0), step.G(0), 1e-16);
+    const StepMatrices integrator = exact_step(Matrix::Zero(1, 1), B, h);
+    EXPECT_DOUBLE_EQ(integrator.H0(0), 3 * h / 2);
+    EXPECT_DOUBLE_EQ(integrator.H1(0), 3 * h / 2);
+}
+
+TEST(matrix_exponential, refusals) {
+    EXPECT_EQ(thrown_message([] { matrix_exponential(Matrix::Zero(2, 3)); }),
+              "matrix exponential: the matrix must be square, but it has 2 rows and 3 columns");
+    EXPECT_EQ(thrown_message([] { matrix_exponential(Matrix::Constant(1, 1, NAN)); }),
+              "matrix exponential: the matrix holds a value that is not finite");
+}
+
+}  // namespace
+}  // namespace dynlab
