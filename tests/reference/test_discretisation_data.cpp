@@ -1,90 +1,59 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <sstream>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "numerics/linalg/matrix_exponential.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/models/process_model.h"
 #include "numerics/simulation/lsim.h"
+#include "support/reference_data.h"
 
 namespace dynlab {
 namespace {
 
-const std::string kFolder = std::string(DYNLAB_SOURCE_DIR) + "/tests/reference/data/";
-
-std::string file_text(const std::string& name) {
-    std::ifstream file(kFolder + name);
-    EXPECT_TRUE(file) << name;
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
+Vector numbers_of(const nlohmann::json& values) {
+    Vector numbers(static_cast<Index>(values.size()));
+    for (std::size_t i = 0; i < values.size(); ++i)
+        numbers[static_cast<Index>(i)] =
+            values[i].is_string() ? std::stod(values[i].get<std::string>()) : values[i].get<double>();
+    return numbers;
 }
 
-/// The numbers of a JSON array after a key, in order, whatever its nesting; `end` becomes the place behind it.
-Vector numbers_after(const std::string& text, const std::string& key, std::size_t& end) {
-    end = text.find('[', text.find("\"" + key + "\"", end));
-    std::vector<double> values;
-    int depth = 0;
-    do {
-        if (text[end] == '[') ++depth;
-        if (text[end] == ']') --depth;
-        if (std::isdigit(static_cast<unsigned char>(text[end])) || text[end] == '-') {
-            std::size_t length = 0;
-            values.push_back(std::stod(text.substr(end, 40), &length));
-            end += length - 1;
-        }
-        ++end;
-    } while (depth > 0);
-    return Eigen::Map<Vector>(values.data(), static_cast<Index>(values.size()));
+Matrix rows_of(const nlohmann::json& values) {
+    Matrix rows(static_cast<Index>(values.size()), static_cast<Index>(values.front().size()));
+    for (std::size_t i = 0; i < values.size(); ++i) rows.row(static_cast<Index>(i)) = numbers_of(values[i]).transpose();
+    return rows;
 }
 
 /// Largest difference, each entry relative to its own magnitude.
-double relative_difference(const Vector& value, const Vector& reference) {
+double relative_difference(const Matrix& value, const Matrix& reference) {
     return ((value - reference).array() / reference.array().abs()).abs().maxCoeff();
 }
 
 TEST(discretisation_data, step_matrices_of_four_filters) {  // oracle: reference data, 80-bit arithmetic
-    const std::string text = file_text("discretisation_longdouble.json");
     constexpr double kTolerance = 5e-14;  // entries of F lose up to two digits to cancellation of their own series
-    int filters = 0;
-    for (std::size_t at = 0; text.find("\"den\"", at) != std::string::npos; ++filters) {
-        const Vector den = numbers_after(text, "den", at);
-        const Vector F = numbers_after(text, "F", at), G = numbers_after(text, "G_zoh", at);
-        const Vector H0 = numbers_after(text, "H0_foh", at), H1 = numbers_after(text, "H1_foh", at);
+    std::ifstream file(DYNLAB_SOURCE_DIR "/tests/reference/data/discretisation_longdouble.json");
+    const nlohmann::json filters = nlohmann::json::parse(file);
+    ASSERT_EQ(filters.size(), 4u);
+    for (const nlohmann::json& filter : filters) {
+        const Vector den = numbers_of(filter["den"]);
         const Index n = den.size() - 1;
-        const StepMatrices step = exact_step(companion(den), Vector::Unit(n, 0), 0.01);
-        const Matrix rows = step.F.transpose();
-        EXPECT_LT(relative_difference(rows.reshaped(), F), kTolerance) << den.transpose();
-        EXPECT_LT(relative_difference(step.G, G), kTolerance) << den.transpose();
-        EXPECT_LT(relative_difference(step.H0, H0), kTolerance) << den.transpose();
-        EXPECT_LT(relative_difference(step.H1, H1), kTolerance) << den.transpose();
+        const double Ts = std::stod(filter["Ts"].get<std::string>());
+        const StepMatrices step = exact_step(companion(den), Vector::Unit(n, 0), Ts);
+        EXPECT_LT(relative_difference(step.F, rows_of(filter["F"])), kTolerance) << den.transpose();
+        EXPECT_LT(relative_difference(step.G, numbers_of(filter["G_zoh"])), kTolerance) << den.transpose();
+        EXPECT_LT(relative_difference(step.H0, numbers_of(filter["H0_foh"])), kTolerance) << den.transpose();
+        EXPECT_LT(relative_difference(step.H1, numbers_of(filter["H1_foh"])), kTolerance) << den.transpose();
     }
-    EXPECT_EQ(filters, 4);
-}
-
-struct Record {
-    Vector u, y;
-};
-
-Record read_record(const std::string& name) {
-    std::istringstream text(file_text(name));
-    std::string line;
-    std::getline(text, line);
-    std::vector<double> u, y;
-    while (std::getline(text, line)) {
-        const std::size_t first = line.find(','), second = line.find(',', first + 1);
-        u.push_back(std::stod(line.substr(first + 1)));
-        y.push_back(std::stod(line.substr(second + 1)));
-    }
-    return {Eigen::Map<Vector>(u.data(), static_cast<Index>(u.size())),
-            Eigen::Map<Vector>(y.data(), static_cast<Index>(y.size()))};
 }
 
 double output_difference(const TransferFunction& G, const std::string& file, double Ts) {
-    const Record record = read_record(file);
-    return (lsim(G, record.u, Ts) - record.y).cwiseAbs().maxCoeff() / record.y.cwiseAbs().maxCoeff();
+    auto columns = test::reference_columns(file);
+    const Index N = static_cast<Index>(columns["y"].size());
+    const Vector y = Vector::Map(columns["y"].data(), N), u = Vector::Map(columns["u"].data(), N);
+    return (lsim(G, u, Ts) - y).cwiseAbs().maxCoeff() / y.cwiseAbs().maxCoeff();
 }
 
 TEST(discretisation_data, simulated_outputs) {  // oracle: reference data, outputs of an independent program
