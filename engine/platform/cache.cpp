@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/system_call.h"
 #include "platform/temporary_folder.h"
@@ -22,6 +23,7 @@ using namespace std::chrono_literals;
 
 constexpr char kUnfinished[] = ".new-";
 constexpr char kDropped[] = ".old-";
+constexpr char kText[] = "text";
 constexpr auto kInUse = 1min;    // an entry used so lately may be open in another process
 constexpr auto kAbandoned = 1h;  // an unfinished entry this old belongs to a process that died
 
@@ -133,6 +135,19 @@ fs::path Cache::commit(const fs::path& prepared, const std::string& key) const {
     mark_as_used(folder);
     drop_beyond_limit();
     return folder;
+}
+
+void Cache::store(const std::string& key, const std::string& text) const {
+    if (const auto folder = find(key)) return write_file_atomically(*folder / kText, text);
+    const fs::path folder = prepare();
+    write_file_atomically(folder / kText, text);
+    commit(folder, key);
+}
+
+std::optional<std::string> Cache::recall(const std::string& key) const {
+    const auto folder = find(key);
+    if (!folder || !fs::exists(*folder / kText)) return std::nullopt;
+    return read_file(*folder / kText);
 }
 
 void Cache::drop_beyond_limit() const {

@@ -20,6 +20,10 @@ class Cache {
     /// wins).
     std::filesystem::path prepare() const;
     std::filesystem::path commit(const std::filesystem::path& prepared, const std::string& key) const;
+
+    /// A short text under `key`, replaced whole by every store(). The keys of texts and of folders must differ.
+    void store(const std::string& key, const std::string& text) const;
+    std::optional<std::string> recall(const std::string& key) const;
     const std::filesystem::path& root() const { return root_; }
 
   private:
