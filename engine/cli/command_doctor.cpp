@@ -1,0 +1,87 @@
+#include <fmt/format.h>
+
+#include <iostream>
+#include <set>
+
+#include "cli/commands.h"
+#include "data_io/dataset_index.h"
+#include "platform/cache.h"
+#include "platform/child_process.h"
+#include "platform/program_lookup.h"
+#include "workflow/lesson_catalogue.h"
+
+namespace dynlab {
+namespace {
+
+/// One line of the report; `remedy` is empty when all is well.
+void show(const std::string& what, const std::string& state, bool well) {
+    std::cout << fmt::format("{:<4} {:<22} {}\n", well ? "ok" : "--", what, state);
+}
+
+/// Looks for the programs; returns the packages that are missing.
+std::set<std::string> check_programs() {
+    std::set<std::string> missing;
+    for (const NeededProgram& needed : needed_programs()) {
+        const auto place = find_program(needed.program);
+        if (!place) missing.insert(needed.package);
+        show(needed.program, place ? place->string() + " (" + needed.purpose + ")" : "missing: " + needed.purpose,
+             place.has_value());
+    }
+    return missing;
+}
+
+struct LatexFile {
+    const char *file, *package, *purpose;
+    bool needed;
+};
+constexpr LatexFile kLatexFiles[] = {
+    {"lmodern.sty", "lmodern", "the documents' font", true},
+    {"booktabs.sty", "texlive-latex-recommended", "tables", true},
+    {"amsmath.sty", "texlive-latex-base", "mathematics", true},
+    {"frenchb.ldf", "texlive-lang-french", "documents in French only", false},
+};
+
+/// Looks for the LaTeX files documents use; returns the packages that are missing.
+std::set<std::string> check_latex() {
+    std::set<std::string> missing;
+    if (!find_program("kpsewhich")) return missing;
+    for (const LatexFile& part : kLatexFiles) {
+        ChildOptions look_up;
+        look_up.command = {"kpsewhich", part.file};
+        const bool there = run_child(look_up, "texlive-latex-base").exit_code == 0;
+        if (!there && part.needed) missing.insert(part.package);
+        show(part.file,
+             (there         ? ""
+              : part.needed ? "missing: "
+                            : fmt::format("not installed ({}): ", part.package)) +
+                 std::string(part.purpose),
+             there || !part.needed);
+    }
+    return missing;
+}
+
+int examine() {
+    std::set<std::string> missing = check_programs();
+    missing.merge(check_latex());
+    show("data and templates", shared_folder().string(), true);
+    show("lessons", std::to_string(lessons().size()), !lessons().empty());
+    show("data sets", std::to_string(dataset_names().size()), !dataset_names().empty());
+    show("caches", Cache("reports").root().parent_path().string() + " (safe to delete)", true);
+    if (missing.empty()) {
+        std::cout << "\nEverything is in place.\n";
+        return kDone;
+    }
+    std::string command = "sudo apt install";
+    for (const std::string& package : missing) command += " " + package;
+    std::cout << "\nInstall what is missing:  " << command << '\n';
+    return kMissingProgram;
+}
+
+}  // namespace
+
+void add_doctor(CLI::App& app, Action& action) {
+    CLI::App* command = app.add_subcommand("doctor", "Check that everything dynlab needs is installed");
+    command->callback([&action] { action = examine; });
+}
+
+}  // namespace dynlab

@@ -1,0 +1,28 @@
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "cli/commands.h"
+#include "workflow/lesson_catalogue.h"
+
+namespace dynlab {
+namespace {
+
+int list_lessons() {
+    for (const Lesson& lesson : lessons()) {
+        const ScriptHeader header = read_percent_script(lesson.script()).header;
+        std::cout << fmt::format("{:<22} {}\n", lesson.slug, header.title);
+        if (!header.subtitle.empty()) std::cout << fmt::format("{:<22} {}\n", "", header.subtitle);
+    }
+    std::cout << "\nRead one with its solution: dynlab report 02.  Work on one: dynlab new 02 my-work.\n";
+    return kDone;
+}
+
+}  // namespace
+
+void add_lessons(CLI::App& app, Action& action) {
+    CLI::App* command = app.add_subcommand("lessons", "List the lessons of the course");
+    command->callback([&action] { action = list_lessons; });
+}
+
+}  // namespace dynlab

@@ -1,0 +1,35 @@
+#include "cli/commands.h"
+#include "cli/document_command.h"
+#include "cli/seed_option.h"
+
+namespace dynlab {
+namespace {
+
+struct ReportWords {
+    std::string subject, output;
+    bool timings = false;
+    SeedOption seed;
+};
+
+int report(const ReportWords& words) {
+    ReportRequest request = report_of(words.subject, words.output);
+    request.seed = words.seed.value().value_or(request.seed);
+    return make_document(std::move(request), words.timings);
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, Action& action) {
+    auto words = std::make_shared<ReportWords>();
+    CLI::App* command = app.add_subcommand("report", "Make the PDF of a lesson, or of your own folder");
+    command->add_option("LESSON|FOLDER", words->subject, "A lesson's number or name, or a folder made by dynlab new")
+        ->required();
+    command->add_option("-o,--output", words->output, "Where to write it (.pdf, .html or .md); else the current folder")
+        ->type_name("FILE");
+    command->add_flag("--timings", words->timings, "Say how long each step took");
+    words->seed.add_to(*command);
+    command->footer("Examples:  dynlab report 02     dynlab report my-work -o my-work.html");
+    command->callback([words, &action] { action = [words] { return report(*words); }; });
+}
+
+}  // namespace dynlab

@@ -1,0 +1,78 @@
+#include <cstdio>
+#include <iostream>
+
+#include "cli/commands.h"
+#include "cli/seed_option.h"
+#include "platform/atomic_file.h"
+#include "workflow/run_script.h"
+
+namespace dynlab {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RunWords {
+    std::string file, code, out;
+    SeedOption seed;
+};
+
+void print_now(const std::string& text) {
+    std::fwrite(text.data(), 1, text.size(), stdout);
+    std::fflush(stdout);
+}
+
+/// Draws what the script made: a figure without a file of its own goes to `folder`, which is made for it.
+void save_figures(RunRecord& record, GnuplotRenderer& renderer, const fs::path& folder) {
+    if (record.figures.empty()) return;
+    fs::create_directories(folder);
+    draw_figures(record, renderer, folder, FigureFormat::kPdf);
+    renderer.finish();
+    for (const auto& [name, figure] : record.figures) {
+        std::cout << "figure " << name << ": " << figure.file.string() << '\n';
+    }
+}
+
+int run(const RunWords& words) {
+    const bool from_file = !words.file.empty();
+    RunRequest request;
+    request.script = from_file ? read_percent_script(words.file) : parse_percent_script(words.code, "command line");
+    request.seed = words.seed.value();
+    request.print = print_now;
+    const std::string stem = from_file ? fs::path(words.file).stem().string() : "dynlab";
+    const fs::path out = words.out.empty() ? fs::path(stem + "_out") : fs::path(words.out);
+    request.out_folder = words.out.empty() ? fs::path(".") : out;
+    if (!words.out.empty()) fs::create_directories(out);
+
+    GnuplotRenderer renderer;
+    RunRecord record = run_script(request, renderer);
+    save_figures(record, renderer, out);
+    if (!words.out.empty()) write_file_atomically(out / "record.json", to_json(record));
+    if (!record.error) return kDone;
+    std::cout.flush();
+    std::cerr << "dynlab: " << record.error->message << '\n';
+    return kFailed;
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, Action& action) {
+    auto words = std::make_shared<RunWords>();
+    CLI::App* command = app.add_subcommand("run", "Run a Lua script, or code given on the command line");
+    auto* file = command->add_option("FILE", words->file, "The script");
+    auto* code = command->add_option("-e", words->code, "Code to run instead of a file")->type_name("CODE");
+    file->excludes(code);
+    command->add_option("--out", words->out, "Folder for figures, saved files and the run's record (record.json)")
+        ->type_name("DIR");
+    words->seed.add_to(*command);
+    command->footer(
+        "Figures that the script makes are saved as PDF and their paths printed.\n"
+        "Example:  dynlab run -e 's = tf(\"s\") step(2/(s^2 + s + 1))'");
+    command->callback([words, command, &action] {
+        if (words->file.empty() && words->code.empty()) {
+            throw CLI::RequiredError("a script FILE or -e CODE");
+        }
+        action = [words] { return run(*words); };
+    });
+}
+
+}  // namespace dynlab

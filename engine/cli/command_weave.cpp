@@ -1,0 +1,35 @@
+#include "cli/commands.h"
+#include "cli/document_command.h"
+#include "cli/seed_option.h"
+
+namespace dynlab {
+namespace {
+
+struct WeaveWords {
+    std::string script, output;
+    bool timings = false;
+    SeedOption seed;
+};
+
+int weave(const WeaveWords& words) {
+    ReportRequest request = report_of_script(words.script, words.output);
+    request.seed = words.seed.value().value_or(request.seed);
+    return make_document(std::move(request), words.timings);
+}
+
+}  // namespace
+
+void add_weave(CLI::App& app, Action& action) {
+    auto words = std::make_shared<WeaveWords>();
+    CLI::App* command = app.add_subcommand("weave", "Run any script and make a document of its text, code and results");
+    command->add_option("FILE", words->script, "The script (percent format: -- %% starts a cell)")->required();
+    command->add_option("-o,--output", words->output, "The document: .pdf, .html or .md")
+        ->type_name("FILE")
+        ->required();
+    command->add_flag("--timings", words->timings, "Say how long each step took");
+    words->seed.add_to(*command);
+    command->footer("Example:  dynlab weave analysis.lua -o analysis.html");
+    command->callback([words, &action] { action = [words] { return weave(*words); }; });
+}
+
+}  // namespace dynlab

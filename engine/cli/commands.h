@@ -1,0 +1,22 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace dynlab {
+
+/// Exit codes of every command.
+enum ExitCode { kDone = 0, kFailed = 1, kUsage = 2, kMissingProgram = 3, kInterrupted = 130 };
+
+/// What a command does once its words are parsed; returns the exit code.
+using Action = std::function<int()>;
+
+/// Each adds its command with options and help text to `app` and sets `action` when it is the one called.
+void add_run(CLI::App& app, Action& action);
+void add_report(CLI::App& app, Action& action);
+void add_weave(CLI::App& app, Action& action);
+void add_new(CLI::App& app, Action& action);
+void add_lessons(CLI::App& app, Action& action);
+void add_help(CLI::App& app, Action& action);
+void add_doctor(CLI::App& app, Action& action);
+
+}  // namespace dynlab

@@ -1,0 +1,71 @@
+#include <unistd.h>
+
+#include <cstdio>
+#include <exception>
+#include <iostream>
+
+#include "cli/commands.h"
+#include "platform/error.h"
+#include "platform/interrupt.h"
+
+namespace {
+
+using namespace dynlab;
+
+constexpr const char* kAbout = "dynlab runs a laboratory course on data-driven learning of dynamical systems.";
+constexpr const char* kFooter =
+    "First steps:\n"
+    "  dynlab lessons                 what there is to learn\n"
+    "  dynlab report 02               a lesson with its worked solution, as a PDF\n"
+    "  dynlab new 02 my-work          your own copy, to be worked on\n"
+    "  dynlab report my-work          your report, as a PDF\n"
+    "  dynlab run -e 'print(1 + 1)'   a line of Lua\n"
+    "  dynlab help tf                 what a function does, with an example\n"
+    "\n"
+    "Exit codes: 0 done, 1 the script or document failed, 2 wrong usage, 3 a needed program is missing,\n"
+    "130 interrupted.";
+
+/// Runs the chosen command and turns what it throws into one line on standard error and an exit code.
+int run_action(const Action& action) {
+    const InterruptScope interrupts;
+    const auto complain = [](const std::exception& error, int code) {
+        std::fflush(stdout);
+        std::cerr << "dynlab: " << error.what() << std::endl;
+        return code;
+    };
+    try {
+        return action();
+    } catch (const Interrupted& error) {
+        return complain(error, kInterrupted);
+    } catch (const MissingProgram& error) {
+        return complain(error, kMissingProgram);
+    } catch (const std::exception& error) {
+        return complain(error, kFailed);
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app{kAbout, "dynlab"};
+    app.footer(kFooter);
+    app.set_version_flag("--version", "dynlab " DYNLAB_VERSION);
+    app.set_help_flag("-h,--help", "Show this text, or a command's: dynlab run --help");
+    app.require_subcommand(0, 1);
+
+    Action action;
+    for (const auto add : {add_run, add_report, add_weave, add_new, add_lessons, add_help, add_doctor})
+        add(app, action);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        const bool asked_for_text = error.get_exit_code() == 0;
+        app.exit(error);
+        return asked_for_text ? kDone : kUsage;
+    }
+    if (!action) {
+        std::cout << app.help();
+        return kDone;
+    }
+    return run_action(action);
+}

@@ -1,0 +1,23 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "documents/percent_script.h"
+
+namespace dynlab {
+
+/// A lesson of the course: the folder lessons/NN_slug with its master script.
+struct Lesson {
+    std::string slug;  ///< "02_least_squares"
+    std::filesystem::path folder;
+    std::filesystem::path script() const { return folder / "lesson.lua"; }
+};
+
+std::vector<Lesson> lessons();  ///< all that are installed, sorted by slug
+
+/// The lesson whose slug starts with `beginning` ("02", "02_least"). Throws EnvironmentError that lists the lessons
+/// when none or several do.
+Lesson find_lesson(const std::string& beginning);
+
+}  // namespace dynlab

@@ -1,0 +1,134 @@
+#include "workflow/make_report.h"
+
+#include <toml++/toml.h>
+#include <chrono>
+
+#include "documents/error.h"
+#include "platform/error.h"
+#include "platform/interrupt.h"
+#include "platform/program_lookup.h"
+#include "platform/temporary_folder.h"
+#include "workflow/lesson_catalogue.h"
+#include "workflow/report_memory.h"
+#include "workflow/run_script.h"
+
+namespace dynlab {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Stopwatch {
+  public:
+    explicit Stopwatch(std::vector<std::pair<std::string, double>>& timings) : timings_(timings) {}
+    void lap(const std::string& step) {
+        const auto now = std::chrono::steady_clock::now();
+        timings_.emplace_back(step, std::chrono::duration<double>(now - start_).count());
+        start_ = now;
+    }
+
+  private:
+    std::vector<std::pair<std::string, double>>& timings_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+fs::path template_named(const std::string& name) {
+    return shared_folder() / "report_templates" / (name + ".md");
+}
+
+/// The seed a group's folder asks for; the script's own without group.toml.
+std::uint32_t seed_of_group(const fs::path& folder, std::uint32_t otherwise) {
+    const fs::path file = folder / "group.toml";
+    if (!fs::exists(file)) return otherwise;
+    try {
+        const toml::table group = toml::parse_file(file.string());
+        const std::int64_t seed = group["seed"].value_or<std::int64_t>(otherwise);
+        if (seed < 0 || seed > std::int64_t{UINT32_MAX}) {
+            throw DocumentError(file.string() + ": seed must be a whole number from 0 to 4294967295, not " +
+                                std::to_string(seed));
+        }
+        return static_cast<std::uint32_t>(seed);
+    } catch (const toml::parse_error& error) {
+        throw DocumentError(file.string() + ":" + std::to_string(error.source().begin.line) + ": " +
+                            std::string(error.description()));
+    }
+}
+
+ReportRequest report_of_folder(const fs::path& folder, const fs::path& output) {
+    for (const char* needed : {"analysis.lua", "report.md"}) {
+        if (!fs::is_regular_file(folder / needed)) {
+            throw EnvironmentError(folder.string() + " has no " + needed +
+                                   "; a report needs analysis.lua and report.md (dynlab new LESSON DIR makes them)");
+        }
+    }
+    ReportRequest request;
+    request.script = read_percent_script(folder / "analysis.lua");
+    request.template_file = folder / "report.md";
+    request.output = output.empty() ? fs::path("report.pdf") : output;
+    request.seed = seed_of_group(folder, request.script.header.seed);
+    return request;
+}
+
+FigureFormat figure_format_for(DocumentFormat format) {
+    return format == DocumentFormat::kPdf ? FigureFormat::kPdf : FigureFormat::kSvg;
+}
+
+}  // namespace
+
+ReportRequest report_of_script(const fs::path& script, const fs::path& output) {
+    ReportRequest request;
+    request.script = read_percent_script(script);
+    const ScriptHeader& header = request.script.header;
+    request.template_file = template_named(header.template_name);
+    if (!fs::is_regular_file(request.template_file)) {
+        throw DocumentError(script.string() + ": there is no template '" + header.template_name + "' in " +
+                            request.template_file.parent_path().string());
+    }
+    request.metadata = {{"title", header.title.empty() ? script.stem().string() : header.title},
+                        {"subtitle", header.subtitle},
+                        {"lang", header.language}};
+    request.output = output;
+    request.seed = header.seed;
+    return request;
+}
+
+ReportRequest report_of(const std::string& lesson_or_folder, const fs::path& output) {
+    if (fs::is_directory(lesson_or_folder)) return report_of_folder(lesson_or_folder, output);
+    const Lesson lesson = find_lesson(lesson_or_folder);
+    return report_of_script(lesson.script(), output.empty() ? fs::path(lesson.slug + ".pdf") : output);
+}
+
+ReportResult make_report(const ReportRequest& request) {
+    const auto begin = [&](const char* step) {
+        if (request.step) request.step(step);
+    };
+    ReportResult result;
+    Stopwatch watch(result.timings);
+    const DocumentFormat format = document_format(request.output);
+    const ReportMemory memory(request);
+    result.up_to_date = memory.unchanged();
+    watch.lap("look for changes");
+    if (result.up_to_date) return result;
+
+    begin("running the script");
+    const TemporaryFolder workplace;
+    GnuplotRenderer renderer;
+    RunRequest run{.script = request.script, .seed = request.seed, .out_folder = workplace.path(), .print = {}};
+    RunRecord record = run_script(run, renderer);
+    if (record.error) throw DocumentError(record.error->message);
+    draw_figures(record, renderer, workplace.path(), figure_format_for(format));
+    watch.lap("run the script");
+
+    begin("making the document");
+    DocumentSource source;
+    source.template_file = request.template_file;
+    source.metadata = request.metadata;
+    source.record = &record;
+    source.cells = weave_cells(request.script, record);
+    DocumentMaker({.use_cache = true, .timings = &result.timings}).make(source, request.output, format, [&] {
+        renderer.finish();
+    });
+    memory.remember(record);
+    return result;
+}
+
+}  // namespace dynlab

@@ -1,0 +1,43 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "documents/document.h"
+#include "documents/percent_script.h"
+
+namespace dynlab {
+
+/// What a report is made of and where it goes.
+struct ReportRequest {
+    PercentScript script;
+    std::filesystem::path template_file;
+    std::map<std::string, std::string>
+        metadata;                  ///< title, subtitle and language of a lesson; empty for a student's report
+    std::filesystem::path output;  ///< .pdf, .html or .md
+    std::uint32_t seed = 1;
+    std::function<void(const std::string&)> step;  ///< told of each step as it begins; none when empty
+};
+
+struct ReportResult {
+    bool up_to_date = false;                              ///< nothing had changed, nothing was made
+    std::vector<std::pair<std::string, double>> timings;  ///< seconds of each step
+};
+
+/// The report of a lesson (`name`, any unique beginning: its worked solution) or of a student's folder (analysis.lua
+/// and report.md; the group's seed from group.toml). Without `output` it goes to the current folder:
+/// 02_least_squares.pdf or report.pdf. Throws EnvironmentError for a folder without these files.
+ReportRequest report_of(const std::string& lesson_or_folder, const std::filesystem::path& output = {});
+/// The report of any script, with the template its header names.
+ReportRequest report_of_script(const std::filesystem::path& script, const std::filesystem::path& output);
+
+/// Runs the script and makes the document; `output` appears whole or stays as it was. With unchanged inputs (script,
+/// template, data, seed, program) and an untouched output nothing is done. Throws DocumentError with the script's error
+/// when it fails.
+ReportResult make_report(const ReportRequest& request);
+
+}  // namespace dynlab

@@ -1,0 +1,75 @@
+#include "workflow/report_memory.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "platform/content_hash.h"
+#include "platform/program_lookup.h"
+
+namespace dynlab {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The running program by size and time of writing: hashing megabytes would cost more than the rest together.
+std::string program_identity() {
+    const fs::path program = fs::read_symlink("/proc/self/exe");
+    return std::to_string(fs::file_size(program)) + "/" +
+           std::to_string(fs::last_write_time(program).time_since_epoch().count());
+}
+
+std::vector<fs::path> template_files() {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::recursive_directory_iterator(shared_folder() / "report_templates")) {
+        if (entry.is_regular_file()) files.push_back(entry.path());
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+std::string hash_or_nothing(const fs::path& file) {
+    return fs::is_regular_file(file) ? hash_of_file(file) : std::string();
+}
+
+}  // namespace
+
+ReportMemory::ReportMemory(const ReportRequest& request)
+    : cache_("reports", 4u << 20), output_(fs::absolute(request.output)) {
+    ContentHash hash;
+    const auto add = [&hash](const std::string& text) { hash.add(std::to_string(text.size()) + ":").add(text); };
+    add(program_identity());
+    add(fs::absolute(request.script.file).string());
+    add(request.script.source);
+    add(fs::absolute(request.template_file).string());
+    add(hash_of_file(request.template_file));
+    for (const auto& [name, value] : request.metadata) {
+        add(name);
+        add(value);
+    }
+    add(std::to_string(request.seed));
+    add(output_.string());
+    for (const fs::path& file : template_files()) add(hash_of_file(file));
+    key_ = hash.hex();
+}
+
+bool ReportMemory::unchanged() const {
+    const auto remembered = cache_.recall(key_);
+    if (!remembered) return false;
+    const auto facts = nlohmann::json::parse(*remembered, nullptr, false);
+    if (!facts.is_object() || facts.value("output", "") != hash_or_nothing(output_)) return false;
+    const auto files = facts.value("files", std::map<std::string, std::string>());
+    return std::all_of(files.begin(), files.end(),
+                       [](const auto& file) { return hash_or_nothing(file.first) == file.second; });
+}
+
+void ReportMemory::remember(const RunRecord& record) const {
+    std::map<std::string, std::string> files;
+    for (const fs::path& file : record.files_read) {
+        files[fs::absolute(file).string()] = hash_or_nothing(file);
+    }
+    const nlohmann::json facts = {{"output", hash_or_nothing(output_)}, {"files", files}};
+    cache_.store(key_, facts.dump());
+}
+
+}  // namespace dynlab

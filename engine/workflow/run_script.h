@@ -1,0 +1,29 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "documents/percent_script.h"
+#include "documents/run_record.h"
+#include "figures/gnuplot_renderer.h"
+
+namespace dynlab {
+
+struct RunRequest {
+    PercentScript script;
+    std::optional<std::uint32_t> seed;              ///< instead of the script header's
+    std::filesystem::path out_folder;               ///< where `save` and `save_csv` may write
+    std::function<void(const std::string&)> print;  ///< live output; none when empty
+};
+
+/// Runs a script from top to bottom. An error of the script stands in the record; Ctrl-C throws Interrupted.
+RunRecord run_script(const RunRequest& request, GnuplotRenderer& renderer);
+
+/// Queues every figure of the record for a file of `folder` named after it and notes the file in the record;
+/// renderer.finish() makes them whole.
+void draw_figures(RunRecord& record, GnuplotRenderer& renderer, const std::filesystem::path& folder,
+                  FigureFormat format);
+
+}  // namespace dynlab

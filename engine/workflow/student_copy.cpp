@@ -1,0 +1,65 @@
+#include "workflow/student_copy.h"
+
+#include <fmt/format.h>
+
+#include "documents/solutions.h"
+#include "platform/atomic_file.h"
+#include "platform/error.h"
+#include "platform/program_lookup.h"
+
+namespace dynlab {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kGroupFile = R"(# Your group. Nothing in this file is ever printed in a report.
+members = []        # for example ["Ada Lovelace", "Rudolf Kalman"]
+seed = {}            # of the random numbers your group works with
+)";
+
+/// The template's text with the lesson's title and language in its header.
+std::string report_for(const ScriptHeader& header, const fs::path& template_file) {
+    std::string text = read_file(template_file);
+    const auto put = [&text](const std::string& slot, const std::string& value) {
+        const auto at = text.find(slot);
+        if (at != std::string::npos) text.replace(at, slot.size(), value);
+    };
+    put("title: My work", "title: \"" + header.title + "\"");
+    put("lang: en", "lang: " + header.language);
+    return text;
+}
+
+void fill(const fs::path& folder, const Lesson& lesson) {
+    const PercentScript script = read_percent_script(lesson.script());
+    write_file_atomically(folder / "analysis.lua", without_solutions(script.source, script.file));
+    write_file_atomically(folder / "report.md",
+                          report_for(script.header, shared_folder() / "report_templates" / "exercise_sheet.md"));
+    write_file_atomically(folder / "group.toml", fmt::format(kGroupFile, script.header.seed));
+    fs::create_directory_symlink(shared_folder() / "data", folder / "data");
+}
+
+}  // namespace
+
+void make_student_copy(const Lesson& lesson, const fs::path& folder) {
+    if (fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder))) {
+        throw EnvironmentError(folder.string() + " exists already; choose another name, nothing was changed");
+    }
+    // Built under another name beside it, then renamed: an interrupted copy leaves no half folder that looks finished.
+    const fs::path target = fs::absolute(folder).lexically_normal();
+    const fs::path clean = target.has_filename() ? target : target.parent_path();
+    const fs::path growing = clean.parent_path() / ("." + clean.filename().string() + ".new");
+    std::error_code error;
+    fs::remove_all(growing, error);
+    if (!fs::create_directories(growing, error)) {
+        throw EnvironmentError("cannot make the folder " + folder.string() + ": " + error.message());
+    }
+    try {
+        fill(growing, lesson);
+        fs::rename(growing, clean);
+    } catch (...) {
+        fs::remove_all(growing, error);
+        throw;
+    }
+}
+
+}  // namespace dynlab
