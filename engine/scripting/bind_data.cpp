@@ -1,14 +1,12 @@
 #include <algorithm>
 #include <array>
 
-#include "data_io/csv_file.h"
 #include "data_io/dataset_index.h"
 #include "figures/id_plot.h"
 #include "scripting/bindings.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/model.h"
-#include "scripting/output_path.h"
 
 namespace dynlab {
 namespace {
@@ -118,69 +116,6 @@ int make_iddata(Call& call) {
     return give_data(call, std::move(data));
 }
 
-void add_channels(CsvTable& table, const Matrix& channels, const std::vector<std::string>& names,
-                  const std::vector<std::string>& units) {
-    for (Index j = 0; j < channels.cols(); ++j) {
-        const auto place = static_cast<std::size_t>(j);
-        table.names.push_back(names[place]);
-        table.columns.push_back(channels.col(j));
-        if (place < units.size() && !units[place].empty()) table.units[names[place]] = units[place];
-    }
-}
-
-CsvTable table_of_data(const IdData& data) {
-    if (data.experiments.size() != 1)
-        throw InvalidArgument("a CSV file holds one experiment; write each with data:experiment(k)");
-    CsvTable table;
-    table.names.push_back("t");
-    table.columns.push_back(data.time());
-    table.units["t"] = data.time_unit;
-    if (data.regular()) table.Ts = data.Ts;
-    add_channels(table, data.experiments.front().u, data.input_names, data.input_units);
-    add_channels(table, data.experiments.front().y, data.output_names, data.output_units);
-    return table;
-}
-
-/// Columns in alphabetical order of their names, t first.
-CsvTable table_of_columns(const Call& call, int index) {
-    lua_State* L = call.state();
-    CsvTable table;
-    std::vector<std::string> names;
-    lua_pushnil(L);
-    while (lua_next(L, index)) {
-        lua_pop(L, 1);
-        if (lua_type(L, -1) != LUA_TSTRING)
-            throw InvalidArgument("the columns need names: save_csv(path, {t = t, y = y})");
-        names.emplace_back(lua_tostring(L, -1));
-    }
-    std::sort(names.begin(), names.end(), [](const std::string& a, const std::string& b) {
-        return std::pair(a != "t", a) < std::pair(b != "t", b);
-    });
-    for (const std::string& name : names) {
-        lua_getfield(L, index, name.c_str());
-        NumericBlock* column = to_vector(L, -1);
-        if (column == nullptr)
-            throw InvalidArgument(fmt::format("the column {} must be a vector, but it is {}", name, given_text(L, -1)));
-        table.names.push_back(name);
-        table.columns.push_back(column->vector());
-        lua_pop(L, 1);
-    }
-    return table;
-}
-
-int save_csv(Call& call) {
-    call.at_most(2);
-    const std::filesystem::path file = output_path(call.context(), call.text(1, "path"));
-    if (file.extension() != ".csv")
-        throw InvalidArgument(
-            fmt::format("the file name must end in .csv, but '{}' does not", file.filename().string()));
-    const IdData* data = to_object<IdData>(call.state(), 2);
-    if (data == nullptr && call.type(2) != LUA_TTABLE)
-        wrong_argument(call.state(), 2, "data", "iddata object or a table of vectors by name");
-    write_csv_file(file, data != nullptr ? table_of_data(*data) : table_of_columns(call, 2));
-    return 0;
-}
-
 /// idplot(data1, data2, ..., {labels = {...}})
 int idplot(Call& call) {
     std::vector<const IdData*> all;
@@ -198,8 +133,6 @@ constexpr std::array kFunctions = {
                   guarded<load>},
     FunctionEntry{"iddata", kArea, "iddata(y, u, Ts, {InterSample =, InputName =, OutputName =, ...}) -> data",
                   "input-output data with their sampling", guarded<make_iddata>},
-    FunctionEntry{"save_csv", kArea, "save_csv(path, data)", "writes data, or a table of vectors, as CSV",
-                  guarded<save_csv>},
     FunctionEntry{"idplot", kArea, "idplot(data, ..., {labels =}) -> fig", "outputs above inputs over time",
                   guarded<idplot>},
 };

@@ -15,6 +15,8 @@ FunctionEntries regression_functions();
 FunctionEntries validation_functions();
 FunctionEntries model_functions();
 FunctionEntries data_functions();
+FunctionEntries saving_functions();
+FunctionEntries rig_functions();
 FunctionEntries simulation_functions();
 FunctionEntries figure_functions();
 FunctionEntries report_functions();
