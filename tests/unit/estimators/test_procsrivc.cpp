@@ -1,0 +1,266 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "numerics/error.h"
+#include "numerics/estimators/procsrivc.h"
+#include "numerics/rigs/heat_exchanger.h"
+#include "numerics/rigs/suspension.h"
+#include "numerics/signals/random.h"
+#include "numerics/simulation/lsim.h"
+
+using namespace dynlab;
+using testing::HasSubstr;
+
+namespace {
+
+// Levels of random length and sign, so that every structure is excited.
+Vector rough_input(Index N, Index hold, double mean = 0) {
+    const Vector noise = RandomStream(5).normal(N);
+    Vector u(N);
+    for (Index k = 0; k < N; ++k) u[k] = mean + (noise[k / hold] > 0 ? 1 : -1);
+    return u;
+}
+
+IdData siso(const Vector& y, const Vector& u, double Ts) {
+    return IdData(Matrix(y), Matrix(u), Ts);
+}
+
+TransferFunction model_of(const char* structure, const Vector& parameters) {
+    return ProcessModel(ProcessStructure::parse(structure), parameters).transfer_function();
+}
+
+ProcsrivcResult fit(const IdData& data, const char* structure, const ProcsrivcOptions& options = {}) {
+    return procsrivc(data, ProcessStructure::parse(structure), options);
+}
+
+ProcsrivcOptions tight() {
+    ProcsrivcOptions options;
+    options.Tol = 1e-10;
+    return options;
+}
+
+bool warned(const ProcsrivcResult& result, const std::string& text) {
+    return result.message.find(text) != std::string::npos;
+}
+
+std::string refusal(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const InvalidArgument& error) {
+        return error.what();
+    }
+    return "nothing was refused";
+}
+
+struct Case {
+    const char* structure;
+    Vector truth;
+};
+
+const std::vector<Case>& cases() {
+    static const std::vector<Case> kCases = {
+        {"P1", Vector{{1.5, 0.8}}},
+        {"P1", Vector{{-40.0, 3.0}}},
+        {"P2", Vector{{1.2, 1.0, 0.4}}},
+        {"P2", Vector{{1.2, 6.0, 0.3}}},
+        {"P2U", Vector{{0.9, 0.5, 0.35}}},
+        {"P2U", Vector{{-2.0, 0.3, 0.05}}},
+        {"P1D", Vector{{1.5, 0.8, 0.373}}},
+        {"P2DU", Vector{{0.9, 0.5, 0.35, 1.61}}},
+        {"P2D", Vector{{1.2, 1.0, 0.4, 0.2}}},
+    };
+    return kCases;
+}
+
+}  // namespace
+
+TEST(procsrivc, recovers_exact_data_from_any_hold) {  // oracle: the simulated system
+    const Vector u = rough_input(1000, 12);
+    for (Hold hold : {Hold::kZoh, Hold::kFoh})
+        for (const Case& c : cases()) {
+            IdData data = siso(lsim(model_of(c.structure, c.truth), u, 0.05, hold), u, 0.05);
+            data.hold = hold;
+            const auto result = fit(data, c.structure, tight());
+            for (Index i = 0; i < c.truth.size(); ++i)
+                EXPECT_NEAR(result.theta[i] / c.truth[i], 1, 1e-9) << c.structure << " " << result.message;
+            EXPECT_EQ(result.start.state, InitialState::kZero) << result.message;
+        }
+}
+
+TEST(procsrivc, does_not_depend_on_the_unit_of_time) {  // oracle: invariance
+    const Vector u = rough_input(800, 15),
+                 y = lsim(model_of("P2D", Vector{{1.2, 1.0, 0.4, 0.21}}), u, 0.05) + 0.1 * RandomStream(2).normal(800);
+    const auto seconds = fit(siso(y, u, 0.05), "P2D", tight()), micro = fit(siso(y, u, 0.05e-6), "P2D", tight());
+    EXPECT_NEAR(micro.theta[0], seconds.theta[0], 1e-10);
+    EXPECT_NEAR(micro.theta[1] * 1e6, seconds.theta[1], 1e-9);
+    EXPECT_NEAR(micro.std[3] * 1e6, seconds.std[3], 1e-9);
+    EXPECT_NEAR(micro.covariance(0, 1) * 1e6, seconds.covariance(0, 1), 1e-9);
+}
+
+TEST(procsrivc, initial_state_and_offset_are_found) {  // oracle: the simulated system, cut from a running experiment
+    const Vector u = rough_input(1000, 15, 2);
+    for (const Case& c : cases()) {
+        if (ProcessStructure::parse(c.structure).delay) continue;  // the past of a delayed input is not recorded
+        const Vector y = lsim(model_of(c.structure, c.truth), u, 0.05).array() + 12;
+        ProcsrivcOptions options = tight();
+        options.initial_state = InitialState::kEstimate;
+        options.offset = Offset::kEstimate;
+        const auto result = fit(siso(y.tail(950), u.tail(950), 0.05), c.structure, options);
+        for (Index i = 0; i < c.truth.size(); ++i)
+            EXPECT_NEAR(result.theta[i] / c.truth[i], 1, 1e-8) << c.structure << " " << result.message;
+        EXPECT_NEAR(result.offset, 12, 1e-6) << c.structure;
+        EXPECT_NEAR(result.initial_values[0], y[50] - 12 - c.truth[0] * u[50], 1e-6) << c.structure;
+        const auto chosen = fit(siso(y.tail(950), u.tail(950), 0.05), c.structure);
+        EXPECT_EQ(chosen.start.state, InitialState::kEstimate) << c.structure;
+        EXPECT_TRUE(chosen.start.offset) << c.structure;
+    }
+}
+
+TEST(procsrivc, heat_exchanger_just_works) {  // oracle: physical truth, standard errors, fixed seeds
+    const HeatExchangerParameters p;
+    const auto truth = heat_exchanger_truth(p);
+    for (std::uint32_t seed = 1; seed <= 10; ++seed) {
+        const auto record = simulate_heat_exchanger(p, seed);
+        const auto result = fit(siso(record.y, record.u, p.Ts), "P1");
+        EXPECT_EQ(result.start.state, InitialState::kSteady) << result.message;
+        EXPECT_TRUE(result.start.offset);
+        EXPECT_NEAR(result.theta[0], truth.gain, 4 * result.std[0]) << seed;
+        EXPECT_NEAR(result.theta[1], truth.time_constant, 4 * result.std[1]) << seed;
+        EXPECT_NEAR(result.offset, truth.output_at_zero_input, 0.2) << seed;
+        EXPECT_LT(result.std[1], 0.02 * truth.time_constant);
+        EXPECT_TRUE(result.warnings.empty()) << result.message;
+    }
+}
+
+TEST(procsrivc, heat_exchanger_with_the_operating_point_removed) {  // oracle: physical truth
+    HeatExchangerParameters p;
+    p.noise_std = p.resolution = 0;
+    const auto truth = heat_exchanger_truth(p);
+    const auto record = simulate_heat_exchanger(p, 1);
+    ProcsrivcOptions options = tight();
+    options.offset = Offset::kRemove;
+    const auto result = fit(siso(record.y, record.u, p.Ts), "P1", options);
+    EXPECT_NEAR(result.theta[0] / truth.gain, 1, 1e-9);
+    EXPECT_NEAR(result.theta[1] / truth.time_constant, 1, 1e-9);
+    EXPECT_NEAR(result.removed.output, truth.initial_output, 1e-12);
+    EXPECT_LT((result.output - record.y).cwiseAbs().maxCoeff(), 1e-8);
+}
+
+TEST(procsrivc, suspension_just_works) {  // oracle: physical truth, standard errors, fixed seeds
+    const SuspensionParameters p;
+    const auto truth = suspension_truth(p);
+    for (std::uint32_t seed = 1; seed <= 10; ++seed) {
+        const auto record = simulate_suspension(p, seed);
+        const auto result = fit(siso(record.y, record.u, p.Ts), "P2U");
+        EXPECT_NEAR(result.theta[0], truth.gain, 4 * result.std[0]) << seed << result.message;
+        EXPECT_NEAR(result.theta[1], 1 / truth.natural_frequency, 4 * result.std[1]) << seed;
+        EXPECT_NEAR(result.theta[2], truth.damping_ratio, 4 * result.std[2]) << seed;
+        EXPECT_GT(result.fit_percent, 90);
+        EXPECT_TRUE(result.warnings.empty()) << result.message;
+    }
+}
+
+TEST(procsrivc, unit_step_at_sample_one_with_an_offset) {  // oracle: the simulated system
+    const Vector u = Vector::Ones(400);
+    for (const Case& c : cases()) {
+        if (c.truth[1] > 5) continue;  // would not settle within the record
+        const Vector y = lsim(model_of(c.structure, c.truth), u, 0.05).array() - 3;
+        const auto result = fit(siso(y, u, 0.05), c.structure, tight());
+        for (Index i = 0; i < c.truth.size(); ++i)
+            EXPECT_NEAR(result.theta[i] / c.truth[i], 1, 1e-7) << c.structure << " " << result.message;
+        EXPECT_NEAR(result.offset, -3, 1e-7) << c.structure;
+    }
+}
+
+TEST(procsrivc, delay_needs_the_grid) {  // oracle: the simulated system; a local search from 0 would miss it
+    const Vector truth{{2.0, 0.05, 0.1, 0.7}};
+    const Vector u = rough_input(600, 40);
+    const Vector y = lsim(model_of("P2DU", truth), u, 0.01) + 0.3 * RandomStream(1).normal(600);
+    ProcsrivcOptions options;
+    options.TdMax = 1.5;
+    const auto result = fit(siso(y, u, 0.01), "P2DU", options);
+    for (Index i = 0; i < 4; ++i) EXPECT_NEAR(result.theta[i], truth[i], 4 * result.std[i]) << result.message;
+    Index best = 0;
+    result.delay_loss.minCoeff(&best);
+    EXPECT_NEAR(result.delay_grid[best], 0.7, 0.05);
+    EXPECT_EQ(result.delay_grid.size(), result.delay_loss.size());
+    EXPECT_EQ(result.delay_grid[0], 0);
+    EXPECT_LE(result.delay_grid.size(), 100);
+}
+
+TEST(procsrivc, delay_options_bound_the_answer) {  // oracle: the simulated system
+    const Vector u = rough_input(600, 40);
+    const IdData data = siso(lsim(model_of("P1D", Vector{{2.0, 0.3, 0.7}}), u, 0.01), u, 0.01);
+    ProcsrivcOptions options;
+    options.TdMax = 0.5;
+    const auto low = fit(data, "P1D", options);
+    EXPECT_NEAR(low.theta[2], 0.5, 1e-9);
+    EXPECT_TRUE(warned(low, "raise TdMax")) << low.message;
+    EXPECT_EQ(low.std[2], 0);
+    options.TdMax = 2;
+    options.TdMin = 0.8;
+    const auto high = fit(data, "P1D", options);
+    EXPECT_NEAR(high.theta[2], 0.8, 1e-9);
+    EXPECT_TRUE(warned(high, "lower TdMin")) << high.message;
+    options.TdMin = options.TdMax.emplace(0.7);
+    const auto known = fit(data, "P1D", options);
+    EXPECT_NEAR(known.theta[1], 0.3, 1e-6);
+    EXPECT_NEAR(known.theta[2], 0.7, 1e-15);
+}
+
+TEST(procsrivc, doubtful_results_come_with_a_sentence) {  // oracle: the simulated system
+    const Vector u = rough_input(600, 30), e = RandomStream(3).normal(600);
+    const Vector y = lsim(model_of("P1", Vector{{2.0, 0.5}}), u, 0.05);
+    EXPECT_TRUE(warned(fit(siso(y, u, 0.05), "P2"), "fewer poles"));
+    EXPECT_TRUE(warned(fit(siso(lsim(model_of("P1", Vector{{2.0, 0.5}}), u, 0.05), u, 0.05), "P1D"), "No delay"));
+    const Vector swinging = lsim(model_of("P2U", Vector{{1.0, 0.5, 0.3}}), u, 0.05) + 0.05 * e;
+    EXPECT_TRUE(warned(fit(siso(swinging, u, 0.05), "P2"), "nearly equal"));
+    EXPECT_TRUE(warned(fit(siso(lsim(model_of("P2", Vector{{1.0, 2.0, 0.2}}), u, 0.05), u, 0.05), "P2U"), "P2 suits"));
+    EXPECT_TRUE(warned(fit(siso(e, u, 0.05), "P1"), "hardly determine"));
+    ProcsrivcOptions hurried;
+    hurried.MaxIter = 1;
+    const auto result = fit(siso(y + e, u, 0.05), "P1", hurried);
+    EXPECT_EQ(result.termination, Termination::kIterationLimit);
+    EXPECT_TRUE(warned(result, "MaxIter")) << result.message;
+    EXPECT_GT(result.fit_percent, 0);
+}
+
+TEST(procsrivc, can_be_cancelled) {  // oracle: definition
+    const Vector u = rough_input(600, 30), y = lsim(model_of("P1", Vector{{2.0, 0.5}}), u, 0.05);
+    ProcsrivcOptions options;
+    int asked = 0;
+    options.cancel = [&] { return ++asked > 1; };
+    const auto result = fit(siso(y, u, 0.05), "P1", options);
+    EXPECT_EQ(result.termination, Termination::kCancelled);
+    EXPECT_TRUE(result.theta.allFinite());
+}
+
+TEST(procsrivc, refuses_what_it_cannot_fit) {
+    const Vector u = rough_input(100, 10), y = lsim(model_of("P1", Vector{{2.0, 0.5}}), u, 0.05);
+    const IdData data = siso(y, u, 0.05);
+    EXPECT_THAT(refusal([&] { fit(data, "P1I"); }), HasSubstr("P1I is not supported"));
+    EXPECT_THAT(refusal([&] { fit(data, "P1Z"); }), HasSubstr("P2DU"));
+    EXPECT_THAT(refusal([&] { fit(data, "P3"); }), HasSubstr("not supported"));
+    EXPECT_THAT(refusal([&] { fit(siso(y, Vector::Zero(100), 0.05), "P1"); }), HasSubstr("input is zero"));
+    EXPECT_THAT(refusal([&] { fit(siso(Vector::Ones(100), u, 0.05), "P1"); }), HasSubstr("never changes"));
+    EXPECT_THAT(refusal([&] { fit(siso(y.head(5), u.head(5), 0.05), "P1"); }), HasSubstr("at least 6 samples"));
+    EXPECT_THAT(refusal([&] { fit(IdData(Matrix(y), Matrix(u), Vector::LinSpaced(100, 0, 5)), "P1"); }),
+                HasSubstr("regularly"));
+    EXPECT_THAT(refusal([&] { fit(IdData(Matrix(y), Matrix::Random(100, 2), 0.05), "P1"); }), HasSubstr("one input"));
+    ProcsrivcOptions options;
+    options.TdMin = 2;
+    options.TdMax = 1;
+    EXPECT_THAT(refusal([&] { fit(data, "P1D", options); }), HasSubstr("TdMax must be at least"));
+    options = {};
+    options.TdMax = 100;
+    EXPECT_THAT(refusal([&] { fit(data, "P1D", options); }), HasSubstr("shorter than the record"));
+    options = {};
+    options.Tol = -1;
+    EXPECT_THAT(refusal([&] { fit(data, "P1", options); }), HasSubstr("Tol"));
+    options = {};
+    options.NumTd = 0;
+    EXPECT_THAT(refusal([&] { fit(data, "P1", options); }), HasSubstr("NumTd"));
+}
