@@ -61,7 +61,7 @@ SolutionLine solution_line(std::string_view line, const std::filesystem::path& f
 std::string without_solutions(const std::string& source, const std::filesystem::path& name) {
     std::string result;
     int begun = 0;  // line of the open BEGIN SOLUTION, 0 outside
-    bool in_text = false;
+    bool in_text = false, hidden = false;
     int number = 0;
     const auto fail = [&](int line, const std::string& what) {
         throw DocumentError(name.string() + ":" + std::to_string(line) + ": " + what);
@@ -71,11 +71,13 @@ std::string without_solutions(const std::string& source, const std::filesystem::
         if (is_cell_marker(line)) {
             if (begun) fail(begun, "this solution is not closed with \"-- END SOLUTION\" in its cell");
             in_text = is_text_cell_marker(line);
+            hidden = line.find("echo=false") != std::string_view::npos;
         }
         switch (solution_line(line, name, number)) {
             case SolutionLine::kBegin:
                 if (begun) fail(number, "a solution begins inside the solution of line " + std::to_string(begun));
                 begun = number;
+                if (hidden) break;
                 result += std::string(indentation_of(line)) + (in_text ? "-- *Your answer:*" : "-- YOUR CODE HERE");
                 result += end_of(line);
                 break;

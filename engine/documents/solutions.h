@@ -21,7 +21,8 @@ enum class SolutionLine { kNone, kBegin, kEnd, kStarter };
 /// would otherwise give the solution away.
 SolutionLine solution_line(std::string_view line, const std::filesystem::path& file, int number);
 
-/// The script without its solutions, everything else byte for byte. Throws DocumentError with file and line for
+/// The script without its solutions, everything else byte for byte; in a code cell with echo=false nothing takes the
+/// place of a solution, since such cells hold only what the report needs. Throws DocumentError with file and line for
 /// markers that do not pair up within one cell, or a STARTER line outside a solution.
 std::string without_solutions(const std::string& source, const std::filesystem::path& name = "script.lua");
 

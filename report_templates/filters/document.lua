@@ -259,10 +259,20 @@ local function check_code(element)
   if bad then report("code-class", "." .. bad, bad, element.text) end
 end
 
+--- A value as print sets it: numbers with a true minus sign and with powers of ten, anything else as it is.
+local function printed_value(text)
+  local mantissa, exponent = text:match("^(%-?%d+%.?%d*)[eE]([%+%-]?%d+)$")
+  if mantissa then
+    return pandoc.Math("InlineMath", ("%s \\cdot 10^{%d}"):format(mantissa, math.tointeger(tonumber(exponent))))
+  end
+  if text:match("^%-%d+%.?%d*$") then return pandoc.Math("InlineMath", text) end
+  return pandoc.Str(text)
+end
+
 local function code(element)
   if element.classes:includes("value") then
     local found = entry("value", element.text, "`" .. element.text .. "`")
-    return found and pandoc.Str(found) or {}
+    return found and printed_value(found) or {}
   end
   return layout:inline_code(element)
 end
