@@ -17,8 +17,8 @@
 --
 -- ## The record
 --
--- Water flows through a heat exchanger; the input $u$ is the opening of the steam valve and the output $y$ the temperature of the water at the
--- outlet. The process rests at a working point when the valve is opened a little further.
+-- Water flows through a heat exchanger; the input $u$ is the opening of the heating valve and the output $y$ the temperature of the
+-- water at the outlet. The process rests at a working point when the valve is opened a little further.
 
 -- %% id=exchanger_data
 local exchanger = load("heat_exchanger")
@@ -56,11 +56,16 @@ idplot(data)
 -- BEGIN SOLUTION
 local reading = step_first_order(data)
 present(reading)
+report.figure("exchanger_construction",
+              step_construction(reading, {xlabel = "time (s)", ylabel = "outlet temperature (°C)"}),
+              "Reading the gain and the 5 % settling time off the response")
+-- END SOLUTION
+
+-- %% id=exchanger_reading_report echo=false
+-- BEGIN SOLUTION
 report.value("K_read", reading.K, "%.3f")
 report.value("T_read", reading.T, "%.2f")
 report.value("Tr_read", 3*reading.T, "%.1f")
-report.figure("exchanger_construction", step_construction(reading, {xlabel = "time (s)", ylabel = "outlet temperature (°C)"}),
-              "Reading the gain and the 5 % settling time off the response")
 -- END SOLUTION
 
 -- %% [markdown]
@@ -75,7 +80,12 @@ report.figure("exchanger_construction", step_construction(reading, {xlabel = "ti
 
 -- %% id=exchanger_test
 -- BEGIN SOLUTION
-report.figure("exchanger_test", test_your_model(reading, data), "The model read off the figure against the measurement")
+report.figure("exchanger_test", test_your_model(reading, data),
+              "The model read off the figure against the measurement")
+-- END SOLUTION
+
+-- %% id=exchanger_test_report echo=false
+-- BEGIN SOLUTION
 report.value("fit_read", fit(data, reading), "%.1f")
 -- END SOLUTION
 
@@ -95,6 +105,10 @@ report.value("fit_read", fit(data, reading), "%.1f")
 -- BEGIN SOLUTION
 local G1 = procsrivc(data, "P1", {InitialState = "estimate", Offset = "estimate"})
 present(G1)
+-- END SOLUTION
+
+-- %% id=exchanger_estimate_report echo=false
+-- BEGIN SOLUTION
 report.table("exchanger", {
     {"method", "K (°C/%)", "T (s)", "fit (%)"},
     {"read off the figure", string.format("%.4f", reading.K), string.format("%.2f", reading.T),
@@ -119,12 +133,14 @@ report.table("exchanger", {
 --
 -- ## The record
 --
--- The second process is a mass on a spring with a damper. The input is a unit step of force at time zero, the output the position of the mass.
+-- The second process is a mass on a spring with a damper, pushed by an electric actuator. The input is a unit step of the
+-- actuator's voltage at time zero, the output the position of the mass.
 
 -- %% id=suspension_data
 local suspension = load("suspension")
 local Ts2 = suspension.t[2] - suspension.t[1]
-local data2 = iddata(suspension.y, suspension.u, Ts2, {InputName = "input", OutputName = "position"})
+local data2 = iddata(suspension.y, suspension.u, Ts2, {InputName = "voltage", InputUnit = "V",
+                     OutputName = "position", OutputUnit = "mm"})
 idplot(data2)
 
 -- %% [markdown]
@@ -149,18 +165,24 @@ idplot(data2)
 -- BEGIN SOLUTION
 local reading2 = step_second_order(data2)
 present(reading2)
-report.value("K2", reading2.K, "%.3f")
+report.figure("suspension_construction",
+              step_construction(reading2, {xlabel = "time (s)", ylabel = "position (mm)"}),
+              "Reading the first overshoot off the response")
+-- END SOLUTION
+
+-- %% id=suspension_reading_report echo=false
+-- BEGIN SOLUTION
+report.value("K2", reading2.K, "%.2f")
 report.value("D1", 100*math.exp(-math.pi*reading2.z/math.sqrt(1 - reading2.z^2)), "%.1f")
 report.value("z2", reading2.z, "%.3f")
 report.value("w2", reading2.w0, "%.2f")
-report.figure("suspension_construction", step_construction(reading2, {xlabel = "time (s)", ylabel = "position (mm)"}), "Reading the first overshoot off the response")
 -- END SOLUTION
 
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ![Reading the first overshoot off the response](figure:suspension_construction){#fig:suspension_construction}
 --
--- From @fig:suspension_construction: $K =$ `K2`{.value}, a first overshoot of `D1`{.value} %, hence $z =$ `z2`{.value} and
+-- From @fig:suspension_construction: $K =$ `K2`{.value} mm/V, a first overshoot of `D1`{.value} %, hence $z =$ `z2`{.value} and
 -- $\omega_0 =$ `w2`{.value} rad/s.
 -- END SOLUTION
 --
@@ -168,12 +190,15 @@ report.figure("suspension_construction", step_construction(reading2, {xlabel = "
 
 -- %% id=suspension_test
 -- BEGIN SOLUTION
-report.figure("suspension_test", test_your_model(reading2, data2), "The second-order model against the measurement")
+report.figure("suspension_test", test_your_model(reading2, data2),
+              "The second-order model against the measurement")
 -- END SOLUTION
 
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ![The second-order model against the measurement](figure:suspension_test){#fig:suspension_test}
+--
+-- The simulated response follows every swing (@fig:suspension_test).
 -- END SOLUTION
 --
 -- **Question 8.** Estimate the parameters from all the samples and compare.
@@ -182,8 +207,12 @@ report.figure("suspension_test", test_your_model(reading2, data2), "The second-o
 -- BEGIN SOLUTION
 local G2 = procsrivc(data2, "P2U")
 present(G2)
+-- END SOLUTION
+
+-- %% id=suspension_estimate_report echo=false
+-- BEGIN SOLUTION
 report.table("suspension", {
-    {"method", "K", "z", "ω₀ (rad/s)", "fit (%)"},
+    {"method", "K (mm/V)", "z", "ω₀ (rad/s)", "fit (%)"},
     {"read off the figure", string.format("%.4f", reading2.K), string.format("%.4f", reading2.z),
      string.format("%.3f", reading2.w0), string.format("%.2f", fit(data2, reading2))},
     {"estimated", string.format("%.4f", G2.Kp), string.format("%.4f", G2.Zeta), string.format("%.3f", 1/G2.Tw),

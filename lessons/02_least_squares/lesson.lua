@@ -27,7 +27,7 @@ local games = load("winning_times")
 local year, time = games.year, games.time
 print(string.format("%d Games, from %d to %d", #year, year[1], year[#year]))
 plot(year, time, {style = "points", xlabel = "year", ylabel = "winning time (s)",
-                  title = "Men's 100 m: winning times at the Olympic Games"})
+     title = "Men's 100 m: winning times at the Olympic Games", height = 6})
 
 -- %% [markdown]
 -- **Question 1.** Describe what you see. Where does a straight line look reasonable, and where not?
@@ -56,14 +56,16 @@ plot(year, time, {style = "points", xlabel = "year", ylabel = "winning time (s)"
 -- \overline{\text{year}}$, leaves $a$ as it is, turns $b$ into the time at the mean year, and makes the columns orthogonal.
 
 -- %% id=regression
-local N = #year - 1                        -- the Games of 2024 are kept for the test
+local N = #year - 1                       -- 2024 is kept for the test
 local y = time:range(1, N)
-local centre = mean(year:range(1, N))
-local x = year:range(1, N) - centre
+local years = year:range(1, N)
+local centre = mean(years)
+local x = years - centre
 local Phi = matrix{x, ones(N)}
-print(string.format("N = %d, mean year %.2f", N, centre))
-print(string.format("condition number of Phi: %.3g with the raw years, %.3g with centred ones",
-                    lsq(matrix{year:range(1, N), ones(N)}, y).condition_number, lsq(Phi, y).condition_number))
+local Phi_raw = matrix{years, ones(N)}
+print(string.format("N = %d Games, mean year %.2f", N, centre))
+print(string.format("condition number: %.3g with the raw years, %.3g with centred ones",
+      lsq(Phi_raw, y).condition_number, lsq(Phi, y).condition_number))
 
 -- %% [markdown]
 -- ## Three roads to one answer
@@ -75,21 +77,35 @@ print(string.format("condition number of Phi: %.3g with the raw years, %.3g with
 -- %% id=three_roads
 -- BEGIN SOLUTION
 local theta_normal = solve(Phi:t()*Phi, Phi:t()*y)
-local fit = lsq(Phi, y)
-local descent = gradient_descent(Phi, y)
+local fit = lsq(Phi, y)                   -- QR
+local descent = gradient_descent(Phi, y, {MaxIter = 100000})
+
+-- the same descent with x in units of its own spread
+local spread = sqrt(mean(x^2))
+local scaled = gradient_descent(matrix{x/spread, ones(N)}, y)
+local theta_scaled = vector{scaled.theta[1]/spread, scaled.theta[2]}
+-- END SOLUTION
+
+-- %% id=three_roads_report echo=false
+-- BEGIN SOLUTION
+local function road(name, theta, steps)
+    return {name, string.format("%.9f", theta[1]), string.format("%.9f", theta[2]), string.format("%d", steps)}
+end
 report.table("roads", {
     {"method", "a (s/year)", "b (s)", "steps"},
-    {"normal equations", string.format("%.9f", theta_normal[1]), string.format("%.9f", theta_normal[2]), "1"},
-    {"QR factorisation", string.format("%.9f", fit.theta[1]), string.format("%.9f", fit.theta[2]), "1"},
-    {"gradient descent", string.format("%.9f", descent.theta[1]), string.format("%.9f", descent.theta[2]),
-     string.format("%d", descent.iterations)},
+    road("normal equations", theta_normal, 1),
+    road("QR factorisation", fit.theta, 1),
+    road("gradient descent", descent.theta, descent.iterations),
+    road("gradient descent, x scaled", theta_scaled, scaled.iterations),
 })
 report.value("a", fit.theta[1], "%.5f")
 report.value("a_decade", -10*fit.theta[1], "%.3f")
 report.value("b", fit.theta[2], "%.3f")
 report.value("a_std", fit.std[1], "%.5f")
 report.value("centre", centre, "%.1f")
-report.value("differ", max(abs(theta_normal - fit.theta)), "%.0e")
+report.value("condition", descent.condition_number, "%.0f")
+report.value("steps", descent.iterations, "%d")
+report.value("steps_scaled", scaled.iterations, "%d")
 -- END SOLUTION
 
 -- %% [markdown]
@@ -98,26 +114,35 @@ report.value("differ", max(abs(theta_normal - fit.theta)), "%.0e")
 -- The same line by three methods.
 -- :::
 --
--- @tbl:roads shows the agreement: the normal equations and QR differ by `differ`{.value} only, and gradient descent, which starts from zero
--- and walks downhill, reaches the same point. It is the slow road here, because two parameters are solved for at once in closed form;
--- it becomes the only road for models with millions of parameters. The line falls by `a_decade`{.value} s per decade:
--- $\hat a =$ `a`{.value} s/year with a standard error of `a_std`{.value}, and $\hat b =$ `b`{.value} s in the mean year `centre`{.value}.
+-- All roads of @tbl:roads lead to the same line. The normal equations and QR get there in one step. Gradient descent starts from zero
+-- and walks downhill: with the years as they are it needs `steps`{.value} steps, because the valley is `condition`{.value} times
+-- steeper across than along; with $x$ in units of its own spread the valley is round, and `steps_scaled`{.value} steps are enough. For two
+-- parameters it is the slow road; for models with millions of parameters it is the only one, and scaling matters just as much. The
+-- line falls by `a_decade`{.value} s per decade: $\hat a =$ `a`{.value} s/year with a standard error of `a_std`{.value} s/year, and
+-- $\hat b =$ `b`{.value} s in the mean year `centre`{.value}.
 -- END SOLUTION
 --
 -- ## Residuals
 --
 -- **Question 3.** Compute the residuals $\varepsilon = y - \Phi\hat\theta$ and their root mean square,
--- $\text{RMSE} = \sqrt{\frac1N\sum_i \varepsilon_i^2}$. Are they what a good model would leave?
+--
+-- $$ \text{RMSE} = \sqrt{\frac{1}{N} \sum_{i=1}^{N} \varepsilon_i^2} \; . $$ {#eq:rmse}
+--
+-- Are they what a good model would leave?
 
 -- %% id=residuals
 -- BEGIN SOLUTION
 local residuals = y - Phi*fit.theta
 local rmse = sqrt(mean(residuals^2))
+report.figure("residuals", plot(years, residuals, {style = "stems", height = 5,
+              xlabel = "year", ylabel = "residual (s)"}), "What the straight line leaves unexplained")
+-- END SOLUTION
+
+-- %% id=residuals_report echo=false
+-- BEGIN SOLUTION
 report.value("rmse", rmse, "%.3f")
 report.value("first_residual", residuals[1], "%.2f")
 report.value("rmse_later", sqrt(mean(residuals:range(2, N)^2)), "%.3f")
-report.figure("residuals", plot(year:range(1, N), residuals, {style = "stems", xlabel = "year", ylabel = "residual (s)"}),
-              "What the straight line leaves unexplained")
 -- END SOLUTION
 
 -- %% [markdown]
@@ -125,9 +150,9 @@ report.figure("residuals", plot(year:range(1, N), residuals, {style = "stems", x
 -- ![What the straight line leaves unexplained](figure:residuals){#fig:residuals}
 --
 -- The RMSE is `rmse`{.value} s. @fig:residuals shows that this one number hides a story. The Games of 1896 alone leave
--- `first_residual`{.value} s; without them the RMSE over the others is `rmse_later`{.value} s. And the signs are not random: several
--- residuals below zero stand together in the middle of the century. A good model would leave residuals without any pattern, so a
--- straight line is a first approximation and not the truth.
+-- `first_residual`{.value} s; without them the RMSE over the others is `rmse_later`{.value} s. And the signs are not random: residuals
+-- below zero stand together in the 1930s and 1960s, and the last two are above zero, the line falls faster than the times do now. A good
+-- model would leave residuals without any pattern, so a straight line is a first approximation and not the truth.
 -- END SOLUTION
 --
 -- ## A forecast for Paris 2024
@@ -137,22 +162,27 @@ report.figure("residuals", plot(year:range(1, N), residuals, {style = "stems", x
 
 -- %% id=forecast
 -- BEGIN SOLUTION
-local line = polyfit_report(year:range(1, N), y, 1)
+local line = polyfit_report(years, y, 1)
 local paris = forecast(line, 2024, 0.95)
 local actual = time[#time]
+local picture = regression_plot(years, y, line, {forecast = 2024, level = 0.95,
+                xlabel = "year", ylabel = "winning time (s)", text = string.format("%.2f s", paris.value)})
+report.figure("forecast", picture, "Straight line, 95 % bands and the forecast for 2024")
+-- END SOLUTION
+
+-- %% id=forecast_report echo=false
+-- BEGIN SOLUTION
 report.value("N_games", N, "%d")
 report.value("paris", paris.value, "%.2f")
 report.value("paris_low", paris.low, "%.2f")
 report.value("paris_high", paris.high, "%.2f")
 report.value("actual", actual, "%.2f")
 report.value("miss", actual - paris.value, "%.2f")
-report.figure("forecast", regression_plot(year:range(1, N), y, line, {forecast = 2024, level = 0.95, xlabel = "year", ylabel = "winning time (s)"}):mark(2024, actual, "2024"),
-              "Straight line, 95 % prediction band and the forecast for 2024")
 -- END SOLUTION
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![Straight line, 95 % prediction band and the forecast for 2024](figure:forecast){#fig:forecast}
+-- ![Straight line, 95 % bands and the forecast for 2024](figure:forecast){#fig:forecast}
 --
 -- The forecast from the `N_games`{.value} Games to 2020 is `paris`{.value} s, with a 95 % prediction interval from `paris_low`{.value} to
 -- `paris_high`{.value} s (@fig:forecast). Noah Lyles won in `actual`{.value} s, `miss`{.value} s slower than the forecast and well inside
@@ -169,15 +199,15 @@ report.figure("forecast", regression_plot(year:range(1, N), y, line, {forecast =
 -- are given twice: exact, and with measurement noise.
 
 -- %% id=step
-local step_data = load("step_response")
-local t, u = step_data.t, step_data.u
-plot(t, step_data.y, "output y", t, u, "input u", {style = "line_points", xlabel = "time (s)", ylabel = "signals",
-     title = "Four samples of a step response"})
+local record = load("step_response")
+local t, u = record.t, record.u
+plot(t, record.y, "output y", t, u, "input u", {style = "line_points", height = 5.5,
+     xlabel = "time (s)", ylabel = "signals", title = "Four samples of a step response"})
 
 -- %% [markdown]
 -- ## A continuous-time model
 --
--- **Question 5.** We postulate $G(s) = \dfrac{b}{s + a}$, that is
+-- **Question 5.** We postulate $G(s) = b/(s + a)$, that is
 --
 -- $$ \dot y(t) = -a\,y(t) + b\,u(t) . $$ {#eq:ct}
 --
@@ -186,44 +216,64 @@ plot(t, step_data.y, "output y", t, u, "input u", {style = "line_points", xlabel
 
 -- %% id=continuous
 -- BEGIN SOLUTION
-local y0, ydot0 = step_data.y, step_data.ydot
-local ct = lsq(matrix{-y0, u}, ydot0)
+local ct = lsq(matrix{-record.y, u}, record.ydot)
 local Gc = tf({ct.theta[2]}, {1, ct.theta[1]})
-present(Gc)
+print(Gc)
+local fine = linspace(0, 2, 201)
+report.figure("ct_fit", plot(fine, step(Gc, fine), "model", t, record.y, "samples", {style = {"line", "points"},
+              height = 5.5, xlabel = "time (s)", ylabel = "output"}), "Step response of the continuous-time model")
+-- END SOLUTION
+
+-- %% id=continuous_report echo=false
+-- BEGIN SOLUTION
 report.value("a_ct", ct.theta[1], "%.4f")
 report.value("b_ct", ct.theta[2], "%.4f")
-report.value("ct_miss", max(abs(step(Gc, t) - y0)), "%.1e")
+report.value("ct_miss", max(abs(step(Gc, t) - record.y)), "%.0e")
 -- END SOLUTION
 
 -- %% [markdown]
 -- BEGIN SOLUTION
+-- ![Step response of the continuous-time model and the four samples](figure:ct_fit){#fig:ct}
+--
 -- With $\Phi$ made of the columns $-y$ and $u$, and $\dot y$ on the left, least squares gives $\hat a =$ `a_ct`{.value} and
--- $\hat b =$ `b_ct`{.value}. The model's step response passes through the four samples: the largest distance is `ct_miss`{.value}.
+-- $\hat b =$ `b_ct`{.value}. The model's step response passes through the four samples (@fig:ct): the largest distance is
+-- `ct_miss`{.value}, the rounding of the stored data.
 -- END SOLUTION
 --
 -- ## A discrete-time model
 --
--- **Question 6.** Now postulate $G(z) = \dfrac{b_1 z^{-1}}{1 + a_1 z^{-1}}$, that is $y(k) = -a_1\,y(k-1) + b_1\,u(k-1)$, estimate
--- $a_1$ and $b_1$ and compare again. How do the two models hang together?
+-- **Question 6.** Now postulate
+--
+-- $$ G(z) = \frac{b_1 z^{-1}}{1 + a_1 z^{-1}}, \qquad \text{that is} \qquad y(k) = -a_1\,y(k-1) + b_1\,u(k-1) , $$ {#eq:dt}
+--
+-- estimate $a_1$ and $b_1$, and compare again. How do the two models hang together?
 
 -- %% id=discrete
 -- BEGIN SOLUTION
 local Ts = t[2] - t[1]
-local dt = lsq(matrix{-y0:range(1, #t - 1), u:range(1, #t - 1)}, y0:range(2, #t))
-local Gd = tf({dt.theta[2]}, {1, dt.theta[1]}, {Ts = Ts})
-present(Gd)
-report.value("a1_dt", dt.theta[1], "%.4f")
-report.value("b1_dt", dt.theta[2], "%.4f")
+local function regress(y, u)
+    local n = #y
+    return lsq(matrix{-y:range(1, n - 1), u:range(1, n - 1)}, y:range(2, n)).theta
+end
+local dt = regress(record.y, u)
+local Gd = tf({dt[2]}, {1, dt[1]}, {Ts = Ts})
+print(Gd)
+-- END SOLUTION
+
+-- %% id=discrete_report echo=false
+-- BEGIN SOLUTION
+report.value("a1_dt", dt[1], "%.4f")
+report.value("b1_dt", dt[2], "%.4f")
 report.value("a1_from_ct", -math.exp(-ct.theta[1]*Ts), "%.4f")
-report.value("dt_miss", max(abs(lsim(Gd, u, Ts) - y0)), "%.1e")
+report.value("dt_miss", max(abs(lsim(Gd, u, Ts) - record.y)), "%.0e")
 -- END SOLUTION
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- Three equations are left for two unknowns, because each needs the sample before. The estimate $\hat a_1 =$ `a1_dt`{.value},
--- $\hat b_1 =$ `b1_dt`{.value} again reproduces the samples (largest distance `dt_miss`{.value}). For an input that is constant between the
--- samples both models describe the same system: $a_1 = -e^{-aT_s}$, which is `a1_from_ct`{.value} for the continuous-time estimate.
--- The continuous-time parameters are easier to read: $1/a$ is the time constant, whatever the sampling.
+-- Three equations are left for two unknowns, because each needs the sample before. The estimates $\hat a_1 =$ `a1_dt`{.value} and
+-- $\hat b_1 =$ `b1_dt`{.value} again reproduce the samples when the model is simulated (largest distance `dt_miss`{.value}). For an input
+-- that is constant between the samples both models describe the same system: $a_1 = -e^{-aT_s}$, which is `a1_from_ct`{.value} for the
+-- continuous-time estimate. The continuous-time parameters are easier to read: $1/a$ is the time constant, whatever the sampling.
 -- END SOLUTION
 --
 -- ## The same with noise
@@ -232,20 +282,21 @@ report.value("dt_miss", max(abs(lsim(Gd, u, Ts) - y0)), "%.1e")
 
 -- %% id=noisy
 -- BEGIN SOLUTION
-local function fit_continuous(y, ydot)
-    return lsq(matrix{-y, u}, ydot).theta
+local noisy_ct = lsq(matrix{-record.y_noisy, u}, record.ydot_noisy).theta
+local noisy_dt = regress(record.y_noisy, u)
+-- END SOLUTION
+
+-- %% id=noisy_report echo=false
+-- BEGIN SOLUTION
+local function both(name, exact, noisy)
+    return {name, string.format("%.4f", exact), string.format("%.4f", noisy)}
 end
-local function fit_discrete(y)
-    return lsq(matrix{-y:range(1, #y - 1), u:range(1, #y - 1)}, y:range(2, #y)).theta
-end
-local noisy_ct = fit_continuous(step_data.y_noisy, step_data.ydot_noisy)
-local noisy_dt = fit_discrete(step_data.y_noisy)
 report.table("noisy", {
     {"parameter", "exact signals", "noisy signals"},
-    {"a", string.format("%.4f", ct.theta[1]), string.format("%.4f", noisy_ct[1])},
-    {"b", string.format("%.4f", ct.theta[2]), string.format("%.4f", noisy_ct[2])},
-    {"a1", string.format("%.4f", dt.theta[1]), string.format("%.4f", noisy_dt[1])},
-    {"b1", string.format("%.4f", dt.theta[2]), string.format("%.4f", noisy_dt[2])},
+    both("a", ct.theta[1], noisy_ct[1]),
+    both("b", ct.theta[2], noisy_ct[2]),
+    both("a₁", dt[1], noisy_dt[1]),
+    both("b₁", dt[2], noisy_dt[2]),
 })
 -- END SOLUTION
 
@@ -255,53 +306,55 @@ report.table("noisy", {
 -- Estimates from the exact and from the noisy samples.
 -- :::
 --
--- @tbl:noisy: four noisy samples move every parameter. But is this bad luck of one record, or does least squares miss on average?
+-- Noise on four samples moves every parameter (@tbl:noisy), the discrete-time ones by several percent. Is this bad luck of one record,
+-- or does least squares miss on average?
 -- END SOLUTION
 --
 -- **Question 8.** One noisy record cannot tell bad luck from a method that is wrong on average. Make many: simulate a longer record
--- of the same system, add noise of the same kind, and repeat the discrete-time fit a thousand times. Where is the mean of the
--- estimates of $a_1$, compared with the truth and with the scatter of the single estimates?
+-- of the same system, add white noise of standard deviation 0.3 to the output, and repeat the discrete-time fit a thousand times. Where
+-- is the mean of the estimates of $a_1$, compared with the truth and with the scatter of the single estimates?
 
 -- %% id=monte_carlo
 -- BEGIN SOLUTION
-local runs, samples, sigma = 1000, 100, 0.1
-local u_long = prbs(5, 4):range(1, samples)
+local runs, samples, sigma = 1000, 400, 0.3
+local u_long = prbs(7, 4):range(1, samples)
 local x_long = lsim(Gd, u_long, Ts)
 local estimates = zeros(runs)
 for run = 1, runs do
-    local y_run = x_long + sigma*randn(samples)
-    estimates[run] = lsq(matrix{-y_run:range(1, samples - 1), u_long:range(1, samples - 1)},
-                         y_run:range(2, samples)).theta[1]
+    estimates[run] = regress(x_long + sigma*randn(samples), u_long)[1]
 end
-local truth = dt.theta[1]
-report.value("mc_truth", truth, "%.3f")
+report.figure("monte_carlo", histogram(estimates, {truth = dt[1], xlabel = "estimate of a_{1}"}),
+              "A thousand least-squares estimates from noisy records, and the true value")
+-- END SOLUTION
+
+-- %% id=monte_carlo_report echo=false
+-- BEGIN SOLUTION
+report.value("mc_truth", dt[1], "%.3f")
 report.value("mc_mean", mean(estimates), "%.3f")
 report.value("mc_std", std(estimates), "%.3f")
-report.value("mc_ratio", abs(mean(estimates) - truth)/std(estimates), "%.1f")
+report.value("mc_ratio", abs(mean(estimates) - dt[1])/std(estimates), "%.1f")
 report.value("runs", runs, "%d")
-report.value("sigma", sigma, "%.1f")
-report.figure("monte_carlo", histogram(estimates, {truth = truth, xlabel = "estimate of a1"}),
-              "A thousand least-squares estimates from noisy records, and the true value")
+report.value("samples", samples, "%d")
 -- END SOLUTION
 
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ![A thousand least-squares estimates from noisy records, and the true value](figure:monte_carlo){#fig:mc}
 --
--- With noise of standard deviation `sigma`{.value} on the output, the mean of `runs`{.value} estimates is `mc_mean`{.value} while the truth is
--- `mc_truth`{.value} (@fig:mc). The distance is `mc_ratio`{.value} times the scatter of a single estimate, so it cannot be bad luck: the
--- estimate is *biased*, and longer records would only make the wrong answer more certain. The reason stands in the regression itself: the
--- noisy output appears in $\Phi$ as well, so $\Phi$ and the equation error are correlated.
+-- The mean of `runs`{.value} estimates, each from `samples`{.value} samples, is `mc_mean`{.value} while the truth is `mc_truth`{.value}
+-- (@fig:mc). The single estimates scatter by `mc_std`{.value} only, so the mean misses the truth by `mc_ratio`{.value} times their
+-- scatter. That is no bad luck: the estimate is *biased*, and longer records would only make the wrong answer more certain. The reason
+-- stands in the regression itself: the noisy output appears in $\Phi$ as well, so $\Phi$ and the equation error are correlated.
 -- END SOLUTION
 --
 -- # What was learnt
 --
 -- BEGIN SOLUTION
 -- * A model that is linear in its parameters is fitted by solving one linear system; the normal equations, QR and gradient descent
---   lead to the same point. Centred regressors keep the problem well conditioned.
+--   lead to the same point. Centred and scaled regressors keep the problem well conditioned.
 -- * A forecast without an interval says little. The interval holds only as far as the model and its assumptions do, and the residuals tell.
 -- * A dynamic model is fitted by the same formula once its signals stand in $\Phi$; in continuous time the time derivative is needed,
---   and in discrete time the past output.
+--   in discrete time the past output.
 -- * Noise on the regressors biases simple least squares. More data do not help; instrumental variables and output-error methods, the
 --   subject of lesson 4, do.
 -- END SOLUTION
