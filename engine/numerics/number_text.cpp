@@ -1,15 +1,16 @@
 #include "numerics/number_text.h"
 
 #include <array>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 
 namespace dynlab {
 
 std::string number_text(double value, int significant_digits) {
     std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), "%.*g", significant_digits, value);
-    return text.data();
+    const auto end =
+        std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, significant_digits);
+    return {text.data(), end.ptr};
 }
 
 std::string number_text(std::complex<double> value, int significant_digits) {

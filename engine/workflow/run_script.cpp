@@ -35,7 +35,8 @@ std::string extension(FigureFormat format) {
 RunRecord run_script(const RunRequest& request, GnuplotRenderer& renderer) {
     RunOptions options;
     options.seed = request.seed.value_or(request.script.header.seed);
-    options.script_folder = request.script.file.parent_path();
+    const std::filesystem::path folder = request.script.file.parent_path();
+    options.script_folder = folder.empty() ? "." : folder;
     options.out_folder = request.out_folder;
     options.print = request.print;
     Runtime runtime(options, renderer);
