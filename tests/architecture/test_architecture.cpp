@@ -1,0 +1,170 @@
+// The rules of the house that a machine can check. Oracle: engine/CMakeLists.txt (the layers and their links), the
+// catalogue of methods and the list of Lua functions.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "numerics/estimators/catalogue.h"
+#include "scripting/function_entry.h"
+#include "scripting/help.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using testing::IsEmpty;
+
+const fs::path kRoot = DYNLAB_SOURCE_DIR;
+
+std::string text_of(const fs::path& file) {
+    std::ifstream in(file);
+    std::ostringstream text;
+    text << in.rdbuf();
+    return text.str();
+}
+
+std::vector<fs::path> files_below(const fs::path& folder, const std::set<std::string>& extensions) {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        if (entry.is_regular_file() && extensions.contains(entry.path().extension())) files.push_back(entry.path());
+    }
+    return files;
+}
+
+std::vector<fs::path> sources_below(const fs::path& folder) {
+    return files_below(folder, {".h", ".cpp"});
+}
+
+std::vector<std::string> matches(const std::string& text, const std::string& pattern) {
+    const std::regex expression(pattern);
+    std::vector<std::string> found;
+    for (std::sregex_iterator it(text.begin(), text.end(), expression), end; it != end; ++it) found.push_back((*it)[1]);
+    return found;
+}
+
+std::string place_of(const fs::path& file) {
+    return fs::relative(file, kRoot).string();
+}
+
+/// layer -> the layers it may include, itself among them, as engine/CMakeLists.txt links them.
+std::map<std::string, std::set<std::string>> allowed_layers() {
+    std::map<std::string, std::set<std::string>> allowed;
+    const std::string cmake = text_of(kRoot / "engine/CMakeLists.txt");
+    const std::regex line(R"(\ndynlab_layer\((\w+)\s*(?:USES\s+([a-z_ ]+?)\s*)?(?:WITH[^)]*)?\))");
+    for (std::sregex_iterator it(cmake.begin(), cmake.end(), line), end; it != end; ++it) {
+        const std::string layer = (*it)[1];
+        std::set<std::string>& layers = allowed[layer];
+        layers.insert(layer);
+        std::istringstream uses((*it)[2]);
+        for (std::string used; uses >> used;) {
+            const std::set<std::string> inherited = allowed.at(used);  // throws when a layer uses a later one
+            layers.insert(inherited.begin(), inherited.end());
+        }
+    }
+    return allowed;
+}
+
+TEST(architecture, layers_include_only_layers_above_them) {
+    const auto allowed = allowed_layers();
+    ASSERT_GE(allowed.size(), 7u);
+    std::vector<std::string> offences;
+    for (const auto& [layer, layers] : allowed) {
+        for (const fs::path& file : sources_below(kRoot / "engine" / layer)) {
+            for (const std::string& included : matches(text_of(file), "#include \"([a-z_]+)/")) {
+                if (!layers.contains(included)) offences.push_back(place_of(file) + " includes " + included);
+            }
+        }
+    }
+    EXPECT_THAT(offences, IsEmpty());
+}
+
+TEST(architecture, numerics_is_pure) {
+    const std::regex allowed("Eigen/.*|unsupported/Eigen/.*|tbb/.*|oneapi/tbb/.*");
+    const std::set<std::string> forbidden = {"iostream", "fstream", "filesystem", "cstdio", "stdio.h",
+                                             "chrono",   "random",  "thread",     "ctime"};
+    std::vector<std::string> offences;
+    for (const fs::path& file : sources_below(kRoot / "engine/numerics")) {
+        for (const std::string& included : matches(text_of(file), "#include <([^>]+)>")) {
+            const bool from_library = included.find('/') != std::string::npos || included.ends_with(".h");
+            if (forbidden.contains(included) || (from_library && !std::regex_match(included, allowed))) {
+                offences.push_back(place_of(file) + " includes <" + included + ">");
+            }
+        }
+    }
+    EXPECT_THAT(offences, IsEmpty());
+}
+
+TEST(architecture, only_the_renderer_knows_gnuplot_iostream) {
+    std::vector<std::string> users;
+    for (const fs::path& file : sources_below(kRoot / "engine")) {
+        if (text_of(file).find("#include <gnuplot-iostream.h>") != std::string::npos) users.push_back(place_of(file));
+    }
+    EXPECT_THAT(users, testing::ElementsAre("engine/figures/gnuplot_renderer.cpp"));
+}
+
+TEST(architecture, top_level_is_the_fixed_one) {
+    const std::set<std::string> fixed = {"CMakeLists.txt",   "engine", "lessons",   "scripts", "data",
+                                         "report_templates", "tests",  "README.md", "LICENSE"};
+    std::vector<std::string> extra;
+    for (const auto& entry : fs::directory_iterator(kRoot)) {
+        const std::string name = entry.path().filename().string();
+        const bool made_here = name.starts_with("build") || name.ends_with(".pdf") || name.ends_with(".html");
+        if (!name.starts_with(".") && !made_here && !fixed.contains(name)) extra.push_back(name);
+    }
+    EXPECT_THAT(extra, IsEmpty());
+    for (const std::string& name : fixed) EXPECT_TRUE(fs::exists(kRoot / name)) << name;
+}
+
+TEST(architecture, files_stay_readable) {
+    std::vector<std::string> long_files;
+    for (const fs::path& file : sources_below(kRoot / "engine")) {
+        const std::string text = text_of(file);
+        const auto lines = std::count(text.begin(), text.end(), '\n');
+        if (lines > (file.extension() == ".h" ? 160 : 450)) {
+            long_files.push_back(place_of(file) + " has " + std::to_string(lines) + " lines");
+        }
+    }
+    EXPECT_THAT(long_files, IsEmpty());
+}
+
+TEST(architecture, every_data_set_tells_its_source) {
+    for (const auto& entry : fs::directory_iterator(kRoot / "data")) {
+        if (!entry.is_directory()) continue;
+        EXPECT_TRUE(fs::exists(entry.path() / "SOURCE.md")) << entry.path().filename();
+    }
+}
+
+TEST(architecture, every_method_has_its_files_test_and_lua_name) {
+    std::set<std::string> lua_names;
+    for (const dynlab::FunctionEntry& function : dynlab::catalogue_of_functions()) lua_names.insert(function.name);
+    for (const dynlab::MethodEntry& method : dynlab::method_catalogue()) {
+        const fs::path source = kRoot / "engine/numerics/estimators" / method.file;
+        EXPECT_TRUE(fs::exists(source.string() + ".h")) << method.file;
+        EXPECT_TRUE(fs::exists(source.string() + ".cpp")) << method.file;
+        EXPECT_TRUE(fs::exists(kRoot / "tests/unit/estimators" / ("test_" + method.file + ".cpp"))) << method.file;
+        for (const std::string& name : method.lua_names) EXPECT_TRUE(lua_names.contains(name)) << name;
+    }
+}
+
+TEST(architecture, every_function_has_a_help_page) {
+    std::vector<std::string> missing;
+    for (const dynlab::FunctionEntry& function : dynlab::catalogue_of_functions()) {
+        if (!dynlab::find_help_page(function.name)) missing.push_back(function.name);
+    }
+    EXPECT_THAT(missing, IsEmpty());
+}
+
+TEST(architecture, every_data_set_can_be_made_again) {
+    for (const auto& entry : fs::directory_iterator(kRoot / "data")) {
+        if (!entry.is_directory()) continue;
+        EXPECT_TRUE(fs::exists(kRoot / "scripts/make_data" / (entry.path().filename().string() + ".lua")))
+            << entry.path().filename();
+    }
+}
+
+}  // namespace

@@ -1,0 +1,23 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace dynlab::bench {
+
+/// One line of the table of ratios: what was measured, against what, and the bar it must stay under.
+struct Result {
+    std::string what, against;
+    double measured = 0, reference = 0;  ///< seconds (or MB), medians of one run of the program
+    double bar = 0, goal = 0;            ///< of measured/reference; goal 0 when there is none
+};
+
+double median_seconds(int repetitions, const std::function<void()>& work);
+/// Both in turn, A B A B ..., so that a drift of the machine's speed hits both alike.
+std::pair<double, double> paired_medians(int repetitions, const std::function<void()>& a,
+                                         const std::function<void()>& b);
+
+void measure_numerics(std::vector<Result>& results);
+void measure_program(std::vector<Result>& results);
+
+}  // namespace dynlab::bench

@@ -1,0 +1,104 @@
+// Every lesson, as a student and an instructor meet it. Oracles: the lesson's own structure, textbook formulas applied
+// to the data files by this test, and poppler's reading of the PDFs.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "data_io/csv_file.h"
+#include "support/program.h"
+#include "workflow/lesson_catalogue.h"
+
+namespace dynlab::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+class lessons : public testing::TestWithParam<std::string> {};
+
+std::vector<std::string> slugs() {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(DYNLAB_SOURCE_DIR "/lessons")) {
+        names.push_back(entry.path().filename());
+    }
+    return names;
+}
+INSTANTIATE_TEST_SUITE_P(all, lessons, testing::ValuesIn(slugs()), [](const auto& lesson) { return lesson.param; });
+
+std::string text_of_pdf(const Workbench& bench, const std::string& file) {
+    const ChildResult text = bench.shell("pdftotext -layout '" + file + "' -");
+    EXPECT_EQ(text.exit_code, 0) << text.error_output;
+    return text.output;
+}
+
+TEST_P(lessons, report_is_whole) {
+    const Workbench bench;
+    const ChildResult made = bench.dynlab({"report", GetParam()});
+    ASSERT_EQ(made.exit_code, 0) << made.error_output;
+    const std::string text = text_of_pdf(bench, GetParam() + ".pdf");
+    EXPECT_THAT(text, Not(HasSubstr("??")));
+    EXPECT_THAT(text, Not(HasSubstr("SOLUTION")));
+    EXPECT_THAT(text, HasSubstr("Figure 1"));
+    EXPECT_THAT(text, HasSubstr("What was learnt"));
+}
+
+TEST_P(lessons, starter_runs_and_shows_no_solution) {
+    const Workbench bench;
+    ASSERT_EQ(bench.dynlab({"new", GetParam(), "mine"}).exit_code, 0);
+    const ChildResult run = bench.dynlab({"run", "mine/analysis.lua", "--out", "made"});
+    EXPECT_EQ(run.exit_code, 0) << run.error_output;
+    const auto record = nlohmann::json::parse(bench.read("made/record.json"));
+    EXPECT_TRUE(record.at("values").empty()) << "the starter must not hold the solution's values";
+
+    ASSERT_EQ(bench.dynlab({"report", "mine"}).exit_code, 0);
+    const std::string starter = text_of_pdf(bench, "report.pdf");
+    ASSERT_EQ(bench.dynlab({"report", GetParam()}).exit_code, 0);
+    EXPECT_LT(starter.size(), text_of_pdf(bench, GetParam() + ".pdf").size());
+}
+
+TEST(lesson_01, readings_and_estimates_find_the_parameters_of_the_simulated_processes) {
+    const Workbench bench;
+    const ChildResult run =
+        bench.dynlab({"run", DYNLAB_SOURCE_DIR "/lessons/01_process_models/lesson.lua", "--out", "made"});
+    ASSERT_EQ(run.exit_code, 0) << run.error_output;
+}
+
+double number(const nlohmann::json& record, const std::string& name) {
+    return record.at("values").at(name).at("number");
+}
+
+TEST(lesson_02, line_residuals_and_forecast_follow_the_textbook_formulas) {
+    const Workbench bench;
+    const ChildResult run =
+        bench.dynlab({"run", DYNLAB_SOURCE_DIR "/lessons/02_least_squares/lesson.lua", "--out", "made"});
+    ASSERT_EQ(run.exit_code, 0) << run.error_output;
+    const auto record = nlohmann::json::parse(bench.read("made/record.json"));
+
+    const CsvTable games = read_csv_file(DYNLAB_SOURCE_DIR "/data/winning_times/winning_times.csv");
+    const auto column = [&games](const std::string& name) -> const Vector& {
+        return games.columns[std::find(games.names.begin(), games.names.end(), name) - games.names.begin()];
+    };
+    const Vector year = column("year").head(29), time = column("time").head(29);
+    const double n = 29, mean_year = year.mean();
+    const Vector x = year.array() - mean_year;
+    const double slope = x.dot(time) / x.squaredNorm();
+    const Vector residuals = time - slope * x - Vector::Constant(29, time.mean());
+    const double s = std::sqrt(residuals.squaredNorm() / (n - 2));
+    const double x0 = 2024 - mean_year;
+    const double forecast = time.mean() + slope * x0;
+    const double t975_27 = 2.0518305165;  // Student's t table, 27 degrees of freedom
+    const double half_width = t975_27 * s * std::sqrt(1 + 1 / n + x0 * x0 / x.squaredNorm());
+
+    EXPECT_NEAR(number(record, "a"), slope, 1e-10);
+    EXPECT_NEAR(number(record, "b"), time.mean(), 1e-10);
+    EXPECT_NEAR(number(record, "a_std"), s / x.norm(), 1e-10);
+    EXPECT_NEAR(number(record, "rmse"), std::sqrt(residuals.squaredNorm() / n), 1e-10);
+    EXPECT_NEAR(number(record, "paris"), forecast, 1e-9);
+    EXPECT_NEAR(number(record, "paris_low"), forecast - half_width, 1e-8);
+    EXPECT_NEAR(number(record, "paris_high"), forecast + half_width, 1e-8);
+    EXPECT_EQ(number(record, "actual"), 9.79);
+}
+
+}  // namespace
+}  // namespace dynlab::test

@@ -1,0 +1,172 @@
+// The program as a user meets it when something is wrong: what it says, its exit code, and that nothing half-written
+// stays.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/program.h"
+
+namespace dynlab::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr const char* kReportHeader = "---\ntitle: A report\n---\n\n";
+
+/// A folder as `dynlab new` makes it, with this analysis and this text.
+void write_folder(const Workbench& bench, const std::string& analysis, const std::string& report) {
+    bench.write("mine/analysis.lua", analysis);
+    bench.write("mine/report.md", kReportHeader + report);
+}
+
+void expect_failure(const ChildResult& result, int code, const std::string& part) {
+    EXPECT_EQ(result.exit_code, code) << result.output << result.error_output;
+    EXPECT_THAT(result.error_output, HasSubstr(part));
+    EXPECT_THAT(result.error_output, Not(HasSubstr("terminate called")));
+}
+
+TEST(bad_input, unknown_data_name_suggests_the_nearest) {
+    const Workbench bench;
+    bench.write("a.lua", "\nlocal d = load('winning_tmies')\n");
+    const ChildResult result = bench.dynlab({"run", "a.lua"});
+    expect_failure(result, 1, "a.lua:2");
+    EXPECT_THAT(result.error_output, HasSubstr("winning_times"));
+}
+
+TEST(bad_input, broken_data_files_are_named) {
+    const Workbench bench;
+    bench.write("cut.mat", std::string("MATLAB 5.0 MAT-file").append(140, ' '));
+    bench.write("ragged.csv", "t,y\n0,1\n1\n");
+    bench.write("word.csv", "t,y\n0,1\n1,two\n");
+    bench.write("nan.csv", "t,y\n0,1\n1,NaN\n");
+    expect_failure(bench.dynlab({"run", "-e", "load('cut.mat')"}), 1, "cut.mat");
+    expect_failure(bench.dynlab({"run", "-e", "load('ragged.csv')"}), 1, "ragged.csv, line 3");
+    expect_failure(bench.dynlab({"run", "-e", "load('word.csv')"}), 1, "word.csv, line 3");
+    expect_failure(bench.dynlab({"run", "-e", "load('nan.csv')"}), 1, "nan.csv, line 3");
+    expect_failure(bench.dynlab({"run", "-e", "load('nowhere.mat')"}), 1, "nowhere.mat");
+}
+
+TEST(bad_input, vectors_of_different_lengths_are_told_with_both_lengths) {
+    const Workbench bench;
+    const ChildResult result = bench.dynlab({"run", "-e", "iddata(zeros(3), zeros(4), 1)"});
+    expect_failure(result, 1, "3");
+    EXPECT_THAT(result.error_output, HasSubstr("4"));
+}
+
+TEST(bad_input, syntax_and_runtime_errors_have_file_and_line) {
+    const Workbench bench;
+    bench.write("syntax.lua", "local a = 1\nlocal b = = 2\n");
+    bench.write("runtime.lua", "local a\n\nprint(a.x)\n");
+    expect_failure(bench.dynlab({"run", "syntax.lua"}), 1, "syntax.lua:2");
+    expect_failure(bench.dynlab({"run", "runtime.lua"}), 1, "runtime.lua:3");
+    expect_failure(bench.dynlab({"run", "absent.lua"}), 1, "absent.lua");
+}
+
+TEST(bad_input, failed_script_leaves_no_report) {
+    const Workbench bench;
+    write_folder(bench, "error('on purpose')\n", "::: {.cells}\n:::\n");
+    expect_failure(bench.dynlab({"report", "mine"}), 1, "analysis.lua:1");
+    EXPECT_THAT(bench.files(), ElementsAre("mine"));
+}
+
+TEST(bad_input, control_c_ends_an_endless_loop_and_leaves_nothing) {
+    const Workbench bench;
+    write_folder(bench, "while true do pcall(function() while true do end end) end\n", "::: {.cells}\n:::\n");
+    const ChildResult result = bench.shell("timeout --preserve-status -s INT 0.5 \"$DYNLAB\" report mine");
+    expect_failure(result, 130, "interrupted");
+    EXPECT_THAT(bench.files(), ElementsAre("mine"));
+}
+
+TEST(bad_input, slot_without_entry_names_slot_file_and_line) {
+    const Workbench bench;
+    write_folder(bench, "report.value('fit', 93.2, '%.1f')\n", "The fit is `fti`{.value} %.\n");
+    const ChildResult result = bench.dynlab({"report", "mine"});
+    expect_failure(result, 1, "report.md:5");
+    EXPECT_THAT(result.error_output, HasSubstr("fti"));
+    EXPECT_THAT(result.error_output, HasSubstr("fit"));
+    EXPECT_THAT(bench.files(), ElementsAre("mine"));
+}
+
+TEST(bad_input, missing_figures_are_errors) {
+    const Workbench bench;
+    write_folder(bench, "print(1)\n", "![A](figure:raw){#fig:raw}\n\n![B](picture.png)\n");
+    const ChildResult result = bench.dynlab({"report", "mine"});
+    expect_failure(result, 1, "raw");
+    EXPECT_THAT(result.error_output, HasSubstr("picture.png"));
+}
+
+TEST(bad_input, characters_latex_cannot_print_are_named) {
+    const Workbench bench;
+    write_folder(bench, "print(1)\n", "A cat: \xF0\x9F\x90\x88\n");
+    expect_failure(bench.dynlab({"report", "mine"}), 1, "U+1F408");
+}
+
+TEST(bad_input, latex_failure_tells_the_first_real_error) {
+    const Workbench bench;
+    write_folder(bench, "print(1)\n", "# Results\n\n$$ \\undefinedcommand $$\n");
+    const ChildResult result = bench.dynlab({"report", "mine"});
+    expect_failure(result, 1, "undefinedcommand");
+    EXPECT_THAT(bench.files(), ElementsAre("mine"));
+}
+
+TEST(bad_input, output_that_cannot_be_written_is_named) {
+    const Workbench bench;
+    bench.write("a_file", "x");
+    write_folder(bench, "print(1)\n", "Text.\n");
+    expect_failure(bench.dynlab({"report", "mine", "-o", "a_file/report.pdf"}), 1, "cannot write report.pdf");
+    expect_failure(bench.dynlab({"report", "mine", "-o", "report.docx"}), 1, ".pdf");
+}
+
+TEST(bad_input, full_disk_leaves_the_old_report) {
+    const Workbench bench;
+    write_folder(bench, "print(1)\n", "Text.\n");
+    // A file system of 16 KiB in a mount namespace of its own; the PDF needs more.
+    const ChildResult result = bench.shell(
+        "mkdir disk; unshare --mount --map-root-user bash -c '"
+        "mount -t tmpfs -o size=16k tmpfs disk && echo old > disk/report.pdf; "
+        "\"$DYNLAB\" report mine -o disk/report.pdf; code=$?; ls -A disk; cat disk/report.pdf; exit $code'");
+    expect_failure(result, 1, "cannot write report.pdf");
+    EXPECT_THAT(result.error_output, HasSubstr("o space left"));
+    EXPECT_EQ(result.output, "report.pdf\nold\n");
+}
+
+TEST(bad_input, missing_programs_are_told_with_the_package) {
+    for (const auto& [program, package] :
+         {std::pair{"gnuplot", "gnuplot-nox"}, {"pandoc", "pandoc"}, {"pdflatex", "texlive-latex-base"}}) {
+        Workbench bench;
+        write_folder(bench, "plot({1, 2}, {3, 4})\n", "::: {.cells}\n:::\n");
+        bench.hide_program(program);
+        const ChildResult result = bench.dynlab({"report", "mine"});
+        expect_failure(result, 3, program);
+        EXPECT_THAT(result.error_output, HasSubstr(std::string("sudo apt install ") + package));
+        EXPECT_THAT(bench.files(), ElementsAre("mine"));
+    }
+}
+
+TEST(bad_input, wrong_usage_is_exit_code_two) {
+    const Workbench bench;
+    EXPECT_EQ(bench.dynlab({"run"}).exit_code, 2);
+    EXPECT_EQ(bench.dynlab({"report"}).exit_code, 2);
+    EXPECT_EQ(bench.dynlab({"frobnicate"}).exit_code, 2);
+    EXPECT_EQ(bench.dynlab({"run", "-e", "print(1)", "--seed", "many"}).exit_code, 2);
+    EXPECT_EQ(bench.dynlab({"run", "-e", "print(1)", "--seed", "-1"}).exit_code, 2);
+}
+
+TEST(bad_input, unknown_lesson_lists_the_lessons) {
+    const Workbench bench;
+    const ChildResult result = bench.dynlab({"report", "77"});
+    expect_failure(result, 1, "02_least_squares");
+}
+
+TEST(bad_input, group_file_errors_are_told) {
+    const Workbench bench;
+    write_folder(bench, "print(1)\n", "Text.\n");
+    bench.write("mine/group.toml", "seed = -3\n");
+    expect_failure(bench.dynlab({"report", "mine"}), 1, "group.toml");
+    bench.write("mine/group.toml", "\nseed = = 3\n");
+    expect_failure(bench.dynlab({"report", "mine"}), 1, "group.toml:2");
+}
+
+}  // namespace
+}  // namespace dynlab::test

@@ -1,0 +1,134 @@
+// The program's commands from outside. Oracles: the README's promises and exit codes, Lua's own arithmetic, equality of
+// bytes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/program.h"
+
+namespace dynlab::test {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+TEST(program, runs_a_line_of_code) {
+    const Workbench bench;
+    const ChildResult result = bench.dynlab({"run", "-e", "print(1 + 1)"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_EQ(result.output, "2\n");
+    EXPECT_THAT(result.error_output, IsEmpty());
+    EXPECT_THAT(bench.files(), IsEmpty());
+}
+
+TEST(program, seed_option_repeats_a_run_and_replaces_the_scripts_seed) {
+    const Workbench bench;
+    bench.write("a.lua", "-- ---\n-- title: A\n-- seed: 5\n-- ---\n\nprint(string.format('%.17g', randn(1)[1]))\n");
+    const std::string own = bench.dynlab({"run", "a.lua"}).output;
+    EXPECT_EQ(own, bench.dynlab({"run", "a.lua", "--seed", "5"}).output);
+    EXPECT_NE(own, bench.dynlab({"run", "a.lua", "--seed", "6"}).output);
+    const ChildResult random = bench.dynlab({"run", "a.lua", "--seed", "random"});
+    EXPECT_EQ(random.exit_code, 0);
+    EXPECT_THAT(random.error_output, HasSubstr("--seed "));
+}
+
+TEST(program, saves_dropped_figures_and_prints_their_paths) {
+    const Workbench bench;
+    bench.write("a.lua", "plot({1, 2, 3}, {1, 4, 9})\n");
+    const ChildResult result = bench.dynlab({"run", "a.lua", "--out", "made"});
+    EXPECT_EQ(result.exit_code, 0) << result.error_output;
+    EXPECT_THAT(result.output, HasSubstr("made/"));
+    EXPECT_TRUE(std::filesystem::exists(bench.path("made/record.json")));
+    EXPECT_THAT(result.output, HasSubstr(".pdf"));
+}
+
+TEST(program, prints_nothing_but_the_path_when_a_report_is_made_in_a_pipe) {
+    const Workbench bench;
+    const ChildResult result = bench.dynlab({"report", "02"});
+    EXPECT_EQ(result.exit_code, 0) << result.error_output;
+    EXPECT_EQ(result.output, bench.path("02_least_squares.pdf").string() + "\n");
+    EXPECT_THAT(result.error_output, IsEmpty());
+    EXPECT_THAT(bench.files(), ElementsAre("02_least_squares.pdf"));
+}
+
+TEST(program, same_inputs_give_the_same_bytes_and_a_second_run_is_up_to_date) {
+    const Workbench bench;
+    ASSERT_EQ(bench.dynlab({"report", "01"}).exit_code, 0);
+    const std::string first = bench.read("01_process_models.pdf");
+    EXPECT_THAT(bench.dynlab({"report", "01"}).output, HasSubstr("up to date"));
+    const ChildResult elsewhere = bench.shell("mkdir other && cd other && DYNLAB_NO_CACHE=1 \"$DYNLAB\" report 01");
+    ASSERT_EQ(elsewhere.exit_code, 0) << elsewhere.error_output;
+    EXPECT_TRUE(first == bench.read("other/01_process_models.pdf"));
+    for (const std::string& trace : {bench.path().string(), std::string("/tmp/"), std::string("root")}) {
+        EXPECT_EQ(first.find(trace), std::string::npos) << trace;
+    }
+}
+
+TEST(program, report_is_made_again_when_anything_it_is_made_of_changes) {
+    const Workbench bench;
+    bench.write("mine/values.csv", "y\n1\n2\n");
+    bench.write("mine/analysis.lua", "report.value('sum', sum(load('values.csv').y), '%.0f')\n");
+    bench.write("mine/report.md", "---\ntitle: A\n---\n\nSum `sum`{.value}.\n");
+    const auto up_to_date = [&bench](std::vector<std::string> more = {}) {
+        std::vector<std::string> words = {"report", "mine"};
+        words.insert(words.end(), more.begin(), more.end());
+        const ChildResult result = bench.dynlab(words);
+        EXPECT_EQ(result.exit_code, 0) << result.error_output;
+        return result.output.find("up to date") != std::string::npos;
+    };
+    EXPECT_FALSE(up_to_date());
+    EXPECT_TRUE(up_to_date());
+    bench.write("mine/values.csv", "y\n1\n3\n");
+    EXPECT_FALSE(up_to_date());
+    bench.write("mine/report.md", "---\ntitle: A\n---\n\nThe sum `sum`{.value}.\n");
+    EXPECT_FALSE(up_to_date());
+    bench.write("mine/analysis.lua", "report.value('sum', 2*sum(load('values.csv').y), '%.0f')\n");
+    EXPECT_FALSE(up_to_date());
+    EXPECT_FALSE(up_to_date({"--seed", "7"}));
+    bench.write("report.pdf", "changed by hand");
+    EXPECT_FALSE(up_to_date());
+    EXPECT_TRUE(up_to_date());
+}
+
+TEST(program, students_copy_has_no_solutions_and_its_report_works) {
+    const Workbench bench;
+    ASSERT_EQ(bench.dynlab({"new", "02", "mine"}).exit_code, 0);
+    EXPECT_THAT(bench.read("mine/analysis.lua"), Not(HasSubstr("SOLUTION")));
+    EXPECT_TRUE(std::filesystem::exists(bench.path("mine/data/winning_times/winning_times.csv")));
+    const ChildResult run = bench.dynlab({"run", "mine/analysis.lua"});
+    EXPECT_EQ(run.exit_code, 0) << run.error_output;
+    const ChildResult report = bench.dynlab({"report", "mine"});
+    ASSERT_EQ(report.exit_code, 0) << report.error_output;
+    EXPECT_THAT(bench.files(), Contains("report.pdf"));
+    const ChildResult again = bench.dynlab({"new", "02", "mine"});
+    EXPECT_EQ(again.exit_code, 1);
+    EXPECT_THAT(again.error_output, HasSubstr("exists already"));
+}
+
+TEST(program, weaves_to_html_and_markdown) {
+    const Workbench bench;
+    bench.write("a.lua", "-- ---\n-- title: Square\n-- ---\n\n-- %% [markdown]\n-- Some prose.\n\n-- %%\nprint(7*6)\n");
+    ASSERT_EQ(bench.dynlab({"weave", "a.lua", "-o", "a.html"}).exit_code, 0);
+    EXPECT_THAT(bench.read("a.html"), testing::AllOf(HasSubstr("Some prose."), HasSubstr("42"), HasSubstr("Square")));
+    ASSERT_EQ(bench.dynlab({"weave", "a.lua", "-o", "a.md"}).exit_code, 0);
+    EXPECT_THAT(bench.read("a.md"), testing::AllOf(HasSubstr("Some prose."), HasSubstr("42")));
+}
+
+TEST(program, every_command_has_help_and_doctor_is_content) {
+    const Workbench bench;
+    for (const char* command : {"run", "report", "weave", "new", "lessons", "help", "doctor"}) {
+        const ChildResult result = bench.dynlab({command, "--help"});
+        EXPECT_EQ(result.exit_code, 0) << command;
+        EXPECT_THAT(result.output, HasSubstr(command));
+    }
+    EXPECT_THAT(bench.dynlab({"--version"}).output, testing::MatchesRegex("dynlab [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+    EXPECT_EQ(bench.dynlab({"doctor"}).exit_code, 0);
+    EXPECT_THAT(bench.dynlab({"lessons"}).output, HasSubstr("02_least_squares"));
+    EXPECT_THAT(bench.dynlab({"help", "lsim"}).output, HasSubstr("lsim("));
+    EXPECT_EQ(bench.dynlab({"help", "no_such_thing"}).exit_code, 1);
+}
+
+}  // namespace
+}  // namespace dynlab::test

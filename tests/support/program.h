@@ -1,0 +1,32 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "platform/child_process.h"
+#include "platform/temporary_folder.h"
+
+namespace dynlab::test {
+
+/// An empty folder in which the built program is run as a user would run it, with a cache of its own.
+class Workbench {
+  public:
+    std::filesystem::path path(const std::string& name = "") const { return folder_.path() / "work" / name; }
+    void write(const std::string& name, const std::string& text) const;
+    std::string read(const std::string& name) const;
+    std::vector<std::string> files() const;  ///< names in the folder, hidden ones too, sorted
+
+    ChildResult dynlab(std::vector<std::string> arguments) const;
+    ChildResult shell(const std::string& command) const;  ///< bash; $DYNLAB is the program
+    void hide_program(const std::string& name);           ///< from now on PATH has every usual program except this one
+
+    Workbench();
+
+  private:
+    ChildResult run(std::vector<std::string> command) const;
+
+    TemporaryFolder folder_;
+    std::string path_variable_;
+};
+
+}  // namespace dynlab::test
