@@ -53,9 +53,9 @@ Figure bode_plot(const std::vector<NamedModel>& models, const Vector& w) {
     const Vector grid = w.size() > 0 ? w : joint_frequency_grid(models, kCurvePoints);
     Panel magnitude, phase;
     magnitude.log_x = phase.log_x = true;
-    magnitude.y_label = "Magnitude (dB)";
-    phase.y_label = "Phase (°)";
-    phase.x_label = "Frequency (rad/s)";
+    magnitude.y_label = "magnitude (dB)";
+    phase.y_label = "phase (°)";
+    phase.x_label = "frequency (rad/s)";
     phase.legend = LegendPlace::kNone;
     for (const NamedModel& model : models) {
         Curve curve;

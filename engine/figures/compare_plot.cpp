@@ -57,7 +57,7 @@ Figure compare_plot(const IdData& data, const std::vector<ModelOutput>& models, 
         for (const ModelOutput& model : models) panel.curves.push_back(model_curve(model, output, t, number++));
         figure.panels.push_back(std::move(panel));
     }
-    figure.panels.back().x_label = axis_label("Time", data.time_unit);
+    figure.panels.back().x_label = axis_label("time", data.time_unit);
     return figure;
 }
 

@@ -65,7 +65,7 @@ Figure histogram(const VectorView& values, const HistogramOptions& options) {
     bars.label = options.label;
     Panel panel;
     panel.x_label = options.x_label;
-    panel.y_label = "Count";
+    panel.y_label = "count";
     const double width = bins.edges[1] - bins.edges[0];
     panel.x_range = {std::min(bins.edges[0], options.truth.value_or(bins.edges[0])) - 0.5 * width,
                      std::max(bins.edges[count], options.truth.value_or(bins.edges[count])) + 0.5 * width};

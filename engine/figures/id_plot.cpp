@@ -92,7 +92,7 @@ Figure id_plot(const std::vector<const IdData*>& data, const std::vector<std::st
         if (range.first < range.second) panel.x_range = range;
         if (figure.panels.size() > 1) panel.legend = LegendPlace::kNone;  // the uppermost panel's holds for all
     }
-    figure.panels.back().x_label = axis_label("Time", data.front()->time_unit);
+    figure.panels.back().x_label = axis_label("time", data.front()->time_unit);
     return figure;
 }
 

@@ -202,14 +202,16 @@ class Placement {
         std::vector<Candidate> candidates;
         for (int k = 0; k <= 8; ++k) {  // from the far end of the line to its beginning
             const double along = 1 - k / 8.0, penalty = std::min(k, 8 - k) + 0.1 * k;
-            for (const int side : {1, -1}) {
-                if (line.horizontal)
-                    candidates.push_back({half_width + along * (width_ - 2 * half_width),
-                                          from.y + side * (kHalfHeight + 0.03), penalty + (side < 0)});
-                else
-                    candidates.push_back({from.x + side * (half_width + 0.03),
-                                          kHalfHeight + along * (to.y - 2 * kHalfHeight), penalty + (side < 0)});
-            }
+            for (const int side : {1, -1})
+                for (const double gap : {0.03, 0.14}) {  // the wider one clears a noisy curve along the line
+                    const double cost = penalty + (side < 0) + 10 * (gap - 0.03);
+                    if (line.horizontal)
+                        candidates.push_back({half_width + along * (width_ - 2 * half_width),
+                                              from.y + side * (kHalfHeight + gap), cost});
+                    else
+                        candidates.push_back(
+                            {from.x + side * (half_width + gap), kHalfHeight + along * (to.y - 2 * kHalfHeight), cost});
+                }
         }
         const PagePoint middle = choose(line.label, candidates);
         labels_.push_back({line.label, middle.x, middle.y, {}, {}});

@@ -46,8 +46,8 @@ Figure nyquist_plot(const std::vector<NamedModel>& models, const Vector& w) {
     if (models.empty()) throw InvalidArgument("there are no models to plot");
     const Vector grid = w.size() > 0 ? w : joint_frequency_grid(models, kCurvePoints);
     Panel panel;
-    panel.x_label = "Real part";
-    panel.y_label = "Imaginary part";
+    panel.x_label = "real part";
+    panel.y_label = "imaginary part";
     panel.equal_axes = true;
     int place = 0;
     for (const NamedModel& model : models) {

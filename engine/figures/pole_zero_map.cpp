@@ -93,8 +93,8 @@ Figure pole_zero_map(const std::vector<NamedModel>& models) {
     else
         add_unit_circle_and_spirals(panel);
     panel.references = {{true, 0, "", 0}, {false, 0, "", 0}};
-    panel.x_label = continuous ? "Real axis (1/s)" : "Real axis";
-    panel.y_label = continuous ? "Imaginary axis (rad/s)" : "Imaginary axis";
+    panel.x_label = continuous ? "real axis (1/s)" : "real axis";
+    panel.y_label = continuous ? "imaginary axis (rad/s)" : "imaginary axis";
     return Figure(std::move(panel));
 }
 

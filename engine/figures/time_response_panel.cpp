@@ -33,7 +33,7 @@ Figure time_response_figure(const std::vector<NamedModel>& models, const Vector&
     if (models.empty()) throw InvalidArgument("there are no models to plot");
     const double end = t.size() > 0 ? 0 : longest_window(models);
     Panel panel;
-    panel.x_label = "Time (s)";
+    panel.x_label = "time (s)";
     panel.y_label = "Amplitude";
     for (const NamedModel& model : models) {
         const TimeResponse result = response(model.G, instants(model.G, t, end));

@@ -28,13 +28,12 @@ std::string parameter_lines(const Model& model) {
 
 std::string pole_lines(const TransferFunction& G) {
     if (G.pole_count() == 0) return {};
-    std::string text = "Poles:\n";
+    std::string text =
+        fmt::format("{:<26}{:>17}  {:>8}  {:>17}\n", "Poles:", "frequency (rad/s)", "damping", "time constant (s)");
     for (const PoleDescription& row : damping(G)) {
-        text += fmt::format("  {:<24} natural frequency {} rad/s, damping {}", complex_text(row.pole),
-                            number_text(row.natural_frequency), number_text(row.damping_ratio, 4));
-        if (std::isfinite(row.time_constant))
-            text += fmt::format(", time constant {} s", number_text(row.time_constant));
-        text += '\n';
+        const std::string time_constant = std::isfinite(row.time_constant) ? number_text(row.time_constant) : "none";
+        text += fmt::format("  {:<24}{:>17}  {:>8}  {:>17}\n", complex_text(row.pole),
+                            number_text(row.natural_frequency), number_text(row.damping_ratio, 4), time_constant);
     }
     return text;
 }

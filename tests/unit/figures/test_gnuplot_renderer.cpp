@@ -28,7 +28,7 @@ Figure sine(const std::string& label = "a curve") {
     curve.y = curve.x.array().sin();
     curve.label = label;
     Panel panel;
-    panel.x_label = "Time (s)";
+    panel.x_label = "time (s)";
     panel.y_label = "Height (mm)";
     panel.curves = {curve};
     return Figure(panel);
@@ -57,7 +57,7 @@ TEST(gnuplot_renderer, writes_whole_files_of_all_formats) {
     EXPECT_THAT(read_file(folder.path() / "a.pdf"), StartsWith("%PDF"));
     EXPECT_THAT(read_file(folder.path() / "a.png"), StartsWith("\x89PNG"));
     const std::string svg = read_file(folder.path() / "a.svg");
-    for (const char* text : {"Time (s)", "Height (mm)", "a curve", "</svg>"}) EXPECT_THAT(svg, HasSubstr(text));
+    for (const char* text : {"time (s)", "Height (mm)", "a curve", "</svg>"}) EXPECT_THAT(svg, HasSubstr(text));
 }
 
 TEST(gnuplot_renderer, equal_figures_make_equal_files) {
