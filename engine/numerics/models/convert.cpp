@@ -146,7 +146,10 @@ StateSpace c2d(const StateSpace& system, double Ts, Discretisation method) {
     if (method == Discretisation::kTustin) {
         const Matrix I = Matrix::Identity(A.rows(), A.rows());
         const Eigen::FullPivLU<Matrix> solver(I - Ts / 2 * A);
-        if (!solver.isInvertible()) report_pole_without_image(Ts);
+        // Compared with the two terms of the difference, which leave rounding errors where they cancel.
+        const double rounding = 1e-14 * (1 + Ts / 2 * A.norm());
+        if (A.rows() > 0 && solver.matrixLU().diagonal().cwiseAbs().minCoeff() <= rounding)
+            report_pole_without_image(Ts);
         const Matrix inverse = solver.inverse();
         return StateSpace(inverse * (I + Ts / 2 * A), Ts * inverse * B, C * inverse,
                           system.D + Ts / 2 * C * inverse * B, Ts);
