@@ -21,10 +21,10 @@ void print_now(const std::string& text) {
     std::fflush(stdout);
 }
 
-/// Draws what the script made: a figure without a file of its own goes to `folder`, which is made for it.
+/// Draws what the script made: a figure without a file of its own goes to `folder`, which is made for it. Waits for the
+/// files that the script saved by itself, too.
 void save_figures(RunRecord& record, GnuplotRenderer& renderer, const fs::path& folder) {
-    if (record.figures.empty()) return;
-    fs::create_directories(folder);
+    if (!record.figures.empty()) fs::create_directories(folder);
     draw_figures(record, renderer, folder, FigureFormat::kPdf);
     renderer.finish();
     for (const auto& [name, figure] : record.figures) {

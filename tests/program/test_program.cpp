@@ -44,6 +44,13 @@ TEST(program, saves_dropped_figures_and_prints_their_paths) {
     EXPECT_THAT(result.output, HasSubstr(".pdf"));
 }
 
+TEST(program, waits_for_files_the_script_saves_itself) {
+    const Workbench bench;
+    const ChildResult result = bench.dynlab({"run", "-e", "save(plot({1, 2}, {3, 4}), 'own.pdf')"});
+    EXPECT_EQ(result.exit_code, 0) << result.error_output;
+    EXPECT_THAT(bench.files(), ElementsAre("own.pdf"));
+}
+
 TEST(program, prints_nothing_but_the_path_when_a_report_is_made_in_a_pipe) {
     const Workbench bench;
     const ChildResult result = bench.dynlab({"report", "02"});
