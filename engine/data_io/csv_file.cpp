@@ -281,6 +281,11 @@ std::string quoted_where_needed(const std::string& text) {
 std::size_t checked_rows(const CsvTable& table) {
     std::size_t rows = 0;
     for (std::size_t i = 0; i < table.names.size(); ++i) {
+        if (std::find(table.names.begin(), table.names.begin() + static_cast<std::ptrdiff_t>(i), table.names[i]) !=
+            table.names.begin() + static_cast<std::ptrdiff_t>(i)) {
+            throw InvalidArgument(
+                fmt::format("two columns are named {}; every column needs a name of its own", table.names[i]));
+        }
         const auto text = table.texts.find(table.names[i]);
         if (text == table.texts.end() && i >= table.columns.size()) {
             throw InvalidArgument(fmt::format("column {} has a name but no data", table.names[i]));

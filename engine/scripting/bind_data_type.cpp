@@ -1,4 +1,5 @@
 #include <array>
+#include <cmath>
 
 #include "numerics/signals/preprocess.h"
 #include "scripting/objects/data_object.h"
@@ -73,6 +74,13 @@ int part(Call& call) {
     return give_data(call, self(call).range(call.whole(2, "first"), call.whole(3, "last")));
 }
 
+Index whole_place(double number) {
+    if (number != std::floor(number))
+        throw InvalidArgument(
+            fmt::format("samples and channels are counted in whole numbers, but {} was given", number_text(number)));
+    return static_cast<Index>(number);
+}
+
 /// data[{i, j}]
 int part_by_table(Call& call) {
     if (call.type(2) != LUA_TTABLE)
@@ -81,7 +89,7 @@ int part_by_table(Call& call) {
     if (bounds.size() != 2)
         throw InvalidArgument(
             fmt::format("the samples i to j are data[{{i, j}}], but {} numbers were given", bounds.size()));
-    return give_data(call, self(call).range(static_cast<Index>(bounds[0]), static_cast<Index>(bounds[1])));
+    return give_data(call, self(call).range(whole_place(bounds[0]), whole_place(bounds[1])));
 }
 
 int experiment(Call& call) {
@@ -105,7 +113,9 @@ int split(Call& call) {
 std::vector<Index> channels(Call& call, int index, const char* what) {
     if (call.type(index) == LUA_TNUMBER) return {call.whole(index, what)};
     const VectorMap list = call.vector(index, what);
-    return {list.begin(), list.end()};
+    std::vector<Index> places;
+    for (const double number : list) places.push_back(whole_place(number));
+    return places;
 }
 
 /// data:select(outputs, inputs)

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "figures/gnuplot_renderer.h"
+#include "numerics/number_text.h"
 #include "scripting/bindings.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/panel_options.h"
@@ -22,6 +24,14 @@ std::vector<double> numbers(const Options& options, const char* name) {
     if (lua_type(L, options.push(name)) == LUA_TNUMBER) return {options.number(name, 0)};
     const VectorMap list = options.vector(name);
     return {list.begin(), list.end()};
+}
+
+/// The number as a place in a list of looks.
+int place_of_look(double number, const char* name) {
+    if (number < 0 || number != std::floor(number) || number > 1000)
+        throw InvalidArgument(
+            fmt::format("option '{}' must be a whole number from 0 on, but {} was given", name, number_text(number)));
+    return static_cast<int>(number);
 }
 
 /// The value for curve `i` of `count`: the only one, or its own.
@@ -45,18 +55,25 @@ void read_curve_lists(const Options& options, std::vector<Curve>& curves) {
         Curve& curve = curves[i];
         if (i < lists.labels.size()) curve.label = lists.labels[i];
         if (auto style = value_for(lists.styles, i, curves.size(), "style")) curve.style = parse_curve_style(*style);
-        if (auto dash = value_for(lists.dashes, i, curves.size(), "dash")) curve.dash = static_cast<int>(*dash);
+        if (auto dash = value_for(lists.dashes, i, curves.size(), "dash")) curve.dash = place_of_look(*dash, "dash");
         if (auto colour = value_for(lists.colours, i, curves.size(), "colour"))
-            curve.colour = static_cast<int>(*colour);
+            curve.colour = place_of_look(*colour, "colour");
         curve.line_width = options.number("line_width", curve.line_width);
     }
 }
 
-/// A curve's name; MATLAB's format strings ("--", "ro") are refused with what to write instead.
+/// MATLAB's line specification: "--", "r:", ".-", or a colour with a marker such as "ro".
+bool is_line_specification(const std::string& text) {
+    if (text.empty() || text.size() > 3 || text.find_first_not_of("-:.ox+*sdrgbkmcy") != std::string::npos)
+        return false;
+    if (text.find_first_of("-:.+*") != std::string::npos) return true;
+    const auto is_one_of = [](char letter, std::string_view letters) { return letters.find(letter) != letters.npos; };
+    return text.size() == 2 && is_one_of(text[0], "rgbkmcy") && is_one_of(text[1], "oxsd");
+}
+
 std::string curve_name(const Call& call, int index) {
     const std::string name = call.text(index, "name of the curve");
-    if (!name.empty() && name.size() <= 3 && name.find_first_not_of("-:.ox+*sdrgbkmcy") == std::string::npos &&
-        name.find_first_of("-:.+*ro") != std::string::npos)
+    if (is_line_specification(name))
         throw InvalidArgument(fmt::format(
             "a text names the curve; for the look \"{}\" write {{style = \"points\"}} or {{dash = 1}}", name));
     return name;

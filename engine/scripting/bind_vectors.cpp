@@ -56,7 +56,8 @@ int eye(Call& call) {
 int linspace(Call& call) {
     call.at_most(3);
     const double first = call.number(1, "first"), last = call.number(2, "last");
-    const Index count = call.given(3) ? call.size(3, "count") : 100;
+    if (!std::isfinite(first) || !std::isfinite(last)) throw InvalidArgument("first and last must be finite numbers");
+    const Index count = call.given(3) ? call.size(3, "n") : 100;
     push_vector(call.state(), count).vector() = Vector::LinSpaced(count, first, last);
     return 1;
 }
@@ -117,7 +118,7 @@ int dot(Call& call) {
 template <bool kLargest>
 int extreme(Call& call) {
     call.at_most(2);
-    auto better = [](double x, double y) { return kLargest ? std::max(x, y) : std::min(x, y); };
+    auto better = [](double x, double y) { return kLargest ? std::fmax(x, y) : std::fmin(x, y); };
     if (call.given(2) && call.type(1) == LUA_TNUMBER && call.type(2) == LUA_TNUMBER)
         return call.give(better(call.number(1, "x"), call.number(2, "y")));
     if (call.given(2)) {
@@ -134,7 +135,8 @@ int extreme(Call& call) {
     }
     const VectorMap v = not_empty(call, 1, "v");
     Index place = 0;
-    const double value = kLargest ? v.maxCoeff(&place) : v.minCoeff(&place);
+    const double value = kLargest ? v.maxCoeff<Eigen::PropagateNumbers>(&place)  // like fmax: nan only if all are
+                                  : v.minCoeff<Eigen::PropagateNumbers>(&place);
     return call.give(value) + call.give_whole(place + 1);
 }
 

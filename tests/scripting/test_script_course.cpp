@@ -83,3 +83,21 @@ TEST(script_course, has_every_function_in_help) {
     EXPECT_EQ(printed("help(rng)"), printed("help('rng')"));
     EXPECT_EQ(error_of("help('lsimm')"), "lesson.lua:1: help: there is no help about 'lsimm'; did you mean 'lsim'?");
 }
+
+TEST(script_course, takes_short_curve_names_but_no_line_specifications) {
+    EXPECT_EQ(printed("plot({1, 2}, {3, 4}, 'rms', {1, 2}, {4, 3}, 'box') print('drawn')"), "drawn\n");
+    for (const char* look : {"r--", "ro", ".-"}) {
+        EXPECT_NE(error_of("plot({1, 2}, {3, 4}, '" + std::string(look) + "')").find("a text names the curve"),
+                  std::string::npos)
+            << look;
+    }
+    EXPECT_EQ(error_of("plot({1, 2}, {3, 4}, {colour = 1.7})"),
+              "lesson.lua:1: plot: option 'colour' must be a whole number from 0 on, but 1.7 was given");
+}
+
+TEST(script_course, counts_samples_and_channels_in_whole_numbers) {
+    const std::string data = "local d = iddata(zeros(5), ones(5), 1) ";
+    EXPECT_EQ(error_of(data + "print(d[{1.5, 3}])"),
+              "lesson.lua:1: samples and channels are counted in whole numbers, but 1.5 was given");
+    EXPECT_NE(error_of(data + "d:select({1.7})").find("but 1.7 was given"), std::string::npos);
+}

@@ -121,3 +121,8 @@ TEST(script_vectors, walk_tables_in_a_repeatable_order) {
     EXPECT_EQ(printed("local t = {z = 1, a = 2, [3] = 3, 10, m = 4}\nfor k, v in pairs(t) do print(k, v) end"),
               "1\t10\n3\t3\na\t2\nm\t4\nz\t1\n");
 }
+TEST(script_vectors, extremes_pass_over_what_is_not_a_number) {
+    EXPECT_EQ(printed("print(max(vector{0/0, 1, 3})) print(max(vector{3, 0/0, 1})) print(min(vector{0/0, 2, 1}))"),
+              "3\t3\n3\t1\n1\t3\n");
+    EXPECT_EQ(error_of("linspace(0, 1/0, 3)"), "lesson.lua:1: linspace: first and last must be finite numbers");
+}

@@ -171,6 +171,9 @@ IdData IdData::merge(const std::vector<IdData>& parts) {
         if (part.Ts != merged.Ts)
             throw InvalidArgument("merge: part " + std::to_string(i + 1) + " has the sampling time " +
                                   number_text(part.Ts) + " but the first has " + number_text(merged.Ts));
+        if (part.time_unit != merged.time_unit)
+            throw InvalidArgument("merge: part " + std::to_string(i + 1) + " counts time in " + part.time_unit +
+                                  " but the first in " + merged.time_unit);
         merged.experiments.insert(merged.experiments.end(), part.experiments.begin(), part.experiments.end());
     }
     return merged;

@@ -203,12 +203,5 @@ TEST(child_process, dropped_without_waiting_is_killed) {
     EXPECT_TRUE(ends_soon(process.substr(0, process.size() - 1)));
 }
 
-TEST(child_process, starts_in_a_few_milliseconds) {
-    run_child(shell("exit 0"), "dash");
-    const auto start = Clock::now();
-    for (int i = 0; i < 20; ++i) run_child(shell("exit 0"), "dash");
-    EXPECT_LT(Clock::now() - start, 1s);  // 50 ms each on a loaded machine; about 1 ms each when idle
-}
-
 }  // namespace
 }  // namespace dynlab
