@@ -6,7 +6,7 @@
 namespace dynlab {
 
 /// Response of G to `u` (N samples every Ts seconds, held as `hold` says), exact at the sampling instants:
-/// state-space recursion with matrix exponentials (numerics.md 1.1), delays that are not a multiple of Ts
+/// state-space recursion with matrix exponentials, delays that are not a multiple of Ts
 /// included. The state is `x0` (controllable canonical form, length = number of poles; zero when empty) at
 /// the first sample; before it u is zero. A discrete G ignores `hold` and needs G.Ts() == Ts. Returns N
 /// samples. Throws for an improper G.
