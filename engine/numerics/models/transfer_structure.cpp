@@ -1,0 +1,157 @@
+#include "numerics/models/transfer_structure.h"
+
+#include <cmath>
+
+#include "numerics/error.h"
+#include "numerics/number_text.h"
+
+namespace dynlab {
+
+namespace {
+
+constexpr int kMostPoles = 30;
+
+template <class Value>
+Value entry(const std::vector<Value>& list, std::size_t channel, std::size_t channels, const char* what) {
+    if (list.size() == 1) return list.front();
+    if (list.size() == channels) return list[channel];
+    throw InvalidArgument("The model has " + std::to_string(channels) + " channels, so " + what +
+                          " needs one value or one for each, and " + std::to_string(list.size()) + " were given");
+}
+
+Index denominator_of(Denominators sharing, Index output, Index input, Index inputs) {
+    if (sharing == Denominators::kCommon) return 0;
+    return sharing == Denominators::kPerOutput ? output : output * inputs + input;
+}
+
+}  // namespace
+
+TransferStructure TransferStructure::single(int poles, int zeros, double delay) {
+    return grid(1, 1, Denominators::kCommon, {poles}, {zeros}, {delay});
+}
+
+TransferStructure TransferStructure::grid(Index outputs, Index inputs, Denominators sharing,
+                                          const std::vector<int>& poles, const std::vector<int>& zeros,
+                                          const std::vector<double>& delays) {
+    TransferStructure structure;
+    structure.outputs = outputs;
+    structure.inputs = inputs;
+    const std::size_t count = static_cast<std::size_t>(outputs * inputs);
+    for (std::size_t i = 0; i < count; ++i) {
+        const Index place = static_cast<Index>(i);
+        const Index denominator = denominator_of(sharing, place / inputs, place % inputs, inputs);
+        const int n = entry(poles, i, count, "the number of poles");
+        if (static_cast<std::size_t>(denominator) == structure.poles.size())
+            structure.poles.push_back(n);
+        else if (structure.poles[static_cast<std::size_t>(denominator)] != n)
+            throw InvalidArgument("Channels with a common denominator need equal numbers of poles, and " +
+                                  std::to_string(structure.poles[static_cast<std::size_t>(denominator)]) + " and " +
+                                  std::to_string(n) + " were given");
+        structure.channels.push_back(
+            {denominator, entry(zeros, i, count, "the number of zeros"), entry(delays, i, count, "the delay")});
+    }
+    structure.validate();
+    return structure;
+}
+
+const TransferChannel& TransferStructure::channel(Index output, Index input) const {
+    return channels[static_cast<std::size_t>(output * inputs + input)];
+}
+
+Index TransferStructure::parameter_count() const {
+    Index count = 0;
+    for (const int n : poles) count += n;
+    for (const TransferChannel& channel : channels) count += channel.zeros + 1 + (free_delays ? 1 : 0);
+    return count;
+}
+
+Index TransferStructure::a_place(Index denominator) const {
+    Index place = 0;
+    for (Index d = 0; d < denominator; ++d) place += poles[static_cast<std::size_t>(d)];
+    for (const TransferChannel& channel : channels)
+        if (channel.denominator < denominator) place += channel.zeros + 1 + (free_delays ? 1 : 0);
+    return place;
+}
+
+Index TransferStructure::b_place(Index output, Index input) const {
+    const std::size_t position = static_cast<std::size_t>(output * inputs + input);
+    const Index denominator = channels[position].denominator;
+    Index place = a_place(denominator) + poles[static_cast<std::size_t>(denominator)];
+    for (std::size_t i = 0; i < position; ++i)
+        if (channels[i].denominator == denominator) place += channels[i].zeros + 1 + (free_delays ? 1 : 0);
+    return place;
+}
+
+Index TransferStructure::delay_place(Index output, Index input) const {
+    return free_delays ? b_place(output, input) + channel(output, input).zeros + 1 : -1;
+}
+
+std::vector<std::string> TransferStructure::parameter_names() const {
+    std::vector<std::string> names(static_cast<std::size_t>(parameter_count()));
+    const auto set = [&](Index place, const std::string& name) { names[static_cast<std::size_t>(place)] = name; };
+    const auto suffix = [&](bool with_output, Index output, bool with_input, Index input) {
+        std::string text;
+        if (with_output && outputs > 1) text += "y" + std::to_string(output + 1);
+        if (with_input && inputs > 1) text += "u" + std::to_string(input + 1);
+        return text.empty() ? text : "_" + text;
+    };
+    for (Index output = 0; output < outputs; ++output) {
+        for (Index input = 0; input < inputs; ++input) {
+            const TransferChannel& here = channel(output, input);
+            const bool of_output = channels.front().denominator != channels.back().denominator;
+            const bool of_input = inputs > 1 && channels[0].denominator != channels[1].denominator;
+            for (int i = 1; i <= poles[static_cast<std::size_t>(here.denominator)]; ++i)
+                set(a_place(here.denominator) + i - 1,
+                    "a" + std::to_string(i) + suffix(of_output, output, of_input, input));
+            for (int j = 0; j <= here.zeros; ++j)
+                set(b_place(output, input) + j, "b" + std::to_string(j) + suffix(true, output, true, input));
+            if (free_delays) set(delay_place(output, input), "Td" + suffix(true, output, true, input));
+        }
+    }
+    return names;
+}
+
+Vector TransferStructure::denominator(const VectorView& theta, Index output, Index input) const {
+    const Index place = channel(output, input).denominator, n = poles[static_cast<std::size_t>(place)];
+    Vector den(n + 1);
+    den << 1, theta.segment(a_place(place), n);
+    return den;
+}
+
+Vector TransferStructure::numerator(const VectorView& theta, Index output, Index input) const {
+    return theta.segment(b_place(output, input), channel(output, input).zeros + 1);
+}
+
+double TransferStructure::delay(const VectorView& theta, Index output, Index input) const {
+    return free_delays ? theta[delay_place(output, input)] : channel(output, input).delay;
+}
+
+std::vector<TransferFunction> TransferStructure::models(const VectorView& theta) const {
+    std::vector<TransferFunction> result;
+    for (Index output = 0; output < outputs; ++output)
+        for (Index input = 0; input < inputs; ++input)
+            result.emplace_back(numerator(theta, output, input), denominator(theta, output, input), 0,
+                                delay(theta, output, input));
+    return result;
+}
+
+void TransferStructure::validate() const {
+    if (outputs < 1 || inputs < 1 || channels.size() != static_cast<std::size_t>(outputs * inputs))
+        throw InvalidArgument("A model needs at least one input and one output and one channel for each pair of them");
+    for (const int n : poles)
+        if (n < 1 || n > kMostPoles)
+            throw InvalidArgument("The number of poles must lie between 1 and " + std::to_string(kMostPoles) +
+                                  ", and is " + std::to_string(n));
+    for (const TransferChannel& channel : channels) {
+        if (channel.denominator < 0 || static_cast<std::size_t>(channel.denominator) >= poles.size())
+            throw InvalidArgument("A channel of the model names a denominator that is not there");
+        const int n = poles[static_cast<std::size_t>(channel.denominator)];
+        if (channel.zeros < 0 || channel.zeros > n)
+            throw InvalidArgument("The number of zeros must lie between 0 and the number of poles, " +
+                                  std::to_string(n) + ", and is " + std::to_string(channel.zeros));
+        if (!(channel.delay >= 0) || !std::isfinite(channel.delay))
+            throw InvalidArgument("A delay must not be negative, and is " + number_text(channel.delay) + " s");
+    }
+}
+
+}  // namespace dynlab
