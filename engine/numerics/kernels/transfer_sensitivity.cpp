@@ -2,6 +2,7 @@
 
 #include "numerics/error.h"
 #include "numerics/kernels/exact_filter.h"
+#include "numerics/kernels/sensitivity_system.h"
 #include "numerics/kernels/tapped_system.h"
 #include "numerics/linalg/matrix_exponential.h"
 #include "numerics/linalg/polynomial.h"
@@ -14,28 +15,6 @@ void require_strictly_proper(const VectorView& num, const VectorView& den) {
     if (num.size() < 1 || den.size() < 2 || num.size() >= den.size())
         throw InvalidArgument(
             "A strictly proper transfer function is needed: fewer zeros than poles, at least one pole");
-}
-
-// d/dt [z; w] with A(p) z = v, A(p) w = p^r z; z and w hold their n-1-st ... 0-th derivatives.
-Matrix cascade_matrix(const VectorView& den, Index r) {
-    const Index n = den.size() - 1;
-    Matrix cascade = Matrix::Zero(2 * n, 2 * n);
-    cascade.topLeftCorner(n, n) = companion(den);
-    cascade.bottomRightCorner(n, n) = companion(den);
-    cascade(n, n - 1 - r) = 1;
-    return cascade;
-}
-
-// Row r: the r-th derivative of w as a function of [z; w], r = 0 .. 2n-1, from A(p) w = z.
-Matrix derivatives_of_w(const VectorView& den) {
-    const Index n = den.size() - 1;
-    Matrix rows = Matrix::Zero(2 * n, 2 * n);
-    for (Index r = 0; r < n; ++r) rows(r, 2 * n - 1 - r) = 1;
-    for (Index r = n; r < 2 * n; ++r) {
-        rows(r, 2 * n - 1 - r) = 1;  // the (r-n)-th derivative of z
-        for (Index i = 1; i <= n; ++i) rows.row(r) -= den[i] * rows.row(r - i);
-    }
-    return rows;
 }
 
 // The last state of dx/dt = A x as the one output of a filter without input.
@@ -60,19 +39,8 @@ Vector transfer_response(const VectorView& num, const VectorView& den, double de
 Matrix transfer_sensitivities(const VectorView& num, const VectorView& den, double delay, const VectorView& u,
                               double Ts, Hold hold) {
     require_strictly_proper(num, den);
-    const Index n = den.size() - 1, m = num.size() - 1, outputs = n + m + 3;
-    const Matrix cascade = cascade_matrix(den, 0), w = derivatives_of_w(den);
-    const Vector input = Vector::Unit(2 * n, 0);
-    Matrix C = Matrix::Zero(outputs, 2 * n);
-    for (Index j = 0; j <= m; ++j) {
-        C(0, n - 1 - (m - j)) = num[j];
-        C(n + 1 + j, n - 1 - (m - j)) = 1;
-        for (Index i = 1; i <= n; ++i) C.row(i) -= num[j] * w.row(n - i + m - j);
-    }
-    C.row(outputs - 1) = -C.row(0) * cascade;
-    Vector D = Vector::Zero(outputs);
-    D[outputs - 1] = -C.row(0).dot(input);
-    return ExactFilter(discretise(cascade, input, C, D, Ts, hold, delay)).run(u);
+    const SingleInputSystem system = sensitivity_system(num, den);
+    return ExactFilter(discretise(system.A, system.B, system.C, system.D, Ts, hold, delay)).run(u);
 }
 
 Matrix free_responses(const VectorView& den, Index N, double Ts) {
