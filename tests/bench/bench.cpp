@@ -16,17 +16,21 @@ double seconds(const std::function<void()>& work) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+}  // namespace
+
 double median(std::vector<double> values) {
     std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
     return values[values.size() / 2];
 }
 
-}  // namespace
-
-double median_seconds(int repetitions, const std::function<void()>& work) {
+std::vector<double> repeated_seconds(int repetitions, const std::function<void()>& work) {
     std::vector<double> times;
     for (int k = 0; k < repetitions; ++k) times.push_back(seconds(work));
-    return median(times);
+    return times;
+}
+
+double median_seconds(int repetitions, const std::function<void()>& work) {
+    return median(repeated_seconds(repetitions, work));
 }
 
 std::pair<double, double> paired_medians(int repetitions, const std::function<void()>& a,
@@ -41,22 +45,44 @@ std::pair<double, double> paired_medians(int repetitions, const std::function<vo
 
 }  // namespace dynlab::bench
 
-int main() {
-    using namespace dynlab::bench;
-    std::vector<Result> results;
-    measure_numerics(results);
-    measure_program(results);
+namespace {
+
+using namespace dynlab::bench;
+
+/// True when every row is within its bar.
+bool print_table(const Report& report) {
     fmt::print("{:<46} {:>11} {:>11} {:>8} {:>6} {:>6}\n", "what / against", "measured", "reference", "ratio", "bar",
                "goal");
     bool all_within = true;
-    for (const Result& result : results) {
+    for (const Result& result : report.results) {
         const double ratio = result.measured / result.reference;
         const bool within = ratio <= result.bar;
         all_within = all_within && within;
-        fmt::print("{:<46} {:>11.4g} {:>11.4g} {:>8.3f} {:>6.3g} {:>6} {}\n", result.what, result.measured,
+        fmt::print("{:<46} {:>11.4g} {:>11.4g} {:>8.3g} {:>6.3g} {:>6} {}\n", result.what, result.measured,
                    result.reference, ratio, result.bar, result.goal > 0 ? fmt::format("{:.3g}", result.goal) : "",
                    within ? "" : "OVER THE BAR");
         fmt::print("    against {}\n", result.against);
     }
-    return all_within ? 0 : 1;
+    if (!report.left_out.empty()) fmt::print("Left out; `scripts/bench --peers` installs what these rows need:\n");
+    for (const std::string& row : report.left_out) fmt::print("    {}\n", row);
+    return all_within;
+}
+
+}  // namespace
+
+/// Measures the groups that are named, or all.
+int main(int argc, char** argv) {
+    const std::vector<std::pair<std::string, void (*)(Report&)>> groups{{"numerics", measure_numerics},
+                                                                        {"program", measure_program}};
+    const std::vector<std::string> named(argv + 1, argv + argc);
+    for (const std::string& name : named) {
+        if (std::any_of(groups.begin(), groups.end(), [&](const auto& group) { return group.first == name; })) continue;
+        fmt::print(stderr, "There is no group of benchmarks named {}.\n", name);
+        return 2;
+    }
+    Report report;
+    for (const auto& [name, measure] : groups) {
+        if (named.empty() || std::find(named.begin(), named.end(), name) != named.end()) measure(report);
+    }
+    return print_table(report) ? 0 : 1;
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dynlab::bench {
@@ -12,12 +13,19 @@ struct Result {
     double bar = 0, goal = 0;            ///< of measured/reference; goal 0 when there is none
 };
 
+struct Report {
+    std::vector<Result> results;
+    std::vector<std::string> left_out;  ///< rows that this machine cannot measure, a line each
+};
+
+double median(std::vector<double> values);
+std::vector<double> repeated_seconds(int repetitions, const std::function<void()>& work);
 double median_seconds(int repetitions, const std::function<void()>& work);
 /// Both in turn, A B A B ..., so that a drift of the machine's speed hits both alike.
 std::pair<double, double> paired_medians(int repetitions, const std::function<void()>& a,
                                          const std::function<void()>& b);
 
-void measure_numerics(std::vector<Result>& results);
-void measure_program(std::vector<Result>& results);
+void measure_numerics(Report& report);
+void measure_program(Report& report);
 
 }  // namespace dynlab::bench
