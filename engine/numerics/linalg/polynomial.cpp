@@ -64,6 +64,12 @@ Vector polynomial_from_roots(const ComplexVector& roots) {
     return p.real();
 }
 
+Vector monic(const VectorView& tail) {
+    Vector p(tail.size() + 1);
+    p << 1, tail;
+    return p;
+}
+
 Vector multiply(const VectorView& a, const VectorView& b) {
     Vector product = Vector::Zero(a.size() + b.size() - 1);
     for (Index i = 0; i < a.size(); ++i) product.segment(i, b.size()) += a(i) * b;

@@ -13,6 +13,8 @@ Vector strip_leading_zeros(const VectorView& p);
 ComplexVector roots(const VectorView& p);
 /// The monic polynomial with these roots; complex roots must come in conjugate pairs.
 Vector polynomial_from_roots(const ComplexVector& roots);
+/// 1 and then `tail`: the monic polynomial with these further coefficients.
+Vector monic(const VectorView& tail);
 Vector multiply(const VectorView& a, const VectorView& b);
 Vector add(const VectorView& a, const VectorView& b);
 /// base^exponent, exponent >= 0.

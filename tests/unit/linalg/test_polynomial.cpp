@@ -66,5 +66,10 @@ TEST(polynomial, refuses_what_has_no_roots) {
               "roots: the polynomial holds a coefficient that is not finite");
 }
 
+TEST(polynomial, monic_puts_a_one_first) {  // oracle: definition
+    EXPECT_EQ(monic(from({2, 3})), from({1, 2, 3}));
+    EXPECT_EQ(monic(Vector()), from({1}));
+}
+
 }  // namespace
 }  // namespace dynlab

@@ -1,0 +1,144 @@
+#include "numerics/models/polynomial_model.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "numerics/error.h"
+#include "numerics/linalg/polynomial.h"
+#include "numerics/signals/checks.h"
+
+namespace dynlab {
+
+namespace {
+
+constexpr int kHighestOrder = 100, kLongestDelay = 1000000;
+
+void check_order(int value, int least, int most, const std::string& name, const std::string& meaning) {
+    if (value >= least && value <= most) return;
+    throw InvalidArgument(name + ", " + meaning + ", must lie between " + std::to_string(least) + " and " +
+                          std::to_string(most) + ", and is " + std::to_string(value));
+}
+
+void check_list(const std::vector<int>& list, std::size_t inputs, const std::string& name) {
+    if (list.size() == inputs) return;
+    throw InvalidArgument(name + " needs one value for each input: nb has " + std::to_string(inputs) + ", and " + name +
+                          " has " + std::to_string(list.size()));
+}
+
+void append_names(std::vector<std::string>& names, const char* letter, int first, int count,
+                  const std::string& ending = "") {
+    for (int i = 0; i < count; ++i) names.push_back(letter + std::to_string(first + i) + ending);
+}
+
+/// The ratio of two polynomials in q^-1 as one of polynomials in z.
+TransferFunction in_powers_of_z(const VectorView& num, const VectorView& den, double Ts, double delay = 0) {
+    const Index length = std::max(num.size(), den.size());
+    Vector top = Vector::Zero(length), bottom = Vector::Zero(length);
+    top.head(num.size()) = num;
+    bottom.head(den.size()) = den;
+    return TransferFunction(top, bottom, Ts, delay);
+}
+
+}  // namespace
+
+PolynomialOrders PolynomialOrders::arx(int na, std::vector<int> nb, std::vector<int> nk) {
+    PolynomialOrders orders;
+    orders.na = na;
+    orders.nf.assign(nb.size(), 0);
+    orders.nb = std::move(nb);
+    orders.nk = std::move(nk);
+    return orders;
+}
+
+PolynomialOrders PolynomialOrders::output_error(std::vector<int> nb, std::vector<int> nf, std::vector<int> nk) {
+    PolynomialOrders orders;
+    orders.nb = std::move(nb);
+    orders.nf = std::move(nf);
+    orders.nk = std::move(nk);
+    return orders;
+}
+
+Index PolynomialOrders::parameter_count() const {
+    return d_place() + nd;
+}
+
+Index PolynomialOrders::f_place(std::size_t input) const {
+    Index place = na;
+    for (std::size_t i = 0; i < input; ++i) place += nf[i] + nb[i];
+    return place;
+}
+
+Index PolynomialOrders::b_place(std::size_t input) const {
+    return f_place(input) + nf[input];
+}
+
+Index PolynomialOrders::c_place() const {
+    return f_place(inputs());
+}
+
+Index PolynomialOrders::d_place() const {
+    return c_place() + nc;
+}
+
+Index PolynomialOrders::past() const {
+    Index samples = na;
+    for (std::size_t i = 0; i < inputs(); ++i) samples = std::max<Index>(samples, nk[i] + nb[i] - 1);
+    return samples;
+}
+
+std::vector<std::string> PolynomialOrders::parameter_names() const {
+    std::vector<std::string> names;
+    append_names(names, "a", 1, na);
+    for (std::size_t i = 0; i < inputs(); ++i) {
+        const std::string ending = inputs() > 1 ? "_u" + std::to_string(i + 1) : "";
+        append_names(names, "f", 1, nf[i], ending);
+        append_names(names, "b", nk[i], nb[i], ending);
+    }
+    append_names(names, "c", 1, nc);
+    append_names(names, "d", 1, nd);
+    return names;
+}
+
+void PolynomialOrders::validate() const {
+    if (nb.empty()) throw InvalidArgument("A polynomial model needs at least one input");
+    check_list(nf, nb.size(), "nf");
+    check_list(nk, nb.size(), "nk");
+    check_order(na, 0, kHighestOrder, "na", "the number of poles");
+    check_order(nc, 0, kHighestOrder, "nc", "the number of coefficients of C after its 1");
+    check_order(nd, 0, kHighestOrder, "nd", "the number of coefficients of D after its 1");
+    for (std::size_t i = 0; i < inputs(); ++i) {
+        check_order(nb[i], 1, kHighestOrder, "nb", "the number of coefficients of B");
+        check_order(nf[i], 0, kHighestOrder, "nf", "the number of poles of B/F");
+        check_order(nk[i], 0, kLongestDelay, "nk", "the delay in samples (1: no direct term)");
+    }
+}
+
+PolynomialModel::PolynomialModel(const PolynomialOrders& orders, const VectorView& theta, double sampling_time)
+    : Ts(sampling_time) {
+    orders.validate();
+    check_sampling_time("polynomial model", Ts);
+    if (theta.size() != orders.parameter_count())
+        throw InvalidArgument("The polynomial model has " + std::to_string(orders.parameter_count()) +
+                              " parameters, and " + std::to_string(theta.size()) + " values were given");
+    A = monic(theta.head(orders.na));
+    C = monic(theta.segment(orders.c_place(), orders.nc));
+    D = monic(theta.segment(orders.d_place(), orders.nd));
+    for (std::size_t i = 0; i < orders.inputs(); ++i) {
+        F.push_back(monic(theta.segment(orders.f_place(i), orders.nf[i])));
+        B.push_back(Vector::Zero(orders.nk[i] + orders.nb[i]));
+        B.back().tail(orders.nb[i]) = theta.segment(orders.b_place(i), orders.nb[i]);
+    }
+}
+
+TransferFunction PolynomialModel::transfer_function(std::size_t input) const {
+    const Vector &b = B.at(input), den = multiply(A, F.at(input));
+    Index late = b.size() - strip_leading_zeros(b).size();
+    late = std::max<Index>(0, late - 1);
+    return in_powers_of_z(b.tail(b.size() - late), den, Ts, static_cast<double>(late) * Ts);
+}
+
+TransferFunction PolynomialModel::noise_model() const {
+    return in_powers_of_z(C, multiply(A, D), Ts);
+}
+
+}  // namespace dynlab
