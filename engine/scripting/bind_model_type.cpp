@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "scripting/objects/model.h"
+#include "scripting/present.h"
 #include "scripting/text_form.h"
 
 namespace dynlab {
@@ -18,14 +19,55 @@ const Estimate& estimate_of(Call& call) {
     return *model.estimate;
 }
 
+/// The transfer function of a model with one input.
+const TransferFunction& only_channel(Call& call) {
+    const Model& model = self(call);
+    if (model.inputs() == 1) return model.G;
+    throw InvalidArgument(fmt::format(
+        "this model has {} inputs: take one of its channels, G.channels[1] for the first input", model.inputs()));
+}
+
 int field_num(Call& call) {
-    return call.give_vector(self(call).G.num());
+    return call.give_vector(only_channel(call).num());
 }
 int field_den(Call& call) {
-    return call.give_vector(self(call).G.den());
+    return call.give_vector(only_channel(call).den());
 }
 int field_delay(Call& call) {
-    return call.give(self(call).G.delay());
+    return call.give(only_channel(call).delay());
+}
+
+const PolynomialModel& polynomials(Call& call) {
+    const Model& model = self(call);
+    if (model.polynomial) return *model.polynomial;
+    throw InvalidArgument("only models of difference equations, as arx, oe and sriv give them, have this polynomial");
+}
+template <Vector PolynomialModel::*kPolynomial>
+int field_polynomial(Call& call) {
+    return call.give_vector(polynomials(call).*kPolynomial);
+}
+/// A vector, or a table of one vector for each of several inputs.
+template <std::vector<Vector> PolynomialModel::*kPolynomials>
+int field_input_polynomials(Call& call) {
+    const std::vector<Vector>& list = polynomials(call).*kPolynomials;
+    if (list.size() == 1) return call.give_vector(list.front());
+    lua_createtable(call.state(), static_cast<int>(list.size()), 0);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        call.give_vector(list[i]);
+        lua_rawseti(call.state(), -2, static_cast<lua_Integer>(i + 1));
+    }
+    return 1;
+}
+
+/// The transfer function from each input.
+int field_channels(Call& call) {
+    const Model model = self(call);
+    lua_createtable(call.state(), static_cast<int>(model.inputs()), 0);
+    for (std::size_t i = 0; i < model.inputs(); ++i) {
+        give_model(call, model.polynomial ? model.polynomial->transfer_function(i) : model.G);
+        lua_rawseti(call.state(), -2, static_cast<lua_Integer>(i + 1));
+    }
+    return 1;
 }
 int field_sampling_time(Call& call) {
     return call.give(self(call).G.Ts());
@@ -88,8 +130,13 @@ int field_parameter(Call& call) {
                                       fmt::join(parameters.names, ", ")));
 }
 
+/// The letter D names the noise polynomial of a difference equation and the delay of step_delayed.
+int field_D(Call& call) {
+    return self(call).polynomial ? field_polynomial<&PolynomialModel::D>(call) : field_parameter(call);
+}
+
 int to_text_of_model(Call& call) {
-    return call.give(to_text(self(call).G));
+    return call.give(channels_text(self(call)));
 }
 
 template <TransferFunction (*kOperator)(const TransferFunction&, const TransferFunction&)>
@@ -113,7 +160,7 @@ int raise_to_power(Call& call) {
     return give_model(call, pow(model_argument(call, 1, "base").G, static_cast<int>(call.whole(2, "exponent"))));
 }
 int negate(Call& call) {
-    const TransferFunction& G = self(call).G;
+    const TransferFunction& G = only_channel(call);
     return give_model(call, TransferFunction(-G.num(), G.den(), G.Ts(), G.delay()));
 }
 
@@ -139,7 +186,12 @@ constexpr std::array kFields = {
     Member{"T", guarded<field_parameter>},
     Member{"z", guarded<field_parameter>},
     Member{"w0", guarded<field_parameter>},
-    Member{"D", guarded<field_parameter>},
+    Member{"D", guarded<field_D>},
+    Member{"A", guarded<field_polynomial<&PolynomialModel::A>>},
+    Member{"B", guarded<field_input_polynomials<&PolynomialModel::B>>},
+    Member{"C", guarded<field_polynomial<&PolynomialModel::C>>},
+    Member{"F", guarded<field_input_polynomials<&PolynomialModel::F>>},
+    Member{"channels", guarded<field_channels>},
 };
 constexpr std::array kOperators = {
     Member{"__add", guarded<combine<plus>>},         Member{"__sub", guarded<combine<minus>>},

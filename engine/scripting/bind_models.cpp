@@ -136,7 +136,10 @@ int damp(Call& call) {
 
 int present(Call& call) {
     if (call.count() == 0) wrong_argument(call.state(), 1, "G", "model");
-    for (int i = 1; i <= call.count(); ++i) call.print(presentation(model_argument(call, i, "G")));
+    for (int i = 1; i <= call.count(); ++i) {
+        const Model* model = to_object<Model>(call.state(), i);
+        call.print(presentation(model != nullptr ? *model : model_argument(call, i, "G")));
+    }
     return 0;
 }
 

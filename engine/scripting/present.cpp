@@ -8,9 +8,14 @@
 namespace dynlab {
 namespace {
 
+TransferFunction channel(const Model& model, std::size_t input) {
+    return model.polynomial ? model.polynomial->transfer_function(input) : model.G;
+}
+
 std::string kind_of(const Model& model) {
     const std::string time = model.G.continuous() ? "continuous-time" : "discrete-time";
     if (model.process) return fmt::format("{} process model {}", time, model.process->structure.text());
+    if (model.polynomial) return time + " polynomial model A y = B/F u + C/D e";
     return time + " transfer function";
 }
 
@@ -38,6 +43,30 @@ std::string pole_lines(const TransferFunction& G) {
     return text;
 }
 
+std::string polynomial_lines(const PolynomialModel& model) {
+    std::string text;
+    const auto add = [&](const std::string& name, const Vector& p) {
+        if (p.size() > 1 || p[0] != 1) text += fmt::format("  {:<5} {}\n", name, vector_text(p));
+    };
+    add("A", model.A);
+    for (std::size_t i = 0; i < model.B.size(); ++i) {
+        const std::string ending = model.B.size() > 1 ? fmt::format("{{{}}}", i + 1) : "";
+        add("B" + ending, model.B[i]);
+        add("F" + ending, model.F[i]);
+    }
+    add("C", model.C);
+    add("D", model.D);
+    return "Polynomials (weights of the present sample, the one before, ...; those not shown are 1):\n" + text;
+}
+
+/// Delay, gain and poles of one channel.
+std::string channel_lines(const TransferFunction& G) {
+    std::string text;
+    if (G.delay() > 0) text += fmt::format("Delay: {} s\n", number_text(G.delay()));
+    text += fmt::format("Steady-state gain: {}\n", number_text(G.dc_gain()));
+    return text + pole_lines(G);
+}
+
 std::string estimate_lines(const Estimate& estimate) {
     std::string text = fmt::format("Estimated by {}", estimate.method);
     for (const auto& [name, value] : estimate.numbers) {
@@ -50,13 +79,23 @@ std::string estimate_lines(const Estimate& estimate) {
 
 }  // namespace
 
+std::string channels_text(const Model& model) {
+    if (model.inputs() == 1) return to_text(model.G);
+    std::string text;
+    for (std::size_t i = 0; i < model.inputs(); ++i)
+        text += fmt::format("{}From input {}:\n{}", i > 0 ? "\n" : "", i + 1, to_text(channel(model, i)));
+    return text;
+}
+
 std::string presentation(const Model& model) {
-    const TransferFunction& G = model.G;
-    std::string text = kind_of(model) + "\n" + to_text(G) + "\n" + parameter_lines(model);
-    if (!G.continuous()) text += fmt::format("Sampling time: {} s\n", number_text(G.Ts()));
-    if (G.delay() > 0) text += fmt::format("Delay: {} s\n", number_text(G.delay()));
-    text += fmt::format("Steady-state gain: {}\n", number_text(G.dc_gain()));
-    text += pole_lines(G);
+    std::string text = kind_of(model) + "\n" + channels_text(model) + "\n";
+    if (model.polynomial) text += polynomial_lines(*model.polynomial);
+    text += parameter_lines(model);
+    if (!model.G.continuous()) text += fmt::format("Sampling time: {} s\n", number_text(model.G.Ts()));
+    for (std::size_t i = 0; i < model.inputs(); ++i) {
+        if (model.inputs() > 1) text += fmt::format("From input {}: ", i + 1);
+        text += channel_lines(channel(model, i));
+    }
     if (model.estimate) text += estimate_lines(*model.estimate);
     return text;
 }

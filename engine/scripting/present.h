@@ -9,4 +9,7 @@ namespace dynlab {
 /// constant, and for an estimate its fit, noise and message.
 std::string presentation(const Model& model);
 
+/// The transfer function, or one after the other those from several inputs.
+std::string channels_text(const Model& model);
+
 }  // namespace dynlab

@@ -21,7 +21,13 @@ bool holds_model(const Call& call, int index) {
 
 Model model_argument(const Call& call, int index, const char* what) {
     if (index <= call.count()) {
-        if (const Model* model = to_object<Model>(call.state(), index)) return *model;
+        if (const Model* model = to_object<Model>(call.state(), index)) {
+            if (model->inputs() == 1) return *model;
+            throw InvalidArgument(fmt::format(
+                "argument {} ({}) must have one input, but it has {}: take one of its channels, G.channels[1] for the "
+                "first input",
+                index, what, model->inputs()));
+        }
         if (call.type(index) == LUA_TNUMBER)
             return {TransferFunction(Vector::Constant(1, call.number(index, what)), Vector::Ones(1))};
         if (const StateSpace* system = to_object<StateSpace>(call.state(), index)) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "numerics/estimators/step_test.h"
+#include "numerics/models/polynomial_model.h"
 #include "numerics/models/process_model.h"
 #include "numerics/models/state_space.h"
 #include "numerics/models/transfer_function.h"
@@ -27,11 +28,15 @@ struct Estimate {
     std::shared_ptr<const StepTestResult> step_test = {};  ///< of the graphical methods
 };
 
-/// A model as scripts hold it: a transfer function, with its process parameters and estimate where it has them.
+/// A model as scripts hold it: a transfer function, with its process parameters, polynomials and estimate where it has
+/// them. G is the first of several inputs' when `polynomial` has several.
 struct Model {
     TransferFunction G;
     std::optional<ProcessModel> process = {};
     std::shared_ptr<const Estimate> estimate = {};
+    std::shared_ptr<const PolynomialModel> polynomial = {};
+
+    std::size_t inputs() const { return polynomial ? polynomial->B.size() : 1; }
 };
 
 template <>
@@ -61,7 +66,7 @@ struct Boxed<ComplexVector> {
 };
 
 bool holds_model(const Call& call, int index);
-/// A tf, idproc or estimated model; a state-space model with one input and one output; a number as a gain.
+/// A tf, idproc or estimated model or a state-space model, with one input and one output; a number as a gain.
 Model model_argument(const Call& call, int index, const char* what);
 int give_model(const Call& call, TransferFunction G);
 

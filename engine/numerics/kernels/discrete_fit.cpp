@@ -1,0 +1,179 @@
+#include "numerics/kernels/discrete_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "numerics/error.h"
+#include "numerics/linalg/least_squares.h"
+#include "numerics/number_text.h"
+
+namespace dynlab {
+
+namespace {
+
+struct Record {
+    std::vector<SampledExperiment> experiments;
+    Vector removed_outputs;  ///< per experiment
+    Index samples = 0;
+    double power = 0;  ///< mean square of the output
+};
+
+void remove_operating_point(SampledExperiment& experiment, double& removed_output) {
+    const bool single = experiment.u.cols() == 1;
+    removed_output = experiment.y.mean();
+    for (Index input = 0; input < experiment.u.cols(); ++input) {
+        OperatingPoint point{experiment.u.col(input).mean(), removed_output};
+        if (single) point = operating_point(experiment.u.col(input), experiment.y);
+        experiment.u.col(input).array() -= point.input;
+        removed_output = point.output;
+    }
+    experiment.y.array() -= removed_output;
+}
+
+Record prepared_record(const IdData& data, Offset offset) {
+    Record record;
+    record.removed_outputs = Vector::Zero(static_cast<Index>(data.experiments.size()));
+    for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+        record.experiments.push_back({data.experiments[e].u, data.experiments[e].y.col(0)});
+        SampledExperiment& experiment = record.experiments.back();
+        if (offset == Offset::kRemove)
+            remove_operating_point(experiment, record.removed_outputs[static_cast<Index>(e)]);
+        record.samples += experiment.y.size();
+        record.power += experiment.y.squaredNorm();
+    }
+    record.power /= static_cast<double>(record.samples);
+    return record;
+}
+
+/// Two samples that say what start_conditions asks of an input, for all inputs together: whether the first
+/// samples are zero, and whether anything changes.
+Vector summary_of_inputs(const Record& record) {
+    double first = 0, change = 0;
+    for (const SampledExperiment& experiment : record.experiments) {
+        first = std::max(first, experiment.u.row(0).cwiseAbs().maxCoeff());
+        change = std::max(change, (experiment.u.rowwise() - experiment.u.row(0)).cwiseAbs().maxCoeff());
+    }
+    return Eigen::Vector2d(first, first + change);
+}
+
+struct Fit {
+    StartCondition condition;
+    InstrumentSolution solution;
+    double squared_errors = 0, squared_variation = 0;
+    Index values = 0;  ///< all that were estimated, samples left free among them
+    double bic = std::numeric_limits<double>::infinity();
+};
+
+Index value_count(const DiscreteOutput& model) {
+    return model.parameter_count() + model.left_out();
+}
+
+Fit fit_condition(const Record& record, const DiscreteOutput& model, const DiscreteSearch& search) {
+    Fit fit;
+    fit.condition = model.condition();
+    const Vector y = model.target();
+    fit.solution = search(model, y);
+    fit.squared_errors = fit.solution.loss * static_cast<double>(y.size());
+    fit.squared_variation = model.target_variation();
+    fit.values = value_count(model);
+    fit.bic =
+        bic_of_loss(fit.squared_errors / static_cast<double>(record.samples), record.power, record.samples, fit.values);
+    return fit;
+}
+
+void require_samples(const std::string& method, const Record& record, Index values) {
+    if (record.samples > values) return;
+    throw InvalidArgument(method + " needs more samples than the " + std::to_string(values) +
+                          " values it estimates, and the record holds " + std::to_string(record.samples));
+}
+
+Fit best_fit(const std::string& method, const Record& record, const PolynomialOrders& orders,
+             const PolynomialOptions& options, const DiscreteSearch& search) {
+    const auto conditions = start_conditions(summary_of_inputs(record), options.initial_state, options.offset);
+    Fit best;
+    for (std::size_t i = 0; i < conditions.size(); ++i) {
+        const DiscreteOutput model(orders, conditions[i], record.experiments);
+        if (i == 0) require_samples(method, record, value_count(model));
+        if (record.samples <= value_count(model)) continue;
+        Fit fit = fit_condition(record, model, search);
+        if (i == 0 || fit.bic < best.bic) best = std::move(fit);
+        if (best.solution.termination == Termination::kCancelled) break;
+    }
+    return best;
+}
+
+/// Covariance and condition number from the sensitivities at the solution.
+void add_uncertainty(PolynomialEstimate& estimate, const DiscreteOutput& model, const Vector& theta) {
+    Vector output;
+    Matrix sensitivities;
+    model.simulate(theta, output, &sensitivities);
+    const Index d = estimate.theta.size();
+    estimate.covariance = Matrix::Constant(d, d, std::numeric_limits<double>::infinity());
+    estimate.condition_number = std::numeric_limits<double>::infinity();
+    if (sensitivities.allFinite()) {
+        const LeastSquares fit = solve_least_squares(sensitivities, Vector::Zero(output.size()));
+        estimate.covariance = estimate.noise_variance * fit.inverse_gram.topLeftCorner(d, d);
+        estimate.condition_number = fit.condition_number;
+    }
+    estimate.std = estimate.covariance.diagonal().cwiseMax(0).cwiseSqrt();
+}
+
+void add_warnings(PolynomialEstimate& estimate, const Fit& fit, const PolynomialOptions& options) {
+    auto& warnings = estimate.warnings;
+    if (estimate.termination == Termination::kIterationLimit)
+        warnings.push_back("It had not settled after MaxIter = " + std::to_string(options.MaxIter) +
+                           " iterations; the best point on the way is given.");
+    if (estimate.termination == Termination::kCancelled)
+        warnings.push_back("It was stopped before its end; the best point on the way is given.");
+    if (fit.solution.reflected)
+        warnings.push_back("Unstable poles turned up on the way and were mirrored into the unit circle.");
+    warn_of_doubtful_parameters(estimate);
+    for (std::size_t input = 0; input < estimate.orders.inputs(); ++input)
+        if (!estimate.model.transfer_function(input).stable())
+            warnings.push_back("The model has a pole outside or on the unit circle.");
+}
+
+std::string message_of(const PolynomialEstimate& estimate) {
+    const bool settled =
+        estimate.termination == Termination::kConverged || estimate.termination == Termination::kNoProgress;
+    std::string text = std::string(settled ? "Converged" : "Stopped") + " after " +
+                       std::to_string(estimate.trace.size()) + " iterations, simulating " +
+                       description(estimate.start) + ": fit " + number_text(estimate.fit_percent, 4) + " %.";
+    for (const std::string& warning : estimate.warnings) text += ' ' + warning;
+    return text;
+}
+
+}  // namespace
+
+PolynomialEstimate fit_discrete_output(const std::string& method, const IdData& data, const PolynomialOrders& orders,
+                                       const PolynomialOptions& options, const DiscreteSearch& search) {
+    orders.validate();
+    options.validate();
+    if (orders.na + orders.nc + orders.nd > 0)
+        throw InvalidArgument(method + " has the orders nb, nf and nk only: na, nc and nd must be zero");
+    check_polynomial_data(method, data, orders);
+    const Record record = prepared_record(data, options.offset);
+    const Fit fit = best_fit(method, record, orders, options, search);
+    const DiscreteOutput model(orders, fit.condition, record.experiments);
+
+    const Vector& theta = fit.solution.theta;
+    PolynomialEstimate estimate(orders, theta.head(orders.parameter_count()), data.Ts);
+    estimate.loss = fit.squared_errors / static_cast<double>(record.samples);
+    estimate.noise_variance = fit.squared_errors / static_cast<double>(record.samples - fit.values);
+    estimate.fit_percent = fit_percent_of_sums(fit.squared_errors, fit.squared_variation);
+    estimate.prediction_fit_percent = estimate.fit_percent;
+    add_uncertainty(estimate, model, theta);
+    estimate.start = fit.condition;
+    estimate.offsets = record.removed_outputs;
+    if (fit.condition.offset)
+        for (std::size_t e = 0; e < record.experiments.size(); ++e)
+            estimate.offsets[static_cast<Index>(e)] += theta[model.offset_place(e)];
+    estimate.termination = fit.solution.termination;
+    estimate.trace = fit.solution.trace;
+    add_warnings(estimate, fit, options);
+    estimate.message = message_of(estimate);
+    return estimate;
+}
+
+}  // namespace dynlab

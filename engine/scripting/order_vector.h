@@ -1,0 +1,20 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "scripting/arguments.h"
+
+namespace dynlab {
+
+/// One entry of an order vector and what it means in messages.
+struct OrderEntry {
+    const char* name;
+    const char* meaning;
+};
+
+/// The orders {2, 1, 1} of a model, or {2, {1, 2}, {1, 1}} with several inputs: a list for each entry. Throws
+/// InvalidArgument that says what the entries mean for another number of them, a value that is not whole, or a negative
+/// one.
+std::vector<std::vector<int>> order_lists(const Call& call, int index, std::span<const OrderEntry> entries);
+
+}  // namespace dynlab

@@ -1,0 +1,99 @@
+#include <gtest/gtest.h>
+
+#include "numerics/estimators/arx.h"
+#include "numerics/estimators/oe.h"
+#include "numerics/estimators/sriv.h"
+#include "support/difference_equation.h"
+
+using namespace dynlab;
+using namespace dynlab::test;
+
+namespace {
+
+PolynomialOptions tight() {
+    PolynomialOptions options;
+    options.Tol = 1e-11;
+    options.MaxIter = 200;
+    return options;
+}
+
+struct Method {
+    const char* name;
+    PolynomialOrders (*orders)(int nk);
+    PolynomialEstimate (*fit)(const IdData& data, const PolynomialOrders& orders);
+};
+
+const Method kMethods[] = {
+    {"arx", [](int nk) { return PolynomialOrders::arx(2, {2}, {nk}); },
+     [](const IdData& data, const PolynomialOrders& orders) { return arx(data, orders); }},
+    {"oe", [](int nk) { return PolynomialOrders::output_error({2}, {2}, {nk}); },
+     [](const IdData& data, const PolynomialOrders& orders) { return oe(data, orders, tight()); }},
+    {"sriv", [](int nk) { return PolynomialOrders::output_error({2}, {2}, {nk}); },
+     [](const IdData& data, const PolynomialOrders& orders) { return sriv(data, orders, tight()); }},
+};
+
+struct Signals {
+    Vector u, y;
+};
+
+Signals record(double noise) {
+    const Vector u = random_levels(600, 4, 3);
+    const PolynomialModel model(PolynomialOrders::output_error({2}, {2}, {1}), Vector{{-1.5, 0.7, 1, 0.5}}, 1);
+    return {u, model_output(model, u, noise * RandomStream(1).normal(600))};
+}
+
+IdData data_of(const Vector& u, const Vector& y, double Ts = 1) {
+    return IdData(Matrix(y), Matrix(u), Ts);
+}
+
+double worst_relative(const Vector& a, const Vector& b) {
+    return (a - b).cwiseQuotient(b).cwiseAbs().maxCoeff();
+}
+
+class discrete_properties : public testing::TestWithParam<Method> {
+  protected:
+    static PolynomialEstimate fit(const IdData& data, int nk = 1) {
+        return GetParam().fit(data, GetParam().orders(nk));
+    }
+};
+
+INSTANTIATE_TEST_SUITE_P(methods, discrete_properties, testing::ValuesIn(kMethods),
+                         [](const auto& instance) { return std::string(instance.param.name); });
+
+}  // namespace
+
+TEST_P(discrete_properties, the_unit_of_time_has_no_say) {  // oracle: invariance
+    const auto [u, y] = record(0.5);
+    const auto one = fit(data_of(u, y)), micro = fit(data_of(u, y, 1e-6));
+    EXPECT_EQ(one.theta, micro.theta);
+    EXPECT_EQ(one.std, micro.std);
+}
+
+TEST_P(discrete_properties, a_scaled_output_scales_b) {  // oracle: invariance
+    const auto [u, y] = record(0.5);
+    const auto one = fit(data_of(u, y)), large = fit(data_of(u, 1e4 * y));
+    Vector expected = one.theta, errors = one.std;
+    expected.tail(2) *= 1e4;
+    errors.tail(2) *= 1e4;
+    EXPECT_LT(worst_relative(large.theta, expected), 1e-8);
+    EXPECT_LT(worst_relative(large.std, errors), 1e-7);
+    EXPECT_NEAR(large.fit_percent, one.fit_percent, 1e-7);
+}
+
+TEST_P(discrete_properties, a_scaled_input_scales_b_back) {  // oracle: invariance
+    const auto [u, y] = record(0.5);
+    const auto one = fit(data_of(u, y)), large = fit(data_of(-1e3 * u, y));
+    Vector expected = one.theta;
+    expected.tail(2) /= -1e3;
+    EXPECT_LT(worst_relative(large.theta, expected), 1e-8);
+}
+
+TEST_P(discrete_properties, a_later_output_is_a_longer_delay) {  // oracle: invariance, from rest
+    const auto [u, y] = record(0.5);
+    Vector late = Vector::Zero(600);
+    late.tail(595) = y.head(595);
+    const auto shifted = fit(data_of(u, late), 6);
+    const auto cut = fit(data_of(u.head(595), y.head(595)));
+    // arx leaves out the samples without a recorded past: the shifted record holds the equations of the cut one.
+    EXPECT_LT(worst_relative(shifted.theta, cut.theta), 1e-8);
+}

@@ -1,0 +1,74 @@
+// The discrete-time estimators as scripts use them. Oracle: the simulated systems, and the definitions of the fields.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "script_run.h"
+
+using dynlab::test::error_of;
+using dynlab::test::printed;
+using testing::HasSubstr;
+
+namespace {
+
+const std::string kRecord =
+    "local Go = tf({2}, {1, 4, 3})\nlocal u = prbs(7, 3)\nlocal y = lsim(Go, u, 0.2)\n"
+    "local data = iddata(y, u, 0.2)\n";
+const std::string kTwoInputs =
+    "local u1, u2 = prbs(7, 3), prbs(7, 2):range(1, 254)\nu1 = u1:range(1, 254)\n"
+    "local y = lsim(tf({0.5}, {1, -0.8}, {Ts = 1}), u1, 1) + lsim(tf({2}, {1, -0.5}, {Ts = 1}), u2, 1)\n"
+    "local data = iddata(y, matrix{u1, u2}, 1)\n";
+
+}  // namespace
+
+TEST(script_discrete, models_have_their_polynomials) {
+    EXPECT_EQ(printed(kRecord + "local G, D = arx(data, {2, 2, 1}), c2d(Go, 0.2)\n"
+                                "print(norm(G.A - D.den) < 1e-9, norm(G.B:range(2, 3) - D.num) < 1e-9, G.B[1])\n"
+                                "print(G.C, G.D, G.F, G.Ts, #G.names, G.names[3], #G.std, G.report.method)"),
+              "true\ttrue\t0\n[1]\t[1]\t[1]\t0.2\t4\tb1\t4\tarx\n");
+    for (const std::string name : {"oe", "sriv"})
+        EXPECT_EQ(printed(kRecord + "local G, D = " + name + "(data, {2, 2, 1}), c2d(Go, 0.2)\n" +
+                          "print(norm(G.F - D.den) < 1e-6, G.A, #G.B, G.names[1], G.report.converged)"),
+                  "true\t[1]\t3\tf1\ttrue\n");
+}
+
+TEST(script_discrete, models_work_like_all_others) {
+    EXPECT_EQ(
+        printed(kRecord + "local G = oe(data, {2, 2, 1}, {Tol = 1e-10})\nlocal C = d2c(G)\n"
+                          "print(norm(C.den - Go.den) < 1e-6, norm(lsim(G, u, 0.2) - y) < 1e-6, fit(data, G) > 99.99,\n"
+                          "  #pole(G), stable(G), C.IODelay)\ncompare(data, G)\nbode(G)"),
+        "true\ttrue\ttrue\t2\ttrue\t0\n");
+    const std::string shown = printed(kRecord + "present(sriv(data, {2, 2, 1}))");
+    for (const char* part : {"polynomial model", "  F     [1 ", "  B     [0 ", "  f1 ", "+-", "Sampling time: 0.2 s",
+                             "Estimated by sriv", "Poles:"})
+        EXPECT_THAT(shown, HasSubstr(part));
+}
+
+TEST(script_discrete, several_inputs) {
+    EXPECT_EQ(
+        printed(kTwoInputs + "local G = oe(data, {{1, 1}, {1, 1}, {1, 1}}, {Tol = 1e-10})\n"
+                             "print(math.abs(G.F[1][2] + 0.8) < 1e-7, math.abs(G.B[2][2] - 2) < 1e-7, G.names[3],\n"
+                             "  #G.channels, math.abs(dcgain(G.channels[2]) - 4) < 1e-6)"),
+        "true\ttrue\tf1_u2\t2\ttrue\n");
+    EXPECT_THAT(printed(kTwoInputs + "present(arx(data, {1, vector{2, 2}, {1, 1}}))"), HasSubstr("From input 2:"));
+    EXPECT_THAT(error_of(kTwoInputs + "bode(oe(data, {{1, 1}, {1, 1}, {1, 1}}))"), HasSubstr("G.channels[1]"));
+    EXPECT_THAT(error_of(kTwoInputs + "print(oe(data, {{1, 1}, {1, 1}, {1, 1}}).num)"), HasSubstr("has 2 inputs"));
+    EXPECT_THAT(error_of(kTwoInputs + "oe(data, {1, 1, 1})"), HasSubstr("the data have 2 inputs"));
+}
+
+TEST(script_discrete, orders_are_explained) {
+    const auto refusal = [](const std::string& call) { return error_of(kRecord + call); };
+    EXPECT_EQ(
+        refusal("arx(data, {2, 1})"),
+        "lesson.lua:5: arx: argument 2 (orders) must be {na, nb, nk} (na: poles; nb: coefficients of B; nk: samples "
+        "of delay, 1 for no direct term), but 2 entries were given");
+    EXPECT_THAT(refusal("oe(data, {2, 2, 0.5})"), HasSubstr("nk is 0.5, and must be a whole number from 0 on"));
+    EXPECT_THAT(refusal("sriv(data, {2, -2, 1})"), HasSubstr("nf is -2"));
+    EXPECT_THAT(refusal("oe(data, {2, 'x', 1})"), HasSubstr("nf is the text \"x\""));
+    EXPECT_THAT(refusal("oe(data, {2, {1, 'x'}, 1})"), HasSubstr("nf holds the text \"x\""));
+    EXPECT_THAT(refusal("oe(data)"), HasSubstr("it is missing"));
+    EXPECT_THAT(refusal("arx(data, {{1, 2}, 1, 1})"), HasSubstr("na is one number of poles"));
+    EXPECT_THAT(refusal("oe(data, {0, 2, 1})"), HasSubstr("nb, the number of coefficients of B, must lie between 1"));
+    EXPECT_THAT(refusal("oe(data, {2, 2, 1}, {Offst = 'none'})"), HasSubstr("did you mean 'Offset'?"));
+    EXPECT_THAT(refusal("oe(data, {2, 2, 1}, {InitialState = 'rest'})"), HasSubstr("InitialState is \"zero\""));
+    EXPECT_THAT(refusal("print(Go.A)"), HasSubstr("difference equations"));
+}

@@ -1,0 +1,121 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "numerics/estimators/oe.h"
+#include "numerics/estimators/sriv.h"
+#include "numerics/models/convert.h"
+#include "support/difference_equation.h"
+#include "support/thrown_message.h"
+
+using namespace dynlab;
+using namespace dynlab::test;
+using testing::HasSubstr;
+
+namespace {
+
+const PolynomialOrders kOrders = PolynomialOrders::output_error({2}, {2}, {1});
+const Vector kTruth{{-1.5, 0.7, 1, 0.5}};
+const PolynomialOrders kTwoInputs = PolynomialOrders::output_error({2, 1}, {2, 1}, {1, 2});
+const Vector kTwoTruth{{-1.5, 0.7, 1, 0.5, -0.8, -3}};
+
+IdData simulated(const PolynomialOrders& orders, const Vector& theta, Index N, double noise, std::uint32_t seed) {
+    Matrix u(N, static_cast<Index>(orders.inputs()));
+    for (Index i = 0; i < u.cols(); ++i) u.col(i) = random_levels(N, 4 + i, seed + 20 + static_cast<std::uint32_t>(i));
+    const Vector x = model_output(PolynomialModel(orders, theta, 1), u, Vector::Zero(N));
+    return IdData(Matrix(x + noise * RandomStream(seed).normal(N)), u, 1);
+}
+
+PolynomialOptions tight() {
+    PolynomialOptions options;
+    options.Tol = 1e-11;
+    options.MaxIter = 200;
+    return options;
+}
+
+double worst_relative(const Vector& a, const Vector& truth) {
+    return (a - truth).cwiseQuotient(truth).cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+TEST(sriv, recovers_noise_free_systems) {  // oracle: the simulated system
+    EXPECT_LT(worst_relative(sriv(simulated(kOrders, kTruth, 500, 0, 1), kOrders, tight()).theta, kTruth), 1e-9);
+    EXPECT_LT(worst_relative(sriv(simulated(kTwoInputs, kTwoTruth, 500, 0, 1), kTwoInputs, tight()).theta, kTwoTruth),
+              1e-9);
+}
+
+// The instruments are the sensitivities of the simulated output, so a fixed point satisfies the normal equations of the
+// output error: sriv and oe agree to rounding, covariance included.
+TEST(sriv, fixed_point_is_the_output_error_optimum) {  // oracle: second route
+    for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+        for (const auto& [orders, truth] : {std::pair{kOrders, kTruth}, std::pair{kTwoInputs, kTwoTruth}}) {
+            const IdData data = simulated(orders, truth, 400, 1.0, seed);
+            const auto iv = sriv(data, orders, tight()), output_error = oe(data, orders, tight());
+            ASSERT_EQ(iv.termination, Termination::kConverged) << iv.message;
+            EXPECT_LT(worst_relative(iv.theta, output_error.theta), 1e-8) << seed << iv.message;
+            EXPECT_LT(worst_relative(iv.std, output_error.std), 1e-7) << seed;
+        }
+    }
+}
+
+TEST(sriv, agrees_with_oe_whatever_the_start) {  // oracle: second route, a cut record with an offset
+    IdData data = simulated(kOrders, kTruth, 500, 0.5, 3).range(51, 500);
+    data.experiments[0].y.array() += 20;
+    for (InitialState state : {InitialState::kZero, InitialState::kSteady, InitialState::kEstimate}) {
+        PolynomialOptions options = tight();
+        options.initial_state = state;
+        options.offset = Offset::kEstimate;
+        const auto iv = sriv(data, kOrders, options), output_error = oe(data, kOrders, options);
+        EXPECT_EQ(iv.termination, Termination::kConverged) << iv.message;
+        EXPECT_LT(worst_relative(iv.theta, output_error.theta), 1e-8) << iv.message;
+        EXPECT_NEAR(iv.offsets[0], output_error.offsets[0], 1e-7);
+    }
+}
+
+TEST(sriv, fast_sampling_needs_no_guess) {  // oracle: the continuous-time system, within standard errors
+    const TransferFunction G(Vector{{2}}, Vector{{1, 4, 3}});
+    Vector truth(4);
+    truth << c2d(G, 0.01).den().tail(2), c2d(G, 0.01).num();
+    const Vector u = random_levels(3000, 100, 1);
+    const Vector x = model_output(PolynomialModel(kOrders, truth, 0.01), u, Vector::Zero(3000));
+    for (std::uint32_t seed = 1; seed <= 5; ++seed) {
+        const IdData data(Matrix(x + 0.1 * RandomStream(seed).normal(3000)), Matrix(u), 0.01);
+        const auto result = sriv(data, kOrders);
+        const double noise = std::sqrt(result.noise_variance);
+        EXPECT_NEAR(noise, 0.1, 0.01) << result.message;
+        EXPECT_LT(std::sqrt(result.loss), 0.1 * 1.05);
+    }
+}
+
+TEST(sriv, experiments_count_together_in_any_order) {  // oracle: invariance
+    const IdData a = simulated(kOrders, kTruth, 300, 0.3, 1), b = simulated(kOrders, kTruth, 500, 0.3, 2);
+    const auto ab = sriv(IdData::merge({a, b}), kOrders, tight()), ba = sriv(IdData::merge({b, a}), kOrders, tight());
+    EXPECT_LT(worst_relative(ab.theta, ba.theta), 1e-10);
+    EXPECT_LT(worst_relative(ab.std, ba.std), 1e-9);
+}
+
+TEST(sriv, always_answers) {  // oracle: definition
+    PolynomialOptions hurried;
+    hurried.MaxIter = 0;
+    const auto rough = sriv(simulated(kOrders, kTruth, 300, 0.5, 1), kOrders, hurried);
+    EXPECT_EQ(rough.termination, Termination::kIterationLimit);
+    EXPECT_THAT(rough.message, HasSubstr("MaxIter = 0"));
+    EXPECT_GT(rough.fit_percent, 50);
+    int asked = 0;
+    hurried.cancel = [&] { return ++asked > 2; };
+    EXPECT_EQ(sriv(simulated(kOrders, kTruth, 300, 0.5, 1), kOrders, hurried).theta.size(), 4);
+    const Matrix u = simulated(kOrders, kTruth, 300, 0.5, 1).experiments[0].u;
+    const auto nothing = sriv(IdData(Matrix(RandomStream(8).normal(300)), u, 1), kOrders);
+    EXPECT_TRUE(nothing.theta.allFinite());
+    EXPECT_GE(nothing.fit_percent, -1e-9);
+}
+
+TEST(sriv, refuses_what_it_cannot_fit) {
+    const IdData data = simulated(kOrders, kTruth, 100, 0.1, 1);
+    const Matrix y = data.experiments[0].y;
+    EXPECT_THAT(thrown_message([&] { sriv(IdData(y, Matrix::Zero(100, 1), 1), kOrders); }),
+                HasSubstr("sriv: the input u1 is zero"));
+    EXPECT_THAT(thrown_message([&] { sriv(data.range(1, 3), kOrders); }), HasSubstr("more samples than"));
+    EXPECT_THAT(thrown_message([&] { sriv(data, PolynomialOrders::output_error({2}, {-2}, {1})); }),
+                HasSubstr("nf, the number of poles"));
+}
