@@ -10,8 +10,22 @@ namespace dynlab {
 
 namespace {
 
-bool constant(const VectorView& u) {
-    return (u.array() == u[0]).all();
+bool constant(const MatrixView& u) {
+    return (u.rowwise() - u.row(0)).isZero(0);
+}
+
+struct Changes {
+    Index count = 0, last = 0;  // last: the sample of the last change
+};
+
+Changes changes_of(const VectorView& u) {
+    Changes changes;
+    for (Index k = 1; k < u.size(); ++k) {
+        if (u[k] == u[k - 1]) continue;
+        ++changes.count;
+        changes.last = k;
+    }
+    return changes;
 }
 
 }  // namespace
@@ -32,20 +46,25 @@ Offset parse_offset(const std::string& text) {
     throw InvalidArgument("Offset is \"none\", \"remove\", \"estimate\" or \"auto\", and not \"" + text + "\"");
 }
 
-OperatingPoint operating_point(const VectorView& u, const VectorView& y) {
-    Index changes = 0, step = 0;
-    for (Index k = 1; k < u.size(); ++k) {
-        if (u[k] == u[k - 1]) continue;
-        ++changes;
-        step = k;
+JointOperatingPoint joint_operating_point(const MatrixView& u, const VectorView& y) {
+    Index most = 0, first_step = u.rows();
+    for (Index j = 0; j < u.cols(); ++j) {
+        const Changes changes = changes_of(u.col(j));
+        most = std::max(most, changes.count);
+        if (changes.count == 1) first_step = std::min(first_step, changes.last);
     }
-    if (changes == 0) return {0, 0};
-    if (changes == 1) return {u[0], y.head(step + 1).mean()};
-    return {u.mean(), y.mean()};
+    if (most == 0) return {Vector::Zero(u.cols()), 0};
+    if (most == 1) return {u.row(0).transpose(), y.head(first_step + 1).mean()};
+    return {u.colwise().mean().transpose(), y.mean()};
 }
 
-std::vector<StartCondition> start_conditions(const VectorView& u, InitialState state, Offset offset) {
-    const bool flat = constant(u), zero_first = u[0] == 0;
+OperatingPoint operating_point(const VectorView& u, const VectorView& y) {
+    const JointOperatingPoint joint = joint_operating_point(u, y);
+    return {joint.inputs[0], joint.output};
+}
+
+std::vector<StartCondition> start_conditions(const MatrixView& u, InitialState state, Offset offset) {
+    const bool flat = constant(u), zero_first = u.row(0).isZero(0);
     if (flat && state == InitialState::kSteady)
         throw InvalidArgument(
             "InitialState \"steady\" needs an input that changes, and this one is constant: use \"zero\"");

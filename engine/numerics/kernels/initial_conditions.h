@@ -34,16 +34,24 @@ struct OperatingPoint {
 };
 OperatingPoint operating_point(const VectorView& u, const VectorView& y);
 
+/// The same for several inputs (N x nu): a step experiment is one whose inputs change at most once each, and its output
+/// rests up to the first change.
+struct JointOperatingPoint {
+    Vector inputs;  ///< nu
+    double output = 0;
+};
+JointOperatingPoint joint_operating_point(const MatrixView& u, const VectorView& y);
+
 /// One way a model may start: what "auto" chooses among.
 struct StartCondition {
     InitialState state;  ///< never kAuto
     bool offset;         ///< a constant is estimated
 };
 
-/// The conditions that the options allow and the input can tell apart, with few parameters first: with a constant input
-/// a steady start is no experiment at all, and a free motion with an offset would hide the gain. Throws InvalidArgument
-/// when the options ask for such a one.
-std::vector<StartCondition> start_conditions(const VectorView& u, InitialState state, Offset offset);
+/// The conditions that the options allow and the inputs (N x nu) can tell apart, with few parameters first: with a
+/// constant input a steady start is no experiment at all, and a free motion with an offset would hide the gain. Throws
+/// InvalidArgument when the options ask for such a one.
+std::vector<StartCondition> start_conditions(const MatrixView& u, InitialState state, Offset offset);
 
 /// "from rest at zero input, with an estimated offset" and the like, for messages.
 std::string description(const StartCondition& condition);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "numerics/error.h"
 #include "numerics/linalg/least_squares.h"
@@ -13,40 +14,60 @@ namespace dynlab {
 
 namespace {
 
+using Channels = std::span<const TransferFunction>;  // of one output, one per input
+
+// One output of one experiment.
 struct Record {
-    Vector u, y, t;
+    Matrix u;
+    Vector y, t;
     double Ts;
     Hold hold;
 };
-
-Record one_record(const IdData& data) {
-    if (data.experiments.size() != 1 || data.input_count() != 1 || data.output_count() != 1)
-        throw InvalidArgument("compare needs one experiment with one input and one output, and the data hold " +
-                              std::to_string(data.experiments.size()) + " experiment(s), " +
-                              std::to_string(data.input_count()) + " input(s) and " +
-                              std::to_string(data.output_count()) + " output(s): select one of each");
-    const Experiment& experiment = data.experiments.front();
-    return {experiment.u.col(0), experiment.y.col(0), data.time(), data.Ts, data.hold};
-}
 
 Vector simulate(const Record& record, const TransferFunction& G, const VectorView& u, const VectorView& x0) {
     return record.Ts > 0 ? lsim(G, u, record.Ts, record.hold, x0) : lsim(G, u, record.t, record.hold, x0);
 }
 
-// Response from rest at zero input, or at the first input value.
-Vector driven_response(const Record& record, const TransferFunction& G, InitialState state) {
-    if (state == InitialState::kZero || record.u[0] == 0) return simulate(record, G, record.u, Vector());
-    const double gain = G.dc_gain();
-    if (!std::isfinite(gain)) return simulate(record, G, record.u, Vector());
-    const double resting = record.u[0];
-    return simulate(record, G, record.u.array() - resting, Vector()).array() + gain * resting;
+// Response from rest at zero input, or at the first input values.
+Vector driven_response(const Record& record, Channels channels, InitialState state) {
+    Vector response = Vector::Zero(record.y.size());
+    for (Index j = 0; j < record.u.cols(); ++j) {
+        const TransferFunction& G = channels[static_cast<std::size_t>(j)];
+        const double gain = G.dc_gain();
+        const double resting = state == InitialState::kZero || !std::isfinite(gain) ? 0 : record.u(0, j);
+        response += simulate(record, G, record.u.col(j).array() - resting, Vector());
+        if (resting != 0) response.array() += gain * resting;
+    }
+    return response;
 }
 
-Matrix free_motions(const Record& record, const TransferFunction& G) {
-    const Index n = G.pole_count(), N = record.y.size();
-    const TransferFunction poles(Vector::Ones(1), G.den(), G.Ts());
-    Matrix motions(N, n);
-    for (Index i = 0; i < n; ++i) motions.col(i) = simulate(record, poles, Vector::Zero(N), Vector::Unit(n, i));
+// One of each set of channels with a denominator in common.
+std::vector<const TransferFunction*> free_systems(Channels channels) {
+    std::vector<const TransferFunction*> systems;
+    for (const TransferFunction& G : channels) {
+        bool known = false;
+        for (const TransferFunction* other : systems) known = known || other->den() == G.den();
+        if (!known) systems.push_back(&G);
+    }
+    return systems;
+}
+
+Index free_order(Channels channels) {
+    Index n = 0;
+    for (const TransferFunction* G : free_systems(channels)) n += G->pole_count();
+    return n;
+}
+
+Matrix free_motions(const Record& record, Channels channels) {
+    const Index N = record.y.size();
+    Matrix motions(N, free_order(channels));
+    Index column = 0;
+    for (const TransferFunction* G : free_systems(channels)) {
+        const Index n = G->pole_count();
+        const TransferFunction poles(Vector::Ones(1), G->den(), G->Ts());
+        for (Index i = 0; i < n; ++i)
+            motions.col(column++) = simulate(record, poles, Vector::Zero(N), Vector::Unit(n, i));
+    }
     return motions;
 }
 
@@ -55,19 +76,19 @@ struct Candidate {
     double bic = std::numeric_limits<double>::infinity();
 };
 
-Candidate candidate(const Record& record, const TransferFunction& G, const StartCondition& condition) {
+Candidate candidate(const Record& record, Channels channels, const StartCondition& condition) {
     Candidate found;
     CompareResult& result = found.result;
     result.start = condition;
-    result.output = driven_response(record, G, condition.state);
-    const Index N = record.y.size(), n = condition.state == InitialState::kEstimate ? G.pole_count() : 0;
+    result.output = driven_response(record, channels, condition.state);
+    const Index N = record.y.size(), n = condition.state == InitialState::kEstimate ? free_order(channels) : 0;
     const Index d = n + (condition.offset ? 1 : 0);
     if (d > 0) {
         if (N <= d)
             throw InvalidArgument("compare needs more samples than the " + std::to_string(d) +
                                   " values it estimates, and the record holds " + std::to_string(N));
         Matrix regressors = Matrix::Ones(N, d);
-        if (n > 0) regressors.leftCols(n) = free_motions(record, G);
+        if (n > 0) regressors.leftCols(n) = free_motions(record, channels);
         const Vector error = record.y - result.output;
         if (!regressors.allFinite() || !error.allFinite()) return found;  // an unstable model: nothing to estimate
         const LeastSquares fit = solve_least_squares(regressors, error);
@@ -81,30 +102,70 @@ Candidate candidate(const Record& record, const TransferFunction& G, const Start
     return found;
 }
 
-}  // namespace
-
-CompareResult compare(const IdData& data, const TransferFunction& G, const CompareOptions& options) {
-    Record record = one_record(data);
-    OperatingPoint removed;
+CompareResult compare_record(Record record, Channels channels, const CompareOptions& options) {
+    double removed_output = 0;
     if (options.offset == Offset::kRemove) {
-        removed = operating_point(record.u, record.y);
-        record.u.array() -= removed.input;
+        const JointOperatingPoint removed = joint_operating_point(record.u, record.y);
+        record.u.rowwise() -= removed.inputs.transpose();
         record.y.array() -= removed.output;
+        removed_output = removed.output;
     }
     const auto conditions = start_conditions(record.u, options.initial_state, options.offset);
-    Candidate best = candidate(record, G, conditions.front());
+    Candidate best = candidate(record, channels, conditions.front());
     for (std::size_t i = 1; i < conditions.size(); ++i) {
-        const Index n = conditions[i].state == InitialState::kEstimate ? G.pole_count() : 0;
+        const Index n = conditions[i].state == InitialState::kEstimate ? free_order(channels) : 0;
         if (record.y.size() <= n + 1) continue;
-        Candidate next = candidate(record, G, conditions[i]);
+        Candidate next = candidate(record, channels, conditions[i]);
         if (next.bic < best.bic) best = std::move(next);
     }
     CompareResult result = std::move(best.result);
     result.fit_percent = fit_percent(record.y, result.output);
-    result.output.array() += removed.output;
-    result.offset += removed.output;
+    result.output.array() += removed_output;
+    result.offset += removed_output;
     result.message = "Simulated " + description(result.start) + ": fit " + number_text(result.fit_percent, 4) + " %.";
     return result;
+}
+
+}  // namespace
+
+Matrix Comparison::outputs(std::size_t experiment) const {
+    const auto& row = results[experiment];
+    Matrix all(row.front().output.size(), static_cast<Index>(row.size()));
+    for (std::size_t i = 0; i < row.size(); ++i) all.col(static_cast<Index>(i)) = row[i].output;
+    return all;
+}
+
+Comparison compare_all(const IdData& data, const std::vector<TransferFunction>& channels,
+                       const CompareOptions& options) {
+    const Index ny = data.output_count(), nu = data.input_count();
+    if (ny < 1 || nu < 1 || static_cast<Index>(channels.size()) != ny * nu)
+        throw InvalidArgument("The model needs one transfer function from each of the " + std::to_string(nu) +
+                              " input(s) to each of the " + std::to_string(ny) + " output(s) of the data, and has " +
+                              std::to_string(channels.size()) + ": select the channels it describes");
+    Comparison all;
+    Vector squares = Vector::Zero(ny), variation = Vector::Zero(ny);
+    for (std::size_t k = 0; k < data.experiments.size(); ++k) {
+        const Experiment& experiment = data.experiments[k];
+        auto& row = all.results.emplace_back();
+        for (Index i = 0; i < ny; ++i) {
+            const Vector y = experiment.y.col(i);
+            const Channels own(channels.data() + i * nu, static_cast<std::size_t>(nu));
+            row.push_back(compare_record({experiment.u, y, data.time(k), data.Ts, data.hold}, own, options));
+            squares[i] += (y - row.back().output).squaredNorm();
+            variation[i] += (y.array() - y.mean()).matrix().squaredNorm();
+        }
+    }
+    all.fit_percent = 100 * (1 - (squares.array() / variation.array()).sqrt());
+    return all;
+}
+
+CompareResult compare(const IdData& data, const TransferFunction& G, const CompareOptions& options) {
+    if (data.experiments.size() != 1 || data.input_count() != 1 || data.output_count() != 1)
+        throw InvalidArgument("compare needs one experiment with one input and one output, and the data hold " +
+                              std::to_string(data.experiments.size()) + " experiment(s), " +
+                              std::to_string(data.input_count()) + " input(s) and " +
+                              std::to_string(data.output_count()) + " output(s): select one of each");
+    return compare_all(data, {G}, options).results.front().front();
 }
 
 }  // namespace dynlab

@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <vector>
 
 #include "numerics/kernels/initial_conditions.h"
 #include "numerics/models/transfer_function.h"
@@ -12,11 +13,12 @@ struct CompareOptions {
     Offset offset = Offset::kAuto;
 };
 
+/// One output of one experiment.
 struct CompareResult {
     Vector output;  ///< N, simulated (never predicted from measured outputs), offset included
     double fit_percent = 0;
     StartCondition start{};  ///< what was assumed or chosen
-    Vector initial_values;   ///< weights of the free motions of 1/den (n), empty unless estimated
+    Vector initial_values;   ///< weights of the free motions of 1/den (n, for each den in turn), empty unless estimated
     double offset = 0;       ///< the estimated constant, or the operating point "remove" took off the output
     std::string message;     ///< one sentence
 };
@@ -27,5 +29,18 @@ struct CompareResult {
 /// and none the plain lsim is compared. Throws InvalidArgument for an improper G, a discrete G of another sampling
 /// time, other data, or a constant output.
 CompareResult compare(const IdData& data, const TransferFunction& G, const CompareOptions& options = {});
+
+struct Comparison {
+    std::vector<std::vector<CompareResult>> results;  ///< [experiment][output]
+    Vector fit_percent;  ///< per output over all experiments, each counted from its own mean
+    /// N x ny simulated outputs of one experiment (0-based).
+    Matrix outputs(std::size_t experiment) const;
+};
+
+/// The same for any number of experiments and channels. `channels` holds the ny nu transfer functions of the model, all
+/// inputs of output 1, then of output 2, ...; channels of one output with the same denominator share their free motion.
+/// Throws InvalidArgument as compare() does, and for another number of channels.
+Comparison compare_all(const IdData& data, const std::vector<TransferFunction>& channels,
+                       const CompareOptions& options = {});
 
 }  // namespace dynlab

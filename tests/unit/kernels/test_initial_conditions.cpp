@@ -59,3 +59,21 @@ TEST(initial_conditions, bic_prefers_fewer_parameters_of_perfect_fits) {  // ora
     EXPECT_LT(bic_of_loss(1e-32, 1, 100, 2), bic_of_loss(1e-33, 1, 100, 3));
     EXPECT_NEAR(bic_of_loss(0.5, 1, 100, 3), std::log(0.5) + 0.03 * std::log(100.0), 1e-15);
 }
+
+TEST(initial_conditions, several_inputs_rest_together) {  // oracle: the definition
+    const Index N = 10;
+    Matrix u = Matrix::Zero(N, 2);
+    u.col(0).tail(4).setConstant(3);
+    u.col(1).tail(6).setConstant(-1);
+    u.col(1).array() += 2;
+    const Vector y = Vector::LinSpaced(N, 0, 9);
+    const auto steps = joint_operating_point(u, y);
+    EXPECT_EQ(steps.inputs, (Vector{{0.0, 2.0}}));
+    EXPECT_EQ(steps.output, 2);  // the mean of 0, 1, 2, 3, 4: the second input steps first, at sample 4
+    u(2, 0) = 7;                 // no longer one step each
+    const auto swinging = joint_operating_point(u, y);
+    EXPECT_EQ(swinging.inputs, Vector(u.colwise().mean().transpose()));
+    EXPECT_EQ(swinging.output, 4.5);
+    EXPECT_EQ(start_conditions(Matrix::Ones(N, 2), InitialState::kAuto, Offset::kAuto).size(), 3u);
+    EXPECT_EQ(start_conditions(u, InitialState::kAuto, Offset::kAuto).size(), 6u);
+}

@@ -101,3 +101,40 @@ TEST(compare, refuses_other_data) {
     EXPECT_THROW(compare(two, kG), InvalidArgument);
     EXPECT_THROW(compare(siso(Vector::Ones(20), rough_input(20, 0), 1), kG), InvalidArgument);
 }
+
+TEST(compare, experiments_and_channels_are_compared_each_by_itself) {  // oracle: the simulated truth
+    const TransferFunction slow(Vector{{1.0}}, Vector{{1.0, 0.5}});
+    const std::vector<TransferFunction> model = {kG, slow, slow, kG};
+    std::vector<IdData> parts;
+    for (const Index N : {500, 300}) {
+        Matrix u(N, 2), y(N, 2);
+        u << rough_input(N, 1), RandomStream(2).normal(N);
+        y.col(0) = lsim(kG, u.col(0), 0.05) + lsim(slow, u.col(1), 0.05);
+        y.col(1) = (lsim(slow, u.col(0), 0.05) + lsim(kG, u.col(1), 0.05)).array() + 4;
+        parts.push_back(IdData(y, u, 0.05).range(101, N));  // the first samples are cut off
+    }
+    const IdData data = IdData::merge(parts);
+    const Comparison all = compare_all(data, model);
+    ASSERT_EQ(all.results.size(), 2u);
+    for (std::size_t k = 0; k < 2; ++k) {
+        EXPECT_LT((all.outputs(k) - data.experiments[k].y).cwiseAbs().maxCoeff(), 1e-8);
+        EXPECT_EQ(all.results[k][0].start.state, InitialState::kEstimate);
+        EXPECT_EQ(all.results[k][0].initial_values.size(), 3);  // two states of kG, one of the slow channel
+        EXPECT_NEAR(all.results[k][1].offset, 4, 1e-7);
+    }
+    EXPECT_NEAR(all.fit_percent.minCoeff(), 100, 1e-6);
+    EXPECT_THROW(compare_all(data, {kG, slow}), InvalidArgument);
+}
+
+TEST(compare, fit_over_experiments_is_that_of_all_squares_together) {  // oracle: the definition
+    const Vector u = rough_input(400, 0), y = lsim(kG, u, 0.05) + 0.2 * RandomStream(1).normal(400);
+    const IdData whole = siso(y, u, 0.05), data = IdData::merge({whole.range(1, 150), whole.range(151, 400)});
+    const Comparison all = compare_all(data, {kG});
+    double squares = 0, variation = 0;
+    for (std::size_t k = 0; k < 2; ++k) {
+        const Vector measured = data.experiments[k].y.col(0);
+        squares += (measured - all.results[k][0].output).squaredNorm();
+        variation += (measured.array() - measured.mean()).matrix().squaredNorm();
+    }
+    EXPECT_NEAR(all.fit_percent[0], 100 * (1 - std::sqrt(squares / variation)), 1e-10);
+}
