@@ -1,0 +1,283 @@
+#include "numerics/validation/residual_tests.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <limits>
+
+#include "numerics/error.h"
+#include "numerics/number_text.h"
+#include "numerics/signals/correlation.h"
+#include "numerics/validation/chi_squared.h"
+
+namespace dynlab {
+
+namespace {
+
+using Signals = std::vector<Vector>;  // one channel, an entry per experiment
+
+Vector centred(const VectorView& x) {
+    return x.array() - x.mean();
+}
+
+Signals centred(const Signals& signals) {
+    Signals all;
+    for (const Vector& x : signals) all.push_back(centred(x));
+    return all;
+}
+
+double sample_count(const Signals& signals) {
+    double N = 0;
+    for (const Vector& x : signals) N += static_cast<double>(x.size());
+    return N;
+}
+
+// (1/N) sum_k x(k + lag) y(k) over all experiments, lags -lags..lags.
+Vector covariances(const Signals& x, const Signals& y, Index lags) {
+    Vector sums = Vector::Zero(2 * lags + 1);
+    for (std::size_t i = 0; i < x.size(); ++i) sums += lagged_products(x[i], y[i], lags);
+    return sums / sample_count(x);
+}
+
+Index longest(const Signals& signals) {
+    Index most = 0;
+    for (const Vector& x : signals) most = std::max(most, x.size());
+    return most;
+}
+
+std::string probability_text(double p) {
+    return p < 0.001 ? "p < 0.001" : "p = " + number_text(p, 2);
+}
+
+std::string percent_text(double confidence) {
+    return number_text(100 * confidence, 4) + " %";
+}
+
+// The variance of the lag's sample autocorrelation of a white signal, times N + 2 over N (Ljung and Box 1978).
+double lag_variance(const Signals& e, Index lag) {
+    double pairs = 0;
+    for (const Vector& x : e) pairs += static_cast<double>(std::max<Index>(0, x.size() - lag));
+    const double N = sample_count(e);
+    return pairs / (N * (N + 2));
+}
+
+WhitenessTest test_whiteness(const Signals& e, Index lags, double confidence) {
+    WhitenessTest test;
+    const Vector R = covariances(e, e, lags).tail(lags + 1);
+    if (R[0] == 0) return test;  // nothing but a constant
+    test.correlation = R / R[0];
+    test.bound = normal_half_width(confidence) / std::sqrt(sample_count(e));
+    for (Index lag = 1; lag <= lags; ++lag) {
+        const double variance = lag_variance(e, lag);
+        if (variance == 0) continue;
+        ++test.degrees;
+        test.statistic += test.correlation[lag] * test.correlation[lag] / variance;
+        if (std::abs(test.correlation[lag]) > test.bound) ++test.outside;
+    }
+    if (test.degrees == 0) return test;
+    test.p_value = chi_squared_upper_tail(test.statistic, static_cast<double>(test.degrees));
+    test.white = test.p_value >= 1 - confidence;
+    test.verdict = test.white ? "The output error is white (Ljung-Box " + probability_text(test.p_value) + " over " +
+                                    std::to_string(lags) + " lags)."
+                              : "The output error is not white (Ljung-Box " + probability_text(test.p_value) + "; " +
+                                    std::to_string(test.outside) + " of " + std::to_string(lags) +
+                                    " lags lie beyond the " + percent_text(confidence) + " bound).";
+    return test;
+}
+
+// g(h) = sum_k w(k) R_e(k) R_u(k + h), h = 0..lags. With `white` only k = 0 counts, else Bartlett weights reach
+// over a quarter of the record: positive by construction, and as exact as the autocorrelations allow.
+Vector product_covariances(const Signals& e, const Signals& u, Index lags, bool white) {
+    const Index reach = white ? 0 : longest(e) / 4;
+    const Vector Re = covariances(e, e, reach), Ru = covariances(u, u, reach + lags);
+    Vector g = Vector::Zero(lags + 1);
+    for (Index h = 0; h <= lags; ++h)
+        for (Index k = -reach; k <= reach; ++k) {
+            const double weight = 1 - static_cast<double>(std::abs(k)) / static_cast<double>(reach + 1);
+            g[h] += weight * Re[reach + k] * Ru[reach + lags + k + h];
+        }
+    return g;
+}
+
+Matrix symmetric_toeplitz(const VectorView& g, Index size) {
+    Matrix P(size, size);
+    for (Index i = 0; i < size; ++i)
+        for (Index j = 0; j < size; ++j) P(i, j) = g[std::abs(i - j)];
+    return P;
+}
+
+struct QuadraticForm {
+    double statistic = 0;
+    Index degrees = 0;
+};
+
+// N r' P^-1 r in the directions the input excites: those P gives more than the edges of the record can feign.
+QuadraticForm quadratic_form(const Vector& r, const Vector& g, double N) {
+    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(symmetric_toeplitz(g, r.size()));
+    const Vector along = eigen.eigenvectors().transpose() * r;
+    QuadraticForm form;
+    for (Index i = 0; i < r.size(); ++i) {
+        if (eigen.eigenvalues()[i] <= g[0] / N) continue;
+        form.statistic += N * along[i] * along[i] / eigen.eigenvalues()[i];
+        ++form.degrees;
+    }
+    return form;
+}
+
+double p_value(const QuadraticForm& form) {
+    return form.degrees == 0 ? 1 : chi_squared_upper_tail(form.statistic, static_cast<double>(form.degrees));
+}
+
+std::string lag_text(Index lag, const IdData& data) {
+    std::string text = "lag " + std::to_string(lag);
+    if (data.regular()) text += ", " + number_text(static_cast<double>(lag) * data.Ts, 3) + " " + data.time_unit;
+    return text;
+}
+
+std::string independence_verdict(const IndependenceTest& test, const IdData& data, Index lags) {
+    const std::string name = data.input_names[static_cast<std::size_t>(test.input)];
+    if (!test.independent) {
+        Index most = 0;
+        test.correlation.tail(lags + 1).cwiseAbs().maxCoeff(&most);
+        return name + " still explains part of it (" + probability_text(test.p_value) + "; most at " +
+               lag_text(most, data) + ").";
+    }
+    if (!test.without_feedback)
+        return name + " explains nothing more of it (" + probability_text(test.p_value) +
+               "), but its later values go with the error (" + probability_text(test.p_value_future) +
+               "): the output seems to act back on the input.";
+    return name + " explains nothing more of it (" + probability_text(test.p_value) + ").";
+}
+
+IndependenceTest test_independence(const Signals& e, const Signals& u, const IdData& data, Index input, bool white,
+                                   const ResidualOptions& options) {
+    const Index lags = options.lags;
+    const double N = sample_count(e);
+    IndependenceTest test;
+    test.input = input;
+    const double Re = covariances(e, e, 0)[0], Ru = covariances(u, u, 0)[0];
+    if (Ru == 0) {
+        test.correlation = Vector::Zero(2 * lags + 1);
+        test.verdict = data.input_names[static_cast<std::size_t>(input)] +
+                       " never changes, so that its correlation with the error says nothing.";
+        return test;
+    }
+    const Vector r = covariances(e, u, lags), g = product_covariances(e, u, lags, white);
+    test.correlation = r / std::sqrt(Re * Ru);
+    test.bound = normal_half_width(options.confidence) * std::sqrt(g[0] / (N * Re * Ru));
+    test.outside = (test.correlation.tail(lags + 1).cwiseAbs().array() > test.bound).count();
+    const QuadraticForm past = quadratic_form(r.tail(lags + 1), g, N);
+    test.statistic = past.statistic;
+    test.degrees = past.degrees;
+    test.p_value = p_value(past);
+    test.p_value_future = p_value(quadratic_form(r.head(lags), g, N));
+    test.independent = test.p_value >= 1 - options.confidence;
+    test.without_feedback = test.p_value_future >= 1 - options.confidence;
+    test.verdict = independence_verdict(test, data, lags);
+    return test;
+}
+
+std::string conclusion(const OutputResiduals& output) {
+    bool independent = true;
+    for (const IndependenceTest& test : output.inputs) independent = independent && test.independent;
+    if (!independent)
+        return "Dynamics are missing: try another delay, one more pole or one more zero, and then look for a "
+               "nonlinearity or a drift.";
+    if (output.whiteness.white) return "The model says all that the data can tell, and its standard errors hold.";
+    return "The dynamics are described; the disturbance is coloured, so that robust standard errors or a method with a "
+           "noise model are in place.";
+}
+
+OutputResiduals test_output(const Signals& errors, const IdData& data, Index output, const ResidualOptions& options) {
+    OutputResiduals result;
+    const double N = sample_count(errors);
+    double output_power = 0;
+    for (std::size_t k = 0; k < errors.size(); ++k) {
+        result.mean += errors[k].sum() / N;
+        output_power += data.experiments[k].y.col(output).squaredNorm() / N;
+    }
+    const Signals e = centred(errors);
+    result.variance = covariances(e, e, 0)[0];
+    const std::string name = data.output_names[static_cast<std::size_t>(output)];
+    constexpr double kRounding = 1e4 * std::numeric_limits<double>::epsilon();
+    if (result.variance <= kRounding * kRounding * output_power) {
+        result.exact = true;
+        result.verdict =
+            name + ": the simulated output equals the measured one to rounding, so nothing is left to test.";
+        return result;
+    }
+    result.whiteness = test_whiteness(e, options.lags, options.confidence);
+    result.verdict = name + ": " + result.whiteness.verdict;
+    for (Index j = 0; j < data.input_count(); ++j) {
+        Signals u;
+        for (const Experiment& experiment : data.experiments) u.push_back(centred(experiment.u.col(j)));
+        result.inputs.push_back(test_independence(e, u, data, j, result.whiteness.white, options));
+        result.verdict += " " + result.inputs.back().verdict;
+    }
+    result.verdict += " " + conclusion(result);
+    return result;
+}
+
+std::vector<Matrix> output_errors(const IdData& data, const std::vector<Matrix>& simulated) {
+    if (simulated.size() != data.experiments.size() || data.experiments.empty())
+        throw InvalidArgument("The residual tests need a simulated output for each of the " +
+                              std::to_string(data.experiments.size()) + " experiment(s), and got " +
+                              std::to_string(simulated.size()));
+    std::vector<Matrix> errors;
+    for (std::size_t k = 0; k < simulated.size(); ++k) {
+        const Matrix& y = data.experiments[k].y;
+        if (y.rows() != simulated[k].rows() || y.cols() != simulated[k].cols())
+            throw InvalidArgument("The simulated output of experiment " + std::to_string(k + 1) + " must be " +
+                                  std::to_string(y.rows()) + " x " + std::to_string(y.cols()) + ", and is " +
+                                  std::to_string(simulated[k].rows()) + " x " + std::to_string(simulated[k].cols()));
+        if (!simulated[k].allFinite())
+            throw InvalidArgument(
+                "The simulated output is not finite everywhere: the model is unstable on this record");
+        errors.push_back(y - simulated[k]);
+    }
+    return errors;
+}
+
+}  // namespace
+
+void ResidualOptions::validate() const {
+    if (lags < 1) throw InvalidArgument("lags must be at least 1, and is " + std::to_string(lags));
+    if (!(confidence > 0 && confidence < 1))
+        throw InvalidArgument("confidence must lie between 0 and 1, such as 0.99, and is " + number_text(confidence));
+}
+
+WhitenessTest whiteness_test(const std::vector<Vector>& errors, const ResidualOptions& options) {
+    options.validate();
+    const Signals e = centred(errors);
+    const Index lags = std::max<Index>(1, std::min(options.lags, longest(e) / 2));
+    return test_whiteness(e, lags, options.confidence);
+}
+
+ResidualTests residual_tests(const IdData& data, const std::vector<Matrix>& simulated, const ResidualOptions& options) {
+    options.validate();
+    ResidualTests tests;
+    tests.residuals = output_errors(data, simulated);
+    Index most = 0;
+    for (const Matrix& errors : tests.residuals) most = std::max(most, errors.rows());
+    if (most < 2 * options.lags)
+        throw InvalidArgument("Tests over " + std::to_string(options.lags) + " lags need at least " +
+                              std::to_string(2 * options.lags) + " samples in one record, and the longest has " +
+                              std::to_string(most) + ": ask for fewer lags");
+    for (Index i = 0; i < data.output_count(); ++i) {
+        Signals errors;
+        for (const Matrix& all : tests.residuals) errors.push_back(all.col(i));
+        tests.outputs.push_back(test_output(errors, data, i, options));
+        tests.verdict += (i == 0 ? "" : "\n") + tests.outputs.back().verdict;
+    }
+    return tests;
+}
+
+ResidualTests residual_tests(const IdData& data, const std::vector<TransferFunction>& channels,
+                             const CompareOptions& simulation, const ResidualOptions& options) {
+    options.validate();
+    const Comparison comparison = compare_all(data, channels, simulation);
+    std::vector<Matrix> simulated;
+    for (std::size_t k = 0; k < data.experiments.size(); ++k) simulated.push_back(comparison.outputs(k));
+    return residual_tests(data, simulated, options);
+}
+
+}  // namespace dynlab

@@ -1,0 +1,76 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "numerics/signals/iddata.h"
+#include "numerics/validation/compare.h"
+
+namespace dynlab {
+
+struct ResidualOptions {
+    Index lags = 25;
+    double confidence = 0.99;  ///< of the bounds; a test rejects below 1 - confidence
+
+    /// Throws InvalidArgument naming the option.
+    void validate() const;
+};
+
+/// Is the output error of one output predictable from its own past?
+struct WhitenessTest {
+    Vector correlation;              ///< lags 0..L, normalised: the first is 1
+    double bound = 0;                ///< a white error stays within +-bound with the wanted confidence, lag by lag
+    double statistic = 0;            ///< Ljung-Box, chi-squared with `degrees` if white
+    Index degrees = 0, outside = 0;  ///< outside: lags 1..L beyond the bound
+    double p_value = 1;
+    bool white = true;
+    std::string verdict;  ///< one sentence
+};
+
+/// Does the error of one output depend on one input?
+struct IndependenceTest {
+    Index input = 0;            ///< 0-based
+    Vector correlation;         ///< lags -L..L, normalised; at positive ones the input acts before the error
+    double bound = 0;           ///< lag by lag, for an error that the input does not touch
+    double statistic = 0;       ///< of lags 0..L, chi-squared with `degrees` if independent
+    Index degrees = 0;          ///< fewer than L + 1 when the input is not rich enough to tell the lags apart
+    Index outside = 0;          ///< lags 0..L beyond the bound
+    double p_value = 1;         ///< lags 0..L: dynamics the model lacks
+    double p_value_future = 1;  ///< lags -L..-1: feedback from the output to the input
+    bool independent = true, without_feedback = true;
+    std::string verdict;  ///< one sentence
+};
+
+struct OutputResiduals {
+    double mean = 0, variance = 0;
+    bool exact = false;  ///< nothing but rounding is left, so that nothing is tested
+    WhitenessTest whiteness;
+    std::vector<IndependenceTest> inputs;
+    std::string verdict;  ///< what the tests together say
+};
+
+struct ResidualTests {
+    std::vector<Matrix> residuals;  ///< per experiment, N x ny: measured minus simulated output
+    std::vector<OutputResiduals> outputs;
+    std::string verdict;  ///< one paragraph per output
+};
+
+/// Tests on the output error e = y - simulated (never a prediction error), all experiments together. Means are taken
+/// off e and u first, experiment by experiment. Whiteness: Ljung and Box (1978). Independence: the cross-correlations
+/// r of lags 0..L have under independence the covariance P/N, P_ij = sum_k R_e(k) R_u(k + i - j) (Ljung 1999, section
+/// 16.6), whose diagonal gives the bound; the statistic is N r' P^-1 r. When e is not
+/// rejected as white the sum has one term; otherwise it is weighted (Bartlett) up to a quarter of the record.
+/// The degrees of freedom are not reduced by the estimated parameters, so that the tests reject a little less than they
+/// might. `simulated` holds N x ny outputs per experiment. Throws InvalidArgument for sizes that do not fit or fewer
+/// than two samples per lag.
+ResidualTests residual_tests(const IdData& data, const std::vector<Matrix>& simulated,
+                             const ResidualOptions& options = {});
+
+/// The same for a model, whose initial state and offset are handled as by compare_all().
+ResidualTests residual_tests(const IdData& data, const std::vector<TransferFunction>& channels,
+                             const CompareOptions& simulation = {}, const ResidualOptions& options = {});
+
+/// The whiteness test alone, of one output's errors in one or several uninterrupted records; for records too short for
+/// the lags fewer are tested.
+WhitenessTest whiteness_test(const std::vector<Vector>& errors, const ResidualOptions& options = {});
+
+}  // namespace dynlab

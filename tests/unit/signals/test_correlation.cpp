@@ -1,0 +1,43 @@
+#include <gtest/gtest.h>
+
+#include "numerics/error.h"
+#include "numerics/signals/correlation.h"
+#include "numerics/signals/random.h"
+
+using namespace dynlab;
+
+namespace {
+
+double product(const Vector& x, const Vector& y, Index lag) {
+    double sum = 0;
+    for (Index k = 0; k < y.size(); ++k)
+        if (k + lag >= 0 && k + lag < x.size()) sum += x[k + lag] * y[k];
+    return sum;
+}
+
+}  // namespace
+
+TEST(correlation, both_ways_equal_the_definition) {  // oracle: the definition
+    RandomStream random(3);
+    const Vector x = random.normal(700), y = random.normal(700);
+    for (const Index lags : {0, 3, 100, 101, 400, 699, 900}) {
+        const Vector sums = lagged_products(x, y, lags);
+        ASSERT_EQ(sums.size(), 2 * lags + 1);
+        for (Index lag = -lags; lag <= lags; ++lag) EXPECT_NEAR(sums[lags + lag], product(x, y, lag), 1e-10) << lag;
+    }
+}
+
+TEST(correlation, finds_a_delay_at_its_positive_lag) {  // oracle: the delay made
+    const Vector u = RandomStream(1).normal(500);
+    Vector y = Vector::Zero(500);
+    y.tail(493) = u.head(493);
+    Index most = 0;
+    lagged_products(y, u, 20).maxCoeff(&most);
+    EXPECT_EQ(most - 20, 7);
+}
+
+TEST(correlation, refuses_unequal_lengths) {
+    EXPECT_THROW(lagged_products(Vector::Ones(3), Vector::Ones(4), 1), InvalidArgument);
+    EXPECT_THROW(lagged_products(Vector(), Vector(), 1), InvalidArgument);
+    EXPECT_THROW(lagged_products(Vector::Ones(3), Vector::Ones(3), -1), InvalidArgument);
+}

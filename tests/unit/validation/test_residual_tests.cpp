@@ -1,0 +1,154 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "numerics/error.h"
+#include "numerics/signals/prbs.h"
+#include "numerics/signals/random.h"
+#include "numerics/simulation/lsim.h"
+#include "numerics/validation/chi_squared.h"
+#include "numerics/validation/residual_tests.h"
+
+using namespace dynlab;
+using testing::HasSubstr;
+
+namespace {
+
+const TransferFunction kG(Vector{{2.0}}, Vector{{1.0, 4.0, 3.0}});
+constexpr double kTs = 0.05;
+
+Vector ar1(Index N, double pole, std::uint32_t seed) {
+    Vector e = RandomStream(seed).normal(N);
+    for (Index k = 1; k < N; ++k) e[k] += pole * e[k - 1];
+    return e;
+}
+
+IdData record(const Vector& y, const Vector& u) {
+    return IdData(Matrix(y), Matrix(u), kTs);
+}
+
+ResidualTests plain_tests(const IdData& data, const TransferFunction& G, const ResidualOptions& options = {}) {
+    return residual_tests(data, {G}, {InitialState::kZero, Offset::kNone}, options);
+}
+
+}  // namespace
+
+TEST(residual_tests, correlations_equal_their_definition) {  // oracle: the definition
+    const Vector u = prbs(6, 3), N_e = ar1(u.size(), 0.6, 2);
+    const Vector y = lsim(kG, u, kTs) + N_e;
+    const auto output = plain_tests(record(y, u), kG).outputs[0];
+    const Vector e = N_e.array() - N_e.mean(), v = u.array() - u.mean();
+    const Index N = u.size();
+    for (Index lag = 0; lag <= 25; ++lag) {
+        EXPECT_NEAR(output.whiteness.correlation[lag], e.tail(N - lag).dot(e.head(N - lag)) / e.squaredNorm(), 1e-10);
+        const double scale = e.norm() * v.norm();
+        EXPECT_NEAR(output.inputs[0].correlation[25 + lag], e.tail(N - lag).dot(v.head(N - lag)) / scale, 1e-10);
+        EXPECT_NEAR(output.inputs[0].correlation[25 - lag], e.head(N - lag).dot(v.tail(N - lag)) / scale, 1e-10);
+    }
+    EXPECT_NEAR(output.mean, N_e.mean(), 1e-10);
+    EXPECT_NEAR(output.variance, e.squaredNorm() / static_cast<double>(N), 1e-10);
+}
+
+TEST(residual_tests, ljung_box_equals_its_formula) {  // oracle: the formula of Ljung and Box
+    const Vector e = ar1(300, 0.1, 4);
+    const auto test = whiteness_test({e});
+    double Q = 0;
+    for (Index lag = 1; lag <= 25; ++lag)
+        Q += 300.0 * 302 * std::pow(test.correlation[lag], 2) / static_cast<double>(300 - lag);
+    EXPECT_NEAR(test.statistic, Q, 1e-10);
+    EXPECT_EQ(test.degrees, 25);
+    EXPECT_NEAR(test.p_value, chi_squared_upper_tail(Q, 25), 1e-14);
+    EXPECT_NEAR(test.bound, 2.5758293 / std::sqrt(300), 1e-7);
+}
+
+TEST(residual_tests, white_noise_on_the_true_model_passes) {  // oracle: how the record was made
+    const Vector u = prbs(7, 8), y = lsim(kG, u, kTs) + 0.1 * RandomStream(1).normal(u.size());
+    const auto tests = plain_tests(record(y, u), kG);
+    EXPECT_TRUE(tests.outputs[0].whiteness.white);
+    EXPECT_TRUE(tests.outputs[0].inputs[0].independent);
+    EXPECT_TRUE(tests.outputs[0].inputs[0].without_feedback);
+    EXPECT_THAT(tests.verdict, HasSubstr("y1: The output error is white"));
+    EXPECT_THAT(tests.verdict, HasSubstr("u1 explains nothing more of it"));
+    EXPECT_THAT(tests.verdict, HasSubstr("says all that the data can tell"));
+}
+
+TEST(residual_tests, coloured_noise_on_the_true_model_is_told_apart_from_missing_dynamics) {
+    const Vector u = prbs(7, 8), y = lsim(kG, u, kTs) + 0.05 * ar1(u.size(), 0.9, 3);
+    const auto coloured = plain_tests(record(y, u), kG);
+    EXPECT_FALSE(coloured.outputs[0].whiteness.white);
+    EXPECT_TRUE(coloured.outputs[0].inputs[0].independent);
+    EXPECT_THAT(coloured.verdict, HasSubstr("the disturbance is coloured"));
+    const TransferFunction poor(Vector{{2.0 / 3}}, Vector{{1.0, 1.0}});
+    const auto missing = plain_tests(record(y, u), poor);
+    EXPECT_FALSE(missing.outputs[0].inputs[0].independent);
+    EXPECT_THAT(missing.verdict, HasSubstr("u1 still explains part of it"));
+    EXPECT_THAT(missing.verdict, HasSubstr("Dynamics are missing"));
+}
+
+TEST(residual_tests, feedback_shows_at_negative_lags) {  // oracle: how the record was made
+    const Index N = 1000;
+    const Vector noise = 0.3 * RandomStream(2).normal(N), r = RandomStream(5).normal(N);
+    Vector u(N), y(N);
+    for (Index k = 0; k < N; ++k) {
+        y[k] = noise[k];  // no response at all, so that the model G = 0 is right
+        u[k] = r[k] + (k > 0 ? 0.8 * y[k - 1] : 0);
+    }
+    const TransferFunction none(Vector{{0.0}}, Vector{{1.0, 1.0}});
+    const auto tests = plain_tests(record(y, u), none);
+    EXPECT_TRUE(tests.outputs[0].inputs[0].independent);
+    EXPECT_FALSE(tests.outputs[0].inputs[0].without_feedback);
+    EXPECT_THAT(tests.verdict, HasSubstr("act back on the input"));
+    Index most = 0;
+    tests.outputs[0].inputs[0].correlation.cwiseAbs().maxCoeff(&most);
+    EXPECT_EQ(most - 25, -1);
+}
+
+TEST(residual_tests, experiments_count_together) {  // oracle: second route, sums over the parts
+    const Vector u = prbs(6, 5), y = lsim(kG, u, kTs) + 0.1 * RandomStream(9).normal(u.size());
+    const IdData whole = record(y, u);
+    const IdData parts = IdData::merge({whole.range(1, 150), whole.range(151, 315)});
+    const std::vector<Matrix> simulated = {Matrix(lsim(kG, u, kTs).head(150)), Matrix(lsim(kG, u, kTs).tail(165))};
+    const auto output = residual_tests(parts, simulated).outputs[0];
+    const Vector e = y - lsim(kG, u, kTs);
+    const Vector first = e.head(150).array() - e.head(150).mean(), second = e.tail(165).array() - e.tail(165).mean();
+    const double products = first.tail(147).dot(first.head(147)) + second.tail(162).dot(second.head(162));
+    EXPECT_NEAR(output.whiteness.correlation[3], products / (first.squaredNorm() + second.squaredNorm()), 1e-10);
+}
+
+TEST(residual_tests, channels_are_tested_pair_by_pair) {  // oracle: how the record was made
+    const Index N = 900;
+    Matrix u(N, 2), y(N, 2);
+    u.col(0) = RandomStream(1).normal(N);
+    u.col(1) = RandomStream(2).normal(N);
+    const TransferFunction H(Vector{{1.0}}, Vector{{1.0, 1.0}});
+    y.col(0) = lsim(kG, u.col(0), kTs) + lsim(H, u.col(1), kTs) + 0.01 * RandomStream(3).normal(N);
+    y.col(1) = lsim(H, u.col(1), kTs) + 0.01 * RandomStream(4).normal(N);
+    const TransferFunction none(Vector{{0.0}}, Vector{{1.0, 1.0}});
+    const auto tests = residual_tests(IdData(y, u, kTs), {kG, none, none, H}, {InitialState::kZero, Offset::kNone});
+    ASSERT_EQ(tests.outputs.size(), 2u);
+    EXPECT_TRUE(tests.outputs[0].inputs[0].independent);
+    EXPECT_FALSE(tests.outputs[0].inputs[1].independent);
+    EXPECT_TRUE(tests.outputs[1].whiteness.white);
+    EXPECT_TRUE(tests.outputs[1].inputs[0].independent);
+    EXPECT_TRUE(tests.outputs[1].inputs[1].independent);
+}
+
+TEST(residual_tests, says_when_there_is_nothing_to_test) {
+    const Vector u = prbs(6, 3);
+    const auto exact = plain_tests(record(lsim(kG, u, kTs), u), kG);
+    EXPECT_TRUE(exact.outputs[0].exact);
+    EXPECT_THAT(exact.verdict, HasSubstr("to rounding"));
+    const Vector flat = Vector::Ones(100), y = lsim(kG, flat, kTs) + 0.1 * RandomStream(1).normal(100);
+    EXPECT_THAT(plain_tests(record(y, flat), kG).verdict, HasSubstr("u1 never changes"));
+}
+
+TEST(residual_tests, refuses_short_records_and_wrong_sizes) {
+    const IdData data = record(RandomStream(1).normal(40), RandomStream(2).normal(40));
+    EXPECT_THROW(plain_tests(data, kG), InvalidArgument);
+    EXPECT_NO_THROW(plain_tests(data, kG, {10, 0.99}));
+    EXPECT_THROW(plain_tests(data, kG, {0, 0.99}), InvalidArgument);
+    EXPECT_THROW(plain_tests(data, kG, {10, 1}), InvalidArgument);
+    EXPECT_THROW(residual_tests(data, {Matrix::Zero(39, 1)}, {10, 0.99}), InvalidArgument);
+    EXPECT_THROW(residual_tests(data, std::vector<Matrix>{}, {10, 0.99}), InvalidArgument);
+}
