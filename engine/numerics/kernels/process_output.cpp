@@ -64,6 +64,16 @@ ProcessCoefficients process_coefficients(const ProcessStructure& structure, cons
     return c;
 }
 
+Matrix coefficients_by_parameter(const ProcessModel& model) {
+    const ProcessCoefficients c = process_coefficients(model.structure, model.parameters);
+    const Index n = c.den_by_parameter.rows(), b = c.num_by_parameter.rows(), q = model.parameters.size();
+    Matrix derivatives = Matrix::Zero(n + b + (model.structure.delay ? 1 : 0), q);
+    derivatives.topRows(n) = c.den_by_parameter;
+    derivatives.middleRows(n, b) = c.num_by_parameter;
+    if (model.structure.delay) derivatives(n + b, q - 1) = 1;
+    return derivatives;
+}
+
 ProcessOutput::ProcessOutput(const ProcessStructure& structure, const StartCondition& condition, const VectorView& u,
                              Hold hold, double least_delay, double largest_delay)
     : structure_(structure), condition_(condition), hold_(hold) {

@@ -18,6 +18,10 @@ struct ProcessCoefficients {
 /// For structures P1, P2, P2U, each with or without D. `parameters` as in ProcessModel, in any unit of time.
 ProcessCoefficients process_coefficients(const ProcessStructure& structure, const Vector& parameters);
 
+/// Derivatives of [a_1..a_n b_0..b_m], followed by the delay when the structure has one, with respect to the
+/// parameters.
+Matrix coefficients_by_parameter(const ProcessModel& model);
+
 /// Throws InvalidArgument that names the structures process_coefficients knows.
 void require_supported(const ProcessStructure& structure);
 

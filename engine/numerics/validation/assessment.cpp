@@ -1,0 +1,244 @@
+#include "numerics/validation/assessment.h"
+
+#include <cmath>
+#include <span>
+
+#include "numerics/error.h"
+#include "numerics/kernels/process_output.h"
+#include "numerics/kernels/transfer_sensitivity.h"
+#include "numerics/linalg/least_squares.h"
+#include "numerics/linalg/polynomial.h"
+#include "numerics/simulation/lsim.h"
+#include "numerics/simulation/time_response.h"
+#include "numerics/validation/robust_covariance.h"
+#include "numerics/validation/uncertainty.h"
+
+namespace dynlab {
+
+namespace {
+
+// One output of one experiment.
+struct Record {
+    Matrix u;
+    Vector y, t;
+    double Ts;
+    Hold hold;
+};
+
+Vector simulate(const Record& record, const TransferFunction& G, const VectorView& u) {
+    return record.Ts > 0 ? lsim(G, u, record.Ts, record.hold) : lsim(G, u, record.t, record.hold);
+}
+
+TransferFunction derivative_of(const TransferFunction& G) {
+    return TransferFunction(multiply(G.num(), Vector{{1.0, 0.0}}), G.den(), 0, G.delay());
+}
+
+// Response to u and its derivatives with respect to [a_1..a_n b_0..b_m delay].
+Matrix driven_sensitivities(const Record& record, const TransferFunction& G, const VectorView& u) {
+    const bool strictly_proper = G.num().size() < G.den().size();
+    if (record.Ts > 0 && strictly_proper)
+        return transfer_sensitivities(G.num(), G.den(), G.delay(), u, record.Ts, record.hold);
+    Matrix columns(u.size(), G.pole_count() + G.num().size() + 2);
+    columns.col(0) = simulate(record, G, u);
+    Index column = 1;
+    for (const TransferFunction& derivative : coefficient_derivatives(G))
+        columns.col(column++) = simulate(record, derivative, u);
+    if (strictly_proper)
+        columns.col(column) = -simulate(record, derivative_of(G), u);
+    else
+        columns.col(column).setConstant(std::nan(""));
+    return columns;
+}
+
+// The same with the system at rest at the first input value before the record.
+Matrix channel_sensitivities(const Record& record, const TransferFunction& G, Index input, InitialState state) {
+    const double resting = state == InitialState::kZero ? 0 : record.u(0, input);
+    Matrix columns = driven_sensitivities(record, G, record.u.col(input).array() - resting);
+    if (resting == 0) return columns;
+    const Index n = G.pole_count(), m = G.zero_count();
+    const double gain = G.dc_gain(), a_n = G.den()[n];
+    if (!std::isfinite(gain))
+        throw InvalidArgument("A model with an integrator cannot rest at an input that is not zero");
+    columns.col(0).array() += gain * resting;
+    columns.col(n).array() -= gain / a_n * resting;
+    columns.col(n + 1 + m).array() += resting / a_n;
+    return columns;
+}
+
+// The free motions of 1/A: the impulse responses of s^i/A, i = 0 .. n-1.
+Matrix free_motions(const Record& record, const Vector& den) {
+    const Index n = den.size() - 1;
+    const Vector since_start = record.t.array() - record.t[0];
+    Matrix motions(record.y.size(), n);
+    for (Index i = 0; i < n; ++i)
+        motions.col(i) = impulse_response(TransferFunction(Vector::Unit(i + 1, 0), den), since_start).y;
+    return motions;
+}
+
+// Derivatives with respect to a_1..a_n of the free motion P/A, P = sum weights_i s^i: the impulse responses of
+// -s^(n-i) P/A^2.
+Matrix free_sensitivities_of(const Record& record, const Vector& den, const Vector& weights) {
+    const Index n = den.size() - 1;
+    const Vector since_start = record.t.array() - record.t[0], square = multiply(den, den);
+    Matrix columns(record.y.size(), n);
+    for (Index i = 1; i <= n; ++i) {
+        const Vector num = multiply(-weights.reverse(), Vector::Unit(n - i + 1, 0));
+        columns.col(i - 1) = impulse_response(TransferFunction(num, square), since_start).y;
+    }
+    return columns;
+}
+
+// Where the derivatives of one channel go among the parameters.
+struct ChannelPlaces {
+    TransferFunction G;
+    Index denominator = 0;  // channels with the same number share theirs
+    Index a = 0, b = 0, delay = -1;
+};
+
+struct Linearised {
+    Matrix Psi;  // N x d, without what the linear unknowns can do
+    Vector errors;
+    Index linear_unknowns = 0;
+};
+
+// The distinct denominators of an output's channels: one channel for each.
+std::vector<const ChannelPlaces*> free_systems(std::span<const ChannelPlaces> channels) {
+    std::vector<const ChannelPlaces*> systems;
+    for (const ChannelPlaces& channel : channels) {
+        bool known = false;
+        for (const ChannelPlaces* other : systems) known = known || other->denominator == channel.denominator;
+        if (!known) systems.push_back(&channel);
+    }
+    return systems;
+}
+
+Linearised linearise(const Record& record, std::span<const ChannelPlaces> channels, const StartCondition& start,
+                     Index parameters) {
+    const Index N = record.y.size();
+    Linearised result{Matrix::Zero(N, parameters), record.y, 0};
+    for (std::size_t j = 0; j < channels.size(); ++j) {
+        const ChannelPlaces& channel = channels[j];
+        const Index n = channel.G.pole_count(), b_count = channel.G.num().size();
+        const Matrix columns = channel_sensitivities(record, channel.G, static_cast<Index>(j), start.state);
+        result.errors -= columns.col(0);
+        result.Psi.middleCols(channel.a, n) += columns.middleCols(1, n);
+        result.Psi.middleCols(channel.b, b_count) += columns.middleCols(1 + n, b_count);
+        if (channel.delay >= 0) result.Psi.col(channel.delay) = columns.rightCols(1);
+    }
+    Matrix linear(N, 0);
+    const auto systems = free_systems(channels);
+    if (start.state == InitialState::kEstimate)
+        for (const ChannelPlaces* system : systems) {
+            const Index n = system->G.pole_count();
+            linear.conservativeResize(N, linear.cols() + n);
+            linear.rightCols(n) = free_motions(record, system->G.den());
+        }
+    if (start.offset) {
+        linear.conservativeResize(N, linear.cols() + 1);
+        linear.rightCols(1).setOnes();
+    }
+    result.linear_unknowns = linear.cols();
+    if (linear.cols() == 0) return result;
+    const LeastSquares fit = solve_least_squares(linear, result.errors);
+    result.errors = fit.residuals;
+    Index place = 0;
+    if (start.state == InitialState::kEstimate)
+        for (const ChannelPlaces* system : systems) {
+            const Index n = system->G.pole_count();
+            result.Psi.middleCols(system->a, n) +=
+                free_sensitivities_of(record, system->G.den(), fit.solution.segment(place, n));
+            place += n;
+        }
+    for (Index i = 0; i < parameters; ++i) result.Psi.col(i) = solve_least_squares(linear, result.Psi.col(i)).residuals;
+    return result;
+}
+
+std::string verdict_of(const Assessment& assessment, const std::vector<std::string>& names) {
+    std::string text;
+    for (std::size_t i = 0; i < assessment.whiteness.size(); ++i) {
+        const WhitenessTest& test = assessment.whiteness[i];
+        if (test.verdict.empty()) continue;
+        if (!text.empty()) text += ' ';
+        if (assessment.whiteness.size() > 1) text += names[i] + ": ";
+        text += test.verdict;
+    }
+    if (!assessment.white) text += " The robust standard errors are the ones to use.";
+    return text;
+}
+
+// `by_parameter` (columns of Psi x q) leads from the channels' coefficients to the parameters of the estimate.
+Assessment assess_channels(const IdData& data, const std::vector<ChannelPlaces>& channels, const StartCondition& start,
+                           const MatrixView& by_parameter, const MatrixView& plain, const ResidualOptions& options) {
+    const Index ny = data.output_count(), nu = data.input_count(), q = by_parameter.cols();
+    if (static_cast<Index>(channels.size()) != ny * nu)
+        throw InvalidArgument("The estimate has " + std::to_string(channels.size()) + " channel(s) and the data have " +
+                              std::to_string(ny) + " output(s) and " + std::to_string(nu) + " input(s)");
+    const Index N = data.sample_count() * ny;
+    Matrix Psi(N, q);
+    Vector errors(N);
+    std::vector<Index> lengths;
+    Assessment assessment;
+    Index first = 0, linear_unknowns = 0;
+    for (Index i = 0; i < ny; ++i) {
+        std::vector<Vector> own_errors;
+        for (std::size_t k = 0; k < data.experiments.size(); ++k) {
+            const Experiment& experiment = data.experiments[k];
+            const Record record{experiment.u, experiment.y.col(i), data.time(k), data.Ts, data.hold};
+            const std::span<const ChannelPlaces> own(channels.data() + i * nu, static_cast<std::size_t>(nu));
+            const Linearised part = linearise(record, own, start, by_parameter.rows());
+            lengths.push_back(part.errors.size());
+            Psi.middleRows(first, lengths.back()) = part.Psi * by_parameter;
+            errors.segment(first, lengths.back()) = part.errors;
+            first += lengths.back();
+            linear_unknowns += part.linear_unknowns;
+            own_errors.push_back(part.errors);
+        }
+        assessment.whiteness.push_back(whiteness_test(own_errors, options));
+        assessment.white = assessment.white && assessment.whiteness.back().white;
+    }
+    std::vector<Index> free;
+    for (Index i = 0; i < q; ++i)
+        if (plain(i, i) > 0) free.push_back(i);
+    const auto known = static_cast<Index>(free.size()) + linear_unknowns;
+    assessment.covariance = Matrix::Zero(q, q);
+    if (!free.empty() && N > known) {
+        const RobustCovariance robust = robust_covariance(Psi(Eigen::all, free), errors, lengths);
+        const double freedom =
+            static_cast<double>(N - static_cast<Index>(free.size())) / static_cast<double>(N - known);
+        assessment.covariance(free, free) = freedom * robust.covariance;
+        assessment.bandwidth = robust.bandwidth;
+    }
+    assessment.std = assessment.covariance.diagonal().cwiseSqrt();
+    assessment.verdict = verdict_of(assessment, data.output_names);
+    return assessment;
+}
+
+}  // namespace
+
+Assessment assess(const IdData& data, const TransferEstimate& estimate, const ResidualOptions& options) {
+    const TransferStructure& structure = estimate.structure;
+    std::vector<ChannelPlaces> channels;
+    for (Index i = 0; i < structure.outputs; ++i)
+        for (Index j = 0; j < structure.inputs; ++j) {
+            const Index denominator = structure.channel(i, j).denominator;
+            channels.push_back({estimate.models[channels.size()], denominator, structure.a_place(denominator),
+                                structure.b_place(i, j), structure.delay_place(i, j)});
+        }
+    const Index d = structure.parameter_count();
+    return assess_channels(data, channels, estimate.start, Matrix::Identity(d, d), estimate.covariance, options);
+}
+
+Assessment assess(const IdData& data, const ProcsrivcResult& estimate, const ResidualOptions& options) {
+    IdData counted = data;
+    for (Experiment& experiment : counted.experiments) {
+        experiment.u.array() -= estimate.removed.input;
+        experiment.y.array() -= estimate.removed.output;
+    }
+    const TransferFunction G = estimate.model.transfer_function();
+    const Index n = G.pole_count(), b_count = G.num().size();
+    const ChannelPlaces channel{G, 0, 0, n, estimate.model.structure.delay ? n + b_count : -1};
+    return assess_channels(counted, {channel}, estimate.start, coefficients_by_parameter(estimate.model),
+                           estimate.covariance, options);
+}
+
+}  // namespace dynlab

@@ -1,0 +1,33 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "numerics/estimators/procsrivc.h"
+#include "numerics/kernels/transfer_estimate.h"
+#include "numerics/signals/iddata.h"
+#include "numerics/validation/residual_tests.h"
+
+namespace dynlab {
+
+/// Whether the plain standard errors of an output-error estimate, which take its errors as white, can be trusted, and
+/// those to use when they cannot.
+struct Assessment {
+    std::vector<WhitenessTest> whiteness;  ///< one per output
+    bool white = true;                     ///< all of them
+    Matrix covariance;                     ///< robust, in the order of the estimate's theta
+    Vector std;
+    Index bandwidth = 1;  ///< samples, of its window
+    std::string verdict;  ///< one sentence per output
+};
+
+/// Sensitivities and output errors are worked out again at the estimate, from its start condition and with the values
+/// that enter linearly (initial state, offset) projected out, then handed to robust_covariance() and
+/// whiteness_test(). Errors of different outputs and experiments count as independent of each other. Parameters whose
+/// plain variance is zero (held at a bound) keep it. `data` are those the estimator saw, with any operating point
+/// already removed. Throws InvalidArgument for data that do not fit the estimate's channels, for an integrator that
+/// starts from another input than zero, and for an estimated delay of a model with as many zeros as poles.
+Assessment assess(const IdData& data, const TransferEstimate& estimate, const ResidualOptions& options = {});
+/// The same for a process model; the operating point the result names is removed here.
+Assessment assess(const IdData& data, const ProcsrivcResult& estimate, const ResidualOptions& options = {});
+
+}  // namespace dynlab

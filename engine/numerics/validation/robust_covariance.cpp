@@ -1,0 +1,96 @@
+#include "numerics/validation/robust_covariance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+#include "numerics/error.h"
+#include "numerics/linalg/least_squares.h"
+
+namespace dynlab {
+
+namespace {
+
+void check_sizes(const MatrixView& H, const MatrixView& Z, const VectorView& e, const std::vector<Index>& lengths) {
+    const Index N = Z.rows(), d = Z.cols();
+    if (e.size() != N || H.rows() != d || H.cols() != d)
+        throw InvalidArgument("A robust covariance of " + std::to_string(N) + " samples and " + std::to_string(d) +
+                              " parameters needs as many residuals, and got " + std::to_string(e.size()));
+    if (N <= d)
+        throw InvalidArgument("A robust covariance needs more samples than parameters, and got " + std::to_string(N) +
+                              " samples and " + std::to_string(d) + " parameters");
+    if (std::accumulate(lengths.begin(), lengths.end(), Index{0}) != N)
+        throw InvalidArgument("The lengths of the records must add up to the " + std::to_string(N) + " samples");
+}
+
+// Lag-one correlations of the columns of V, no closer to one than Andrews advises.
+Vector lag_one_correlations(const Matrix& V, const std::vector<Index>& lengths) {
+    constexpr double kLargest = 0.97;
+    Vector correlations(V.cols());
+    for (Index i = 0; i < V.cols(); ++i) {
+        double products = 0;
+        Index first = 0;
+        for (const Index length : lengths) {
+            const auto v = V.col(i).segment(first, length);
+            if (length > 1) products += v.tail(length - 1).dot(v.head(length - 1));
+            first += length;
+        }
+        const double power = V.col(i).squaredNorm();
+        correlations[i] = power > 0 ? std::clamp(products / power, -kLargest, kLargest) : 0;
+    }
+    return correlations;
+}
+
+Index bartlett_bandwidth(const Vector& rho, Index N, Index longest) {
+    const auto square = rho.array().square();
+    const double alpha = (4 * square / (1 - square).square()).mean();
+    const double L = std::ceil(1.1447 * std::cbrt(alpha * static_cast<double>(N)));
+    return std::clamp<Index>(static_cast<Index>(L), 1, std::max<Index>(1, longest / 2));
+}
+
+// sum_|l|<L (1 - |l|/L) sum_k v(k) v(k-l)' = (1/L) sum of s s' over all sums s of up to L neighbouring rows.
+Matrix bartlett_sum(const Eigen::Ref<const Matrix>& V, Index L) {
+    const Index N = V.rows();
+    Matrix sum = Matrix::Zero(V.cols(), V.cols());
+    Vector moving = Vector::Zero(V.cols());
+    for (Index k = 0; k < N + L - 1; ++k) {
+        if (k < N) moving += V.row(k).transpose();
+        if (k >= L) moving -= V.row(k - L).transpose();
+        sum.noalias() += moving * moving.transpose();
+    }
+    return sum / static_cast<double>(L);
+}
+
+}  // namespace
+
+RobustCovariance robust_covariance(const MatrixView& H, const MatrixView& Z, const VectorView& e,
+                                   const std::vector<Index>& given_lengths) {
+    const std::vector<Index> lengths = given_lengths.empty() ? std::vector<Index>{Z.rows()} : given_lengths;
+    check_sizes(H, Z, e, lengths);
+    const Index N = Z.rows(), d = Z.cols();
+    Matrix V = Z * H.transpose();
+    V.array().colwise() *= e.array();
+    RobustCovariance result;
+    result.bandwidth =
+        bartlett_bandwidth(lag_one_correlations(V, lengths), N, *std::max_element(lengths.begin(), lengths.end()));
+    result.covariance = Matrix::Zero(d, d);
+    Index first = 0;
+    for (const Index length : lengths) {
+        result.covariance += bartlett_sum(V.middleRows(first, length), result.bandwidth);
+        first += length;
+    }
+    result.covariance *= static_cast<double>(N) / static_cast<double>(N - d);
+    result.std = result.covariance.diagonal().cwiseSqrt();
+    return result;
+}
+
+RobustCovariance robust_covariance(const MatrixView& Psi, const VectorView& e, const std::vector<Index>& lengths) {
+    if (Psi.rows() <= Psi.cols())
+        throw InvalidArgument("A robust covariance needs more samples than parameters, and got " +
+                              std::to_string(Psi.rows()) + " samples and " + std::to_string(Psi.cols()) +
+                              " parameters");
+    return robust_covariance(solve_least_squares(Psi, e).inverse_gram, Psi, e, lengths);
+}
+
+}  // namespace dynlab

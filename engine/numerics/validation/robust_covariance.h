@@ -1,0 +1,33 @@
+#pragma once
+#include <vector>
+
+#include "numerics/linalg/types.h"
+
+namespace dynlab {
+
+/// The covariance of an estimate whose errors are coloured, or of changing size.
+struct RobustCovariance {
+    Matrix covariance;    ///< d x d
+    Vector std;           ///< d, its standard errors
+    Index bandwidth = 1;  ///< L below, samples
+};
+
+/// Sandwich (heteroscedasticity and autocorrelation consistent) covariance of a theta that solves
+/// sum_k z(k) e(k, theta) = 0, after Newey and West (1987) with the Bartlett window:
+///     P = N/(N - d) sum_|l|<L (1 - |l|/L) sum_k v(k) v(k - l)',   v(k) = H z(k) e(k),
+/// with H (d x d) the inverse of -d/dtheta sum z e: (Psi'Psi)^-1 with z = Psi for output-error estimates, (Z'Phi)^-1
+/// for instrumental variables. The window is the one of least mean square error for first-order autoregressive v
+/// (Andrews 1991, section 6, every parameter counting alike):
+///     L = 1.1447 (alpha N)^(1/3),   alpha = mean_i 4 rho_i^2/((1 - rho_i)^2 (1 + rho_i)^2),
+/// rounded up; it grows with the correlation the residuals and sensitivities have in common, and is 1 (White 1980)
+/// without any. The result is positive semidefinite and does not depend on the parameters' units; the work is
+/// O(N d^2) for any L, for the window's double sum is one over squared moving sums.
+/// `Z` is N x d, `e` has N values. `lengths` (summing to N) tells uninterrupted records apart, which are taken as
+/// independent of each other; empty for one. Throws InvalidArgument for sizes that do not fit or N <= d.
+RobustCovariance robust_covariance(const MatrixView& H, const MatrixView& Z, const VectorView& e,
+                                   const std::vector<Index>& lengths = {});
+
+/// The same for an output-error estimate with sensitivities Psi = d simulated/d theta (N x d).
+RobustCovariance robust_covariance(const MatrixView& Psi, const VectorView& e, const std::vector<Index>& lengths = {});
+
+}  // namespace dynlab

@@ -1,0 +1,170 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <functional>
+
+#include "numerics/signals/prbs.h"
+#include "numerics/signals/random.h"
+#include "numerics/simulation/lsim.h"
+#include "numerics/validation/assessment.h"
+#include "numerics/validation/compare.h"
+#include "numerics/validation/robust_covariance.h"
+
+using namespace dynlab;
+
+namespace {
+
+constexpr double kTs = 0.05;
+
+Vector ar1(Index N, double pole, std::uint32_t seed) {
+    Vector e = RandomStream(seed).normal(N);
+    for (Index k = 1; k < N; ++k) e[k] += pole * e[k - 1];
+    return e;
+}
+
+// Derivatives of the outputs of all records, stacked, by central differences; values that enter linearly are refitted,
+// which projects them out.
+Matrix differences(const std::function<Vector(const Vector&)>& output, const Vector& theta) {
+    Matrix Psi(output(theta).size(), theta.size());
+    for (Index i = 0; i < theta.size(); ++i) {
+        const double h = 1e-5 * std::max(1.0, std::abs(theta[i]));
+        Vector above = theta, below = theta;
+        above[i] += h, below[i] -= h;
+        Psi.col(i) = (output(above) - output(below)) / (2 * h);
+    }
+    return Psi;
+}
+
+TransferEstimate estimate_of(const TransferStructure& structure, const Vector& theta, const StartCondition& start) {
+    TransferEstimate estimate;
+    estimate.structure = structure;
+    estimate.theta = theta;
+    estimate.models = structure.models(theta);
+    estimate.covariance = Matrix::Identity(theta.size(), theta.size());
+    estimate.start = start;
+    return estimate;
+}
+
+// The robust covariance by the other route: compare_all() simulates and refits what enters linearly.
+void expect_second_route(const IdData& data, const TransferStructure& structure, const Vector& theta,
+                         const StartCondition& start, Index linear_unknowns) {
+    const CompareOptions options{start.state, start.offset ? Offset::kEstimate : Offset::kNone};
+    const auto output = [&](const Vector& at) {
+        const Comparison all = compare_all(data, structure.models(at), options);
+        std::vector<double> stacked;
+        for (Index i = 0; i < data.output_count(); ++i)
+            for (std::size_t k = 0; k < data.experiments.size(); ++k) {
+                const Vector& part = all.results[k][static_cast<std::size_t>(i)].output;
+                stacked.insert(stacked.end(), part.begin(), part.end());
+            }
+        return Vector(Eigen::Map<const Vector>(stacked.data(), static_cast<Index>(stacked.size())));
+    };
+    std::vector<double> measured;
+    std::vector<Index> lengths;
+    for (Index i = 0; i < data.output_count(); ++i)
+        for (const Experiment& experiment : data.experiments) {
+            const Vector y = experiment.y.col(i);
+            measured.insert(measured.end(), y.begin(), y.end());
+            lengths.push_back(y.size());
+        }
+    const Vector y = Eigen::Map<const Vector>(measured.data(), static_cast<Index>(measured.size()));
+    // A change of theta also moves the refitted values along with the residual; to first order in the residual the
+    // projected sensitivities are what remains, so the residual is kept small here.
+    const RobustCovariance expected = robust_covariance(differences(output, theta), y - output(theta), lengths);
+    const double N = static_cast<double>(y.size()), d = static_cast<double>(theta.size());
+    const double freedom = (N - d) / (N - d - static_cast<double>(linear_unknowns));
+    const Assessment actual = assess(data, estimate_of(structure, theta, start));
+    EXPECT_EQ(actual.bandwidth, expected.bandwidth);
+    EXPECT_LT((actual.covariance - freedom * expected.covariance).norm(), 1e-4 * actual.covariance.norm());
+}
+
+IdData cut_record(const TransferStructure& structure, const Vector& theta, Index nu, std::uint32_t seed) {
+    const auto models = structure.models(theta);
+    const Index N = 500, ny = structure.outputs;
+    Matrix u(N, nu), y(N, ny);
+    for (Index j = 0; j < nu; ++j) {
+        const Vector levels = RandomStream(seed + static_cast<std::uint32_t>(j)).normal(N);
+        for (Index k = 0; k < N; ++k) u(k, j) = 1.5 + (levels[k / (8 + 3 * j)] > 0 ? 1 : -1);
+    }
+    for (Index i = 0; i < ny; ++i) {
+        y.col(i) = 1e-5 * ar1(N, 0.7, seed + 10 + static_cast<std::uint32_t>(i));
+        for (Index j = 0; j < nu; ++j) y.col(i) += lsim(models[static_cast<std::size_t>(i * nu + j)], u.col(j), kTs);
+    }
+    return IdData(y, u, kTs);
+}
+
+}  // namespace
+
+TEST(assessment, one_channel_from_rest) {  // oracle: differences of compare_all()
+    const auto structure = TransferStructure::single(2, 1);
+    const Vector theta{{2.0, 5.0, 1.0, 4.0}};
+    const IdData data = cut_record(structure, theta, 1, 1);
+    expect_second_route(data, structure, theta, {InitialState::kZero, false}, 0);
+    expect_second_route(data, structure, theta, {InitialState::kZero, true}, 1);
+}
+
+TEST(assessment, one_channel_cut_from_a_running_experiment) {  // oracle: differences of compare_all()
+    const auto structure = TransferStructure::single(2, 0);
+    const Vector theta{{2.0, 5.0, 4.0}};
+    const IdData data = cut_record(structure, theta, 1, 3).range(101, 500);
+    expect_second_route(data, structure, theta, {InitialState::kEstimate, true}, 3);
+}
+
+TEST(assessment, several_experiments_and_channels) {  // oracle: differences of compare_all()
+    const auto structure =
+        TransferStructure::grid(2, 2, Denominators::kPerOutput, {2, 2, 1, 1}, {0, 1, 0, 0}, {0, 0.1, 0.07, 0});
+    const Vector theta{{2.0, 5.0, 4.0, 1.0, 3.0, 0.8, 1.0, 2.0}};
+    const IdData whole = cut_record(structure, theta, 2, 5);
+    expect_second_route(IdData::merge({whole, cut_record(structure, theta, 2, 25)}), structure, theta,
+                        {InitialState::kZero, false}, 0);
+}
+
+TEST(assessment, irregular_sampling_and_as_many_zeros_as_poles) {  // oracle: differences of compare_all()
+    const auto structure = TransferStructure::single(2, 2);
+    const Vector theta{{2.0, 5.0, 0.5, 1.0, 4.0}};
+    const IdData regular = cut_record(structure, theta, 1, 7);
+    expect_second_route(regular, structure, theta, {InitialState::kZero, false}, 0);
+    Vector t(500);
+    const Vector jitter = RandomStream(2).uniform(500);
+    for (Index k = 0; k < 500; ++k) t[k] = 3 + kTs * (static_cast<double>(k) + 0.4 * jitter[k]);
+    const Matrix u = regular.experiments[0].u;
+    const Vector y = lsim(structure.models(theta)[0], u.col(0), t) + 1e-5 * ar1(500, 0.8, 3);
+    const auto proper = TransferStructure::single(2, 0);
+    const Vector smaller{{2.0, 5.0, 4.0}};
+    const Vector z = lsim(proper.models(smaller)[0], u.col(0), t) + 1e-5 * ar1(500, 0.8, 3);
+    expect_second_route(IdData(Matrix(y), u, t), structure, theta, {InitialState::kZero, false}, 0);
+    expect_second_route(IdData(Matrix(z), u, t), proper, smaller, {InitialState::kEstimate, false}, 2);
+}
+
+TEST(assessment, process_models_with_delay) {  // oracle: differences of lsim over the process parameters
+    const Vector u = prbs(6, 8).array() + 0.3;
+    const ProcessModel process(ProcessStructure::parse("P1D"), Vector{{2.0, 0.8, 0.23}});
+    const Vector y = lsim(process.transfer_function(), u, kTs) + 0.1 * ar1(u.size(), 0.8, 1);
+    const IdData data(Matrix(y), Matrix(u), kTs);
+    ProcsrivcOptions options;
+    options.initial_state = InitialState::kZero;
+    options.offset = Offset::kNone;
+    const auto fitted = procsrivc(data, process.structure, options);
+    const Assessment actual = assess(data, fitted);
+    EXPECT_FALSE(actual.white);
+    EXPECT_GT(actual.std[0], 1.5 * fitted.std[0]);
+    const auto output = [&](const Vector& parameters) {
+        return lsim(ProcessModel(process.structure, parameters).transfer_function(), u, kTs);
+    };
+    const auto expected = robust_covariance(differences(output, fitted.theta), y - fitted.output);
+    EXPECT_EQ(actual.bandwidth, expected.bandwidth);
+    EXPECT_LT((actual.covariance - expected.covariance).norm(), 1e-6 * actual.covariance.norm());
+}
+
+TEST(assessment, parameters_held_at_a_bound_stay_certain) {  // oracle: the definition
+    const Vector u = prbs(6, 8);
+    const TransferFunction G(Vector{{2.0}}, Vector{{1.0, 1.0}});
+    const IdData data(Matrix(lsim(G, u, kTs) + 0.1 * ar1(u.size(), 0.8, 1)), Matrix(u), kTs);
+    const auto structure = TransferStructure::single(1, 0);
+    TransferEstimate estimate = estimate_of(structure, Vector{{1.0, 2.0}}, {InitialState::kZero, false});
+    estimate.covariance(0, 0) = 0;
+    const Assessment held = assess(data, estimate);
+    EXPECT_EQ(held.std[0], 0);
+    EXPECT_GT(held.std[1], 0);
+}
