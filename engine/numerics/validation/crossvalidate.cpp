@@ -1,0 +1,117 @@
+#include "numerics/validation/crossvalidate.h"
+
+#include <cmath>
+
+#include "numerics/error.h"
+#include "numerics/number_text.h"
+
+namespace dynlab {
+
+namespace {
+
+constexpr Index kLeastFold = 10;  // samples
+
+struct Part {
+    std::size_t experiment;
+    Index first, last;  // 1-based, inclusive
+};
+
+IdData one_experiment(const IdData& data, std::size_t k) {
+    IdData part = data;
+    part.experiments = {data.experiments[k]};
+    return part;
+}
+
+// Each experiment is cut into segments in proportion to its share of the samples, at least one.
+std::vector<Part> segments(const IdData& data, int folds) {
+    std::vector<Part> parts;
+    const double total = static_cast<double>(data.sample_count());
+    for (std::size_t k = 0; k < data.experiments.size(); ++k) {
+        const Index N = data.sample_count(k);
+        const Index count = std::max<Index>(1, std::lround(folds * static_cast<double>(N) / total));
+        for (Index i = 0; i < count; ++i) parts.push_back({k, i * N / count + 1, (i + 1) * N / count});
+    }
+    return parts;
+}
+
+std::vector<Part> whole_experiments(const IdData& data) {
+    std::vector<Part> parts;
+    for (std::size_t k = 0; k < data.experiments.size(); ++k) parts.push_back({k, 1, data.sample_count(k)});
+    return parts;
+}
+
+IdData all_but(const IdData& data, const Part& part) {
+    std::vector<IdData> others;
+    for (std::size_t k = 0; k < data.experiments.size(); ++k) {
+        const IdData own = one_experiment(data, k);
+        if (k != part.experiment) {
+            others.push_back(own);
+            continue;
+        }
+        if (part.first > 1) others.push_back(own.range(1, part.first - 1));
+        if (part.last < data.sample_count(k)) others.push_back(own.range(part.last + 1, data.sample_count(k)));
+    }
+    return others.size() == 1 ? others.front() : IdData::merge(others);
+}
+
+void check_parts(const std::vector<Part>& parts) {
+    if (parts.size() < 2)
+        throw InvalidArgument("Cross-validation needs at least two parts, and the data give " +
+                              std::to_string(parts.size()) + ": ask for more folds");
+    for (const Part& part : parts)
+        if (part.last - part.first + 1 < kLeastFold)
+            throw InvalidArgument("Each fold needs at least " + std::to_string(kLeastFold) + " samples, and one has " +
+                                  std::to_string(part.last - part.first + 1) + ": ask for fewer folds");
+}
+
+void summarise(CrossValidation& result, const std::vector<std::string>& names) {
+    const Index folds = result.fit_percent.rows();
+    if (folds == 0) {
+        result.message = "Stopped before the first fold was done.";
+        return;
+    }
+    const Matrix& fits = result.fit_percent;
+    result.mean = fits.colwise().mean().transpose();
+    result.spread = Vector::Zero(fits.cols());
+    if (folds > 1)
+        result.spread =
+            ((fits.rowwise() - result.mean.transpose()).colwise().squaredNorm() / static_cast<double>(folds - 1))
+                .cwiseSqrt()
+                .transpose();
+    for (Index i = 0; i < fits.cols(); ++i) {
+        if (i > 0) result.message += '\n';
+        if (fits.cols() > 1) result.message += names[static_cast<std::size_t>(i)] + ": ";
+        result.message += "Simulated on " + std::to_string(folds) + " parts that the model had not seen: fit " +
+                          number_text(result.mean[i], 4) + " % on average, from " +
+                          number_text(fits.col(i).minCoeff(), 4) + " to " + number_text(fits.col(i).maxCoeff(), 4) +
+                          " %.";
+    }
+}
+
+}  // namespace
+
+void CrossValidationOptions::validate() const {
+    if (!by_experiment && folds < 2) throw InvalidArgument("folds must be at least 2, and is " + std::to_string(folds));
+}
+
+CrossValidation cross_validate(const IdData& data, const ModelFitter& fit, const CrossValidationOptions& options) {
+    options.validate();
+    const std::vector<Part> parts = options.by_experiment ? whole_experiments(data) : segments(data, options.folds);
+    check_parts(parts);
+    CrossValidation result;
+    std::vector<Vector> fits;
+    for (const Part& part : parts) {
+        if (options.cancel && options.cancel()) break;
+        CrossValidationFold fold{part.experiment, part.first, part.last, fit(all_but(data, part)), {}};
+        const IdData left_out = one_experiment(data, part.experiment).range(part.first, part.last);
+        fold.validation = compare_all(left_out, fold.channels, options.simulation);
+        fits.push_back(fold.validation.fit_percent);
+        result.folds.push_back(std::move(fold));
+    }
+    result.fit_percent.resize(static_cast<Index>(fits.size()), data.output_count());
+    for (std::size_t i = 0; i < fits.size(); ++i) result.fit_percent.row(static_cast<Index>(i)) = fits[i].transpose();
+    summarise(result, data.output_names);
+    return result;
+}
+
+}  // namespace dynlab
