@@ -120,3 +120,27 @@ TEST(discrete_statistics, slower_samples_suit_oe_and_sriv) {  // oracle: the kno
         EXPECT_NEAR(G.den()[2], 3, 0.3);
     }
 }
+
+// Good: the simulation error is at most 1 % above that of the true system, as with continuous-time methods.
+TEST(discrete_statistics, default_settings_find_good_models_of_fast_samples) {  // oracle: the known systems
+    struct Problem {
+        TransferFunction G;
+        Vector u;
+        double sigma;
+        int poles, runs;
+    };
+    const TransferFunction rao_garnier(Vector{{-6400, 1600}}, Vector{{1, 5, 408, 416, 1600}});
+    const Problem problems[] = {{course_system(), prbs(4, 100), 0.4, 2, 100},
+                                {rao_garnier, prbs(10, 7), 3.358, 4, 10}};  // signal-to-noise ratio 0 dB
+    for (const Problem& problem : problems) {
+        const Vector x = lsim(problem.G, problem.u, 0.01);
+        const PolynomialOrders orders = PolynomialOrders::output_error({problem.poles}, {problem.poles}, {1});
+        for (int run = 1; run <= problem.runs; ++run) {
+            const Vector e = problem.sigma * RandomStream(static_cast<std::uint32_t>(run)).normal(x.size());
+            const IdData data(Matrix(x + e), Matrix(problem.u), 0.01);
+            const double limit = 1.01 * e.squaredNorm() / static_cast<double>(e.size());
+            EXPECT_LT(oe(data, orders).loss, limit) << run;
+            EXPECT_LT(sriv(data, orders).loss, limit) << run;
+        }
+    }
+}

@@ -152,8 +152,9 @@ void DiscreteOutput::simulate(const Vector& theta, Vector& output, Matrix* sensi
     }
 }
 
-Matrix DiscreteOutput::regressors(const Vector& theta, const Matrix& sensitivities, const Vector& errors) const {
-    Matrix Phi = sensitivities;
+void DiscreteOutput::regressors(const Vector& theta, const Matrix& sensitivities, const Vector& errors,
+                                Matrix& Phi) const {
+    Phi = sensitivities;
     Index place = 0;
     for (const SampledExperiment& experiment : experiments_) {
         const Index count = rows(experiment);
@@ -165,7 +166,6 @@ Matrix DiscreteOutput::regressors(const Vector& theta, const Matrix& sensitiviti
         }
         place += count;
     }
-    return Phi;
 }
 
 Vector DiscreteOutput::stabilised(Vector theta) const {

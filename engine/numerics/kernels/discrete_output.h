@@ -39,7 +39,7 @@ class DiscreteOutput : public OutputErrorModel {
 
     /// The sensitivities with the measured outputs in the place of the simulated ones, as the regressors of the
     /// equation F (y/F) = B (u/F): column j of F_i less q^-j/F_i of the errors y - output.
-    Matrix regressors(const Vector& theta, const Matrix& sensitivities, const Vector& errors) const;
+    void regressors(const Vector& theta, const Matrix& sensitivities, const Vector& errors, Matrix& Phi) const;
     /// `theta` with every F reflected into the unit circle.
     Vector stabilised(Vector theta) const;
 

@@ -12,8 +12,10 @@ namespace dynlab {
 
 namespace {
 
-constexpr std::array kFilterPoles = {0.0, 0.5, 0.8, 0.9, 0.95, 0.98};
+constexpr std::array kFilterPoles = {0.9, 0.5, 0.98, 0.8, 0.95, 0.0};
 constexpr int kStartIterations = 4;
+constexpr double kStartTolerance = 1e-3, kSameLoss = 1e-4;
+constexpr double kShortestStep = 1.0 / 8, kRounding = 1e-9;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Vector scale_of(const Matrix& columns) {
@@ -36,11 +38,36 @@ double mean_square(const Vector& errors) {
     return std::isfinite(value) ? value : kInfinity;
 }
 
-double loss_at(const DiscreteOutput& model, const Vector& y, const Vector& theta) {
-    if (!theta.allFinite()) return kInfinity;
-    Vector output;
-    model.simulate(theta, output, nullptr);
-    return mean_square(y - output);
+struct Point {
+    Vector theta, errors;
+    Matrix sensitivities;
+    double loss = 0;
+};
+
+/// Evaluates the model at `theta` into a point, whose memory is used again.
+void evaluate(const DiscreteOutput& model, const Vector& y, const Vector& theta, Point& point) {
+    point.theta = theta;
+    model.simulate(theta, point.errors, &point.sensitivities);
+    point.errors = y - point.errors;
+    point.loss = mean_square(point.errors);
+}
+
+Point point_at(const DiscreteOutput& model, const Vector& y, const Vector& theta) {
+    Point point;
+    evaluate(model, y, theta, point);
+    return point;
+}
+
+/// Goes the step, or the half, quarter or eighth of it when the whole one raises the loss (and the eighth even if
+/// it does). Returns whether poles were mirrored.
+bool move(const DiscreteOutput& model, const Vector& y, const Vector& step, Point& here) {
+    const Vector from = here.theta;
+    const double loss = here.loss;
+    for (double part = 1;; part /= 2) {
+        const Vector wanted = from + part * step, next = model.stabilised(wanted);
+        evaluate(model, y, next, here);
+        if (here.loss <= loss * (1 + kRounding) || part <= kShortestStep) return next != wanted;
+    }
 }
 
 /// Orders of one channel alone.
@@ -67,9 +94,9 @@ Vector common_least_squares(const DiscreteOutput& model, const Vector& y, double
     const Vector filter = power(Eigen::Vector2d(1, -alpha), n).tail(n);
     for (std::size_t i = 0; i < orders.inputs(); ++i) theta.segment(orders.f_place(i), n) = filter;
     Vector output;
-    Matrix sensitivities;
+    Matrix sensitivities, Phi;
     model.simulate(theta, output, &sensitivities);
-    Matrix Phi = model.regressors(theta, sensitivities, y - output);
+    model.regressors(theta, sensitivities, y - output, Phi);
     for (std::size_t i = 1; i < orders.inputs(); ++i) Phi.middleCols(orders.f_place(i), n).setZero();
     theta += instrumental_solution(Phi, Phi, y - output);
     for (std::size_t i = 1; i < orders.inputs(); ++i)
@@ -117,32 +144,30 @@ InstrumentSolution iterate_instruments(const DiscreteOutput& model, const Vector
                                        int max_iterations, double tolerance, const std::function<bool()>& cancel) {
     InstrumentSolution best;
     best.theta = start;
-    best.loss = loss_at(model, y, start);
+    Point here = point_at(model, y, start);
+    best.loss = here.loss;
+    Matrix Phi;
     const double spread = std::sqrt(model.target_variation());
-    Vector theta = start, output;
-    Matrix Psi;
     for (int iteration = 0; iteration < max_iterations; ++iteration) {
         if (cancel && cancel()) {
             best.termination = Termination::kCancelled;
             return best;
         }
-        model.simulate(theta, output, &Psi);
-        const Vector step = instrumental_solution(Psi, model.regressors(theta, Psi, y - output), y - output);
-        const Vector next = model.stabilised(theta + step);
-        if (!next.allFinite()) {
+        model.regressors(here.theta, here.sensitivities, here.errors, Phi);
+        const Vector step = instrumental_solution(here.sensitivities, Phi, here.errors);
+        if (!step.allFinite()) {
             best.termination = Termination::kNoProgress;
             return best;
         }
-        best.reflected = best.reflected || next != theta + step;
-        const Vector size = theta.cwiseAbs() + spread * scale_of(Psi).cwiseInverse();
-        const double change = (next - theta).cwiseAbs().cwiseQuotient(size).maxCoeff();
-        const double loss = loss_at(model, y, next);
-        theta = next;
-        best.trace.push_back({loss, change});
+        // Judged before poles are mirrored: a pole that leaves the circle in every pass has not settled.
+        const Vector size = here.theta.cwiseAbs() + spread * scale_of(here.sensitivities).cwiseInverse();
+        const double change = step.cwiseAbs().cwiseQuotient(size).maxCoeff();
+        best.reflected = move(model, y, step, here) || best.reflected;
+        best.trace.push_back({here.loss, change});
         const bool converged = change <= tolerance;
-        if (loss < best.loss || converged) {
-            best.theta = theta;
-            best.loss = loss;
+        if (here.loss < best.loss || converged) {
+            best.theta = here.theta;
+            best.loss = here.loss;
         }
         if (converged) {
             best.termination = Termination::kConverged;
@@ -155,15 +180,21 @@ InstrumentSolution iterate_instruments(const DiscreteOutput& model, const Vector
 Vector instrument_start(const DiscreteOutput& model, const Vector& y, const std::function<bool()>& cancel) {
     Vector best = Vector::Zero(model.parameter_count());
     double least = kInfinity;
+    bool settled = false;  // the best one so far had converged
     for (const double alpha : kFilterPoles) {
         if (cancel && cancel()) break;
         const Vector start = candidate(model, y, alpha);
         if (!start.allFinite()) continue;
-        const InstrumentSolution found = iterate_instruments(model, y, start, kStartIterations, 1e-3, cancel);
+        const InstrumentSolution found =
+            iterate_instruments(model, y, start, kStartIterations, kStartTolerance, cancel);
+        const bool converged = found.termination == Termination::kConverged;
+        const bool agree = settled && converged && std::abs(found.loss - least) <= kSameLoss * least;
         if (found.loss < least) {
             best = found.theta;
             least = found.loss;
+            settled = converged;
         }
+        if (agree) break;
     }
     return best;
 }

@@ -116,9 +116,9 @@ TEST(discrete_output, regressors_hold_the_measured_output) {  // oracle: the fil
     const std::vector<SampledExperiment> list{{u, y}};
     const DiscreteOutput model(orders, {InitialState::kZero, false}, list);
     Vector output;
-    Matrix sensitivities;
+    Matrix sensitivities, Phi;
     model.simulate(theta, output, &sensitivities);
-    const Matrix Phi = model.regressors(theta, sensitivities, y - output);
+    model.regressors(theta, sensitivities, y - output, Phi);
     const Vector F{{1, -1.3, 0.6}}, y_filtered = divided_by(F, y), u_filtered = divided_by(F, u);
     EXPECT_LT(worst(Phi.col(0), weighted_past(Vector{{0, -1}}, y_filtered)), 1e-12);
     EXPECT_LT(worst(Phi.col(1), weighted_past(Vector{{0, 0, -1}}, y_filtered)), 1e-12);
