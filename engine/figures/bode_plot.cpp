@@ -7,8 +7,10 @@
 #include <limits>
 #include <numbers>
 
+#include "figures/confidence_band.h"
 #include "numerics/error.h"
 #include "numerics/simulation/frequency_response.h"
+#include "numerics/validation/chi_squared.h"
 
 namespace dynlab {
 namespace {
@@ -24,6 +26,37 @@ Vector below_nyquist(const TransferFunction& G, const Vector& w) {
         throw InvalidArgument(
             fmt::format("all frequencies lie above pi/Ts = {:.4g} rad/s, where a discrete model ends", end));
     return Eigen::Map<const Vector>(kept.data(), static_cast<Index>(kept.size()));
+}
+
+/// Where the uncertainty is large, the panel shows the band only as far as it keeps the curve readable.
+void limit_range(Panel& panel, std::size_t lines, double least_room) {
+    double low = std::numeric_limits<double>::infinity(), high = -low, band_low = low, band_high = high;
+    for (std::size_t i = 0; i < panel.curves.size(); ++i) {
+        const Curve& curve = panel.curves[i];
+        for (Index k = 0; k < curve.y.size(); ++k) {
+            if (!std::isfinite(curve.y[k])) continue;
+            const double upper = curve.style == CurveStyle::kBand ? curve.y_upper[k] : curve.y[k];
+            if (i < lines) low = std::min(low, curve.y[k]), high = std::max(high, upper);
+            band_low = std::min(band_low, curve.y[k]), band_high = std::max(band_high, upper);
+        }
+    }
+    const double room = std::max(0.5 * (high - low), least_room);
+    if (band_low >= low - room && band_high <= high + room) return;
+    panel.y_range = {std::max(band_low, low - room), std::min(band_high, high + room)};
+}
+
+void add_bands(Panel& magnitude, Panel& phase, const std::vector<NamedModel>& models) {
+    constexpr double kLeastDecibels = 20, kLeastDegrees = 90;
+    for (std::size_t i = 0; i < models.size(); ++i) {
+        if (!models[i].confidence) continue;
+        const auto& [model, level] = *models[i].confidence;
+        const FrequencyUncertainty spread = frequency_response_std(model, magnitude.curves[i].x);
+        const double width = normal_half_width(level);
+        add_confidence_band(magnitude, i, width * spread.magnitude_std, level);
+        add_confidence_band(phase, i, width * spread.phase_std, level);
+    }
+    limit_range(magnitude, models.size(), kLeastDecibels);
+    limit_range(phase, models.size(), kLeastDegrees);
 }
 
 double phase_step(const Panel& phase) {
@@ -71,6 +104,9 @@ Figure bode_plot(const std::vector<NamedModel>& models, const Vector& w) {
         if (end.at <= grid.maxCoeff() * 1.001) magnitude.references.push_back(end), phase.references.push_back(end);
     }
     phase.y_tick_step = phase_step(phase);
+    fix_colours(magnitude);
+    fix_colours(phase);
+    add_bands(magnitude, phase, models);
     const std::pair<double, double> range{grid.minCoeff(), grid.maxCoeff()};
     if (range.first < range.second) magnitude.x_range = phase.x_range = range;
     Figure figure;

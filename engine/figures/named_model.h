@@ -1,15 +1,23 @@
 #pragma once
+#include <optional>
 #include <string>
-#include <vector>
 
 #include "numerics/models/transfer_function.h"
+#include "numerics/validation/uncertainty.h"
 
 namespace dynlab {
+
+/// What is known of an estimated model's uncertainty, and how much of it a figure shows.
+struct ModelConfidence {
+    UncertainModel model;
+    double level = 0.99;  ///< probability that a band holds the truth, point by point
+};
 
 /// A model with the name that the legend shows (no entry when empty).
 struct NamedModel {
     std::string name;
     TransferFunction G;
+    std::optional<ModelConfidence> confidence = {};  ///< for bands and ellipses
 };
 
 }  // namespace dynlab

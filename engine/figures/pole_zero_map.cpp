@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "figures/axis.h"
+#include "figures/confidence_band.h"
 #include "figures/style.h"
 #include "numerics/error.h"
 
@@ -60,6 +61,31 @@ void add_roots(Panel& panel, const ComplexVector& roots, const std::string& labe
     panel.curves.push_back(std::move(curve));
 }
 
+void add_regions(Panel& panel, const ModelConfidence& confidence, int colour, const std::string& label, Extent& real,
+                 Extent& imaginary) {
+    std::vector<RootUncertainty> roots = pole_uncertainty(confidence.model);
+    for (const RootUncertainty& zero : zero_uncertainty(confidence.model)) roots.push_back(zero);
+    constexpr double kReach = 3;  // times the farthest root: no huge region hides the others
+    double reach = 0;
+    for (const RootUncertainty& root : roots) reach = std::max(reach, kReach * std::abs(root.root));
+    bool first = true;
+    for (const RootUncertainty& root : roots) {
+        if (!root.covariance.allFinite()) continue;
+        const Matrix region = confidence_region(root, confidence.level);
+        Curve curve;
+        curve.x = region.col(0);
+        curve.y = region.col(1);
+        curve.colour = colour;
+        curve.dash = 0;
+        curve.line_width = root.root.imag() == 0 ? 1.6 : 0.7;
+        if (first) curve.label = label;
+        first = false;
+        real.include(Vector(curve.x.cwiseMax(-reach).cwiseMin(reach)));
+        imaginary.include(Vector(curve.y.cwiseMax(-reach).cwiseMin(reach)));
+        panel.curves.push_back(std::move(curve));
+    }
+}
+
 }  // namespace
 
 Figure pole_zero_map(const std::vector<NamedModel>& models) {
@@ -71,6 +97,7 @@ Figure pole_zero_map(const std::vector<NamedModel>& models) {
         for (const double edge : {-1.0, 1.0}) real.include(edge), imaginary.include(edge);
     Panel panel;
     int colour = 0;
+    bool explained = false;
     for (const NamedModel& model : models) {
         if (model.G.continuous() != continuous)
             throw InvalidArgument("continuous and discrete models cannot share a pole-zero map");
@@ -80,6 +107,11 @@ Figure pole_zero_map(const std::vector<NamedModel>& models) {
             real.include(Vector(roots->real())), imaginary.include(Vector(roots->imag()));
         add_roots(panel, poles, prefix + "poles", colour, style::kCross);
         add_roots(panel, zeros, prefix + "zeros", colour, style::kOpenCircle);
+        if (model.confidence) {
+            const double level = model.confidence->level;
+            add_regions(panel, *model.confidence, colour, explained ? "" : confidence_text(level), real, imaginary);
+            explained = true;
+        }
         ++colour;
     }
     if (panel.curves.empty()) throw InvalidArgument("there is neither a pole nor a zero to draw");

@@ -1,0 +1,20 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "figures/figure.h"
+#include "figures/named_model.h"
+
+namespace dynlab {
+
+/// "99 % confidence"
+std::string confidence_text(double level);
+
+/// Adds the band value +- half width around the curve `line` of a panel, in its colour. The first band of a panel is
+/// named in the legend. Samples without a finite width become gaps.
+void add_confidence_band(Panel& panel, std::size_t line, const Vector& half_width, double level);
+
+/// Gives every curve of the panel the colour of its place, which bands added later must not move.
+void fix_colours(Panel& panel);
+
+}  // namespace dynlab
