@@ -93,8 +93,10 @@ int estimate_process_model(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const ProcessStructure structure = ProcessStructure::parse(call.text(2, "structure"));
     const ProcsrivcResult result = procsrivc(data, structure, procsrivc_options(call, 3));
+    Estimate estimate = estimate_of(result);
+    estimate.assessment = std::make_shared<Assessment>(assess(data, result));
     push_object(call.state(),
-                Model{result.model.transfer_function(), result.model, std::make_shared<Estimate>(estimate_of(result))});
+                Model{result.model.transfer_function(), result.model, std::make_shared<Estimate>(std::move(estimate))});
     return 1;
 }
 

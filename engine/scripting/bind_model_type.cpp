@@ -63,8 +63,9 @@ int field_input_polynomials(Call& call) {
 int field_channels(Call& call) {
     const Model model = self(call);
     lua_createtable(call.state(), static_cast<int>(model.inputs()), 0);
-    for (std::size_t i = 0; i < model.inputs(); ++i) {
-        give_model(call, model.polynomial ? model.polynomial->transfer_function(i) : model.G);
+    const std::vector<TransferFunction> channels = channels_of(model);
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+        give_model(call, channels[i]);
         lua_rawseti(call.state(), -2, static_cast<lua_Integer>(i + 1));
     }
     return 1;
@@ -80,6 +81,18 @@ int field_std(Call& call) {
 }
 int field_covariance(Call& call) {
     return call.give_matrix(estimate_of(call).covariance);
+}
+
+const Assessment& assessment_of(Call& call) {
+    const Estimate& estimate = estimate_of(call);
+    if (estimate.assessment) return *estimate.assessment;
+    throw InvalidArgument(fmt::format("{} gives no robust standard errors", estimate.method));
+}
+int field_robust_std(Call& call) {
+    return call.give_vector(assessment_of(call).std);
+}
+int field_robust_covariance(Call& call) {
+    return call.give_matrix(assessment_of(call).covariance);
 }
 
 int field_names(Call& call) {
@@ -172,6 +185,8 @@ constexpr std::array kFields = {
     Member{"param", guarded<field_param>},
     Member{"std", guarded<field_std>},
     Member{"covariance", guarded<field_covariance>},
+    Member{"robust_std", guarded<field_robust_std>},
+    Member{"robust_covariance", guarded<field_robust_covariance>},
     Member{"names", guarded<field_names>},
     Member{"report", guarded<field_report>},
     Member{"Kp", guarded<field_parameter>},

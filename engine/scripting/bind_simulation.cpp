@@ -80,13 +80,37 @@ void name_models(const Call& call, const Options& options, std::vector<NamedMode
     }
 }
 
-template <Figure (*kPlot)(const std::vector<NamedModel>&, const Vector&)>
+/// Option confidence: a probability, or false for none; 99 % unless given.
+std::optional<double> confidence_level(const Options& options) {
+    lua_State* L = options.call().state();
+    const bool refused = lua_isboolean(L, options.push("confidence")) && !lua_toboolean(L, -1);
+    lua_pop(L, 1);
+    if (refused) return std::nullopt;
+    const double level = options.number("confidence", 0.99);
+    if (level > 0 && level < 1) return level;
+    throw InvalidArgument(fmt::format(
+        "option 'confidence' must be a probability between 0 and 1, such as 0.99, or false, but {} was given", level));
+}
+
+void add_confidence(const Call& call, const Options& options, std::vector<NamedModel>& models) {
+    const std::optional<double> level = confidence_level(options);
+    if (!level) return;
+    for (std::size_t i = 0; i < models.size(); ++i) {
+        const Model* model = to_object<Model>(call.state(), static_cast<int>(i + 1));
+        if (model == nullptr) continue;
+        if (auto uncertain = uncertain_model(*model)) models[i].confidence = {std::move(*uncertain), *level};
+    }
+}
+
+template <Figure (*kPlot)(const std::vector<NamedModel>&, const Vector&), bool kBands>
 int draw_models(Call& call) {
     int next = 0;
     std::vector<NamedModel> models = models_to_draw(call, next);
     const Vector grid = call.holds_vector(next) ? Vector(call.vector(next++, "t or w")) : Vector();
     call.at_most(next);
-    name_models(call, Options(call, next, {"labels"}), models);
+    const Options options = kBands ? Options(call, next, {"labels", "confidence"}) : Options(call, next, {"labels"});
+    name_models(call, options, models);
+    if (kBands) add_confidence(call, options, models);
     return give_figure(call, kPlot(models, grid));
 }
 
@@ -94,15 +118,17 @@ int draw_poles_and_zeros(Call& call) {
     int next = 0;
     std::vector<NamedModel> models = models_to_draw(call, next);
     call.at_most(next);
-    name_models(call, Options(call, next, {"labels"}), models);
+    const Options options(call, next, {"labels", "confidence"});
+    name_models(call, options, models);
+    add_confidence(call, options, models);
     return give_figure(call, pole_zero_map(models));
 }
 
 /// step(G, t) with a vector of instants gives the response, without it a figure.
 template <TimeResponse (*kResponse)(const TransferFunction&, const VectorView&),
-          Figure (*kPlot)(const std::vector<NamedModel>&, const Vector&)>
+          Figure (*kPlot)(const std::vector<NamedModel>&, const Vector&), bool kBands>
 int time_response(Call& call) {
-    if (!(holds_model(call, 1) && call.holds_vector(2))) return draw_models<kPlot>(call);
+    if (!(holds_model(call, 1) && call.holds_vector(2))) return draw_models<kPlot, kBands>(call);
     call.at_most(2);
     const TimeResponse response = kResponse(model_argument(call, 1, "G").G, call.vector(2, "t"));
     return call.give_vector(response.y) + call.give_vector(response.t);
@@ -127,20 +153,20 @@ constexpr std::array kFunctions = {
                   "response of a model to an input, exact at the samples", guarded<simulate>},
     FunctionEntry{"svf", kArea, "svf(x, n, lambda, {Ts =, hold = \"zoh\" | \"foh\"}) -> matrix",
                   "outputs of the state-variable filter, highest derivative first", guarded<filter_states>},
-    FunctionEntry{"step", kArea, "step(G, t) -> y, t; step(G1, G2, ..., {labels =}) -> fig",
+    FunctionEntry{"step", kArea, "step(G, t) -> y, t; step(G1, G2, ..., {labels =, confidence =}) -> fig",
                   "response to a unit step, as numbers at given instants or as a figure",
-                  guarded<time_response<step_response, step_plot>>},
+                  guarded<time_response<step_response, step_plot, true>>},
     FunctionEntry{"impulse", kArea, "impulse(G, t) -> y, t; impulse(G1, G2, ..., {labels =}) -> fig",
                   "response to a unit impulse, as numbers or as a figure",
-                  guarded<time_response<impulse_response, impulse_plot>>},
+                  guarded<time_response<impulse_response, impulse_plot, false>>},
     FunctionEntry{"freqresp", kArea, "freqresp(G, w) -> complex vector", "frequency response at w (rad/s)",
                   guarded<frequency_response_of>},
-    FunctionEntry{"bode", kFigures, "bode(G1, G2, ..., w, {labels =}) -> fig", "magnitude and phase over frequency",
-                  guarded<draw_models<bode_plot>>},
+    FunctionEntry{"bode", kFigures, "bode(G1, G2, ..., w, {labels =, confidence =}) -> fig",
+                  "magnitude and phase over frequency", guarded<draw_models<bode_plot, true>>},
     FunctionEntry{"nyquist", kFigures, "nyquist(G1, G2, ..., w, {labels =}) -> fig",
-                  "frequency response in the complex plane", guarded<draw_models<nyquist_plot>>},
-    FunctionEntry{"pzmap", kFigures, "pzmap(G1, G2, ..., {labels =}) -> fig", "poles and zeros in the complex plane",
-                  guarded<draw_poles_and_zeros>},
+                  "frequency response in the complex plane", guarded<draw_models<nyquist_plot, false>>},
+    FunctionEntry{"pzmap", kFigures, "pzmap(G1, G2, ..., {labels =, confidence =}) -> fig",
+                  "poles and zeros in the complex plane", guarded<draw_poles_and_zeros>},
     FunctionEntry{"histogram", kFigures, "histogram(values, {bins =, truth =, xlabel =}) -> fig",
                   "how often values fall into each interval", guarded<draw_histogram>},
 };

@@ -8,13 +8,10 @@
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/model.h"
+#include "scripting/simulation_options.h"
 
 namespace dynlab {
 namespace {
-
-CompareOptions compare_options(const Options& options) {
-    return {parse_initial_state(options.text("InitialState", "auto")), parse_offset(options.text("Offset", "auto"))};
-}
 
 std::string model_name(const Call& call, int index, const std::vector<std::string>& labels, std::size_t place) {
     if (place < labels.size()) return labels[place];
@@ -22,18 +19,42 @@ std::string model_name(const Call& call, int index, const std::vector<std::strin
     return model != nullptr && model->estimate ? model->estimate->method : fmt::format("model {}", place + 1);
 }
 
+ModelOutput model_output(std::string name, const Comparison& comparison, std::size_t experiment) {
+    ModelOutput output{std::move(name), comparison.outputs(experiment), {}};
+    output.fit_percent.resize(output.y.cols());
+    for (Index i = 0; i < output.y.cols(); ++i)
+        output.fit_percent[i] = comparison.results[experiment][static_cast<std::size_t>(i)].fit_percent;
+    return output;
+}
+
+/// The figures of all experiments under each other.
+Figure comparison_figure(const IdData& data, const std::vector<std::string>& names,
+                         const std::vector<Comparison>& comparisons) {
+    Figure all;
+    all.rows = 0;
+    for (std::size_t k = 0; k < data.experiments.size(); ++k) {
+        std::vector<ModelOutput> outputs;
+        for (std::size_t i = 0; i < names.size(); ++i) outputs.push_back(model_output(names[i], comparisons[i], k));
+        Figure one = compare_plot(data, outputs, k);
+        if (data.experiments.size() > 1) one.panels.front().title = fmt::format("experiment {}", k + 1);
+        all.rows += one.rows;
+        for (Panel& panel : one.panels) all.panels.push_back(std::move(panel));
+    }
+    return all;
+}
+
 /// Draws measured and simulated output for the models from argument `first` on.
 int draw_comparison(Call& call, const IdData& data, int first, int options_index) {
     const Options options(call, options_index, {"labels", "InitialState", "Offset"});
     const std::vector<std::string> labels = options.texts("labels");
-    std::vector<ModelOutput> outputs;
+    std::vector<std::string> names;
+    std::vector<Comparison> comparisons;
     for (int i = first; holds_model(call, i); ++i) {
-        const CompareResult result = compare(data, model_argument(call, i, "G").G, compare_options(options));
-        outputs.push_back(
-            {model_name(call, i, labels, outputs.size()), result.output, Vector::Constant(1, result.fit_percent)});
+        names.push_back(model_name(call, i, labels, names.size()));
+        comparisons.push_back(compare_all(data, channels_argument(call, i, "G"), compare_options(options)));
     }
-    if (outputs.empty()) wrong_argument(call.state(), first, "G", "model");
-    return give_figure(call, compare_plot(data, outputs));
+    if (names.empty()) wrong_argument(call.state(), first, "G", "model");
+    return give_figure(call, comparison_figure(data, names, comparisons));
 }
 
 int compare_models(Call& call) {
@@ -53,9 +74,9 @@ int test_model(Call& call) {
 int fit(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    return call.give(
-        compare(data, model_argument(call, 2, "G").G, compare_options(Options(call, 3, {"InitialState", "Offset"})))
-            .fit_percent);
+    const Comparison comparison = compare_all(data, channels_argument(call, 2, "G"),
+                                              compare_options(Options(call, 3, {"InitialState", "Offset"})));
+    return call.give(comparison.fit_percent[0]);
 }
 
 void set_number(lua_State* L, const char* name, double value) {

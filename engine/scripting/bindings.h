@@ -14,6 +14,7 @@ FunctionEntries estimator_functions();
 FunctionEntries discrete_estimator_functions();
 FunctionEntries regression_functions();
 FunctionEntries validation_functions();
+FunctionEntries residual_functions();
 FunctionEntries model_functions();
 FunctionEntries data_functions();
 FunctionEntries saving_functions();

@@ -21,11 +21,13 @@ std::string kind_of(const Model& model) {
 
 std::string parameter_lines(const Model& model) {
     const ModelParameters parameters = parameters_of(model);
+    const bool coloured = model.estimate && model.estimate->errors_are_coloured();
     std::string text = "Parameters:\n";
     for (std::size_t i = 0; i < parameters.names.size(); ++i) {
         const auto place = static_cast<Index>(i);
         text += fmt::format("  {:<5} {:>12}", parameters.names[i], number_text(parameters.values[place], 6));
         if (parameters.std.size() > place) text += fmt::format("  +- {}", number_text(parameters.std[place], 3));
+        if (coloured) text += fmt::format("  (robust +- {})", number_text(model.estimate->assessment->std[place], 3));
         text += '\n';
     }
     return text;
@@ -74,7 +76,10 @@ std::string estimate_lines(const Estimate& estimate) {
             text += fmt::format(", fit to the estimation data {} % (simulation)", number_text(value, 4));
         if (name == "noise_variance") text += fmt::format(", noise variance {}", number_text(value, 4));
     }
-    return text + ".\n" + (estimate.message.empty() ? "" : estimate.message + "\n");
+    text += ".\n";
+    if (!estimate.message.empty()) text += estimate.message + "\n";
+    if (estimate.errors_are_coloured()) text += estimate.assessment->verdict + "\n";
+    return text;
 }
 
 }  // namespace

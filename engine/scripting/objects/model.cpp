@@ -45,6 +45,23 @@ int give_model(const Call& call, TransferFunction G) {
     return 1;
 }
 
+std::vector<TransferFunction> channels_of(const Model& model) {
+    if (!model.polynomial) return {model.G};
+    std::vector<TransferFunction> channels;
+    for (std::size_t i = 0; i < model.inputs(); ++i) channels.push_back(model.polynomial->transfer_function(i));
+    return channels;
+}
+
+std::optional<UncertainModel> uncertain_model(const Model& model) {
+    if (!model.estimate || !model.G.continuous() || model.inputs() != 1) return std::nullopt;
+    const Matrix& covariance = model.estimate->trusted_covariance();
+    if (covariance.size() == 0 || !covariance.allFinite()) return std::nullopt;
+    if (model.process) return UncertainModel(*model.process, covariance);
+    const Index coefficients = model.G.pole_count() + model.G.num().size();
+    if (covariance.rows() != coefficients && covariance.rows() != coefficients + 1) return std::nullopt;
+    return UncertainModel(model.G, covariance);
+}
+
 ModelParameters parameters_of(const Model& model) {
     if (model.estimate) return {model.estimate->names, model.estimate->theta, model.estimate->std};
     if (model.process) return {model.process->structure.parameter_names(), model.process->parameters, {}};

@@ -10,6 +10,8 @@
 #include "numerics/models/process_model.h"
 #include "numerics/models/state_space.h"
 #include "numerics/models/transfer_function.h"
+#include "numerics/validation/assessment.h"
+#include "numerics/validation/uncertainty.h"
 #include "scripting/objects/boxed.h"
 
 namespace dynlab {
@@ -26,6 +28,12 @@ struct Estimate {
     std::vector<std::pair<std::string, Vector>> vectors;  ///< output, delay_grid, delay_loss, ...
     bool converged = true;
     std::shared_ptr<const StepTestResult> step_test = {};  ///< of the graphical methods
+    /// Whiteness of the output errors and robust standard errors, where a method has them assessed.
+    std::shared_ptr<const Assessment> assessment = {};
+
+    bool errors_are_coloured() const { return assessment && !assessment->white; }
+    /// The robust covariance when the output errors are coloured.
+    const Matrix& trusted_covariance() const { return errors_are_coloured() ? assessment->covariance : covariance; }
 };
 
 /// A model as scripts hold it: a transfer function, with its process parameters, polynomials and estimate where it has
@@ -69,6 +77,11 @@ bool holds_model(const Call& call, int index);
 /// A tf, idproc or estimated model or a state-space model, with one input and one output; a number as a gain.
 Model model_argument(const Call& call, int index, const char* what);
 int give_model(const Call& call, TransferFunction G);
+
+/// The transfer function from each input.
+std::vector<TransferFunction> channels_of(const Model& model);
+/// What an estimated continuous-time model with one input and a finite covariance knows of its uncertainty.
+std::optional<UncertainModel> uncertain_model(const Model& model);
 
 /// Names and values of theta = [a_1..a_n b_0..b_m] (F instead of A for process models their own names), and the
 /// standard errors where an estimate has them.

@@ -1,0 +1,91 @@
+// Oracle: how the records were made.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "script_run.h"
+
+using namespace dynlab;
+using dynlab::test::error_of;
+using dynlab::test::printed;
+using testing::HasSubstr;
+using testing::Not;
+
+namespace {
+
+const std::string kRecord =
+    "local u = prbs(7, 8)\n"
+    "local x = lsim(idproc('P2', {Kp = 2, Tp1 = 1, Tp2 = 0.3}), u, 0.05)\n"
+    "local white = iddata(x + 0.1*randn(#u), u, 0.05)\n"
+    "local noise = lsim(tf({1}, {0.4, 1}), randn(#u), 0.05)\n"
+    "local coloured = iddata(x + noise, u, 0.05)\n";
+
+}  // namespace
+
+TEST(script_validation, resid_says_what_is_left) {
+    EXPECT_THAT(printed(kRecord + "local fig, t = resid(white, procsrivc(white, 'P2'))\nprint(t.white, t.independent, "
+                                  "#t.residuals[1], #t.outputs[1].inputs[1].correlation)"),
+                HasSubstr("true\ttrue\t1016\t51\n"));
+    EXPECT_THAT(printed(kRecord + "local fig, t = resid(white, procsrivc(white, 'P1'))\nprint(t.independent)"),
+                testing::AllOf(HasSubstr("Dynamics are missing"), HasSubstr("false\n")));
+    EXPECT_THAT(printed(kRecord + "print((resid(iddata(x, u, 0.05), idproc('P2', {Kp = 2, Tp1 = 1, Tp2 = 0.3}))))"),
+                testing::AllOf(HasSubstr("to rounding"), HasSubstr("nil\n")));
+}
+
+TEST(script_validation, resid_takes_discrete_models_and_experiments) {
+    EXPECT_THAT(printed(kRecord + "local _, t = resid(white, c2d(idproc('P2', {Kp = 2, Tp1 = 1, Tp2 = 0.3}), 0.05))\n"
+                                  "print(t.white, t.independent)"),
+                HasSubstr("true\ttrue\n"));
+    EXPECT_THAT(printed(kRecord + "local d = white:range(1, 500):merge(white:range(600, 1016))\n"
+                                  "local G = idproc('P2', {Kp = 2, Tp1 = 1, Tp2 = 0.3})\n"
+                                  "local _, t = resid(d, G)\nprint(#t.residuals[2], t.independent, fit(d, G) > 80)\n"
+                                  "compare(d, G)"),
+                HasSubstr("417\ttrue\ttrue\n"));
+}
+
+TEST(script_validation, present_shows_robust_errors_for_coloured_noise_only) {
+    EXPECT_THAT(printed(kRecord + "present(procsrivc(coloured, 'P2'))"),
+                testing::AllOf(HasSubstr("(robust +- "), HasSubstr("not white")));
+    EXPECT_THAT(printed(kRecord + "present(procsrivc(white, 'P2'))"), Not(HasSubstr("robust")));
+    EXPECT_EQ(printed(kRecord + "local G = procsrivc(coloured, 'P2')\nprint(#G.robust_std, G.robust_std[1] > G.std[1], "
+                                "math.abs(G.robust_covariance[{1, 1}] - G.robust_std[1]^2) < 1e-12)"),
+              "3\ttrue\ttrue\n");
+}
+
+TEST(script_validation, figures_carry_bands_unless_refused) {
+    const auto bands = [](const std::string& drawing) {
+        const RunRecord record = test::run(kRecord + "local G = procsrivc(white, 'P2')\n" + drawing);
+        EXPECT_FALSE(record.error) << record.error->message;
+        std::size_t count = 0;
+        for (const auto& [name, figure] : record.figures)
+            for (const Panel& panel : figure.figure.panels)
+                for (const Curve& curve : panel.curves)
+                    count += curve.style == CurveStyle::kBand || curve.label == "90 % confidence";
+        return count;
+    };
+    EXPECT_EQ(bands("step(G)"), 1u);
+    EXPECT_EQ(bands("step(G, {confidence = false})"), 0u);
+    EXPECT_EQ(bands("bode(G, {confidence = 0.9})"), 2u);
+    EXPECT_EQ(bands("pzmap(G, {confidence = 0.9})"), 1u);
+    EXPECT_EQ(bands("step(tf({1}, {1, 1}))"), 0u);
+    EXPECT_THAT(error_of("step(tf({1}, {1, 1}), {confidence = 2})"),
+                HasSubstr("must be a probability between 0 and 1"));
+    EXPECT_THAT(error_of("nyquist(tf({1}, {1, 1}), {confidence = 0.9})"), HasSubstr("option 'confidence' is unknown"));
+}
+
+TEST(script_validation, crossvalidate_ranks_structures) {
+    EXPECT_THAT(
+        printed(kRecord + "local function fold(kind) return function(d) return procsrivc(d:experiment(1), kind) "
+                          "end end\n"
+                          "local _, one = crossvalidate(white, fold('P1'), {folds = 4})\n"
+                          "local _, two = crossvalidate(white, fold('P2'), {folds = 4})\n"
+                          "print(#two.fit_percent, two.mean[1] > one.mean[1], two.folds[2].first)"),
+        testing::AllOf(HasSubstr("Simulated on 4 parts"), HasSubstr("4\ttrue\t255\n")));
+}
+
+TEST(script_validation, crossvalidate_passes_errors_on) {
+    EXPECT_EQ(error_of(kRecord + "crossvalidate(white, function(d) error('no') end)"), "lesson.lua:6: no");
+    EXPECT_THAT(error_of(kRecord + "crossvalidate(white, function(d) return 3 end)"),
+                HasSubstr("the function that fits must return a model"));
+    EXPECT_THAT(error_of(kRecord + "crossvalidate(white, 3)"),
+                HasSubstr("argument 2 (fit) must be a function of a data object"));
+}
