@@ -112,6 +112,17 @@ TEST(arx, nearly_dependent_regressors_go_the_orthogonal_way) {  // oracle: the s
     EXPECT_NEAR(back.den()[2], 3, 1e-3);
 }
 
+TEST(arx,
+     the_orthogonal_way_uses_every_equation) {  // oracle: second route, orthogonal factors of all equations together
+    const Vector u = 1e5 + random_levels(3000, 3, 1).array(), e = 0.3 * RandomStream(2).normal(3000);
+    const Vector y = model_output(PolynomialModel(kSecond, kTruth, 1), u, e);
+    const auto result = arx(IdData(Matrix(y), Matrix(u), 1), kSecond);
+    EXPECT_GT(result.condition_number, 1e3);
+    const auto [Phi, right] = equations(u, y, kSecond);
+    EXPECT_LT(worst(result.theta, Phi.colPivHouseholderQr().solve(right)), 1e-9);
+    EXPECT_NEAR(result.noise_variance, (right - Phi * result.theta).squaredNorm() / (2997 - 4), 1e-9);
+}
+
 TEST(arx, too_high_orders_are_told) {  // oracle: the simulated system
     const auto result = arx(record(400, 0, 1), PolynomialOrders::arx(4, {4}, {2}));
     EXPECT_THAT(result.message, HasSubstr("do not tell all parameters apart"));
