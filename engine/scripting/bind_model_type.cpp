@@ -61,9 +61,8 @@ int field_input_polynomials(Call& call) {
 
 /// The transfer function from each input.
 int field_channels(Call& call) {
-    const Model model = self(call);
-    lua_createtable(call.state(), static_cast<int>(model.inputs()), 0);
-    const std::vector<TransferFunction> channels = channels_of(model);
+    const std::vector<TransferFunction> channels = channels_of(self(call));
+    lua_createtable(call.state(), static_cast<int>(channels.size()), 0);
     for (std::size_t i = 0; i < channels.size(); ++i) {
         give_model(call, channels[i]);
         lua_rawseti(call.state(), -2, static_cast<lua_Integer>(i + 1));

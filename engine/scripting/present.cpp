@@ -8,10 +8,6 @@
 namespace dynlab {
 namespace {
 
-TransferFunction channel(const Model& model, std::size_t input) {
-    return model.polynomial ? model.polynomial->transfer_function(input) : model.G;
-}
-
 std::string kind_of(const Model& model) {
     const std::string time = model.G.continuous() ? "continuous-time" : "discrete-time";
     if (model.process) return fmt::format("{} process model {}", time, model.process->structure.text());
@@ -85,10 +81,11 @@ std::string estimate_lines(const Estimate& estimate) {
 }  // namespace
 
 std::string channels_text(const Model& model) {
-    if (model.inputs() == 1) return to_text(model.G);
+    const std::vector<TransferFunction> channels = channels_of(model);
+    if (channels.size() == 1) return to_text(channels.front());
     std::string text;
-    for (std::size_t i = 0; i < model.inputs(); ++i)
-        text += fmt::format("{}From input {}:\n{}", i > 0 ? "\n" : "", i + 1, to_text(channel(model, i)));
+    for (std::size_t i = 0; i < channels.size(); ++i)
+        text += fmt::format("{}From input {}:\n{}", i > 0 ? "\n" : "", i + 1, to_text(channels[i]));
     return text;
 }
 
@@ -97,9 +94,10 @@ std::string presentation(const Model& model) {
     if (model.polynomial) text += polynomial_lines(*model.polynomial);
     text += parameter_lines(model);
     if (!model.G.continuous()) text += fmt::format("Sampling time: {} s\n", number_text(model.G.Ts()));
-    for (std::size_t i = 0; i < model.inputs(); ++i) {
-        if (model.inputs() > 1) text += fmt::format("From input {}: ", i + 1);
-        text += channel_lines(channel(model, i));
+    const std::vector<TransferFunction> channels = channels_of(model);
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+        if (channels.size() > 1) text += fmt::format("From input {}: ", i + 1);
+        text += channel_lines(channels[i]);
     }
     if (model.estimate) text += estimate_lines(*model.estimate);
     return text;
