@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "numerics/error.h"
 
 namespace dynlab {
@@ -14,7 +16,10 @@ Figure cross_validation_plot(const CrossValidation& result, const std::vector<st
     panel.y_label = "fit of the simulation (%)";
     const auto end = static_cast<double>(folds);
     panel.x_range = {0.5, end + 0.5};
+    if (!result.fit_percent.array().isFinite().any())
+        throw InvalidArgument("there is nothing to draw: the models are unstable on every part");
     for (Index i = 0; i < outputs; ++i) {
+        if (!result.fit_percent.col(i).array().isFinite().any()) continue;
         Curve points;
         points.x = Vector::LinSpaced(folds, 1, end);
         points.y = result.fit_percent.col(i);
@@ -25,6 +30,7 @@ Figure cross_validation_plot(const CrossValidation& result, const std::vector<st
         panel.curves.push_back(std::move(points));
     }
     for (Index i = 0; i < outputs; ++i) {
+        if (!std::isfinite(result.mean[i])) continue;
         Curve mean;
         mean.x = Vector{{0.5, end + 0.5}};
         mean.y = Vector::Constant(2, result.mean[i]);

@@ -123,6 +123,12 @@ int field_report(Call& call) {
         call.give_vector(values);
         lua_setfield(L, -2, name.c_str());
     }
+    if (estimate.assessment) {
+        lua_pushboolean(L, estimate.assessment->white);
+        lua_setfield(L, -2, "white");
+        lua_pushstring(L, estimate.assessment->verdict.c_str());
+        lua_setfield(L, -2, "residual_verdict");
+    }
     lua_createtable(L, static_cast<int>(estimate.warnings.size()), 0);
     for (std::size_t i = 0; i < estimate.warnings.size(); ++i) {
         lua_pushstring(L, estimate.warnings[i].c_str());

@@ -84,29 +84,48 @@ void set_number(lua_State* L, const char* name, double value) {
     lua_setfield(L, -2, name);
 }
 
+struct MeasuredAndSimulated {
+    Vector measured, simulated;
+};
+
+/// The only output of all experiments one after the other, each counted from the mean of its measured output.
+MeasuredAndSimulated levelled(const IdData& data, const Comparison& comparison) {
+    MeasuredAndSimulated all{Vector(data.sample_count()), Vector(data.sample_count())};
+    Index first = 0;
+    for (std::size_t k = 0; k < data.experiments.size(); ++k) {
+        const auto y = data.experiments[k].y.col(0);
+        all.measured.segment(first, y.size()) = y.array() - y.mean();
+        all.simulated.segment(first, y.size()) = comparison.results[k].front().output.array() - y.mean();
+        first += y.size();
+    }
+    return all;
+}
+
 int measure_fit(Call& call) {
     call.at_most(3);
     lua_State* L = call.state();
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const Model model = model_argument(call, 2, "G");
-    const CompareResult result = compare(data, model.G, compare_options(Options(call, 3, {"InitialState", "Offset"})));
-    const Vector y = data.experiments.front().y.col(0);
-    const double mean_square = (y - result.output).squaredNorm() / static_cast<double>(y.size());
+    const Comparison comparison =
+        compare_all(data, {model.G}, compare_options(Options(call, 3, {"InitialState", "Offset"})));
+    const MeasuredAndSimulated pair = levelled(data, comparison);
+    const Vector &y = pair.measured, &simulated = pair.simulated;
+    const double mean_square = (y - simulated).squaredNorm() / static_cast<double>(y.size());
     const InformationCriteria criteria =
         information_criteria(mean_square, y.size(), parameters_of(model).values.size());
     lua_createtable(L, 0, 10);
-    set_number(L, "fit_percent", result.fit_percent);
-    set_number(L, "r_squared_simulation", r_squared_simulation(y, result.output));
+    set_number(L, "fit_percent", fit_percent(y, simulated));
+    set_number(L, "r_squared_simulation", r_squared_simulation(y, simulated));
     set_number(L, "rmse", std::sqrt(mean_square));
     set_number(L, "fpe", criteria.fpe);
     set_number(L, "aic", criteria.aic);
     set_number(L, "aicc", criteria.aicc);
     set_number(L, "bic", criteria.bic);
     if (model.estimate && model.estimate->covariance.size() > 0)
-        set_number(L, "yic", yic(y, result.output, model.estimate->theta, model.estimate->covariance).value);
-    call.give_vector(result.output);
+        set_number(L, "yic", yic(y, simulated, model.estimate->theta, model.estimate->covariance).value);
+    call.give_vector(comparison.results.front().front().output);
     lua_setfield(L, -2, "output");
-    call.give(result.message);
+    call.give(comparison.results.front().front().message);
     lua_setfield(L, -2, "message");
     return 1;
 }

@@ -29,15 +29,40 @@ std::string parameter_lines(const Model& model) {
     return text;
 }
 
-std::string pole_lines(const TransferFunction& G) {
-    if (G.pole_count() == 0) return {};
-    std::string text =
-        fmt::format("{:<26}{:>17}  {:>8}  {:>17}\n", "Poles:", "frequency (rad/s)", "damping", "time constant (s)");
-    for (const PoleDescription& row : damping(G)) {
-        const std::string time_constant = std::isfinite(row.time_constant) ? number_text(row.time_constant) : "none";
-        text += fmt::format("  {:<24}{:>17}  {:>8}  {:>17}\n", complex_text(row.pole),
-                            number_text(row.natural_frequency), number_text(row.damping_ratio, 4), time_constant);
-    }
+/// "1.25 +- 0.031", or the value alone when its error is not known.
+std::string with_error(const std::string& value, double error) {
+    return std::isfinite(error) ? value + " +- " + number_text(error, 2) : value;
+}
+
+struct PoleColumns {
+    int frequency, damping, time;
+};
+
+std::string pole_row(const PoleDescription& row, const ModeUncertainty* errors, const PoleColumns& widths) {
+    const auto cell = [&](double value, int digits, double ModeUncertainty::*error, int width) {
+        const double own_error = errors != nullptr ? errors->*error : std::nan("");
+        return fmt::format("  {:>{}}",
+                           std::isfinite(value) ? with_error(number_text(value, digits), own_error) : "none", width);
+    };
+    return fmt::format("  {:<24}", complex_text(row.pole)) +
+           cell(row.natural_frequency, 5, &ModeUncertainty::natural_frequency_std, widths.frequency) +
+           cell(row.damping_ratio, 4, &ModeUncertainty::damping_ratio_std, widths.damping) +
+           cell(row.time_constant, 5, &ModeUncertainty::time_constant_std, widths.time) + "\n";
+}
+
+/// Steady-state gain and poles of one channel, with their standard errors where they are known.
+std::string gain_and_poles(const TransferFunction& G, const std::optional<ModelUncertainty>& uncertainty) {
+    const double gain_error = uncertainty ? uncertainty->gain_std : std::nan("");
+    std::string text = "Steady-state gain: " + with_error(number_text(G.dc_gain()), gain_error) + "\n";
+    if (G.pole_count() == 0) return text;
+    const PoleColumns widths = uncertainty ? PoleColumns{19, 18, 19} : PoleColumns{17, 8, 17};
+    text += fmt::format("{:<26}  {:>{}}  {:>{}}  {:>{}}\n", "Poles:", "frequency (rad/s)", widths.frequency, "damping",
+                        widths.damping, "time constant (s)", widths.time);
+    const std::vector<PoleDescription> rows = damping(G);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        text += pole_row(rows[i], uncertainty ? &uncertainty->modes[i] : nullptr, widths);
+    if (uncertainty)
+        for (const std::string& warning : uncertainty->warnings) text += warning + "\n";
     return text;
 }
 
@@ -58,11 +83,9 @@ std::string polynomial_lines(const PolynomialModel& model) {
 }
 
 /// Delay, gain and poles of one channel.
-std::string channel_lines(const TransferFunction& G) {
-    std::string text;
-    if (G.delay() > 0) text += fmt::format("Delay: {} s\n", number_text(G.delay()));
-    text += fmt::format("Steady-state gain: {}\n", number_text(G.dc_gain()));
-    return text + pole_lines(G);
+std::string channel_lines(const TransferFunction& G, const std::optional<ModelUncertainty>& uncertainty) {
+    const std::string delay = G.delay() > 0 ? fmt::format("Delay: {} s\n", number_text(G.delay())) : "";
+    return delay + gain_and_poles(G, uncertainty);
 }
 
 std::string estimate_lines(const Estimate& estimate) {
@@ -94,10 +117,12 @@ std::string presentation(const Model& model) {
     if (model.polynomial) text += polynomial_lines(*model.polynomial);
     text += parameter_lines(model);
     if (!model.G.continuous()) text += fmt::format("Sampling time: {} s\n", number_text(model.G.Ts()));
+    std::optional<ModelUncertainty> uncertainty;
+    if (const auto uncertain = uncertain_model(model)) uncertainty = describe_uncertainty(*uncertain);
     const std::vector<TransferFunction> channels = channels_of(model);
     for (std::size_t i = 0; i < channels.size(); ++i) {
         if (channels.size() > 1) text += fmt::format("From input {}: ", i + 1);
-        text += channel_lines(channels[i]);
+        text += channel_lines(channels[i], uncertainty);
     }
     if (model.estimate) text += estimate_lines(*model.estimate);
     return text;

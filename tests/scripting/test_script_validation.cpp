@@ -40,6 +40,10 @@ TEST(script_validation, resid_takes_discrete_models_and_experiments) {
                                   "local _, t = resid(d, G)\nprint(#t.residuals[2], t.independent, fit(d, G) > 80)\n"
                                   "compare(d, G)"),
                 HasSubstr("417\ttrue\ttrue\n"));
+    EXPECT_EQ(printed(kRecord + "local d = white:range(1, 500):merge(white:range(600, 1016))\n"
+                                "local G = idproc('P1', {Kp = 2, Tp1 = 1})\n"
+                                "print(math.abs(fit_measures(d, G).fit_percent - fit(d, G)) < 1e-9)"),
+              "true\n");
 }
 
 TEST(script_validation, present_shows_robust_errors_for_coloured_noise_only) {
@@ -49,6 +53,17 @@ TEST(script_validation, present_shows_robust_errors_for_coloured_noise_only) {
     EXPECT_EQ(printed(kRecord + "local G = procsrivc(coloured, 'P2')\nprint(#G.robust_std, G.robust_std[1] > G.std[1], "
                                 "math.abs(G.robust_covariance[{1, 1}] - G.robust_std[1]^2) < 1e-12)"),
               "3\ttrue\ttrue\n");
+}
+
+TEST(script_validation, present_tells_errors_of_gain_and_time_constants) {  // oracle: the gain's own standard error
+    const std::string text = printed(kRecord +
+                                     "local G = procsrivc(white, 'P1')\npresent(G)\n"
+                                     "print(string.format('KP %.2g T %.2g', G.robust_std[1], G.robust_std[2]))");
+    const auto errors = text.substr(text.find("KP ") + 3);
+    const std::string gain = errors.substr(0, errors.find(' ')), T = errors.substr(errors.find("T ") + 2);
+    EXPECT_THAT(text, testing::ContainsRegex("Steady-state gain: [0-9.]+ \\+- " + gain + "\n"));
+    EXPECT_THAT(text, HasSubstr(" +- " + T));
+    EXPECT_THAT(printed("present(tf({2}, {1, 4}))"), Not(HasSubstr("+-")));
 }
 
 TEST(script_validation, figures_carry_bands_unless_refused) {

@@ -1,6 +1,7 @@
 #include "numerics/validation/crossvalidate.h"
 
 #include <cmath>
+#include <limits>
 
 #include "numerics/error.h"
 #include "numerics/number_text.h"
@@ -73,7 +74,7 @@ void summarise(CrossValidation& result, const std::vector<std::string>& names) {
     const Matrix& fits = result.fit_percent;
     result.mean = fits.colwise().mean().transpose();
     result.spread = Vector::Zero(fits.cols());
-    if (folds > 1)
+    if (folds > 1 && fits.allFinite())
         result.spread =
             ((fits.rowwise() - result.mean.transpose()).colwise().squaredNorm() / static_cast<double>(folds - 1))
                 .cwiseSqrt()
@@ -85,6 +86,7 @@ void summarise(CrossValidation& result, const std::vector<std::string>& names) {
                           number_text(result.mean[i], 4) + " % on average, from " +
                           number_text(fits.col(i).minCoeff(), 4) + " to " + number_text(fits.col(i).maxCoeff(), 4) +
                           " %.";
+        if (!fits.col(i).allFinite()) result.message += " At least one of the models is unstable.";
     }
 }
 
@@ -105,7 +107,9 @@ CrossValidation cross_validate(const IdData& data, const ModelFitter& fit, const
         CrossValidationFold fold{part.experiment, part.first, part.last, fit(all_but(data, part)), {}};
         const IdData left_out = one_experiment(data, part.experiment).range(part.first, part.last);
         fold.validation = compare_all(left_out, fold.channels, options.simulation);
-        fits.push_back(fold.validation.fit_percent);
+        // An unstable model may leave the range of numbers on the way: no fit is worse.
+        const Vector& fit_percent = fold.validation.fit_percent;
+        fits.push_back(fit_percent.array().isFinite().select(fit_percent, -std::numeric_limits<double>::infinity()));
         result.folds.push_back(std::move(fold));
     }
     result.fit_percent.resize(static_cast<Index>(fits.size()), data.output_count());

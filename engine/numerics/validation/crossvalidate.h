@@ -29,7 +29,7 @@ struct CrossValidationFold {
 
 struct CrossValidation {
     std::vector<CrossValidationFold> folds;
-    Matrix fit_percent;   ///< folds x ny, simulation of the parts left out
+    Matrix fit_percent;   ///< folds x ny, simulation of the parts left out; minus infinity when it overflows
     Vector mean, spread;  ///< per output, over the folds; spread: standard deviation
     std::string message;  ///< one sentence per output
 };

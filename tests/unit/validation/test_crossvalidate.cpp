@@ -1,6 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "numerics/error.h"
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random.h"
@@ -89,6 +92,17 @@ TEST(crossvalidate, stops_when_asked_and_passes_errors_on) {
     options.cancel = [&] { return calls == 2; };
     EXPECT_EQ(cross_validate(record(0.1), fit, options).folds.size(), 2u);
     EXPECT_THROW(cross_validate(record(0.1), [](const IdData&) -> std::vector<TransferFunction> { throw 3; }), int);
+}
+
+TEST(crossvalidate, an_unstable_model_is_told_not_thrown) {
+    const TransferFunction wild(Vector{{1.0}}, Vector{{1.0, -100.0}});
+    int calls = 0;
+    const auto result =
+        cross_validate(record(0.1), [&](const IdData&) { return std::vector{++calls == 2 ? wild : kG}; },
+                       {.folds = 2, .simulation = {InitialState::kZero, Offset::kNone}});
+    EXPECT_TRUE(std::isfinite(result.fit_percent(0, 0)));
+    EXPECT_EQ(result.fit_percent(1, 0), -std::numeric_limits<double>::infinity());
+    EXPECT_THAT(result.message, HasSubstr("unstable"));
 }
 
 TEST(crossvalidate, refuses_folds_that_cannot_be) {
