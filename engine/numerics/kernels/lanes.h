@@ -1,0 +1,84 @@
+#pragma once
+#include <utility>
+
+namespace dynlab {
+
+/// Eight numbers that are worked on together, in as many machine vectors as the processor's width asks for. (One
+/// vector of eight is no good: where the processor has narrower ones, GCC 12 takes it apart number by number.)
+class Lanes {
+  public:
+    static constexpr int kCount = 8;
+#if defined(__AVX512F__)
+    static constexpr int kWidth = 8;
+#elif defined(__AVX__)
+    static constexpr int kWidth = 4;
+#else
+    static constexpr int kWidth = 2;
+#endif
+    typedef double Part __attribute__((vector_size(kWidth * sizeof(double))));
+    static constexpr int kParts = kCount / kWidth;
+
+    Lanes() : part_{} {}
+    // Written out because GCC 12 copies a class through memory, and the filters would wait for it at every step.
+    Lanes(const Lanes& x) {
+        *this = x;
+    }
+    Lanes& operator=(const Lanes& x) {
+        for (int i = 0; i < kParts; ++i) part_[i] = x.part_[i];
+        return *this;
+    }
+
+    /// The numbers at p[0], p[stride], ..., p[7 stride].
+    static Lanes gather(const double* p, long stride) {
+        Lanes lanes;
+        for (int i = 0; i < kParts; ++i)
+            for (int j = 0; j < kWidth; ++j) lanes.part_[i][j] = p[(i * kWidth + j) * stride];
+        return lanes;
+    }
+
+    Part part(int i) const {
+        return part_[i];
+    }
+    Part& part(int i) {
+        return part_[i];
+    }
+    double operator[](int lane) const {
+        return part_[lane / kWidth][lane % kWidth];
+    }
+    void set(int lane, double value) {
+        part_[lane / kWidth][lane % kWidth] = value;
+    }
+
+    Lanes times(double weight) const {
+        Lanes product;
+        for (int i = 0; i < kParts; ++i) product.part_[i] = weight * part_[i];
+        return product;
+    }
+    /// this += weight x
+    void add(double weight, const Lanes& x) {
+        for (int i = 0; i < kParts; ++i) part_[i] += weight * x.part_[i];
+    }
+    Lanes& operator+=(const Lanes& x) {
+        for (int i = 0; i < kParts; ++i) part_[i] += x.part_[i];
+        return *this;
+    }
+    double sum() const {
+        double total = 0;
+        for (int lane = 0; lane < kCount; ++lane) total += (*this)[lane];
+        return total;
+    }
+
+  private:
+    Part part_[kParts];
+};
+
+/// f(0), ..., f(n - 1) with the place as a constant: only then does the compiler keep what it indexes in registers.
+template <int n, class Function>
+[[gnu::always_inline]] inline void repeat(const Function& f) {
+    [&]<int... i>(std::integer_sequence<int, i...>) {
+        (f(std::integral_constant<int, i>()), ...);
+    }
+    (std::make_integer_sequence<int, n>());
+}
+
+}  // namespace dynlab
