@@ -82,11 +82,12 @@ void name_models(const Call& call, const Options& options, std::vector<NamedMode
 
 /// Option confidence: a probability, or false for none; 99 % unless given.
 std::optional<double> confidence_level(const Options& options) {
+    constexpr double kUsual = 0.99;
     lua_State* L = options.call().state();
-    const bool refused = lua_isboolean(L, options.push("confidence")) && !lua_toboolean(L, -1);
+    const bool flag = lua_isboolean(L, options.push("confidence")), wanted = lua_toboolean(L, -1);
     lua_pop(L, 1);
-    if (refused) return std::nullopt;
-    const double level = options.number("confidence", 0.99);
+    if (flag) return wanted ? std::optional(kUsual) : std::nullopt;
+    const double level = options.number("confidence", kUsual);
     if (level > 0 && level < 1) return level;
     throw InvalidArgument(fmt::format(
         "option 'confidence' must be a probability between 0 and 1, such as 0.99, or false, but {} was given", level));

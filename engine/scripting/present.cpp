@@ -29,9 +29,9 @@ std::string parameter_lines(const Model& model) {
     return text;
 }
 
-/// "1.25 +- 0.031", or the value alone when its error is not known.
+/// "1.25 +- 0.031", or the value alone when its error is not known, or is none, as the damping of a real pole.
 std::string with_error(const std::string& value, double error) {
-    return std::isfinite(error) ? value + " +- " + number_text(error, 2) : value;
+    return std::isfinite(error) && error > 0 ? value + " +- " + number_text(error, 2) : value;
 }
 
 struct PoleColumns {

@@ -57,8 +57,9 @@ IdData all_but(const IdData& data, const Part& part) {
 
 void check_parts(const std::vector<Part>& parts) {
     if (parts.size() < 2)
-        throw InvalidArgument("Cross-validation needs at least two parts, and the data give " +
-                              std::to_string(parts.size()) + ": ask for more folds");
+        throw InvalidArgument(
+            "Leaving out one experiment after the other needs at least two, and the data hold one: ask for folds "
+            "instead");
     for (const Part& part : parts)
         if (part.last - part.first + 1 < kLeastFold)
             throw InvalidArgument("Each fold needs at least " + std::to_string(kLeastFold) + " samples, and one has " +

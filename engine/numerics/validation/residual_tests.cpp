@@ -156,6 +156,7 @@ IndependenceTest test_independence(const Signals& e, const Signals& u, const IdD
     test.input = input;
     const double Re = covariances(e, e, 0)[0], Ru = covariances(u, u, 0)[0];
     if (Ru == 0) {
+        test.tested = false;
         test.correlation = Vector::Zero(2 * lags + 1);
         test.verdict = data.input_names[static_cast<std::size_t>(input)] +
                        " never changes, so that its correlation with the error says nothing.";
@@ -177,12 +178,18 @@ IndependenceTest test_independence(const Signals& e, const Signals& u, const IdD
 }
 
 std::string conclusion(const OutputResiduals& output) {
-    bool independent = true;
-    for (const IndependenceTest& test : output.inputs) independent = independent && test.independent;
+    bool independent = true, tested = true;
+    for (const IndependenceTest& test : output.inputs) {
+        independent = independent && test.independent;
+        tested = tested && test.tested;
+    }
     if (!independent)
         return "Dynamics are missing: try another delay, one more pole or one more zero, and then look for a "
                "nonlinearity or a drift.";
     if (output.whiteness.white) return "The model says all that the data can tell, and its standard errors hold.";
+    if (!tested)
+        return "Missing dynamics or a coloured disturbance: without an input that changes the record cannot tell "
+               "which.";
     return "The dynamics are described; the disturbance is coloured, so that robust standard errors or a method with a "
            "noise model are in place.";
 }

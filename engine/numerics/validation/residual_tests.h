@@ -37,6 +37,7 @@ struct IndependenceTest {
     double p_value = 1;         ///< lags 0..L: dynamics the model lacks
     double p_value_future = 1;  ///< lags -L..-1: feedback from the output to the input
     bool independent = true, without_feedback = true;
+    bool tested = true;   ///< false for an input that never changes
     std::string verdict;  ///< one sentence
 };
 

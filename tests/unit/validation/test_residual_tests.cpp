@@ -141,6 +141,8 @@ TEST(residual_tests, says_when_there_is_nothing_to_test) {
     EXPECT_THAT(exact.verdict, HasSubstr("to rounding"));
     const Vector flat = Vector::Ones(100), y = lsim(kG, flat, kTs) + 0.1 * RandomStream(1).normal(100);
     EXPECT_THAT(plain_tests(record(y, flat), kG).verdict, HasSubstr("u1 never changes"));
+    const Vector drift = lsim(kG, flat, kTs) + 0.1 * ar1(100, 0.9, 1);
+    EXPECT_THAT(plain_tests(record(drift, flat), kG).verdict, HasSubstr("the record cannot tell which"));
 }
 
 TEST(residual_tests, refuses_short_records_and_wrong_sizes) {
