@@ -19,4 +19,7 @@ void add_lessons(CLI::App& app, Action& action);
 void add_help(CLI::App& app, Action& action);
 void add_doctor(CLI::App& app, Action& action);
 
+/// What `dynlab` without a command does: the prompt on a terminal, statements from a pipe or file otherwise.
+int open_prompt();
+
 }  // namespace dynlab

@@ -15,6 +15,7 @@ using namespace dynlab;
 constexpr const char* kAbout = "dynlab runs a laboratory course on data-driven learning of dynamical systems.";
 constexpr const char* kFooter =
     "First steps:\n"
+    "  dynlab                         the prompt: type Lua, see the result (or: dynlab < statements.lua)\n"
     "  dynlab lessons                 what there is to learn\n"
     "  dynlab report 02               a lesson with its worked solution, as a PDF\n"
     "  dynlab new 02 my-work          your own copy, to be worked on\n"
@@ -63,9 +64,5 @@ int main(int argc, char** argv) {
         app.exit(error);
         return asked_for_text ? kDone : kUsage;
     }
-    if (!action) {
-        std::cout << app.help();
-        return kDone;
-    }
-    return run_action(action);
+    return run_action(action ? action : open_prompt);
 }

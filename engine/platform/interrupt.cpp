@@ -8,12 +8,13 @@ namespace dynlab {
 namespace {
 
 volatile std::sig_atomic_t interrupt_count = 0;
+volatile std::sig_atomic_t ending_count = 2;
 int open_scopes = 0;  // scopes are made by the main thread only
 struct sigaction action_before;
 
 void count_interrupt(int) {
     interrupt_count = interrupt_count + 1;
-    if (interrupt_count < 2) return;
+    if (interrupt_count < ending_count) return;
     ::signal(SIGINT, SIG_DFL);
     ::raise(SIGINT);  // held back until this handler returns, then ends the program
 }
@@ -22,7 +23,7 @@ void count_interrupt(int) {
 
 InterruptScope::InterruptScope() {
     if (open_scopes++ > 0) return;
-    interrupt_count = 0;
+    forget_interrupts();
     struct sigaction action {};
     action.sa_handler = count_interrupt;
     sigemptyset(&action.sa_mask);
@@ -33,7 +34,7 @@ InterruptScope::InterruptScope() {
 InterruptScope::~InterruptScope() {
     if (--open_scopes > 0) return;
     ::sigaction(SIGINT, &action_before, nullptr);
-    interrupt_count = 0;
+    forget_interrupts();
 }
 
 bool interrupted() {
@@ -42,6 +43,11 @@ bool interrupted() {
 
 void throw_if_interrupted() {
     if (interrupted()) throw Interrupted();
+}
+
+void forget_interrupts(int count_that_ends) {
+    ending_count = count_that_ends;
+    interrupt_count = 0;
 }
 
 }  // namespace dynlab

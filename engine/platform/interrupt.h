@@ -15,4 +15,8 @@ class InterruptScope {
 bool interrupted();
 void throw_if_interrupted();  ///< throws Interrupted
 
+/// For a program that goes on after the work that was interrupted (the prompt): the flag is down again, and only so
+/// many SIGINT without another call end the program.
+void forget_interrupts(int count_that_ends = 2);
+
 }  // namespace dynlab

@@ -307,6 +307,7 @@ std::size_t Options::choice(const char* name, std::initializer_list<const char*>
 }
 
 int run_guarded(lua_State* L, Binding body) {
+    poll_stop(L);  // a loop around long calls counts few instructions
     std::string message;
     try {
         context_of(L).recorder.note_time();

@@ -8,6 +8,7 @@
 #include "platform/spelling.h"
 #include "scripting/context.h"
 #include "scripting/matlab_hints.h"
+#include "scripting/prompt_variables.h"
 #include "scripting/sandbox.h"
 
 namespace dynlab {
@@ -24,10 +25,22 @@ void collect_names(lua_State* L, int table, std::vector<std::string>& names) {
     }
 }
 
-/// Names of the local variables that the calling script line sees.
+/// Activation record of the innermost line of a script.
+bool script_caller(lua_State* L, lua_Debug& caller) {
+    for (int level = 1; lua_getstack(L, level, &caller); ++level) {
+        lua_getinfo(L, "l", &caller);
+        if (caller.currentline > 0) return true;
+    }
+    return false;
+}
+
+/// Names of the local variables that the calling script line sees, those of the prompt too.
 void collect_locals(lua_State* L, std::vector<std::string>& names) {
+    push_prompt_variables(L);
+    if (lua_istable(L, -1)) collect_names(L, -1, names);
+    lua_pop(L, 1);
     lua_Debug caller;
-    if (!lua_getstack(L, 1, &caller)) return;
+    if (!script_caller(L, caller)) return;
     for (int i = 1; const char* name = lua_getlocal(L, &caller, i); ++i) {
         lua_pop(L, 1);
         if (name[0] != '(') names.emplace_back(name);

@@ -18,8 +18,8 @@ constexpr std::array kNames = {
     NameHint{"axis", "give x_range = {a, b} and y_range = {a, b} among the options of plot"},
     NameHint{"bar", "write plot(x, y, {style = \"bars\"})"},
     NameHint{"cell2mat", "a Lua table of numbers is accepted wherever a vector is: vector(t)"},
-    NameHint{"clc", "there is nothing to clear: every run starts afresh"},
-    NameHint{"clear", "there is nothing to clear: every run starts afresh"},
+    NameHint{"clc", "at the prompt Ctrl-L clears the screen"},
+    NameHint{"clear", "every run and every prompt starts afresh; one variable is cleared by x = nil"},
     NameHint{"close", "there is nothing to close: figures go into the document"},
     NameHint{"disp", "write print(x)"},
     NameHint{"fclose", "scripts read data with load(name) and write with save_csv(path, data)"},
@@ -180,6 +180,15 @@ std::string block_hint(const std::string& code) {
     return {};
 }
 
+/// Commands of words alone: hold on, close all, clear x y.
+std::string command_hint(const std::string& code) {
+    const bool words_only = std::all_of(code.begin(), code.end(), [](char c) {
+        return name_character(c) || std::string_view(" \t\r;").find(c) != std::string_view::npos;
+    });
+    const char* hint = words_only ? matlab_name_hint(first_word(code)) : nullptr;
+    return hint != nullptr ? hint : "";
+}
+
 }  // namespace
 
 const char* matlab_name_hint(const std::string& name) {
@@ -190,6 +199,7 @@ const char* matlab_name_hint(const std::string& name) {
 
 std::string matlab_syntax_hint(const std::string& line, const std::string& near) {
     const std::string code = code_only(line);
+    if (std::string hint = command_hint(code); !hint.empty()) return hint;
     const auto first = code.find_first_not_of(" \t");
     if (first != std::string::npos && code[first] == '%') return "a comment starts with -- in Lua";
     if (has_assignment_condition(code)) return "to compare, write == instead of =";

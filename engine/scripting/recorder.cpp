@@ -53,6 +53,15 @@ void Recorder::add_figure(const FigurePointer& figure) {
     pieces_[timed_cell_].push_back({"", figure});
 }
 
+void Recorder::show_figure(const FigurePointer& figure) {
+    note_time();
+    auto& pieces = pieces_[timed_cell_];
+    const bool made_here =
+        std::any_of(pieces.begin(), pieces.end(), [&](const Piece& piece) { return piece.figure == figure; });
+    figure->used = false;
+    if (!made_here) pieces.push_back({"", figure});
+}
+
 void Recorder::report_figure(const std::string& name, const FigurePointer& figure, const std::string& caption) {
     figure->used = true;
     reported_[name] = {figure, caption};

@@ -33,6 +33,8 @@ class Recorder {
 
     void print(const std::string& text);
     void add_figure(const FigurePointer& figure);  ///< just made
+    /// Captures a figure again that was made or used earlier; one that the cell captures already is left as it is.
+    void show_figure(const FigurePointer& figure);
     /// Gives a figure a name of the script's own; as it looks at the end of the run.
     void report_figure(const std::string& name, const FigurePointer& figure, const std::string& caption);
     bool has_reported_figure(const std::string& name) const { return reported_.count(name) != 0; }

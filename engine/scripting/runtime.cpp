@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <cstring>
+#include <utility>
 
 #include "numerics/error.h"
 #include "platform/error.h"
 #include "scripting/bindings.h"
 #include "scripting/context.h"
 #include "scripting/errors.h"
+#include "scripting/objects/figure_object.h"
+#include "scripting/prompt_variables.h"
 #include "scripting/sandbox.h"
 #include "scripting/text_form.h"
 
@@ -79,6 +82,44 @@ int seal_once(lua_State* L) {
     return 0;
 }
 
+int prepare_variables(lua_State* L) {
+    push_prompt_variables(L);
+    if (lua_isnil(L, -1)) make_prompt_variables(L);
+    announce_variables(L, *static_cast<const std::vector<std::string>*>(lua_touserdata(L, 1)));
+    return 0;
+}
+
+int tidy_variables(lua_State* L) {
+    forget_unassigned(L, *static_cast<const std::vector<std::string>*>(lua_touserdata(L, 1)));
+    return 0;
+}
+
+/// Calls the chunk below it and prints the values it returns; figures among them are shown as figures.
+int show_values(lua_State* L) {
+    lua_call(L, 0, LUA_MULTRET);
+    std::string line;
+    for (int i = 1; i <= lua_gettop(L); ++i) {
+        if (const FigurePointer* figure = to_object<FigurePointer>(L, i)) {
+            context_of(L).recorder.show_figure(*figure);
+        } else {
+            line += (line.empty() ? "" : "\t") + value_text(L, i);
+        }
+    }
+    if (!line.empty()) Call(L).print(line + '\n');
+    return 0;
+}
+
+PercentScript single_cell(const std::string& code, const std::string& name) {
+    PercentScript script;
+    script.file = name;
+    script.source = code;
+    Cell cell;
+    cell.id = "cell-1";
+    cell.content = code;
+    script.cells.push_back(std::move(cell));
+    return script;
+}
+
 /// Calls `function` in protected mode: what fails here is our own mistake or a memory limit far too small.
 void call_protected(lua_State* L, lua_CFunction function, const void* argument = nullptr) {
     lua_pushcfunction(L, function);
@@ -119,34 +160,55 @@ void Runtime::set_service_pointer(std::size_t key, void* service) {
 }
 
 RunRecord Runtime::run(const PercentScript& script) {
+    return run_recorded(script, [&] { run_source(script.source, nullptr); });
+}
+
+RunRecord Runtime::run_code(const std::string& code, const std::string& name) {
+    return run(single_cell(code, name));
+}
+
+RunRecord Runtime::run_statement(const PromptStatement& statement, const std::string& name) {
+    return run_recorded(single_cell(statement.source, name), [&] {
+        call_protected(context_->main, prepare_variables, &statement.variables);
+        run_source(statement.code, &statement);
+        call_protected(context_->main, tidy_variables, &statement.variables);
+    });
+}
+
+RunRecord Runtime::run_recorded(const PercentScript& script, const std::function<void()>& work) {
     RuntimeContext& context = *context_;
     lua_State* L = context.main;
     call_protected(L, seal_once);
     lua_settop(L, 0);
     context.script_name = script.file.filename().string();
     context.recorder.start(script, context.options.seed, [&context] { return main_chunk_line(context); });
-    context.stop = StopReason::kNone;
     context.refusal_line = 0;
     context.main_chunk_known = false;
     if (context.options.time_limit) context.deadline = std::chrono::steady_clock::now() + *context.options.time_limit;
-    run_source(script.source);
-    context.running = false;
+    work();
     RunRecord record = context.recorder.finish();
     lua_settop(L, 0);
-    if (context.stop == StopReason::kInterrupted) throw Interrupted();
+    if (std::exchange(context.stop, StopReason::kNone) == StopReason::kInterrupted) throw Interrupted();
     return record;
 }
 
-void Runtime::run_source(const std::string& source) {
+/// A statement has the prompt's variables as its environment and is called by show_values when its values are wanted.
+void Runtime::run_source(const std::string& source, const PromptStatement* statement) {
     RuntimeContext& context = *context_;
     lua_State* L = context.main;
     lua_pushcfunction(L, final_message);
+    const bool shows = statement != nullptr && !statement->silent;
+    if (shows) lua_pushcfunction(L, show_values);
     const std::string chunk_name = "@" + context.script_name;
     int status = luaL_loadbufferx(L, source.data(), source.size(), chunk_name.c_str(), "t");
     if (status == LUA_OK) {
+        if (statement != nullptr) {
+            push_prompt_variables(L);
+            lua_setupvalue(L, -2, 1);
+        }
         lua_sethook(L, count_hook, LUA_MASKCOUNT, kInstructionsBetweenPolls);
         context.running = true;
-        status = lua_pcall(L, 0, 0, 1);
+        status = lua_pcall(L, shows ? 1 : 0, 0, 1);
         context.running = false;
         lua_sethook(L, nullptr, 0, 0);
         if (status != LUA_OK) record_error(status, {});
@@ -164,17 +226,6 @@ void Runtime::record_error(int status, const std::string& source) {
     const PlacedMessage placed = take_apart(message);
     const int line = placed.file == context.script_name ? placed.line : 0;
     context.recorder.record().error = RecordedError{std::move(message), line};
-}
-
-RunRecord Runtime::run_code(const std::string& code, const std::string& name) {
-    PercentScript script;
-    script.file = name;
-    script.source = code;
-    Cell cell;
-    cell.id = "cell-1";
-    cell.content = code;
-    script.cells.push_back(std::move(cell));
-    return run(script);
 }
 
 std::size_t Runtime::peak_memory_bytes() const {

@@ -11,6 +11,7 @@
 #include "documents/percent_script.h"
 #include "documents/run_record.h"
 #include "scripting/function_entry.h"
+#include "scripting/prompt_statement.h"
 
 namespace dynlab {
 
@@ -50,6 +51,9 @@ class Runtime {
     RunRecord run(const PercentScript& script);
     /// The same for plain Lua text as a single cell "cell-1"; `name` stands for the file in messages.
     RunRecord run_code(const std::string& code, const std::string& name);
+    /// A statement of the prompt as a single cell: its values are printed (unless it is silent; a figure is shown
+    /// instead), and what it declares local at its outermost level stays visible to later statements.
+    RunRecord run_statement(const PromptStatement& statement, const std::string& name);
 
     std::size_t peak_memory_bytes() const;
     std::size_t memory_bytes() const;  ///< in use now, after a full collection
@@ -57,7 +61,8 @@ class Runtime {
 
   private:
     void set_service_pointer(std::size_t key, void* service);
-    void run_source(const std::string& source);
+    RunRecord run_recorded(const PercentScript& script, const std::function<void()>& work);
+    void run_source(const std::string& source, const PromptStatement* statement);
     void record_error(int status, const std::string& source);
     std::unique_ptr<RuntimeContext> context_;
 };

@@ -11,6 +11,8 @@
 namespace dynlab {
 namespace {
 
+char type_key;  // its address is the key of the type in its metatable
+
 void push_members(lua_State* L, std::span<const Member> members) {
     lua_createtable(L, 0, static_cast<int>(members.size()));
     for (const Member& member : members) {
@@ -76,6 +78,8 @@ void make_metatable(lua_State* L, const ObjectType& type) {
         lua_pushcclosure(L, member.function, 1);
         lua_setfield(L, -2, member.name);
     }
+    lua_pushlightuserdata(L, const_cast<ObjectType*>(&type));
+    lua_rawsetp(L, -2, &type_key);
     push_members(L, type.methods);
     push_members(L, type.fields);
     lua_pushlightuserdata(L, const_cast<ObjectType*>(&type));
@@ -99,6 +103,14 @@ bool is_object(lua_State* L, int index, const ObjectType& type) {
     const bool same = lua_rawequal(L, -1, -2) != 0;
     lua_pop(L, 2);
     return same;
+}
+
+const ObjectType* object_type(lua_State* L, int index) {
+    if (lua_type(L, index) != LUA_TUSERDATA || !lua_getmetatable(L, index)) return nullptr;
+    lua_rawgetp(L, -1, &type_key);
+    const auto* type = static_cast<const ObjectType*>(lua_touserdata(L, -1));
+    lua_pop(L, 2);
+    return type;
 }
 
 std::string object_name(lua_State* L, int index) {

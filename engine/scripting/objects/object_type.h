@@ -23,6 +23,8 @@ struct ObjectType {
 void push_metatable(lua_State* L, const ObjectType& type);
 /// Whether the value at `index` is a userdata of this type.
 bool is_object(lua_State* L, int index, const ObjectType& type);
+/// Type of the object at `index`; nullptr for anything else.
+const ObjectType* object_type(lua_State* L, int index);
 /// Name of the object at `index` ("vector"); empty for anything else.
 std::string object_name(lua_State* L, int index);
 

@@ -1,0 +1,27 @@
+#include <unistd.h>
+
+#include <iostream>
+
+#include "cli/commands.h"
+#include "scripting/console.h"
+
+namespace dynlab {
+namespace {
+
+constexpr const char* kFigureFolder = "dynlab_out";
+constexpr const char* kGreeting =
+    "dynlab " DYNLAB_VERSION
+    ": type a statement, or help for a list of functions, help tf for one of them.\n"
+    "Tab completes, the arrow keys recall earlier lines, Ctrl-C stops a statement, Ctrl-D or quit leaves.\n";
+
+}  // namespace
+
+int open_prompt() {
+    if (::isatty(STDIN_FILENO) && ::isatty(STDOUT_FILENO)) {
+        run_prompt(kFigureFolder, kGreeting);
+        return kDone;
+    }
+    return run_statements_of(std::cin, kFigureFolder) ? kDone : kFailed;
+}
+
+}  // namespace dynlab
