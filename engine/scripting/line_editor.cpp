@@ -179,6 +179,8 @@ LineEditor::Line LineEditor::read(const std::string& prompt) {
     State& state = *state_;
     state.prompt = prompt;
     state.given_up = false;
+    // Before the prompt is seen: a key pressed at once must find the terminal ready for it.
+    el_set(state.editor, EL_PREP_TERM, 1);
     int count = 0;
     const char* typed = el_gets(state.editor, &count);
     if (state.given_up) {
