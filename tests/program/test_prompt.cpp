@@ -188,7 +188,10 @@ TEST(prompt, tab_completes_and_lists) {
     terminal.enter("G = tf(1, {1, 1})");
     terminal.until_prompt();
     terminal.type("G.\t");
-    EXPECT_THAT(terminal.until("w0"), HasSubstr("IODelay"));
+    const std::string list = terminal.until_prompt();
+    EXPECT_THAT(list, HasSubstr("IODelay"));
+    EXPECT_THAT(list, HasSubstr("num"));
+    terminal.until("G.");
     terminal.type("nu\t");
     terminal.until("m");
     terminal.type("\r");

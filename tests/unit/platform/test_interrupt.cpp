@@ -33,6 +33,19 @@ TEST(interrupt, inner_scopes_share_the_flag) {
     EXPECT_TRUE(interrupted());
 }
 
+TEST(interrupt, forgotten_ones_do_not_count) {
+    const InterruptScope scope;
+    for (int i = 0; i < 3; ++i) {
+        std::raise(SIGINT);
+        EXPECT_TRUE(interrupted());
+        forget_interrupts();
+        EXPECT_FALSE(interrupted());
+    }
+    forget_interrupts(4);
+    for (int i = 0; i < 3; ++i) std::raise(SIGINT);
+    EXPECT_TRUE(interrupted());
+}
+
 /// Status of a child that raises SIGINT so many times within a scope, then exits with 5.
 int status_after_interrupts(int count, bool within_scope) {
     const pid_t child = fork();
