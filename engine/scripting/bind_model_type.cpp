@@ -19,12 +19,11 @@ const Estimate& estimate_of(Call& call) {
     return *model.estimate;
 }
 
-/// The transfer function of a model with one input.
+/// The transfer function of a model with one channel.
 const TransferFunction& only_channel(Call& call) {
     const Model& model = self(call);
-    if (model.inputs() == 1) return model.G;
-    throw InvalidArgument(fmt::format(
-        "this model has {} inputs: take one of its channels, G.channels[1] for the first input", model.inputs()));
+    if (model.single_channel()) return model.G;
+    throw InvalidArgument("this field is one channel's, and the model is no single one: " + channels_hint(model));
 }
 
 int field_num(Call& call) {
@@ -40,15 +39,23 @@ int field_delay(Call& call) {
 const PolynomialModel& polynomials(Call& call) {
     const Model& model = self(call);
     if (model.polynomial) return *model.polynomial;
-    throw InvalidArgument("only models of difference equations, as arx, oe and sriv give them, have this polynomial");
+    throw InvalidArgument(
+        "only models of difference equations, as arx, oe and sriv give them, have this polynomial; lssvf and ivsvf "
+        "give A and B");
+}
+bool is_carx(Call& call) {
+    const Model& model = self(call);
+    return model.estimate && model.estimate->carx;
 }
 template <Vector PolynomialModel::*kPolynomial>
 int field_polynomial(Call& call) {
+    if (kPolynomial == &PolynomialModel::A && is_carx(call)) return field_den(call);
     return call.give_vector(polynomials(call).*kPolynomial);
 }
 /// A vector, or a table of one vector for each of several inputs.
 template <std::vector<Vector> PolynomialModel::*kPolynomials>
 int field_input_polynomials(Call& call) {
+    if (kPolynomials == &PolynomialModel::B && is_carx(call)) return field_num(call);
     const std::vector<Vector>& list = polynomials(call).*kPolynomials;
     if (list.size() == 1) return call.give_vector(list.front());
     lua_createtable(call.state(), static_cast<int>(list.size()), 0);
@@ -59,12 +66,25 @@ int field_input_polynomials(Call& call) {
     return 1;
 }
 
-/// The transfer function from each input.
+/// A list of models, one per input.
+void push_channels(const Call& call, const TransferFunction* first, std::size_t inputs) {
+    lua_createtable(call.state(), static_cast<int>(inputs), 0);
+    for (std::size_t i = 0; i < inputs; ++i) {
+        give_model(call, first[i]);
+        lua_rawseti(call.state(), -2, static_cast<lua_Integer>(i + 1));
+    }
+}
+/// The transfer function from each input; with several outputs such a list for each.
 int field_channels(Call& call) {
-    const std::vector<TransferFunction> channels = channels_of(self(call));
-    lua_createtable(call.state(), static_cast<int>(channels.size()), 0);
-    for (std::size_t i = 0; i < channels.size(); ++i) {
-        give_model(call, channels[i]);
+    const Model& model = self(call);
+    const std::vector<TransferFunction> channels = channels_of(model);
+    if (model.outputs == 1) {
+        push_channels(call, channels.data(), model.inputs());
+        return 1;
+    }
+    lua_createtable(call.state(), static_cast<int>(model.outputs), 0);
+    for (std::size_t i = 0; i < model.outputs; ++i) {
+        push_channels(call, channels.data() + i * model.inputs(), model.inputs());
         lua_rawseti(call.state(), -2, static_cast<lua_Integer>(i + 1));
     }
     return 1;
@@ -121,6 +141,10 @@ int field_report(Call& call) {
     }
     for (const auto& [name, values] : estimate.vectors) {
         call.give_vector(values);
+        lua_setfield(L, -2, name.c_str());
+    }
+    for (const auto& [name, values] : estimate.matrices) {
+        call.give_matrix(values);
         lua_setfield(L, -2, name.c_str());
     }
     if (estimate.assessment) {

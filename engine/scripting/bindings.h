@@ -11,6 +11,7 @@ FunctionEntries vector_comparisons();
 FunctionEntries random_functions();
 FunctionEntries signal_functions();
 FunctionEntries estimator_functions();
+FunctionEntries transfer_estimator_functions();
 FunctionEntries discrete_estimator_functions();
 FunctionEntries regression_functions();
 FunctionEntries validation_functions();

@@ -82,6 +82,11 @@ std::string polynomial_lines(const PolynomialModel& model) {
     return "Polynomials (weights of the present sample, the one before, ...; those not shown are 1):\n" + text;
 }
 
+std::string channel_name(const Model& model, std::size_t channel) {
+    const std::string input = fmt::format("From input {}", channel % model.inputs() + 1);
+    return model.outputs == 1 ? input : fmt::format("{} to output {}", input, channel / model.inputs() + 1);
+}
+
 /// Delay, gain and poles of one channel.
 std::string channel_lines(const TransferFunction& G, const std::optional<ModelUncertainty>& uncertainty) {
     const std::string delay = G.delay() > 0 ? fmt::format("Delay: {} s\n", number_text(G.delay())) : "";
@@ -108,7 +113,7 @@ std::string channels_text(const Model& model) {
     if (channels.size() == 1) return to_text(channels.front());
     std::string text;
     for (std::size_t i = 0; i < channels.size(); ++i)
-        text += fmt::format("{}From input {}:\n{}", i > 0 ? "\n" : "", i + 1, to_text(channels[i]));
+        text += fmt::format("{}{}:\n{}", i > 0 ? "\n" : "", channel_name(model, i), to_text(channels[i]));
     return text;
 }
 
@@ -121,7 +126,7 @@ std::string presentation(const Model& model) {
     if (const auto uncertain = uncertain_model(model)) uncertainty = describe_uncertainty(*uncertain);
     const std::vector<TransferFunction> channels = channels_of(model);
     for (std::size_t i = 0; i < channels.size(); ++i) {
-        if (channels.size() > 1) text += fmt::format("From input {}: ", i + 1);
+        if (channels.size() > 1) text += channel_name(model, i) + ": ";
         text += channel_lines(channels[i], uncertainty);
     }
     if (model.estimate) text += estimate_lines(*model.estimate);

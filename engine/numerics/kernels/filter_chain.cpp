@@ -1,6 +1,5 @@
 #include "numerics/kernels/filter_chain.h"
 
-#include "numerics/kernels/filter_moments.h"
 #include "numerics/kernels/irregular_filter.h"
 #include "numerics/linalg/polynomial.h"
 
@@ -74,20 +73,34 @@ SingleInputSystem derivatives_filter(const VectorView& den, Index highest) {
     return system;
 }
 
+SingleInputSystem transfer_system(const VectorView& B, const VectorView& A) {
+    const SingleInputSystem derivatives = derivatives_filter(A, B.size() - 1);
+    return {derivatives.A, derivatives.B, B.transpose() * derivatives.C, Vector::Constant(1, B.dot(derivatives.D))};
+}
+
+SingleInputSystem no_filter() {
+    return {Matrix(0, 0), Vector(0), Matrix(1, 0), Vector::Ones(1)};
+}
+
 Matrix chain_moments(const std::vector<FilterChain>& chains, const Sampling& sampling, const std::vector<Index>& left,
-                     const std::vector<Index>& right) {
+                     const std::vector<Index>& right, const std::vector<OutputSum>& sums) {
     if (sampling.Ts > 0) {
         std::vector<FilteredSignal> signals;
         for (const FilterChain& chain : chains) signals.push_back({sampled(chain, sampling.Ts), chain.signal});
-        return filter_moments(signals, left, right);
+        return filter_moments(signals, left, right, sums);
     }
-    Index count = 0;
+    Index count = static_cast<Index>(sums.size());
     for (const FilterChain& chain : chains) count += chain.filter.C.rows();
     Matrix outputs(sampling.t.size(), count);
     Index place = 0;
     for (const FilterChain& chain : chains) {
         outputs.middleCols(place, chain.filter.C.rows()) = irregular_outputs(chain, sampling.t);
         place += chain.filter.C.rows();
+    }
+    for (const OutputSum& sum : sums) {
+        outputs.col(place).setZero();
+        for (const OutputSum::Term& term : sum.terms) outputs.col(place) += term.weight * outputs.col(term.output);
+        ++place;
     }
     return outputs(Eigen::all, left).transpose() * outputs(Eigen::all, right);
 }

@@ -2,6 +2,7 @@
 #include <optional>
 #include <vector>
 
+#include "numerics/kernels/filter_moments.h"
 #include "numerics/kernels/sensitivity_system.h"
 #include "numerics/signals/iddata.h"
 
@@ -36,9 +37,14 @@ struct FilterChain {
 SingleInputSystem derivatives_filter(const VectorView& den, Index highest);
 
 /// M(i, j) = sum over all samples of output_left[i] output_right[j], the outputs of all chains numbered through in
-/// order, all filters at rest at the first sample: exactly, regularly sampled records without storing any output
-/// (filter_moments.h), irregular ones by IrregularFilter.
+/// order and after them the sums, all filters at rest at the first sample: exactly, regularly sampled records without
+/// storing any output (filter_moments.h), irregular ones by IrregularFilter.
 Matrix chain_moments(const std::vector<FilterChain>& chains, const Sampling& sampling, const std::vector<Index>& left,
-                     const std::vector<Index>& right);
+                     const std::vector<Index>& right, const std::vector<OutputSum>& sums = {});
+
+/// B/A as a system; A monic, B of no higher degree.
+SingleInputSystem transfer_system(const VectorView& B, const VectorView& A);
+/// A signal as it is: a filter with the output 1 u and no state.
+SingleInputSystem no_filter();
 
 }  // namespace dynlab

@@ -86,14 +86,14 @@ class MomentSums {
 class SampleMoments {
   public:
     SampleMoments(const std::vector<FilteredSignal>& signals, const std::vector<Index>& left,
-                  const std::vector<Index>& right)
-        : left_(left), right_(right), total_(Matrix::Zero(left.size(), right.size())) {
+                  const std::vector<Index>& right, const std::vector<OutputSum>& sums)
+        : left_(left), right_(right), sums_(sums), total_(Matrix::Zero(left.size(), right.size())) {
         Index outputs = 0;
         for (const FilteredSignal& signal : signals) {
             recursions_.emplace_back(signal.system, signal.signal);
             outputs += signal.system.C.rows();
         }
-        outputs_.resize(outputs);
+        outputs_.resize(outputs + static_cast<Index>(sums.size()));
     }
 
     void run(Index from, Index to) {
@@ -105,6 +105,11 @@ class SampleMoments {
                 recursion.step(k);
                 place += count;
             }
+            for (const OutputSum& sum : sums_) {
+                double value = 0;
+                for (const OutputSum::Term& term : sum.terms) value += term.weight * outputs_[term.output];
+                outputs_[place++] = value;
+            }
             total_.noalias() += outputs_(left_) * outputs_(right_).transpose();
         }
     }
@@ -113,42 +118,67 @@ class SampleMoments {
 
   private:
     const std::vector<Index>&left_, &right_;
+    const std::vector<OutputSum>& sums_;
     std::vector<TappedRecursion> recursions_;
     Vector outputs_;
     Matrix total_;
 };
 
-/// Where each numbered output stands.
-Columns columns_of(const std::vector<LaneFilter>& filters, const std::vector<FilteredSignal>& signals,
-                   const std::vector<Index>& outputs) {
-    Columns all, chosen;
-    for (std::size_t i = 0; i < filters.size(); ++i)
-        for (Index j = 0; j < signals[i].system.C.rows(); ++j) all.push_back(filters[i].column(j));
-    for (const Index output : outputs) chosen.push_back(all[static_cast<std::size_t>(output)]);
-    return chosen;
-}
+/// The block's columns of all outputs, in order, and of the sums, which it makes.
+class BlockColumns {
+  public:
+    BlockColumns(const std::vector<LaneFilter>& filters, const std::vector<FilteredSignal>& signals,
+                 const std::vector<OutputSum>& sums)
+        : sums_(sums), storage_(sums.size() * LaneFilter::kBlock) {
+        for (std::size_t i = 0; i < filters.size(); ++i)
+            for (Index j = 0; j < signals[i].system.C.rows(); ++j) columns_.push_back(filters[i].column(j));
+        for (std::size_t i = 0; i < sums.size(); ++i) columns_.push_back(storage_.data() + i * LaneFilter::kBlock);
+    }
+    Columns of(const std::vector<Index>& outputs) const {
+        Columns chosen;
+        for (const Index output : outputs) chosen.push_back(columns_[static_cast<std::size_t>(output)]);
+        return chosen;
+    }
+    void make_sums(Index steps) {
+        for (std::size_t i = 0; i < sums_.size(); ++i) {
+            Lanes* const sum = storage_.data() + i * LaneFilter::kBlock;
+            std::fill_n(sum, steps, Lanes());
+            for (const OutputSum::Term& term : sums_[i].terms) {
+                const Lanes* const x = columns_[static_cast<std::size_t>(term.output)];
+                for (Index k = 0; k < steps; ++k) sum[k].add(term.weight, x[k]);
+            }
+        }
+    }
+
+  private:
+    const std::vector<OutputSum>& sums_;
+    std::vector<Lanes> storage_;
+    Columns columns_;
+};
 
 Matrix lane_moments(std::vector<LaneFilter>& filters, const std::vector<FilteredSignal>& signals,
-                    const std::vector<Index>& left, const std::vector<Index>& right, Index segment) {
-    const Columns left_columns = columns_of(filters, signals, left),
-                  right_columns = columns_of(filters, signals, right);
-    MomentSums sums(left.size(), right.size(), left == right);
+                    const std::vector<Index>& left, const std::vector<Index>& right, const std::vector<OutputSum>& sums,
+                    Index segment) {
+    BlockColumns columns(filters, signals, sums);
+    const Columns left_columns = columns.of(left), right_columns = columns.of(right);
+    MomentSums products(left.size(), right.size(), left == right);
     for (Index done = 0; done < segment; done += LaneFilter::kBlock) {
         const Index steps = std::min(LaneFilter::kBlock, segment - done);
         for (LaneFilter& filter : filters) filter.advance(steps);
-        sums.add(left_columns, right_columns, steps);
+        columns.make_sums(steps);
+        products.add(left_columns, right_columns, steps);
     }
-    return sums.total();
+    return products.total();
 }
 
 }  // namespace
 
 Matrix filter_moments(const std::vector<FilteredSignal>& signals, const std::vector<Index>& left,
-                      const std::vector<Index>& right) {
+                      const std::vector<Index>& right, const std::vector<OutputSum>& sums) {
     const Index N = signals.front().signal.size();
     Index latest = 0;
     for (const FilteredSignal& signal : signals) latest = std::max(latest, signal.system.delay);
-    SampleMoments samples(signals, left, right);
+    SampleMoments samples(signals, left, right, sums);
     // The last sample is left out of the lanes, which look one sample ahead.
     const Index segment = std::max<Index>(0, N - latest - 2) / Lanes::kCount;
     if (segment < kShortestSegment) {
@@ -161,7 +191,7 @@ Matrix filter_moments(const std::vector<FilteredSignal>& signals, const std::vec
     filters.reserve(signals.size());
     for (std::size_t i = 0; i < signals.size(); ++i)
         filters.emplace_back(signals[i], first, segment, samples.recursion(i).state());
-    const Matrix inside = lane_moments(filters, signals, left, right, segment);
+    const Matrix inside = lane_moments(filters, signals, left, right, sums, segment);
     for (std::size_t i = 0; i < signals.size(); ++i) samples.recursion(i).set_state(filters[i].last_state());
     samples.run(N - 1, N);
     return samples.total() + inside;

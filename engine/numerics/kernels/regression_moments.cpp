@@ -43,12 +43,29 @@ class Equation {
         return outputs;
     }
     Matrix moments(const std::vector<Index>& left, const std::vector<Index>& right) const {
-        return chain_moments(chains_, record_.sampling, left, right);
+        return chain_moments(chains_, record_.sampling, left, right, sums_);
     }
-    /// sum z [phi' p^n y_f] for z = combination * outputs left.
-    RegressionMoments with_instruments(const std::vector<Index>& left, const Matrix& combination) const {
-        Matrix all = combination * moments(left, right());
+    /// Outputs for the n first instruments: sums over the inputs, where there are several. `firsts` are the places
+    /// where the n outputs of each input begin.
+    std::vector<Index> summed_over_inputs(const std::vector<Index>& firsts) {
+        std::vector<Index> places;
+        for (Index i = 0; i < n_; ++i) {
+            if (firsts.size() == 1) {
+                places.push_back(firsts[0] + i);
+                continue;
+            }
+            OutputSum sum;
+            for (const Index first : firsts) sum.terms.push_back({first + i, 1});
+            places.push_back(outputs_ + static_cast<Index>(sums_.size()));
+            sums_.push_back(std::move(sum));
+        }
+        return places;
+    }
+    /// sum z [phi' p^n y_f] for z = sign (n first) and input derivatives.
+    RegressionMoments with_instruments(const std::vector<Index>& z, double sign) const {
+        Matrix all = moments(z, right());
         all.leftCols(n_) *= -1;
+        all.topRows(n_) *= sign;
         const Index d = parameters();
         return {all.leftCols(d), all.col(d), Matrix(), 0};
     }
@@ -58,27 +75,10 @@ class Equation {
     Index n_, outputs_ = 0, y_ = 0;
     std::vector<FilterChain> chains_;
     std::vector<Index> inputs_;
+    std::vector<OutputSum> sums_;
 };
 
-SingleInputSystem model_system(const Vector& B, const VectorView& A) {
-    SingleInputSystem derivatives = derivatives_filter(A, B.size() - 1);
-    return {derivatives.A, derivatives.B, B.transpose() * derivatives.C, Vector::Constant(1, B.dot(derivatives.D))};
-}
-
 }  // namespace
-
-void RegressionMoments::add(const RegressionMoments& other, double weight) {
-    const auto sum = [&](auto& mine, const auto& theirs) {
-        if (mine.size() == 0)
-            mine = weight * theirs;
-        else
-            mine += weight * theirs;
-    };
-    sum(z_phi, other.z_phi);
-    sum(z_y, other.z_y);
-    sum(z_z, other.z_z);
-    y_y += weight * other.y_y;
-}
 
 RegressionMoments svf_moments(const RegressionRecord& record, const VectorView& E, double gain) {
     const Index n = E.size() - 1;
@@ -99,22 +99,19 @@ RegressionMoments auxiliary_moments(const RegressionRecord& record, const Vector
     Equation equation(record, n);
     equation.add_output(E);
     equation.add_inputs(E);
-    const std::vector<Index>& inputs = equation.inputs();
-    const Index d = equation.parameters(), of_inputs = static_cast<Index>(record.u.size()) * n;
-    std::vector<Index> left;
-    Matrix combination = Matrix::Zero(d, of_inputs + d - n);
+    std::vector<Index> firsts;
     for (std::size_t j = 0; j < record.u.size(); ++j) {
         FilterChain chain{record.u[j], derivatives_filter(E, n - 1), record.hold_y};
-        chain.front = FrontModel{model_system(B[j], A), record.hold, record.delays[j]};
-        const Index first = equation.add(std::move(chain));
-        for (Index i = 0; i < n; ++i) {
-            combination(i, static_cast<Index>(left.size())) = -1;
-            left.push_back(first + i);
-        }
+        chain.front = FrontModel{transfer_system(B[j], A), record.hold, record.delays[j]};
+        firsts.push_back(equation.add(std::move(chain)));
     }
-    combination.bottomRightCorner(d - n, d - n).setIdentity();
-    left.insert(left.end(), inputs.begin(), inputs.end());
-    return equation.with_instruments(left, gain * gain * combination);
+    std::vector<Index> z = equation.summed_over_inputs(firsts);
+    z.insert(z.end(), equation.inputs().begin(), equation.inputs().end());
+    RegressionMoments result = equation.with_instruments(z, -1);
+    Matrix z_z = equation.moments(z, z);
+    z_z.topRows(n) *= -1;
+    z_z.leftCols(n) *= -1;
+    return {gain * gain * result.z_phi, gain * gain * result.z_y, gain * gain * z_z, 0};
 }
 
 RegressionMoments refined_moments(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B,
@@ -122,27 +119,32 @@ RegressionMoments refined_moments(const RegressionRecord& record, const VectorVi
     const Index n = A.size() - 1;
     Equation equation(record, n);
     equation.add_output(A);
-    std::vector<Index> left;
-    std::vector<Index> rows;  // of z, for each output in `left`
-    Index b_place = n;
+    std::vector<Index> firsts;
     for (std::size_t j = 0; j < record.u.size(); ++j) {
         SingleInputSystem system = sensitivity_system(B[j], A);
-        const Index m = B[j].size() - 1, used = n + m + 1;
-        system.C = system.C.middleRows(1, used).eval();
-        system.D = system.D.segment(1, used).eval();
-        const Index first = equation.add({record.u[j], std::move(system), record.hold, record.delays[j]});
-        equation.set_input(first + n, m);
-        for (Index i = 0; i < used; ++i) {
-            left.push_back(first + i);
-            rows.push_back(i < n ? i : b_place + i - n);
-        }
-        b_place += m + 1;
+        const Index m = B[j].size() - 1;
+        system.C = system.C.middleRows(1, n + m + 1).eval();
+        system.D = system.D.segment(1, n + m + 1).eval();
+        firsts.push_back(equation.add({record.u[j], std::move(system), record.hold, record.delays[j]}));
+        equation.set_input(firsts.back() + n, m);
     }
-    Matrix combination = Matrix::Zero(equation.parameters(), static_cast<Index>(left.size()));
-    for (std::size_t i = 0; i < left.size(); ++i) combination(rows[i], static_cast<Index>(i)) = 1;
-    RegressionMoments result = equation.with_instruments(left, combination);
-    if (with_instruments) result.z_z = combination * equation.moments(left, left) * combination.transpose();
+    std::vector<Index> z = equation.summed_over_inputs(firsts);
+    z.insert(z.end(), equation.inputs().begin(), equation.inputs().end());
+    RegressionMoments result = equation.with_instruments(z, 1);
+    if (with_instruments) result.z_z = equation.moments(z, z);
     return result;
+}
+
+double output_error_squares(const RegressionRecord& record, const std::vector<Vector>& A,
+                            const std::vector<Vector>& B) {
+    std::vector<FilterChain> chains{{record.y, no_filter(), record.hold_y}};
+    OutputSum error{{{0, 1}}};
+    for (std::size_t j = 0; j < record.u.size(); ++j) {
+        error.terms.push_back({static_cast<Index>(chains.size()), -1});
+        chains.push_back({record.u[j], transfer_system(B[j], A[j]), record.hold, record.delays[j]});
+    }
+    const Index place = static_cast<Index>(chains.size());
+    return chain_moments(chains, record.sampling, {place}, {place}, {error})(0, 0);
 }
 
 }  // namespace dynlab

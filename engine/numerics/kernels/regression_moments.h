@@ -24,7 +24,6 @@ struct RegressionMoments {
     Vector z_y;      ///< d, sum z p^n y_f
     Matrix z_z;      ///< d x d, sum z z', when asked for
     double y_y = 0;  ///< sum (p^n y_f)^2, with z = phi only
-    void add(const RegressionMoments& other, double weight);
 };
 
 /// z = phi, all signals filtered by gain/E(p), E monic of degree n.
@@ -39,5 +38,8 @@ RegressionMoments auxiliary_moments(const RegressionRecord& record, const Vector
 ///     z = [-p^(n-i) sum_j B_j/A^2 u_j, p^(m_j-l)/A u_j].
 RegressionMoments refined_moments(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B,
                                   bool with_instruments);
+
+/// sum (y - sum_j B_j/A_j u_j)^2, simulated from rest; every input may have a denominator of its own here.
+double output_error_squares(const RegressionRecord& record, const std::vector<Vector>& A, const std::vector<Vector>& B);
 
 }  // namespace dynlab

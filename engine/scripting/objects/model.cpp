@@ -19,14 +19,18 @@ bool holds_model(const Call& call, int index) {
            (to_object<Model>(call.state(), index) != nullptr || to_object<StateSpace>(call.state(), index) != nullptr);
 }
 
+std::string channels_hint(const Model& model) {
+    return fmt::format("it has {} inputs and {} outputs: take one of its channels, {}", model.inputs(), model.outputs,
+                       model.outputs == 1 ? "G.channels[1] for the first input"
+                                          : "G.channels[2][1] for the second output and first input");
+}
+
 Model model_argument(const Call& call, int index, const char* what) {
     if (index <= call.count()) {
         if (const Model* model = to_object<Model>(call.state(), index)) {
-            if (model->inputs() == 1) return *model;
-            throw InvalidArgument(fmt::format(
-                "argument {} ({}) must have one input, but it has {}: take one of its channels, G.channels[1] for the "
-                "first input",
-                index, what, model->inputs()));
+            if (model->single_channel()) return *model;
+            throw InvalidArgument(fmt::format("argument {} ({}) must have one input and one output, but {}", index,
+                                              what, channels_hint(*model)));
         }
         if (call.type(index) == LUA_TNUMBER)
             return {TransferFunction(Vector::Constant(1, call.number(index, what)), Vector::Ones(1))};
@@ -46,6 +50,7 @@ int give_model(const Call& call, TransferFunction G) {
 }
 
 std::vector<TransferFunction> channels_of(const Model& model) {
+    if (!model.channels.empty()) return model.channels;
     if (!model.polynomial) return {model.G};
     std::vector<TransferFunction> channels;
     for (std::size_t i = 0; i < model.inputs(); ++i) channels.push_back(model.polynomial->transfer_function(i));
@@ -53,7 +58,7 @@ std::vector<TransferFunction> channels_of(const Model& model) {
 }
 
 std::optional<UncertainModel> uncertain_model(const Model& model) {
-    if (!model.estimate || !model.G.continuous() || model.inputs() != 1) return std::nullopt;
+    if (!model.estimate || !model.G.continuous() || !model.single_channel()) return std::nullopt;
     const Matrix& covariance = model.estimate->trusted_covariance();
     if (covariance.size() == 0 || !covariance.allFinite()) return std::nullopt;
     if (model.process) return UncertainModel(*model.process, covariance);

@@ -24,9 +24,11 @@ struct Estimate {
     Matrix covariance;
     std::string message;
     std::vector<std::string> warnings;
-    std::vector<std::pair<std::string, double>> numbers;  ///< fit_percent, noise_variance, iterations, ...
-    std::vector<std::pair<std::string, Vector>> vectors;  ///< output, delay_grid, delay_loss, ...
+    std::vector<std::pair<std::string, double>> numbers;        ///< fit_percent, noise_variance, iterations, ...
+    std::vector<std::pair<std::string, Vector>> vectors;        ///< output, delay_grid, delay_loss, ...
+    std::vector<std::pair<std::string, Matrix>> matrices = {};  ///< path (parameters after each iteration)
     bool converged = true;
+    bool carx = false;  ///< of the equation A(p) y = B(p) u + e: G has fields A and B
     std::shared_ptr<const StepTestResult> step_test = {};  ///< of the graphical methods
     /// Whiteness of the output errors and robust standard errors, where a method has them assessed.
     std::shared_ptr<const Assessment> assessment = {};
@@ -37,14 +39,21 @@ struct Estimate {
 };
 
 /// A model as scripts hold it: a transfer function, with its process parameters, polynomials and estimate where it has
-/// them. G is the first of several inputs' when `polynomial` has several.
+/// them. With several inputs or outputs G is the first channel's.
 struct Model {
     TransferFunction G;
     std::optional<ProcessModel> process = {};
     std::shared_ptr<const Estimate> estimate = {};
     std::shared_ptr<const PolynomialModel> polynomial = {};
+    /// Continuous-time models with several channels: all of them, output by output.
+    std::vector<TransferFunction> channels = {};
+    std::size_t outputs = 1;
 
-    std::size_t inputs() const { return polynomial ? polynomial->B.size() : 1; }
+    std::size_t inputs() const {
+        if (polynomial) return polynomial->B.size();
+        return channels.empty() ? 1 : channels.size() / outputs;
+    }
+    bool single_channel() const { return inputs() == 1 && outputs == 1; }
 };
 
 template <>
@@ -76,9 +85,11 @@ struct Boxed<ComplexVector> {
 bool holds_model(const Call& call, int index);
 /// A tf, idproc or estimated model or a state-space model, with one input and one output; a number as a gain.
 Model model_argument(const Call& call, int index, const char* what);
+/// "it has 2 inputs and 1 outputs: take one of its channels, ..." for messages.
+std::string channels_hint(const Model& model);
 int give_model(const Call& call, TransferFunction G);
 
-/// The transfer function from each input.
+/// The transfer functions of all channels, output by output.
 std::vector<TransferFunction> channels_of(const Model& model);
 /// What an estimated continuous-time model with one input and a finite covariance knows of its uncertainty.
 std::optional<UncertainModel> uncertain_model(const Model& model);

@@ -1,0 +1,58 @@
+#include "numerics/estimators/ivsvf.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "numerics/error.h"
+#include "numerics/kernels/transfer_report.h"
+
+namespace dynlab {
+
+TransferEstimate ivsvf(const IdData& data, const TransferStructure& structure, const SvfOptions& options) {
+    options.validate();
+    check_carx("ivsvf", structure);
+    check_transfer_data("ivsvf", data, structure);
+    TransferEstimate estimate;
+    estimate.structure = structure;
+    estimate.theta.resize(structure.parameter_count());
+    estimate.covariance = Matrix::Zero(estimate.theta.size(), estimate.theta.size());
+    bool mirrored = false;
+    for (std::size_t g = 0; g < structure.poles.size(); ++g) {
+        const DenominatorGroup group(data, structure, static_cast<Index>(g), options.hold_y);
+        const Index d = group.parameter_count();
+        const double gain = options.beta ? std::pow(*options.beta, static_cast<double>(group.order())) : 1.0;
+        const Vector E = filter_denominator(options.lambda, group.order());
+        const RegressionMoments least_squares = group.svf(E, gain);
+        const Vector first = solve_moments(least_squares);
+        bool unstable = false;
+        double condition = 0;
+        RegressionMoments sums;
+        Vector theta;
+        if (first.allFinite()) {
+            sums = group.auxiliary(E, group.reflected(first, &unstable), gain);
+            theta = solve_moments(sums, &condition);
+        }
+        if (theta.size() == 0 || !theta.allFinite())
+            throw InvalidArgument(
+                "ivsvf: the equations have no unique solution: the input does not excite the system enough for " +
+                std::to_string(d) + " parameters");
+        mirrored = mirrored || unstable;
+        const double squares = std::max(
+            0.0, least_squares.y_y - 2 * theta.dot(least_squares.z_y) + theta.dot(least_squares.z_phi * theta));
+        const Matrix inverse = sums.z_phi.partialPivLu().inverse();
+        estimate.theta.segment(group.place(), d) = theta;
+        estimate.covariance.block(group.place(), group.place(), d, d) =
+            squares / static_cast<double>(group.sample_count() - d) * inverse * sums.z_z * inverse.transpose();
+        estimate.condition_number = std::max(estimate.condition_number, condition);
+    }
+    estimate.termination = Termination::kConverged;
+    report_on(estimate, data);
+    if (mirrored)
+        estimate.warnings.push_back(
+            "The first model, from least squares, was unstable; its poles were mirrored for the instruments.");
+    warn_of_cutoff(estimate, options.lambda);
+    set_message(estimate, "Instrumental variables on filtered signals");
+    return estimate;
+}
+
+}  // namespace dynlab

@@ -1,0 +1,34 @@
+#pragma once
+#include <optional>
+
+#include "numerics/kernels/transfer_estimate.h"
+
+namespace dynlab {
+
+struct SvfOptions {
+    double lambda = 0;         ///< rad/s, cut-off frequency of the filter; must be given: a bit above the bandwidth
+    Hold hold_y = Hold::kFoh;  ///< how the output behaves between its samples inside the filter
+    std::optional<double>
+        beta;  ///< numerator of the Poisson moment functionals' (beta/(s + lambda))^n; lambda unless given
+
+    /// Throws InvalidArgument naming the option.
+    void validate() const;
+};
+
+/// Least squares on state-variable filtered signals, for the CARX structure A(p) y = sum_j B_j(p) u_j(t - delay) + e:
+/// with signals filtered by 1/(p + lambda)^n (lsgpmf: by (beta/(p + lambda))^n, which gives the same theta),
+///     minimise sum_k (p^n y_f - phi' theta)^2,  phi = [-p^(n-1) y_f .. -y_f, p^m u_f .. u_f].
+/// Exact filters from rest; inputs as the data's hold says, delays fixed and of any size. Biased by noise on the
+/// output: see ivsvf, srivc. Standard errors are those of least squares with a white equation error. All inputs of an
+/// output share a denominator (kPerOutput or kCommon). Memory does not grow with the record. Throws InvalidArgument for
+/// unsuitable data (check_transfer_data), denominators per channel with several inputs, or free delays.
+/// Reference: Young (1981); Garnier and Wang (2008), section 1.3.
+TransferEstimate lssvf(const IdData& data, const TransferStructure& structure, const SvfOptions& options);
+
+/// Throws InvalidArgument for a structure that is no CARX equation with fixed delays.
+void check_carx(const char* method, const TransferStructure& structure);
+
+/// Adds the warning that lambda lies far from the model's band, with the usual choice.
+void warn_of_cutoff(TransferEstimate& estimate, double lambda);
+
+}  // namespace dynlab

@@ -1,0 +1,36 @@
+#pragma once
+#include "numerics/models/transfer_structure.h"
+#include "numerics/signals/iddata.h"
+#include "numerics/signals/prbs.h"
+#include "numerics/signals/random.h"
+#include "numerics/simulation/lsim.h"
+#include "support/reference_data.h"
+
+namespace dynlab::test {
+
+/// A record of tests/reference/data with columns t, u, y.
+inline IdData reference_record(const std::string& name, double Ts) {
+    const auto columns = reference_columns(name + ".csv");
+    const auto &y = columns.at("y"), &u = columns.at("u");
+    const Index N = static_cast<Index>(y.size());
+    return IdData(Matrix(Vector::Map(y.data(), N)), Matrix(Vector::Map(u.data(), N)), Ts);
+}
+
+inline Vector values(std::initializer_list<double> list) {
+    return Vector::Map(list.begin(), static_cast<Index>(list.size()));
+}
+
+/// The course's system 2/(s^2 + 4s + 3), prbs(4, 100), Ts = 0.01 s, N = 1500, with white noise.
+inline IdData course_record(double sigma, std::uint32_t seed) {
+    const Vector u = prbs(4, 100, -1, 1);
+    Vector y = lsim(TransferFunction(values({2}), values({1, 4, 3})), u, 0.01);
+    if (sigma > 0) y += sigma * RandomStream(seed).normal(u.size());
+    return IdData(Matrix(y), Matrix(u), 0.01);
+}
+
+/// Largest relative difference of two vectors.
+inline double relative_difference(const Vector& a, const Vector& b) {
+    return ((a - b).array() / b.array()).abs().maxCoeff();
+}
+
+}  // namespace dynlab::test

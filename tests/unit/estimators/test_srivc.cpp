@@ -1,0 +1,126 @@
+#include "numerics/estimators/srivc.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+#include "numerics/kernels/transfer_sensitivity.h"
+#include "support/thrown_message.h"
+#include "support/transfer_cases.h"
+
+using namespace dynlab;
+using namespace dynlab::test;
+
+namespace {
+
+const TransferStructure kCourse = TransferStructure::single(2, 0);
+
+TransferOptions exact() {
+    TransferOptions options;
+    options.Tol = 1e-10;
+    return options;
+}
+
+}  // namespace
+
+TEST(srivc, output_error_is_orthogonal_to_its_sensitivities) {  // oracle: stationarity of the output-error criterion
+    const IdData data = course_record(0.4, 11);
+    const TransferEstimate found = srivc(data, kCourse, exact());
+    EXPECT_EQ(found.termination, Termination::kConverged);
+    const Vector den = found.models[0].den(), num = found.models[0].num();
+    const Matrix all = transfer_sensitivities(num, den, 0, data.experiments[0].u.col(0), 0.01, Hold::kZoh);
+    const Vector error = data.experiments[0].y.col(0) - all.col(0);
+    for (Index i = 1; i <= 3; ++i)
+        EXPECT_LT(std::abs(all.col(i).dot(error)) / (all.col(i).norm() * error.norm()), 1e-9) << i;
+    EXPECT_NEAR(found.noise_variance[0], error.squaredNorm() / 1497, 1e-12);
+    const Matrix psi = all.middleCols(1, 3);
+    const Matrix covariance = found.noise_variance[0] * (psi.transpose() * psi).inverse();
+    EXPECT_LT(relative_difference(found.covariance.diagonal(), covariance.diagonal()), 1e-8);
+}
+
+TEST(srivc, noise_free_records_give_the_truth) {  // oracle: the simulated system
+    EXPECT_LT(relative_difference(srivc(course_record(0, 1), kCourse, exact()).theta, values({4, 3, 2})), 1e-9);
+    EXPECT_LT(relative_difference(
+                  srivc(reference_record("rg_noisefree", 0.01), TransferStructure::single(4, 1), exact()).theta,
+                  values({5, 408, 416, 1600, -6400, 1600})),
+              1e-9);
+}
+
+TEST(srivc, hold_of_the_output_does_not_move_the_result) {  // oracle: the criterion knows no hold of y
+    const IdData data = course_record(0.2, 12);
+    TransferOptions zoh = exact();
+    zoh.hold_y = Hold::kZoh;
+    EXPECT_LT(relative_difference(srivc(data, kCourse, zoh).theta, srivc(data, kCourse, exact()).theta), 1e-8);
+}
+
+TEST(srivc, start_does_not_move_the_result) {  // oracle: the fixed point knows no start
+    const IdData data = course_record(0.2, 13);
+    const Vector expected = srivc(data, kCourse, exact()).theta;
+    for (const double lambda : {0.5, 3.0, 25.0}) {
+        TransferOptions options = exact();
+        options.lambda = lambda;
+        EXPECT_LT(relative_difference(srivc(data, kCourse, options).theta, expected), 1e-8) << lambda;
+    }
+}
+
+TEST(srivc, separate_denominators_are_found_by_back_fitting) {  // oracle: the simulated system, without noise
+    const Vector u1 = prbs(9, 6).head(1270), u2 = prbs(7, 10);
+    const Vector y = lsim(TransferFunction(values({4}), values({1, 2, 4}), 0, 0.03), u1, 0.01) +
+                     lsim(TransferFunction(values({1}), values({1, 1, 1}), 0, 0.05), u2, 0.01);
+    Matrix u(1270, 2);
+    u << u1, u2;
+    const TransferStructure structure =
+        TransferStructure::grid(1, 2, Denominators::kPerChannel, {2}, {0}, {0.03, 0.05});
+    const TransferEstimate found = srivc(IdData(Matrix(y), u, 0.01), structure, exact());
+    EXPECT_LT(relative_difference(found.theta, values({2, 4, 4, 1, 1, 1})), 1e-8) << found.message;
+}
+
+TEST(srivc, irregular_sampling_without_noise_gives_the_truth) {  // oracle: the simulated system
+    const Index N = 1500;
+    RandomStream random(5);
+    Vector t(N), u(N);
+    double time = 0;
+    for (Index k = 0; k < N; ++k) {
+        t[k] = time;
+        u[k] = std::sin(0.714 * time) + std::sin(1.428 * time) + std::sin(2.142 * time);
+        time += 0.01 + 0.09 * random.uniform();
+    }
+    IdData data(Matrix(lsim(TransferFunction(values({5}), values({1, 2.8, 4})), u, t)), Matrix(u), t);
+    const TransferEstimate found = srivc(data, kCourse, exact());
+    EXPECT_LT(relative_difference(found.theta, values({2.8, 4, 5})), 1e-8) << found.message;
+}
+
+TEST(srivc, long_records_start_on_their_beginning) {  // oracle: the same fixed point from a given cut-off
+    const Vector u = prbs(14, 20).head(160'000);
+    const TransferFunction G(values({2}), values({1, 4, 3}));
+    const Vector y = lsim(G, u, 0.01) + 0.2 * RandomStream(3).normal(u.size());
+    const IdData data{Matrix(y), Matrix(u), 0.01};
+    const TransferEstimate found = srivc(data, kCourse, exact());
+    EXPECT_EQ(found.termination, Termination::kConverged);
+    const Matrix all = transfer_sensitivities(found.models[0].num(), found.models[0].den(), 0, u, 0.01, Hold::kZoh);
+    const Vector error = y - all.col(0);
+    for (Index i = 1; i <= 3; ++i)
+        EXPECT_LT(std::abs(all.col(i).dot(error)) / (all.col(i).norm() * error.norm()), 1e-8) << i;
+}
+
+TEST(srivc, stops_when_asked_to_and_still_gives_a_model) {  // oracle: definition of the callback
+    const IdData data = course_record(0.2, 14);
+    TransferOptions options;
+    options.lambda = 3;
+    int asked = 0;
+    options.cancel = [&] { return ++asked > 2; };
+    const TransferEstimate found = srivc(data, kCourse, options);
+    EXPECT_EQ(found.termination, Termination::kCancelled);
+    EXPECT_TRUE(found.theta.allFinite());
+    EXPECT_EQ(found.trace.size(), 2u);
+}
+
+TEST(srivc, refuses_bad_input_in_words) {  // oracle: the sentence names what is wrong
+    const IdData data = course_record(0.2, 1);
+    TransferOptions options;
+    options.Tol = -1;
+    EXPECT_NE(thrown_message([&] { srivc(data, kCourse, options); }).find("Tol"), std::string::npos);
+    EXPECT_NE(thrown_message([&] { srivc(data.range(1, 8), kCourse, {}); }).find("9 samples"), std::string::npos);
+    EXPECT_NE(thrown_message([&] { TransferStructure::single(2, 3); }).find("zeros"), std::string::npos);
+    EXPECT_NE(thrown_message([&] { TransferStructure::single(0, 0); }).find("poles"), std::string::npos);
+}
