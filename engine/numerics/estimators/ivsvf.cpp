@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "numerics/error.h"
-#include "numerics/kernels/transfer_report.h"
+#include "numerics/kernels/simulation_report.h"
 
 namespace dynlab {
 
@@ -46,7 +46,8 @@ TransferEstimate ivsvf(const IdData& data, const TransferStructure& structure, c
         estimate.condition_number = std::max(estimate.condition_number, condition);
     }
     estimate.termination = Termination::kConverged;
-    report_on(estimate, data);
+    measure_fit(estimate, data);
+    report_errors(estimate);
     if (mirrored)
         estimate.warnings.push_back(
             "The first model, from least squares, was unstable; its poles were mirrored for the instruments.");

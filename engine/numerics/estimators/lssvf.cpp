@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "numerics/error.h"
-#include "numerics/kernels/transfer_report.h"
+#include "numerics/kernels/simulation_report.h"
 #include "numerics/number_text.h"
 
 namespace dynlab {
@@ -62,12 +62,12 @@ TransferEstimate lssvf(const IdData& data, const TransferStructure& structure, c
         const double squares = std::max(0.0, sums.y_y - 2 * theta.dot(sums.z_y) + theta.dot(sums.z_phi * theta));
         const double variance = squares / static_cast<double>(group.sample_count() - d);
         estimate.theta.segment(group.place(), d) = theta;
-        estimate.covariance.block(group.place(), group.place(), d, d) =
-            variance * sums.z_phi.ldlt().solve(Matrix::Identity(d, d));
+        estimate.covariance.block(group.place(), group.place(), d, d) = variance * inverse_gram(sums.z_phi);
         estimate.condition_number = std::max(estimate.condition_number, condition);
     }
     estimate.termination = Termination::kConverged;
-    report_on(estimate, data);
+    measure_fit(estimate, data);
+    report_errors(estimate);
     warn_of_cutoff(estimate, options.lambda);
     set_message(estimate, "Least squares on filtered signals");
     return estimate;

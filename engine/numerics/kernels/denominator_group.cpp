@@ -99,21 +99,19 @@ RegressionMoments DenominatorGroup::auxiliary(const VectorView& E, const VectorV
         [&](const Member& member) { return auxiliary_moments(member.record, E, A, numerators(member, theta), gain); });
 }
 
-RegressionMoments DenominatorGroup::refined(const VectorView& theta, bool with_instruments) const {
+RegressionMoments DenominatorGroup::refined(const VectorView& theta) const {
     const Vector A = denominator(theta);
-    return sum_over_records([&](const Member& member) {
-        return refined_moments(member.record, A, numerators(member, theta), with_instruments);
-    });
+    return sum_over_records(
+        [&](const Member& member) { return refined_moments(member.record, A, numerators(member, theta)); });
 }
 
-double DenominatorGroup::error_squares(const VectorView& theta) const {
+Matrix DenominatorGroup::sensitivity_gram(const VectorView& theta) const {
     const Vector A = denominator(theta);
-    double squares = 0;
+    Matrix sum = Matrix::Zero(count_, count_);
     for (const Member& member : members_)
-        squares += weights_[member.output] * output_error_squares(member.record,
-                                                                  std::vector<Vector>(member.record.u.size(), A),
-                                                                  numerators(member, theta));
-    return squares;
+        sum(member.places, member.places) +=
+            weights_[member.output] * sensitivity_moments(member.record, A, numerators(member, theta));
+    return sum;
 }
 
 Vector DenominatorGroup::reflected(const VectorView& theta, bool* any) const {
@@ -138,6 +136,14 @@ Vector solve_moments(const RegressionMoments& moments, double* condition_number)
     if (condition_number) *condition_number = reciprocal > 0 ? 1 / reciprocal : *condition_number;
     if (!(reciprocal > 0)) return Vector::Constant(d, std::numeric_limits<double>::quiet_NaN());
     return decomposition.solve(moments.z_y.cwiseQuotient(rows)).cwiseQuotient(columns);
+}
+
+Matrix inverse_gram(const Matrix& gram, double* condition_number) {
+    const Vector scale = gram.diagonal().cwiseSqrt().cwiseInverse();
+    const Matrix scaled = scale.asDiagonal() * gram * scale.asDiagonal();
+    const Eigen::PartialPivLU<Matrix> decomposition(scaled);
+    if (condition_number) *condition_number = 1 / decomposition.rcond();
+    return scale.asDiagonal() * decomposition.inverse() * scale.asDiagonal();
 }
 
 Vector reflect_unstable_roots(const VectorView& den, bool* any) {

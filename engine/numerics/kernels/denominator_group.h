@@ -25,11 +25,9 @@ class DenominatorGroup {
 
     RegressionMoments svf(const VectorView& E, double gain = 1) const;
     RegressionMoments auxiliary(const VectorView& E, const VectorView& theta, double gain = 1) const;
-    RegressionMoments refined(const VectorView& theta, bool with_instruments) const;
-    /// Weighted sum of squares of target minus simulation from rest.
-    double error_squares(const VectorView& theta) const;
-
-    Vector denominator(const VectorView& theta) const;  ///< theta of the group
+    RegressionMoments refined(const VectorView& theta) const;
+    Matrix sensitivity_gram(const VectorView& theta) const;  ///< weighted sum z z' of the refined instruments
+    Vector denominator(const VectorView& theta) const;       ///< theta of the group
     /// theta with unstable poles mirrored (real part to its negative); tells whether there were any.
     Vector reflected(const VectorView& theta, bool* any = nullptr) const;
 
@@ -53,6 +51,9 @@ class DenominatorGroup {
 /// theta of z_phi theta = z_y, columns and rows scaled; NaN when it cannot be solved. `condition_number` of the scaled
 /// equations.
 Vector solve_moments(const RegressionMoments& moments, double* condition_number = nullptr);
+
+/// Inverse of a Gram matrix by way of its rows and columns scaled to a diagonal of ones; `condition_number` of that.
+Matrix inverse_gram(const Matrix& gram, double* condition_number = nullptr);
 
 /// The monic polynomial whose roots are those of `den` with positive real parts made negative.
 Vector reflect_unstable_roots(const VectorView& den, bool* any = nullptr);

@@ -1,5 +1,6 @@
 #include "numerics/kernels/filter_chain.h"
 
+#include "numerics/kernels/exact_filter.h"
 #include "numerics/kernels/irregular_filter.h"
 #include "numerics/linalg/polynomial.h"
 
@@ -73,6 +74,11 @@ SingleInputSystem derivatives_filter(const VectorView& den, Index highest) {
     return system;
 }
 
+Matrix chain_outputs(const FilterChain& chain, const Sampling& sampling) {
+    return sampling.Ts > 0 ? ExactFilter(sampled(chain, sampling.Ts)).run(chain.signal)
+                           : irregular_outputs(chain, sampling.t);
+}
+
 SingleInputSystem transfer_system(const VectorView& B, const VectorView& A) {
     const SingleInputSystem derivatives = derivatives_filter(A, B.size() - 1);
     return {derivatives.A, derivatives.B, B.transpose() * derivatives.C, Vector::Constant(1, B.dot(derivatives.D))};
@@ -94,7 +100,7 @@ Matrix chain_moments(const std::vector<FilterChain>& chains, const Sampling& sam
     Matrix outputs(sampling.t.size(), count);
     Index place = 0;
     for (const FilterChain& chain : chains) {
-        outputs.middleCols(place, chain.filter.C.rows()) = irregular_outputs(chain, sampling.t);
+        outputs.middleCols(place, chain.filter.C.rows()) = chain_outputs(chain, sampling);
         place += chain.filter.C.rows();
     }
     for (const OutputSum& sum : sums) {

@@ -42,6 +42,9 @@ SingleInputSystem derivatives_filter(const VectorView& den, Index highest);
 Matrix chain_moments(const std::vector<FilterChain>& chains, const Sampling& sampling, const std::vector<Index>& left,
                      const std::vector<Index>& right, const std::vector<OutputSum>& sums = {});
 
+/// The outputs of one chain themselves, N x p.
+Matrix chain_outputs(const FilterChain& chain, const Sampling& sampling);
+
 /// B/A as a system; A monic, B of no higher degree.
 SingleInputSystem transfer_system(const VectorView& B, const VectorView& A);
 /// A signal as it is: a filter with the output 1 u and no state.

@@ -11,17 +11,26 @@ constexpr double kForgotten = 1e-19;  // what is left of a state after so many s
 
 /// Steps after which the free motion is below rounding, a power of two, at most `most`.
 Index memory_length(const Matrix& F, Index most) {
-    Matrix power = F;
+    constexpr Index kShort = 512;  // looking is no gain for segments as short as this
+    if (most <= kShort) return most;
+    Matrix power = F, square = F;
     Index steps = 1;
-    for (; steps < most && power.norm() > kForgotten; steps *= 2) power = power * power;
+    for (; steps < most && power.norm() > kForgotten; steps *= 2) {
+        square.noalias() = power.lazyProduct(power);
+        power.swap(square);
+    }
     return std::min(steps, most);
 }
 
 Matrix matrix_power(const Matrix& F, Index exponent) {
-    Matrix result = Matrix::Identity(F.rows(), F.rows()), square = F;
+    Matrix result = Matrix::Identity(F.rows(), F.rows()), square = F, product = F;
+    const auto multiply = [&](Matrix& a, const Matrix& b) {
+        product.noalias() = a.lazyProduct(b);
+        a.swap(product);
+    };
     for (; exponent > 0; exponent /= 2) {
-        if (exponent % 2 == 1) result = result * square;
-        square = square * square;
+        if (exponent % 2 == 1) multiply(result, square);
+        if (exponent > 1) multiply(square, square);
     }
     return result;
 }

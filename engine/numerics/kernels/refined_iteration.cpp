@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "numerics/error.h"
-#include "numerics/kernels/transfer_report.h"
+#include "numerics/kernels/simulation_report.h"
 #include "numerics/simulation/lsim.h"
 
 namespace dynlab {
@@ -27,9 +27,13 @@ Vector simulate(const IdData& data, const Experiment& experiment, const Transfer
 /// All denominator groups of a model, and what one leaves for the other to explain.
 class Groups {
   public:
-    Groups(const IdData& data, const TransferStructure& structure, Hold hold_y) : data_(data), structure_(structure) {
-        for (std::size_t g = 0; g < structure.poles.size(); ++g)
-            groups_.emplace_back(data, structure, static_cast<Index>(g), hold_y);
+    Groups(const IdData& data, const TransferStructure& structure, const RefinedOptions& options)
+        : data_(data), structure_(structure) {
+        for (std::size_t g = 0; g < structure.poles.size(); ++g) {
+            groups_.emplace_back(data, structure, static_cast<Index>(g), options.hold_y);
+            for (Index output = 0; output < options.weights.size(); ++output)
+                groups_.back().set_weight(output, options.weights[output]);
+        }
         for (Index output = 0; output < structure.outputs; ++output)
             for (Index input = 1; input < structure.inputs; ++input)
                 shared_outputs_ = shared_outputs_ || structure.channel(output, input).denominator !=
@@ -43,7 +47,7 @@ class Groups {
             DenominatorGroup& group = groups_[g];
             if (shared_outputs_) set_targets(g, theta);
             const Vector own = theta.segment(group.place(), group.parameter_count());
-            const Vector solved = solve_moments(group.refined(own, false));
+            const Vector solved = solve_moments(group.refined(own));
             next.segment(group.place(), group.parameter_count()) = solved;
             if (solved.allFinite()) theta.segment(group.place(), group.parameter_count()) = group.reflected(solved);
         }
@@ -170,7 +174,7 @@ double simulation_loss(const IdData& data, const TransferStructure& structure, c
 
 RefinedSolution iterate_refined(const IdData& data, const TransferStructure& structure, const Vector& start,
                                 const RefinedOptions& options) {
-    Groups groups(data, structure, options.hold_y);
+    Groups groups(data, structure, options);
     RefinedSolution solution;
     solution.theta = start;
     double last_change = kInfinity;
@@ -238,7 +242,7 @@ Vector find_start(const IdData& data, const TransferStructure& structure, Hold h
         if (cancel && cancel() && best.allFinite()) break;
         const Vector start = filtered_start(data, structure, lambda, hold_y);
         if (!start.allFinite()) continue;
-        const RefinedSolution trial = iterate_refined(data, structure, start, {kTrialPasses, 1e-3, hold_y, cancel});
+        const RefinedSolution trial = iterate_refined(data, structure, start, {kTrialPasses, 1e-3, hold_y, cancel, {}});
         for (const Vector& theta : {start, trial.theta}) {
             const double loss = simulation_loss(data, structure, theta);
             if (loss < best_loss) {

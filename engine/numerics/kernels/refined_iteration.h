@@ -15,6 +15,7 @@ struct RefinedOptions {
     double tolerance = 1e-6;
     Hold hold_y = Hold::kFoh;
     std::function<bool()> cancel;
+    Vector weights = {};  ///< of the outputs' squares where outputs share a denominator; ones when empty
 };
 
 struct RefinedSolution {

@@ -6,6 +6,8 @@ namespace dynlab {
 
 namespace {
 
+constexpr Index kStoredSamples = 50'000;  // so few outputs are stored: quicker for short records
+
 /// The chains of one record, their outputs numbered through, and which of them stand for what.
 class Equation {
   public:
@@ -114,11 +116,12 @@ RegressionMoments auxiliary_moments(const RegressionRecord& record, const Vector
     return {gain * gain * result.z_phi, gain * gain * result.z_y, gain * gain * z_z, 0};
 }
 
-RegressionMoments refined_moments(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B,
-                                  bool with_instruments) {
+namespace {
+
+/// The outputs for SRIVC's z, of chains that this adds.
+std::vector<Index> add_sensitivities(Equation& equation, const RegressionRecord& record, const VectorView& A,
+                                     const std::vector<Vector>& B) {
     const Index n = A.size() - 1;
-    Equation equation(record, n);
-    equation.add_output(A);
     std::vector<Index> firsts;
     for (std::size_t j = 0; j < record.u.size(); ++j) {
         SingleInputSystem system = sensitivity_system(B[j], A);
@@ -130,19 +133,36 @@ RegressionMoments refined_moments(const RegressionRecord& record, const VectorVi
     }
     std::vector<Index> z = equation.summed_over_inputs(firsts);
     z.insert(z.end(), equation.inputs().begin(), equation.inputs().end());
-    RegressionMoments result = equation.with_instruments(z, 1);
-    if (with_instruments) result.z_z = equation.moments(z, z);
-    return result;
+    return z;
+}
+
+}  // namespace
+
+RegressionMoments refined_moments(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B) {
+    Equation equation(record, A.size() - 1);
+    equation.add_output(A);
+    const std::vector<Index> z = add_sensitivities(equation, record, A, B);
+    return equation.with_instruments(z, 1);
+}
+
+Matrix sensitivity_moments(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B) {
+    Equation equation(record, A.size() - 1);
+    const std::vector<Index> z = add_sensitivities(equation, record, A, B);
+    return equation.moments(z, z);
 }
 
 double output_error_squares(const RegressionRecord& record, const std::vector<Vector>& A,
                             const std::vector<Vector>& B) {
     std::vector<FilterChain> chains{{record.y, no_filter(), record.hold_y}};
-    OutputSum error{{{0, 1}}};
-    for (std::size_t j = 0; j < record.u.size(); ++j) {
-        error.terms.push_back({static_cast<Index>(chains.size()), -1});
+    for (std::size_t j = 0; j < record.u.size(); ++j)
         chains.push_back({record.u[j], transfer_system(B[j], A[j]), record.hold, record.delays[j]});
+    if (record.sampling.Ts > 0 && record.y.size() <= kStoredSamples) {
+        Vector error = record.y;
+        for (std::size_t j = 1; j < chains.size(); ++j) error -= chain_outputs(chains[j], record.sampling).col(0);
+        return error.squaredNorm();
     }
+    OutputSum error{{{0, 1}}};
+    for (std::size_t j = 1; j < chains.size(); ++j) error.terms.push_back({static_cast<Index>(j), -1});
     const Index place = static_cast<Index>(chains.size());
     return chain_moments(chains, record.sampling, {place}, {place}, {error})(0, 0);
 }

@@ -36,8 +36,10 @@ RegressionMoments auxiliary_moments(const RegressionRecord& record, const Vector
 
 /// SRIVC: signals filtered by 1/A, and z the exact sensitivities of the model's output,
 ///     z = [-p^(n-i) sum_j B_j/A^2 u_j, p^(m_j-l)/A u_j].
-RegressionMoments refined_moments(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B,
-                                  bool with_instruments);
+RegressionMoments refined_moments(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B);
+
+/// sum z z' of these instruments, d x d.
+Matrix sensitivity_moments(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B);
 
 /// sum (y - sum_j B_j/A_j u_j)^2, simulated from rest; every input may have a denominator of its own here.
 double output_error_squares(const RegressionRecord& record, const std::vector<Vector>& A, const std::vector<Vector>& B);

@@ -9,7 +9,7 @@ namespace dynlab {
 class TappedRecursion {
   public:
     TappedRecursion(const TappedSystem& system, const Eigen::Map<const Vector>& u)
-        : system_(system), u_(u), x_(Vector::Zero(system.F.rows())) {}
+        : system_(system), u_(u), x_(Vector::Zero(system.F.rows())), next_(x_) {}
 
     Index output_count() const { return system_.C.rows(); }
     const Vector& state() const { return x_; }
@@ -19,7 +19,7 @@ class TappedRecursion {
     template <class Output>
     void output(Index k, Output&& y) const {
         const Index now = k - system_.delay;
-        y = system_.C * x_;
+        y.noalias() = system_.C.lazyProduct(x_);
         if (now == 0) y += system_.first_D * u_[0];
         if (now > 0) y += system_.D.col(0) * u_[now] + system_.D.col(1) * u_[now - 1];
     }
@@ -28,7 +28,8 @@ class TappedRecursion {
     void step(Index k) {
         const Index now = k - system_.delay;
         if (now + 1 >= u_.size()) return;
-        x_ = system_.F * x_;
+        next_.noalias() = system_.F.lazyProduct(x_);
+        x_.swap(next_);
         if (now == 0) x_ += system_.first_G.col(0) * u_[1] + system_.first_G.col(1) * u_[0];
         if (now > 0) x_ += system_.G.col(0) * u_[now + 1] + system_.G.col(1) * u_[now] + system_.G.col(2) * u_[now - 1];
     }
@@ -36,7 +37,7 @@ class TappedRecursion {
   private:
     const TappedSystem& system_;
     const Eigen::Map<const Vector>& u_;
-    Vector x_;
+    Vector x_, next_;
 };
 
 }  // namespace dynlab

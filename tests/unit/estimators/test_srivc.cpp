@@ -124,3 +124,17 @@ TEST(srivc, refuses_bad_input_in_words) {  // oracle: the sentence names what is
     EXPECT_NE(thrown_message([&] { TransferStructure::single(2, 3); }).find("zeros"), std::string::npos);
     EXPECT_NE(thrown_message([&] { TransferStructure::single(0, 0); }).find("poles"), std::string::npos);
 }
+
+// oracle: the simulated system without noise; with noise on one output only, the other's accuracy
+TEST(srivc, outputs_with_a_common_denominator_share_what_they_know) {
+    const Vector u = prbs(6, 30), den = values({1, 2, 9});
+    Matrix y(u.size(), 2);
+    y << lsim(TransferFunction(values({3}), den), u, 0.01), lsim(TransferFunction(values({-1, 2}), den), u, 0.01);
+    const TransferStructure structure = TransferStructure::grid(2, 1, Denominators::kCommon, {2}, {0, 1}, {0});
+    const Vector truth = values({2, 9, 3, -1, 2});
+    EXPECT_LT(relative_difference(srivc(IdData(y, Matrix(u), 0.01), structure, exact()).theta, truth), 1e-8);
+    y.col(0) += 0.3 * RandomStream(2).normal(u.size());
+    const TransferEstimate found = srivc(IdData(y, Matrix(u), 0.01), structure, exact());
+    EXPECT_LT(relative_difference(found.theta.head(2), truth.head(2)), 1e-6) << found.message;
+    EXPECT_LT(std::abs(found.theta[2] - 3), 4 * found.std[2]);
+}

@@ -1,4 +1,4 @@
-#include "numerics/kernels/transfer_report.h"
+#include "numerics/kernels/simulation_report.h"
 
 #include <algorithm>
 #include <cmath>
@@ -116,11 +116,10 @@ double simulation_squares(const IdData& data, const TransferStructure& structure
     return squares;
 }
 
-void report_on(TransferEstimate& estimate, const IdData& data) {
+void measure_fit(TransferEstimate& estimate, const IdData& data) {
     const TransferStructure& structure = estimate.structure;
     estimate.names = structure.parameter_names();
     estimate.models = structure.models(estimate.theta);
-    estimate.std = estimate.covariance.diagonal().cwiseMax(0).cwiseSqrt();
     estimate.offsets = Matrix::Zero(static_cast<Index>(data.experiments.size()), structure.outputs);
     const double N = static_cast<double>(data.sample_count());
     estimate.fit_percent.resize(structure.outputs);
@@ -137,6 +136,10 @@ void report_on(TransferEstimate& estimate, const IdData& data) {
         estimate.noise_variance[output] = squares / (N - d);
         estimate.loss += squares / N / static_cast<double>(structure.outputs);
     }
+}
+
+void report_errors(TransferEstimate& estimate) {
+    estimate.std = estimate.covariance.diagonal().cwiseMax(0).cwiseSqrt();
     warn_of_cancellation(estimate);
     warn_of_undetermined(estimate);
     if (!(estimate.condition_number < kBadCondition))

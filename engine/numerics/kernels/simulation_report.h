@@ -13,10 +13,12 @@ void check_transfer_data(const char* method, const IdData& data, const TransferS
 double simulation_squares(const IdData& data, const TransferStructure& structure, const VectorView& theta,
                           Index output);
 
-/// Fills names, models, std (from the covariance), loss, fit and noise variance from structure, theta and covariance,
-/// for a simulation from rest, and warns of poles and zeros that nearly cancel, of parameters that the data hardly
+/// Fills names, models, fit, loss and noise variances from structure and theta, for a simulation from rest.
+void measure_fit(TransferEstimate& estimate, const IdData& data);
+
+/// Fills std from the covariance, and warns of poles and zeros that nearly cancel, of parameters that the data hardly
 /// determine, and of equations that are badly conditioned.
-void report_on(TransferEstimate& estimate, const IdData& data);
+void report_errors(TransferEstimate& estimate);
 
 /// The message: a first sentence, then the fit and all warnings.
 void set_message(TransferEstimate& estimate, const std::string& first);
