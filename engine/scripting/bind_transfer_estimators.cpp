@@ -3,6 +3,7 @@
 #include "numerics/estimators/ivsvf.h"
 #include "numerics/estimators/lssvf.h"
 #include "numerics/estimators/srivc.h"
+#include "numerics/kernels/simulation_report.h"
 #include "scripting/bindings.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/model.h"
@@ -120,7 +121,8 @@ int estimate_filtered(Call& call) {
     if constexpr (kMomentFunctionals) wanted.beta = options.optional_number("beta").value_or(wanted.lambda);
     const TransferStructure structure =
         structure_for(data, Denominators::kPerOutput, orders[0], zeros_of(orders[1]), delays_of(orders[2], data));
-    const TransferEstimate result = kMethod(data, structure, wanted);
+    TransferEstimate result = kMethod(data, structure, wanted);
+    measure_fit(result, data);
     Estimate estimate = estimate_of(name_of(call), result);
     estimate.carx = true;
     return give_estimate(call, std::move(estimate), result);

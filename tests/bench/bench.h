@@ -26,6 +26,7 @@ std::pair<double, double> paired_medians(int repetitions, const std::function<vo
                                          const std::function<void()>& b);
 
 void measure_numerics(Report& report);
+void measure_estimators(Report& report);
 void measure_program(Report& report);
 
 }  // namespace dynlab::bench

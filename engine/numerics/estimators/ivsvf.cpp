@@ -46,7 +46,6 @@ TransferEstimate ivsvf(const IdData& data, const TransferStructure& structure, c
         estimate.condition_number = std::max(estimate.condition_number, condition);
     }
     estimate.termination = Termination::kConverged;
-    measure_fit(estimate, data);
     report_errors(estimate);
     if (mirrored)
         estimate.warnings.push_back(

@@ -66,7 +66,6 @@ TransferEstimate lssvf(const IdData& data, const TransferStructure& structure, c
         estimate.condition_number = std::max(estimate.condition_number, condition);
     }
     estimate.termination = Termination::kConverged;
-    measure_fit(estimate, data);
     report_errors(estimate);
     warn_of_cutoff(estimate, options.lambda);
     set_message(estimate, "Least squares on filtered signals");

@@ -20,7 +20,8 @@ struct SvfOptions {
 ///     minimise sum_k (p^n y_f - phi' theta)^2,  phi = [-p^(n-1) y_f .. -y_f, p^m u_f .. u_f].
 /// Exact filters from rest; inputs as the data's hold says, delays fixed and of any size. Biased by noise on the
 /// output: see ivsvf, srivc. Standard errors are those of least squares with a white equation error. All inputs of an
-/// output share a denominator (kPerOutput or kCommon). Memory does not grow with the record. Throws InvalidArgument for
+/// output share a denominator (kPerOutput or kCommon). Memory does not grow with the
+/// record. The fit of the simulation is not measured (measure_fit does). Throws InvalidArgument for
 /// unsuitable data (check_transfer_data), denominators per channel with several inputs, or free delays.
 /// Reference: Young (1981); Garnier and Wang (2008), section 1.3.
 TransferEstimate lssvf(const IdData& data, const TransferStructure& structure, const SvfOptions& options);

@@ -153,12 +153,16 @@ bool shares_denominators(const TransferStructure& structure, Index output) {
 }  // namespace
 
 IdData beginning_of(const IdData& data, Index most_samples) {
-    IdData part = data;
-    for (Experiment& experiment : part.experiments) {
+    IdData part;
+    part.Ts = data.Ts;
+    part.hold = data.hold;
+    for (const Experiment& experiment : data.experiments) {
         const Index N = std::min(most_samples, experiment.y.rows());
-        experiment.y = experiment.y.topRows(N).eval();
-        experiment.u = experiment.u.topRows(N).eval();
-        if (experiment.t.size() > 0) experiment.t = experiment.t.head(N).eval();
+        Experiment beginning;
+        beginning.y = experiment.y.topRows(N);
+        beginning.u = experiment.u.topRows(N);
+        if (experiment.t.size() > 0) beginning.t = experiment.t.head(N);
+        part.experiments.push_back(std::move(beginning));
     }
     return part;
 }

@@ -118,8 +118,6 @@ double simulation_squares(const IdData& data, const TransferStructure& structure
 
 void measure_fit(TransferEstimate& estimate, const IdData& data) {
     const TransferStructure& structure = estimate.structure;
-    estimate.names = structure.parameter_names();
-    estimate.models = structure.models(estimate.theta);
     estimate.offsets = Matrix::Zero(static_cast<Index>(data.experiments.size()), structure.outputs);
     const double N = static_cast<double>(data.sample_count());
     estimate.fit_percent.resize(structure.outputs);
@@ -139,6 +137,8 @@ void measure_fit(TransferEstimate& estimate, const IdData& data) {
 }
 
 void report_errors(TransferEstimate& estimate) {
+    estimate.names = estimate.structure.parameter_names();
+    estimate.models = estimate.structure.models(estimate.theta);
     estimate.std = estimate.covariance.diagonal().cwiseMax(0).cwiseSqrt();
     warn_of_cancellation(estimate);
     warn_of_undetermined(estimate);
@@ -150,8 +150,8 @@ void report_errors(TransferEstimate& estimate) {
 void set_message(TransferEstimate& estimate, const std::string& first) {
     std::string fits;
     for (Index output = 0; output < estimate.fit_percent.size(); ++output)
-        fits += (output == 0 ? "" : " % and ") + number_text(estimate.fit_percent[output], 4);
-    estimate.message = first + ": fit " + fits + " % (simulation).";
+        fits += (output == 0 ? ": fit " : " % and ") + number_text(estimate.fit_percent[output], 4);
+    estimate.message = first + (fits.empty() ? "." : fits + " % (simulation).");
     for (const std::string& warning : estimate.warnings) estimate.message += " " + warning;
 }
 

@@ -13,14 +13,15 @@ void check_transfer_data(const char* method, const IdData& data, const TransferS
 double simulation_squares(const IdData& data, const TransferStructure& structure, const VectorView& theta,
                           Index output);
 
-/// Fills names, models, fit, loss and noise variances from structure and theta, for a simulation from rest.
+/// Fills fit, loss, noise variances and offsets (none) from structure and theta, for a simulation from rest. lssvf and
+/// ivsvf leave it to whoever wants to know: it takes as long as they do.
 void measure_fit(TransferEstimate& estimate, const IdData& data);
 
-/// Fills std from the covariance, and warns of poles and zeros that nearly cancel, of parameters that the data hardly
-/// determine, and of equations that are badly conditioned.
+/// Fills names, models and std from structure, theta and covariance, and warns of poles and zeros that nearly cancel,
+/// of parameters that the data hardly determine, and of equations that are badly conditioned.
 void report_errors(TransferEstimate& estimate);
 
-/// The message: a first sentence, then the fit and all warnings.
+/// The message: a first sentence, then the fit where it was measured, and all warnings.
 void set_message(TransferEstimate& estimate, const std::string& first);
 
 }  // namespace dynlab

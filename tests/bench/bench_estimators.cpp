@@ -1,0 +1,173 @@
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <fstream>
+#include <stdexcept>
+
+#include "bench/bench.h"
+#include "bench/peers.h"
+#include "numerics/estimators/ivsvf.h"
+#include "numerics/estimators/lssvf.h"
+#include "numerics/estimators/srivc.h"
+#include "numerics/signals/prbs.h"
+#include "numerics/signals/random.h"
+#include "numerics/simulation/lsim.h"
+
+namespace dynlab::bench {
+namespace {
+
+constexpr double kSamplingTime = 0.01, kCutoff = 3, kNoise = 0.2;
+constexpr Index kShort = 1500, kLong = 1'000'000, kVeryLong = 10'000'000;
+constexpr int kRuns = 200;
+
+/// A record of 2/(s^2 + 4s + 3): its response x to a binary sequence that does not repeat, and y = x + noise.
+struct Record {
+    explicit Record(Index samples)
+        : u(samples == kShort ? prbs(4, 100).head(samples) : prbs(17, 100).head(samples)),
+          x(lsim(TransferFunction(Vector::Constant(1, 2.0), Eigen::Vector3d(1, 4, 3)), u, kSamplingTime)),
+          y(x + kNoise * RandomStream(1).normal(samples)),
+          data(y, u, kSamplingTime) {}
+
+    Vector u, x, y;
+    IdData data;
+};
+
+Vector lssvf_theta(const IdData& data) {
+    SvfOptions options;
+    options.lambda = kCutoff;
+    return lssvf(data, TransferStructure::single(2, 0), options).theta;
+}
+
+Vector ivsvf_theta(const IdData& data) {
+    SvfOptions options;
+    options.lambda = kCutoff;
+    return ivsvf(data, TransferStructure::single(2, 0), options).theta;
+}
+
+Vector srivc_theta(const IdData& data) {
+    TransferOptions options;
+    options.lambda = kCutoff;
+    return srivc(data, TransferStructure::single(2, 0), options).theta;
+}
+
+using Method = Vector (*)(const IdData&);
+
+/// In an arena of one thread, whatever the machine has.
+Vector on_one_core(const std::function<Vector()>& work) {
+    tbb::task_arena arena(1);
+    Vector result;
+    arena.execute([&] { result = work(); });
+    return result;
+}
+
+/// Both samples of every instant once, in the order of time, as an estimator cannot do without.
+double read_once(const Vector& u, const Vector& y) {
+    return u.dot(y);
+}
+
+void measure_lssvf(const Record& million, const Record& ten_million, Report& report) {
+    const auto estimate = [](const Record& record) { return on_one_core([&] { return lssvf_theta(record.data); }); };
+    {
+        const PeerRecord file(million.u, million.y);
+        const auto work = [&] { return estimate(million); };
+        compare_with_peer({"LSSVF, N = 1e6 (s)", Peer::kNumpy, "lssvf", 1.0 / 100, 1.0 / 150, 21}, file, work, report);
+        compare_with_peer({"LSSVF, N = 1e6 (s)", Peer::kNumpy, "lssvf_lstsq", 1.0 / 100, 1.0 / 150, 21}, file, work,
+                          report);
+        compare_with_peer({"LSSVF, N = 1e6 (s)", Peer::kOctave, "lssvf", 1.0 / 100, 0, 21}, file, work, report);
+    }
+    double check = 0;
+    const auto [measured, reference] = paired_medians(
+        11, [&] { check += estimate(ten_million).sum(); }, [&] { check += read_once(ten_million.u, ten_million.y); });
+    if (check == 0) throw std::logic_error("nothing was estimated");
+    report.results.push_back({"LSSVF, N = 1e7 (s)", "one read of u and y (s)", measured, reference, 3, 2});
+    const PeerRecord file(ten_million.u, ten_million.y);
+    compare_with_peer(
+        {"LSSVF, N = 1e7 (s)", Peer::kNumpy, "lssvf", 1.0 / 100, 1.0 / 150, 5, 3}, file,
+        [&] { return estimate(ten_million); }, report);
+}
+
+void measure_srivc(const Record& record, const std::string& what, double goal, int repetitions, Report& report) {
+    const PeerRecord file(record.u, record.y);
+    const auto work = [&] { return on_one_core([&] { return srivc_theta(record.data); }); };
+    const int peer_repetitions = std::min(repetitions, 101);
+    compare_with_peer({what, Peer::kNumpy, "srivc", 1.0 / 25, goal, repetitions, peer_repetitions}, file, work, report);
+    compare_with_peer({what, Peer::kOctave, "srivc", 1.0 / 25, 0, repetitions, std::min(peer_repetitions, 21)}, file,
+                      work, report);
+}
+
+/// Means of LSSVF, IVSVF and SRIVC over the runs.
+Vector monte_carlo(const Record& record, int threads) {
+    Matrix theta(9, kRuns);
+    tbb::task_arena arena(threads);
+    arena.execute([&] {
+        tbb::parallel_for(0, kRuns, [&](int run) {
+            const auto seed = static_cast<std::uint32_t>(1 + run);
+            const IdData data(record.x + kNoise * RandomStream(seed).normal(record.x.size()), record.u, kSamplingTime);
+            theta.col(run) << lssvf_theta(data), ivsvf_theta(data), srivc_theta(data);
+        });
+    });
+    return theta.rowwise().mean();
+}
+
+void measure_monte_carlo(const Record& record, Report& report) {
+    const std::string what = "Monte Carlo, 200 runs, N = 1500 (s)";
+    // Other random numbers: the means of 200 runs differ by half a percent at most.
+    constexpr double kTolerance = 0.05;
+    compare_with_peer(
+        {what, Peer::kNumpy, "monte_carlo", 1.0 / 30, 1.0 / 60, 11, 5, kTolerance}, {record.u, record.x},
+        [&] { return monte_carlo(record, 1); }, report);
+    const auto [two, one] = paired_medians(
+        21, [&] { monte_carlo(record, 2); }, [&] { monte_carlo(record, 1); });
+    report.results.push_back({what + ", two threads", "one thread (s)", two, one, 1 / 1.7, 0});
+}
+
+void measure_growth(const std::string& what, Method method, const Record& million, const Record& ten_million,
+                    Report& report) {
+    const auto estimate = [&](const Record& record) { on_one_core([&] { return method(record.data); }); };
+    const auto [measured, reference] = paired_medians(
+        11, [&] { estimate(ten_million); },
+        [&] {
+            for (int k = 0; k < 10; ++k) estimate(million);
+        });
+    report.results.push_back({what + ", N = 1e7 (s)", "ten times N = 1e6 (s)", measured, reference, 1.2, 0});
+}
+
+/// Most memory in use while the work is done, MB.
+double peak_memory(const std::function<void()>& work) {
+    std::ofstream("/proc/self/clear_refs") << 5;  // starts the peak anew
+    work();
+    std::ifstream status("/proc/self/status");
+    for (std::string word; status >> word;) {
+        double kilobytes = 0;
+        if (word == "VmHWM:" && status >> kilobytes) return kilobytes / 1024;
+    }
+    throw std::runtime_error("/proc/self/status does not tell VmHWM");
+}
+
+void measure_memory(const std::string& what, Method method, Report& report) {
+    const IdData data = std::move(Record(kVeryLong).data);
+    const double megabytes = 2.0 * static_cast<double>(kVeryLong) * sizeof(double) / (1 << 20);
+    const double peak = peak_memory([&] { method(data); });
+    report.results.push_back(
+        {"peak memory of " + what + ", N = 1e7 (MB)", "the data and 64 MB", peak, megabytes + 64, 1, 0});
+}
+
+}  // namespace
+
+void measure_estimators(Report& report) {
+    {
+        const Record record(kShort);
+        measure_srivc(record, "SRIVC, N = 1500 (s)", 1.0 / 40, 301, report);
+        measure_monte_carlo(record, report);
+    }
+    measure_memory("LSSVF", lssvf_theta, report);
+    measure_memory("SRIVC", srivc_theta, report);
+    const Record million(kLong), ten_million(kVeryLong);
+    measure_lssvf(million, ten_million, report);
+    measure_srivc(million, "SRIVC, N = 1e6 (s)", 1.0 / 80, 11, report);
+    measure_growth("LSSVF", lssvf_theta, million, ten_million, report);
+    measure_growth("SRIVC", srivc_theta, million, ten_million, report);
+}
+
+}  // namespace dynlab::bench
