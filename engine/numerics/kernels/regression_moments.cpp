@@ -63,13 +63,16 @@ class Equation {
         }
         return places;
     }
-    /// sum z [phi' p^n y_f] for z = sign (n first) and input derivatives.
-    RegressionMoments with_instruments(const std::vector<Index>& z, double sign) const {
-        Matrix all = moments(z, right());
+    /// sum z [phi' p^n y_f] for z = sign (n first) and input derivatives; and sum z z' in the same run when wanted.
+    RegressionMoments with_instruments(const std::vector<Index>& z, double sign, bool with_gram) const {
+        std::vector<Index> columns = right();
+        if (with_gram) columns.insert(columns.end(), z.begin(), z.end());
+        Matrix all = moments(z, columns);
+        const Index d = parameters();
         all.leftCols(n_) *= -1;
         all.topRows(n_) *= sign;
-        const Index d = parameters();
-        return {all.leftCols(d), all.col(d), Matrix(), 0};
+        if (with_gram) all.middleCols(d + 1, n_) *= sign;
+        return {all.leftCols(d), all.col(d), with_gram ? Matrix(all.rightCols(d)) : Matrix(), 0};
     }
 
   private:
@@ -109,11 +112,8 @@ RegressionMoments auxiliary_moments(const RegressionRecord& record, const Vector
     }
     std::vector<Index> z = equation.summed_over_inputs(firsts);
     z.insert(z.end(), equation.inputs().begin(), equation.inputs().end());
-    RegressionMoments result = equation.with_instruments(z, -1);
-    Matrix z_z = equation.moments(z, z);
-    z_z.topRows(n) *= -1;
-    z_z.leftCols(n) *= -1;
-    return {gain * gain * result.z_phi, gain * gain * result.z_y, gain * gain * z_z, 0};
+    const RegressionMoments sums = equation.with_instruments(z, -1, true);
+    return {gain * gain * sums.z_phi, gain * gain * sums.z_y, gain * gain * sums.z_z, 0};
 }
 
 namespace {
@@ -142,7 +142,7 @@ RegressionMoments refined_moments(const RegressionRecord& record, const VectorVi
     Equation equation(record, A.size() - 1);
     equation.add_output(A);
     const std::vector<Index> z = add_sensitivities(equation, record, A, B);
-    return equation.with_instruments(z, 1);
+    return equation.with_instruments(z, 1, false);
 }
 
 Matrix sensitivity_moments(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B) {
