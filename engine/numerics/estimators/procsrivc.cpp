@@ -15,8 +15,6 @@ namespace dynlab {
 namespace {
 
 constexpr Index kSamplesPerParameter = 3;
-constexpr int kRoughIterations = 15;
-constexpr double kRoughTolerance = 1e-3;
 
 struct Record {
     Vector u, y;
@@ -68,22 +66,6 @@ struct Fit {
     double bic = std::numeric_limits<double>::infinity();
 };
 
-// Follows every start a little way, and the best of them to the end.
-OutputErrorSolution search_from(const ProcessOutput& model, const Vector& y, const std::vector<Vector>& starts,
-                                const ProcsrivcOptions& options) {
-    const OutputErrorOptions rough{std::min(kRoughIterations, options.MaxIter), std::max(kRoughTolerance, options.Tol),
-                                   options.cancel};
-    OutputErrorSolution best = minimise_output_error(model, y, starts.front(), rough);
-    for (std::size_t i = 1; i < starts.size() && best.termination != Termination::kCancelled; ++i) {
-        OutputErrorSolution other = minimise_output_error(model, y, starts[i], rough);
-        if (other.loss < (1 - kRoughTolerance) * best.loss) best = std::move(other);
-    }
-    OutputErrorSolution end =
-        minimise_output_error(model, y, best.theta, {options.MaxIter, options.Tol, options.cancel});
-    end.trace.insert(end.trace.begin(), best.trace.begin(), best.trace.end());
-    return end;
-}
-
 Fit fit_condition(const Record& record, const ProcessStructure& structure, const StartCondition& condition,
                   const ProcsrivcOptions& options) {
     const DelayBounds bounds = delay_bounds(record, options);
@@ -94,7 +76,8 @@ Fit fit_condition(const Record& record, const ProcessStructure& structure, const
                               " samples for the " + std::to_string(d) + " values it estimates, and the record holds " +
                               std::to_string(N));
     Fit fit{condition, {}, scan_process_grid(model, record.y, options.NumTd)};
-    fit.solution = search_from(model, record.y, fit.scan.starts, options);
+    fit.solution =
+        minimise_output_error(model, record.y, fit.scan.starts, {options.MaxIter, options.Tol, options.cancel});
     fit.bic = bic_of_loss(fit.solution.loss, record.y.squaredNorm() / static_cast<double>(N), N, d);
     return fit;
 }

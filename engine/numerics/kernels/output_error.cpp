@@ -1,6 +1,7 @@
 #include "numerics/kernels/output_error.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -12,6 +13,8 @@ namespace dynlab {
 
 namespace {
 
+constexpr int kRoughIterations = 15;
+constexpr double kRoughTolerance = 1e-3;
 constexpr double kFirstDamping = 1e-3, kLeastDamping = 1e-14, kLargestDamping = 1e12;
 
 class Search {
@@ -37,7 +40,7 @@ class Search {
                 termination = Termination::kNoProgress;
                 break;
             }
-            trace_.push_back({square_sum_ / samples(), used_damping_, change});
+            trace_.push_back({square_sum_ / samples(), used_damping_, change, theta_});
             if (change <= options_.tolerance) {
                 termination = Termination::kConverged;
                 break;
@@ -56,9 +59,9 @@ class Search {
         scale_ = sensitivities_.colwise().norm().transpose();
         for (double& value : scale_)
             if (!(value > 0)) value = 1;
-        const Matrix scaled = sensitivities_ * scale_.cwiseInverse().asDiagonal();
-        gram_ = scaled.transpose() * scaled;
-        descent_ = scaled.transpose() * residuals_;
+        const auto scaling = scale_.cwiseInverse().asDiagonal();
+        gram_ = scaling * (sensitivities_.transpose() * sensitivities_) * scaling;
+        descent_ = scaling * (sensitivities_.transpose() * residuals_);
         hold_at_bounds();
     }
 
@@ -174,6 +177,20 @@ OutputErrorSolution minimise_output_error(const OutputErrorModel& model, const V
     else
         return Search(model, y, options).run(start);
     throw InvalidArgument(text.str());
+}
+
+OutputErrorSolution minimise_output_error(const OutputErrorModel& model, const VectorView& y,
+                                          const std::vector<Vector>& starts, const OutputErrorOptions& options) {
+    const OutputErrorOptions rough{std::min(kRoughIterations, options.max_iterations),
+                                   std::max(kRoughTolerance, options.tolerance), options.cancel};
+    OutputErrorSolution best = minimise_output_error(model, y, starts.front(), rough);
+    for (std::size_t i = 1; i < starts.size() && best.termination != Termination::kCancelled; ++i) {
+        OutputErrorSolution other = minimise_output_error(model, y, starts[i], rough);
+        if (other.loss < (1 - kRoughTolerance) * best.loss) best = std::move(other);
+    }
+    OutputErrorSolution end = minimise_output_error(model, y, best.theta, options);
+    end.trace.insert(end.trace.begin(), best.trace.begin(), best.trace.end());
+    return end;
 }
 
 }  // namespace dynlab

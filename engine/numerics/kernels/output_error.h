@@ -34,6 +34,7 @@ struct OutputErrorIteration {
     double loss;     ///< sum of squared output errors over N after the iteration
     double damping;  ///< Levenberg-Marquardt parameter it was made with
     double change;   ///< largest relative parameter change
+    Vector theta;    ///< after the iteration
 };
 
 struct OutputErrorSolution {
@@ -56,5 +57,9 @@ struct OutputErrorSolution {
 /// there are no more samples than parameters.
 OutputErrorSolution minimise_output_error(const OutputErrorModel& model, const VectorView& y, const Vector& start,
                                           const OutputErrorOptions& options = {});
+
+/// The same from several starts (one at least): each is followed a little way, the best of them to the end.
+OutputErrorSolution minimise_output_error(const OutputErrorModel& model, const VectorView& y,
+                                          const std::vector<Vector>& starts, const OutputErrorOptions& options);
 
 }  // namespace dynlab

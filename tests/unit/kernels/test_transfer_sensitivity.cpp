@@ -49,6 +49,7 @@ TEST(transfer_sensitivity, agrees_with_differences) {  // oracle: second route, 
         for (const auto& [num, den] :
              std::vector<std::pair<Vector, Vector>>{{Vector{{2.0}}, Vector{{1.0, 1.2, 4.0}}},
                                                     {Vector{{-0.5, 3.0}}, Vector{{1.0, 1.2, 4.0}}},
+                                                    {Vector{{0.7, -0.5, 3.0}}, Vector{{1.0, 1.2, 4.0}}},
                                                     {Vector{{1.0, 0.3, 2.0}}, Vector{{1.0, 2.5, 3.0, 1.5}}}}) {
             const Index n = den.size() - 1, m = num.size() - 1;
             const Matrix S = transfer_sensitivities(num, den, delay, u, Ts, hold);
@@ -89,7 +90,24 @@ TEST(transfer_sensitivity, free_sensitivities_agree_with_differences) {  // orac
     }
 }
 
-TEST(transfer_sensitivity, refuses_direct_feedthrough) {
-    EXPECT_THROW(transfer_response(Vector{{1.0, 2.0}}, Vector{{1.0, 3.0}}, 0, Vector::Ones(5), 1, Hold::kZoh),
+TEST(transfer_sensitivity, irregular_instants_that_are_regular_give_the_same) {  // oracle: second route
+    const Vector u = rough_input(150), t = Vector::LinSpaced(150, 0, 14.9), initial{{1.0, -0.5}};
+    const Vector den{{1.0, 1.2, 4.0}};
+    for (Hold hold : {Hold::kZoh, Hold::kFoh})
+        for (const Vector& num : {Vector{{-0.5, 3.0}}, Vector{{0.7, -0.5, 3.0}}})
+            for (double delay : {0.0, 0.234}) {
+                const Matrix regular = transfer_sensitivities(num, den, delay, u, 0.1, hold),
+                             irregular = transfer_sensitivities(num, den, delay, u, t, hold);
+                EXPECT_LT((regular - irregular).cwiseAbs().maxCoeff(), 1e-10);
+                EXPECT_LT((regular.col(0) - transfer_response(num, den, delay, u, t, hold)).cwiseAbs().maxCoeff(),
+                          1e-10);
+            }
+    EXPECT_LT((free_responses(den, t) - free_responses(den, 150, 0.1)).cwiseAbs().maxCoeff(), 1e-11);
+    EXPECT_LT((free_sensitivities(den, initial, t) - free_sensitivities(den, initial, 150, 0.1)).cwiseAbs().maxCoeff(),
+              1e-11);
+}
+
+TEST(transfer_sensitivity, refuses_what_is_not_proper) {
+    EXPECT_THROW(transfer_response(Vector{{1.0, 2.0, 0.0}}, Vector{{1.0, 3.0}}, 0, Vector::Ones(5), 1, Hold::kZoh),
                  InvalidArgument);
 }
