@@ -1,0 +1,279 @@
+#include "numerics/validation/monte_carlo.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+#include "numerics/error.h"
+#include "numerics/kernels/thread_count.h"
+#include "numerics/number_text.h"
+#include "numerics/signals/random.h"
+#include "numerics/simulation/lsim.h"
+#include "numerics/validation/cramer_rao.h"
+
+namespace dynlab {
+namespace {
+
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+
+/// One run of one method.
+struct Outcome {
+    MonteCarloEstimate estimate;
+    std::string failure;  ///< empty when there is an estimate
+    bool done = false;
+};
+
+std::string failure_of(const MonteCarloEstimate& estimate) {
+    if (estimate.theta.size() == 0) return "it gave no parameters";
+    if (!estimate.theta.allFinite()) return "a parameter is not finite";
+    return "";
+}
+
+Outcome outcome_of(const MonteCarloMethod& method, const IdData& data) {
+    Outcome outcome;
+    try {
+        outcome.estimate = method.estimate(data);
+        outcome.failure = failure_of(outcome.estimate);
+    } catch (const std::exception& error) {
+        outcome.failure = error.what();
+    }
+    outcome.done = true;
+    return outcome;
+}
+
+/// Joins what the threads of a study share: the noise-free record, the outcomes, progress and the wish to stop.
+class Runner {
+  public:
+    Runner(const MonteCarloStudy& study, const std::vector<MonteCarloMethod>& methods, const Vector& x, double sigma)
+        : study_(study),
+          methods_(methods),
+          x_(x),
+          sigma_(sigma),
+          outcomes_(methods.size(), std::vector<Outcome>(static_cast<std::size_t>(study.runs))) {}
+
+    void run() {
+        if (any(true)) run_concurrently();
+        if (!any(false)) return;
+        IdData record = empty_record();
+        for (int k = 0; k < study_.runs; ++k) one_run(k, false, record);
+    }
+
+    const std::vector<Outcome>& outcomes(std::size_t method) const { return outcomes_[method]; }
+    bool cancelled() const { return cancelled_; }
+
+  private:
+    bool any(bool concurrent) const {
+        return std::any_of(methods_.begin(), methods_.end(),
+                           [&](const MonteCarloMethod& method) { return method.concurrent == concurrent; });
+    }
+
+    IdData empty_record() const {
+        IdData record(Matrix(x_), Matrix(study_.u), study_.Ts);
+        record.hold = study_.hold;
+        return record;
+    }
+
+    void run_concurrently() {
+        tbb::enumerable_thread_specific<IdData> records([this] { return empty_record(); });
+        tbb::task_arena arena(thread_count(study_.threads));
+        arena.execute([&] {
+            tbb::parallel_for(
+                tbb::blocked_range<int>(0, study_.runs, 1),
+                [&](const tbb::blocked_range<int>& runs) {
+                    // A nested parallel loop of a method may not bring another run into this thread's record.
+                    for (int k = runs.begin(); k < runs.end(); ++k)
+                        tbb::this_task_arena::isolate([&] { one_run(k, true, records.local()); });
+                },
+                tbb::simple_partitioner());
+        });
+    }
+
+    void one_run(int k, bool concurrent, IdData& record) {
+        if (asked_to_stop()) return;
+        RandomStream random(study_.seed + static_cast<std::uint32_t>(k));
+        Matrix& y = record.experiments.front().y;
+        for (Index i = 0; i < y.rows(); ++i) y(i, 0) = x_[i] + sigma_ * random.normal();
+        for (std::size_t j = 0; j < methods_.size(); ++j) {
+            if (methods_[j].concurrent != concurrent) continue;
+            Outcome outcome = outcome_of(methods_[j], record);
+            if (asked_to_stop()) return;  // the method may have been stopped half way
+            outcomes_[j][static_cast<std::size_t>(k)] = std::move(outcome);
+            tell_progress();
+        }
+    }
+
+    bool asked_to_stop() {
+        if (!study_.cancel) return false;
+        const std::scoped_lock lock(callbacks_);
+        if (!cancelled_ && study_.cancel()) cancelled_ = true;
+        return cancelled_;
+    }
+
+    void tell_progress() {
+        if (!study_.progress) return;
+        const std::scoped_lock lock(callbacks_);
+        study_.progress(++estimations_);
+    }
+
+    const MonteCarloStudy& study_;
+    const std::vector<MonteCarloMethod>& methods_;
+    const Vector& x_;
+    double sigma_;
+    std::vector<std::vector<Outcome>> outcomes_;  // per method, per run
+    std::mutex callbacks_;
+    std::atomic<bool> cancelled_ = false;
+    std::size_t estimations_ = 0;
+};
+
+std::vector<std::string> names_for(const MonteCarloEstimate& estimate, const TransferFunction& system) {
+    const std::size_t d = static_cast<std::size_t>(estimate.theta.size());
+    if (estimate.names.size() == d) return estimate.names;
+    std::vector<std::string> names = system_parameter_names(system);
+    if (estimate.continuous && names.size() == d) return names;
+    names.clear();
+    for (std::size_t i = 1; i <= d; ++i) names.push_back("theta" + std::to_string(i));
+    return names;
+}
+
+/// The middle of the values; reorders them.
+double median_of(std::vector<double>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    if (values.size() % 2 == 1) return *middle;
+    return 0.5 * (*middle + *std::max_element(values.begin(), middle));
+}
+
+/// Statistics of parameter i over the runs that gave an estimate.
+void describe_parameter(MonteCarloResult& result, Index i) {
+    std::vector<double> values, reported;
+    for (Index k = 0; k < result.theta.rows(); ++k) {
+        if (std::isfinite(result.theta(k, i))) values.push_back(result.theta(k, i));
+        if (std::isfinite(result.std(k, i))) reported.push_back(result.std(k, i));
+    }
+    const auto count = static_cast<Index>(values.size());
+    const Eigen::Map<const Vector> v(values.data(), count);
+    result.mean[i] = v.mean();
+    result.spread[i] = std::sqrt((v.array() - v.mean()).square().sum() / std::max(1.0, static_cast<double>(count - 1)));
+    result.low[i] = v.minCoeff();
+    result.high[i] = v.maxCoeff();
+    if (!reported.empty())
+        result.reported[i] = Eigen::Map<const Vector>(reported.data(), static_cast<Index>(reported.size())).mean();
+    result.median[i] = median_of(values);
+}
+
+void fill_runs(MonteCarloResult& result, const std::vector<Outcome>& outcomes, Index d) {
+    const auto runs = static_cast<Index>(outcomes.size());
+    result.theta = result.std = Matrix::Constant(runs, d, kNothing);
+    for (Index k = 0; k < runs; ++k) {
+        const Outcome& outcome = outcomes[static_cast<std::size_t>(k)];
+        if (!outcome.done) continue;
+        const MonteCarloEstimate& estimate = outcome.estimate;
+        std::string failure = outcome.failure;
+        if (failure.empty() && estimate.theta.size() != d)
+            failure = "it gave " + std::to_string(estimate.theta.size()) + " parameters, but " + std::to_string(d) +
+                      " in an earlier run";
+        if (!failure.empty()) {
+            if (result.failed++ == 0) result.first_failure = failure;
+            continue;
+        }
+        ++result.estimated;
+        if (!estimate.converged) ++result.not_converged;
+        result.theta.row(k) = estimate.theta.transpose();
+        if (estimate.std.size() == d) result.std.row(k) = estimate.std.transpose();
+    }
+}
+
+const MonteCarloEstimate* first_estimate(const std::vector<Outcome>& outcomes) {
+    for (const Outcome& outcome : outcomes)
+        if (outcome.done && outcome.failure.empty()) return &outcome.estimate;
+    return nullptr;
+}
+
+void add_truth(MonteCarloResult& result, const MonteCarloStudy& study, double sigma) {
+    result.truth = true_parameters(study.system, result.names);
+    if (result.truth.size() == 0) return;
+    result.bias = result.mean - result.truth;
+    const bool free_delay = result.names.back() == "Td";
+    const Index coefficients = result.truth.size() - study.system.pole_count() - (free_delay ? 1 : 0);
+    if (free_delay && coefficients > study.system.pole_count()) return;  // no bound: the output jumps with the input
+    result.bound = cramer_rao_bound(study.system, study.u, study.Ts, study.hold, sigma, result.names);
+}
+
+MonteCarloResult result_of(const MonteCarloStudy& study, const MonteCarloMethod& method,
+                           const std::vector<Outcome>& outcomes, double sigma) {
+    MonteCarloResult result;
+    result.label = method.label;
+    const MonteCarloEstimate* sample = first_estimate(outcomes);
+    fill_runs(result, outcomes, sample == nullptr ? 0 : sample->theta.size());
+    if (sample == nullptr && result.failed > 0)
+        throw InvalidArgument("every run of '" + method.label +
+                              "' failed; the first one says: " + result.first_failure);
+    if (sample == nullptr) return result;
+    result.names = names_for(*sample, study.system);
+    for (Vector* statistic :
+         {&result.mean, &result.spread, &result.median, &result.low, &result.high, &result.reported})
+        *statistic = Vector::Constant(sample->theta.size(), kNothing);
+    for (Index i = 0; i < sample->theta.size(); ++i) describe_parameter(result, i);
+    if (sample->continuous) add_truth(result, study, sigma);
+    return result;
+}
+
+double standard_deviation(const Vector& x) {
+    return std::sqrt((x.array() - x.mean()).square().mean());
+}
+
+void check_methods(const std::vector<MonteCarloMethod>& methods) {
+    if (methods.empty()) throw InvalidArgument("a study needs at least one estimator");
+    for (std::size_t i = 0; i < methods.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (methods[i].label == methods[j].label)
+                throw InvalidArgument("two estimators are called '" + methods[i].label +
+                                      "': give each a label of its own");
+}
+
+}  // namespace
+
+void MonteCarloStudy::validate() const {
+    if (!system.continuous()) throw InvalidArgument("system must be a continuous-time model");
+    if (runs < 2 || runs > 1'000'000)
+        throw InvalidArgument("runs must be between 2 and 1000000, but " + std::to_string(runs) + " was given");
+    if (threads < 0)
+        throw InvalidArgument("threads must not be negative, but " + std::to_string(threads) + " was given");
+    if (sigma.has_value() == snr.has_value())
+        throw InvalidArgument("give either sigma, the noise's standard deviation, or snr in dB");
+    if (sigma && !(*sigma >= 0 && std::isfinite(*sigma)))
+        throw InvalidArgument("sigma must be a number from 0 on, but " + number_text(*sigma) + " was given");
+    if (snr && !std::isfinite(*snr))
+        throw InvalidArgument("snr must be a number of decibels, but " + number_text(*snr) + " was given");
+}
+
+Vector MonteCarloResult::least_spread() const {
+    return bound.diagonal().cwiseSqrt();
+}
+
+MonteCarlo monte_carlo(const MonteCarloStudy& study, const std::vector<MonteCarloMethod>& methods) {
+    study.validate();
+    check_methods(methods);
+    const Vector x = lsim(study.system, study.u, study.Ts, study.hold);
+    if (!x.allFinite()) throw InvalidArgument("the output of the system grows beyond all bounds: it is unstable");
+    const double scale = standard_deviation(x);
+    if (study.snr && !(scale > 0)) throw InvalidArgument("snr needs a noise-free output that changes; give sigma");
+    MonteCarlo all;
+    all.runs = study.runs;
+    all.sigma = study.sigma ? *study.sigma : scale * std::pow(10.0, -*study.snr / 20);
+    all.snr = 20 * std::log10(scale / all.sigma);
+    Runner runner(study, methods, x, all.sigma);
+    runner.run();
+    all.cancelled = runner.cancelled();
+    for (std::size_t j = 0; j < methods.size(); ++j)
+        all.results.push_back(result_of(study, methods[j], runner.outcomes(j), all.sigma));
+    return all;
+}
+
+}  // namespace dynlab

@@ -1,0 +1,78 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "numerics/models/transfer_function.h"
+#include "numerics/signals/iddata.h"
+
+namespace dynlab {
+
+/// What one estimation gives to a study.
+struct MonteCarloEstimate {
+    Vector theta, std = {};  ///< std is empty when the method gives none
+    std::vector<std::string> names =
+        {};                  ///< of theta; when empty the system's own if the number fits, theta1 .. otherwise
+    bool continuous = true;  ///< a discrete-time model's parameters are not the system's
+    bool converged = true;
+};
+
+struct MonteCarloMethod {
+    std::string label;
+    std::function<MonteCarloEstimate(const IdData&)> estimate;
+    bool concurrent = true;  ///< may be called by several threads at once; otherwise by the caller's thread only
+};
+
+/// The same experiment again and again: the noise-free output x of `system` for the input u, plus white noise. Run
+/// k = 0, 1, ... has y = x + sigma randn with the random stream of seed + k (signals/random.h), whatever the threads.
+struct MonteCarloStudy {
+    TransferFunction system;      ///< continuous time; the truth
+    Vector u;                     ///< N samples
+    double Ts = 0;                ///< s between samples
+    Hold hold = Hold::kZoh;       ///< of u
+    std::optional<double> sigma;  ///< standard deviation of the noise; give this ...
+    std::optional<double> snr;    ///< ... or 20 log10(std x/std noise) in dB
+    int runs = 100;
+    std::uint32_t seed = 1;
+    int threads = 0;                                      ///< all cores when 0; never more than there are
+    std::function<void(std::size_t done)> progress = {};  ///< estimations done; called by one thread at a time
+    std::function<bool()> cancel = {};                    ///< asked before every run, by one thread at a time
+
+    /// Throws InvalidArgument naming the field.
+    void validate() const;
+};
+
+/// What happened to one method. Statistics are over the runs that gave an estimate, n of them.
+struct MonteCarloResult {
+    std::string label;
+    std::vector<std::string> names;          ///< d parameters
+    Matrix theta, std;                       ///< runs x d; NaN where a run gave nothing, or no standard errors
+    Vector truth;                            ///< d; empty when the method's structure does not hold the system
+    Vector mean, spread, median, low, high;  ///< d; spread: standard deviation (n - 1); low, high: extremes
+    Vector reported;                         ///< d, mean of the reported standard errors; NaN without
+    Vector bias;                             ///< d, mean - truth; empty without truth
+    Matrix bound;                            ///< d x d, Cramer-Rao bound of the covariance; empty without truth
+    int estimated = 0;                       ///< runs that gave an estimate
+    int failed = 0;                          ///< runs that threw or gave something not finite
+    int not_converged = 0;                   ///< of the estimated ones
+    std::string first_failure;               ///< what the first failed run said
+
+    /// Standard deviations that no unbiased method can beat; empty without truth.
+    Vector least_spread() const;
+};
+
+struct MonteCarlo {
+    std::vector<MonteCarloResult> results;  ///< in the order of the methods
+    double sigma = 0, snr = 0;              ///< snr infinite without noise
+    int runs = 0;
+    bool cancelled = false;  ///< runs that had not begun count neither as estimated nor as failed
+};
+
+/// Runs every method on every record, on several cores. Truth and bound are told for methods whose parameters are the
+/// system's (validation/cramer_rao.h). Memory: one record per thread, runs x d per method. Throws InvalidArgument for
+/// an unsuitable study, for methods with equal labels, and when every run of a method failed.
+MonteCarlo monte_carlo(const MonteCarloStudy& study, const std::vector<MonteCarloMethod>& methods);
+
+}  // namespace dynlab

@@ -1,0 +1,183 @@
+#include <algorithm>
+#include <cmath>
+
+#include "numerics/error.h"
+#include "numerics/number_text.h"
+#include "numerics/validation/order_selection.h"
+
+namespace dynlab {
+namespace {
+
+constexpr double kSlightEvidence = 2;  // difference of N BIC that is not worth a mention
+constexpr double kSlightFit = 0.5;     // percentage points of validation fit
+constexpr double kNoteworthyFit = 1;   // the same, when another candidate is pointed to
+
+std::string counted(int number, const char* noun) {
+    return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
+}
+
+std::string structure_text(const OrderCandidate& candidate) {
+    const std::string zeros = candidate.zeros == 0 ? "no zero" : counted(candidate.zeros, "zero");
+    const std::string delay = candidate.delay > 0 ? " and a delay of " + number_text(candidate.delay) + " s" : "";
+    return counted(candidate.poles, "pole") + (delay.empty() ? " and " : ", ") + zeros + delay;
+}
+
+/// Smaller is better.
+double badness(const OrderCandidate& candidate, OrderCriterion criterion) {
+    switch (criterion) {
+        case OrderCriterion::kRSquared:
+            return -candidate.r_squared;
+        case OrderCriterion::kYic:
+            return candidate.yic;
+        case OrderCriterion::kAic:
+            return candidate.aic;
+        case OrderCriterion::kBic:
+            return candidate.bic;
+        case OrderCriterion::kFpe:
+            return candidate.fpe;
+        case OrderCriterion::kFit:
+            return -candidate.fit_percent;
+        case OrderCriterion::kValidationFit:
+            return -candidate.validation_fit.value_or(0);
+        case OrderCriterion::kRecommended:
+            break;
+    }
+    return candidate.validation_fit ? -*candidate.validation_fit : candidate.evidence;
+}
+
+const char* name_of(OrderCriterion criterion) {
+    switch (criterion) {
+        case OrderCriterion::kRSquared:
+            return "the largest R_T^2";
+        case OrderCriterion::kYic:
+            return "the smallest YIC";
+        case OrderCriterion::kAic:
+            return "the smallest AIC";
+        case OrderCriterion::kBic:
+            return "the smallest BIC";
+        case OrderCriterion::kFpe:
+            return "the smallest FPE";
+        case OrderCriterion::kFit:
+            return "the largest fit";
+        case OrderCriterion::kValidationFit:
+        case OrderCriterion::kRecommended:
+            break;
+    }
+    return "the largest validation fit";
+}
+
+using Places = std::vector<std::size_t>;
+
+Places places_where(const OrderSelection& selection, bool (*accept)(const OrderCandidate&)) {
+    Places places;
+    for (std::size_t i = 0; i < selection.candidates.size(); ++i)
+        if (accept(selection.candidates[i])) places.push_back(i);
+    return places;
+}
+
+std::size_t best_of(const OrderSelection& selection, const Places& places, OrderCriterion criterion) {
+    return *std::min_element(places.begin(), places.end(), [&](std::size_t i, std::size_t j) {
+        return badness(selection.candidates[i], criterion) < badness(selection.candidates[j], criterion);
+    });
+}
+
+/// The candidate with fewest parameters among those hardly behind the best one; of equally many the better one.
+std::size_t simplest_of(const OrderSelection& selection, const Places& places) {
+    constexpr OrderCriterion kOwn = OrderCriterion::kRecommended;
+    const double slight = selection.validated ? kSlightFit : kSlightEvidence;
+    std::size_t chosen = best_of(selection, places, kOwn);
+    const double limit = badness(selection.candidates[chosen], kOwn) + slight;
+    for (const std::size_t i : places) {
+        const OrderCandidate &one = selection.candidates[i], &best = selection.candidates[chosen];
+        if (badness(one, kOwn) <= limit && one.parameters() < best.parameters()) chosen = i;
+    }
+    for (const std::size_t i : places) {
+        const OrderCandidate &one = selection.candidates[i], &best = selection.candidates[chosen];
+        if (one.parameters() == best.parameters() && badness(one, kOwn) < badness(best, kOwn)) chosen = i;
+    }
+    return chosen;
+}
+
+std::string faults_of(const OrderCandidate& candidate) {
+    std::vector<std::string> faults;
+    if (candidate.cancellation) faults.push_back("a zero that cancels a pole");
+    if (!candidate.undetermined.empty()) {
+        std::string names;
+        for (const std::string& name : candidate.undetermined) names += (names.empty() ? "" : ", ") + name;
+        faults.push_back("standard errors larger than the values of " + names);
+    }
+    if (!candidate.converged) faults.push_back("an estimation that did not converge");
+    std::string text;
+    for (std::size_t i = 0; i < faults.size(); ++i) text += (i == 0 ? "" : " and ") + faults[i];
+    return text;
+}
+
+std::string measures_of(const OrderCandidate& candidate) {
+    std::string text = "R_T^2 = " + number_text(candidate.r_squared, 4) + ", YIC = " + number_text(candidate.yic, 4);
+    if (candidate.validation_fit) text += ", validation fit " + number_text(*candidate.validation_fit, 4) + " %";
+    return text;
+}
+
+/// Points to the candidate that fits better but was passed over, and says why.
+std::string passed_over(const OrderSelection& selection, const Places& estimated, std::size_t chosen) {
+    const OrderCandidate& taken = selection.candidates[chosen];
+    const std::size_t closest = best_of(selection, estimated, OrderCriterion::kRecommended);
+    const OrderCandidate& other = selection.candidates[closest];
+    if (closest == chosen) return "";
+    const std::string subject = " With " + structure_text(other) + " the " +
+                                (selection.validated ? "validation fit" : "BIC") + " would be better still, but ";
+    if (!other.sound()) return subject + "that model has " + faults_of(other) + ", which tells of too many parameters.";
+    if (other.parameters() > taken.parameters())
+        return subject + "not by enough to pay for " +
+               counted(other.parameters() - taken.parameters(), "more parameter") + ".";
+    return "";
+}
+
+std::string validation_doubt(const OrderSelection& selection, const Places& sound, std::size_t chosen) {
+    if (!selection.validated) return " Check it on a second record before you trust it.";
+    const OrderCandidate& taken = selection.candidates[chosen];
+    if (*taken.validation_fit >= taken.fit_percent - 10 * kNoteworthyFit || sound.empty()) return "";
+    return " On the second record it fits clearly worse than on the first: the records differ, or the model is wrong.";
+}
+
+OrderChoice recommend(const OrderSelection& selection, const Places& estimated) {
+    const Places sound = places_where(selection, [](const OrderCandidate& candidate) { return candidate.sound(); });
+    const std::size_t chosen = simplest_of(selection, sound.empty() ? estimated : sound);
+    const OrderCandidate& taken = selection.candidates[chosen];
+    OrderChoice choice{chosen, "Recommended: " + structure_text(taken) + " (" + measures_of(taken) + "). "};
+    choice.explanation += selection.validated
+                              ? "Among the models without cancelling zeros or undetermined parameters no simpler one "
+                                "follows the second record nearly as well."
+                              : "It balances a small error against few parameters (BIC) and has neither a zero that "
+                                "cancels a pole nor an undetermined parameter.";
+    if (sound.empty())
+        choice.explanation = "No structure gives a sound model; least bad: " + structure_text(taken) + " (" +
+                             measures_of(taken) + "), with " + faults_of(taken) +
+                             ". Try fewer poles and zeros, or a record with more excitation.";
+    else
+        choice.explanation += passed_over(selection, estimated, chosen);
+    choice.explanation += validation_doubt(selection, sound, chosen);
+    return choice;
+}
+
+}  // namespace
+
+OrderChoice choose_order(const OrderSelection& selection, OrderCriterion criterion) {
+    if (criterion == OrderCriterion::kValidationFit && !selection.validated)
+        throw InvalidArgument(
+            "there is no validation fit: give srivcstruc a second record, as in srivcstruc(data, {poles = {1, 4}, "
+            "validate = data2})");
+    const Places estimated =
+        places_where(selection, [](const OrderCandidate& candidate) { return candidate.failure.empty(); });
+    if (estimated.empty()) throw InvalidArgument("none of the structures could be estimated, so none can be chosen");
+    if (criterion == OrderCriterion::kRecommended) return recommend(selection, estimated);
+    const std::size_t chosen = best_of(selection, estimated, criterion);
+    const OrderCandidate& taken = selection.candidates[chosen];
+    OrderChoice choice{chosen,
+                       structure_text(taken) + " have " + name_of(criterion) + " (" + measures_of(taken) + ")."};
+    choice.explanation.front() = static_cast<char>(std::toupper(choice.explanation.front()));
+    if (!taken.sound()) choice.explanation += " But that model has " + faults_of(taken) + ".";
+    return choice;
+}
+
+}  // namespace dynlab

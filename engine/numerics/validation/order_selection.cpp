@@ -1,0 +1,198 @@
+#include "numerics/validation/order_selection.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+#include "numerics/error.h"
+#include "numerics/estimators/srivc.h"
+#include "numerics/kernels/thread_count.h"
+#include "numerics/validation/compare.h"
+#include "numerics/validation/fit_measures.h"
+#include "numerics/validation/uncertainty.h"
+
+namespace dynlab {
+namespace {
+
+constexpr int kMostCandidates = 2000;
+constexpr double kRoundingShare = 1e-20;  // of the output's mean square: smaller errors are rounding
+
+/// Measured and simulated output of all experiments, each counted from the mean of its measured output.
+struct Outputs {
+    Vector measured, simulated;
+};
+
+Outputs outputs_of(const IdData& data, const TransferEstimate& estimate) {
+    const Comparison comparison = compare_all(
+        data, estimate.models, {estimate.start.state, estimate.start.offset ? Offset::kEstimate : Offset::kNone});
+    Outputs all{Vector(data.sample_count()), Vector(data.sample_count())};
+    Index first = 0;
+    for (std::size_t k = 0; k < data.experiments.size(); ++k) {
+        const auto y = data.experiments[k].y.col(0);
+        all.measured.segment(first, y.size()) = y.array() - y.mean();
+        all.simulated.segment(first, y.size()) = comparison.results[k].front().output.array() - y.mean();
+        first += y.size();
+    }
+    return all;
+}
+
+std::vector<std::string> undetermined_parameters(const TransferEstimate& estimate) {
+    std::vector<std::string> names;
+    for (Index i = 0; i < estimate.theta.size(); ++i)
+        if (!(estimate.std[i] <= std::abs(estimate.theta[i])) && estimate.names[static_cast<std::size_t>(i)] != "Td")
+            names.push_back(estimate.names[static_cast<std::size_t>(i)]);
+    return names;
+}
+
+/// Closer than a tenth of their distance from the origin and not told apart by three standard deviations, or closer
+/// than a hundredth.
+bool cancel(const RootUncertainty& pole, const RootUncertainty& zero) {
+    const double gap = std::abs(pole.root - zero.root), size = std::max(std::abs(pole.root), std::abs(zero.root));
+    if (gap <= 0.01 * size) return true;
+    const double spread = std::sqrt(pole.covariance.trace() + zero.covariance.trace());
+    return gap <= 0.1 * size && !(gap > 3 * spread);
+}
+
+bool has_cancellation(const TransferEstimate& estimate) {
+    if (!estimate.covariance.allFinite()) return false;
+    const UncertainModel model(estimate.models.front(), estimate.covariance);
+    const std::vector<RootUncertainty> zeros = zero_uncertainty(model);
+    for (const RootUncertainty& pole : pole_uncertainty(model))
+        for (const RootUncertainty& zero : zeros)
+            if (cancel(pole, zero)) return true;
+    return false;
+}
+
+double validation_fit(const IdData& data, const TransferEstimate& estimate) {
+    return compare_all(data, estimate.models, {InitialState::kEstimate, Offset::kNone}).fit_percent[0];
+}
+
+void measure(OrderCandidate& candidate, const IdData& data, const IdData* validation) {
+    const TransferEstimate& estimate = candidate.estimate;
+    const Outputs outputs = outputs_of(data, estimate);
+    const Index N = data.sample_count(), d = estimate.theta.size();
+    const auto samples = static_cast<double>(N), count = static_cast<double>(d);
+    const double mean_square = (outputs.measured - outputs.simulated).squaredNorm() / samples;
+    const InformationCriteria criteria = information_criteria(mean_square, N, d);
+    candidate.delay = estimate.models.front().delay();
+    candidate.r_squared = r_squared_simulation(outputs.measured, outputs.simulated);
+    candidate.yic = yic(outputs.measured, outputs.simulated, estimate.theta, estimate.covariance).value;
+    candidate.aic = criteria.aic;
+    candidate.bic = criteria.bic;
+    candidate.fpe = criteria.fpe;
+    candidate.log_condition = std::log10(estimate.condition_number);
+    candidate.iterations = static_cast<int>(estimate.trace.size());
+    candidate.fit_percent = fit_percent(outputs.measured, outputs.simulated);
+    const double rounding = kRoundingShare * outputs.measured.squaredNorm() / samples;
+    candidate.evidence = samples * std::log(std::max(mean_square, rounding)) + count * std::log(samples);
+    candidate.undetermined = undetermined_parameters(estimate);
+    candidate.cancellation = has_cancellation(estimate);
+    candidate.converged = estimate.termination == Termination::kConverged;
+    if (validation != nullptr) candidate.validation_fit = validation_fit(*validation, estimate);
+}
+
+OrderCandidate candidate_of(const IdData& data, const TransferStructure& structure,
+                            const OrderSelectionOptions& options) {
+    OrderCandidate candidate;
+    candidate.poles = structure.poles.front();
+    candidate.zeros = structure.channels.front().zeros;
+    candidate.delay = structure.channels.front().delay;
+    try {
+        candidate.estimate = options.fit ? options.fit(data, structure) : srivc(data, structure);
+        if (!candidate.estimate.theta.allFinite()) throw InvalidArgument("a parameter is not finite");
+        measure(candidate, data, options.validation);
+    } catch (const std::exception& error) {
+        candidate.failure = error.what();
+    }
+    return candidate;
+}
+
+void check_channels(const char* what, const IdData& data) {
+    if (data.input_count() != 1 || data.output_count() != 1)
+        throw InvalidArgument(std::string(what) + " must have one input and one output, but they have " +
+                              std::to_string(data.input_count()) + " and " + std::to_string(data.output_count()) +
+                              "; select one of each");
+}
+
+void check_selection(const IdData& data, const std::vector<TransferStructure>& candidates,
+                     const OrderSelectionOptions& options) {
+    check_channels("the data", data);
+    if (options.validation != nullptr) check_channels("the validation data", *options.validation);
+    if (options.threads < 0)
+        throw InvalidArgument("threads must not be negative, but " + std::to_string(options.threads) + " was given");
+    if (candidates.empty()) throw InvalidArgument("there is no structure to try: there must be fewer zeros than poles");
+    for (const TransferStructure& structure : candidates) {
+        structure.validate();
+        if (!structure.single_channel()) throw InvalidArgument("every structure must have one input and one output");
+    }
+}
+
+}  // namespace
+
+std::vector<TransferStructure> order_grid(std::pair<int, int> poles, std::pair<int, int> zeros,
+                                          const std::vector<double>& delays, bool free_delay) {
+    if (poles.first < 1 || poles.second < poles.first)
+        throw InvalidArgument("poles must be a range from at least 1 upwards, such as {1, 4}");
+    if (zeros.first < 0 || zeros.second < zeros.first)
+        throw InvalidArgument("zeros must be a range from at least 0 upwards, such as {0, 2}");
+    if (delays.empty()) throw InvalidArgument("at least one delay must be given, 0 for none");
+    const double wanted =
+        (1.0 + poles.second - poles.first) * (1.0 + zeros.second - zeros.first) * static_cast<double>(delays.size());
+    if (wanted > kMostCandidates)
+        throw InvalidArgument("there are more than " + std::to_string(kMostCandidates) +
+                              " structures to try: take smaller ranges");
+    std::vector<TransferStructure> grid;
+    for (int n = poles.first; n <= poles.second; ++n)
+        for (int m = zeros.first; m <= zeros.second && m < n; ++m)
+            for (const double delay : delays) {
+                grid.push_back(TransferStructure::single(n, m, delay));
+                grid.back().free_delays = free_delay;
+            }
+    return grid;
+}
+
+OrderSelection select_order(const IdData& data, const std::vector<TransferStructure>& candidates,
+                            const OrderSelectionOptions& options) {
+    check_selection(data, candidates, options);
+    OrderSelection selection;
+    selection.samples = data.sample_count();
+    selection.validated = options.validation != nullptr;
+    selection.candidates.resize(candidates.size());
+    std::mutex callbacks;
+    std::size_t done = 0;
+    const auto stopped = [&] {
+        const std::scoped_lock lock(callbacks);
+        selection.cancelled = selection.cancelled || (options.cancel && options.cancel());
+        return selection.cancelled;
+    };
+    const auto try_one = [&](std::size_t i) {
+        OrderCandidate& candidate = selection.candidates[i];
+        if (stopped()) {
+            candidate.failure = "the search was stopped before its turn";
+            return;
+        }
+        candidate = candidate_of(data, candidates[i], options);
+        const std::scoped_lock lock(callbacks);
+        if (options.progress) options.progress(++done);
+    };
+    tbb::task_arena arena(thread_count(options.threads));
+    arena.execute([&] {
+        tbb::parallel_for(
+            tbb::blocked_range<std::size_t>(0, candidates.size(), 1),
+            [&](const tbb::blocked_range<std::size_t>& range) {
+                for (std::size_t i = range.begin(); i < range.end(); ++i) try_one(i);
+            },
+            tbb::simple_partitioner());
+    });
+    const auto estimated = [](const OrderCandidate& candidate) { return candidate.failure.empty(); };
+    if (!selection.cancelled && std::none_of(selection.candidates.begin(), selection.candidates.end(), estimated))
+        throw InvalidArgument("none of the structures could be estimated; the first one says: " +
+                              selection.candidates.front().failure);
+    return selection;
+}
+
+}  // namespace dynlab

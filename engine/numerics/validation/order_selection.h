@@ -1,0 +1,71 @@
+#pragma once
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "numerics/kernels/transfer_estimate.h"
+
+namespace dynlab {
+
+enum class OrderCriterion { kRecommended, kRSquared, kYic, kAic, kBic, kFpe, kFit, kValidationFit };
+
+/// One structure that was tried. Measures are those of the simulation error (validation/fit_measures.h).
+struct OrderCandidate {
+    int poles = 1, zeros = 0;
+    double delay = 0;     ///< s, fixed or estimated
+    std::string failure;  ///< why there is no estimate; empty when there is one, and nothing below holds otherwise
+    TransferEstimate estimate;
+    double r_squared = 0, yic = 0, aic = 0, bic = 0, fpe = 0;
+    double log_condition = 0;  ///< log10 of the column-scaled equations' condition number
+    int iterations = 0;
+    double fit_percent = 0;
+    std::optional<double> validation_fit;  ///< percent, of the second record
+    double evidence = 0;  ///< N ln V + d ln N, V the mean square error, but not below rounding of the output
+    std::vector<std::string> undetermined;  ///< parameters whose standard error exceeds their value
+    bool cancellation = false;              ///< a zero lies on a pole within what the data can tell
+    bool converged = true;
+
+    /// An estimate without the three faults that tell of too high an order.
+    bool sound() const { return failure.empty() && undetermined.empty() && !cancellation && converged; }
+    int parameters() const { return static_cast<int>(estimate.theta.size()); }
+};
+
+struct OrderSelection {
+    std::vector<OrderCandidate> candidates;  ///< in the order they were given
+    Index samples = 0;
+    bool validated = false;
+    bool cancelled = false;  ///< candidates that had not begun say so in their failure
+};
+
+struct OrderSelectionOptions {
+    const IdData* validation = nullptr;  ///< another record of the same channels
+    int threads = 0;                     ///< all cores when 0; never more than there are
+    std::function<TransferEstimate(const IdData&, const TransferStructure&)> fit = {};  ///< srivc unless given
+    std::function<void(std::size_t done)> progress = {};  ///< called by one thread at a time
+    std::function<bool()> cancel = {};                    ///< asked before every candidate, by one thread at a time
+};
+
+/// All strictly proper structures with poles and zeros from .. to, and each of the delays (s); with `free_delay` the
+/// delay is estimated from TransferOptions' TdMin to TdMax instead. Throws InvalidArgument for empty or absurd ranges.
+std::vector<TransferStructure> order_grid(std::pair<int, int> poles, std::pair<int, int> zeros,
+                                          const std::vector<double>& delays, bool free_delay = false);
+
+/// Estimates every structure on `data` (one input, one output, any number of experiments), several at once. Equal
+/// numbers for any number of threads. Throws InvalidArgument for other data, no candidates, and when none of them could
+/// be estimated.
+OrderSelection select_order(const IdData& data, const std::vector<TransferStructure>& candidates,
+                            const OrderSelectionOptions& options = {});
+
+struct OrderChoice {
+    std::size_t place = 0;    ///< among the candidates
+    std::string explanation;  ///< plain sentences
+};
+/// kRecommended: among the sound candidates, with a second record the one with fewest parameters whose validation fit
+/// is within half a point of the best; otherwise the smallest BIC, or a candidate with fewer parameters that is behind
+/// by no more than 2 (Kass and Raftery 1995: not worth a mention). Without sound candidates all count. Other criteria:
+/// the best value among all estimates. Throws InvalidArgument for kValidationFit without a second record.
+OrderChoice choose_order(const OrderSelection& selection, OrderCriterion criterion = OrderCriterion::kRecommended);
+
+}  // namespace dynlab
