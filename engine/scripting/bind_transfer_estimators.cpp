@@ -1,9 +1,12 @@
 #include <array>
+#include <cmath>
 
+#include "numerics/estimators/coe.h"
 #include "numerics/estimators/ivsvf.h"
 #include "numerics/estimators/lssvf.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/kernels/simulation_report.h"
+#include "numerics/kernels/transfer_data.h"
 #include "scripting/bindings.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/model.h"
@@ -128,37 +131,90 @@ int estimate_filtered(Call& call) {
     return give_estimate(call, std::move(estimate), result);
 }
 
-TransferOptions transfer_options(const Options& options) {
-    TransferOptions wanted;
+/// The options that srivc, coe and their tf twins share.
+void read_common_options(const Options& options, TransferOptions& wanted) {
     wanted.lambda = options.optional_number("lambda");
     wanted.hold_y = hold_y_of(options);
+    wanted.initial_state = parse_initial_state(options.text("InitialState", "zero"));
+    wanted.offset = parse_offset(options.text("Offset", "none"));
     wanted.MaxIter = static_cast<int>(options.size("MaxIter", wanted.MaxIter));
     wanted.Tol = options.number("Tol", wanted.Tol);
     wanted.cancel = options.call().cancel();
-    return wanted;
 }
 
 Denominators sharing_of(const Options& options) {
     return options.flag("CommonDenominator", false) ? Denominators::kCommon : Denominators::kPerChannel;
 }
 
-std::shared_ptr<const Assessment> assessment_of(const IdData& data, const TransferEstimate& result) {
+/// What the estimator saw: without the operating points for Offset "remove".
+std::shared_ptr<const Assessment> assessment_of(const IdData& data, const TransferEstimate& result,
+                                                const TransferOptions& options) {
     if (data.sample_count() > kMostAssessed) return {};
-    return std::make_shared<Assessment>(assess(data, result));
+    if (options.offset != Offset::kRemove) return std::make_shared<Assessment>(assess(data, result));
+    return std::make_shared<Assessment>(assess(without_operating_points(data).data, result));
 }
 
+int give_refined(Call& call, const IdData& data, const TransferEstimate& result, const TransferOptions& options) {
+    Estimate estimate = estimate_of(name_of(call), result);
+    estimate.assessment = assessment_of(data, result, options);
+    return give_estimate(call, std::move(estimate), result);
+}
+
+/// srivc and coe: orders and fixed delays in samples.
 template <auto kMethod>
 int estimate_refined(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const auto orders = order_lists(call, 2, kOutputErrorOrders);
-    const Options options(call, 3, {"lambda", "hold_y", "MaxIter", "Tol", "CommonDenominator"});
+    const Options options(call, 3,
+                          {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator"});
+    TransferOptions wanted;
+    read_common_options(options, wanted);
     const TransferStructure structure =
         structure_for(data, sharing_of(options), orders[1], zeros_of(orders[0]), delays_of(orders[2], data));
-    const TransferEstimate result = kMethod(data, structure, transfer_options(options));
-    Estimate estimate = estimate_of(name_of(call), result);
-    estimate.assessment = assessment_of(data, result);
-    return give_estimate(call, std::move(estimate), result);
+    return give_refined(call, data, kMethod(data, structure, wanted), wanted);
+}
+
+/// A whole number, or a list of one for each input.
+std::vector<int> counts_argument(const Call& call, int index, const char* what) {
+    if (call.type(index) != LUA_TTABLE && !call.holds_vector(index)) return {static_cast<int>(call.size(index, what))};
+    const auto values = call.vector(index, what);
+    std::vector<int> counts;
+    for (const double value : values) {
+        if (!(value >= 0) || value != std::floor(value))
+            throw InvalidArgument(fmt::format("argument {} ({}) must hold whole numbers from 0 on", index, what));
+        counts.push_back(static_cast<int>(value));
+    }
+    return counts;
+}
+
+/// IODelay: a number of seconds or one for each input.
+std::vector<double> delays_option(const Options& options) {
+    if (options.push("IODelay") && lua_type(options.call().state(), -1) == LUA_TNUMBER)
+        return {options.number("IODelay", 0)};
+    const auto delays = options.vector("IODelay");
+    return {delays.begin(), delays.end()};
+}
+
+/// tfsrivc and tfcoe: numbers of poles and zeros, and a delay that is estimated unless it is given.
+template <auto kMethod>
+int estimate_transfer_function(Call& call) {
+    call.at_most(4);
+    const IdData& data = object_argument<IdData>(call, 1, "data");
+    const Options options(call, 4,
+                          {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator", "TdMin",
+                           "TdMax", "NumTd", "IODelay"});
+    TransferOptions wanted;
+    read_common_options(options, wanted);
+    wanted.TdMin = options.number("TdMin", wanted.TdMin);
+    wanted.TdMax = options.optional_number("TdMax");
+    wanted.NumTd = static_cast<int>(options.size("NumTd", wanted.NumTd));
+    std::vector<double> delays{wanted.TdMin};
+    if (options.has("IODelay")) delays = delays_option(options);
+    TransferStructure structure = structure_for(data, sharing_of(options), counts_argument(call, 2, "np"),
+                                                counts_argument(call, 3, "nz"), delays);
+    structure.free_delays = !options.has("IODelay") && wanted.TdMax.value_or(1) > wanted.TdMin;
+    return give_refined(call, data, kMethod(data, structure, wanted), wanted);
 }
 
 constexpr const char* kArea = "continuous time";
@@ -174,6 +230,13 @@ constexpr std::array kFunctions = {
                   "instrumental variables on Poisson moment functionals", guarded<estimate_filtered<ivsvf, true>>},
     FunctionEntry{"srivc", kArea, "srivc(data, {nb, nf, nk}, {lambda =, MaxIter =, Tol =, ...}) -> G",
                   "y = B/F u + e by refined instrumental variables", guarded<estimate_refined<srivc>>},
+    FunctionEntry{"coe", kArea, "coe(data, {nb, nf, nk}, {lambda =, MaxIter =, Tol =, ...}) -> G",
+                  "y = B/F u + e with the smallest simulation error", guarded<estimate_refined<coe>>},
+    FunctionEntry{"tfsrivc", kArea, "tfsrivc(data, np, nz, {TdMin =, TdMax =, IODelay =, ...}) -> G",
+                  "srivc by numbers of poles and zeros, the delay estimated",
+                  guarded<estimate_transfer_function<srivc>>},
+    FunctionEntry{"tfcoe", kArea, "tfcoe(data, np, nz, {TdMin =, TdMax =, IODelay =, ...}) -> G",
+                  "coe by numbers of poles and zeros, the delay estimated", guarded<estimate_transfer_function<coe>>},
 };
 
 }  // namespace

@@ -2,30 +2,13 @@
 
 #include "numerics/kernels/refined_iteration.h"
 #include "numerics/kernels/simulation_report.h"
+#include "numerics/kernels/transfer_search.h"
 
 namespace dynlab {
 
 namespace {
 
-constexpr Index kTrialSamples = 50'000;  // the start for a longer record is found on its beginning
-constexpr double kTrialTolerance = 1e-4;
 constexpr int kReweightings = 3;
-
-Vector start_of(const IdData& data, const TransferStructure& structure, const TransferOptions& options) {
-    if (!options.lambda) return find_start(data, structure, options.hold_y, options.cancel);
-    const Vector theta = filtered_start(data, structure, *options.lambda, options.hold_y);
-    return theta.allFinite() ? theta : find_start(data, structure, options.hold_y, options.cancel);
-}
-
-/// Where the passes over the whole record begin: for a long one with the passes' result on its beginning.
-Vector start_for(const IdData& data, const TransferStructure& structure, const TransferOptions& options) {
-    if (data.sample_count() <= 2 * kTrialSamples) return start_of(data, structure, options);
-    const IdData beginning = beginning_of(data, kTrialSamples);
-    const Vector start = start_of(beginning, structure, options);
-    const RefinedSolution trial = iterate_refined(
-        beginning, structure, start, {options.MaxIter, kTrialTolerance, options.hold_y, options.cancel, {}});
-    return trial.termination == Termination::kConverged ? trial.theta : start_of(data, structure, options);
-}
 
 /// (sum Z'Z/noise variance)^-1 of each denominator group.
 void set_covariance(TransferEstimate& estimate, const IdData& data, const TransferOptions& options) {
@@ -51,7 +34,7 @@ bool outputs_share_a_denominator(const TransferStructure& structure) {
 /// The passes; where outputs share a denominator, repeated with each output weighted by its noise.
 RefinedSolution solve(const IdData& data, const TransferStructure& structure, const TransferOptions& options) {
     RefinedOptions refined{options.MaxIter, options.Tol, options.hold_y, options.cancel, {}};
-    RefinedSolution solution = iterate_refined(data, structure, start_for(data, structure, options), refined);
+    RefinedSolution solution = iterate_refined(data, structure, start_at(data, structure, options), refined);
     for (int i = 0; outputs_share_a_denominator(structure) && i < kReweightings; ++i) {
         refined.weights.resize(structure.outputs);
         for (Index output = 0; output < structure.outputs; ++output)
@@ -63,10 +46,21 @@ RefinedSolution solve(const IdData& data, const TransferStructure& structure, co
     return solution;
 }
 
+/// Whether the passes alone give the whole answer.
+bool passes_suffice(const TransferStructure& structure, const TransferOptions& options) {
+    if (structure.free_delays || options.initial_state != InitialState::kZero || options.offset != Offset::kNone)
+        return false;
+    for (Index output = 0; output < structure.outputs; ++output)
+        for (Index input = 1; input < structure.inputs; ++input)
+            if (structure.channel(output, input).denominator != structure.channel(output, 0).denominator) return false;
+    return true;
+}
+
 }  // namespace
 
 TransferEstimate srivc(const IdData& data, const TransferStructure& structure, const TransferOptions& options) {
     options.validate();
+    if (!passes_suffice(structure, options)) return search_transfer("srivc", data, structure, options);
     check_transfer_data("srivc", data, structure);
     TransferEstimate estimate;
     estimate.structure = structure;

@@ -1,0 +1,157 @@
+#include "numerics/estimators/coe.h"
+
+#include <gtest/gtest.h>
+
+#include "numerics/estimators/srivc.h"
+#include "support/thrown_message.h"
+#include "support/transfer_cases.h"
+
+using namespace dynlab;
+using namespace dynlab::test;
+
+namespace {
+
+const TransferStructure kCourse = TransferStructure::single(2, 0);
+
+TransferOptions exact() {
+    TransferOptions options;
+    options.Tol = 1e-10;
+    return options;
+}
+
+TransferStructure with_free_delay(int poles, int zeros) {
+    TransferStructure structure = TransferStructure::single(poles, zeros);
+    structure.free_delays = true;
+    return structure;
+}
+
+/// White noise of a signal-to-noise ratio 20 log10(std x/std e).
+Vector with_noise(const Vector& x, double decibel, std::uint32_t seed) {
+    const double deviation = std::sqrt((x.array() - x.mean()).square().mean()) * std::pow(10, -decibel / 20);
+    return x + deviation * RandomStream(seed).normal(x.size());
+}
+
+/// Each value within so many standard errors of the truth.
+void expect_near_truth(const TransferEstimate& found, const Vector& truth, double errors) {
+    for (Index i = 0; i < truth.size(); ++i)
+        EXPECT_LT(std::abs(found.theta[i] - truth[i]), errors * found.std[i])
+            << found.names[static_cast<std::size_t>(i)] << ": " << found.theta[i] << " for " << truth[i] << "; "
+            << found.message;
+}
+
+}  // namespace
+
+TEST(coe, equals_srivc_on_noisy_sets) {  // oracle: the fixed point of SRIVC is the output-error optimum
+    for (const char* set : {"sys2_s0.2_seed1", "sys2_s0.4_seed1", "rg_snr10_seed1"}) {
+        const IdData data = reference_record(set, 0.01);
+        const TransferStructure structure = set[0] == 'r' ? TransferStructure::single(4, 1) : kCourse;
+        const TransferEstimate a = coe(data, structure, exact()), b = srivc(data, structure, exact());
+        EXPECT_LT(relative_difference(a.theta, b.theta), 1e-8) << set;
+        EXPECT_LT(relative_difference(a.std, b.std), 1e-7) << set;
+    }
+}
+
+TEST(coe, noise_free_records_give_the_truth) {  // oracle: the simulated system
+    EXPECT_LT(relative_difference(coe(course_record(0, 1), kCourse, exact()).theta, values({4, 3, 2})), 1e-9);
+    EXPECT_LT(
+        relative_difference(coe(reference_record("rg_noisefree", 0.01), TransferStructure::single(4, 1), exact()).theta,
+                            values({5, 408, 416, 1600, -6400, 1600})),
+        1e-9);
+}
+
+// oracle: a published test problem in which local searches end in a wrong delay
+TEST(coe, delay_trap_is_avoided_from_default_settings) {
+    const Vector u = prbs(8, 5);
+    const Vector x = lsim(TransferFunction(values({-4, 0.5}), values({1, 1, 4}), 0, 8), u, 0.1);
+    for (const std::uint32_t seed : {1, 2, 3}) {
+        const IdData data(Matrix(with_noise(x, 15, seed)), Matrix(u), 0.1);
+        for (const auto method : {coe, srivc}) {
+            const TransferEstimate found = method(data, with_free_delay(2, 1), {});
+            EXPECT_NEAR(found.models[0].delay(), 8, 0.1) << found.message;
+            EXPECT_LT(std::abs(found.theta[0] - 1), 4 * found.std[0]) << found.message;
+            EXPECT_LT(std::abs(found.theta[1] - 4), 4 * found.std[1]) << found.message;
+            EXPECT_GE(found.delay_grid.size(), 20);
+        }
+    }
+}
+
+TEST(coe, delays_between_samples_are_found_with_their_error) {  // oracle: the simulated system and its scatter
+    const Vector u = prbs(7, 12);
+    const Vector x = lsim(TransferFunction(values({3}), values({1, 2, 5}), 0, 0.437), u, 0.05);
+    TransferOptions options;
+    options.TdMax = 2;
+    Vector delays(20);
+    double reported = 0;
+    for (Index k = 0; k < delays.size(); ++k) {
+        const IdData data(Matrix(with_noise(x, 15, static_cast<std::uint32_t>(k + 1))), Matrix(u), 0.05);
+        const TransferEstimate found = srivc(data, with_free_delay(2, 0), options);
+        delays[k] = found.theta[3];
+        reported += found.std[3] / 20;
+    }
+    const double scatter = std::sqrt((delays.array() - delays.mean()).square().sum() / 19);
+    EXPECT_NEAR(delays.mean(), 0.437, 3 * reported / std::sqrt(20.0));
+    EXPECT_NEAR(scatter / reported, 1, 0.5);
+}
+
+TEST(coe, irregular_sampling_recovers_the_system) {  // oracle: a published test problem, three standard errors
+    const Index N = 3000;
+    RandomStream random(5);
+    Vector t(N), u(N);
+    double time = 0;
+    for (Index k = 0; k < N; ++k) {
+        t[k] = time;
+        u[k] = std::sin(0.714 * time) + std::sin(1.428 * time) + std::sin(2.142 * time);
+        time += 0.01 + 0.09 * random.uniform();
+    }
+    const Vector x = lsim(TransferFunction(values({5}), values({1, 2.8, 4})), u, t);
+    expect_near_truth(srivc(IdData(Matrix(with_noise(x, 10, 2)), Matrix(u), t), kCourse, {}), values({2.8, 4, 5}), 3);
+}
+
+TEST(coe, stiff_system_is_recovered) {  // oracle: a published test problem, three standard errors
+    const Vector u = prbs(7, 10);
+    const Vector den = values({2000, 210, 1});
+    const Vector x = lsim(TransferFunction(values({200, 2}), den), u, 2);
+    const IdData data(Matrix(with_noise(x, 10, 3)), Matrix(u), 2);
+    expect_near_truth(srivc(data, TransferStructure::single(2, 1), {}), values({0.105, 0.0005, 0.1, 0.001}), 3);
+}
+
+TEST(coe, two_inputs_with_their_own_poles_are_recovered) {  // oracle: a published test problem, three standard errors
+    Matrix u(1270, 2);
+    u << prbs(9, 6).head(1270), prbs(7, 10);
+    const Vector x = lsim(TransferFunction(values({4}), values({1, 2, 4}), 0, 0.03), u.col(0), 0.01) +
+                     lsim(TransferFunction(values({1}), values({1, 1, 1}), 0, 0.05), u.col(1), 0.01);
+    const TransferStructure structure =
+        TransferStructure::grid(1, 2, Denominators::kPerChannel, {2}, {0}, {0.03, 0.05});
+    expect_near_truth(srivc(IdData(Matrix(with_noise(x, 10, 4)), u, 0.01), structure, {}), values({2, 4, 4, 1, 1, 1}),
+                      3);
+}
+
+// oracle: the simulated system; a record cut from a running experiment, on another level
+TEST(coe, initial_state_and_offset_are_recovered_and_chosen) {
+    const Vector u = prbs(7, 8);
+    const Vector x = lsim(TransferFunction(values({5}), values({1, 0.6, 9})), u, 0.05);
+    const Vector y = with_noise(x, 20, 5).array() + 1.5;
+    const IdData cut(Matrix(y.tail(700)), Matrix(u.tail(700)), 0.05);
+    TransferOptions options;
+    options.initial_state = InitialState::kEstimate;
+    options.offset = Offset::kEstimate;
+    const TransferEstimate estimated = srivc(cut, kCourse, options);
+    expect_near_truth(estimated, values({0.6, 9, 5}), 3);
+    EXPECT_NEAR(estimated.offsets(0, 0), 1.5, 0.05);
+    options.initial_state = InitialState::kAuto;
+    options.offset = Offset::kAuto;
+    const TransferEstimate chosen = srivc(cut, kCourse, options);
+    EXPECT_EQ(chosen.start.state, InitialState::kEstimate) << chosen.message;
+    EXPECT_TRUE(chosen.start.offset);
+    EXPECT_GT(chosen.fit_percent[0], srivc(cut, kCourse, {}).fit_percent[0] + 5);
+}
+
+TEST(coe, refuses_bad_options_in_words) {  // oracle: the sentence names the option
+    const IdData data = course_record(0.2, 1);
+    TransferOptions options;
+    options.TdMax = 20;
+    EXPECT_NE(thrown_message([&] { coe(data, with_free_delay(2, 0), options); }).find("TdMax"), std::string::npos);
+    options.TdMin = 1;
+    options.TdMax = 0.5;
+    EXPECT_NE(thrown_message([&] { coe(data, with_free_delay(2, 0), options); }).find("TdMax"), std::string::npos);
+}
