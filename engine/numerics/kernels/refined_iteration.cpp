@@ -156,6 +156,10 @@ IdData beginning_of(const IdData& data, Index most_samples) {
     IdData part;
     part.Ts = data.Ts;
     part.hold = data.hold;
+    part.input_names = data.input_names;
+    part.output_names = data.output_names;
+    part.input_units = data.input_units;
+    part.output_units = data.output_units;
     for (const Experiment& experiment : data.experiments) {
         const Index N = std::min(most_samples, experiment.y.rows());
         Experiment beginning;

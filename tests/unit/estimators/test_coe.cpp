@@ -1,5 +1,6 @@
 #include "numerics/estimators/coe.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "numerics/estimators/srivc.h"
@@ -8,6 +9,7 @@
 
 using namespace dynlab;
 using namespace dynlab::test;
+using testing::HasSubstr;
 
 namespace {
 
@@ -37,6 +39,10 @@ void expect_near_truth(const TransferEstimate& found, const Vector& truth, doubl
         EXPECT_LT(std::abs(found.theta[i] - truth[i]), errors * found.std[i])
             << found.names[static_cast<std::size_t>(i)] << ": " << found.theta[i] << " for " << truth[i] << "; "
             << found.message;
+}
+
+IdData record(const Vector& y, const Vector& u, double Ts) {
+    return IdData(Matrix(y), Matrix(u), Ts);
 }
 
 }  // namespace
@@ -144,6 +150,123 @@ TEST(coe, initial_state_and_offset_are_recovered_and_chosen) {
     EXPECT_EQ(chosen.start.state, InitialState::kEstimate) << chosen.message;
     EXPECT_TRUE(chosen.start.offset);
     EXPECT_GT(chosen.fit_percent[0], srivc(cut, kCourse, {}).fit_percent[0] + 5);
+}
+
+TEST(coe, free_delay_without_noise_is_exact) {  // oracle: the simulated system
+    const Vector u = prbs(8, 7);
+    for (const double delay : {0.0, 0.5, 1.2345}) {
+        const TransferFunction G(values({2}), values({1, 4, 3}), 0, delay);
+        const auto found = coe(record(lsim(G, u, 0.05), u, 0.05), with_free_delay(2, 0), exact());
+        EXPECT_LT((found.theta - values({4, 3, 2, delay})).cwiseAbs().maxCoeff(), 1e-8) << found.message;
+    }
+}
+
+TEST(coe, two_inputs_with_denominators_of_their_own) {  // oracle: the simulated system of the literature
+    const Vector u1 = prbs(9, 6).head(1270), u2 = prbs(7, 10);
+    const Vector x = lsim(TransferFunction(values({4}), values({1, 2, 4}), 0, 0.03), u1, 0.01) +
+                     lsim(TransferFunction(values({1}), values({1, 1, 1}), 0, 0.05), u2, 0.01);
+    Matrix u(1270, 2);
+    u << u1, u2;
+    const TransferStructure structure =
+        TransferStructure::grid(1, 2, Denominators::kPerChannel, {2}, {0}, {0.03, 0.05});
+    const Vector truth = values({2, 4, 4, 1, 1, 1});
+    EXPECT_LT(relative_difference(coe(IdData(Matrix(x), u, 0.01), structure, exact()).theta, truth), 1e-9);
+    expect_near_truth(coe(IdData(Matrix(with_noise(x, 10, 1)), u, 0.01), structure), truth, 4);
+}
+
+TEST(coe, running_experiment) {  // oracle: the simulated system, cut from a running experiment, with an offset
+    const Vector u = prbs(8, 9).array() + 0.7;
+    const Vector x = lsim(TransferFunction(values({2}), values({1, 0.4, 3})), u, 0.05).array() + 6;
+    const Index first = 131, last = 900;
+    const IdData whole = record(x, u, 0.05), noisy_data = IdData(Matrix(with_noise(x, 20, 1)), Matrix(u), 0.05);
+    TransferOptions options = exact();
+    options.initial_state = InitialState::kEstimate;
+    options.offset = Offset::kEstimate;
+    const auto found = coe(whole.range(first, last), kCourse, options);
+    EXPECT_LT(relative_difference(found.theta, values({0.4, 3, 2})), 1e-9) << found.message;
+    EXPECT_NEAR(found.offsets(0, 0), 6, 1e-8);
+    EXPECT_NEAR(found.initial_values[0][0], x[first - 1] - 6 - 2.0 / 3 * u[first - 1], 1e-8);
+    options.initial_state = InitialState::kAuto;
+    options.offset = Offset::kAuto;
+    const auto chosen = coe(noisy_data.range(first, last), kCourse, options);
+    EXPECT_EQ(chosen.start.state, InitialState::kEstimate) << chosen.message;
+    EXPECT_TRUE(chosen.start.offset);
+    expect_near_truth(chosen, values({0.4, 3, 2}), 4);
+    const auto wrong = coe(noisy_data.range(first, last), kCourse);
+    EXPECT_LT(wrong.fit_percent[0] + 20, chosen.fit_percent[0]);
+}
+
+TEST(coe, rest_is_recognised) {  // oracle: the simulated system, from rest without offset
+    const IdData data = course_record(0.2, 4);
+    TransferOptions options;
+    options.initial_state = InitialState::kAuto;
+    options.offset = Offset::kAuto;
+    const auto found = coe(data, kCourse, options);
+    EXPECT_EQ(found.start.state, InitialState::kZero) << found.message;
+    EXPECT_FALSE(found.start.offset);
+}
+
+TEST(coe, operating_point_can_be_removed) {  // oracle: the simulated system, about an operating point
+    const Vector u = prbs(8, 5);
+    const Vector x = lsim(TransferFunction(values({2}), values({1, 4, 3})), u, 0.05);
+    TransferOptions options = exact();
+    const auto expected = coe(record(x.array() - x.mean(), u.array() - u.mean(), 0.05), kCourse, options);
+    options.offset = Offset::kRemove;
+    const auto found = coe(record(x.array() + 40, u.array() + 7, 0.05), kCourse, options);
+    EXPECT_LT(relative_difference(found.theta, expected.theta), 1e-8);
+    EXPECT_NEAR(found.offsets(0, 0), 40 + x.mean(), 1e-10);
+}
+
+TEST(coe, whole_sample_shifts_are_delays) {  // oracle: invariance
+    const Vector u = prbs(8, 5), y = with_noise(lsim(TransferFunction(values({2}), values({1, 4, 3})), u, 0.05), 15, 1);
+    const Index shift = 6, N = u.size();
+    Vector later = Vector::Zero(N + shift), held = Vector::Zero(N + shift);
+    later.tail(N) = y;
+    held.head(N) = u;
+    held.tail(shift).setConstant(u[N - 1]);
+    const auto plain = coe(record(y, u, 0.05), kCourse, exact());
+    const auto shifted = coe(record(later, held, 0.05), TransferStructure::single(2, 0, 0.3), exact());
+    EXPECT_LT(relative_difference(shifted.theta, plain.theta), 1e-8);
+}
+
+TEST(coe, stops_when_asked_to_and_still_gives_a_model) {  // oracle: definition of the callback
+    TransferOptions options;
+    options.cancel = [] { return true; };
+    const auto found = coe(course_record(0.2, 1), kCourse, options);
+    EXPECT_EQ(found.termination, Termination::kCancelled);
+    EXPECT_TRUE(found.theta.allFinite());
+}
+
+TEST(coe, refuses_bad_input_in_words) {  // oracle: the sentence names what is wrong
+    const IdData data = course_record(0.2, 1);
+    const auto refusal = [](const IdData& d, const TransferStructure& structure, const TransferOptions& options = {}) {
+        return thrown_message([&] { coe(d, structure, options); });
+    };
+    EXPECT_THAT(refusal(data.range(1, 8), kCourse), HasSubstr("9 samples"));
+    IdData still = data;
+    still.experiments[0].u.setZero();
+    EXPECT_THAT(refusal(still, kCourse), HasSubstr("zero throughout"));
+    still = data;
+    still.experiments[0].y.setConstant(3);
+    EXPECT_THAT(refusal(still, kCourse), HasSubstr("never changes"));
+    EXPECT_THAT(refusal(data, TransferStructure::single(2, 0, 20)), HasSubstr("not shorter than the record"));
+    EXPECT_THAT(refusal(data, TransferStructure::grid(1, 2, Denominators::kCommon, {2}, {0}, {0.0})),
+                HasSubstr("2 input(s)"));
+    TransferOptions options;
+    options.Tol = 0;
+    EXPECT_THAT(refusal(data, kCourse, options), HasSubstr("Tol"));
+    options = {};
+    options.TdMax = 30;
+    EXPECT_THAT(refusal(data, with_free_delay(2, 0), options), HasSubstr("TdMax must be shorter"));
+    options.TdMax = 1;
+    options.TdMin = 2;
+    EXPECT_THAT(refusal(data, with_free_delay(2, 0), options), HasSubstr("at least TdMin"));
+}
+
+TEST(coe, zero_input_tells_nothing) {  // oracle: the criterion
+    const Vector zero = Vector::Zero(100);
+    EXPECT_EQ(lsim(TransferFunction(values({2}), values({1, 4, 3})), zero, 0.01),
+              lsim(TransferFunction(values({7}), values({1, 2, 9})), zero, 0.01));
 }
 
 TEST(coe, refuses_bad_options_in_words) {  // oracle: the sentence names the option
