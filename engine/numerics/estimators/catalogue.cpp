@@ -58,7 +58,7 @@ const std::vector<MethodEntry>& method_catalogue() {
         {"procsrivc",
          {"procsrivc"},
          "process models from any record, delay included",
-         "P1, P2, P2U, each with or without D",
+         "P1, P2, P3, P2U, P3U, each with any of D, I, Z",
          TimeDomain::kContinuous,
          "white at the output",
          "Young, Garnier and Gilson in Garnier and Wang (2008), chapter 4; Ljung (1999), section 10.2"},

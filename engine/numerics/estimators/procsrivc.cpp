@@ -1,10 +1,13 @@
 #include "numerics/estimators/procsrivc.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <sstream>
 
 #include "numerics/error.h"
+#include "numerics/kernels/polynomial_estimate.h"
 #include "numerics/kernels/process_output.h"
 #include "numerics/kernels/process_start.h"
 #include "numerics/number_text.h"
@@ -18,7 +21,8 @@ constexpr Index kSamplesPerParameter = 3;
 
 struct Record {
     Vector u, y;
-    double Ts;
+    Vector t;   // irregular instants in units of Ts, from 0 on
+    double Ts;  // s, the mean step with irregular sampling
     Hold hold;
     OperatingPoint removed;
 };
@@ -31,10 +35,14 @@ Record prepared_record(const IdData& data, const ProcsrivcOptions& options) {
              << data.output_count() << " output(s): select one of each";
         throw InvalidArgument(text.str());
     }
-    if (!data.regular())
-        throw InvalidArgument("procsrivc needs regularly sampled data, and these are not: resample them first");
     const Experiment& experiment = data.experiments.front();
-    Record record{experiment.u.col(0), experiment.y.col(0), data.Ts, data.hold, {}};
+    Record record{experiment.u.col(0), experiment.y.col(0), {}, data.Ts, data.hold, {}};
+    const Index steps = record.y.size() - 1;
+    if (!data.regular() && steps > 0) {
+        record.t = experiment.t.array() - experiment.t[0];
+        record.Ts = record.t[steps] / static_cast<double>(steps);
+        record.t /= record.Ts;
+    }
     if (record.u.isZero(0)) throw InvalidArgument("procsrivc: the input is zero throughout, so nothing can be learnt");
     if ((record.y.array() == record.y[0]).all())
         throw InvalidArgument("procsrivc: the output never changes, so nothing can be learnt");
@@ -69,7 +77,7 @@ struct Fit {
 Fit fit_condition(const Record& record, const ProcessStructure& structure, const StartCondition& condition,
                   const ProcsrivcOptions& options) {
     const DelayBounds bounds = delay_bounds(record, options);
-    const ProcessOutput model(structure, condition, record.u, record.hold, bounds.least, bounds.largest);
+    const ProcessOutput model(structure, condition, {record.u, record.hold, record.t}, bounds.least, bounds.largest);
     const Index N = record.y.size(), d = model.parameter_count();
     if (N < kSamplesPerParameter * d)
         throw InvalidArgument("procsrivc needs at least " + std::to_string(kSamplesPerParameter * d) +
@@ -82,13 +90,38 @@ Fit fit_condition(const Record& record, const ProcessStructure& structure, const
     return fit;
 }
 
+Index initial_count(const ProcessStructure& structure, const StartCondition& condition) {
+    return condition.state == InitialState::kEstimate ? structure.poles + (structure.integrator ? 1 : 0) : 0;
+}
+
+// What the options and the input allow. The free motion of an integrator is a constant itself, and it has no rest but
+// that at zero input.
+std::vector<StartCondition> conditions_for(const Record& record, const ProcessStructure& structure,
+                                           const ProcsrivcOptions& options) {
+    if (!structure.integrator) return start_conditions(record.u, options.initial_state, options.offset);
+    if (options.initial_state == InitialState::kSteady && record.u[0] != 0)
+        throw InvalidArgument(
+            "A process with an integrator rests at zero input only, so InitialState \"steady\" does not suit: use "
+            "\"zero\", \"estimate\" or \"auto\"");
+    if (options.initial_state == InitialState::kEstimate && options.offset == Offset::kEstimate)
+        throw InvalidArgument(
+            "The initial state of a process with an integrator holds its level already: with InitialState "
+            "\"estimate\", let Offset be \"none\", \"remove\" or \"auto\"");
+    std::vector<StartCondition> conditions = start_conditions(record.u, options.initial_state, options.offset);
+    std::erase_if(conditions, [&](const StartCondition& condition) {
+        return (condition.state == InitialState::kEstimate && condition.offset) ||
+               (condition.state == InitialState::kSteady && options.initial_state == InitialState::kAuto);
+    });
+    return conditions;
+}
+
 Fit best_fit(const Record& record, const ProcessStructure& structure, const ProcsrivcOptions& options) {
-    const auto conditions = start_conditions(record.u, options.initial_state, options.offset);
+    const auto conditions = conditions_for(record, structure, options);
     Fit best = fit_condition(record, structure, conditions.front(), options);
     for (std::size_t i = 1; i < conditions.size(); ++i) {
         if (best.solution.termination == Termination::kCancelled) break;
-        const Index extra = conditions[i].state == InitialState::kEstimate ? structure.poles : 0;
-        const Index d = static_cast<Index>(structure.parameter_names().size()) + extra + (conditions[i].offset ? 1 : 0);
+        const Index d = static_cast<Index>(structure.parameter_names().size()) +
+                        initial_count(structure, conditions[i]) + (conditions[i].offset ? 1 : 0);
         if (record.y.size() < kSamplesPerParameter * d) continue;
         Fit fit = fit_condition(record, structure, conditions[i], options);
         if (fit.bic < best.bic) best = std::move(fit);
@@ -102,16 +135,24 @@ Vector units(const ProcessStructure& structure, const Fit& fit, double Ts) {
     const auto names = structure.parameter_names();
     Index i = 0;
     for (const std::string& name : names) factor[i++] = name.front() == 'T' ? Ts : 1;
-    if (fit.condition.state == InitialState::kEstimate)
-        for (Index j = 0; j < structure.poles; ++j) factor[i++] = std::pow(Ts, -static_cast<double>(j));
+    if (structure.integrator) factor[0] = 1 / Ts;
+    const Index values = initial_count(structure, fit.condition);
+    for (Index j = 0; j < values; ++j) factor[i++] = std::pow(Ts, -static_cast<double>(j));
     return factor;
 }
 
-void sort_time_constants(Vector& theta, Matrix& covariance) {
-    if (theta[1] >= theta[2]) return;
-    std::swap(theta[1], theta[2]);
-    covariance.row(1).swap(covariance.row(2));
-    covariance.col(1).swap(covariance.col(2));
+Index real_lag_count(const ProcessStructure& structure) {
+    return structure.underdamped ? structure.poles - 2 : structure.poles;
+}
+
+// In falling order.
+void sort_time_constants(const ProcessStructure& structure, Vector& theta, Matrix& covariance) {
+    std::vector<Index> order(static_cast<std::size_t>(theta.size()));
+    std::iota(order.begin(), order.end(), Index{0});
+    std::stable_sort(order.begin() + 1, order.begin() + 1 + real_lag_count(structure),
+                     [&](Index a, Index b) { return theta[a] > theta[b]; });
+    theta = theta(order).eval();
+    covariance = covariance(order, order).eval();
 }
 
 void warn_of_times(ProcsrivcResult& result, double Ts, double duration) {
@@ -119,7 +160,7 @@ void warn_of_times(ProcsrivcResult& result, double Ts, double duration) {
     for (std::size_t i = 1; i < result.names.size(); ++i) {
         const std::string& name = result.names[i];
         const double value = result.theta[static_cast<Index>(i)];
-        if (name.front() != 'T' || name == "Td") continue;
+        if (name.front() != 'T' || name == "Td" || name == "Tz") continue;
         if (value < 0.1 * Ts)
             result.warnings.push_back(name +
                                       " is far below the sampling time: a structure with fewer poles is enough.");
@@ -127,11 +168,27 @@ void warn_of_times(ProcsrivcResult& result, double Ts, double duration) {
             result.warnings.push_back(name +
                                       " is longer than the record, which cannot tell it from the gain: record longer.");
     }
-    if (structure.poles == 2 && !structure.underdamped && result.theta[1] < 1.05 * result.theta[2])
-        result.warnings.push_back(
-            "The two time constants are nearly equal, so their standard errors mean little: P2U may suit better.");
-    if (structure.underdamped && result.theta[2] >= 1)
-        result.warnings.push_back("Zeta is at least 1, so the system does not swing: P2 suits it.");
+    const Index lags = real_lag_count(structure);
+    for (Index i = 1; i < lags; ++i)
+        if (result.theta[i] < 1.05 * result.theta[i + 1]) {
+            result.warnings.push_back(
+                "Two time constants are nearly equal, so their standard errors mean little: a structure with U may "
+                "suit better.");
+            break;
+        }
+    if (structure.underdamped && result.theta[lags + 2] >= 1)
+        result.warnings.push_back("Zeta is at least 1, so the system does not swing: P" +
+                                  std::to_string(structure.poles) + " without U suits it.");
+}
+
+void warn_of_zero(ProcsrivcResult& result) {
+    const double Tz = result.model.parameter("Tz");
+    for (std::size_t i = 1; i < result.names.size(); ++i) {
+        const double value = result.theta[static_cast<Index>(i)];
+        if (result.names[i].starts_with("Tp") && std::abs(Tz - value) < 0.02 * value)
+            result.warnings.push_back("The zero nearly cancels " + result.names[i] +
+                                      ": a structure with one pole less and without Z is enough.");
+    }
 }
 
 void warn_of_delay(ProcsrivcResult& result, const DelayBounds& bounds, double Ts) {
@@ -146,12 +203,18 @@ void warn_of_delay(ProcsrivcResult& result, const DelayBounds& bounds, double Ts
         result.warnings.push_back("No delay is visible: a structure without D suits.");
 }
 
-void warn_of_search(ProcsrivcResult& result, const ProcsrivcOptions& options) {
+void warn_of_search(ProcsrivcResult& result, double condition_number, const ProcsrivcOptions& options) {
     if (result.termination == Termination::kIterationLimit)
         result.warnings.push_back("The search had not settled after MaxIter = " + std::to_string(options.MaxIter) +
                                   " iterations; the best point so far is given.");
     if (result.termination == Termination::kCancelled)
         result.warnings.push_back("The search was stopped before its end; the best point so far is given.");
+    if (!(condition_number < kAmbiguousCondition)) {
+        result.warnings.push_back("The data do not tell all parameters apart (condition number " +
+                                  number_text(condition_number, 2) +
+                                  "): a simpler structure or a richer input is wanted.");
+        return;
+    }
     for (std::size_t i = 0; i < result.names.size(); ++i) {
         const Index k = static_cast<Index>(i);
         if (result.std[k] > std::abs(result.theta[k]) && result.names[i] != "Td")
@@ -184,14 +247,13 @@ void ProcsrivcOptions::validate() const {
 
 ProcsrivcResult procsrivc(const IdData& data, const ProcessStructure& structure, const ProcsrivcOptions& options) {
     options.validate();
-    require_supported(structure);
     const Record record = prepared_record(data, options);
     Fit fit = best_fit(record, structure, options);
 
     const Vector factor = units(structure, fit, record.Ts);
     Vector all = fit.solution.theta.cwiseProduct(factor);
     Matrix covariance = factor.asDiagonal() * fit.solution.covariance * factor.asDiagonal();
-    if (structure.poles == 2 && !structure.underdamped) sort_time_constants(all, covariance);
+    sort_time_constants(structure, all, covariance);
     const auto names = structure.parameter_names();
     const Index q = static_cast<Index>(names.size());
 
@@ -203,8 +265,7 @@ ProcsrivcResult procsrivc(const IdData& data, const ProcessStructure& structure,
     result.noise_variance = fit.solution.noise_variance;
     result.loss = fit.solution.loss;
     result.start = fit.condition;
-    const Index values = fit.condition.state == InitialState::kEstimate ? structure.poles : 0;
-    result.initial_values = all.segment(q, values);
+    result.initial_values = all.segment(q, initial_count(structure, fit.condition));
     if (fit.condition.offset) result.offset = all[all.size() - 1];
     result.removed = record.removed;
     result.output = fit.solution.output.array() + record.removed.output;
@@ -213,8 +274,9 @@ ProcsrivcResult procsrivc(const IdData& data, const ProcessStructure& structure,
     result.delay_loss = fit.scan.losses;
     result.termination = fit.solution.termination;
     result.trace = std::move(fit.solution.trace);
-    warn_of_search(result, options);
+    warn_of_search(result, fit.solution.condition_number, options);
     warn_of_times(result, record.Ts, static_cast<double>(record.y.size() - 1) * record.Ts);
+    if (structure.zero) warn_of_zero(result);
     if (structure.delay) warn_of_delay(result, delay_bounds(record, options), record.Ts);
     result.message = message_of(result);
     return result;

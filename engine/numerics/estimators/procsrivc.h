@@ -50,17 +50,19 @@ struct ProcsrivcResult {
     explicit ProcsrivcResult(ProcessModel fitted) : model(std::move(fitted)) {}
 };
 
-/// Output-error estimate of a process model, P1, P2 or P2U each with or without D, from one experiment with
-/// one input and one output, sampled regularly (y = G u + e with white e; the SRIVC fixed point is the same optimum):
+/// Output-error estimate of a process model of any structure (P1, P2, P3, P2U, P3U, each with any of D, I, Z) from one
+/// experiment with one input and one output, sampled regularly or not (y = G u + e with white e; the SRIVC fixed point
+/// is the same optimum):
 ///     minimise sum_k (y(k) - G(p, theta) u(k) - free motion(k) - offset)^2.
 /// Start values come from a grid (no guess is needed), then damped Gauss-Newton searches with exact
 /// sensitivities run from the best few, the best of them to the end; a real-valued delay is searched on a grid between
 /// TdMin and TdMax and refined jointly with the rest. Inputs are taken as the data's hold says, exactly, delays between
 /// samples included. For options "auto" every start condition the input allows is fitted and the smallest BIC wins.
-/// With a step at sample one the input is zero before it. Non-convergence and doubtful results are told in `warnings`,
-/// never thrown. Throws InvalidArgument for an unsupported structure, data of another shape, an input that is zero, or
-/// fewer than 3 samples per parameter. References: Young, Garnier and Gilson, in Garnier and Wang (2008), chapter 4;
-/// Ljung (1999), sections 10.2, 9.4.
+/// With a step at sample one the input is zero before it. A process with an integrator rests at zero input only, and
+/// its initial state, which is that of y itself, takes in any offset. Non-convergence and doubtful results are told in
+/// `warnings`, never thrown. Throws InvalidArgument for a start condition that makes no sense, data of another shape,
+/// an input that is zero, or fewer than 3 samples per parameter. References: Young, Garnier and Gilson, in Garnier and
+/// Wang (2008), chapter 4; Ljung (1999), sections 10.2, 9.4.
 ProcsrivcResult procsrivc(const IdData& data, const ProcessStructure& structure, const ProcsrivcOptions& options = {});
 
 }  // namespace dynlab

@@ -1,9 +1,11 @@
 #include "numerics/kernels/process_output.h"
 
 #include <limits>
+#include <utility>
+#include <vector>
 
-#include "numerics/error.h"
 #include "numerics/kernels/transfer_sensitivity.h"
+#include "numerics/linalg/polynomial.h"
 
 namespace dynlab {
 
@@ -13,54 +15,65 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLeastTime = 1e-3;   // samples: any faster lag looks like none
 constexpr double kLargestTime = 1e6;  // records: any slower one looks like an integrator
 
-// K/T/(s + 1/T)
-void first_order(double K, double T, ProcessCoefficients& c) {
-    c.num = Vector::Constant(1, K / T);
-    c.den = Vector{{1.0, 1 / T}};
-    c.num_by_parameter.leftCols(2) << 1 / T, -K / (T * T);
-    c.den_by_parameter(0, 1) = -1 / (T * T);
+/// One factor of the monic denominator and its derivatives with respect to parameters.
+struct Factor {
+    Vector polynomial;
+    std::vector<std::pair<Index, Vector>> derivatives;
+};
+
+// s + 1/T
+Factor lag(Index place, double T) {
+    return {Vector{{1.0, 1 / T}}, {{place, Vector{{0.0, -1 / (T * T)}}}}};
 }
 
-// K/(T1 T2)/(s^2 + (1/T1 + 1/T2) s + 1/(T1 T2))
-void second_order(double K, double T1, double T2, ProcessCoefficients& c) {
-    const double product = T1 * T2;
-    c.num = Vector::Constant(1, K / product);
-    c.den = Vector{{1.0, 1 / T1 + 1 / T2, 1 / product}};
-    c.num_by_parameter.leftCols(3) << 1 / product, -K / (T1 * product), -K / (T2 * product);
-    c.den_by_parameter.middleCols(1, 2) << -1 / (T1 * T1), -1 / (T2 * T2), -1 / (T1 * product), -1 / (T2 * product);
-}
-
-// K/T^2/(s^2 + 2 zeta/T s + 1/T^2)
-void underdamped(double K, double T, double zeta, ProcessCoefficients& c) {
+// s^2 + 2 zeta/T s + 1/T^2
+Factor pair(Index place, double T, double zeta) {
     const double square = T * T;
-    c.num = Vector::Constant(1, K / square);
-    c.den = Vector{{1.0, 2 * zeta / T, 1 / square}};
-    c.num_by_parameter.leftCols(3) << 1 / square, -2 * K / (square * T), 0;
-    c.den_by_parameter.middleCols(1, 2) << -2 * zeta / square, 2 / T, -2 / (square * T), 0;
+    return {Vector{{1.0, 2 * zeta / T, 1 / square}},
+            {{place, Vector{{0.0, -2 * zeta / square, -2 / (square * T)}}}, {place + 1, Vector{{0.0, 2 / T, 0.0}}}}};
+}
+
+std::vector<Factor> factors_of(const ProcessStructure& structure, const Vector& parameters) {
+    std::vector<Factor> factors;
+    Index place = 1;
+    for (int pole = structure.underdamped ? 3 : 1; pole <= structure.poles; ++pole, ++place)
+        factors.push_back(lag(place, parameters[place]));
+    if (structure.underdamped) factors.push_back(pair(place, parameters[place], parameters[place + 1]));
+    if (structure.integrator) factors.push_back({Vector{{1.0, 0.0}}, {}});
+    return factors;
 }
 
 }  // namespace
 
-void require_supported(const ProcessStructure& structure) {
-    const bool known = !structure.integrator && !structure.zero &&
-                       (structure.poles == 2 || (structure.poles == 1 && !structure.underdamped));
-    if (!known)
-        throw InvalidArgument("The structure " + structure.text() +
-                              " is not supported: P1, P2 and P2U are, each with or without D (P1D, P2D, P2DU)");
-}
-
 ProcessCoefficients process_coefficients(const ProcessStructure& structure, const Vector& parameters) {
-    require_supported(structure);
+    // With (1 + T s) = T (s + 1/T) the numerator is K (1 + Tz s) g, g the product of all last coefficients.
+    const std::vector<Factor> factors = factors_of(structure, parameters);
+    const double K = parameters[0];
+    const Index q = parameters.size(), tz = q - 1 - (structure.delay ? 1 : 0);
+    const Vector shape = structure.zero ? Vector{{parameters[tz], 1.0}} : Vector{{1.0}};
     ProcessCoefficients c;
-    c.num_by_parameter = Matrix::Zero(1, parameters.size());
-    c.den_by_parameter = Matrix::Zero(structure.poles, parameters.size());
-    if (structure.poles == 1)
-        first_order(parameters[0], parameters[1], c);
-    else if (structure.underdamped)
-        underdamped(parameters[0], parameters[1], parameters[2], c);
-    else
-        second_order(parameters[0], parameters[1], parameters[2], c);
-    if (structure.delay) c.delay = parameters[parameters.size() - 1];
+    c.den = Vector::Ones(1);
+    double g = 1;
+    for (std::size_t i = 0; i < factors.size(); ++i) {
+        c.den = multiply(c.den, factors[i].polynomial);
+        if (!structure.integrator || i + 1 < factors.size()) g *= factors[i].polynomial.tail(1)[0];
+    }
+    const Index n = c.den.size() - 1;
+    c.num = K * g * shape;
+    c.num_by_parameter = Matrix::Zero(shape.size(), q);
+    c.den_by_parameter = Matrix::Zero(n, q);
+    c.num_by_parameter.col(0) = g * shape;
+    if (structure.zero) c.num_by_parameter(0, tz) = K * g;
+    for (std::size_t i = 0; i < factors.size(); ++i) {
+        Vector others = Vector::Ones(1);
+        for (std::size_t k = 0; k < factors.size(); ++k)
+            if (k != i) others = multiply(others, factors[k].polynomial);
+        for (const auto& [place, derivative] : factors[i].derivatives) {
+            c.den_by_parameter.col(place) = multiply(others, derivative).tail(n);
+            c.num_by_parameter.col(place) = K * g * derivative.tail(1)[0] / factors[i].polynomial.tail(1)[0] * shape;
+        }
+    }
+    if (structure.delay) c.delay = parameters[q - 1];
     return c;
 }
 
@@ -74,44 +87,64 @@ Matrix coefficients_by_parameter(const ProcessModel& model) {
     return derivatives;
 }
 
-ProcessOutput::ProcessOutput(const ProcessStructure& structure, const StartCondition& condition, const VectorView& u,
-                             Hold hold, double least_delay, double largest_delay)
-    : structure_(structure), condition_(condition), hold_(hold) {
-    require_supported(structure);
-    if (condition.state != InitialState::kZero) resting_input_ = u[0];
-    input_ = u.array() - resting_input_;
+ProcessOutput::ProcessOutput(const ProcessStructure& structure, const StartCondition& condition, ProcessInput input,
+                             double least_delay, double largest_delay)
+    : structure_(structure), condition_(condition), input_(std::move(input)) {
+    if (condition.state != InitialState::kZero && !structure.integrator) resting_input_ = input_.u[0];
+    input_.u.array() -= resting_input_;
     model_parameters_ = static_cast<Index>(structure.parameter_names().size());
-    if (condition.state == InitialState::kEstimate) initial_values_ = structure.poles;
+    if (condition.state == InitialState::kEstimate) initial_values_ = structure.poles + (structure.integrator ? 1 : 0);
     const Index count = model_parameters_ + initial_values_ + (condition.offset ? 1 : 0);
     lower_ = Vector::Constant(count, -kInfinity);
     upper_ = Vector::Constant(count, kInfinity);
-    const Index times = structure.underdamped ? 1 : structure.poles;
+    const double slowest = kLargestTime * static_cast<double>(input_.u.size());
+    const Index times = structure.underdamped ? structure.poles - 1 : structure.poles;
     lower_.segment(1, times).setConstant(kLeastTime);
-    upper_.segment(1, times).setConstant(kLargestTime * static_cast<double>(u.size()));
-    if (structure.underdamped) lower_[2] = 0;
+    upper_.segment(1, times).setConstant(slowest);
+    if (structure.underdamped) lower_[1 + times] = 0;
+    if (structure.zero) {
+        const Index tz = model_parameters_ - 1 - (structure.delay ? 1 : 0);
+        lower_[tz] = -slowest;
+        upper_[tz] = slowest;
+    }
     if (structure.delay) {
         lower_[model_parameters_ - 1] = least_delay;
         upper_[model_parameters_ - 1] = largest_delay;
     }
 }
 
+Vector ProcessOutput::response(const VectorView& num, const VectorView& den, double delay) const {
+    return input_.t.size() == 0 ? transfer_response(num, den, delay, input_.u, 1, input_.hold)
+                                : transfer_response(num, den, delay, input_.u, input_.t, input_.hold);
+}
+
+Matrix ProcessOutput::motions(const VectorView& den) const {
+    if (initial_values_ == 0) return Matrix(input_.u.size(), 0);
+    return input_.t.size() == 0 ? free_responses(den, input_.u.size(), 1) : free_responses(den, input_.t);
+}
+
 void ProcessOutput::simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const {
-    const Index N = input_.size(), q = model_parameters_, n = structure_.poles;
+    const Index N = input_.u.size(), q = model_parameters_;
     const ProcessCoefficients c = process_coefficients(structure_, theta.head(q));
+    const Index n = c.den.size() - 1;
     const Vector initial = theta.segment(q, initial_values_);
     const double constant = theta[0] * resting_input_ + (condition_.offset ? theta[theta.size() - 1] : 0);
-    const Matrix free = initial_values_ > 0 ? free_responses(c.den, N, 1) : Matrix(N, 0);
+    const Matrix free = motions(c.den);
     if (!sensitivities) {
-        output = transfer_response(c.num, c.den, c.delay, input_, 1, hold_);
+        output = response(c.num, c.den, c.delay);
         output.array() += constant;
         output += free * initial;
         return;
     }
-    const Matrix by_coefficient = transfer_sensitivities(c.num, c.den, c.delay, input_, 1, hold_);
+    const bool regular = input_.t.size() == 0;
+    const Matrix by_coefficient = regular
+                                      ? transfer_sensitivities(c.num, c.den, c.delay, input_.u, 1, input_.hold)
+                                      : transfer_sensitivities(c.num, c.den, c.delay, input_.u, input_.t, input_.hold);
     output = by_coefficient.col(0) + free * initial;
     output.array() += constant;
     Matrix by_den = by_coefficient.middleCols(1, n);
-    if (initial_values_ > 0) by_den += free_sensitivities(c.den, initial, N, 1);
+    if (initial_values_ > 0)
+        by_den += regular ? free_sensitivities(c.den, initial, N, 1) : free_sensitivities(c.den, initial, input_.t);
     sensitivities->resize(N, theta.size());
     sensitivities->leftCols(q) = by_den * c.den_by_parameter;
     sensitivities->leftCols(q) += by_coefficient.middleCols(n + 1, c.num.size()) * c.num_by_parameter;

@@ -15,23 +15,28 @@ struct ProcessCoefficients {
     Matrix den_by_parameter;  ///< n x q, of a_1..a_n
 };
 
-/// For structures P1, P2, P2U, each with or without D. `parameters` as in ProcessModel, in any unit of time.
+/// For every structure; `parameters` as in ProcessModel, in any unit of time. With I the denominator has the factor p.
 ProcessCoefficients process_coefficients(const ProcessStructure& structure, const Vector& parameters);
 
 /// Derivatives of [a_1..a_n b_0..b_m], followed by the delay when the structure has one, with respect to the
 /// parameters.
 Matrix coefficients_by_parameter(const ProcessModel& model);
 
-/// Throws InvalidArgument that names the structures process_coefficients knows.
-void require_supported(const ProcessStructure& structure);
+/// The input of one record for a process model, TIMES COUNTED IN SAMPLES, or in mean steps with irregular sampling.
+struct ProcessInput {
+    Vector u;
+    Hold hold = Hold::kZoh;
+    Vector t;  ///< instants from 0 on; empty with regular sampling
+};
 
-/// A process model's output as a function of [model parameters, initial values, offset], for the output-error
-/// search. TIMES ARE COUNTED IN SAMPLES here. With a start condition other than zero the model rests at
-/// u[0] before the record, so that its output is Kp u[0] + B/A (u - u[0]) (+ free motion from `n` initial values
-/// of y, dy/dt, ... in the deviation from rest) (+ offset).
+/// A process model's output as a function of [model parameters, initial values, offset], for the output-error search,
+/// in the times of its ProcessInput. With a start condition other than zero the model rests at u[0] before the record,
+/// so that its output is Kp u[0] + B/A (u - u[0]) (+ free motion from n initial values of y, dy/dt, ... in the
+/// deviation from rest) (+ offset). An integrating process has no such rest: there the input is taken as it is, and
+/// the n initial values, the integrator's among them, are those of the output from rest at zero input.
 class ProcessOutput : public OutputErrorModel {
   public:
-    ProcessOutput(const ProcessStructure& structure, const StartCondition& condition, const VectorView& u, Hold hold,
+    ProcessOutput(const ProcessStructure& structure, const StartCondition& condition, ProcessInput input,
                   double least_delay, double largest_delay);
 
     Index parameter_count() const override { return lower_.size(); }
@@ -43,15 +48,16 @@ class ProcessOutput : public OutputErrorModel {
     Index initial_values() const { return initial_values_; }
     bool has_offset() const { return condition_.offset; }
     double resting_input() const { return resting_input_; }
-    const Vector& input() const { return input_; }  ///< counted from the resting input
-    Hold hold() const { return hold_; }
+    const ProcessInput& input() const { return input_; }  ///< counted from the resting input
+    /// The response of B/A exp(-delay s) to the input from rest, and the free motions from unit initial values.
+    Vector response(const VectorView& num, const VectorView& den, double delay) const;
+    Matrix motions(const VectorView& den) const;
     const ProcessStructure& structure() const { return structure_; }
 
   private:
     ProcessStructure structure_;
     StartCondition condition_;
-    Vector input_;
-    Hold hold_;
+    ProcessInput input_;
     double resting_input_ = 0;
     Index model_parameters_ = 0, initial_values_ = 0;
     Vector lower_, upper_;

@@ -25,21 +25,36 @@ std::vector<double> logarithmic_grid(double from, double to, double ratio) {
     return grid;
 }
 
-// Everything between gain and delay: {T}, {T1, T2} with T1 >= T2, or {Tw, Zeta}.
-std::vector<Vector> shapes(const ProcessStructure& structure, Index N) {
-    const double fastest = 1.0 / 3, slowest = 3 * static_cast<double>(N);
-    std::vector<Vector> all;
-    if (structure.poles == 1) {
-        for (double T : logarithmic_grid(fastest, slowest, 1.5)) all.push_back(Vector{{T}});
-    } else if (structure.underdamped) {
-        for (double T : logarithmic_grid(fastest, slowest, 1.25))
-            for (double zeta : {0.05, 0.2, 0.5, 1.0}) all.push_back(Vector{{T, zeta}});
-    } else {
-        const std::vector<double> times = logarithmic_grid(fastest, slowest, 2);
-        for (double T1 : times)
-            for (double T2 : times)
-                if (T2 <= T1) all.push_back(Vector{{T1, T2}});
+std::vector<Vector> real_lags(int count, const std::vector<double>& times) {
+    std::vector<Vector> all = {Vector()};
+    for (int pole = 0; pole < count; ++pole) {
+        std::vector<Vector> longer;
+        for (const Vector& shape : all)
+            for (const double T : times) {
+                if (pole > 0 && T > shape[pole - 1]) continue;
+                longer.push_back(Vector(pole + 1));
+                longer.back() << shape, T;
+            }
+        all = std::move(longer);
     }
+    return all;
+}
+
+// Everything between gain and zero: {T1, T2, T3} in falling order, or {T3, Tw, Zeta}.
+std::vector<Vector> shapes(const ProcessStructure& structure, Index N) {
+    constexpr double kFastest = 1.0 / 3;
+    const double slowest = 3 * static_cast<double>(N);
+    constexpr double kRatios[] = {1.5, 2, 2.5};  // the more time constants, the fewer of each
+    const double ratio = kRatios[structure.poles - 1];
+    if (!structure.underdamped) return real_lags(structure.poles, logarithmic_grid(kFastest, slowest, ratio));
+    std::vector<Vector> all;
+    const bool alone = structure.poles == 2;
+    for (const Vector& lag : real_lags(structure.poles - 2, logarithmic_grid(kFastest, slowest, 4)))
+        for (const double T : logarithmic_grid(kFastest, slowest, alone ? 1.25 : 1.5))
+            for (const double zeta : {0.05, 0.2, 0.5, 1.0}) {
+                all.push_back(Vector(lag.size() + 2));
+                all.back() << lag, T, zeta;
+            }
     return all;
 }
 
@@ -54,30 +69,89 @@ std::vector<Index> delay_shifts(const ProcessOutput& model, int count) {
     return shifts;
 }
 
-// The part of the problem that is linear once a shape is chosen: gain, initial values, offset. Least squares on
-// evenly chosen rows, where only the gain's column changes with the delay.
+// What B/A alone makes of the input, seen at any delay: as it is with regular sampling and whole samples, otherwise on
+// a fine even grid, the input held or drawn between its samples, and interpolated.
+class Responses {
+  public:
+    Responses(const ProcessOutput& model, const Vector& den, const std::vector<Vector>& nums, double least_delay) {
+        const ProcessInput& input = model.input();
+        regular_ = input.t.size() == 0;
+        const Vector u = regular_ ? input.u : even_input(input);
+        columns_.resize(u.size(), static_cast<Index>(nums.size()));
+        for (std::size_t i = 0; i < nums.size(); ++i)
+            columns_.col(static_cast<Index>(i)) =
+                transfer_response(nums[i], den, regular_ ? least_delay : 0, u, regular_ ? 1 : kFineStep, input.hold);
+        if (!regular_) later_ = least_delay;
+    }
+
+    // The rows 0, stride, 2 stride, ... for `shift` samples more than the least delay.
+    void rows(Index column, Index stride, const Vector& t, Index shift, Eigen::Ref<Vector> out) const {
+        if (regular_) {
+            using Thinned = Eigen::Map<const Vector, 0, Eigen::InnerStride<>>;
+            const Index silent = std::min(out.size(), (shift + stride - 1) / stride), rest = out.size() - silent;
+            out.head(silent).setZero();
+            const double* first = columns_.col(column).data() + silent * stride - shift;
+            if (rest > 0) out.tail(rest) = Thinned(first, rest, Eigen::InnerStride<>(stride));
+            return;
+        }
+        for (Index i = 0; i < out.size(); ++i)
+            out[i] = interpolated(column, t[i * stride] - later_ - static_cast<double>(shift));
+    }
+
+  private:
+    static constexpr double kFineStep = 0.25;  // of the mean step
+
+    static Vector even_input(const ProcessInput& input) {
+        const Index N = input.u.size();
+        const Index count = static_cast<Index>(std::ceil(input.t[N - 1] / kFineStep)) + 2;
+        Vector u(count);
+        Index now = 0;
+        for (Index i = 0; i < count; ++i) {
+            const double time = static_cast<double>(i) * kFineStep;
+            while (now + 1 < N && input.t[now + 1] <= time) ++now;
+            u[i] = input.u[now];
+            if (input.hold == Hold::kFoh && now + 1 < N)
+                u[i] += (time - input.t[now]) / (input.t[now + 1] - input.t[now]) * (input.u[now + 1] - input.u[now]);
+        }
+        return u;
+    }
+
+    double interpolated(Index column, double time) const {
+        if (time < 0) return 0;
+        const double position = time / kFineStep;
+        const Index left = std::min(static_cast<Index>(position), columns_.rows() - 2);
+        const double fraction = position - static_cast<double>(left);
+        return columns_(left, column) + fraction * (columns_(left + 1, column) - columns_(left, column));
+    }
+
+    bool regular_ = true;
+    double later_ = 0;
+    Matrix columns_;
+};
+
+// The part of the problem that is linear once a shape is chosen: gain (and gain times Tz), initial values, offset.
+// Least squares on evenly chosen rows, where only the gain's columns change with the delay.
 class LinearPart {
   public:
-    LinearPart(const ProcessOutput& model, const VectorView& y, const Vector& shape) : model_(model), shape_(shape) {
+    LinearPart(const ProcessOutput& model, const VectorView& y, const Vector& shape)
+        : model_(model), shape_(shape), gains_(model.structure().zero ? 2 : 1), responses_(responses_for(model)) {
         const Index N = y.size(), values = model.initial_values();
         stride_ = (N + kRows - 1) / kRows;
-        const ProcessCoefficients c =
-            process_coefficients(model.structure(), theta_at(0).head(model.model_parameters()));
-        response_ = transfer_response(c.num, c.den, c.delay, model.input(), 1, model.hold());
         fixed_.resize((N + stride_ - 1) / stride_, values + (model.has_offset() ? 1 : 0));
-        if (values > 0) fixed_.leftCols(values) = thinned(free_responses(c.den, N, 1));
+        if (values > 0) fixed_.leftCols(values) = thinned(model.motions(coefficients().den));
         if (model.has_offset()) fixed_.rightCols(1).setOnes();
         y_ = thinned(y);
-        const Index count = 1 + fixed_.cols();
+        const Index count = gains_ + fixed_.cols();
         gram_ = Matrix::Zero(count, count);
         gram_.bottomRightCorner(fixed_.cols(), fixed_.cols()) = fixed_.transpose() * fixed_;
         moment_ = Vector::Zero(count);
         moment_.tail(fixed_.cols()) = fixed_.transpose() * y_;
+        varying_.resize(y_.size(), gains_);
     }
 
     // Solves for a delay of `shift` samples more than the least one; returns the mean square error.
     double solve(Index shift) {
-        set_gain_column(shift);
+        set_gain_columns(shift);
         Vector scale = gram_.diagonal().cwiseSqrt();
         for (double& value : scale)
             if (!(value > 0)) value = 1;
@@ -92,12 +166,14 @@ class LinearPart {
     Vector theta(Index shift) const {
         Vector theta = theta_at(shift);
         theta[0] = solution_[0];
-        theta.tail(solution_.size() - 1) = solution_.tail(solution_.size() - 1);
-        return theta;
+        if (gains_ == 2 && solution_[0] != 0) theta[zero_place()] = solution_[1] / solution_[0];
+        theta.tail(fixed_.cols()) = solution_.tail(fixed_.cols());
+        return theta.cwiseMax(model_.lower()).cwiseMin(model_.upper());
     }
 
   private:
     Matrix thinned(const Matrix& all) const { return all(Eigen::seq(0, all.rows() - 1, stride_), Eigen::all); }
+    Index zero_place() const { return model_.model_parameters() - 1 - (model_.structure().delay ? 1 : 0); }
 
     Vector theta_at(Index shift) const {
         Vector theta = Vector::Zero(model_.parameter_count());
@@ -108,23 +184,35 @@ class LinearPart {
         return theta;
     }
 
-    void set_gain_column(Index shift) {
-        using Thinned = Eigen::Map<const Vector, 0, Eigen::InnerStride<>>;
-        const Index silent = std::min(y_.size(), (shift + stride_ - 1) / stride_), rest = y_.size() - silent;
-        Vector column = Vector::Constant(y_.size(), model_.resting_input());
-        if (rest > 0)
-            column.tail(rest) +=
-                Thinned(response_.data() + silent * stride_ - shift, rest, Eigen::InnerStride<>(stride_));
-        gram_(0, 0) = column.squaredNorm();
-        gram_.row(0).tail(fixed_.cols()) = column.transpose() * fixed_;
-        gram_.col(0).tail(fixed_.cols()) = gram_.row(0).tail(fixed_.cols()).transpose();
-        moment_[0] = column.dot(y_);
+    ProcessCoefficients coefficients() const {
+        return process_coefficients(model_.structure(), theta_at(0).head(model_.model_parameters()));
+    }
+
+    // For unit gain; with a zero also the derivative of that response.
+    Responses responses_for(const ProcessOutput& model) const {
+        const ProcessCoefficients c = coefficients();
+        const double g = c.num.tail(1)[0];
+        std::vector<Vector> nums = {Vector{{g}}};
+        if (gains_ == 2) nums.push_back(Vector{{g, 0.0}});
+        return Responses(model, c.den, nums, c.delay);
+    }
+
+    void set_gain_columns(Index shift) {
+        for (Index column = 0; column < gains_; ++column)
+            responses_.rows(column, stride_, model_.input().t, shift, varying_.col(column));
+        varying_.col(0).array() += model_.resting_input();
+        gram_.topLeftCorner(gains_, gains_) = varying_.transpose() * varying_;
+        gram_.topRightCorner(gains_, fixed_.cols()) = varying_.transpose() * fixed_;
+        gram_.bottomLeftCorner(fixed_.cols(), gains_) = gram_.topRightCorner(gains_, fixed_.cols()).transpose();
+        moment_.head(gains_) = varying_.transpose() * y_;
     }
 
     const ProcessOutput& model_;
-    Vector shape_, response_;
+    Vector shape_;
+    Index gains_;
+    Responses responses_;
     Index stride_ = 1;
-    Matrix fixed_, gram_;
+    Matrix fixed_, gram_, varying_;
     Vector y_, moment_, solution_;
 };
 

@@ -8,10 +8,8 @@
 #include "numerics/kernels/transfer_sensitivity.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/polynomial.h"
-#include "numerics/simulation/lsim.h"
 #include "numerics/simulation/time_response.h"
 #include "numerics/validation/robust_covariance.h"
-#include "numerics/validation/uncertainty.h"
 
 namespace dynlab {
 
@@ -25,40 +23,21 @@ struct Record {
     Hold hold;
 };
 
-Vector simulate(const Record& record, const TransferFunction& G, const VectorView& u) {
-    return record.Ts > 0 ? lsim(G, u, record.Ts, record.hold) : lsim(G, u, record.t, record.hold);
-}
-
-TransferFunction derivative_of(const TransferFunction& G) {
-    return TransferFunction(multiply(G.num(), Vector{{1.0, 0.0}}), G.den(), 0, G.delay());
-}
-
 // Response to u and its derivatives with respect to [a_1..a_n b_0..b_m delay].
 Matrix driven_sensitivities(const Record& record, const TransferFunction& G, const VectorView& u) {
-    const bool strictly_proper = G.num().size() < G.den().size();
-    if (record.Ts > 0 && strictly_proper)
-        return transfer_sensitivities(G.num(), G.den(), G.delay(), u, record.Ts, record.hold);
-    Matrix columns(u.size(), G.pole_count() + G.num().size() + 2);
-    columns.col(0) = simulate(record, G, u);
-    Index column = 1;
-    for (const TransferFunction& derivative : coefficient_derivatives(G))
-        columns.col(column++) = simulate(record, derivative, u);
-    if (strictly_proper)
-        columns.col(column) = -simulate(record, derivative_of(G), u);
-    else
-        columns.col(column).setConstant(std::nan(""));
-    return columns;
+    return record.Ts > 0 ? transfer_sensitivities(G.num(), G.den(), G.delay(), u, record.Ts, record.hold)
+                         : transfer_sensitivities(G.num(), G.den(), G.delay(), u, record.t, record.hold);
 }
 
-// The same with the system at rest at the first input value before the record.
+// The same with the system at rest at the first input value before the record; a model with an integrator has no such
+// rest and starts from zero input.
 Matrix channel_sensitivities(const Record& record, const TransferFunction& G, Index input, InitialState state) {
-    const double resting = state == InitialState::kZero ? 0 : record.u(0, input);
+    const double gain = G.dc_gain();
+    const double resting = state == InitialState::kZero || !std::isfinite(gain) ? 0 : record.u(0, input);
     Matrix columns = driven_sensitivities(record, G, record.u.col(input).array() - resting);
     if (resting == 0) return columns;
     const Index n = G.pole_count(), m = G.zero_count();
-    const double gain = G.dc_gain(), a_n = G.den()[n];
-    if (!std::isfinite(gain))
-        throw InvalidArgument("A model with an integrator cannot rest at an input that is not zero");
+    const double a_n = G.den()[n];
     columns.col(0).array() += gain * resting;
     columns.col(n).array() -= gain / a_n * resting;
     columns.col(n + 1 + m).array() += resting / a_n;

@@ -24,8 +24,7 @@ struct Assessment {
 /// that enter linearly (initial state, offset) projected out, then handed to robust_covariance() and
 /// whiteness_test(). Errors of different outputs and experiments count as independent of each other. Parameters whose
 /// plain variance is zero (held at a bound) keep it. `data` are those the estimator saw, with any operating point
-/// already removed. Throws InvalidArgument for data that do not fit the estimate's channels, for an integrator that
-/// starts from another input than zero, and for an estimated delay of a model with as many zeros as poles.
+/// already removed. Throws InvalidArgument for data that do not fit the estimate's channels.
 Assessment assess(const IdData& data, const TransferEstimate& estimate, const ResidualOptions& options = {});
 /// The same for a process model; the operating point the result names is removed here.
 Assessment assess(const IdData& data, const ProcsrivcResult& estimate, const ResidualOptions& options = {});
