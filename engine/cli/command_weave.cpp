@@ -12,7 +12,7 @@ struct WeaveWords {
 };
 
 int weave(const WeaveWords& words) {
-    ReportRequest request = report_of_script(words.script, words.output);
+    ReportRequest request = report_of_script(read_percent_script(words.script), words.output);
     request.seed = words.seed.value().value_or(request.seed);
     return make_document(std::move(request), words.timings);
 }

@@ -74,16 +74,16 @@ FigureFormat figure_format_for(DocumentFormat format) {
 
 }  // namespace
 
-ReportRequest report_of_script(const fs::path& script, const fs::path& output) {
+ReportRequest report_of_script(const PercentScript& script, const fs::path& output) {
     ReportRequest request;
-    request.script = read_percent_script(script);
+    request.script = script;
     const ScriptHeader& header = request.script.header;
     request.template_file = template_named(header.template_name);
     if (!fs::is_regular_file(request.template_file)) {
-        throw DocumentError(script.string() + ": there is no template '" + header.template_name + "' in " +
+        throw DocumentError(script.file.string() + ": there is no template '" + header.template_name + "' in " +
                             request.template_file.parent_path().string());
     }
-    request.metadata = {{"title", header.title.empty() ? script.stem().string() : header.title},
+    request.metadata = {{"title", header.title.empty() ? script.file.stem().string() : header.title},
                         {"subtitle", header.subtitle},
                         {"lang", header.language}};
     request.output = output;
@@ -94,7 +94,8 @@ ReportRequest report_of_script(const fs::path& script, const fs::path& output) {
 ReportRequest report_of(const std::string& lesson_or_folder, const fs::path& output) {
     if (fs::is_directory(lesson_or_folder)) return report_of_folder(lesson_or_folder, output);
     const Lesson lesson = find_lesson(lesson_or_folder);
-    return report_of_script(lesson.script(), output.empty() ? fs::path(lesson.slug + ".pdf") : output);
+    return report_of_script(read_percent_script(lesson.script()),
+                            output.empty() ? fs::path(lesson.slug + ".pdf") : output);
 }
 
 ReportResult make_report(const ReportRequest& request) {
@@ -105,14 +106,15 @@ ReportResult make_report(const ReportRequest& request) {
     Stopwatch watch(result.timings);
     const DocumentFormat format = document_format(request.output);
     const ReportMemory memory(request);
-    result.up_to_date = memory.unchanged();
+    result.up_to_date = !request.print && memory.unchanged();
     watch.lap("look for changes");
     if (result.up_to_date) return result;
 
     begin("running the script");
     const TemporaryFolder workplace;
     GnuplotRenderer renderer;
-    RunRequest run{.script = request.script, .seed = request.seed, .out_folder = workplace.path(), .print = {}};
+    RunRequest run{
+        .script = request.script, .seed = request.seed, .out_folder = workplace.path(), .print = request.print};
     RunRecord record = run_script(run, renderer);
     if (record.error) throw DocumentError(record.error->message);
     draw_figures(record, renderer, workplace.path(), figure_format_for(format));

@@ -20,7 +20,8 @@ struct ReportRequest {
         metadata;                  ///< title, subtitle and language of a lesson; empty for a student's report
     std::filesystem::path output;  ///< .pdf, .html or .md
     std::uint32_t seed = 1;
-    std::function<void(const std::string&)> step;  ///< told of each step as it begins; none when empty
+    std::function<void(const std::string&)> step;   ///< told of each step as it begins; none when empty
+    std::function<void(const std::string&)> print;  ///< sees what the script prints; such a report is always made anew
 };
 
 struct ReportResult {
@@ -33,7 +34,7 @@ struct ReportResult {
 /// 02_least_squares.pdf or report.pdf. Throws EnvironmentError for a folder without these files.
 ReportRequest report_of(const std::string& lesson_or_folder, const std::filesystem::path& output = {});
 /// The report of any script, with the template its header names.
-ReportRequest report_of_script(const std::filesystem::path& script, const std::filesystem::path& output);
+ReportRequest report_of_script(const PercentScript& script, const std::filesystem::path& output);
 
 /// Runs the script and makes the document; `output` appears whole or stays as it was. With unchanged inputs (script,
 /// template, data, seed, program) and an untouched output nothing is done. Throws DocumentError with the script's error

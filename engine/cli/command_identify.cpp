@@ -1,0 +1,90 @@
+#include <charconv>
+#include <cstdio>
+#include <iostream>
+
+#include "cli/commands.h"
+#include "cli/document_command.h"
+#include "numerics/error.h"
+#include "workflow/identify.h"
+
+namespace dynlab {
+namespace {
+
+struct IdentifyWords {
+    IdentifyRequest request;
+    std::string report;
+    bool script = false;
+};
+
+/// Nothing for "auto".
+std::optional<double> delay_of(const std::string& text) {
+    if (text == "auto") return std::nullopt;
+    double seconds = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
+    if (error == std::errc() && end == text.data() + text.size()) return seconds;
+    throw CLI::ValidationError("--delay", "wanted a number of seconds or the word auto, not '" + text + "'");
+}
+
+void print_now(const std::string& text) {
+    std::fwrite(text.data(), 1, text.size(), stdout);
+    std::fflush(stdout);
+}
+
+int identify(const IdentifyWords& words) {
+    const std::string script = identification_script(words.request);
+    if (words.script) {
+        print_now(script);
+        return kDone;
+    }
+    const std::string stem = std::filesystem::path(words.request.data).stem().string();
+    ReportRequest report = report_of_script(parse_percent_script(script, "identify.lua"),
+                                            words.report.empty() ? stem + "_model.pdf" : words.report);
+    report.print = print_now;
+    return make_document(std::move(report), false);
+}
+
+}  // namespace
+
+void add_identify(CLI::App& app, Action& action) {
+    auto words = std::make_shared<IdentifyWords>();
+    IdentifyRequest& request = words->request;
+    CLI::App* command = app.add_subcommand("identify", "A model and a report from a data file, without writing Lua");
+    command->add_option("DATA", request.data, "The record: a .csv or .mat file, or a data set's name")->required();
+    command->add_option("--input", request.input, "Name of the input's column or variable")
+        ->type_name("NAME")
+        ->required();
+    command->add_option("--output", request.outputs, "Names of the outputs, with commas between them; one model each")
+        ->type_name("NAME,...")
+        ->delimiter(',')
+        ->required();
+    command->add_option("--poles", request.poles, "Number of poles")->type_name("N")->required();
+    command->add_option("--zeros", request.zeros, "Number of zeros, 0 unless given")->type_name("N");
+    command
+        ->add_option_function<std::string>(
+            "--delay", [&request](const std::string& text) { request.delay = delay_of(text); },
+            "Delay in seconds, or the word auto: then it is estimated. 0 unless given")
+        ->type_name("SECONDS|auto");
+    command->add_option("--Ts", request.Ts, "Sampling time, instead of what the file says")->type_name("SECONDS");
+    command->add_option("--validate", request.validation, "A record with the same names, to test the model on")
+        ->type_name("FILE");
+    auto* report = command->add_option("-o,--output-file", words->report,
+                                       "The report (.pdf, .html or .md), DATA_model.pdf unless given");
+    report->type_name("FILE");
+    command->add_flag("--script", words->script, "Print the Lua script that does it, and do nothing else")
+        ->excludes(report);
+    command->footer(
+        "The sampling time is the one a CSV file states (# Ts: 0.01), a MAT file's variable Ts, or that of a column t "
+        "or\ntime, whose steps may differ. The summary is printed; the report also shows figures.\n"
+        "A message such as identify.lua:35 speaks of line 35 of what --script prints.\n"
+        "Example:  dynlab identify crane.csv --input u --output x,theta --poles 2 --zeros 0 --validate second.csv");
+    command->callback([words, &action] {
+        try {
+            words->request.validate();
+        } catch (const InvalidArgument& error) {
+            throw CLI::ValidationError("identify", error.what());
+        }
+        action = [words] { return identify(*words); };
+    });
+}
+
+}  // namespace dynlab

@@ -1,0 +1,170 @@
+#include "workflow/identify.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "numerics/error.h"
+#include "scripting/lua_text.h"
+#include "workflow/recording.h"
+
+namespace dynlab {
+namespace {
+
+/// Pieces of the script; {s} is a suffix that tells the outputs apart.
+constexpr const char* kBegin = R"(-- ---
+-- title: Identification report
+-- template: identify
+-- ---
+
+-- %% id=records echo=false
+{load}report.value("input", {input})
+report.value("file", {file})
+)";
+
+constexpr const char* kData = R"(
+-- %% [markdown]
+-- # From `input`{{.value}} to `output{s}`{{.value}}
+--
+-- ## The data
+--
+-- `samples{s}`{{.value}} samples of `file`{{.value}}.
+--
+-- ![Output and input as they were recorded](figure:data{s})
+
+-- %% id=data{s} echo=false
+local data{s} = {data}
+report.value("output{s}", {output})
+report.value("samples{s}", data{s}.N, "%d")
+report.figure("data{s}", idplot(data{s}):set{{height = 5}}, "")
+)";
+
+constexpr const char* kModel = R"(
+-- %% [markdown]
+-- ## The model
+--
+-- {structure}
+-- The parameters are those with which the simulated output comes closest to the measured one. Behind each stands its
+-- standard error.
+
+-- %% id=model{s} echo=false
+local G{s} = {estimate}
+present(G{s})
+)";
+
+constexpr const char* kFit = R"(
+-- %% [markdown]
+-- ## How well it predicts
+--
+-- The model is simulated on the input alone. A fit of 100 % means equal curves, 0 % that the mean of the output
+-- would do as well; noise keeps every honest fit below 100 %.{remark}
+
+-- %% id=fit{s} echo=false output=false
+print(string.format("fit to the estimation data: %.2f %%", fit(data{s}, G{s})))
+)";
+
+constexpr const char* kCompare = R"(report.figure("fit{s}", compare(data{s}, G{s}):set{{height = 5}}, "")
+
+-- %% [markdown]
+-- ![Measured and simulated output](figure:fit{s})
+)";
+
+constexpr const char* kCompareBoth = R"(local unseen{s} = {validation}
+print(string.format("fit to the validation data: %.2f %%", fit(unseen{s}, G{s})))
+report.figure("fit{s}", subplot(2, 1, {{
+  compare(data{s}, G{s}):set{{title = "estimation data"}},
+  compare(unseen{s}, G{s}):set{{title = "validation data"}}}}):set{{height = 6.4}}, "")
+
+-- %% [markdown]
+-- ![Measured and simulated output](figure:fit{s})
+)";
+
+constexpr const char* kRest = R"(
+-- %% [markdown]
+-- ## What it leaves unexplained
+--
+-- The simulation error (here on the {record} data) should be white, and the input should explain nothing more of it.
+
+-- %% id=residuals{s} echo=false
+local errors{s} = resid({tested}{s}, G{s})
+if errors{s} then subplot(1, 2, {{errors{s}}}):set{{height = 4}} end
+
+-- %% [markdown]
+-- ## Step and frequency response
+--
+-- ![The bands hold the true response with a probability of 99 %, if the structure is right](figure:responses{s})
+
+-- %% id=responses{s} echo=false
+local responses{s} = subplot(1, 3, {{step(G{s}), bode(G{s})}})
+for panel = 1, 3 do responses{s}:set{{height = 3.8, legend = "none", panel = panel}} end
+report.figure("responses{s}", responses{s}, "")
+)";
+
+constexpr const char* kNoValidation = R"( No
+-- validation record was given: a record that the model has not seen would say more.)";
+
+std::string counted(int number, const char* what) {
+    return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s");
+}
+
+std::string structure_of(const IdentifyRequest& request) {
+    std::string delay = ", an estimated delay";
+    if (request.delay) delay = *request.delay > 0 ? fmt::format(", a delay of {} s", *request.delay) : "";
+    return fmt::format("{}, {}{}.", counted(request.poles, "pole"), counted(request.zeros, "zero"), delay);
+}
+
+std::string estimate_of(const IdentifyRequest& request, const std::string& data) {
+    std::string delay;
+    if (request.delay) delay = *request.delay > 0 ? fmt::format("IODelay = {}, ", *request.delay) : "TdMax = 0, ";
+    return fmt::format("tfsrivc({}, {}, {}, {{{}InitialState = \"auto\", Offset = \"auto\"}})", data, request.poles,
+                       request.zeros, delay);
+}
+
+}  // namespace
+
+void IdentifyRequest::validate() const {
+    if (outputs.empty()) throw InvalidArgument("at least one output is needed");
+    for (auto output = outputs.begin(); output != outputs.end(); ++output) {
+        if (*output == input) throw InvalidArgument(fmt::format("'{}' cannot be both input and output", input));
+        if (std::find(outputs.begin(), output, *output) != output)
+            throw InvalidArgument(fmt::format("the output '{}' is given twice", *output));
+    }
+    if (poles < 1) throw InvalidArgument(fmt::format("the number of poles must be at least 1, not {}", poles));
+    if (zeros < 0 || zeros > poles)
+        throw InvalidArgument(
+            fmt::format("the number of zeros must be from 0 to that of the poles, {}; it is {}", poles, zeros));
+    if (delay && !(std::isfinite(*delay) && *delay >= 0))
+        throw InvalidArgument(fmt::format("the delay must be at least 0 s, not {}", *delay));
+    if (Ts && !(std::isfinite(*Ts) && *Ts > 0))
+        throw InvalidArgument(fmt::format("Ts must be greater than 0 s, not {}", *Ts));
+}
+
+std::string identification_script(const IdentifyRequest& request) {
+    using namespace fmt::literals;
+    request.validate();
+    const Recording record(request.data, request.input, request.outputs, request.Ts);
+    std::optional<Recording> unseen;
+    if (!request.validation.empty()) unseen.emplace(request.validation, request.input, request.outputs, request.Ts);
+
+    std::string script =
+        fmt::format(kBegin, "load"_a = record.loading("record") + (unseen ? unseen->loading("validation") : ""),
+                    "input"_a = lua_text(request.input), "file"_a = lua_text(request.data));
+    for (std::size_t i = 0; i < request.outputs.size(); ++i) {
+        const std::string& output = request.outputs[i];
+        const std::string suffix = request.outputs.size() == 1 ? "" : fmt::format("_{}", i + 1);
+        script +=
+            fmt::format(kData, "s"_a = suffix, "data"_a = record.data("record", output), "output"_a = lua_text(output));
+        script += fmt::format(kModel, "s"_a = suffix, "structure"_a = structure_of(request),
+                              "estimate"_a = estimate_of(request, "data" + suffix));
+        script += fmt::format(kFit, "s"_a = suffix, "remark"_a = unseen ? "" : kNoValidation);
+        script += unseen
+                      ? fmt::format(kCompareBoth, "s"_a = suffix, "validation"_a = unseen->data("validation", output))
+                      : fmt::format(kCompare, "s"_a = suffix);
+        script += fmt::format(kRest, "s"_a = suffix, "tested"_a = unseen ? "unseen" : "data",
+                              "record"_a = unseen ? "validation" : "estimation");
+    }
+    return script;
+}
+
+}  // namespace dynlab

@@ -1,0 +1,30 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dynlab {
+
+/// A model wanted from a file: one input, one model for each output.
+struct IdentifyRequest {
+    std::string data;  ///< .mat or .csv file, or a data set's name
+    std::string input;
+    std::vector<std::string> outputs;  ///< at least one
+    int poles = 2;
+    int zeros = 0;                    ///< at most the number of poles
+    std::optional<double> delay = 0;  ///< s; estimated when empty
+    std::optional<double> Ts;         ///< s; else as the file states it, or from its column t or time
+    std::string validation = {};      ///< file with the same names; none when empty
+
+    /// Throws InvalidArgument for names given twice and for orders, delay or Ts that make no sense.
+    void validate() const;
+};
+
+/// The Lua script that identifies and reports (percent format, template "identify"): what `dynlab identify` runs, and a
+/// user may run, change and weave. File and variable names stand in it as Lua texts in which no character has a
+/// meaning. The files are read to learn their variables and sampling. Throws EnvironmentError for a file that cannot be
+/// read, a name it does not have (listing those it has), a variable that is not a vector, an unknown sampling time;
+/// InvalidArgument as validate().
+std::string identification_script(const IdentifyRequest& request);
+
+}  // namespace dynlab

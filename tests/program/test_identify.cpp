@@ -1,0 +1,165 @@
+// A model from a data file without Lua. Oracles: the system that made the record, the same script run by hand, the
+// README's exit codes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/program.h"
+
+namespace dynlab::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
+
+/// Records of 2/(s^2 + 4s + 3) (x, with a delay of 0.33 s in late) and (s + 2)/(s^2 + 0.8s + 4) (theta), in files that
+/// state their sampling in different ways.
+constexpr const char* kRecords = R"(
+local u, Ts = prbs(7, 8), 0.05
+local t = linspace(0, (#u - 1)*Ts, #u)
+local x, theta = lsim(tf({2}, {1, 4, 3}), u, Ts), lsim(tf({1, 2}, {1, 0.8, 4}), u, Ts)
+local late = lsim(tf({2}, {1, 4, 3}, {IODelay = 0.33}), u, Ts)
+save_csv("even.csv", {t = t, u = u, x = x, theta = theta, late = late}, {units = {x = "m", theta = "rad"}})
+save_csv("stated.csv", {u = u, x = x}, {Ts = Ts})
+save_csv("silent.csv", {u = u, x = x})
+save_mat("stated.mat", {u = u, x = x, Ts = Ts, short = u:range(1, 5), A = eye(2)})
+local instants = cumsum(0.02 + 0.06*rand(800))
+local w = sin(0.7*instants) + sin(1.9*instants)
+save_csv("uneven.csv", {time = instants, u = w, x = lsim(tf({2}, {1, 4, 3}), w, instants)})
+)";
+
+class identify : public testing::Test {
+  protected:
+    void SetUp() override {
+        bench_.write("make.lua", kRecords);
+        const ChildResult made = bench_.dynlab({"run", "make.lua"});
+        ASSERT_EQ(made.exit_code, 0) << made.error_output;
+    }
+    ChildResult run(std::vector<std::string> words) const {
+        words.insert(words.begin(), "identify");
+        return bench_.dynlab(words);
+    }
+    /// What is printed when it goes well.
+    std::string report(const std::vector<std::string>& words) const {
+        const ChildResult result = run(words);
+        EXPECT_EQ(result.exit_code, 0) << result.error_output;
+        EXPECT_THAT(result.error_output, IsEmpty());
+        return result.output;
+    }
+    /// What is said when it does not.
+    std::string complaint(const std::vector<std::string>& words, int exit_code) const {
+        const ChildResult result = run(words);
+        EXPECT_EQ(result.exit_code, exit_code) << result.output << result.error_output;
+        EXPECT_FALSE(std::filesystem::exists(bench_.path("even_model.pdf")));
+        return result.error_output;
+    }
+    Workbench bench_;
+};
+
+TEST_F(identify, finds_the_system_in_files_that_state_their_sampling_in_any_way) {
+    for (const char* file : {"even.csv", "stated.csv", "stated.mat"}) {
+        const std::string text = report({file, "--input", "u", "--output", "x", "--poles", "2", "-o", "x.md"});
+        EXPECT_THAT(text, AllOf(HasSubstr("s^2 + 4 s + 3"), HasSubstr("fit to the estimation data: 100.00 %"))) << file;
+    }
+    EXPECT_THAT(report({"silent.csv", "--input", "u", "--output", "x", "--poles", "2", "--Ts", "0.05", "-o", "x.md"}),
+                HasSubstr("s^2 + 4 s + 3"));
+}
+
+TEST_F(identify, takes_uneven_instants_as_they_are) {
+    const std::vector<std::string> words = {"uneven.csv", "--input", "u",  "--output", "x",
+                                            "--poles",    "2",       "-o", "x.md"};
+    EXPECT_THAT(report(words), HasSubstr("fit to the estimation data: 100.00 %"));
+    std::vector<std::string> script = words;
+    script.resize(script.size() - 2);
+    script.push_back("--script");
+    EXPECT_THAT(report(script), HasSubstr("SamplingInstants = record_t"));
+}
+
+TEST_F(identify, estimates_a_delay_or_takes_the_given_one) {
+    for (const char* delay : {"auto", "0.33"}) {
+        const std::string text =
+            report({"even.csv", "--input", "u", "--output", "late", "--poles", "2", "--delay", delay, "-o", "l.md"});
+        EXPECT_THAT(text, AllOf(HasSubstr("Delay: 0.33 s"), HasSubstr("s^2 + 4 s + 3"))) << delay;
+    }
+}
+
+TEST_F(identify, report_has_two_pages_for_each_output_and_its_path_is_printed_last) {
+    const std::string text = report(
+        {"even.csv", "--input", "u", "--output", "x,theta", "--poles", "2", "--zeros", "1", "--validate", "even.csv"});
+    EXPECT_THAT(text, AllOf(HasSubstr("s^2 + 0.8 s + 4"), HasSubstr("fit to the validation data: 100.00 %"),
+                            testing::EndsWith(bench_.path("even_model.pdf").string() + "\n")));
+    EXPECT_THAT(bench_.shell("pdfinfo even_model.pdf").output, testing::ContainsRegex("Pages: +4\n"));
+    EXPECT_THAT(bench_.shell("pdftotext even_model.pdf -").output, AllOf(HasSubstr("From u to x"), HasSubstr("x (m)")));
+    report({"even.csv", "--input", "u", "--output", "x", "--poles", "2", "-o", "one.pdf"});
+    EXPECT_THAT(bench_.shell("pdfinfo one.pdf").output, testing::ContainsRegex("Pages: +2\n"));
+}
+
+TEST_F(identify, printed_script_gives_the_same_numbers_and_the_same_report) {
+    const std::vector<std::string> words = {"even.csv", "--input", "u",    "--output",   "x",         "--poles",
+                                            "2",        "--delay", "auto", "--validate", "stated.csv"};
+    std::vector<std::string> for_report = words, for_script = words;
+    for_report.insert(for_report.end(), {"-o", "a.pdf"});
+    for_script.push_back("--script");
+    std::string numbers = report(for_report);
+    numbers.erase(numbers.rfind(bench_.path("a.pdf").string()));
+
+    bench_.write("b.lua", report(for_script));
+    EXPECT_THAT(bench_.dynlab({"run", "b.lua"}).output, StartsWith(numbers));
+    EXPECT_EQ(bench_.dynlab({"weave", "b.lua", "-o", "b.pdf"}).exit_code, 0);
+    EXPECT_TRUE(bench_.read("a.pdf") == bench_.read("b.pdf"));
+}
+
+TEST_F(identify, names_cannot_act_as_code) {
+    const std::string name = "a\"]] .. os.exit(7) --`{b}$x.csv";
+    bench_.write(name, bench_.read("stated.csv"));
+    EXPECT_THAT(report({name, "--input", "u", "--output", "x", "--poles", "2", "-o", "a.pdf"}),
+                HasSubstr("s^2 + 4 s + 3"));
+}
+
+TEST_F(identify, what_the_file_lacks_is_told_with_what_it_has) {
+    EXPECT_THAT(complaint({"even.csv", "--input", "u", "--output", "x,teta", "--poles", "2"}, 1),
+                AllOf(HasSubstr("'teta'"), HasSubstr("did you mean 'theta'?"), HasSubstr("late, t, theta, u, x")));
+    EXPECT_THAT(complaint({"even.csv", "--input", "v", "--output", "x", "--poles", "2"}, 1), HasSubstr("'v'"));
+    EXPECT_THAT(complaint({"silent.csv", "--input", "u", "--output", "x", "--poles", "2"}, 1),
+                AllOf(HasSubstr("silent.csv"), HasSubstr("--Ts")));
+    EXPECT_THAT(complaint({"stated.mat", "--input", "u", "--output", "short", "--poles", "2"}, 1),
+                AllOf(HasSubstr("'short' has 5"), HasSubstr("'u' has")));
+    EXPECT_THAT(complaint({"stated.mat", "--input", "A", "--output", "x", "--poles", "2"}, 1), HasSubstr("'A'"));
+    EXPECT_THAT(
+        complaint({"even.csv", "--input", "u", "--output", "theta", "--poles", "2", "--validate", "stated.mat"}, 1),
+        HasSubstr("stated.mat has no column of numbers 'theta'"));
+    EXPECT_THAT(complaint({"nowhere.csv", "--input", "u", "--output", "x", "--poles", "2"}, 1),
+                HasSubstr("nowhere.csv"));
+    EXPECT_THAT(complaint({"even.csv", "--input", "u", "--output", "x", "--poles", "2", "--validate", "none.csv"}, 1),
+                HasSubstr("none.csv"));
+    EXPECT_THAT(complaint({"even.csv", "--input", "u", "--output", "x", "--poles", "2", "--delay", "1e6"}, 1),
+                HasSubstr("delay"));
+}
+
+TEST_F(identify, wrong_options_are_wrong_usage) {
+    const std::vector<std::vector<std::string>> wrong = {{},
+                                                         {"--poles", "0"},
+                                                         {"--poles", "two"},
+                                                         {"--poles", "2", "--zeros", "3"},
+                                                         {"--poles", "2", "--zeros", "-1"},
+                                                         {"--poles", "2", "--delay", "soon"},
+                                                         {"--poles", "2", "--delay=-1"},
+                                                         {"--poles", "2", "--delay", "nan"},
+                                                         {"--poles", "2", "--Ts", "0"},
+                                                         {"--poles", "2", "--wrong", "1"},
+                                                         {"--poles", "2", "--output", "u"},
+                                                         {"--poles", "2", "-o", "a.pdf", "--script"}};
+    for (const auto& options : wrong) {
+        std::vector<std::string> words = {"even.csv", "--input", "u", "--output", "x"};
+        words.insert(words.end(), options.begin(), options.end());
+        EXPECT_THAT(complaint(words, 2), Not(IsEmpty()));
+    }
+    EXPECT_THAT(complaint({"even.csv", "--input", "u", "--output", "x,x", "--poles", "2"}, 2), HasSubstr("twice"));
+    EXPECT_THAT(complaint({"even.csv", "--input", "u", "--output", "x", "--poles", "2", "-o", "a.docx"}, 1),
+                HasSubstr(".pdf"));
+}
+
+}  // namespace
+}  // namespace dynlab::test
