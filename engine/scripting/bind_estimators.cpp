@@ -79,10 +79,11 @@ Estimate estimate_of(const ProcsrivcResult& result) {
     estimate.numbers = {{"fit_percent", result.fit_percent},
                         {"noise_variance", result.noise_variance},
                         {"loss", result.loss},
-                        {"offset", result.offset},
+                        {"offset", result.offsets[0]},
                         {"iterations", static_cast<double>(result.trace.size())}};
     estimate.vectors = {{"output", result.output},
-                        {"initial_values", result.initial_values},
+                        {"initial_values", result.initial_values.empty() ? Vector() : result.initial_values.front()},
+                        {"offsets", result.offsets},
                         {"delay_grid", result.delay_grid},
                         {"delay_loss", result.delay_loss}};
     return estimate;

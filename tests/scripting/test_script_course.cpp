@@ -59,6 +59,17 @@ TEST(script_course, fits_a_process_model_to_noise_free_data) {
                       "print(norm(M.param - {2, 3}) < 1e-6, M.report.fit_percent > 99.99, fit(data, M) > 99.99, "
                       "M.report.converged)"),
               "true\ttrue\ttrue\ttrue\n");
+    EXPECT_EQ(
+        error_of("procsrivc(iddata({1, 2}, {1, 2}, 1), 'P4')"),
+        "lesson.lua:1: procsrivc: process model: \"P4\" is not the structure of a process model; write P1, P2 or P3 "
+        "and after it any of D (delay), I (integrator), Z (zero), U (under-damped pair, from P2 on), as in P2DU");
+    EXPECT_EQ(printed("local u = prbs(6, 8)\nlocal G = idproc('P3DIZU', {Kp = 0.5, Tp3 = 0.3, Tw = 0.4, Zeta = 0.2, "
+                      "Tz = -0.2, Td = 0.23})\n"
+                      "local a = iddata(lsim(G, u, 0.05), u, 0.05)\n"
+                      "local M = procsrivc(a:merge(a), 'P3DIZU', {InitialState = 'zero', Offset = 'none'})\n"
+                      "print(norm(M.param - {0.5, 0.3, 0.4, 0.2, -0.2, 0.23}) < 1e-6, #M.report.offsets, "
+                      "#M.report.output == 2*#u)"),
+              "true\t2\ttrue\n");
     EXPECT_EQ(error_of("procsrivc(iddata({1, 2}, {1, 2}, 1), 'P1', {TdMx = 0})"),
               "lesson.lua:1: procsrivc: option 'TdMx' is unknown; did you mean 'TdMax'?");
 }

@@ -10,8 +10,8 @@
 #include "numerics/kernels/polynomial_estimate.h"
 #include "numerics/kernels/process_output.h"
 #include "numerics/kernels/process_start.h"
+#include "numerics/kernels/transfer_data.h"
 #include "numerics/number_text.h"
-#include "numerics/validation/fit_measures.h"
 
 namespace dynlab {
 
@@ -19,52 +19,70 @@ namespace {
 
 constexpr Index kSamplesPerParameter = 3;
 
-struct Record {
-    Vector u, y;
-    Vector t;   // irregular instants in units of Ts, from 0 on
-    double Ts;  // s, the mean step with irregular sampling
-    Hold hold;
-    OperatingPoint removed;
+struct Problem {
+    IdData data;  // from which the estimate is made: without operating points, with Offset "remove"
+    std::vector<OperatingPoint> removed;
+    std::vector<ProcessInput> inputs;
+    Vector y;                           // of all experiments
+    double spread = 0;                  // sum of squares of y about each experiment's mean
+    double unit = 1;                    // s, the time unit: the sampling time, or the mean step
+    double least_delay, largest_delay;  // units
+    double longest = 0;                 // s, of the longest record
 };
 
-Record prepared_record(const IdData& data, const ProcsrivcOptions& options) {
-    std::ostringstream text;
-    if (data.experiments.size() != 1 || data.input_count() != 1 || data.output_count() != 1) {
-        text << "procsrivc needs one experiment with one input and one output, and the data hold "
-             << data.experiments.size() << " experiment(s), " << data.input_count() << " input(s) and "
-             << data.output_count() << " output(s): select one of each";
-        throw InvalidArgument(text.str());
-    }
-    const Experiment& experiment = data.experiments.front();
-    Record record{experiment.u.col(0), experiment.y.col(0), {}, data.Ts, data.hold, {}};
-    const Index steps = record.y.size() - 1;
-    if (!data.regular() && steps > 0) {
-        record.t = experiment.t.array() - experiment.t[0];
-        record.Ts = record.t[steps] / static_cast<double>(steps);
-        record.t /= record.Ts;
-    }
-    if (record.u.isZero(0)) throw InvalidArgument("procsrivc: the input is zero throughout, so nothing can be learnt");
-    if ((record.y.array() == record.y[0]).all())
-        throw InvalidArgument("procsrivc: the output never changes, so nothing can be learnt");
-    if (options.offset == Offset::kRemove) {
-        record.removed = operating_point(record.u, record.y);
-        record.u.array() -= record.removed.input;
-        record.y.array() -= record.removed.output;
-    }
-    return record;
+double duration(const IdData& data, std::size_t experiment) {
+    const Vector t = data.time(experiment);
+    return t[t.size() - 1] - t[0];
 }
 
-struct DelayBounds {
-    double least, largest;  // samples
-};
+double time_unit(const IdData& data) {
+    if (data.regular()) return data.Ts;
+    double total = 0;
+    for (std::size_t e = 0; e < data.experiments.size(); ++e) total += duration(data, e);
+    const auto steps = data.sample_count() - static_cast<Index>(data.experiments.size());
+    return total / static_cast<double>(std::max<Index>(1, steps));
+}
 
-DelayBounds delay_bounds(const Record& record, const ProcsrivcOptions& options) {
-    const double duration = static_cast<double>(record.y.size() - 1) * record.Ts;
-    const double largest = options.TdMax.value_or(std::max(options.TdMin, duration / 4));
-    if (largest >= duration)
-        throw InvalidArgument("TdMax must be shorter than the record of " + number_text(duration) + " s, and is " +
-                              number_text(largest) + " s");
-    return {options.TdMin / record.Ts, largest / record.Ts};
+void check_data(const IdData& data) {
+    if (data.experiments.empty() || data.input_count() != 1 || data.output_count() != 1)
+        throw InvalidArgument("procsrivc needs data with one input and one output, and these hold " +
+                              std::to_string(data.input_count()) + " input(s) and " +
+                              std::to_string(data.output_count()) + " output(s): select one of each");
+    const auto all = [&](auto&& flat) { return std::all_of(data.experiments.begin(), data.experiments.end(), flat); };
+    if (all([](const Experiment& experiment) { return experiment.u.isZero(0); }))
+        throw InvalidArgument("procsrivc: the input is zero throughout, so nothing can be learnt");
+    if (all([](const Experiment& experiment) { return (experiment.y.array() == experiment.y(0, 0)).all(); }))
+        throw InvalidArgument("procsrivc: the output never changes, so nothing can be learnt");
+}
+
+Problem problem_of(const IdData& data, const ProcsrivcOptions& options) {
+    check_data(data);
+    Problem problem{data, std::vector<OperatingPoint>(data.experiments.size()), {}, {}, 0, time_unit(data), 0, 0, 0};
+    if (options.offset == Offset::kRemove) {
+        CentredData centred = without_operating_points(data);
+        problem.data = std::move(centred.data);
+        for (std::size_t e = 0; e < problem.removed.size(); ++e)
+            problem.removed[e] = {centred.removed[e][0].inputs[0], centred.removed[e][0].output};
+    }
+    problem.y.resize(data.sample_count());
+    Index row = 0;
+    for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+        const Experiment& experiment = problem.data.experiments[e];
+        ProcessInput input{experiment.u.col(0), data.hold, {}};
+        if (!data.regular()) input.t = (experiment.t.array() - experiment.t[0]) / problem.unit;
+        problem.inputs.push_back(std::move(input));
+        problem.y.segment(row, experiment.y.rows()) = experiment.y;
+        row += experiment.y.rows();
+        problem.spread += (experiment.y.array() - experiment.y.mean()).square().sum();
+        problem.longest = std::max(problem.longest, duration(data, e));
+    }
+    TransferOptions bounds;
+    bounds.TdMin = options.TdMin;
+    bounds.TdMax = options.TdMax;
+    const DelayRange range = delay_range(data, bounds);
+    problem.least_delay = range.least / problem.unit;
+    problem.largest_delay = range.largest / problem.unit;
+    return problem;
 }
 
 struct Fit {
@@ -74,32 +92,31 @@ struct Fit {
     double bic = std::numeric_limits<double>::infinity();
 };
 
-Fit fit_condition(const Record& record, const ProcessStructure& structure, const StartCondition& condition,
+Index value_count(const Problem& problem, const ProcessStructure& structure, const StartCondition& condition) {
+    const Index own = initial_value_count(structure, condition) + (condition.offset ? 1 : 0);
+    return static_cast<Index>(structure.parameter_names().size()) + own * static_cast<Index>(problem.inputs.size());
+}
+
+Fit fit_condition(const Problem& problem, const ProcessStructure& structure, const StartCondition& condition,
                   const ProcsrivcOptions& options) {
-    const DelayBounds bounds = delay_bounds(record, options);
-    const ProcessOutput model(structure, condition, {record.u, record.hold, record.t}, bounds.least, bounds.largest);
-    const Index N = record.y.size(), d = model.parameter_count();
-    if (N < kSamplesPerParameter * d)
-        throw InvalidArgument("procsrivc needs at least " + std::to_string(kSamplesPerParameter * d) +
-                              " samples for the " + std::to_string(d) + " values it estimates, and the record holds " +
-                              std::to_string(N));
-    Fit fit{condition, {}, scan_process_grid(model, record.y, options.NumTd)};
+    const ProcessOutput model(structure, condition, problem.inputs, problem.least_delay, problem.largest_delay);
+    const Index N = problem.y.size(), d = model.parameter_count();
+    Fit fit{condition, {}, scan_process_grid(model, problem.y, options.NumTd)};
     fit.solution =
-        minimise_output_error(model, record.y, fit.scan.starts, {options.MaxIter, options.Tol, options.cancel});
-    fit.bic = bic_of_loss(fit.solution.loss, record.y.squaredNorm() / static_cast<double>(N), N, d);
+        minimise_output_error(model, problem.y, fit.scan.starts, {options.MaxIter, options.Tol, options.cancel});
+    fit.bic = bic_of_loss(fit.solution.loss, problem.y.squaredNorm() / static_cast<double>(N), N, d);
     return fit;
 }
 
-Index initial_count(const ProcessStructure& structure, const StartCondition& condition) {
-    return condition.state == InitialState::kEstimate ? structure.poles + (structure.integrator ? 1 : 0) : 0;
-}
-
-// What the options and the input allow. The free motion of an integrator is a constant itself, and it has no rest but
+// What the options and the inputs allow. The free motion of an integrator is a constant itself, and it has no rest but
 // that at zero input.
-std::vector<StartCondition> conditions_for(const Record& record, const ProcessStructure& structure,
+std::vector<StartCondition> conditions_for(const Problem& problem, const ProcessStructure& structure,
                                            const ProcsrivcOptions& options) {
-    if (!structure.integrator) return start_conditions(record.u, options.initial_state, options.offset);
-    if (options.initial_state == InitialState::kSteady && record.u[0] != 0)
+    std::vector<StartCondition> conditions = start_conditions(problem.data, options.initial_state, options.offset);
+    if (!structure.integrator) return conditions;
+    const bool rests = std::all_of(problem.inputs.begin(), problem.inputs.end(),
+                                   [](const ProcessInput& input) { return input.u[0] == 0; });
+    if (options.initial_state == InitialState::kSteady && !rests)
         throw InvalidArgument(
             "A process with an integrator rests at zero input only, so InitialState \"steady\" does not suit: use "
             "\"zero\", \"estimate\" or \"auto\"");
@@ -107,7 +124,6 @@ std::vector<StartCondition> conditions_for(const Record& record, const ProcessSt
         throw InvalidArgument(
             "The initial state of a process with an integrator holds its level already: with InitialState "
             "\"estimate\", let Offset be \"none\", \"remove\" or \"auto\"");
-    std::vector<StartCondition> conditions = start_conditions(record.u, options.initial_state, options.offset);
     std::erase_if(conditions, [&](const StartCondition& condition) {
         return (condition.state == InitialState::kEstimate && condition.offset) ||
                (condition.state == InitialState::kSteady && options.initial_state == InitialState::kAuto);
@@ -115,30 +131,49 @@ std::vector<StartCondition> conditions_for(const Record& record, const ProcessSt
     return conditions;
 }
 
-Fit best_fit(const Record& record, const ProcessStructure& structure, const ProcsrivcOptions& options) {
-    const auto conditions = conditions_for(record, structure, options);
-    Fit best = fit_condition(record, structure, conditions.front(), options);
+Fit best_fit(const Problem& problem, const ProcessStructure& structure, const ProcsrivcOptions& options) {
+    const auto conditions = conditions_for(problem, structure, options);
+    const Index N = problem.y.size(), fewest = kSamplesPerParameter * value_count(problem, structure, conditions[0]);
+    if (N < fewest)
+        throw InvalidArgument("procsrivc needs at least " + std::to_string(fewest) + " samples for the " +
+                              std::to_string(fewest / kSamplesPerParameter) +
+                              " values it estimates, and the data hold " + std::to_string(N));
+    Fit best = fit_condition(problem, structure, conditions.front(), options);
     for (std::size_t i = 1; i < conditions.size(); ++i) {
         if (best.solution.termination == Termination::kCancelled) break;
-        const Index d = static_cast<Index>(structure.parameter_names().size()) +
-                        initial_count(structure, conditions[i]) + (conditions[i].offset ? 1 : 0);
-        if (record.y.size() < kSamplesPerParameter * d) continue;
-        Fit fit = fit_condition(record, structure, conditions[i], options);
+        if (N < kSamplesPerParameter * value_count(problem, structure, conditions[i])) continue;
+        Fit fit = fit_condition(problem, structure, conditions[i], options);
         if (fit.bic < best.bic) best = std::move(fit);
     }
     return best;
 }
 
-// The factor from samples to seconds of each estimated value.
-Vector units(const ProcessStructure& structure, const Fit& fit, double Ts) {
+// The factor from time units to seconds of each estimated value.
+Vector units(const Problem& problem, const ProcessStructure& structure, const Fit& fit) {
     Vector factor = Vector::Ones(fit.solution.theta.size());
     const auto names = structure.parameter_names();
     Index i = 0;
-    for (const std::string& name : names) factor[i++] = name.front() == 'T' ? Ts : 1;
-    if (structure.integrator) factor[0] = 1 / Ts;
-    const Index values = initial_count(structure, fit.condition);
-    for (Index j = 0; j < values; ++j) factor[i++] = std::pow(Ts, -static_cast<double>(j));
+    for (const std::string& name : names) factor[i++] = name.front() == 'T' ? problem.unit : 1;
+    if (structure.integrator) factor[0] = 1 / problem.unit;
+    for (std::size_t e = 0; e < problem.inputs.size(); ++e)
+        for (Index j = 0; j < initial_value_count(structure, fit.condition); ++j)
+            factor[i++] = std::pow(problem.unit, -static_cast<double>(j));
     return factor;
+}
+
+void set_start_values(ProcsrivcResult& result, const Problem& problem, const Fit& fit, const Vector& all) {
+    const Index values = initial_value_count(result.model.structure, fit.condition);
+    const auto experiments = static_cast<Index>(problem.inputs.size());
+    for (Index e = 0; values > 0 && e < experiments; ++e)
+        result.initial_values.emplace_back(all.segment(result.theta.size() + e * values, values));
+    result.offsets = fit.condition.offset ? Vector(all.tail(experiments)) : Vector(Vector::Zero(experiments));
+    result.output = fit.solution.output;
+    Index row = 0;
+    for (std::size_t e = 0; e < problem.inputs.size(); ++e) {
+        result.output.segment(row, problem.inputs[e].u.size()).array() += problem.removed[e].output;
+        row += problem.inputs[e].u.size();
+    }
+    result.removed = problem.removed;
 }
 
 Index real_lag_count(const ProcessStructure& structure) {
@@ -155,7 +190,7 @@ void sort_time_constants(const ProcessStructure& structure, Vector& theta, Matri
     covariance = covariance(order, order).eval();
 }
 
-void warn_of_times(ProcsrivcResult& result, double Ts, double duration) {
+void warn_of_times(ProcsrivcResult& result, double Ts, double longest) {
     const ProcessStructure& structure = result.model.structure;
     for (std::size_t i = 1; i < result.names.size(); ++i) {
         const std::string& name = result.names[i];
@@ -164,7 +199,7 @@ void warn_of_times(ProcsrivcResult& result, double Ts, double duration) {
         if (value < 0.1 * Ts)
             result.warnings.push_back(name +
                                       " is far below the sampling time: a structure with fewer poles is enough.");
-        if (value > duration)
+        if (value > longest)
             result.warnings.push_back(name +
                                       " is longer than the record, which cannot tell it from the gain: record longer.");
     }
@@ -191,15 +226,15 @@ void warn_of_zero(ProcsrivcResult& result) {
     }
 }
 
-void warn_of_delay(ProcsrivcResult& result, const DelayBounds& bounds, double Ts) {
-    const double Td = result.theta[result.theta.size() - 1], edge = 1e-9 * (1 + bounds.largest) * Ts;
-    if (Td >= bounds.largest * Ts - edge && bounds.largest > bounds.least)
-        result.warnings.push_back("The delay lies at TdMax = " + number_text(bounds.largest * Ts) +
+void warn_of_delay(ProcsrivcResult& result, double least, double largest) {
+    const double Td = result.theta[result.theta.size() - 1], edge = 1e-9 * largest;
+    if (Td >= largest - edge && largest > least)
+        result.warnings.push_back("The delay lies at TdMax = " + number_text(largest) +
                                   " s, the edge of what was searched: raise TdMax.");
-    else if (Td <= bounds.least * Ts + edge && bounds.least > 0)
-        result.warnings.push_back("The delay lies at TdMin = " + number_text(bounds.least * Ts) +
+    else if (Td <= least + edge && least > 0)
+        result.warnings.push_back("The delay lies at TdMin = " + number_text(least) +
                                   " s, the edge of what was searched: lower TdMin.");
-    else if (Td <= edge && bounds.largest > 0)
+    else if (Td <= edge && largest > 0)
         result.warnings.push_back("No delay is visible: a structure without D suits.");
 }
 
@@ -247,10 +282,10 @@ void ProcsrivcOptions::validate() const {
 
 ProcsrivcResult procsrivc(const IdData& data, const ProcessStructure& structure, const ProcsrivcOptions& options) {
     options.validate();
-    const Record record = prepared_record(data, options);
-    Fit fit = best_fit(record, structure, options);
+    const Problem problem = problem_of(data, options);
+    Fit fit = best_fit(problem, structure, options);
 
-    const Vector factor = units(structure, fit, record.Ts);
+    const Vector factor = units(problem, structure, fit);
     Vector all = fit.solution.theta.cwiseProduct(factor);
     Matrix covariance = factor.asDiagonal() * fit.solution.covariance * factor.asDiagonal();
     sort_time_constants(structure, all, covariance);
@@ -265,19 +300,17 @@ ProcsrivcResult procsrivc(const IdData& data, const ProcessStructure& structure,
     result.noise_variance = fit.solution.noise_variance;
     result.loss = fit.solution.loss;
     result.start = fit.condition;
-    result.initial_values = all.segment(q, initial_count(structure, fit.condition));
-    if (fit.condition.offset) result.offset = all[all.size() - 1];
-    result.removed = record.removed;
-    result.output = fit.solution.output.array() + record.removed.output;
-    result.fit_percent = fit_percent(record.y, fit.solution.output);
-    result.delay_grid = fit.scan.delays * record.Ts;
+    set_start_values(result, problem, fit, all);
+    result.fit_percent = 100 * (1 - (problem.y - fit.solution.output).norm() / std::sqrt(problem.spread));
+    result.delay_grid = fit.scan.delays * problem.unit;
     result.delay_loss = fit.scan.losses;
     result.termination = fit.solution.termination;
     result.trace = std::move(fit.solution.trace);
     warn_of_search(result, fit.solution.condition_number, options);
-    warn_of_times(result, record.Ts, static_cast<double>(record.y.size() - 1) * record.Ts);
+    warn_of_times(result, problem.unit, problem.longest);
     if (structure.zero) warn_of_zero(result);
-    if (structure.delay) warn_of_delay(result, delay_bounds(record, options), record.Ts);
+    if (structure.delay)
+        warn_of_delay(result, problem.least_delay * problem.unit, problem.largest_delay * problem.unit);
     result.message = message_of(result);
     return result;
 }

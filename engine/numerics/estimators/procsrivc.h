@@ -32,14 +32,15 @@ struct ProcsrivcResult {
     Vector theta, std;               ///< model parameters and their standard errors (s for times)
     Matrix covariance;               ///< of theta; zero for a parameter held at a bound
     double noise_variance = 0;       ///< squares/(N - d), d all estimated values, initial state and offset included
-    double fit_percent = 0;          ///< simulation, 100 (1 - |y - ysim|/|y - mean(y)|)
-    double loss = 0;                 ///< mean square of the output error
+    double fit_percent = 0;  ///< simulation, 100 (1 - |y - ysim|/|y - mean(y)|), the mean of each experiment its own
+    double loss = 0;         ///< mean square of the output error
 
-    StartCondition start{};  ///< what was assumed or chosen
-    Vector initial_values;   ///< with an estimated state: y, dy/dt (per s), ... at the first sample, from rest
-    double offset = 0;       ///< estimated constant, 0 without
-    OperatingPoint removed;  ///< what Offset "remove" took off
-    Vector output;           ///< N simulated outputs, offset and operating point included
+    StartCondition start{};               ///< what was assumed or chosen
+    std::vector<Vector> initial_values;   ///< per experiment, when estimated: y, dy/dt (per s), ... at its first
+                                          ///< sample, from rest
+    Vector offsets;                       ///< per experiment: estimated constant, 0 without
+    std::vector<OperatingPoint> removed;  ///< per experiment: what Offset "remove" took off
+    Vector output;  ///< N simulated outputs, experiment after experiment, offset and operating point included
 
     Vector delay_grid, delay_loss;  ///< s and mean square error: the curve the delay was first looked for on
     Termination termination = Termination::kIterationLimit;
@@ -51,8 +52,8 @@ struct ProcsrivcResult {
 };
 
 /// Output-error estimate of a process model of any structure (P1, P2, P3, P2U, P3U, each with any of D, I, Z) from one
-/// experiment with one input and one output, sampled regularly or not (y = G u + e with white e; the SRIVC fixed point
-/// is the same optimum):
+/// or several experiments with one input and one output, sampled regularly or not (y = G u + e with white e; the SRIVC
+/// fixed point is the same optimum). Initial state and offset are each experiment's own:
 ///     minimise sum_k (y(k) - G(p, theta) u(k) - free motion(k) - offset)^2.
 /// Start values come from a grid (no guess is needed), then damped Gauss-Newton searches with exact
 /// sensitivities run from the best few, the best of them to the end; a real-valued delay is searched on a grid between

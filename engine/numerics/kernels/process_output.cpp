@@ -1,5 +1,6 @@
 #include "numerics/kernels/process_output.h"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -87,71 +88,101 @@ Matrix coefficients_by_parameter(const ProcessModel& model) {
     return derivatives;
 }
 
-ProcessOutput::ProcessOutput(const ProcessStructure& structure, const StartCondition& condition, ProcessInput input,
-                             double least_delay, double largest_delay)
-    : structure_(structure), condition_(condition), input_(std::move(input)) {
-    if (condition.state != InitialState::kZero && !structure.integrator) resting_input_ = input_.u[0];
-    input_.u.array() -= resting_input_;
+Index initial_value_count(const ProcessStructure& structure, const StartCondition& condition) {
+    return condition.state == InitialState::kEstimate ? structure.poles + (structure.integrator ? 1 : 0) : 0;
+}
+
+ProcessOutput::ProcessOutput(const ProcessStructure& structure, const StartCondition& condition,
+                             std::vector<ProcessInput> inputs, double least_delay, double largest_delay)
+    : structure_(structure), condition_(condition) {
+    const bool rests = condition.state != InitialState::kZero && !structure.integrator;
+    for (ProcessInput& input : inputs) {
+        Record record{std::move(input), 0, samples_};
+        if (rests) record.resting = record.input.u[0];
+        record.input.u.array() -= record.resting;
+        samples_ += record.input.u.size();
+        records_.push_back(std::move(record));
+    }
     model_parameters_ = static_cast<Index>(structure.parameter_names().size());
-    if (condition.state == InitialState::kEstimate) initial_values_ = structure.poles + (structure.integrator ? 1 : 0);
-    const Index count = model_parameters_ + initial_values_ + (condition.offset ? 1 : 0);
+    initial_values_ = initial_value_count(structure, condition);
+    set_bounds(least_delay, largest_delay);
+}
+
+Index ProcessOutput::initial_place(std::size_t experiment) const {
+    return model_parameters_ + static_cast<Index>(experiment) * initial_values_;
+}
+
+Index ProcessOutput::offset_place(std::size_t experiment) const {
+    return initial_place(records_.size()) + static_cast<Index>(experiment);
+}
+
+Index ProcessOutput::longest() const {
+    Index longest = 0;
+    for (std::size_t e = 0; e < records_.size(); ++e) longest = std::max(longest, rows(e));
+    return longest;
+}
+
+void ProcessOutput::set_bounds(double least_delay, double largest_delay) {
+    const Index count = condition_.offset ? offset_place(records_.size()) : initial_place(records_.size());
     lower_ = Vector::Constant(count, -kInfinity);
     upper_ = Vector::Constant(count, kInfinity);
-    const double slowest = kLargestTime * static_cast<double>(input_.u.size());
-    const Index times = structure.underdamped ? structure.poles - 1 : structure.poles;
+    const double slowest = kLargestTime * static_cast<double>(longest());
+    const Index times = structure_.underdamped ? structure_.poles - 1 : structure_.poles;
     lower_.segment(1, times).setConstant(kLeastTime);
     upper_.segment(1, times).setConstant(slowest);
-    if (structure.underdamped) lower_[1 + times] = 0;
-    if (structure.zero) {
-        const Index tz = model_parameters_ - 1 - (structure.delay ? 1 : 0);
+    if (structure_.underdamped) lower_[1 + times] = 0;
+    if (structure_.zero) {
+        const Index tz = model_parameters_ - 1 - (structure_.delay ? 1 : 0);
         lower_[tz] = -slowest;
         upper_[tz] = slowest;
     }
-    if (structure.delay) {
+    if (structure_.delay) {
         lower_[model_parameters_ - 1] = least_delay;
         upper_[model_parameters_ - 1] = largest_delay;
     }
 }
 
-Vector ProcessOutput::response(const VectorView& num, const VectorView& den, double delay) const {
-    return input_.t.size() == 0 ? transfer_response(num, den, delay, input_.u, 1, input_.hold)
-                                : transfer_response(num, den, delay, input_.u, input_.t, input_.hold);
-}
-
-Matrix ProcessOutput::motions(const VectorView& den) const {
-    if (initial_values_ == 0) return Matrix(input_.u.size(), 0);
-    return input_.t.size() == 0 ? free_responses(den, input_.u.size(), 1) : free_responses(den, input_.t);
+Matrix ProcessOutput::motions(const ProcessInput& input, const VectorView& den) const {
+    if (initial_values_ == 0) return Matrix(input.u.size(), 0);
+    return input.t.size() == 0 ? free_responses(den, input.u.size(), 1) : free_responses(den, input.t);
 }
 
 void ProcessOutput::simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const {
-    const Index N = input_.u.size(), q = model_parameters_;
-    const ProcessCoefficients c = process_coefficients(structure_, theta.head(q));
-    const Index n = c.den.size() - 1;
-    const Vector initial = theta.segment(q, initial_values_);
-    const double constant = theta[0] * resting_input_ + (condition_.offset ? theta[theta.size() - 1] : 0);
-    const Matrix free = motions(c.den);
+    const ProcessCoefficients c = process_coefficients(structure_, theta.head(model_parameters_));
+    output.resize(samples_);
+    if (sensitivities) sensitivities->setZero(samples_, theta.size());
+    for (std::size_t e = 0; e < records_.size(); ++e) simulate_record(e, c, theta, output, sensitivities);
+}
+
+void ProcessOutput::simulate_record(std::size_t experiment, const ProcessCoefficients& c, const Vector& theta,
+                                    Vector& output, Matrix* sensitivities) const {
+    const auto& [input, resting, row] = records_[experiment];
+    const Index N = input.u.size(), q = model_parameters_, n = c.den.size() - 1;
+    const bool regular = input.t.size() == 0;
+    const Vector initial = theta.segment(initial_place(experiment), initial_values_);
+    const Matrix free = motions(input, c.den);
+    auto y = output.segment(row, N);
     if (!sensitivities) {
-        output = response(c.num, c.den, c.delay);
-        output.array() += constant;
-        output += free * initial;
-        return;
+        y = regular ? transfer_response(c.num, c.den, c.delay, input.u, 1, input.hold)
+                    : transfer_response(c.num, c.den, c.delay, input.u, input.t, input.hold);
+    } else {
+        const Matrix by_coefficient = regular
+                                          ? transfer_sensitivities(c.num, c.den, c.delay, input.u, 1, input.hold)
+                                          : transfer_sensitivities(c.num, c.den, c.delay, input.u, input.t, input.hold);
+        y = by_coefficient.col(0);
+        Matrix by_den = by_coefficient.middleCols(1, n);
+        if (initial_values_ > 0)
+            by_den += regular ? free_sensitivities(c.den, initial, N, 1) : free_sensitivities(c.den, initial, input.t);
+        auto own = sensitivities->middleRows(row, N);
+        own.leftCols(q) = by_den * c.den_by_parameter;
+        own.leftCols(q) += by_coefficient.middleCols(n + 1, c.num.size()) * c.num_by_parameter;
+        own.col(0).array() += resting;
+        if (structure_.delay) own.col(q - 1) = by_coefficient.rightCols(1);
+        own.middleCols(initial_place(experiment), initial_values_) = free;
+        if (condition_.offset) own.col(offset_place(experiment)).setOnes();
     }
-    const bool regular = input_.t.size() == 0;
-    const Matrix by_coefficient = regular
-                                      ? transfer_sensitivities(c.num, c.den, c.delay, input_.u, 1, input_.hold)
-                                      : transfer_sensitivities(c.num, c.den, c.delay, input_.u, input_.t, input_.hold);
-    output = by_coefficient.col(0) + free * initial;
-    output.array() += constant;
-    Matrix by_den = by_coefficient.middleCols(1, n);
-    if (initial_values_ > 0)
-        by_den += regular ? free_sensitivities(c.den, initial, N, 1) : free_sensitivities(c.den, initial, input_.t);
-    sensitivities->resize(N, theta.size());
-    sensitivities->leftCols(q) = by_den * c.den_by_parameter;
-    sensitivities->leftCols(q) += by_coefficient.middleCols(n + 1, c.num.size()) * c.num_by_parameter;
-    sensitivities->col(0).array() += resting_input_;
-    if (structure_.delay) sensitivities->col(q - 1) = by_coefficient.rightCols(1);
-    sensitivities->middleCols(q, initial_values_) = free;
-    if (condition_.offset) sensitivities->rightCols(1).setOnes();
+    y += free * initial;
+    y.array() += theta[0] * resting + (condition_.offset ? theta[offset_place(experiment)] : 0);
 }
 
 }  // namespace dynlab

@@ -69,12 +69,11 @@ std::vector<Index> delay_shifts(const ProcessOutput& model, int count) {
     return shifts;
 }
 
-// What B/A alone makes of the input, seen at any delay: as it is with regular sampling and whole samples, otherwise on
-// a fine even grid, the input held or drawn between its samples, and interpolated.
+// What B/A alone makes of the input, seen at any delay, and the free motions: as they are with regular sampling and
+// whole samples, otherwise on a fine even grid, the input held or drawn between its samples, and interpolated.
 class Responses {
   public:
-    Responses(const ProcessOutput& model, const Vector& den, const std::vector<Vector>& nums, double least_delay) {
-        const ProcessInput& input = model.input();
+    Responses(const ProcessInput& input, const Vector& den, const std::vector<Vector>& nums, double least_delay) {
         regular_ = input.t.size() == 0;
         const Vector u = regular_ ? input.u : even_input(input);
         columns_.resize(u.size(), static_cast<Index>(nums.size()));
@@ -82,6 +81,18 @@ class Responses {
             columns_.col(static_cast<Index>(i)) =
                 transfer_response(nums[i], den, regular_ ? least_delay : 0, u, regular_ ? 1 : kFineStep, input.hold);
         if (!regular_) later_ = least_delay;
+    }
+
+    // The motions from unit values of y, dy/dt, ... at the rows 0, stride, ...
+    static Matrix motions(const ProcessInput& input, const Vector& den, Index stride) {
+        const auto chosen = Eigen::seq(0, input.u.size() - 1, stride);
+        if (input.t.size() == 0) return free_responses(den, input.u.size(), 1)(chosen, Eigen::all);
+        const Matrix even = free_responses(den, even_count(input), kFineStep);
+        const Vector t = input.t(chosen);
+        Matrix rows(t.size(), even.cols());
+        for (Index j = 0; j < even.cols(); ++j)
+            for (Index i = 0; i < t.size(); ++i) rows(i, j) = interpolated(even.col(j), t[i]);
+        return rows;
     }
 
     // The rows 0, stride, 2 stride, ... for `shift` samples more than the least delay.
@@ -95,15 +106,18 @@ class Responses {
             return;
         }
         for (Index i = 0; i < out.size(); ++i)
-            out[i] = interpolated(column, t[i * stride] - later_ - static_cast<double>(shift));
+            out[i] = interpolated(columns_.col(column), t[i * stride] - later_ - static_cast<double>(shift));
     }
 
   private:
     static constexpr double kFineStep = 0.25;  // of the mean step
 
+    static Index even_count(const ProcessInput& input) {
+        return static_cast<Index>(std::ceil(input.t[input.t.size() - 1] / kFineStep)) + 2;
+    }
+
     static Vector even_input(const ProcessInput& input) {
-        const Index N = input.u.size();
-        const Index count = static_cast<Index>(std::ceil(input.t[N - 1] / kFineStep)) + 2;
+        const Index N = input.u.size(), count = even_count(input);
         Vector u(count);
         Index now = 0;
         for (Index i = 0; i < count; ++i) {
@@ -116,12 +130,12 @@ class Responses {
         return u;
     }
 
-    double interpolated(Index column, double time) const {
+    static double interpolated(const VectorView& even, double time) {
         if (time < 0) return 0;
         const double position = time / kFineStep;
-        const Index left = std::min(static_cast<Index>(position), columns_.rows() - 2);
+        const Index left = std::min(static_cast<Index>(position), even.size() - 2);
         const double fraction = position - static_cast<double>(left);
-        return columns_(left, column) + fraction * (columns_(left + 1, column) - columns_(left, column));
+        return even[left] + fraction * (even[left + 1] - even[left]);
     }
 
     bool regular_ = true;
@@ -134,19 +148,25 @@ class Responses {
 class LinearPart {
   public:
     LinearPart(const ProcessOutput& model, const VectorView& y, const Vector& shape)
-        : model_(model), shape_(shape), gains_(model.structure().zero ? 2 : 1), responses_(responses_for(model)) {
-        const Index N = y.size(), values = model.initial_values();
-        stride_ = (N + kRows - 1) / kRows;
-        fixed_.resize((N + stride_ - 1) / stride_, values + (model.has_offset() ? 1 : 0));
-        if (values > 0) fixed_.leftCols(values) = thinned(model.motions(coefficients().den));
-        if (model.has_offset()) fixed_.rightCols(1).setOnes();
-        y_ = thinned(y);
-        const Index count = gains_ + fixed_.cols();
+        : model_(model), shape_(shape), gains_(model.structure().zero ? 2 : 1) {
+        stride_ = (y.size() + kRows - 1) / kRows;
+        Index rows = 0;
+        for (std::size_t e = 0; e < model.experiment_count(); ++e) {
+            first_rows_.push_back(rows);
+            rows += (model.rows(e) + stride_ - 1) / stride_;
+        }
+        first_rows_.push_back(rows);
+        rest_ = Matrix::Zero(rows, model.parameter_count() - model.model_parameters() + 1);
+        varying_.resize(rows, gains_);
+        set_responses();
+        for (std::size_t e = 0; e < model.experiment_count(); ++e) set_rest(e, y);
+        const Index count = gains_ + rest_.cols() - 1;
         gram_ = Matrix::Zero(count, count);
-        gram_.bottomRightCorner(fixed_.cols(), fixed_.cols()) = fixed_.transpose() * fixed_;
         moment_ = Vector::Zero(count);
-        moment_.tail(fixed_.cols()) = fixed_.transpose() * y_;
-        varying_.resize(y_.size(), gains_);
+        const Matrix products = rest_.transpose() * rest_;
+        gram_.bottomRightCorner(fixed(), fixed()) = products.topLeftCorner(fixed(), fixed());
+        moment_.tail(fixed()) = products.col(fixed()).head(fixed());
+        power_ = products(fixed(), fixed());
     }
 
     // Solves for a delay of `shift` samples more than the least one; returns the mean square error.
@@ -158,8 +178,8 @@ class LinearPart {
         Matrix scaled = scale.cwiseInverse().asDiagonal() * gram_ * scale.cwiseInverse().asDiagonal();
         scaled.diagonal().array() += 1e-12;  // keeps columns that look alike from cancelling each other at any size
         solution_ = scaled.ldlt().solve(moment_.cwiseQuotient(scale)).cwiseQuotient(scale);
-        const double squares = y_.squaredNorm() - 2 * moment_.dot(solution_) + solution_.dot(gram_ * solution_);
-        return std::max(0.0, squares) / static_cast<double>(y_.size());
+        const double squares = power_ - 2 * moment_.dot(solution_) + solution_.dot(gram_ * solution_);
+        return std::max(0.0, squares) / static_cast<double>(rest_.rows());
     }
 
     // All parameters of the model as the last solve found them.
@@ -167,12 +187,13 @@ class LinearPart {
         Vector theta = theta_at(shift);
         theta[0] = solution_[0];
         if (gains_ == 2 && solution_[0] != 0) theta[zero_place()] = solution_[1] / solution_[0];
-        theta.tail(fixed_.cols()) = solution_.tail(fixed_.cols());
+        theta.tail(fixed()) = solution_.tail(fixed());
         return theta.cwiseMax(model_.lower()).cwiseMin(model_.upper());
     }
 
   private:
-    Matrix thinned(const Matrix& all) const { return all(Eigen::seq(0, all.rows() - 1, stride_), Eigen::all); }
+    Index fixed() const { return rest_.cols() - 1; }
+    Index row_count(std::size_t experiment) const { return first_rows_[experiment + 1] - first_rows_[experiment]; }
     Index zero_place() const { return model_.model_parameters() - 1 - (model_.structure().delay ? 1 : 0); }
 
     Vector theta_at(Index shift) const {
@@ -189,31 +210,52 @@ class LinearPart {
     }
 
     // For unit gain; with a zero also the derivative of that response.
-    Responses responses_for(const ProcessOutput& model) const {
+    void set_responses() {
         const ProcessCoefficients c = coefficients();
         const double g = c.num.tail(1)[0];
         std::vector<Vector> nums = {Vector{{g}}};
         if (gains_ == 2) nums.push_back(Vector{{g, 0.0}});
-        return Responses(model, c.den, nums, c.delay);
+        for (std::size_t e = 0; e < model_.experiment_count(); ++e)
+            responses_.emplace_back(model_.input(e), c.den, nums, c.delay);
+    }
+
+    // The chosen rows of what does not change with the delay: free motions and constants, and y.
+    void set_rest(std::size_t experiment, const VectorView& y) {
+        const auto chosen = Eigen::seq(0, model_.rows(experiment) - 1, stride_);
+        auto own = rest_.middleRows(first_rows_[experiment], row_count(experiment));
+        const Index before = model_.model_parameters(), values = model_.initial_values();
+        if (values > 0)
+            own.middleCols(model_.initial_place(experiment) - before, values) =
+                Responses::motions(model_.input(experiment), coefficients().den, stride_);
+        if (model_.has_offset()) own.col(model_.offset_place(experiment) - before).setOnes();
+        own.col(fixed()) = y.segment(model_.row(experiment), model_.rows(experiment))(chosen);
     }
 
     void set_gain_columns(Index shift) {
-        for (Index column = 0; column < gains_; ++column)
-            responses_.rows(column, stride_, model_.input().t, shift, varying_.col(column));
-        varying_.col(0).array() += model_.resting_input();
-        gram_.topLeftCorner(gains_, gains_) = varying_.transpose() * varying_;
-        gram_.topRightCorner(gains_, fixed_.cols()) = varying_.transpose() * fixed_;
-        gram_.bottomLeftCorner(fixed_.cols(), gains_) = gram_.topRightCorner(gains_, fixed_.cols()).transpose();
-        moment_.head(gains_) = varying_.transpose() * y_;
+        for (std::size_t e = 0; e < responses_.size(); ++e)
+            for (Index column = 0; column < gains_; ++column) {
+                auto own = varying_.col(column).segment(first_rows_[e], row_count(e));
+                responses_[e].rows(column, stride_, model_.input(e).t, shift, own);
+                if (column == 0) own.array() += model_.resting_input(e);
+            }
+        for (Index column = 0; column < gains_; ++column) {
+            const Vector products = rest_.transpose() * varying_.col(column);
+            gram_.col(column).tail(fixed()) = products.head(fixed());
+            gram_.row(column).tail(fixed()) = products.head(fixed()).transpose();
+            moment_[column] = products[fixed()];
+            for (Index other = 0; other <= column; ++other)
+                gram_(column, other) = gram_(other, column) = varying_.col(column).dot(varying_.col(other));
+        }
     }
 
     const ProcessOutput& model_;
     Vector shape_;
-    Index gains_;
-    Responses responses_;
-    Index stride_ = 1;
-    Matrix fixed_, gram_, varying_;
-    Vector y_, moment_, solution_;
+    Index gains_, stride_ = 1;
+    std::vector<Responses> responses_;
+    std::vector<Index> first_rows_;  // of the chosen ones of each experiment, and their number
+    Matrix rest_, gram_, varying_;
+    Vector moment_, solution_;
+    double power_ = 0;
 };
 
 bool alike(const Vector& a, const Vector& b) {
@@ -240,7 +282,7 @@ std::vector<GridPoint> best_that_differ(std::vector<GridPoint> points, const std
 }  // namespace
 
 ProcessScan scan_process_grid(const ProcessOutput& model, const VectorView& y, int delay_count) {
-    const std::vector<Vector> all_shapes = shapes(model.structure(), y.size());
+    const std::vector<Vector> all_shapes = shapes(model.structure(), model.longest());
     const std::vector<Index> shifts = delay_shifts(model, delay_count);
     Vector losses = Vector::Constant(static_cast<Index>(shifts.size()), std::numeric_limits<double>::infinity());
     std::vector<GridPoint> points;

@@ -209,9 +209,12 @@ Assessment assess(const IdData& data, const TransferEstimate& estimate, const Re
 
 Assessment assess(const IdData& data, const ProcsrivcResult& estimate, const ResidualOptions& options) {
     IdData counted = data;
-    for (Experiment& experiment : counted.experiments) {
-        experiment.u.array() -= estimate.removed.input;
-        experiment.y.array() -= estimate.removed.output;
+    if (estimate.removed.size() != counted.experiments.size())
+        throw InvalidArgument("The estimate comes from " + std::to_string(estimate.removed.size()) +
+                              " experiment(s) and the data hold " + std::to_string(counted.experiments.size()));
+    for (std::size_t e = 0; e < estimate.removed.size(); ++e) {
+        counted.experiments[e].u.array() -= estimate.removed[e].input;
+        counted.experiments[e].y.array() -= estimate.removed[e].output;
     }
     const TransferFunction G = estimate.model.transfer_function();
     const Index n = G.pole_count(), b_count = G.num().size();

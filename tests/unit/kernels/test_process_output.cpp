@@ -57,7 +57,7 @@ TEST(process_output, sensitivities_agree_with_differences) {  // oracle: central
             for (const bool estimate : {false, true}) {
                 const ProcessOutput output(model.structure,
                                            {estimate ? InitialState::kEstimate : InitialState::kSteady, true},
-                                           some_input(60, regular), 0, 20);
+                                           {some_input(60, regular), some_input(41, regular)}, 0, 20);
                 Vector theta = Vector::Constant(output.parameter_count(), 0.3), y, plus, minus;
                 theta.head(model.parameters.size()) = model.parameters;
                 Matrix sensitivities;

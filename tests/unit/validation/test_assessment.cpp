@@ -157,6 +157,36 @@ TEST(assessment, process_models_with_delay) {  // oracle: differences of lsim ov
     EXPECT_LT((actual.covariance - expected.covariance).norm(), 1e-6 * actual.covariance.norm());
 }
 
+TEST(assessment, process_models_with_zero_and_integrator_sampled_irregularly) {  // oracle: differences of lsim
+    Vector t(500);
+    const Vector jitter = RandomStream(2).uniform(500), u = prbs(6, 8).head(500).array() + 0.3;
+    for (Index k = 0; k < 500; ++k) t[k] = kTs * (static_cast<double>(k) + 0.4 * jitter[k]);
+    ProcsrivcOptions options;
+    options.initial_state = InitialState::kZero;
+    options.offset = Offset::kNone;
+    for (const auto& [structure, parameters] : std::vector<std::pair<const char*, Vector>>{
+             {"P1Z", Vector{{2.0, 0.8, 0.3}}}, {"P2DIZ", Vector{{0.5, 0.8, 0.2, -0.3, 0.23}}}}) {
+        const ProcessModel process(ProcessStructure::parse(structure), parameters);
+        const auto output = [&](const Vector& values) {
+            return lsim(ProcessModel(process.structure, values).transfer_function(), u, t);
+        };
+        const Vector x = output(parameters);
+        const auto record = [&](std::uint32_t seed) {
+            return IdData(Matrix(x + 0.05 * ar1(500, 0.8, seed)), Matrix(u), t);
+        };
+        const IdData data = IdData::merge({record(1), record(2)});
+        const auto fitted = procsrivc(data, process.structure, options);
+        const Assessment actual = assess(data, fitted);
+        const Matrix one = differences(output, fitted.theta);
+        Matrix both(1000, one.cols());
+        both << one, one;
+        Vector y(1000);
+        y << data.experiments[0].y, data.experiments[1].y;
+        const auto expected = robust_covariance(both, y - fitted.output, {500, 500});
+        EXPECT_LT((actual.covariance - expected.covariance).norm(), 1e-5 * actual.covariance.norm()) << structure;
+    }
+}
+
 TEST(assessment, parameters_held_at_a_bound_stay_certain) {  // oracle: the definition
     const Vector u = prbs(6, 8);
     const TransferFunction G(Vector{{2.0}}, Vector{{1.0, 1.0}});
