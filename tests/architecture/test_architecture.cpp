@@ -17,6 +17,7 @@
 namespace {
 
 namespace fs = std::filesystem;
+using testing::HasSubstr;
 using testing::IsEmpty;
 
 const fs::path kRoot = DYNLAB_SOURCE_DIR;
@@ -149,6 +150,13 @@ TEST(architecture, every_method_has_its_files_test_and_lua_name) {
         EXPECT_TRUE(fs::exists(kRoot / "tests/unit/estimators" / ("test_" + method.file + ".cpp"))) << method.file;
         for (const std::string& name : method.lua_names) EXPECT_TRUE(lua_names.contains(name)) << name;
     }
+}
+
+TEST(architecture, every_method_has_its_invariances_tested) {
+    std::string properties;
+    for (const fs::path& file : sources_below(kRoot / "tests/properties")) properties += text_of(file);
+    for (const dynlab::MethodEntry& method : dynlab::method_catalogue())
+        EXPECT_THAT(properties, HasSubstr("\"numerics/estimators/" + method.file + ".h\"")) << method.file;
 }
 
 TEST(architecture, every_function_has_a_help_page) {

@@ -97,3 +97,11 @@ TEST_P(discrete_properties, a_later_output_is_a_longer_delay) {  // oracle: inva
     // arx leaves out the samples without a recorded past: the shifted record holds the equations of the cut one.
     EXPECT_LT(worst_relative(shifted.theta, cut.theta), 1e-8);
 }
+
+TEST_P(discrete_properties, order_of_experiments_does_not_matter) {  // oracle: invariance
+    const auto [u, y] = record(0.5);
+    const IdData one = data_of(u, y), other = data_of(u.head(400), 1.1 * y.head(400));
+    const auto a = fit(IdData::merge({one, other})), b = fit(IdData::merge({other, one}));
+    EXPECT_LT(worst_relative(a.theta, b.theta), 1e-8);
+    EXPECT_LT(worst_relative(a.std, b.std), 1e-7);
+}
