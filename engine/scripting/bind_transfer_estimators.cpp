@@ -8,6 +8,7 @@
 #include "numerics/kernels/simulation_report.h"
 #include "numerics/kernels/transfer_data.h"
 #include "scripting/bindings.h"
+#include "scripting/estimation.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/model.h"
 #include "scripting/order_vector.h"
@@ -110,9 +111,8 @@ Hold hold_y_of(const Options& options) {
 
 /// lssvf and ivsvf; lsgpmf and ivgpmf, whose filter has a gain beta.
 template <auto kMethod, bool kMomentFunctionals>
-int estimate_filtered(Call& call) {
+Estimation read_filtered(const Call& call) {
     call.at_most(4);
-    const IdData& data = object_argument<IdData>(call, 1, "data");
     const auto orders = order_lists(call, 2, kCarxOrders);
     if (orders[0].size() != 1)
         throw InvalidArgument(
@@ -122,9 +122,16 @@ int estimate_filtered(Call& call) {
     wanted.lambda = call.number(3, "lambda");
     wanted.hold_y = hold_y_of(options);
     if constexpr (kMomentFunctionals) wanted.beta = options.optional_number("beta").value_or(wanted.lambda);
-    const TransferStructure structure =
-        structure_for(data, Denominators::kPerOutput, orders[0], zeros_of(orders[1]), delays_of(orders[2], data));
-    TransferEstimate result = kMethod(data, structure, wanted);
+    return [orders, zeros = zeros_of(orders[1]), wanted](const IdData& data) {
+        return kMethod(
+            data, structure_for(data, Denominators::kPerOutput, orders[0], zeros, delays_of(orders[2], data)), wanted);
+    };
+}
+
+template <auto kMethod, bool kMomentFunctionals>
+int estimate_filtered(Call& call) {
+    const IdData& data = object_argument<IdData>(call, 1, "data");
+    TransferEstimate result = read_filtered<kMethod, kMomentFunctionals>(call)(data);
     measure_fit(result, data);
     Estimate estimate = estimate_of(name_of(call), result);
     estimate.carx = true;
@@ -160,19 +167,26 @@ int give_refined(Call& call, const IdData& data, const TransferEstimate& result,
     return give_estimate(call, std::move(estimate), result);
 }
 
+/// An output-error estimation with the options it was asked for.
+struct RefinedReading {
+    TransferOptions options;
+    Estimation estimation;
+};
+
 /// srivc and coe: orders and fixed delays in samples.
 template <auto kMethod>
-int estimate_refined(Call& call) {
+RefinedReading read_refined(const Call& call) {
     call.at_most(3);
-    const IdData& data = object_argument<IdData>(call, 1, "data");
     const auto orders = order_lists(call, 2, kOutputErrorOrders);
     const Options options(call, 3,
                           {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator"});
-    TransferOptions wanted;
-    read_common_options(options, wanted);
-    const TransferStructure structure =
-        structure_for(data, sharing_of(options), orders[1], zeros_of(orders[0]), delays_of(orders[2], data));
-    return give_refined(call, data, kMethod(data, structure, wanted), wanted);
+    RefinedReading reading;
+    read_common_options(options, reading.options);
+    reading.estimation = [orders, zeros = zeros_of(orders[0]), sharing = sharing_of(options),
+                          wanted = reading.options](const IdData& data) {
+        return kMethod(data, structure_for(data, sharing, orders[1], zeros, delays_of(orders[2], data)), wanted);
+    };
+    return reading;
 }
 
 /// A whole number, or a list of one for each input.
@@ -198,24 +212,50 @@ std::vector<double> delays_option(const Options& options) {
 
 /// tfsrivc and tfcoe: numbers of poles and zeros, and a delay that is estimated unless it is given.
 template <auto kMethod>
-int estimate_transfer_function(Call& call) {
+RefinedReading read_transfer_function(const Call& call) {
     call.at_most(4);
-    const IdData& data = object_argument<IdData>(call, 1, "data");
     const Options options(call, 4,
                           {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator", "TdMin",
                            "TdMax", "NumTd", "IODelay"});
-    TransferOptions wanted;
+    RefinedReading reading;
+    TransferOptions& wanted = reading.options;
     read_common_options(options, wanted);
     wanted.TdMin = options.number("TdMin", wanted.TdMin);
     wanted.TdMax = options.optional_number("TdMax");
     wanted.NumTd = static_cast<int>(options.size("NumTd", wanted.NumTd));
     std::vector<double> delays{wanted.TdMin};
     if (options.has("IODelay")) delays = delays_option(options);
-    TransferStructure structure = structure_for(data, sharing_of(options), counts_argument(call, 2, "np"),
-                                                counts_argument(call, 3, "nz"), delays);
-    structure.free_delays = !options.has("IODelay") && wanted.TdMax.value_or(1) > wanted.TdMin;
-    return give_refined(call, data, kMethod(data, structure, wanted), wanted);
+    const bool free_delays = !options.has("IODelay") && wanted.TdMax.value_or(1) > wanted.TdMin;
+    reading.estimation = [poles = counts_argument(call, 2, "np"), zeros = counts_argument(call, 3, "nz"), delays,
+                          sharing = sharing_of(options), free_delays, wanted](const IdData& data) {
+        TransferStructure structure = structure_for(data, sharing, poles, zeros, delays);
+        structure.free_delays = free_delays;
+        return kMethod(data, structure, wanted);
+    };
+    return reading;
 }
+
+template <auto kRead>
+int estimate_refined(Call& call) {
+    const IdData& data = object_argument<IdData>(call, 1, "data");
+    const RefinedReading reading = kRead(call);
+    return give_refined(call, data, reading.estimation(data), reading.options);
+}
+
+template <auto kRead>
+Estimation read_estimation(const Call& call) {
+    return kRead(call).estimation;
+}
+
+constexpr std::pair<const char*, EstimationReader> kReaders[] = {
+    {"lssvf", read_filtered<lssvf, false>},
+    {"ivsvf", read_filtered<ivsvf, false>},
+    {"lsgpmf", read_filtered<lssvf, true>},
+    {"ivgpmf", read_filtered<ivsvf, true>},
+    {"srivc", read_estimation<read_refined<srivc>>},
+    {"coe", read_estimation<read_refined<coe>>},
+    {"tfsrivc", read_estimation<read_transfer_function<srivc>>},
+    {"tfcoe", read_estimation<read_transfer_function<coe>>}};
 
 constexpr const char* kArea = "continuous time";
 constexpr std::array kFunctions = {
@@ -229,17 +269,34 @@ constexpr std::array kFunctions = {
     FunctionEntry{"ivgpmf", kArea, "ivgpmf(data, {na, nb, nk}, lambda, {beta =, hold_y =}) -> G",
                   "instrumental variables on Poisson moment functionals", guarded<estimate_filtered<ivsvf, true>>},
     FunctionEntry{"srivc", kArea, "srivc(data, {nb, nf, nk}, {lambda =, MaxIter =, Tol =, ...}) -> G",
-                  "y = B/F u + e by refined instrumental variables", guarded<estimate_refined<srivc>>},
+                  "y = B/F u + e by refined instrumental variables", guarded<estimate_refined<read_refined<srivc>>>},
     FunctionEntry{"coe", kArea, "coe(data, {nb, nf, nk}, {lambda =, MaxIter =, Tol =, ...}) -> G",
-                  "y = B/F u + e with the smallest simulation error", guarded<estimate_refined<coe>>},
+                  "y = B/F u + e with the smallest simulation error", guarded<estimate_refined<read_refined<coe>>>},
     FunctionEntry{"tfsrivc", kArea, "tfsrivc(data, np, nz, {TdMin =, TdMax =, IODelay =, ...}) -> G",
                   "srivc by numbers of poles and zeros, the delay estimated",
-                  guarded<estimate_transfer_function<srivc>>},
+                  guarded<estimate_refined<read_transfer_function<srivc>>>},
     FunctionEntry{"tfcoe", kArea, "tfcoe(data, np, nz, {TdMin =, TdMax =, IODelay =, ...}) -> G",
-                  "coe by numbers of poles and zeros, the delay estimated", guarded<estimate_transfer_function<coe>>},
+                  "coe by numbers of poles and zeros, the delay estimated",
+                  guarded<estimate_refined<read_transfer_function<coe>>>},
 };
 
 }  // namespace
+
+EstimationReader find_estimation_reader(const std::string& method) {
+    for (const auto& [name, reader] : kReaders)
+        if (method == name) return reader;
+    return nullptr;
+}
+
+std::vector<std::string> estimation_names() {
+    std::vector<std::string> names;
+    for (const auto& [name, reader] : kReaders) names.emplace_back(name);
+    return names;
+}
+
+int give_transfer_estimate(const Call& call, const char* method, const TransferEstimate& estimate) {
+    return give_estimate(call, estimate_of(method, estimate), estimate);
+}
 
 FunctionEntries transfer_estimator_functions() {
     return kFunctions;

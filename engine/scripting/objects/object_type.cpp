@@ -44,6 +44,12 @@ int read_member(lua_State* L) {
         lua_call(L, 1, 1);
         return 1;
     }
+    lua_settop(L, 2);
+    if (luaL_getmetafield(L, 1, "__named") != LUA_TNIL) {  // names that only the object knows; raises for others
+        lua_insert(L, 1);
+        lua_call(L, 2, 1);
+        return 1;
+    }
     const std::string key = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : luaL_typename(L, 2);
     raise_error(L, unknown_member_message(type, key));
 }

@@ -1,0 +1,25 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "numerics/kernels/transfer_estimate.h"
+#include "scripting/arguments.h"
+
+namespace dynlab {
+
+/// An estimation as a script asked for it, its arguments checked: ready for any data, in any thread.
+using Estimation = std::function<TransferEstimate(const IdData&)>;
+
+/// Reads the arguments of one method from the second on; the first, where the data stand, is not looked at.
+using EstimationReader = Estimation (*)(const Call& call);
+
+/// The reader of a method's arguments by its Lua name; nullptr for a method that has none.
+EstimationReader find_estimation_reader(const std::string& method);
+/// Names of all methods that have one.
+std::vector<std::string> estimation_names();
+
+/// Pushes an estimate as the model that the method's own function gives, without robust standard errors.
+int give_transfer_estimate(const Call& call, const char* method, const TransferEstimate& estimate);
+
+}  // namespace dynlab

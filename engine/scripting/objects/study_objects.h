@@ -1,0 +1,26 @@
+#pragma once
+#include "numerics/validation/monte_carlo.h"
+#include "numerics/validation/order_selection.h"
+#include "scripting/objects/boxed.h"
+
+namespace dynlab {
+
+/// What srivcstruc gives: all candidates and the recommended one.
+struct OrderTable {
+    OrderSelection selection;
+    OrderChoice choice;
+};
+
+template <>
+struct Boxed<OrderTable> {
+    static const ObjectType type;
+    static std::size_t outside_bytes(const OrderTable& table);
+};
+
+template <>
+struct Boxed<MonteCarlo> {
+    static const ObjectType type;
+    static std::size_t outside_bytes(const MonteCarlo& study);
+};
+
+}  // namespace dynlab

@@ -1,0 +1,103 @@
+// Oracle: how the records were made, and the same estimation called one by one.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "script_run.h"
+
+using namespace dynlab;
+using dynlab::test::error_of;
+using dynlab::test::printed;
+using testing::AllOf;
+using testing::HasSubstr;
+
+namespace {
+
+const std::string kStudy =
+    "local s = tf('s')\nlocal G0 = 2/(s^2 + 4*s + 3)\nlocal u = prbs(4, 100)\n"
+    "local function study(estimators, runs)\n"
+    "  return montecarlo{system = G0, input = u, Ts = 0.01, sigma = 0.2, runs = runs or 20, estimators = estimators}\n"
+    "end\n";
+
+}  // namespace
+
+TEST(script_studies, runs_are_what_the_functions_give_one_by_one) {
+    EXPECT_EQ(
+        printed(kStudy +
+                "local M = study{lssvf = {{2, 1, 0}, 3}, ivsvf = {{2, 1, 0}, 3, {hold_y = 'zoh'}}, "
+                "srivc = {{1, 2, 0}, {lambda = 3}}}\n"
+                "rng(5)\nlocal d = iddata(lsim(G0, u, 0.01) + 0.2*randn(#u), u, 0.01)\n"
+                "local function same(a, b) for i = 1, 3 do if math.abs(a.theta[{5, i}] - b[i]) > 1e-9 then return "
+                "false end end return true end\n"
+                "print(same(M.lssvf, lssvf(d, {2, 1, 0}, 3).param), same(M.srivc, srivc(d, {1, 2, 0}, {lambda = "
+                "3}).param), same(M.ivsvf, ivsvf(d, {2, 1, 0}, 3, {hold_y = 'zoh'}).param))\n"
+                "print(table.concat(M.labels, ' '), M.runs, M.sigma)"),
+        "true\ttrue\ttrue\nlssvf ivsvf srivc\t20\t0.2\n");
+}
+
+TEST(script_studies, functions_of_the_script_are_estimators_too) {
+    EXPECT_EQ(
+        printed(kStudy + "local M = study{lssvf = {{2, 1, 0}, 3}, own = function(d) return lssvf(d, {2, 1, 0}, 3) end, "
+                         "bare = function(d) local G = lssvf(d, {2, 1, 0}, 3) return G.param, G.std end}\n"
+                         "print(M.own.mean[1] == M.lssvf.mean[1], M.bare.mean[3] == M.lssvf.mean[3], "
+                         "M.bare.reported_std[1] == M.lssvf.reported_std[1], M.bare.truth[1])"),
+        "true\ttrue\ttrue\t4\n");
+}
+
+TEST(script_studies, a_method_can_appear_twice) {
+    EXPECT_EQ(
+        printed(kStudy + "local M = study{{'lssvf', {2, 1, 0}, 3, label = 'slow'}, {'lssvf', {2, 1, 0}, 30, label = "
+                         "'fast'}, third = {'lssvf', {2, 1, 0}, 0.3}}\n"
+                         "print(table.concat(M.labels, ' '), M.slow.mean[1] ~= M.fast.mean[1])"),
+        "slow fast third\ttrue\n");
+    EXPECT_THAT(error_of(kStudy + "study{{'lssvf', {2, 1, 0}, 3}, {'lssvf', {2, 1, 0}, 30}}"),
+                HasSubstr("two estimators are called 'lssvf'"));
+}
+
+TEST(script_studies, print_shows_truth_scatter_bias_and_failures) {
+    EXPECT_THAT(
+        printed(kStudy + "local n = 0\nlocal M = study({lssvf = {{2, 1, 0}, 3}, own = function(d) n = n + 1 if n == 3 "
+                         "then error('no luck') end return lssvf(d, {2, 1, 0}, 3) end}, 50)\nprint(M)\n"
+                         "print(M.own.failed, M.own.estimated)"),
+        AllOf(HasSubstr("Monte Carlo study of 50 runs"), HasSubstr("truth"), HasSubstr("Cramer-Rao std"),
+              HasSubstr("reported std"), HasSubstr("lssvf is biased: the mean of a1, a2, b0"),
+              HasSubstr("own: 1 of 50 runs failed"), HasSubstr("no luck"), HasSubstr("1\t49\n")));
+}
+
+TEST(script_studies, figures_need_parameters_that_exist) {
+    EXPECT_THAT(printed(kStudy + "local M = study{lssvf = {{2, 1, 0}, 3}}\nM:histograms()\nM:scatter('a1', 'b0')\n"
+                                 "print(pcall(function() return M:scatter('a1', 'b7') end))"),
+                HasSubstr("lssvf has no parameter 'b7'; its parameters are a1, a2, b0"));
+    EXPECT_THAT(error_of(kStudy + "print(study{lssvf = {{2, 1, 0}, 3}}.ivsvf)"),
+                HasSubstr("no estimator or field 'ivsvf'; its estimators are lssvf"));
+}
+
+TEST(script_studies, wrong_studies_say_what_is_wrong) {
+    EXPECT_THAT(error_of(kStudy + "study{lssvf = {{2, 1}, 3}}"), HasSubstr("lssvf"));
+    EXPECT_THAT(error_of(kStudy + "study{lssvf = {{2, 1, 0}}}"), HasSubstr("lambda"));
+    EXPECT_THAT(error_of(kStudy + "study{lssvf = {{2, 1, 0}, 3, {hold = 'foh'}}}"), HasSubstr("option 'hold'"));
+    EXPECT_THAT(error_of(kStudy + "study{nosuch = {{2, 1, 0}, 3}}"), HasSubstr("'nosuch' is none of lssvf"));
+    EXPECT_THAT(error_of(kStudy + "study{own = function(d) error('always') end}"),
+                AllOf(HasSubstr("every run of 'own' failed"), HasSubstr("always")));
+    EXPECT_THAT(error_of(kStudy + "montecarlo{system = G0, input = u, Ts = 0.01, estimators = {}}"),
+                HasSubstr("either sigma"));
+    EXPECT_THAT(error_of(kStudy + "montecarlo{system = 3, input = u, Ts = 0.01, sigma = 1, estimators = {}}"),
+                HasSubstr("option 'system'"));
+}
+
+TEST(script_studies, order_search_recommends_the_true_orders) {
+    const std::string record =
+        "local u = prbs(7, 8)\nlocal x = lsim(tf({2}, {1, 4, 3}), u, 0.05)\n"
+        "local data, check = iddata(x + 0.1*randn(#u), u, 0.05), iddata(x + 0.1*randn(#u), u, 0.05)\n";
+    EXPECT_THAT(printed(record + "local V = srivcstruc(data, {poles = {1, 4}, zeros = {0, 2}})\n"
+                                 "print(V)\nprint(#V.rows, V.best.poles, V.best.zeros, #V.best.model.den)"),
+                AllOf(HasSubstr("* "), HasSubstr("Recommended: 2 poles and no zero"), HasSubstr("9\t2\t0\t3\n")));
+    EXPECT_THAT(printed(record + "local V = srivcstruc(data, {{1, 1, 0}, {1, 2, 0}, {1, 2, 1}}, {validate = check})\n"
+                                 "local G = selcstruc(V)\nprint(#G.den, V.rows[3].delay, V.best.validation_fit > 50)"),
+                AllOf(HasSubstr("val. (%)"), HasSubstr("3\t0.05\ttrue\n")));
+    EXPECT_THAT(error_of(record + "selcstruc(srivcstruc(data, {poles = 2, zeros = 0}), 'validation')"),
+                HasSubstr("second record"));
+    EXPECT_THAT(error_of(record + "selcstruc(srivcstruc(data, {poles = 2, zeros = 0}), 'nonsense')"),
+                HasSubstr("criterion must be"));
+    EXPECT_THAT(error_of(record + "srivcstruc(data, {poles = {2, 1}})"), HasSubstr("poles must be a range"));
+    EXPECT_THAT(error_of(record + "srivcstruc(data, {pole = 2})"), HasSubstr("did you mean 'poles'"));
+}

@@ -1,0 +1,48 @@
+#include "figures/order_plot.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "numerics/error.h"
+
+using namespace dynlab;
+
+namespace {
+
+OrderCandidate candidate(int poles, int zeros, double delay, double bic) {
+    OrderCandidate one;
+    one.poles = poles;
+    one.zeros = zeros;
+    one.delay = delay;
+    one.bic = bic;
+    return one;
+}
+
+}  // namespace
+
+TEST(order_plot, a_curve_for_each_number_of_zeros) {  // oracle: the candidates themselves
+    OrderSelection selection;
+    selection.candidates = {candidate(1, 0, 0, 3), candidate(2, 0, 0, 1), candidate(2, 0, 0.1, 0.5),
+                            candidate(2, 1, 0, 1.5), candidate(3, 1, 0, 2)};
+    selection.candidates[4].failure = "no luck";
+    const Figure figure = order_plot(selection, OrderCriterion::kBic, {2, ""});
+    figure.validate();
+    const Panel& panel = figure.panels.front();
+    ASSERT_EQ(panel.curves.size(), 3u);  // no zero, one zero, the chosen one
+    EXPECT_EQ(panel.curves[0].x, (Vector{{1, 2}}));
+    EXPECT_EQ(panel.curves[0].y, (Vector{{3, 0.5}}));  // the better of two delays
+    EXPECT_EQ(panel.curves[1].y, Vector::Constant(1, 1.5));
+    EXPECT_EQ(panel.curves[2].y, Vector::Constant(1, 0.5));
+}
+
+TEST(order_plot, over_the_delay_when_nothing_else_differs) {
+    OrderSelection selection;
+    selection.candidates = {candidate(2, 0, 0, 3), candidate(2, 0, 0.1, 1), candidate(2, 0, 0.2, 2)};
+    const Figure figure = order_plot(selection, OrderCriterion::kRecommended, {1, ""});
+    EXPECT_EQ(figure.panels.front().curves[0].x, (Vector{{0, 0.1, 0.2}}));
+    EXPECT_EQ(figure.panels.front().x_label, "delay (s)");
+    EXPECT_THROW(order_plot(selection, OrderCriterion::kValidationFit, {1, ""}), InvalidArgument);
+    for (OrderCandidate& one : selection.candidates) one.failure = "no luck";
+    EXPECT_THROW(order_plot(selection, OrderCriterion::kBic, {1, ""}), InvalidArgument);
+}
