@@ -49,7 +49,10 @@ Panel panel_of(const Channel& channel, const std::vector<const IdData*>& data, c
             curve.x = data[i]->time(k);
             curve.y = (channel.output ? experiment.y : experiment.u).col(channel.number);
             if (!channel.output && data[i]->hold == Hold::kZoh) curve.style = CurveStyle::kStairs;
-            if (data.size() > 1) curve.label = labels.empty() ? fmt::format("data {}", i + 1) : labels[i];
+            if (!labels.empty())
+                curve.label = labels[i];
+            else if (data.size() > 1)
+                curve.label = fmt::format("data {}", i + 1);
             if (data[i]->experiments.size() > 1) {
                 const std::string name =
                     experiment.name.empty() ? fmt::format("experiment {}", k + 1) : experiment.name;
