@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "data_io/csv_file.h"
@@ -98,6 +99,49 @@ TEST(lesson_02, line_residuals_and_forecast_follow_the_textbook_formulas) {
     EXPECT_NEAR(number(record, "paris_low"), forecast - half_width, 1e-8);
     EXPECT_NEAR(number(record, "paris_high"), forecast + half_width, 1e-8);
     EXPECT_EQ(number(record, "actual"), 9.79);
+}
+
+/// "3.195 (0.208)", as the lesson's tables write a mean and a standard deviation.
+std::pair<double, double> mean_and_std(const std::string& cell) {
+    const auto bracket = cell.find('(');
+    return {std::stod(cell), std::stod(cell.substr(bracket + 1))};
+}
+
+// Oracle: means and standard deviations over the same 200 seeds by an independent program (mc_sys2_*.json).
+void expect_study(const nlohmann::json& rows, const std::string& reference_file,
+                  const std::vector<std::string>& reference_names) {
+    std::ifstream file(DYNLAB_SOURCE_DIR "/tests/reference/data/" + reference_file);
+    const auto stats = nlohmann::json::parse(file).at("stats");
+    ASSERT_EQ(rows.size(), reference_names.size() + 1) << "the truth, then the methods";
+    for (std::size_t method = 0; method < reference_names.size(); ++method) {
+        const auto& expected = stats.at(reference_names[method]);
+        for (int parameter = 0; parameter < 3; ++parameter) {
+            const auto [mean, spread] = mean_and_std(rows[method + 1][parameter + 1]);
+            const double half_last_digit = 0.000501;
+            EXPECT_NEAR(mean, expected.at("mean")[parameter], half_last_digit) << reference_names[method];
+            EXPECT_NEAR(spread, expected.at("std")[parameter], half_last_digit) << reference_names[method];
+        }
+    }
+}
+
+TEST(lesson_04, studies_agree_with_the_reference_and_own_programs_with_the_library) {
+    const Workbench bench;
+    const ChildResult run =
+        bench.dynlab({"run", DYNLAB_SOURCE_DIR "/lessons/04_estimators/lesson.lua", "--out", "made"});
+    ASSERT_EQ(run.exit_code, 0) << run.error_output;
+    const auto record = nlohmann::json::parse(bench.read("made/record.json"));
+    const auto rows = [&record](const char* table) { return record.at("tables").at(table).at("rows"); };
+
+    expect_study(rows("lambda"), "mc_sys2_0.2.json",
+                 {"ivsvf_lambda0.3_yfoh", "ivsvf_lambda3_yfoh", "ivsvf_lambda30_yfoh"});
+    expect_study(rows("low"), "mc_sys2_0.2.json", {"lssvf_lambda3_yfoh", "ivsvf_lambda3_yfoh", "oe"});
+    expect_study(rows("high"), "mc_sys2_0.4.json", {"lssvf_lambda3_yfoh", "ivsvf_lambda3_yfoh", "oe"});
+    nlohmann::json holds = rows("holds");
+    holds.erase(3);  // the record without noise
+    expect_study(holds, "mc_sys2_0.2.json", {"lssvf_lambda3_yfoh", "lssvf_lambda3_yzoh"});
+    EXPECT_LT(number(record, "agreement"), 1e-10);
+    EXPECT_LT(number(record, "iv_agreement"), 1e-10);
+    EXPECT_EQ(number(record, "refused"), 200) << "a negative real pole in every run";
 }
 
 }  // namespace
