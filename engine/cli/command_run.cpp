@@ -27,9 +27,8 @@ void save_figures(RunRecord& record, GnuplotRenderer& renderer, const fs::path& 
     if (!record.figures.empty()) fs::create_directories(folder);
     draw_figures(record, renderer, folder, FigureFormat::kPdf);
     renderer.finish();
-    for (const auto& [name, figure] : record.figures) {
-        std::cout << "figure " << name << ": " << figure.file.string() << '\n';
-    }
+    for (const std::string& name : figures_in_order(record))
+        std::cout << "figure " << name << ": " << record.figures.at(name).file.string() << '\n';
 }
 
 int run(const RunWords& words) {

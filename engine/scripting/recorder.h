@@ -18,6 +18,7 @@ struct ScriptFigure {
     Figure figure;
     bool used = false;
     std::optional<long long> number;  ///< given by figure(n)
+    std::size_t place = 0;            ///< in the order in which the script made its figures
 };
 
 using FigurePointer = std::shared_ptr<ScriptFigure>;
@@ -65,6 +66,7 @@ class Recorder {
     std::vector<std::weak_ptr<ScriptFigure>> numbered_;
     std::optional<long long> next_number_;
     std::size_t printed_bytes_ = 0;
+    std::size_t figures_made_ = 0;
     std::string timed_cell_;
     std::chrono::steady_clock::time_point timed_since_;
 };

@@ -10,12 +10,12 @@
 namespace dynlab {
 namespace {
 
-/// A record's name as a file name: letters, digits and dashes only, with its place in front so that no two collide.
-std::string figure_file_stem(const std::string& name, std::size_t place) {
+/// A record's name as a file name: letters, digits and dashes only, with its number in front so that no two collide.
+std::string figure_file_stem(const std::string& name, std::size_t number) {
     std::string stem = name;
     std::replace_if(
         stem.begin(), stem.end(), [](unsigned char c) { return !std::isalnum(c) || c > 127; }, '-');
-    return fmt::format("{:02}-{}", place, stem.substr(0, 60));
+    return fmt::format("{:02}-{}", number, stem.substr(0, 60));
 }
 
 std::string extension(FigureFormat format) {
@@ -43,11 +43,21 @@ RunRecord run_script(const RunRequest& request, GnuplotRenderer& renderer) {
     return runtime.run(request.script);
 }
 
+std::vector<std::string> figures_in_order(const RunRecord& record) {
+    std::vector<std::string> names;
+    for (const auto& [name, figure] : record.figures) names.push_back(name);
+    std::stable_sort(names.begin(), names.end(), [&](const std::string& a, const std::string& b) {
+        return record.figures.at(a).place < record.figures.at(b).place;
+    });
+    return names;
+}
+
 void draw_figures(RunRecord& record, GnuplotRenderer& renderer, const std::filesystem::path& folder,
                   FigureFormat format) {
-    std::size_t place = 0;
-    for (auto& [name, figure] : record.figures) {
-        figure.file = folder / (figure_file_stem(name, ++place) + extension(format));
+    std::size_t number = 0;
+    for (const std::string& name : figures_in_order(record)) {
+        RecordedFigure& figure = record.figures.at(name);
+        figure.file = folder / (figure_file_stem(name, ++number) + extension(format));
         renderer.draw(figure.figure, figure.file, format);
     }
 }

@@ -21,8 +21,11 @@ struct RunRequest {
 /// Runs a script from top to bottom. An error of the script stands in the record; Ctrl-C throws Interrupted.
 RunRecord run_script(const RunRequest& request, GnuplotRenderer& renderer);
 
-/// Queues every figure of the record for a file of `folder` named after it and notes the file in the record;
-/// renderer.finish() makes them whole.
+/// Names of the record's figures, in the order in which the script made them.
+std::vector<std::string> figures_in_order(const RunRecord& record);
+
+/// Queues every figure of the record for a file of `folder` named after it and numbered in that order, and notes the
+/// file in the record; renderer.finish() makes them whole.
 void draw_figures(RunRecord& record, GnuplotRenderer& renderer, const std::filesystem::path& folder,
                   FigureFormat format);
 
