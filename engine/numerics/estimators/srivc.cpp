@@ -71,7 +71,8 @@ TransferEstimate srivc(const IdData& data, const TransferStructure& structure, c
     measure_fit(estimate, data);
     set_covariance(estimate, data, options);
     report_errors(estimate);
-    const std::string passes = std::to_string(estimate.trace.size()) + " passes";
+    const std::string passes =
+        std::to_string(estimate.trace.size()) + (estimate.trace.size() == 1 ? " pass" : " passes");
     if (estimate.termination == Termination::kConverged)
         set_message(estimate, "SRIVC converged after " + passes);
     else
