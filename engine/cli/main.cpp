@@ -16,6 +16,7 @@ constexpr const char* kAbout = "dynlab runs a laboratory course on data-driven l
 constexpr const char* kFooter =
     "First steps:\n"
     "  dynlab                         the prompt: type Lua, see the result (or: dynlab < statements.lua)\n"
+    "  dynlab demo                    guided demonstrations\n"
     "  dynlab lessons                 what there is to learn\n"
     "  dynlab report 02               a lesson with its worked solution, as a PDF\n"
     "  dynlab new 02 my-work          your own copy, to be worked on\n"
@@ -56,7 +57,8 @@ int main(int argc, char** argv) {
     app.require_subcommand(0, 1);
 
     Action action;
-    for (const auto add : {add_run, add_identify, add_report, add_weave, add_new, add_lessons, add_help, add_doctor})
+    for (const auto add :
+         {add_run, add_identify, add_report, add_weave, add_new, add_lessons, add_demo, add_help, add_doctor})
         add(app, action);
     try {
         app.parse(argc, argv);

@@ -1,0 +1,121 @@
+#include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <charconv>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "cli/commands.h"
+#include "platform/interrupt.h"
+#include "workflow/demonstration.h"
+#include "workflow/run_script.h"
+
+namespace dynlab {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct DemoWords {
+    std::string name;
+    bool list = false;
+};
+
+bool on_terminal() {
+    return ::isatty(STDIN_FILENO) != 0 && ::isatty(STDOUT_FILENO) != 0;
+}
+
+/// A line from the terminal; nothing after Ctrl-D. Ctrl-C throws Interrupted: it ends poll, but would not end getline.
+std::optional<std::string> ask(const std::string& question) {
+    std::cout << question << std::flush;
+    pollfd keyboard{STDIN_FILENO, POLLIN, 0};
+    while (::poll(&keyboard, 1, -1) < 0) throw_if_interrupted();
+    std::string answer;
+    const bool given = static_cast<bool>(std::getline(std::cin, answer));
+    if (!given) std::cout << '\n';
+    throw_if_interrupted();
+    return given ? std::optional(answer) : std::nullopt;
+}
+
+/// Runs a demonstration whole, then tells it: page by page on a terminal, in one go elsewhere.
+int show(const Demonstration& demonstration) {
+    RunRequest request;
+    request.script = read_percent_script(demonstration.script);
+    const fs::path folder = demonstration.name + "_out";
+    request.out_folder = folder;
+    std::cout << '\n' << demonstration.title << "\n\n" << std::flush;
+
+    GnuplotRenderer renderer;
+    RunRecord record = run_script(request, renderer);
+    if (!record.figures.empty()) fs::create_directories(folder);
+    draw_figures(record, renderer, folder, FigureFormat::kPdf);
+    renderer.finish();
+
+    const std::vector<std::string> pages = pages_of(request.script, record);
+    for (std::size_t i = 0; i < pages.size(); ++i) {
+        std::cout << pages[i] << '\n' << std::flush;
+        if (!on_terminal() || i + 1 == pages.size()) continue;
+        const auto answer = ask(fmt::format("-- {} of {}: Enter goes on, q leaves -- ", i + 1, pages.size()));
+        if (!answer || *answer == "q") return kDone;
+        std::cout << '\n';
+    }
+    if (!record.error) return kDone;
+    std::cerr << "dynlab: " << record.error->message << '\n';
+    return kFailed;
+}
+
+int list(const std::vector<Demonstration>& all) {
+    for (const Demonstration& one : all) std::cout << fmt::format("{:<20} {}\n", one.name, one.title);
+    return kDone;
+}
+
+/// The demonstration a menu's answer means: its number or its name.
+const Demonstration* chosen(const std::vector<Demonstration>& all, const std::string& answer) {
+    std::size_t number = 0;
+    const auto [end, error] = std::from_chars(answer.data(), answer.data() + answer.size(), number);
+    const bool is_number = error == std::errc() && end == answer.data() + answer.size();
+    if (is_number && number >= 1 && number <= all.size()) return &all[number - 1];
+    for (const Demonstration& one : all)
+        if (one.name == answer) return &one;
+    return nullptr;
+}
+
+int menu() {
+    const std::vector<Demonstration> all = demonstrations();
+    if (!on_terminal()) return list(all);
+    for (;;) {
+        std::cout << "\nDemonstrations\n\n";
+        for (std::size_t i = 0; i < all.size(); ++i)
+            std::cout << fmt::format("  {}  {:<20} {}\n", i + 1, all[i].name, all[i].title);
+        const auto answer = ask(fmt::format("\nNumber (1 to {}), or q to leave: ", all.size()));
+        if (!answer || *answer == "q") return kDone;
+        if (answer->empty()) continue;
+        if (const Demonstration* one = chosen(all, *answer)) {
+            show(*one);
+        } else {
+            std::cout << fmt::format("There is no '{}'; type a number from 1 to {}, or q.\n", *answer, all.size());
+        }
+    }
+}
+
+}  // namespace
+
+void add_demo(CLI::App& app, Action& action) {
+    auto words = std::make_shared<DemoWords>();
+    CLI::App* command = app.add_subcommand("demo", "Show what can be done: short guided demonstrations");
+    auto* name = command->add_option("NAME", words->name, "The demonstration; without it a menu on a terminal");
+    command->add_flag("--list", words->list, "List the demonstrations, name and one line each")->excludes(name);
+    command->footer(
+        "On a terminal each page waits for Enter, and q goes back. Figures are saved in NAME_out and their paths "
+        "shown.\n"
+        "Examples:  dynlab demo     dynlab demo getting_started     dynlab demo --list");
+    command->callback([words, &action] {
+        action = [words] {
+            if (words->list) return list(demonstrations());
+            return words->name.empty() ? menu() : show(find_demonstration(words->name));
+        };
+    });
+}
+
+}  // namespace dynlab

@@ -1,0 +1,50 @@
+-- ---
+-- title: A dead time that is not a whole number of samples
+-- template: lesson
+-- ---
+
+-- %% [markdown]
+-- Pipes, conveyor belts and networks make an output answer late. This process
+-- waits 0.735 s, then swings at 10 rad/s with little damping. Sampled every
+-- 10 ms, the delay is 73.5 samples: no shift by whole samples can express it.
+
+-- %% id=data
+local process = tf({100}, {1, 2, 100}, {IODelay = 0.735})
+local Ts = 0.01
+local u = prbs(7, 10)
+local data = iddata(lsim(process, u, Ts) + 0.3*randn(#u), u, Ts)
+print(process)
+idplot(data:range(1, 500))
+
+-- %% [markdown]
+-- tfsrivc(data, poles, zeros) finds the delay as a real number, together with the
+-- other parameters. Look at Td: its standard error is far below the sampling time.
+
+-- %% id=estimate
+local G = tfsrivc(data, 2, 0)
+present(G)
+
+-- %% [markdown]
+-- How? For every delay of a grid it found the best other parameters. The figure
+-- shows the mean square error that remains: several valleys, because a swinging
+-- signal shifted by half a period looks like itself upside down. A search that
+-- starts in the wrong valley stays there; the grid sees them all.
+
+-- %% id=loss
+plot(G.report.delay_grid, G.report.delay_loss,
+     {xlabel = "delay (s)", ylabel = "mean square error", title = "What remains at each delay"}):vline(0.735, "true")
+
+-- %% [markdown]
+-- Let us be caught on purpose and search the wrong valley only. The other
+-- parameters try to make up for the wrong delay: even the sign of the gain is
+-- wrong now.
+
+-- %% id=caught
+local caught = tfsrivc(data, 2, 0, {TdMin = 0.3, TdMax = 0.55})
+print(caught)
+print(string.format("fit with Td = %.3f s: %.1f %%, with Td = %.3f s: %.1f %%",
+                    G.IODelay, fit(data, G), caught.IODelay, fit(data, caught)))
+compare(data:range(1, 500), G, caught, {labels = {"right valley", "wrong valley"}})
+
+-- %% [markdown]
+-- Estimate a delay, do not guess it, and let the search begin everywhere.
