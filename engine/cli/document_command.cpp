@@ -11,6 +11,24 @@
 namespace dynlab {
 namespace {
 
+/// What is being done, on a line of the terminal that is cleared before anything else is written there.
+class StatusLine {
+  public:
+    void show(const std::string& step) {
+        if (!on_terminal_) return;
+        std::cerr << "\r\033[K" << step << " ..." << std::flush;
+        shown_ = true;
+    }
+    void clear() {
+        if (shown_) std::cerr << "\r\033[K" << std::flush;
+        shown_ = false;
+    }
+
+  private:
+    const bool on_terminal_ = isatty(STDERR_FILENO) != 0;
+    bool shown_ = false;
+};
+
 void show(const std::vector<std::pair<std::string, double>>& timings) {
     double total = 0;
     for (const auto& [step, seconds] : timings) {
@@ -26,21 +44,22 @@ void show(const std::vector<std::pair<std::string, double>>& timings) {
 }  // namespace
 
 int make_document(ReportRequest request, bool show_timings) {
-    const bool on_terminal = isatty(STDERR_FILENO) != 0;
-    if (on_terminal) {
-        request.step = [](const std::string& step) { std::cerr << "\r\033[K" << step << " ..." << std::flush; };
+    StatusLine status;
+    request.step = [&status](const std::string& step) { status.show(step); };
+    if (request.print) {
+        request.print = [&status, print = std::move(request.print)](const std::string& text) {
+            status.clear();
+            print(text);
+        };
     }
-    const auto clear_line = [on_terminal] {
-        if (on_terminal) std::cerr << "\r\033[K" << std::flush;
-    };
     ReportResult result;
     try {
         result = make_report(request);
     } catch (...) {
-        clear_line();
+        status.clear();
         throw;
     }
-    clear_line();
+    status.clear();
     const std::string file = std::filesystem::absolute(request.output).lexically_normal().string();
     std::cout << file << (result.up_to_date ? " (up to date)" : "") << '\n';
     if (show_timings) show(result.timings);

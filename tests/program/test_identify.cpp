@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "support/program.h"
+#include "support/terminal.h"
 
 namespace dynlab::test {
 namespace {
@@ -109,6 +110,15 @@ TEST_F(identify, printed_script_gives_the_same_numbers_and_the_same_report) {
     EXPECT_THAT(bench_.dynlab({"run", "b.lua"}).output, StartsWith(numbers));
     EXPECT_EQ(bench_.dynlab({"weave", "b.lua", "-o", "b.pdf"}).exit_code, 0);
     EXPECT_TRUE(bench_.read("a.pdf") == bench_.read("b.pdf"));
+}
+
+TEST_F(identify, what_is_printed_on_a_terminal_begins_on_a_line_of_its_own) {
+    Terminal terminal(bench_, {"identify", "even.csv", "--input", "u", "--output", "x", "--poles", "2"});
+    EXPECT_THAT(
+        terminal.until("continuous-time transfer function"),
+        AllOf(HasSubstr("running the script ..."), testing::EndsWith("\x1b[Kcontinuous-time transfer function")));
+    terminal.until("even_model.pdf");
+    EXPECT_EQ(terminal.wait_for_end(), 0);
 }
 
 TEST_F(identify, names_cannot_act_as_code) {
