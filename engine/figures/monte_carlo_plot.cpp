@@ -75,6 +75,7 @@ Panel histogram_panel(const Vector& values, std::pair<double, double> range, std
     std::vector<double> shown;
     for (const double value : values)
         if (value >= range.first && value <= range.second) shown.push_back(value);
+    const auto count = static_cast<Index>(shown.size());
     HistogramOptions options;
     options.truth = truth;
     options.truth_label = "";
@@ -82,6 +83,8 @@ Panel histogram_panel(const Vector& values, std::pair<double, double> range, std
     if (shown.empty()) shown.push_back(std::clamp(values[0], range.first, range.second));
     Figure figure = histogram(Eigen::Map<const Vector>(shown.data(), static_cast<Index>(shown.size())), options);
     Panel panel = std::move(figure.panels.front());
+    if (const Index outside = values.size() - count; outside > 0)
+        panel.title = fmt::format("{} of {} outside", outside, values.size());
     panel.x_range = range;
     panel.curves.front().colour = colour;
     return panel;

@@ -62,14 +62,21 @@ void widen(Range& range, double span) {
     range = {middle - 0.5 * span, middle + 0.5 * span};
 }
 
-/// As many numbers as fit side by side with air between them.
+bool fits(const Axis& axis, double width) {
+    double total = 0;
+    for (const Tick& tick : axis.ticks) total += text_width(tick.label, style::kTickSize) + 0.3;
+    return total <= width;
+}
+
+/// As many numbers as fit side by side with air between them; more than one where there is room, as one tells no scale.
 Axis make_x_axis(Range range, bool log, double width) {
-    for (double count = std::max(2.0, width / 1.4);; count *= 0.75) {
-        Axis axis = make_axis(range, log, count);
-        double total = 0;
-        for (const Tick& tick : axis.ticks) total += text_width(tick.label, style::kTickSize) + 0.3;
-        if (total <= width || count < 1.2) return axis;
-    }
+    constexpr double kFewest = 1.2;
+    double count = std::max(2.0, width / 1.4);
+    Axis axis = make_axis(range, log, count);
+    while (!fits(axis, width) && count >= kFewest) axis = make_axis(range, log, count *= 0.75);
+    if (axis.ticks.size() > 1) return axis;
+    const Axis finer = make_axis(range, log, 2 * count);
+    return fits(finer, width) ? finer : axis;
 }
 
 }  // namespace

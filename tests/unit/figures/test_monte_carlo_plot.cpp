@@ -62,6 +62,8 @@ TEST(monte_carlo_plot, far_estimates_do_not_squeeze_the_rest) {
     const Figure figure = monte_carlo_histograms(all);
     EXPECT_LT(figure.panels.front().x_range->second, 10);
     EXPECT_EQ(figure.panels.front().curves.front().y.sum(), 499);
+    EXPECT_EQ(figure.panels[0].title, "1 of 500 outside");
+    EXPECT_EQ(figure.panels[1].title, "");
 }
 
 TEST(monte_carlo_plot, failed_runs_are_left_out) {
