@@ -126,6 +126,24 @@ TEST(prompt, control_c_ends_the_statement_only) {
     }
 }
 
+TEST(prompt, long_studies_show_their_progress_and_obey_control_c) {
+    const Workbench bench;
+    Terminal terminal(bench);
+    terminal.until_prompt();
+    terminal.enter("G = tf({2}, {1, 4, 3}) u = prbs(4, 100)");
+    terminal.until_prompt();
+    for (const char* estimator : {"srivc = {{1, 2, 0}}", "own = function(d) return lssvf(d, {2, 1, 0}, 3) end"}) {
+        terminal.enter("montecarlo{system = G, input = u, Ts = 0.01, sigma = 0.2, runs = 1000000, estimators = {" +
+                       std::string(estimator) + "}}");
+        terminal.until("Monte Carlo  [");
+        terminal.until("/1000000");
+        terminal.type(kControlC);
+        EXPECT_THAT(terminal.until_prompt(), HasSubstr("interrupted\r\n")) << estimator;
+    }
+    terminal.enter("#u");
+    EXPECT_THAT(terminal.until_prompt(), HasSubstr("\n1500\r\n"));
+}
+
 TEST(prompt, control_c_and_an_empty_line_give_up_what_is_not_complete) {
     const Workbench bench;
     Terminal terminal(bench);
