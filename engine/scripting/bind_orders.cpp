@@ -1,8 +1,10 @@
 #include <array>
 #include <cmath>
 
+#include "figures/delay_plot.h"
 #include "figures/order_plot.h"
 #include "numerics/estimators/srivc.h"
+#include "numerics/validation/delay_search.h"
 #include "platform/progress.h"
 #include "scripting/estimation.h"
 #include "scripting/objects/data_object.h"
@@ -11,6 +13,7 @@
 #include "scripting/order_vector.h"
 #include "scripting/study_bindings.h"
 #include "scripting/study_text.h"
+#include "scripting/table_fields.h"
 
 namespace dynlab {
 namespace {
@@ -94,6 +97,7 @@ TransferOptions estimation_options(const Options& options) {
         throw InvalidArgument("to compare structures, take the means off the data first: data:remove_mean()");
     wanted.TdMin = options.number("TdMin", wanted.TdMin);
     wanted.TdMax = options.optional_number("TdMax");
+    wanted.NumTd = static_cast<int>(options.size("NumTd", wanted.NumTd));
     wanted.MaxIter = static_cast<int>(options.size("MaxIter", wanted.MaxIter));
     wanted.Tol = options.number("Tol", wanted.Tol);
     wanted.cancel = options.call().cancel();
@@ -107,8 +111,8 @@ int try_structures(Call& call) {
     const Options options =
         listed ? Options(call, 3, {"validate", "lambda", "InitialState", "Offset", "MaxIter", "Tol", "threads"})
                : Options(call, 2,
-                         {"poles", "zeros", "delays", "TdMin", "TdMax", "validate", "lambda", "InitialState", "Offset",
-                          "MaxIter", "Tol", "threads"});
+                         {"poles", "zeros", "delays", "TdMin", "TdMax", "NumTd", "validate", "lambda", "InitialState",
+                          "Offset", "MaxIter", "Tol", "threads"});
     const std::vector<TransferStructure> structures = listed ? listed_structures(call, data) : grid_of(options, data);
     OrderSelectionOptions wanted;
     if (options.has("validate")) {
@@ -155,6 +159,46 @@ int select_structure(Call& call) {
     return 2;
 }
 
+/// {std =, samples =, delays =, losses =, rival =, poles =, zeros =, model =, message =}
+void push_search(const Call& call, const IdData& data, const DelaySearch& search) {
+    lua_State* L = call.state();
+    lua_createtable(L, 0, 10);
+    set_number(L, "delay", search.delay);
+    set_number(L, "std", search.std);
+    if (data.regular()) set_number(L, "samples", search.delay / data.Ts);
+    if (search.rival) set_number(L, "rival", *search.rival);
+    set_vector(call, "delays", search.grid());
+    set_vector(call, "losses", search.losses());
+    set_whole(L, "poles", search.candidate.poles);
+    set_whole(L, "zeros", search.candidate.zeros);
+    set_text(call, "message", search.explanation);
+    give_transfer_estimate(call, "srivc", search.candidate.estimate);
+    lua_setfield(L, -2, "model");
+}
+
+int estimate_delay(Call& call) {
+    call.at_most(2);
+    const IdData& data = object_argument<IdData>(call, 1, "data");
+    const Options options(
+        call, 2,
+        {"poles", "zeros", "TdMin", "TdMax", "NumTd", "lambda", "InitialState", "Offset", "MaxIter", "Tol", "threads"});
+    DelaySearchOptions wanted;
+    wanted.poles = range_of(options, "poles", wanted.poles);
+    wanted.zeros = range_of(options, "zeros", wanted.zeros);
+    wanted.estimation = estimation_options(options);
+    wanted.threads = static_cast<int>(options.size("threads", 0));
+    wanted.cancel = call.cancel();
+    ProgressBar bar("delay search", order_grid(wanted.poles, wanted.zeros, {0.0}).size());
+    wanted.progress = [&bar](std::size_t done) { bar.advance(done); };
+    const DelaySearch search = search_delay(data, wanted);
+    poll_stop(call.state());
+    call.print(search.explanation + "\n");
+    call.give(search.delay);
+    give_figure(call, delay_plot(search));
+    push_search(call, data, search);
+    return 3;
+}
+
 constexpr const char* kArea = "structure";
 constexpr std::array kFunctions = {
     FunctionEntry{
@@ -162,6 +206,10 @@ constexpr std::array kFunctions = {
         "srivc for many numbers of poles, zeros and samples of delay, with criteria for each", guarded<try_structures>},
     FunctionEntry{"selcstruc", kArea, "selcstruc(V, criterion) -> G, fig",
                   "the structure that a criterion chooses, explained in words", guarded<select_structure>},
+    FunctionEntry{"delayest", kArea,
+                  "delayest(data, {poles = {1, 3}, zeros = {0, 1}, TdMin =, TdMax =, ...}) -> Td, fig, D",
+                  "the delay between input and output, with its standard error and the loss over the delay",
+                  guarded<estimate_delay>},
 };
 
 }  // namespace

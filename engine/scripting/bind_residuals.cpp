@@ -9,26 +9,10 @@
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/model.h"
 #include "scripting/simulation_options.h"
+#include "scripting/table_fields.h"
 
 namespace dynlab {
 namespace {
-
-void set_number(lua_State* L, const char* name, double value) {
-    lua_pushnumber(L, value);
-    lua_setfield(L, -2, name);
-}
-void set_flag(lua_State* L, const char* name, bool value) {
-    lua_pushboolean(L, value);
-    lua_setfield(L, -2, name);
-}
-void set_text(const Call& call, const char* name, const std::string& value) {
-    call.give(value);
-    lua_setfield(call.state(), -2, name);
-}
-void set_vector(const Call& call, const char* name, const VectorView& values) {
-    call.give_vector(values);
-    lua_setfield(call.state(), -2, name);
-}
 
 void push_independence(const Call& call, const IndependenceTest& test) {
     lua_State* L = call.state();

@@ -5,34 +5,10 @@
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/study_objects.h"
 #include "scripting/study_text.h"
+#include "scripting/table_fields.h"
 
 namespace dynlab {
 namespace {
-
-void set_number(lua_State* L, const char* name, double value) {
-    lua_pushnumber(L, value);
-    lua_setfield(L, -2, name);
-}
-void set_whole(lua_State* L, const char* name, Index value) {
-    lua_pushinteger(L, value);
-    lua_setfield(L, -2, name);
-}
-void set_vector(const Call& call, const char* name, const VectorView& values) {
-    call.give_vector(values);
-    lua_setfield(call.state(), -2, name);
-}
-void set_matrix(const Call& call, const char* name, const MatrixView& values) {
-    call.give_matrix(values);
-    lua_setfield(call.state(), -2, name);
-}
-void set_texts(const Call& call, const char* name, const std::vector<std::string>& texts) {
-    lua_createtable(call.state(), static_cast<int>(texts.size()), 0);
-    for (std::size_t i = 0; i < texts.size(); ++i) {
-        call.give(texts[i]);
-        lua_rawseti(call.state(), -2, static_cast<lua_Integer>(i + 1));
-    }
-    lua_setfield(call.state(), -2, name);
-}
 
 // ---- Monte Carlo study
 
@@ -61,8 +37,7 @@ int push_result(const Call& call, const MonteCarloResult& result) {
     set_whole(L, "estimated", result.estimated);
     set_whole(L, "failed", result.failed);
     set_whole(L, "not_converged", result.not_converged);
-    call.give(result.first_failure);
-    lua_setfield(L, -2, "first_failure");
+    set_text(call, "first_failure", result.first_failure);
     return 1;
 }
 
@@ -132,8 +107,7 @@ void push_candidate(const Call& call, const OrderCandidate& candidate) {
     set_whole(L, "zeros", candidate.zeros);
     set_number(L, "delay", candidate.delay);
     if (!candidate.failure.empty()) {
-        call.give(candidate.failure);
-        lua_setfield(L, -2, "failure");
+        set_text(call, "failure", candidate.failure);
         return;
     }
     for (const auto& [name, value] :
@@ -144,10 +118,8 @@ void push_candidate(const Call& call, const OrderCandidate& candidate) {
     if (candidate.validation_fit) set_number(L, "validation_fit", *candidate.validation_fit);
     set_whole(L, "iterations", candidate.iterations);
     set_texts(call, "undetermined", candidate.undetermined);
-    lua_pushboolean(L, candidate.cancellation);
-    lua_setfield(L, -2, "cancellation");
-    lua_pushboolean(L, candidate.converged);
-    lua_setfield(L, -2, "converged");
+    set_flag(L, "cancellation", candidate.cancellation);
+    set_flag(L, "converged", candidate.converged);
     give_transfer_estimate(call, "srivc", candidate.estimate);
     lua_setfield(L, -2, "model");
 }

@@ -9,6 +9,7 @@
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/model.h"
 #include "scripting/simulation_options.h"
+#include "scripting/table_fields.h"
 
 namespace dynlab {
 namespace {
@@ -77,11 +78,6 @@ int fit(Call& call) {
     const Comparison comparison = compare_all(data, channels_argument(call, 2, "G"),
                                               compare_options(Options(call, 3, {"InitialState", "Offset"})));
     return call.give(comparison.fit_percent[0]);
-}
-
-void set_number(lua_State* L, const char* name, double value) {
-    lua_pushnumber(L, value);
-    lua_setfield(L, -2, name);
 }
 
 struct MeasuredAndSimulated {

@@ -148,6 +148,18 @@ TEST(sandbox, obeys_control_c) {
     EXPECT_LT(seconds_after_interrupt("local v = zeros(1000)\nwhile true do v = v + 1 end"), kEnds);
 }
 
+TEST(sandbox, studies_obey_control_c) {
+    const std::string study = "local G, u = tf({2}, {1, 4, 3}), prbs(10, 7)\nlocal x = lsim(G, u, 0.01)\n",
+                      sizes = "montecarlo{system = G, input = u, Ts = 0.01, sigma = 0.2, runs = 1000000, ";
+    EXPECT_LT(seconds_after_interrupt(study + sizes + "estimators = {coe = {{1, 2, 0}}}}"), kEnds);
+    EXPECT_LT(seconds_after_interrupt(study + "pcall(function() " + sizes +
+                                      "estimators = {own = function(d) return lssvf(d, {2, 1, 0}, 3) end}} end)\n"
+                                      "while true do end"),
+              kEnds);
+    EXPECT_LT(seconds_after_interrupt(study + "while true do srivcstruc(iddata(x + randn(#x), u, 0.01)) end"), kEnds);
+    EXPECT_LT(seconds_after_interrupt(study + "while true do delayest(iddata(x + randn(#x), u, 0.01)) end"), kEnds);
+}
+
 TEST(sandbox, works_on_after_an_interrupt) {
     GnuplotRenderer renderer;
     Runtime runtime({}, renderer);

@@ -101,3 +101,17 @@ TEST(script_studies, order_search_recommends_the_true_orders) {
     EXPECT_THAT(error_of(record + "srivcstruc(data, {poles = {2, 1}})"), HasSubstr("poles must be a range"));
     EXPECT_THAT(error_of(record + "srivcstruc(data, {pole = 2})"), HasSubstr("did you mean 'poles'"));
 }
+
+TEST(script_studies, delays_are_real_numbers) {  // oracle: the simulated system
+    const std::string record =
+        "local u = prbs(8, 5)\nlocal x = lsim(tf({-4, 0.5}, {1, 1, 4}, {IODelay = 8}), u, 0.1)\n"
+        "local data = iddata(x + 10^(-15/20)*std(x)*randn(#u), u, 0.1)\n";
+    EXPECT_THAT(printed(record + "local Td, fig, D = delayest(data, {poles = 2, zeros = 1})\n"
+                                 "print(math.abs(Td - 8) < 4*D.std, D.delay == Td, math.abs(D.samples - 10*Td) < 1e-9, "
+                                 "D.poles, D.zeros, D.model.IODelay == Td, #D.delays == #D.losses, D.rival)"),
+                AllOf(HasSubstr("The delay is "), HasSubstr("true\ttrue\ttrue\t2\t1\ttrue\ttrue\tnil\n")));
+    EXPECT_THAT(error_of(record + "delayest(data, {TdMin = 3, TdMax = 3})"), HasSubstr("TdMax must be above TdMin"));
+    EXPECT_THAT(error_of(record + "delayest(data, {TdMax = 1000})"), HasSubstr("TdMax"));
+    EXPECT_THAT(error_of(record + "delayest(data, {pole = 2})"), HasSubstr("did you mean 'poles'"));
+    EXPECT_THAT(error_of(record + "delayest(x)"), HasSubstr("data"));
+}

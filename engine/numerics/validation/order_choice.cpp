@@ -16,12 +16,6 @@ std::string counted(int number, const char* noun) {
     return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
 }
 
-std::string structure_text(const OrderCandidate& candidate) {
-    const std::string zeros = candidate.zeros == 0 ? "no zero" : counted(candidate.zeros, "zero");
-    const std::string delay = candidate.delay > 0 ? " and a delay of " + number_text(candidate.delay) + " s" : "";
-    return counted(candidate.poles, "pole") + (delay.empty() ? " and " : ", ") + zeros + delay;
-}
-
 /// Smaller is better.
 double badness(const OrderCandidate& candidate, OrderCriterion criterion) {
     switch (criterion) {
@@ -161,6 +155,12 @@ OrderChoice recommend(const OrderSelection& selection, const Places& estimated) 
 }
 
 }  // namespace
+
+std::string structure_text(const OrderCandidate& candidate) {
+    const std::string zeros = candidate.zeros == 0 ? "no zero" : counted(candidate.zeros, "zero");
+    const std::string delay = candidate.delay > 0 ? " and a delay of " + number_text(candidate.delay) + " s" : "";
+    return counted(candidate.poles, "pole") + (delay.empty() ? " and " : ", ") + zeros + delay;
+}
 
 OrderChoice choose_order(const OrderSelection& selection, OrderCriterion criterion) {
     if (criterion == OrderCriterion::kValidationFit && !selection.validated)

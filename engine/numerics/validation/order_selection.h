@@ -58,6 +58,9 @@ std::vector<TransferStructure> order_grid(std::pair<int, int> poles, std::pair<i
 OrderSelection select_order(const IdData& data, const std::vector<TransferStructure>& candidates,
                             const OrderSelectionOptions& options = {});
 
+/// "2 poles, 1 zero and a delay of 0.5 s"
+std::string structure_text(const OrderCandidate& candidate);
+
 struct OrderChoice {
     std::size_t place = 0;    ///< among the candidates
     std::string explanation;  ///< plain sentences

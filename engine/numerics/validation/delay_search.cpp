@@ -1,0 +1,90 @@
+#include "numerics/validation/delay_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "numerics/error.h"
+#include "numerics/estimators/srivc.h"
+#include "numerics/number_text.h"
+
+namespace dynlab {
+namespace {
+
+constexpr double kChance = 6.635;  // 99 % quantile of chi-square with one degree of freedom
+constexpr double kFarSteps = 2, kFarErrors = 3;
+
+void check_options(const DelaySearchOptions& options) {
+    const TransferOptions& estimation = options.estimation;
+    if (estimation.TdMax && !(*estimation.TdMax > estimation.TdMin))
+        throw InvalidArgument("TdMax must be above TdMin (" + number_text(estimation.TdMin) + " s), but " +
+                              number_text(*estimation.TdMax) + " was given: there is no delay to look for");
+}
+
+bool is_valley(const Vector& losses, Index i) {
+    const bool left = i == 0 || losses[i] <= losses[i - 1];
+    return left && (i + 1 == losses.size() || losses[i] < losses[i + 1]);
+}
+
+/// The lowest valley of the curve away from the estimate that chance could have made the second one.
+std::optional<double> rival_of(const DelaySearch& search, Index samples) {
+    const Vector &delays = search.grid(), &losses = search.losses();
+    if (delays.size() < 2) return std::nullopt;
+    const double step = delays[1] - delays[0], smallest = losses.minCoeff();
+    const double far = std::max(kFarSteps * step, kFarErrors * search.std);
+    const double limit = smallest * std::exp(kChance / static_cast<double>(samples));
+    std::optional<Index> rival;
+    for (Index i = 0; i < losses.size(); ++i) {
+        if (!is_valley(losses, i) || losses[i] > limit || std::abs(delays[i] - search.delay) <= far) continue;
+        if (!rival || losses[i] < losses[*rival]) rival = i;
+    }
+    if (!rival) return std::nullopt;
+    return delays[*rival];
+}
+
+/// The structure in words, without its delay.
+std::string orders_of(const OrderCandidate& candidate) {
+    OrderCandidate bare;
+    bare.poles = candidate.poles;
+    bare.zeros = candidate.zeros;
+    return structure_text(bare);
+}
+
+std::string explanation_of(const DelaySearch& search, const IdData& data) {
+    std::string text = "The delay is " + number_text(search.delay) + " s";
+    if (data.regular()) text += " (" + number_text(search.delay / data.Ts, 4) + " samples)";
+    if (std::isfinite(search.std)) text += ", standard error " + number_text(search.std, 2) + " s";
+    text += ", in a model with " + orders_of(search.candidate) + " that fits " +
+            number_text(search.candidate.fit_percent, 4) + " %.";
+    if (search.delay <= 2 * search.std) text += " The data do not tell it from no delay at all.";
+    if (search.rival)
+        text += " A delay of " + number_text(*search.rival) +
+                " s explains them nearly as well: look at the curve, and decide by what you know of the plant.";
+    for (const std::string& warning : search.candidate.estimate.warnings) text += " " + warning;
+    return text;
+}
+
+}  // namespace
+
+DelaySearch search_delay(const IdData& data, const DelaySearchOptions& options) {
+    check_options(options);
+    OrderSelectionOptions selecting;
+    selecting.threads = options.threads;
+    selecting.progress = options.progress;
+    selecting.cancel = options.cancel;
+    selecting.fit = [&](const IdData& record, const TransferStructure& structure) {
+        return srivc(record, structure, options.estimation);
+    };
+    const OrderSelection selection =
+        select_order(data, order_grid(options.poles, options.zeros, {options.estimation.TdMin}, true), selecting);
+    DelaySearch search;
+    search.cancelled = selection.cancelled;
+    if (search.cancelled) return search;
+    search.candidate = selection.candidates[choose_order(selection).place];
+    search.delay = search.candidate.delay;
+    search.std = search.candidate.estimate.std[search.candidate.estimate.std.size() - 1];
+    search.rival = rival_of(search, data.sample_count());
+    search.explanation = explanation_of(search, data);
+    return search;
+}
+
+}  // namespace dynlab

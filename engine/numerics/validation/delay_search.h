@@ -1,0 +1,39 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "numerics/validation/order_selection.h"
+
+namespace dynlab {
+
+struct DelaySearchOptions {
+    std::pair<int, int> poles{1, 3}, zeros{0, 1};         ///< structures among which the recommended one is taken
+    TransferOptions estimation = {};                      ///< TdMin, TdMax, NumTd and all else for every structure
+    int threads = 0;                                      ///< all cores when 0; never more than there are
+    std::function<void(std::size_t done)> progress = {};  ///< structures done; called by one thread at a time
+    std::function<bool()> cancel = {};                    ///< asked before every structure, by one thread at a time
+};
+
+/// A delay, and how well the data tell it.
+struct DelaySearch {
+    double delay = 0, std = 0;    ///< s, a real number and its standard error
+    OrderCandidate candidate;     ///< the structure that was taken, with its model
+    std::optional<double> rival;  ///< s, another delay on the grid whose loss chance does not tell from the smallest
+    std::string explanation;      ///< plain sentences
+    bool cancelled = false;       ///< nothing else holds then
+
+    const Vector& grid() const { return candidate.estimate.delay_grid; }    ///< s, delays that were tried
+    const Vector& losses() const { return candidate.estimate.delay_loss; }  ///< smallest mean square error at each
+    double loss() const { return candidate.estimate.loss; }                 ///< at the delay itself
+};
+
+/// The delay between one input and one output, any number of experiments. A model of too low an order has a longer
+/// delay, so every structure of the ranges is estimated by srivc with its delay free (kernels/transfer_search.h: a grid
+/// between TdMin and TdMax, then a joint refinement), and the structure recommended by choose_order counts. A second
+/// valley of the loss is a rival when N ln(V/V_min) stays below the 99 % quantile of chi-square with one degree of
+/// freedom, and it is farther away than two grid steps and three standard errors. Throws InvalidArgument for other
+/// data, empty ranges, TdMax not above TdMin, and when no structure could be estimated.
+DelaySearch search_delay(const IdData& data, const DelaySearchOptions& options = {});
+
+}  // namespace dynlab

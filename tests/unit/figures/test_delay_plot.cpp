@@ -1,0 +1,51 @@
+#include "figures/delay_plot.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "numerics/error.h"
+
+using namespace dynlab;
+using testing::HasSubstr;
+
+namespace {
+
+DelaySearch search() {
+    DelaySearch one;
+    one.delay = 0.23;
+    one.std = 0.011;
+    one.candidate.estimate.loss = 0.4;
+    one.candidate.estimate.delay_grid = Vector{{0, 0.1, 0.2, 0.3, 0.4}};
+    one.candidate.estimate.delay_loss = Vector{{0.6, 1, 0.5, 0.7, std::numeric_limits<double>::infinity()}};
+    return one;
+}
+
+}  // namespace
+
+TEST(delay_plot, shows_the_curve_and_the_estimate) {  // oracle: the search itself
+    const Figure figure = delay_plot(search());
+    figure.validate();
+    const Panel& panel = figure.panels.front();
+    ASSERT_EQ(panel.curves.size(), 2u);
+    EXPECT_EQ(panel.curves[0].x, (Vector{{0, 0.1, 0.2, 0.3}}));  // without the delay that has no model
+    EXPECT_EQ(panel.curves[1].x[0], 0.23);
+    EXPECT_EQ(panel.curves[1].y[0], 0.4);
+    EXPECT_THAT(panel.curves[1].label, HasSubstr("0.23 ± 0.011 s"));
+    EXPECT_LT(panel.y_range->first, 0.4);
+}
+
+TEST(delay_plot, marks_a_rival_on_the_curve) {
+    DelaySearch with_rival = search();
+    with_rival.rival = 0;
+    const Panel panel = delay_plot(with_rival).panels.front();
+    ASSERT_EQ(panel.curves.size(), 3u);
+    EXPECT_EQ(panel.curves[2].y[0], 0.6);
+}
+
+TEST(delay_plot, refuses_a_search_that_was_stopped) {
+    DelaySearch stopped;
+    stopped.cancelled = true;
+    EXPECT_THROW(delay_plot(stopped), InvalidArgument);
+}
