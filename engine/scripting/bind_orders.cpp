@@ -3,7 +3,6 @@
 
 #include "figures/delay_plot.h"
 #include "figures/order_plot.h"
-#include "numerics/estimators/srivc.h"
 #include "numerics/validation/delay_search.h"
 #include "platform/progress.h"
 #include "scripting/estimation.h"
@@ -121,9 +120,7 @@ int try_structures(Call& call) {
     }
     wanted.threads = static_cast<int>(options.size("threads", 0));
     wanted.cancel = call.cancel();
-    wanted.fit = [estimation = estimation_options(options)](const IdData& record, const TransferStructure& structure) {
-        return srivc(record, structure, estimation);
-    };
+    wanted.estimation = estimation_options(options);
     ProgressBar bar("order search", structures.size());
     wanted.progress = [&bar](std::size_t done) { bar.advance(done); };
     OrderTable table{select_order(data, structures, wanted), {}};
@@ -154,7 +151,8 @@ int select_structure(Call& call) {
     const OrderCriterion criterion = criterion_of(call);
     const OrderChoice choice = choose_order(table.selection, criterion);
     call.print(order_table_text(table.selection, choice));
-    give_transfer_estimate(call, "srivc", table.selection.candidates[choice.place].estimate);
+    const OrderCandidate& candidate = table.selection.candidates[choice.place];
+    give_transfer_estimate(call, candidate.method.c_str(), candidate.estimate);
     give_figure(call, order_plot(table.selection, criterion, choice));
     return 2;
 }
@@ -172,7 +170,7 @@ void push_search(const Call& call, const IdData& data, const DelaySearch& search
     set_whole(L, "poles", search.candidate.poles);
     set_whole(L, "zeros", search.candidate.zeros);
     set_text(call, "message", search.explanation);
-    give_transfer_estimate(call, "srivc", search.candidate.estimate);
+    give_transfer_estimate(call, search.candidate.method.c_str(), search.candidate.estimate);
     lua_setfield(L, -2, "model");
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "numerics/error.h"
-#include "numerics/estimators/srivc.h"
 #include "numerics/number_text.h"
 
 namespace dynlab {
@@ -71,9 +70,7 @@ DelaySearch search_delay(const IdData& data, const DelaySearchOptions& options) 
     selecting.threads = options.threads;
     selecting.progress = options.progress;
     selecting.cancel = options.cancel;
-    selecting.fit = [&](const IdData& record, const TransferStructure& structure) {
-        return srivc(record, structure, options.estimation);
-    };
+    selecting.estimation = options.estimation;
     const OrderSelection selection =
         select_order(data, order_grid(options.poles, options.zeros, {options.estimation.TdMin}, true), selecting);
     DelaySearch search;

@@ -16,6 +16,7 @@ struct OrderCandidate {
     int poles = 1, zeros = 0;
     double delay = 0;     ///< s, fixed or estimated
     std::string failure;  ///< why there is no estimate; empty when there is one, and nothing below holds otherwise
+    std::string method = "srivc";  ///< or "coe"
     TransferEstimate estimate;
     double r_squared = 0, yic = 0, aic = 0, bic = 0, fpe = 0;
     double log_condition = 0;  ///< log10 of the column-scaled equations' condition number
@@ -40,9 +41,9 @@ struct OrderSelection {
 };
 
 struct OrderSelectionOptions {
-    const IdData* validation = nullptr;  ///< another record of the same channels
-    int threads = 0;                     ///< all cores when 0; never more than there are
-    std::function<TransferEstimate(const IdData&, const TransferStructure&)> fit = {};  ///< srivc unless given
+    const IdData* validation = nullptr;                   ///< another record of the same channels
+    int threads = 0;                                      ///< all cores when 0; never more than there are
+    TransferOptions estimation = {};                      ///< the same for every structure
     std::function<void(std::size_t done)> progress = {};  ///< called by one thread at a time
     std::function<bool()> cancel = {};                    ///< asked before every candidate, by one thread at a time
 };
@@ -52,9 +53,10 @@ struct OrderSelectionOptions {
 std::vector<TransferStructure> order_grid(std::pair<int, int> poles, std::pair<int, int> zeros,
                                           const std::vector<double>& delays, bool free_delay = false);
 
-/// Estimates every structure on `data` (one input, one output, any number of experiments), several at once. Equal
-/// numbers for any number of threads. Throws InvalidArgument for other data, no candidates, and when none of them could
-/// be estimated.
+/// Estimates every structure on `data` (one input, one output, any number of experiments) by srivc, several at once;
+/// where its passes do not settle also by coe, whose optimum is the same, and the smaller loss counts. Equal numbers
+/// for any number of threads. Throws InvalidArgument for other data, no candidates, and when none of them could be
+/// estimated.
 OrderSelection select_order(const IdData& data, const std::vector<TransferStructure>& candidates,
                             const OrderSelectionOptions& options = {});
 
