@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <set>
 
 #include "data_io/dataset_index.h"
 #include "figures/id_plot.h"
@@ -98,6 +99,16 @@ void set_texts(const Options& options, const char* name, std::vector<std::string
             fmt::format("option '{}' has {} texts, but there are {} channels", name, texts.size(), channels));
 }
 
+/// Figures, tables and choices of channels speak of them by name.
+void check_names(const IdData& data) {
+    std::set<std::string> seen;
+    for (const auto* names : {&data.input_names, &data.output_names})
+        for (const std::string& name : *names)
+            if (!seen.insert(name).second)
+                throw InvalidArgument(fmt::format(
+                    "the name '{}' stands for two channels: give each its own InputName or OutputName", name));
+}
+
 int make_iddata(Call& call) {
     call.at_most(4);
     const Options options(call, 4,
@@ -111,6 +122,7 @@ int make_iddata(Call& call) {
     set_texts(options, "OutputName", data.output_names, y.cols());
     set_texts(options, "InputUnit", data.input_units, u.cols());
     set_texts(options, "OutputUnit", data.output_units, y.cols());
+    check_names(data);
     data.time_unit = options.text("TimeUnit", data.time_unit);
     data.experiments.front().start_time = options.number("Tstart", data.experiments.front().start_time);
     return give_data(call, std::move(data));

@@ -28,6 +28,7 @@ struct Problem {
     double unit = 1;                    // s, the time unit: the sampling time, or the mean step
     double least_delay, largest_delay;  // units
     double longest = 0;                 // s, of the longest record
+    bool flat = true;                   // no input ever changes
 };
 
 double duration(const IdData& data, std::size_t experiment) {
@@ -45,19 +46,21 @@ double time_unit(const IdData& data) {
 
 void check_data(const IdData& data) {
     if (data.experiments.empty() || data.input_count() != 1 || data.output_count() != 1)
-        throw InvalidArgument("procsrivc needs data with one input and one output, and these hold " +
+        throw InvalidArgument("procsrivc: the data must have one input and one output, and have " +
                               std::to_string(data.input_count()) + " input(s) and " +
                               std::to_string(data.output_count()) + " output(s): select one of each");
     const auto all = [&](auto&& flat) { return std::all_of(data.experiments.begin(), data.experiments.end(), flat); };
     if (all([](const Experiment& experiment) { return experiment.u.isZero(0); }))
-        throw InvalidArgument("procsrivc: the input is zero throughout, so nothing can be learnt");
+        throw InvalidArgument(
+            "procsrivc: the input is zero throughout, so it excites nothing and nothing can be learnt");
     if (all([](const Experiment& experiment) { return (experiment.y.array() == experiment.y(0, 0)).all(); }))
         throw InvalidArgument("procsrivc: the output never changes, so nothing can be learnt");
 }
 
 Problem problem_of(const IdData& data, const ProcsrivcOptions& options) {
     check_data(data);
-    Problem problem{data, std::vector<OperatingPoint>(data.experiments.size()), {}, {}, 0, time_unit(data), 0, 0, 0};
+    Problem problem{data, std::vector<OperatingPoint>(data.experiments.size()), {}, {}, 0, time_unit(data), 0, 0, 0,
+                    true};
     if (options.offset == Offset::kRemove) {
         CentredData centred = without_operating_points(data);
         problem.data = std::move(centred.data);
@@ -70,6 +73,7 @@ Problem problem_of(const IdData& data, const ProcsrivcOptions& options) {
         const Experiment& experiment = problem.data.experiments[e];
         ProcessInput input{experiment.u.col(0), data.hold, {}};
         if (!data.regular()) input.t = (experiment.t.array() - experiment.t[0]) / problem.unit;
+        problem.flat = problem.flat && (input.u.array() == input.u[0]).all();
         problem.inputs.push_back(std::move(input));
         problem.y.segment(row, experiment.y.rows()) = experiment.y;
         row += experiment.y.rows();
@@ -135,9 +139,9 @@ Fit best_fit(const Problem& problem, const ProcessStructure& structure, const Pr
     const auto conditions = conditions_for(problem, structure, options);
     const Index N = problem.y.size(), fewest = kSamplesPerParameter * value_count(problem, structure, conditions[0]);
     if (N < fewest)
-        throw InvalidArgument("procsrivc needs at least " + std::to_string(fewest) + " samples for the " +
-                              std::to_string(fewest / kSamplesPerParameter) +
-                              " values it estimates, and the data hold " + std::to_string(N));
+        throw InvalidArgument("procsrivc: at least " + std::to_string(fewest) + " samples are needed for " +
+                              std::to_string(fewest / kSamplesPerParameter) + " values, and the data hold " +
+                              std::to_string(N));
     Fit best = fit_condition(problem, structure, conditions.front(), options);
     for (std::size_t i = 1; i < conditions.size(); ++i) {
         if (best.solution.termination == Termination::kCancelled) break;
@@ -145,6 +149,11 @@ Fit best_fit(const Problem& problem, const ProcessStructure& structure, const Pr
         Fit fit = fit_condition(problem, structure, conditions[i], options);
         if (fit.bic < best.bic) best = std::move(fit);
     }
+    if (problem.flat && best.solution.termination != Termination::kCancelled)
+        require_transient("procsrivc",
+                          {best.solution.loss, problem.spread / static_cast<double>(N),
+                           problem.y.squaredNorm() / static_cast<double>(N), N,
+                           value_count(problem, structure, best.condition), static_cast<Index>(problem.inputs.size())});
     return best;
 }
 

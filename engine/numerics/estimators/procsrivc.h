@@ -62,8 +62,9 @@ struct ProcsrivcResult {
 /// With a step at sample one the input is zero before it. A process with an integrator rests at zero input only, and
 /// its initial state, which is that of y itself, takes in any offset. Non-convergence and doubtful results are told in
 /// `warnings`, never thrown. Throws InvalidArgument for a start condition that makes no sense, data of another shape,
-/// an input that is zero, or fewer than 3 samples per parameter. References: Young, Garnier and Gilson, in Garnier and
-/// Wang (2008), chapter 4; Ljung (1999), sections 10.2, 9.4.
+/// an input that is zero, a constant one without a transient in the output, or fewer than 3 samples per estimated
+/// value. References: Young, Garnier and Gilson, in Garnier and Wang (2008), chapter 4; Ljung (1999),
+/// sections 10.2, 9.4.
 ProcsrivcResult procsrivc(const IdData& data, const ProcessStructure& structure, const ProcsrivcOptions& options = {});
 
 }  // namespace dynlab

@@ -69,6 +69,7 @@ TransferEstimate srivc(const IdData& data, const TransferStructure& structure, c
     estimate.termination = solution.termination;
     estimate.trace = std::move(solution.trace);
     measure_fit(estimate, data);
+    check_transient("srivc", data, estimate);
     set_covariance(estimate, data, options);
     report_errors(estimate);
     const std::string passes =

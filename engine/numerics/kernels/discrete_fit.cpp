@@ -82,6 +82,15 @@ Fit fit_condition(const Record& record, const DiscreteOutput& model, const Discr
     return fit;
 }
 
+StepFit step_fit(const Record& record, const Fit& fit) {
+    const double N = static_cast<double>(record.samples);
+    double spread = 0;
+    for (const SampledExperiment& experiment : record.experiments)
+        spread += (experiment.y.array() - experiment.y.mean()).square().sum();
+    return {fit.squared_errors / N, spread / N, record.power,
+            record.samples,         fit.values, static_cast<Index>(record.experiments.size())};
+}
+
 void require_samples(const std::string& method, const Record& record, Index values) {
     if (record.samples > values) return;
     throw InvalidArgument(method + " needs more samples than the " + std::to_string(values) +
@@ -155,6 +164,9 @@ PolynomialEstimate fit_discrete_output(const std::string& method, const IdData& 
     check_polynomial_data(method, data, orders);
     const Record record = prepared_record(data, options.offset);
     const Fit fit = best_fit(method, record, orders, options, search);
+    const Vector summary = summary_of_inputs(record);
+    if (summary[0] == summary[1] && fit.solution.termination != Termination::kCancelled)
+        require_transient(method, step_fit(record, fit));
     const DiscreteOutput model(orders, fit.condition, record.experiments);
 
     const Vector& theta = fit.solution.theta;

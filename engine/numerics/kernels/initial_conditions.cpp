@@ -100,4 +100,12 @@ double bic_of_loss(double mean_square, double output_power, Index samples, Index
     return std::log(std::max(mean_square, least)) + static_cast<double>(parameters) * std::log(N) / N;
 }
 
+void require_transient(const std::string& caller, const StepFit& fit) {
+    const double constant = bic_of_loss(fit.spread, fit.output_power, fit.samples, fit.experiments);
+    if (bic_of_loss(fit.loss, fit.output_power, fit.samples, fit.parameters) < constant) return;
+    throw InvalidArgument(caller +
+                          ": the input never changes and the output shows no transient, so there is no excitation to "
+                          "learn from: let the input vary, for instance as a prbs");
+}
+
 }  // namespace dynlab

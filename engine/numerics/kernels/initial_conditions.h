@@ -60,4 +60,15 @@ std::string description(const StartCondition& condition);
 /// square `output_power`.
 double bic_of_loss(double mean_square, double output_power, Index samples, Index parameters);
 
+/// A fit to data whose inputs never change: they teach only through the transient after a step at the first sample.
+struct StepFit {
+    double loss;          ///< mean square of its errors
+    double spread;        ///< mean square of the outputs about each experiment's mean
+    double output_power;  ///< mean square of the outputs
+    Index samples, parameters, experiments;
+};
+/// Throws InvalidArgument that begins with `caller` and names the poor excitation when the fit explains the outputs no
+/// better, by BIC, than one constant per experiment does.
+void require_transient(const std::string& caller, const StepFit& fit);
+
 }  // namespace dynlab

@@ -60,6 +60,12 @@ void check_polynomial_data(const std::string& caller, const IdData& data, const 
         if (input_is_zero(data, input))
             throw InvalidArgument(caller + ": the input " + data.input_names[static_cast<std::size_t>(input)] +
                                   " is zero throughout, so nothing can be learnt about its effect");
+    const int longest_delay = *std::max_element(orders.nk.begin(), orders.nk.end());
+    for (std::size_t e = 0; e < data.experiments.size(); ++e)
+        if (longest_delay >= data.sample_count(e))
+            throw InvalidArgument(caller + ": the delay nk = " + std::to_string(longest_delay) +
+                                  " samples is not shorter than the record of " + std::to_string(data.sample_count(e)) +
+                                  " samples");
     if (std::all_of(data.experiments.begin(), data.experiments.end(), output_is_constant))
         throw InvalidArgument(caller + ": the output never changes, so nothing can be learnt");
 }

@@ -63,7 +63,8 @@ void warn_of_doubtful_parameters(PolynomialEstimate& estimate);
 double fit_percent_of_sums(double squared_errors, double squared_variations);
 
 /// Throws InvalidArgument that begins with `caller` unless the data are regularly sampled, with one output that
-/// changes and as many inputs as the orders have, none of which is zero throughout.
+/// changes and as many inputs as the orders have, none of which is zero throughout, and delays shorter than each
+/// record.
 void check_polynomial_data(const std::string& caller, const IdData& data, const PolynomialOrders& orders);
 
 }  // namespace dynlab

@@ -65,7 +65,21 @@ void warn_of_undetermined(TransferEstimate& estimate) {
                                     ": the standard error is larger than the value.");
 }
 
+void warn_of_instability(TransferEstimate& estimate) {
+    for (std::size_t i = 0; i < estimate.models.size(); ++i) {
+        const ComplexVector poles = estimate.models[i].poles();
+        if ((poles.real().array() > 1e-9 * poles.cwiseAbs().maxCoeff()).any())
+            estimate.warnings.push_back("The model" + channel_text(estimate, i) + " is unstable.");
+    }
+}
+
 }  // namespace
+
+std::string channel_text(const TransferEstimate& estimate, std::size_t channel) {
+    if (estimate.models.size() == 1) return "";
+    const std::size_t inputs = static_cast<std::size_t>(estimate.structure.inputs);
+    return " from input " + std::to_string(channel % inputs + 1) + " to output " + std::to_string(channel / inputs + 1);
+}
 
 void check_transfer_data(const char* method, const IdData& data, const TransferStructure& structure) {
     const std::string caller = std::string(method) + ": ";
@@ -95,6 +109,25 @@ void check_transfer_data(const char* method, const IdData& data, const TransferS
                         [&](const Experiment& e) { return constant(e.y.col(output)); }))
             throw InvalidArgument(caller + numbered("output", output, data.output_count()) +
                                   " never changes, so nothing can be learnt");
+}
+
+void check_transient(const char* method, const IdData& data, const TransferEstimate& estimate) {
+    if (estimate.termination == Termination::kCancelled) return;
+    const Index outputs = data.output_count(), N = data.sample_count() * outputs;
+    StepFit fit{estimate.loss, 0, 0, N, estimate.theta.size(), 0};
+    for (const Experiment& experiment : data.experiments) {
+        for (Index input = 0; input < data.input_count(); ++input)
+            if (!constant(experiment.u.col(input))) return;
+        for (Index output = 0; output < outputs; ++output) {
+            const auto y = experiment.y.col(output).array();
+            fit.spread += (y - y.mean()).square().sum() / static_cast<double>(N);
+            fit.output_power += y.square().sum() / static_cast<double>(N);
+        }
+        fit.experiments += outputs;
+        if (estimate.start.offset) fit.parameters += outputs;
+    }
+    for (const Vector& values : estimate.initial_values) fit.parameters += values.size();
+    require_transient(method, fit);
 }
 
 double simulation_squares(const IdData& data, const TransferStructure& structure, const VectorView& theta,
@@ -145,6 +178,7 @@ void report_errors(TransferEstimate& estimate) {
     if (!(estimate.condition_number < kBadCondition))
         estimate.warnings.push_back(
             "The equations are badly conditioned: the input excites the system poorly for this many parameters.");
+    warn_of_instability(estimate);
 }
 
 void set_message(TransferEstimate& estimate, const std::string& first) {

@@ -15,26 +15,12 @@ void warn_of_search(TransferEstimate& estimate, const TransferOptions& options) 
         estimate.warnings.push_back("The search was stopped before its end; the best point so far is given.");
 }
 
-std::string of_channel(const TransferEstimate& estimate, std::size_t channel) {
-    if (estimate.models.size() == 1) return "";
-    const std::size_t inputs = static_cast<std::size_t>(estimate.structure.inputs);
-    return " from input " + std::to_string(channel % inputs + 1) + " to output " + std::to_string(channel / inputs + 1);
-}
-
-void warn_of_instability(TransferEstimate& estimate) {
-    for (std::size_t i = 0; i < estimate.models.size(); ++i) {
-        const ComplexVector poles = estimate.models[i].poles();
-        if ((poles.real().array() > 1e-9 * poles.cwiseAbs().maxCoeff()).any())
-            estimate.warnings.push_back("The model" + of_channel(estimate, i) + " is unstable.");
-    }
-}
-
 void warn_of_delays(TransferEstimate& estimate, const DelayRange& range) {
     if (!estimate.structure.free_delays || !(range.largest > range.least)) return;
     const double edge = 1e-9 * range.largest;
     for (std::size_t i = 0; i < estimate.models.size(); ++i) {
         const double delay = estimate.models[i].delay();
-        const std::string subject = "The delay" + of_channel(estimate, i) + " lies at ";
+        const std::string subject = "The delay" + channel_text(estimate, i) + " lies at ";
         if (delay >= range.largest - edge)
             estimate.warnings.push_back(subject + "TdMax = " + number_text(range.largest) +
                                         " s, the edge of what was searched: raise TdMax.");
@@ -42,7 +28,7 @@ void warn_of_delays(TransferEstimate& estimate, const DelayRange& range) {
             estimate.warnings.push_back(subject + "TdMin = " + number_text(range.least) +
                                         " s, the edge of what was searched: lower TdMin.");
         else if (delay <= edge)
-            estimate.warnings.push_back("No delay" + of_channel(estimate, i) +
+            estimate.warnings.push_back("No delay" + channel_text(estimate, i) +
                                         " is visible: a model without one suits.");
     }
 }
@@ -53,7 +39,6 @@ void describe_refinement(TransferEstimate& estimate, const std::string& method, 
                          const DelayRange& range) {
     warn_of_search(estimate, options);
     report_errors(estimate);
-    warn_of_instability(estimate);
     warn_of_delays(estimate, range);
     const bool settled =
         estimate.termination == Termination::kConverged || estimate.termination == Termination::kNoProgress;

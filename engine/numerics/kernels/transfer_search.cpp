@@ -222,6 +222,7 @@ TransferEstimate search_transfer(const char* method, const IdData& data, const T
         }
         if (best.termination == Termination::kCancelled) break;
     }
+    check_transient(method, record, best);
     if (options.offset == Offset::kRemove) add_removed_levels(best, centred);
     best.delay_grid = scan.delays;
     best.delay_loss = scan.losses;

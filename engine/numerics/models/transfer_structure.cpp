@@ -136,8 +136,11 @@ std::vector<TransferFunction> TransferStructure::models(const VectorView& theta)
 }
 
 void TransferStructure::validate() const {
-    if (outputs < 1 || inputs < 1 || channels.size() != static_cast<std::size_t>(outputs * inputs))
-        throw InvalidArgument("A model needs at least one input and one output and one channel for each pair of them");
+    if (inputs < 1)
+        throw InvalidArgument("A model leads from inputs to outputs, and the data have no input: give one to iddata");
+    if (outputs < 1 || channels.size() != static_cast<std::size_t>(outputs * inputs))
+        throw InvalidArgument(
+            "A model needs at least one output and one channel for each pair of an input and an output");
     for (const int n : poles)
         if (n < 1 || n > kMostPoles)
             throw InvalidArgument("The number of poles must lie between 1 and " + std::to_string(kMostPoles) +

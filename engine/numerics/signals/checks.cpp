@@ -21,11 +21,23 @@ namespace {
     throw InvalidArgument(caller + ": " + name + " holds samples too large to work with");
 }
 
+constexpr double kLargest = 1e100, kSmallest = 1e-100;  // whose squares can still be summed
+
 }  // namespace
 
 void check_samples(const std::string& caller, const std::string& name, const MatrixView& samples) {
     if (samples.rows() == 0) throw InvalidArgument(caller + ": " + name + " has no samples");
     if (!std::isfinite(samples.sum())) report_sample(caller, name, samples);
+}
+
+void check_magnitudes(const std::string& caller, const std::string& name, const MatrixView& samples) {
+    for (Index column = 0; column < samples.cols(); ++column) {
+        const double largest = samples.col(column).cwiseAbs().maxCoeff();
+        if (largest == 0 || (largest > kSmallest && largest < kLargest)) continue;
+        throw InvalidArgument(caller + ": the largest sample of " + name + " is " + number_text(largest) +
+                              ", which is too " + (largest < 1 ? "small" : "large") +
+                              " to compute with squares: use another unit");
+    }
 }
 
 void check_sampling_time(const std::string& caller, double Ts) {

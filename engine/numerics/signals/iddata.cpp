@@ -18,7 +18,10 @@ void check_channels(const Matrix& y, const Matrix& u) {
         throw InvalidArgument("iddata: the output has " + std::to_string(y.rows()) + " samples but the input has " +
                               std::to_string(u.rows()));
     check_samples("iddata", "the output", y);
-    if (u.cols() > 0) check_samples("iddata", "the input", u);
+    check_magnitudes("iddata", "the output", y);
+    if (u.cols() == 0) return;
+    check_samples("iddata", "the input", u);
+    check_magnitudes("iddata", "the input", u);
 }
 
 std::vector<std::string> numbered_names(const std::string& stem, Index count) {

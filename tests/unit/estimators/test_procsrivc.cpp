@@ -388,7 +388,7 @@ TEST(procsrivc, refuses_what_it_cannot_fit) {
     EXPECT_THAT(refusal([&] { fit(siso(Vector::Ones(100), u, 0.05), "P1"); }), HasSubstr("never changes"));
     EXPECT_THAT(refusal([&] { fit(siso(y.head(5), u.head(5), 0.05), "P1"); }), HasSubstr("at least 6 samples"));
     EXPECT_THAT(refusal([&] { fit(IdData(Matrix(y), Matrix::Random(100, 2), 0.05), "P1"); }),
-                HasSubstr("with one input"));
+                HasSubstr("one input and one output"));
     ProcsrivcOptions options;
     options.TdMin = 2;
     options.TdMax = 1;

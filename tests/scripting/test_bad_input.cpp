@@ -1,0 +1,271 @@
+// Oracle: definitions. What cannot be estimated is refused with a sentence that names the reason, by every method of
+// the catalogue; refusals for poor excitation are shown to be right.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "numerics/estimators/catalogue.h"
+#include "numerics/kernels/process_output.h"
+#include "numerics/kernels/transfer_sensitivity.h"
+#include "numerics/simulation/lsim.h"
+#include "script_run.h"
+
+using namespace dynlab;
+using dynlab::test::printed;
+using testing::AllOf;
+using testing::AnyOf;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+namespace {
+
+/// How scripts call each method on the data `d`: with orders that suit them, and with wrong ones.
+struct Calls {
+    std::string good;
+    std::vector<std::string> wrong;
+};
+
+/// `wrong` and `good` are tables of orders, `rest` the arguments after them.
+Calls ordered(const std::string& name, const std::string& good, const std::vector<std::string>& wrong,
+              const std::string& rest = "") {
+    const auto call = [&](const std::string& orders) { return name + "(d, " + orders + rest + ")"; };
+    Calls calls{call(good), {}};
+    for (const std::string& orders : wrong) calls.wrong.push_back(call(orders));
+    for (const char* orders : {"{2, 1}", "{2, 1, 0, 0}", "{2, -1, 0}", "{2, 1.5, 0}", "{2, 1, -1}", "2", "'a'", "nil"})
+        calls.wrong.push_back(call(orders));
+    return calls;
+}
+
+Calls filtered(const std::string& name) {
+    return ordered(name, "{2, 1, 0}", {"{1, 3, 0}", "{0, 1, 0}", "{2, 0, 0}", "{1e5, 1, 0}"}, ", 3");
+}
+
+Calls output_error(const std::string& name) {
+    return ordered(name, "{1, 2, 1}", {"{0, 2, 0}", "{1, 1e5, 0}"});
+}
+
+Calls named(const std::string& name) {
+    return {name + "(d, 2, 0)",
+            {name + "(d, 2)", name + "(d, 0, 0)", name + "(d, 1, 2)", name + "(d, -1, 0)", name + "(d, 2.5, 0)",
+             name + "(d, {2, 0})"}};
+}
+
+Calls structured(const std::string& name) {
+    std::vector<std::string> wrong;
+    for (const char* structure : {"'Q'", "'P'", "'P4'", "'P1U'", "'P1DD'", "'P2X'", "{2, 1}", "nil"})
+        wrong.push_back(name + "(d, " + structure + ")");
+    return {name + "(d, 'P2')", wrong};
+}
+
+Calls reading(const std::string& name) {
+    return {name + "(d)", {name + "(d, {1, 2, 0})", name + "()"}};
+}
+
+const std::map<std::string, Calls>& dynamic_methods() {
+    static const std::map<std::string, Calls> kMethods = {
+        {"lssvf", filtered("lssvf")},
+        {"lsgpmf", filtered("lsgpmf")},
+        {"ivsvf", filtered("ivsvf")},
+        {"ivgpmf", filtered("ivgpmf")},
+        {"srivc", output_error("srivc")},
+        {"coe", output_error("coe")},
+        {"tfsrivc", named("tfsrivc")},
+        {"tfcoe", named("tfcoe")},
+        {"procsrivc", structured("procsrivc")},
+        {"arx", ordered("arx", "{2, 2, 1}", {"{2, 0, 1}", "{1e5, 1, 1}"})},
+        {"oe", output_error("oe")},
+        {"sriv", output_error("sriv")},
+        {"step_first_order", reading("step_first_order")},
+        {"step_second_order", reading("step_second_order")},
+        {"step_delayed", reading("step_delayed")},
+    };
+    return kMethods;
+}
+
+const std::string kRecord =
+    "rng(1)\n"
+    "local u = prbs(6, 8)\n"
+    "local N = #u\n"
+    "local G = tf({2}, {1, 4, 3})\n"
+    "local e = randn(N)\n"
+    "local y = lsim(G, u, 0.05) + 0.05*e\n"
+    "local d = iddata(y, u, 0.05)\n";
+
+/// What stops the statements after the record's, or all they print.
+std::string said(const std::string& code) {
+    return printed(kRecord + code);
+}
+
+}  // namespace
+
+TEST(bad_input, the_table_holds_every_method) {
+    const std::set<std::string> others = {"lsq", "polyfit_report", "forecast", "gradient_descent"};
+    for (const MethodEntry& method : method_catalogue())
+        for (const std::string& name : method.lua_names)
+            EXPECT_TRUE(dynamic_methods().contains(name) || others.contains(name)) << name;
+}
+
+TEST(bad_input, data_are_checked_when_they_are_made) {
+    const std::vector<std::pair<std::string, std::string>> kCases = {
+        {"iddata(y*(0/0), u, 0.05)", "sample 1 of the output is not a number (NaN)"},
+        {"iddata(y, u*(0/0), 0.05)", "sample 1 of the input is not a number (NaN)"},
+        {"(function() y[7] = 0/0 return iddata(y, u, 0.05) end)()", "sample 7 of the output is not a number (NaN)"},
+        {"(function() u[9] = 1/0 return iddata(y, u, 0.05) end)()", "sample 9 of the input is infinite"},
+        {"iddata(1e300*y, u, 0.05)", "too large to compute with squares: use another unit"},
+        {"iddata(y, 1e-300*u, 0.05)", "too small to compute with squares: use another unit"},
+        {"iddata(y, u, 0)", "the sampling time must be a positive number of seconds, but it is 0"},
+        {"iddata(y, u, -1)", "the sampling time must be a positive number of seconds, but it is -1"},
+        {"iddata(y, u, 0/0)", "the sampling time must be a positive number of seconds, but it is NaN"},
+        {"iddata({1, 2, 3}, {1, 0, 1}, nil, {SamplingInstants = {0, 2, 1}})", "instant 3 is 1 after 2"},
+        {"iddata({1, 2, 3}, {1, 0, 1}, nil, {SamplingInstants = {0, 2, 2}})", "instant 3 is 2 after 2"},
+        {"iddata({1, 2, 3}, {1, 0, 1}, nil, {SamplingInstants = {0, 2}})", "3 samples but the time vector has 2"},
+        {"iddata({1, 2}, {1}, 1)", "the output has 2 samples but the input has 1"},
+        {"iddata({}, {}, 1)", "must have rows or columns"},
+        {"iddata(y, matrix{u, e}, 0.05, {InputName = {'a', 'a'}})", "the name 'a' stands for two channels"},
+        {"iddata(y, u, 0.05, {InputName = 'a', OutputName = 'a'})", "the name 'a' stands for two channels"},
+        {"iddata(y, u, 0.05, {InputName = {'a', 'b'}})", "has 2 texts, but there are 1 channels"},
+    };
+    for (const auto& [code, sentence] : kCases)
+        EXPECT_THAT(said("print(" + code + ")"), AllOf(StartsWith("ERROR"), HasSubstr(sentence))) << code;
+}
+
+TEST(bad_input, every_method_refuses_data_it_cannot_use) {
+    const auto excitation = AnyOf(HasSubstr("excit"), HasSubstr("nothing can be learnt"), HasSubstr("no step"),
+                                  HasSubstr("does not answer the step"), HasSubstr("not a step"));
+    const std::vector<std::pair<std::string, testing::Matcher<std::string>>> kCases = {
+        {"iddata({1, 2, 3}, {1, 0, 1}, 0.1)", AnyOf(HasSubstr("sample"), HasSubstr("not a step"))},
+        {"iddata({1}, {1}, 0.1)", AnyOf(HasSubstr("sample"), HasSubstr("never changes"))},
+        {"iddata(y, zeros(N), 0.05)", excitation},
+        {"iddata(5 + 0.1*e, 2*ones(N), 0.05)", excitation},
+        {"iddata(3*ones(N), u, 0.05)", AnyOf(HasSubstr("output never changes"), HasSubstr("not a step"))},
+        {"iddata(y, nil, 0.05)", HasSubstr("input")},
+        {"y", HasSubstr("must be an iddata, but a vector of 504 values was given")},
+        {"G", HasSubstr("must be an iddata, but a model was given")},
+    };
+    for (const auto& [data, sentence] : kCases)
+        for (const auto& [name, calls] : dynamic_methods())
+            EXPECT_THAT(said("d = " + data + "\nprint(" + calls.good + ")"), AllOf(StartsWith("ERROR"), sentence))
+                << name << " " << data;
+}
+
+// Around zero a constant input could be a step to which nothing answers.
+TEST(bad_input, a_constant_input_without_a_transient_is_refused) {
+    for (const char* call : {"srivc(d, {1, 2, 0})", "coe(d, {1, 2, 0})", "tfsrivc(d, 2, 0)", "procsrivc(d, 'P2')",
+                             "tfcoe(d, 2, 0, {InitialState = 'auto', Offset = 'auto'})", "oe(d, {2, 2, 1})",
+                             "sriv(d, {2, 2, 1}, {InitialState = 'auto', Offset = 'auto'})"})
+        for (const char* seed : {"1", "2", "3"})
+            EXPECT_THAT(said(std::string("rng(") + seed + ")\nd = iddata(0.1*randn(400), ones(400), 0.05)\nprint(" +
+                             call + ")"),
+                        AllOf(StartsWith("ERROR"), HasSubstr("the output shows no transient")))
+                << call << seed;
+}
+
+TEST(bad_input, wrong_orders_are_refused_with_their_meaning) {
+    for (const auto& [name, calls] : dynamic_methods())
+        for (const std::string& call : calls.wrong)
+            EXPECT_THAT(said("print(" + call + ")"),
+                        AllOf(StartsWith("ERROR"), HasSubstr(name + ": "), Not(HasSubstr("least squares:"))))
+                << call;
+    EXPECT_THAT(said("lssvf(d, {2, 1}, 3)"),
+                HasSubstr("{na, nb, nk} (na: poles; nb: coefficients of B; nk: samples of delay)"));
+}
+
+TEST(bad_input, delays_must_be_shorter_than_the_record) {
+    for (const char* call : {"lssvf(d, {2, 1, 600}, 3)", "lsgpmf(d, {2, 1, 600}, 3)", "ivsvf(d, {2, 1, 600}, 3)",
+                             "ivgpmf(d, {2, 1, 600}, 3)", "srivc(d, {1, 2, 600})", "coe(d, {1, 2, 600})",
+                             "arx(d, {2, 2, 600})", "oe(d, {2, 2, 600})", "sriv(d, {2, 2, 600})"})
+        EXPECT_THAT(said(call), AllOf(StartsWith("ERROR"), HasSubstr("not shorter than the record"))) << call;
+    for (const char* call :
+         {"tfsrivc(d, 2, 0, {TdMax = 30})", "tfcoe(d, 2, 0, {TdMax = 30})", "procsrivc(d, 'P1D', {TdMax = 30})"})
+        EXPECT_THAT(said(call), AllOf(StartsWith("ERROR"), HasSubstr("must be shorter than the record"))) << call;
+}
+
+TEST(bad_input, cut_off_frequencies_are_refused_or_doubted) {
+    for (const char* name : {"lssvf", "ivsvf", "lsgpmf", "ivgpmf"}) {
+        const std::string start = std::string("local M = ") + name + "(d, {2, 1, 0}, ";
+        for (const char* lambda : {"0", "-1", "0/0", "1/0"})
+            EXPECT_THAT(said(start + lambda + ")"),
+                        AllOf(StartsWith("ERROR"), HasSubstr("a bit above the bandwidth of the system, and is")))
+                << name << lambda;
+        for (const char* lambda : {"1e-4", "1e5"})
+            EXPECT_THAT(said(start + lambda + ")\nprint(M.report.message)"),
+                        AllOf(HasSubstr("lies far from the poles found"),
+                              HasSubstr("the usual choice is a bit above the bandwidth")))
+                << name << lambda;
+        EXPECT_THAT(said(start + "3)\nprint(M.report.message)"), Not(HasSubstr("far"))) << name;
+    }
+    for (const char* name : {"srivc", "coe"})
+        EXPECT_THAT(said(std::string(name) + "(d, {1, 2, 0}, {lambda = 0})"),
+                    AllOf(StartsWith("ERROR"), HasSubstr("lambda must be a positive number")));
+}
+
+TEST(bad_input, unstable_models_are_told) {
+    EXPECT_THAT(said("local M = lssvf(iddata(-lsim(tf({1}, {1, -0.2}), u, 0.05), u, 0.05), {1, 1, 0}, 1)\n"
+                     "print(M.report.message)"),
+                HasSubstr("The model is unstable."));
+}
+
+TEST(bad_input, models_of_the_wrong_kind_are_refused) {
+    const std::string models =
+        "local P = procsrivc(d, 'P1')\nlocal D = arx(d, {2, 2, 1})\n"
+        "local M = srivc(iddata(y, matrix{u, e}, 0.05), {{1, 1}, {2, 2}, {0, 0}})\n";
+    const std::vector<std::pair<std::string, std::string>> kCases = {
+        {"compare(d, M)", "The model needs one transfer function from each of the 1 input(s)"},
+        {"resid(d, M)", "The model needs one transfer function from each of the 1 input(s)"},
+        {"fit_measures(d, M)", "must have one input and one output"},
+        {"lsim(M, u, 0.05)", "must have one input and one output"},
+        {"compare(iddata(y, u, 0.1), D)", "the model is discrete with Ts = 0.05 s"},
+        {"compare(d, tf({1, 0, 0}, {1, 1}))", "an improper model cannot be simulated"},
+        {"fit(d, 'a')", "must be a model"},
+        {"bode(d)", "must be a model, but an iddata was given"},
+        {"present(d)", "must be a model, but an iddata was given"},
+        {"step_construction(P)", "must be a model that step_first_order, step_second_order or step_delayed gave"},
+        {"crossvalidate(d, P)", "must be a function of a data object, but a model was given"},
+        {"d2c(P)", "the model is already continuous"},
+        {"forecast(3, 1)", "must be a regression"},
+    };
+    for (const auto& [code, sentence] : kCases)
+        EXPECT_THAT(said(models + "print(" + code + ")"), AllOf(StartsWith("ERROR"), HasSubstr(sentence))) << code;
+}
+
+TEST(bad_input, static_methods_refuse_what_has_no_answer) {
+    const std::vector<std::pair<std::string, std::string>> kCases = {
+        {"lsq(matrix{u}, {1, 2})", "504 rows but the right-hand side has 2 values"},
+        {"lsq(matrix{u*(0/0)}, y)", "not finite"},
+        {"lsq(matrix{{1, 2}}, {1})", "cannot determine 2 parameters"},
+        {"gradient_descent(matrix{zeros(3)}, {1, 2, 3})", "All regressors are zero"},
+        {"gradient_descent(matrix{u}, y*(0/0))", "finite numbers only"},
+        {"polyfit_report({1, 1, 1}, {1, 2, 3}, 1)", "at least 2 different x"},
+    };
+    for (const auto& [code, sentence] : kCases)
+        EXPECT_THAT(said("print(" + code + ")"), AllOf(StartsWith("ERROR"), HasSubstr(sentence))) << code;
+}
+
+// Why zero and resting inputs are refused: no parameter, or the gain alone, can move the simulated output.
+TEST(bad_input, poor_inputs_leave_the_parameters_without_effect) {  // oracle: exact sensitivities
+    const Vector num{{2.0}}, den{{1.0, 4.0, 3.0}};
+    const Matrix silent = transfer_sensitivities(num, den, 0.02, Vector::Zero(200), 0.05, Hold::kZoh);
+    EXPECT_EQ(silent.cwiseAbs().maxCoeff(), 0);
+
+    const ProcessStructure structure = ProcessStructure::parse("P2DU");
+    const ProcessOutput resting(structure, {InitialState::kSteady, false},
+                                {{Vector::Constant(200, 3.0), Hold::kZoh, Vector()}}, 0, 20);
+    Vector output;
+    Matrix sensitivities;
+    resting.simulate(Vector{{2.0, 4.0, 0.3, 5.0}}, output, &sensitivities);
+    EXPECT_EQ(sensitivities.rightCols(3).cwiseAbs().maxCoeff(), 0);
+    EXPECT_EQ((output.array() - 6).abs().maxCoeff(), 0);
+}
+
+// A step from rest at the first sample is a constant input as well, and is not refused.
+TEST(bad_input, a_step_at_the_first_sample_is_no_poor_input) {  // oracle: the simulated system
+    for (const char* call : {"srivc(d, {1, 2, 0})", "coe(d, {1, 2, 0})", "procsrivc(d, 'P2')", "lssvf(d, {2, 1, 0}, 3)",
+                             "oe(d, {2, 2, 1})", "sriv(d, {2, 2, 1})"})
+        EXPECT_THAT(said("d = iddata(lsim(G, ones(N), 0.05) + 0.01*e, ones(N), 0.05)\nprint(" + std::string(call) +
+                         ".report.message)"),
+                    Not(HasSubstr("ERROR")))
+            << call;
+}
