@@ -14,14 +14,8 @@ namespace {
 
 Curve loss_curve(const DelaySearch& search) {
     Curve curve;
-    std::vector<double> x, y;
-    for (Index i = 0; i < search.grid().size(); ++i) {
-        if (!std::isfinite(search.losses()[i])) continue;
-        x.push_back(search.grid()[i]);
-        y.push_back(search.losses()[i]);
-    }
-    curve.x = Vector::Map(x.data(), static_cast<Index>(x.size()));
-    curve.y = Vector::Map(y.data(), static_cast<Index>(y.size()));
+    curve.x = search.grid();
+    curve.y = search.losses();
     curve.style = CurveStyle::kLinePoints;
     curve.line_width = 0.7;
     curve.colour = 0;

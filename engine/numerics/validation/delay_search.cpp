@@ -19,6 +19,13 @@ void check_options(const DelaySearchOptions& options) {
                               number_text(*estimation.TdMax) + " was given: there is no delay to look for");
 }
 
+/// The loss of a model that does not answer at all, which is there at every delay.
+double loss_without_model(const IdData& data) {
+    double squares = 0;
+    for (const Experiment& experiment : data.experiments) squares += experiment.y.squaredNorm();
+    return squares / static_cast<double>(data.sample_count());
+}
+
 bool is_valley(const Vector& losses, Index i) {
     const bool left = i == 0 || losses[i] <= losses[i - 1];
     return left && (i + 1 == losses.size() || losses[i] < losses[i + 1]);
@@ -77,6 +84,8 @@ DelaySearch search_delay(const IdData& data, const DelaySearchOptions& options) 
     search.cancelled = selection.cancelled;
     if (search.cancelled) return search;
     search.candidate = selection.candidates[choose_order(selection).place];
+    Vector& losses = search.candidate.estimate.delay_loss;
+    losses = losses.cwiseMin(loss_without_model(data));
     search.delay = search.candidate.delay;
     search.std = search.candidate.estimate.std[search.candidate.estimate.std.size() - 1];
     search.rival = rival_of(search, data.sample_count());

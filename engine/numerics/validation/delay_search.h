@@ -23,9 +23,11 @@ struct DelaySearch {
     std::string explanation;      ///< plain sentences
     bool cancelled = false;       ///< nothing else holds then
 
-    const Vector& grid() const { return candidate.estimate.delay_grid; }    ///< s, delays that were tried
-    const Vector& losses() const { return candidate.estimate.delay_loss; }  ///< smallest mean square error at each
-    double loss() const { return candidate.estimate.loss; }                 ///< at the delay itself
+    const Vector& grid() const { return candidate.estimate.delay_grid; }  ///< s, delays that were tried
+    const Vector& losses() const {
+        return candidate.estimate.delay_loss;
+    }                                                        ///< smallest mean square error found at each
+    double loss() const { return candidate.estimate.loss; }  ///< at the delay itself
 };
 
 /// The delay between one input and one output, any number of experiments. A model of too low an order has a longer

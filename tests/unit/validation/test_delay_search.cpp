@@ -61,6 +61,17 @@ TEST(delay_search, curve_is_the_loss_of_the_best_model_at_each_delay) {  // orac
     EXPECT_LE(search.loss(), search.losses()[lowest] * (1 + 1e-9));
 }
 
+TEST(delay_search, no_delay_is_worse_than_no_model) {  // oracle: a gain of zero leaves the output itself
+    const IdData data = record(TransferFunction(Vector{{2}}, Vector{{1, 4, 3}}, 0, 0.1), prbs(7, 8), 0.05, 8, 1);
+    DelaySearchOptions options;
+    options.poles = {2, 2};
+    options.zeros = {0, 0};
+    options.estimation.TdMax = 5;
+    const DelaySearch search = search_delay(data, options);
+    EXPECT_LE(search.losses().maxCoeff(), data.experiments.front().y.squaredNorm() / 1016 * (1 + 1e-12));
+    EXPECT_TRUE(search.losses().allFinite());
+}
+
 TEST(delay_search, no_delay_is_told) {  // oracle: the simulated system has none
     const TransferFunction G(Vector{{2}}, Vector{{1, 4, 3}});
     const DelaySearch search = search_delay(record(G, prbs(7, 8), 0.05, 10, 1));
