@@ -4,8 +4,8 @@
 
 namespace dynlab {
 
-/// The smallest mean square simulation error over the delay, with the estimate
-/// and a rival marked. Throws InvalidArgument for a search that was stopped.
+/// The smallest mean square simulation error over the delay, with the estimate and a rival marked. Throws
+/// InvalidArgument for a search that was stopped.
 Figure delay_plot(const DelaySearch& search);
 
 }  // namespace dynlab

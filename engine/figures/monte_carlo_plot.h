@@ -7,9 +7,9 @@
 namespace dynlab {
 
 /// Histograms of all estimates: a row for each method, a column for each parameter, the truth marked. Columns share
-/// their range, so that bias and scatter of the methods can be compared; values so far out
-/// that they would squeeze the rest are left out, and their number stands above the panel. Throws InvalidArgument when
-/// a method has no estimates or other parameters.
+/// their range, so that bias and scatter of the methods can be compared; values so far out that they would squeeze the
+/// rest are left out, and their number stands above the panel. Throws InvalidArgument when a method has no estimates or
+/// other parameters.
 Figure monte_carlo_histograms(const MonteCarlo& study);
 
 /// One parameter over another, a point for each run of each method, with the truth and the ellipse that an efficient

@@ -23,10 +23,9 @@ struct DelaySearch {
     std::string explanation;      ///< plain sentences
     bool cancelled = false;       ///< nothing else holds then
 
-    const Vector& grid() const { return candidate.estimate.delay_grid; }  ///< s, delays that were tried
-    const Vector& losses() const {
-        return candidate.estimate.delay_loss;
-    }                                                        ///< smallest mean square error found at each
+    /// s, the delays that were tried, and the smallest mean square error found at each.
+    const Vector& grid() const { return candidate.estimate.delay_grid; }
+    const Vector& losses() const { return candidate.estimate.delay_loss; }
     double loss() const { return candidate.estimate.loss; }  ///< at the delay itself
 };
 
