@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
-#include "numerics/kernels/tapped_recursion.h"
+#include "numerics/kernels/cascade_moments.h"
+#include "numerics/kernels/lane_filter.h"
+#include "numerics/kernels/sample_moments.h"
 
 namespace dynlab {
 
@@ -82,48 +84,6 @@ class MomentSums {
     std::vector<Lanes> sums_;
 };
 
-/// All signals sample by sample: the beginning and the end of a record, which do not fill lanes.
-class SampleMoments {
-  public:
-    SampleMoments(const std::vector<FilteredSignal>& signals, const std::vector<Index>& left,
-                  const std::vector<Index>& right, const std::vector<OutputSum>& sums)
-        : left_(left), right_(right), sums_(sums), total_(Matrix::Zero(left.size(), right.size())) {
-        Index outputs = 0;
-        for (const FilteredSignal& signal : signals) {
-            recursions_.emplace_back(signal.system, signal.signal);
-            outputs += signal.system.C.rows();
-        }
-        outputs_.resize(outputs + static_cast<Index>(sums.size()));
-    }
-
-    void run(Index from, Index to) {
-        for (Index k = from; k < to; ++k) {
-            Index place = 0;
-            for (TappedRecursion& recursion : recursions_) {
-                const Index count = recursion.output_count();
-                recursion.output(k, outputs_.segment(place, count));
-                recursion.step(k);
-                place += count;
-            }
-            for (const OutputSum& sum : sums_) {
-                double value = 0;
-                for (const OutputSum::Term& term : sum.terms) value += term.weight * outputs_[term.output];
-                outputs_[place++] = value;
-            }
-            total_.noalias() += outputs_(left_) * outputs_(right_).transpose();
-        }
-    }
-    TappedRecursion& recursion(std::size_t signal) { return recursions_[signal]; }
-    const Matrix& total() const { return total_; }
-
-  private:
-    const std::vector<Index>&left_, &right_;
-    const std::vector<OutputSum>& sums_;
-    std::vector<TappedRecursion> recursions_;
-    Vector outputs_;
-    Matrix total_;
-};
-
 /// The block's columns of all outputs, in order, and of the sums, which it makes.
 class BlockColumns {
   public:
@@ -175,6 +135,8 @@ Matrix lane_moments(std::vector<LaneFilter>& filters, const std::vector<Filtered
 
 Matrix filter_moments(const std::vector<FilteredSignal>& signals, const std::vector<Index>& left,
                       const std::vector<Index>& right, const std::vector<OutputSum>& sums) {
+    if (sums.empty())
+        if (std::optional<Matrix> moments = cascade_moments(signals, left, right)) return *std::move(moments);
     const Index N = signals.front().signal.size();
     Index latest = 0;
     for (const FilteredSignal& signal : signals) latest = std::max(latest, signal.system.delay);

@@ -1,18 +1,9 @@
 #pragma once
 #include <vector>
 
-#include "numerics/kernels/lane_filter.h"
+#include "numerics/kernels/filtered_signal.h"
 
 namespace dynlab {
-
-/// A weighted sum of outputs, of different signals as well.
-struct OutputSum {
-    struct Term {
-        Index output;
-        double weight;
-    };
-    std::vector<Term> terms;
-};
 
 /// The matrix of sums over all N samples
 ///     M(i, j) = sum_k output_left[i](k) output_right[j](k)

@@ -1,16 +1,10 @@
 #pragma once
 #include <vector>
 
+#include "numerics/kernels/filtered_signal.h"
 #include "numerics/kernels/lanes.h"
-#include "numerics/kernels/tapped_system.h"
 
 namespace dynlab {
-
-/// A TappedSystem driven by a signal of N samples that somebody else owns.
-struct FilteredSignal {
-    TappedSystem system;
-    Eigen::Map<const Vector> signal;
-};
 
 /// Runs a FilteredSignal in eight lanes. Samples first, ..., first + 8 segment - 1 are cut into eight equal segments,
 /// which advance together, one lane each, a block of steps at a time; row `k` of a block is sample

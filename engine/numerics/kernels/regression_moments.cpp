@@ -1,5 +1,6 @@
 #include "numerics/kernels/regression_moments.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace dynlab {
@@ -156,6 +157,13 @@ double output_error_squares(const RegressionRecord& record, const std::vector<Ve
     std::vector<FilterChain> chains{{record.y, no_filter(), record.hold_y}};
     for (std::size_t j = 0; j < record.u.size(); ++j)
         chains.push_back({record.u[j], transfer_system(B[j], A[j]), record.hold, record.delays[j]});
+    if (record.sampling.Ts > 0 && chains.size() == 2) {
+        // The quickest, where enough digits are left: nearly noise-free data go the long way.
+        constexpr double kLeft = 1e-4;
+        const Matrix sums = chain_moments(chains, record.sampling, {0, 1}, {0, 1});
+        const double squares = sums(0, 0) - 2 * sums(0, 1) + sums(1, 1);
+        if (squares > kLeft * std::max(sums(0, 0), sums(1, 1))) return squares;
+    }
     if (record.sampling.Ts > 0 && record.y.size() <= kStoredSamples) {
         Vector error = record.y;
         for (std::size_t j = 1; j < chains.size(); ++j) error -= chain_outputs(chains[j], record.sampling).col(0);

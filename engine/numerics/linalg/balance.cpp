@@ -14,7 +14,7 @@ double balancing_factor(double column_norm, double row_norm) {
 
 }  // namespace
 
-Vector balance(Matrix& A) {
+Vector balance(Eigen::Ref<Matrix> A) {
     constexpr double kWorthwhile = 0.95;  // a smaller reduction of the norms is not worth another sweep
     const Index n = A.rows();
     Vector scale = Vector::Ones(n);
@@ -25,6 +25,7 @@ Vector balance(Matrix& A) {
             const double column_norm = A.col(i).lpNorm<1>() - diagonal;
             const double row_norm = A.row(i).lpNorm<1>() - diagonal;
             if (!(column_norm > 0) || !(row_norm > 0)) continue;
+            if (row_norm < 2 * column_norm && column_norm < 2 * row_norm) continue;  // the factor would be one
             const double factor = balancing_factor(column_norm, row_norm);
             if (column_norm * factor + row_norm / factor >= kWorthwhile * (column_norm + row_norm)) continue;
             A.col(i) *= factor;

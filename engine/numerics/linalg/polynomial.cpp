@@ -1,6 +1,8 @@
 #include "numerics/linalg/polynomial.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
 
 #include "numerics/error.h"
 #include "numerics/linalg/balance.h"
@@ -40,16 +42,39 @@ Matrix companion(const VectorView& p) {
     return A;
 }
 
+namespace {
+
+/// Roots of x^2 + p x + q, q not zero; of two real ones the larger first.
+Eigen::Vector2cd quadratic_roots(double p, double q) {
+    const int exponent = std::ilogb(std::max(std::abs(p), std::sqrt(std::abs(q))));  // keeps the squares finite
+    const double half = std::scalbn(-0.5 * p, -exponent), product = std::scalbn(q, -2 * exponent);
+    // half^2 - product with the rounding error of the square made good (Kahan), for nearly equal roots.
+    const double square = half * half, discriminant = (square - product) + std::fma(half, half, -square);
+    const double root = std::scalbn(std::sqrt(std::abs(discriminant)), exponent);
+    if (discriminant < 0) return {Complex(-0.5 * p, root), Complex(-0.5 * p, -root)};
+    const double larger = -0.5 * p + std::copysign(root, -p);
+    return {larger, q / larger};
+}
+
+}  // namespace
+
 ComplexVector roots(const VectorView& p) {
     const Vector stripped = strip_leading_zeros(p);
     if (!stripped.allFinite()) throw InvalidArgument("roots: the polynomial holds a coefficient that is not finite");
     if (stripped(0) == 0) throw InvalidArgument("roots: every number is a root of the zero polynomial");
     const Index zero_roots = trailing_zeros(stripped);
-    Matrix A = companion(stripped.head(stripped.size() - zero_roots));
-    ComplexVector result = ComplexVector::Zero(A.rows() + zero_roots);
-    if (A.rows() == 0) return result;
-    balance(A);
-    result.head(A.rows()) = A.eigenvalues();
+    const Index others = stripped.size() - 1 - zero_roots;
+    ComplexVector result = ComplexVector::Zero(others + zero_roots);
+    if (others == 0) return result;
+    if (others == 1) {
+        result[0] = -stripped[1] / stripped[0];
+    } else if (others == 2) {
+        result.head(2) = quadratic_roots(stripped[1] / stripped[0], stripped[2] / stripped[0]);
+    } else {
+        Matrix A = companion(stripped.head(others + 1));
+        balance(A);
+        result.head(others) = A.eigenvalues();
+    }
     return result;
 }
 

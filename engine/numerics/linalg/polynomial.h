@@ -7,9 +7,9 @@ namespace dynlab {
 
 /// Without leading zeros. Throws InvalidArgument when `p` is empty.
 Vector strip_leading_zeros(const VectorView& p);
-/// All roots of a polynomial (its degree many; zero roots exactly), complex ones in exact conjugate pairs, as
-/// eigenvalues of the balanced companion matrix. Throws InvalidArgument for the zero polynomial or coefficients
-/// that are not finite.
+/// All roots of a polynomial (its degree many; zero roots exactly), complex ones in exact conjugate pairs: up to
+/// two by formula, more as eigenvalues of the balanced companion matrix. Throws InvalidArgument for the zero polynomial
+/// or coefficients that are not finite.
 ComplexVector roots(const VectorView& p);
 /// The monic polynomial with these roots; complex roots must come in conjugate pairs.
 Vector polynomial_from_roots(const ComplexVector& roots);

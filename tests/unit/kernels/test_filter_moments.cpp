@@ -63,7 +63,8 @@ INSTANTIATE_TEST_SUITE_P(records, filter_moments_of,
                          testing::Values(MomentsCase{1, 1, 0, Hold::kZoh}, MomentsCase{1, 2, 0, Hold::kFoh},
                                          MomentsCase{1, 17, 0, Hold::kZoh}, MomentsCase{2, 66, 0, Hold::kZoh},
                                          MomentsCase{2, 67, 0.05, Hold::kZoh}, MomentsCase{2, 1500, 0.37, Hold::kFoh},
-                                         MomentsCase{2, 1500, 0.4, Hold::kFoh}, MomentsCase{2, 100000, 0, Hold::kZoh},
+                                         MomentsCase{2, 1500, 0.4, Hold::kFoh}, MomentsCase{1, 1501, 0.37, Hold::kZoh},
+                                         MomentsCase{2, 1502, 0.37, Hold::kZoh}, MomentsCase{2, 100000, 0, Hold::kZoh},
                                          MomentsCase{3, 999, 0.01, Hold::kZoh}, MomentsCase{3, 999, 60, Hold::kZoh},
                                          MomentsCase{4, 5000, 0, Hold::kFoh}, MomentsCase{4, 5000, 1.23, Hold::kZoh},
                                          MomentsCase{5, 3000, 0, Hold::kZoh}, MomentsCase{6, 3000, 0.11, Hold::kFoh},
@@ -82,4 +83,24 @@ TEST(filter_moments, undamped_filters_are_followed_exactly) {  // oracle: second
     const Matrix outputs = ExactFilter(system).run(u);
     EXPECT_LT(difference(filter_moments({{system, Samples(u.data(), N)}}, {0, 1, 2}, {0, 1, 2}), outputs, outputs),
               1e-11);
+}
+
+// oracle: second route; the shapes that are summed in registers: alone, one output, a signal as it is, a late sample
+TEST(filter_moments, signals_alone_and_single_outputs_equal_the_stored_ones_multiplied) {
+    const Index N = 2003;
+    const Vector y = RandomStream(1).normal(N), u = RandomStream(2).normal(N);
+    TappedSystem itself = tapped(Matrix(0, 0), Vector(0), Matrix(1, 0), Vector::Ones(1), 0);
+    for (const double delay : {0.0, 0.13})
+        for (const Vector& den : {Vector(Eigen::Vector2d(1, 3)), Vector(Eigen::Vector3d(1, 6, 9)),
+                                  Vector(Eigen::Vector3d(1, 0.4, 25)), Vector(Eigen::Vector3d(1, 50, 49))}) {
+            TappedSystem system = derivative_filter(den, 0.02, Hold::kZoh, delay);
+            system.C = system.C.bottomRows(1).eval();
+            system.D = system.D.bottomRows(1).eval();
+            system.first_D = system.first_D.tail(1).eval();
+            Matrix outputs(N, 2);
+            outputs << y, ExactFilter(system).run(u);
+            const FilteredSignal of_y{itself, Samples(y.data(), N)}, of_u{system, Samples(u.data(), N)};
+            EXPECT_LT(difference(filter_moments({of_y, of_u}, {0, 1}, {0, 1}), outputs, outputs), 1e-13);
+            EXPECT_LT(difference(filter_moments({of_u}, {0}, {0}), outputs.rightCols(1), outputs.rightCols(1)), 1e-13);
+        }
 }

@@ -5,6 +5,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "numerics/kernels/sensitivity_system.h"
+#include "numerics/linalg/polynomial.h"
 #include "support/thrown_message.h"
 
 namespace dynlab {
@@ -48,6 +50,25 @@ TEST(matrix_exponential, step_of_an_integrator_and_a_lag) {  // oracle: analytic
     const StepMatrices integrator = exact_step(Matrix::Zero(1, 1), B, h);
     EXPECT_DOUBLE_EQ(integrator.H0(0), 3 * h / 2);
     EXPECT_DOUBLE_EQ(integrator.H1(0), 3 * h / 2);
+}
+
+// oracle: second route, the exponential of Van Loan's block matrix; steps short enough for the series and just too long
+TEST(matrix_exponential, short_steps_agree_with_the_block_matrix) {
+    for (const double h : {1e-6, 0.003, 0.06, 0.12, 0.2})
+        for (const Index n : {1, 2, 4}) {
+            Matrix A = companion(power(Eigen::Vector2d(1, 3), static_cast<int>(n)));
+            if (n == 4) A = cascade_matrix(Eigen::Vector3d(1, 0.8, 4), 0);
+            const Vector B = Vector::Unit(n, 0);
+            Matrix block = Matrix::Zero(n + 2, n + 2);
+            block.topLeftCorner(n, n) = h * A;
+            block.block(0, n, n, 1) = h * B;
+            block(n, n + 1) = 1;
+            const Matrix expected = matrix_exponential(block);
+            const StepMatrices step = exact_step(A, B, h);
+            EXPECT_TRUE(step.F.isApprox(expected.topLeftCorner(n, n), 1e-14));
+            EXPECT_TRUE(step.G.isApprox(expected.block(0, n, n, 1), 1e-14));
+            EXPECT_TRUE(step.H1.isApprox(expected.block(0, n + 1, n, 1), 1e-14));
+        }
 }
 
 TEST(matrix_exponential, refusals) {

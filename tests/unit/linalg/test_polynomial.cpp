@@ -41,6 +41,18 @@ TEST(polynomial, roots_of_widely_spread_magnitudes) {  // oracle: analytic; need
     EXPECT_NEAR(found(2).real() / -1e-4, 1, 1e-12);
 }
 
+TEST(polynomial, roots_of_quadratics) {  // oracle: analytic
+    const double apart = 0x1p-23;
+    const ComplexVector near = roots(Eigen::Vector3d(1, 2, 1 - apart * apart));
+    EXPECT_EQ(near[0], -1 - apart);
+    EXPECT_EQ(near[1], -1 + apart);
+    const ComplexVector far = roots(Eigen::Vector3d(2e-100, 2e100, 2e90));
+    EXPECT_NEAR(far[1].real() / -1e-10, 1, 1e-15);
+    const ComplexVector swing = roots(Eigen::Vector3d(1, 1e-3, 1e300));
+    EXPECT_NEAR(swing[0].imag() / 1e150, 1, 1e-15);
+    EXPECT_EQ(swing[1], std::conj(swing[0]));
+}
+
 TEST(polynomial, coefficients_survive_the_way_through_the_roots) {  // oracle: second route
     const Vector p = from({1, 5, 408, 416, 1600});
     EXPECT_TRUE(polynomial_from_roots(roots(p)).isApprox(p, 1e-14));

@@ -1,0 +1,85 @@
+#include "numerics/kernels/cascade_basis.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+
+namespace dynlab {
+
+namespace {
+
+/// The pair of a 2 x 2 block, without cancellation where its poles are close.
+CascadeBasis::Pair pair_of(const Eigen::Matrix2d& F) {
+    const double half = 0.5 * (F(0, 0) - F(1, 1));
+    return {0.5 * (F(0, 0) + F(1, 1)), half * half + F(0, 1) * F(1, 0)};
+}
+
+bool split_poles(const Matrix& F, std::vector<CascadeBasis::Pair>& pairs) {
+    switch (F.rows()) {
+        case 0:
+            return true;
+        case 1:
+            pairs = {{F(0, 0), 0}};
+            return true;
+        case 2:
+            pairs = {pair_of(F)};
+            return true;
+        case 4:
+            pairs = {pair_of(F.topLeftCorner(2, 2)), pair_of(F.bottomRightCorner(2, 2))};
+            return F.topRightCorner(2, 2).isZero(0);
+        default:
+            return false;
+    }
+}
+
+}  // namespace
+
+namespace {
+
+/// The solution of A x = b for a matrix whose rows and columns may differ in size by many orders of magnitude.
+template <int n>
+Vector solve_scaled(Eigen::Matrix<double, n, n> A, Eigen::Matrix<double, n, 1> b) {
+    const auto inverse = [](double norm) { return norm > 0 ? 1 / norm : 1; };
+    const Eigen::Matrix<double, n, 1> rows = A.rowwise().norm().unaryExpr(inverse);
+    A = rows.asDiagonal() * A;
+    const Eigen::Matrix<double, n, 1> columns = A.colwise().norm().transpose().unaryExpr(inverse);
+    A = A * columns.asDiagonal();
+    b = rows.cwiseProduct(b);
+    return columns.cwiseProduct(A.fullPivLu().solve(b));
+}
+
+}  // namespace
+
+Vector CascadeBasis::from_state(const Vector& x, double v) const {
+    const Vector rest = x - tap * v;
+    if (order == 0) return rest;
+    if (order == 1) return solve_scaled<1>(to_state, rest);
+    return order == 2 ? solve_scaled<2>(to_state, rest) : solve_scaled<4>(to_state, rest);
+}
+
+std::optional<CascadeBasis> cascade_basis(const TappedSystem& system) {
+    CascadeBasis basis;
+    const Matrix& F = system.F;
+    if (!split_poles(F, basis.pairs)) return {};
+    // x = G0 u[k-d] + (z - F)^-1 (F G0 + G1) u[k-d], and one sample later for what u[k-d-1] does.
+    const bool late = !system.G.col(2).isZero(0) || !system.D.col(1).isZero(0);
+    if (late && !(system.G.col(0).isZero(0) && system.D.col(0).isZero(0))) return {};
+    const Index next = late ? 1 : 0, n = F.rows();
+    basis.order = n;
+    basis.delay = system.delay + next;
+    basis.tap = system.G.col(next);
+    basis.to_state.resize(n, n);
+    Vector g = F * basis.tap + system.G.col(next + 1);
+    for (Index i = 0; i < n; i += 2) {
+        const auto [centre, square] = basis.pairs[static_cast<std::size_t>(i / 2)];
+        const Vector second = F * g - centre * g;
+        basis.to_state.col(i) = g;
+        if (i + 1 < n) basis.to_state.col(i + 1) = second;
+        g = F * second - centre * second - square * g;
+        g.head(std::min(n, i + 2)).setZero();  // the poles of what comes before are done with, but for rounding
+    }
+    basis.outputs.resize(system.C.rows(), n + 1);
+    basis.outputs << system.C * basis.to_state, system.C * basis.tap + system.D.col(next);
+    return basis;
+}
+
+}  // namespace dynlab

@@ -1,0 +1,302 @@
+#include "numerics/kernels/cascade_moments.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "numerics/kernels/cascade_basis.h"
+#include "numerics/kernels/lanes.h"
+#include "numerics/kernels/sample_moments.h"
+
+namespace dynlab {
+
+namespace {
+
+using Part = Lanes::Part;
+constexpr int kLanes = Lanes::kWidth;
+constexpr Index kShortestSegment = 8;
+constexpr double kForgotten = 1e-19;  // what is left of a state after so many steps is less than rounding
+
+Part gather(const double* p, Index stride) {
+    Part lanes;
+    for (int lane = 0; lane < kLanes; ++lane) lanes[lane] = p[lane * stride];
+    return lanes;
+}
+
+Part broadcast(double x) {
+    return Part{} + x;
+}
+
+double sum_of_lanes(const Part& x) {
+    double sum = 0;
+    for (int lane = 0; lane < kLanes; ++lane) sum += x[lane];
+    return sum;
+}
+
+/// A signal and its basis.
+struct Source {
+    CascadeBasis basis;
+    double feed = 0;            ///< where only q is a column
+    const double* v = nullptr;  ///< at the lanes' first sample
+    Vector state;               ///< there
+};
+
+/// What the columns of a cascade are: its states, or, kFed, for two poles and one output, q alone, which
+/// q[k+1] = centre q[k] + p[k] + feed v[k] makes a multiple of the output; kTap: after them the sample.
+template <int kOrder_, bool kFed_, bool kTap_>
+struct Shape {
+    static constexpr int kOrder = kOrder_;
+    static constexpr bool kFed = kFed_;
+    static constexpr bool kTap = kTap_;
+    static constexpr int kColumns = (kFed ? 1 : kOrder) + (kTap ? 1 : 0);
+};
+using NoSignal = Shape<0, false, false>;
+
+/// The states of one signal in all lanes, step by step.
+template <class Shape>
+class LaneCascade {
+  public:
+    static constexpr int kOrder = Shape::kOrder;
+    using State = Eigen::Matrix<double, kOrder, 1>;
+    using Transition = Eigen::Matrix<double, kOrder, kOrder>;
+
+    LaneCascade(const Source& source, Index segment) : v_(source.v), segment_(segment), feed_(broadcast(source.feed)) {
+        for (int i = 0; i < kPairs; ++i) {
+            const CascadeBasis::Pair& pair = source.basis.pairs[static_cast<std::size_t>(i)];
+            centre_[i] = broadcast(pair.centre);
+            square_[i] = broadcast(pair.square);
+        }
+        if constexpr (kOrder > 0) find_states(source);
+    }
+
+    [[gnu::always_inline]] Part sample(Index k) const {
+        if constexpr (Shape::kColumns == 0) return Part{};
+        return gather(v_ + k, segment_);
+    }
+    [[gnu::always_inline]] Part column(int i, const Part& v) const {
+        if constexpr (Shape::kFed) return i == 0 ? state_[1] : v;
+        if constexpr (kOrder == 0) return v;
+        return i < kOrder ? state_[i] : v;
+    }
+    [[gnu::always_inline]] void step(const Part& v) {
+        // From the last pair to the first: each is driven by what the one before has been.
+        repeat<kPairs>([&](auto i) {
+            constexpr int b = kPairs - 1 - i;
+            Part drive = v;
+            if constexpr (b > 0) drive = state_[2 * b - 1];
+            if constexpr (2 * b + 1 < kOrder) {
+                const Part p = state_[2 * b], q = state_[2 * b + 1];
+                Part own = p;
+                if constexpr (Shape::kFed) own += feed_ * v;
+                state_[2 * b + 1] = centre_[b] * q + own;
+                drive += square_[b] * q;
+            }
+            state_[2 * b] = centre_[b] * state_[2 * b] + drive;
+        });
+    }
+
+  private:
+    static constexpr int kPairs = (kOrder + 1) / 2;
+
+    /// Each lane runs over the end of the segment before its own, as far back as the states remember.
+    void find_states(const Source& source) {
+        Transition F = transition(source), power = F;
+        Index back = 1;
+        for (; back < segment_ && power.norm() > kForgotten; back *= 2) power = (power * power).eval();
+        back = std::min(back, segment_);
+        for (Part& x : state_) x = Part{};
+        for (Index k = segment_ - back; k < segment_; ++k) step(sample(k));
+        const bool whole = back == segment_;
+        const Transition through = whole ? matrix_power(F, segment_) : Transition::Zero();
+        State x = source.state;
+        for (int lane = 0; lane < kLanes; ++lane) {
+            State next;
+            for (int i = 0; i < kOrder; ++i) {
+                next[i] = state_[i][lane];
+                state_[i][lane] = x[i];
+            }
+            if (whole) next += through * x;
+            x = next;
+        }
+    }
+    static Transition transition(const Source& source) {
+        Transition F = Transition::Zero();
+        for (int i = 0; i < kOrder; ++i) {
+            const CascadeBasis::Pair& pair = source.basis.pairs[static_cast<std::size_t>(i / 2)];
+            F(i, i) = pair.centre;
+            if (i > 0) F(i, i - 1) = 1;
+            if (i % 2 == 1) F(i - 1, i) = pair.square;
+        }
+        return F;
+    }
+    static Transition matrix_power(Transition square, Index exponent) {
+        Transition result = Transition::Identity();
+        for (; exponent > 0; exponent /= 2) {
+            if (exponent % 2 == 1) result = (result * square).eval();
+            square = (square * square).eval();
+        }
+        return result;
+    }
+
+    const double* v_;
+    Index segment_;
+    Part feed_, centre_[kPairs + 1], square_[kPairs + 1], state_[kOrder + 1];  // an array of none is not allowed
+};
+
+/// Which products are wanted.
+enum Wanted { kFirstAlone = 1, kSecondPairAlone = 2 };
+
+/// Sums of the products of all columns, first those of `First`, then those of `Second`; those of `First` among
+/// themselves and those of the second pair of `Second` among themselves only if wanted.
+template <class First, class Second, int kWanted>
+Matrix sum_products(const std::array<Source, 2>& sources, Index segment) {
+    constexpr int kFirst = First::kColumns, kColumns = kFirst + Second::kColumns;
+    constexpr auto left_out = [](int i, int j) {
+        const bool pair = Second::kOrder == 4 && i >= kFirst + 2 && j < kFirst + 4;
+        return (!(kWanted & kFirstAlone) && j < kFirst) || (!(kWanted & kSecondPairAlone) && pair);
+    };
+    LaneCascade<First> first(sources[0], segment);
+    LaneCascade<Second> second(sources[1], segment);
+    Part sums[kColumns][kColumns] = {};
+    for (Index k = 0; k < segment; ++k) {
+        const Part v = first.sample(k), w = second.sample(k);
+        repeat<kColumns>([&](auto i) {
+            const Part x = i < kFirst ? first.column(i, v) : second.column(i - kFirst, w);
+            repeat<kColumns>([&](auto j) {
+                if constexpr (j >= i && !left_out(i, j))
+                    sums[i][j] += x * (j < kFirst ? first.column(j, v) : second.column(j - kFirst, w));
+            });
+        });
+        first.step(v);
+        second.step(w);
+    }
+    Matrix total = Matrix::Zero(kColumns, kColumns);
+    for (int i = 0; i < kColumns; ++i)
+        for (int j = i; j < kColumns; ++j) total(i, j) = total(j, i) = sum_of_lanes(sums[i][j]);
+    return total;
+}
+
+using Summation = Matrix (*)(const std::array<Source, 2>&, Index);
+template <int value>
+using Constant = std::integral_constant<int, value>;
+
+/// The function for these shapes; null where there is none.
+template <class First>
+Summation summation_for(Index order, bool fed, bool tap, int wanted) {
+    Summation found = nullptr;
+    const auto try_shape = [&]<class Second>(Second, auto w) {
+        if (order == Second::kOrder && fed == Second::kFed && tap == Second::kTap && wanted == w)
+            found = &sum_products<First, Second, w>;
+    };
+    const auto try_wanted = [&](auto w) {
+        try_shape(Shape<1, false, false>(), w);
+        try_shape(Shape<1, false, true>(), w);
+        try_shape(Shape<2, false, false>(), w);
+        try_shape(Shape<2, false, true>(), w);
+        try_shape(Shape<2, true, false>(), w);
+        try_shape(Shape<4, false, false>(), w);
+        try_shape(Shape<4, false, true>(), w);
+    };
+    try_wanted(Constant<0>());
+    try_wanted(Constant<kSecondPairAlone>());
+    if constexpr (First::kColumns > 0) {
+        try_wanted(Constant<kFirstAlone>());
+        try_wanted(Constant<kFirstAlone | kSecondPairAlone>());
+    }
+    return found;
+}
+
+/// Outputs as combinations of columns.
+struct Outputs {
+    Matrix weights;  ///< outputs x columns
+    Index of_first = 0, first_columns = 0;
+
+    /// Whether one of the chosen outputs needs one of these columns.
+    bool need(const std::vector<Index>& chosen, Index column, Index count) const {
+        return std::any_of(chosen.begin(), chosen.end(),
+                           [&](Index output) { return !weights.row(output).segment(column, count).isZero(0); });
+    }
+};
+
+Outputs outputs_of(const std::array<Source, 2>& sources, bool two, bool fed, bool tap) {
+    const CascadeBasis &first = sources[0].basis, &last = sources[1].basis;
+    const Index columns = fed ? 1 : last.order + (tap ? 1 : 0), rows = last.outputs.rows();
+    Outputs outputs;
+    outputs.of_first = two ? first.outputs.rows() : 0;
+    outputs.first_columns = two ? first.order + 1 : 0;
+    outputs.weights = Matrix::Zero(outputs.of_first + rows, outputs.first_columns + columns);
+    if (two) outputs.weights.topLeftCorner(outputs.of_first, outputs.first_columns) = first.outputs;
+    outputs.weights.bottomRightCorner(rows, columns) = last.outputs.middleCols(fed ? 1 : 0, columns);
+    return outputs;
+}
+
+Summation summation_for(const std::array<Source, 2>& sources, const Outputs& outputs, bool fed, bool tap,
+                        const std::vector<Index>& left, const std::vector<Index>& right) {
+    const auto both_need = [&](Index column, Index count) {
+        return outputs.need(left, column, count) && outputs.need(right, column, count);
+    };
+    const Index order = sources[1].basis.order;
+    int wanted = 0;
+    if (both_need(0, outputs.first_columns)) wanted |= kFirstAlone;
+    if (order == 4 && both_need(outputs.first_columns + 2, 2)) wanted |= kSecondPairAlone;
+    switch (outputs.first_columns) {
+        case 0:
+            return summation_for<NoSignal>(order, fed, tap, wanted);
+        case 1:
+            return summation_for<Shape<0, false, true>>(order, fed, tap, wanted);
+        case 2:
+            return summation_for<Shape<1, false, true>>(order, fed, tap, wanted);
+        case 3:
+            return summation_for<Shape<2, false, true>>(order, fed, tap, wanted);
+        default:
+            return nullptr;
+    }
+}
+
+}  // namespace
+
+std::optional<Matrix> cascade_moments(const std::vector<FilteredSignal>& signals, const std::vector<Index>& left,
+                                      const std::vector<Index>& right) {
+    if (signals.size() > 2) return {};
+    const std::size_t missing = 2 - signals.size();  // a signal alone is the second
+    std::array<Source, 2> sources;
+    Index latest = 0;
+    for (std::size_t i = 0; i < signals.size(); ++i) {
+        std::optional<CascadeBasis> basis = cascade_basis(signals[i].system);
+        if (!basis) return {};
+        sources[i + missing].basis = *std::move(basis);
+        latest = std::max(latest, signals[i].system.delay);
+    }
+    const Index N = signals.front().signal.size(), segment = std::max<Index>(0, N - latest - 1) / kLanes;
+    if (segment < kShortestSegment) return {};
+    const Index first = N - kLanes * segment;
+
+    const CascadeBasis& last = sources[1].basis;
+    const bool tap = last.sees_tap();
+    const bool fed = !tap && last.order == 2 && last.outputs.rows() == 1 && last.outputs(0, 1) != 0;
+    if (fed) sources[1].feed = last.outputs(0, 0) / last.outputs(0, 1);
+    const Outputs outputs = outputs_of(sources, missing == 0, fed, tap);
+    const Summation sum = summation_for(sources, outputs, fed, tap, left, right);
+    if (!sum) return {};
+
+    SampleMoments samples(signals, left, right, {});
+    samples.run(0, first);
+    for (std::size_t i = 0; i < signals.size(); ++i) {
+        Source& source = sources[i + missing];
+        source.v = signals[i].signal.data() + (first - source.basis.delay);
+        source.state = source.basis.from_state(samples.recursion(i).state(), *source.v);
+        // With the feed, p stands for p + feed square q, and q for q + feed p.
+        if (source.feed != 0)
+            source.state +=
+                source.feed * Eigen::Vector2d(source.basis.pairs[0].square * source.state[1], source.state[0]);
+    }
+    const Matrix with_outputs = sum(sources, segment).lazyProduct(outputs.weights.transpose());
+    Matrix moments = samples.total();
+    for (Index j = 0; j < moments.cols(); ++j)
+        for (Index i = 0; i < moments.rows(); ++i)
+            moments(i, j) += outputs.weights.row(left[static_cast<std::size_t>(i)])
+                                 .dot(with_outputs.col(right[static_cast<std::size_t>(j)]));
+    return moments;
+}
+
+}  // namespace dynlab
