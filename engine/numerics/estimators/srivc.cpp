@@ -9,9 +9,11 @@ namespace dynlab {
 namespace {
 
 constexpr int kReweightings = 3;
+constexpr double kHardlyChanged = 1e-6;  // relative; by so little, errors change no more than that
 
-/// (sum Z'Z/noise variance)^-1 of each denominator group.
-void set_covariance(TransferEstimate& estimate, const IdData& data, const TransferOptions& options) {
+/// (sum Z'Z/noise variance)^-1 of each denominator group; `last_gram` is sum Z'Z of the last pass, or empty.
+void set_covariance(TransferEstimate& estimate, const IdData& data, const TransferOptions& options,
+                    const Matrix& last_gram) {
     const TransferStructure& structure = estimate.structure;
     estimate.covariance = Matrix::Zero(estimate.theta.size(), estimate.theta.size());
     for (std::size_t g = 0; g < structure.poles.size(); ++g) {
@@ -21,7 +23,8 @@ void set_covariance(TransferEstimate& estimate, const IdData& data, const Transf
         for (const Index output : group.outputs())
             group.set_weight(output, largest > 0 ? largest / estimate.noise_variance[output] : 1);
         double condition = 0;
-        const Matrix gram = group.sensitivity_gram(estimate.theta.segment(place, d));
+        const Matrix gram = last_gram.size() > 0 ? Matrix(last_gram.block(place, place, d, d))
+                                                 : group.sensitivity_gram(estimate.theta.segment(place, d));
         estimate.covariance.block(place, place, d, d) = largest * inverse_gram(gram, &condition);
         estimate.condition_number = std::max(estimate.condition_number, condition);
     }
@@ -33,7 +36,8 @@ bool outputs_share_a_denominator(const TransferStructure& structure) {
 
 /// The passes; where outputs share a denominator, repeated with each output weighted by its noise.
 RefinedSolution solve(const IdData& data, const TransferStructure& structure, const TransferOptions& options) {
-    RefinedOptions refined{options.MaxIter, options.Tol, options.hold_y, options.cancel, {}};
+    RefinedOptions refined{options.MaxIter, options.Tol, options.hold_y, options.cancel, {}, false};
+    refined.with_gram = structure.outputs == 1 && options.Tol <= kHardlyChanged;
     RefinedSolution solution = iterate_refined(data, structure, start_at(data, structure, options), refined);
     for (int i = 0; outputs_share_a_denominator(structure) && i < kReweightings; ++i) {
         refined.weights.resize(structure.outputs);
@@ -70,7 +74,7 @@ TransferEstimate srivc(const IdData& data, const TransferStructure& structure, c
     estimate.trace = std::move(solution.trace);
     measure_fit(estimate, data);
     check_transient("srivc", data, estimate);
-    set_covariance(estimate, data, options);
+    set_covariance(estimate, data, options, solution.mirrored ? Matrix() : solution.gram);
     report_errors(estimate);
     const std::string passes =
         std::to_string(estimate.trace.size()) + (estimate.trace.size() == 1 ? " pass" : " passes");

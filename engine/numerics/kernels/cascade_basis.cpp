@@ -56,6 +56,25 @@ Vector CascadeBasis::from_state(const Vector& x, double v) const {
     return order == 2 ? solve_scaled<2>(to_state, rest) : solve_scaled<4>(to_state, rest);
 }
 
+namespace {
+
+template <int n>
+void set_columns(const TappedSystem& system, Index next, CascadeBasis& basis) {
+    const Eigen::Matrix<double, n, n> F = system.F;
+    Eigen::Matrix<double, n, 1> g = F * system.G.col(next) + system.G.col(next + 1);
+    basis.to_state.resize(n, n);
+    for (Index i = 0; i < n; i += 2) {
+        const auto [centre, square] = basis.pairs[static_cast<std::size_t>(i / 2)];
+        const Eigen::Matrix<double, n, 1> second = F * g - centre * g;
+        basis.to_state.col(i) = g;
+        if (i + 1 < n) basis.to_state.col(i + 1) = second;
+        g = F * second - centre * second - square * g;
+        g.head(std::min<Index>(n, i + 2)).setZero();  // the poles of what comes before are done with, but for rounding
+    }
+}
+
+}  // namespace
+
 std::optional<CascadeBasis> cascade_basis(const TappedSystem& system) {
     CascadeBasis basis;
     const Matrix& F = system.F;
@@ -67,16 +86,9 @@ std::optional<CascadeBasis> cascade_basis(const TappedSystem& system) {
     basis.order = n;
     basis.delay = system.delay + next;
     basis.tap = system.G.col(next);
-    basis.to_state.resize(n, n);
-    Vector g = F * basis.tap + system.G.col(next + 1);
-    for (Index i = 0; i < n; i += 2) {
-        const auto [centre, square] = basis.pairs[static_cast<std::size_t>(i / 2)];
-        const Vector second = F * g - centre * g;
-        basis.to_state.col(i) = g;
-        if (i + 1 < n) basis.to_state.col(i + 1) = second;
-        g = F * second - centre * second - square * g;
-        g.head(std::min(n, i + 2)).setZero();  // the poles of what comes before are done with, but for rounding
-    }
+    if (n == 1) set_columns<1>(system, next, basis);
+    if (n == 2) set_columns<2>(system, next, basis);
+    if (n == 4) set_columns<4>(system, next, basis);
     basis.outputs.resize(system.C.rows(), n + 1);
     basis.outputs << system.C * basis.to_state, system.C * basis.tap + system.D.col(next);
     return basis;

@@ -99,10 +99,10 @@ RegressionMoments DenominatorGroup::auxiliary(const VectorView& E, const VectorV
         [&](const Member& member) { return auxiliary_moments(member.record, E, A, numerators(member, theta), gain); });
 }
 
-RegressionMoments DenominatorGroup::refined(const VectorView& theta) const {
+RegressionMoments DenominatorGroup::refined(const VectorView& theta, bool with_gram) const {
     const Vector A = denominator(theta);
     return sum_over_records(
-        [&](const Member& member) { return refined_moments(member.record, A, numerators(member, theta)); });
+        [&](const Member& member) { return refined_moments(member.record, A, numerators(member, theta), with_gram); });
 }
 
 Matrix DenominatorGroup::sensitivity_gram(const VectorView& theta) const {

@@ -25,7 +25,7 @@ class DenominatorGroup {
 
     RegressionMoments svf(const VectorView& E, double gain = 1) const;
     RegressionMoments auxiliary(const VectorView& E, const VectorView& theta, double gain = 1) const;
-    RegressionMoments refined(const VectorView& theta) const;
+    RegressionMoments refined(const VectorView& theta, bool with_gram = false) const;
     Matrix sensitivity_gram(const VectorView& theta) const;  ///< weighted sum z z' of the refined instruments
     Vector denominator(const VectorView& theta) const;       ///< theta of the group
     /// theta with unstable poles mirrored (real part to its negative); tells whether there were any.

@@ -42,7 +42,7 @@ TappedSystem series(const TappedSystem& first, const TappedSystem& second) {
 }
 
 TappedSystem sampled(const FilterChain& chain, double Ts) {
-    const TappedSystem filter = sampled(chain.filter, Ts, chain.hold, chain.delay);
+    TappedSystem filter = sampled(chain.filter, Ts, chain.hold, chain.delay);
     if (!chain.front) return filter;
     return series(sampled(chain.front->system, Ts, chain.front->hold, chain.front->delay), filter);
 }
@@ -92,6 +92,7 @@ Matrix chain_moments(const std::vector<FilterChain>& chains, const Sampling& sam
                      const std::vector<Index>& right, const std::vector<OutputSum>& sums) {
     if (sampling.Ts > 0) {
         std::vector<FilteredSignal> signals;
+        signals.reserve(chains.size());
         for (const FilterChain& chain : chains) signals.push_back({sampled(chain, sampling.Ts), chain.signal});
         return filter_moments(signals, left, right, sums);
     }

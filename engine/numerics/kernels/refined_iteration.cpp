@@ -28,7 +28,8 @@ Vector simulate(const IdData& data, const Experiment& experiment, const Transfer
 class Groups {
   public:
     Groups(const IdData& data, const TransferStructure& structure, const RefinedOptions& options)
-        : data_(data), structure_(structure) {
+        : data_(data), structure_(structure), with_gram_(options.with_gram) {
+        if (with_gram_) gram_ = Matrix::Zero(structure.parameter_count(), structure.parameter_count());
         for (std::size_t g = 0; g < structure.poles.size(); ++g) {
             groups_.emplace_back(data, structure, static_cast<Index>(g), options.hold_y);
             for (Index output = 0; output < options.weights.size(); ++output)
@@ -47,12 +48,16 @@ class Groups {
             DenominatorGroup& group = groups_[g];
             if (shared_outputs_) set_targets(g, theta);
             const Vector own = theta.segment(group.place(), group.parameter_count());
-            const Vector solved = solve_moments(group.refined(own));
+            const RegressionMoments sums = group.refined(own, with_gram_);
+            if (with_gram_) gram_.block(group.place(), group.place(), own.size(), own.size()) = sums.z_z;
+            const Vector solved = solve_moments(sums);
             next.segment(group.place(), group.parameter_count()) = solved;
             if (solved.allFinite()) theta.segment(group.place(), group.parameter_count()) = group.reflected(solved);
         }
         return next;
     }
+
+    const Matrix& gram() const { return gram_; }
 
     Vector mirrored(Vector theta, bool& any) const {
         for (const DenominatorGroup& group : groups_) {
@@ -84,7 +89,8 @@ class Groups {
     const IdData& data_;
     const TransferStructure& structure_;
     std::vector<DenominatorGroup> groups_;
-    bool shared_outputs_ = false;
+    bool shared_outputs_ = false, with_gram_;
+    Matrix gram_;
 };
 
 double largest_change(const Vector& next, const Vector& theta) {
@@ -208,6 +214,7 @@ RefinedSolution iterate_refined(const IdData& data, const TransferStructure& str
         solution.trace.push_back({next, std::numeric_limits<double>::quiet_NaN(), change});
         if (change <= options.tolerance) {
             solution.termination = Termination::kConverged;
+            solution.gram = groups.gram();
             return solution;
         }
     }
@@ -250,7 +257,8 @@ Vector find_start(const IdData& data, const TransferStructure& structure, Hold h
         if (cancel && cancel() && best.allFinite()) break;
         const Vector start = filtered_start(data, structure, lambda, hold_y);
         if (!start.allFinite()) continue;
-        const RefinedSolution trial = iterate_refined(data, structure, start, {kTrialPasses, 1e-3, hold_y, cancel, {}});
+        const RefinedSolution trial =
+            iterate_refined(data, structure, start, {kTrialPasses, 1e-3, hold_y, cancel, {}, false});
         for (const Vector& theta : {start, trial.theta}) {
             const double loss = simulation_loss(data, structure, theta);
             if (loss < best_loss) {

@@ -16,6 +16,7 @@ struct RefinedOptions {
     Hold hold_y = Hold::kFoh;
     std::function<bool()> cancel;
     Vector weights = {};  ///< of the outputs' squares where outputs share a denominator; ones when empty
+    bool with_gram = false;
 };
 
 struct RefinedSolution {
@@ -23,6 +24,9 @@ struct RefinedSolution {
     Termination termination = Termination::kIterationLimit;
     std::vector<TransferIteration> trace;  ///< without losses, which would cost a pass each
     bool mirrored = false;                 ///< unstable poles were met on the way
+    /// With with_gram, sum z z' of the last pass, each group's block on the diagonal: at the theta before the last
+    /// change.
+    Matrix gram;
 };
 
 /// The iteration of SRIVC for fixed delays, from rest: in every pass each denominator group solves

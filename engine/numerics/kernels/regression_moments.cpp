@@ -139,11 +139,12 @@ std::vector<Index> add_sensitivities(Equation& equation, const RegressionRecord&
 
 }  // namespace
 
-RegressionMoments refined_moments(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B) {
+RegressionMoments refined_moments(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B,
+                                  bool with_gram) {
     Equation equation(record, A.size() - 1);
     equation.add_output(A);
     const std::vector<Index> z = add_sensitivities(equation, record, A, B);
-    return equation.with_instruments(z, 1, false);
+    return equation.with_instruments(z, 1, with_gram);
 }
 
 Matrix sensitivity_moments(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B) {

@@ -35,8 +35,10 @@ RegressionMoments auxiliary_moments(const RegressionRecord& record, const Vector
                                     const std::vector<Vector>& B, double gain = 1);
 
 /// SRIVC: signals filtered by 1/A, and z the exact sensitivities of the model's output,
-///     z = [-p^(n-i) sum_j B_j/A^2 u_j, p^(m_j-l)/A u_j].
-RegressionMoments refined_moments(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B);
+///     z = [-p^(n-i) sum_j B_j/A^2 u_j, p^(m_j-l)/A u_j];
+/// with_gram: sum z z' in the same run.
+RegressionMoments refined_moments(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B,
+                                  bool with_gram = false);
 
 /// sum z z' of these instruments, d x d.
 Matrix sensitivity_moments(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B);

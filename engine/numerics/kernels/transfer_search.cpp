@@ -58,8 +58,8 @@ Candidate best_after_passes(const IdData& data, const TransferStructure& structu
     Candidate best;
     for (const Vector& start : starts) {
         if (!start.allFinite()) continue;
-        const RefinedSolution trial =
-            iterate_refined(data, structure, start, {kGridPasses, kTrialTolerance, options.hold_y, options.cancel, {}});
+        const RefinedSolution trial = iterate_refined(
+            data, structure, start, {kGridPasses, kTrialTolerance, options.hold_y, options.cancel, {}, false});
         const double loss = simulation_loss(data, structure, trial.theta);
         if (loss < best.loss) best = {trial.theta, loss};
     }
@@ -161,7 +161,7 @@ Vector start_at(const IdData& data, const TransferStructure& structure, const Tr
     const IdData beginning = beginning_of(data, kTrialSamples);
     const RefinedSolution trial =
         iterate_refined(beginning, structure, start_of(beginning),
-                        {options.MaxIter, kTrialTolerance, options.hold_y, options.cancel, {}});
+                        {options.MaxIter, kTrialTolerance, options.hold_y, options.cancel, {}, false});
     return trial.termination == Termination::kConverged ? trial.theta : start_of(data);
 }
 
