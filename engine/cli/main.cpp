@@ -7,6 +7,7 @@
 #include "cli/commands.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
+#include "platform/memory.h"
 
 namespace {
 
@@ -50,6 +51,7 @@ int run_action(const Action& action) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    keep_freed_memory();
     CLI::App app{kAbout, "dynlab"};
     app.footer(kFooter);
     app.set_version_flag("--version", "dynlab " DYNLAB_VERSION);

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "platform/memory.h"
+
 namespace dynlab::bench {
 namespace {
 
@@ -72,6 +74,7 @@ bool print_table(const Report& report) {
 
 /// Measures the groups that are named, or all.
 int main(int argc, char** argv) {
+    dynlab::keep_freed_memory();  // as the program does
     const std::vector<std::pair<std::string, void (*)(Report&)>> groups{
         {"numerics", measure_numerics}, {"estimators", measure_estimators}, {"program", measure_program}};
     const std::vector<std::string> named(argv + 1, argv + argc);

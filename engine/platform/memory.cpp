@@ -1,0 +1,13 @@
+#include "platform/memory.h"
+
+#include <malloc.h>
+
+namespace dynlab {
+
+void keep_freed_memory() {
+    constexpr int kLargest = 1 << 30;  // of a piece, and of what is kept
+    mallopt(M_MMAP_THRESHOLD, kLargest);
+    mallopt(M_TRIM_THRESHOLD, kLargest);
+}
+
+}  // namespace dynlab
