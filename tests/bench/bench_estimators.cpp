@@ -1,3 +1,4 @@
+#include <malloc.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -133,8 +134,9 @@ void measure_growth(const std::string& what, Method method, const Record& millio
     report.results.push_back({what + ", N = 1e7 (s)", "ten times N = 1e6 (s)", measured, reference, 1.2, 0});
 }
 
-/// Most memory in use while the work is done, MB.
+/// Most memory in use while the work is done, MB; not what was freed before.
 double peak_memory(const std::function<void()>& work) {
+    malloc_trim(0);
     std::ofstream("/proc/self/clear_refs") << 5;  // starts the peak anew
     work();
     std::ifstream status("/proc/self/status");
