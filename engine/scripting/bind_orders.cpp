@@ -152,7 +152,7 @@ int select_structure(Call& call) {
     const OrderChoice choice = choose_order(table.selection, criterion);
     call.print(order_table_text(table.selection, choice));
     const OrderCandidate& candidate = table.selection.candidates[choice.place];
-    give_transfer_estimate(call, candidate.method.c_str(), candidate.estimate);
+    give_transfer_estimate(call, "srivc", candidate.estimate);
     give_figure(call, order_plot(table.selection, criterion, choice));
     return 2;
 }
@@ -170,7 +170,7 @@ void push_search(const Call& call, const IdData& data, const DelaySearch& search
     set_whole(L, "poles", search.candidate.poles);
     set_whole(L, "zeros", search.candidate.zeros);
     set_text(call, "message", search.explanation);
-    give_transfer_estimate(call, search.candidate.method.c_str(), search.candidate.estimate);
+    give_transfer_estimate(call, "srivc", search.candidate.estimate);
     lua_setfield(L, -2, "model");
 }
 

@@ -120,7 +120,7 @@ void push_candidate(const Call& call, const OrderCandidate& candidate) {
     set_texts(call, "undetermined", candidate.undetermined);
     set_flag(L, "cancellation", candidate.cancellation);
     set_flag(L, "converged", candidate.converged);
-    give_transfer_estimate(call, candidate.method.c_str(), candidate.estimate);
+    give_transfer_estimate(call, "srivc", candidate.estimate);
     lua_setfield(L, -2, "model");
 }
 

@@ -60,11 +60,8 @@ bool passes_suffice(const TransferStructure& structure, const TransferOptions& o
     return true;
 }
 
-}  // namespace
-
-TransferEstimate srivc(const IdData& data, const TransferStructure& structure, const TransferOptions& options) {
-    options.validate();
-    if (!passes_suffice(structure, options)) return search_transfer("srivc", data, structure, options);
+TransferEstimate estimate_by_passes(const IdData& data, const TransferStructure& structure,
+                                    const TransferOptions& options) {
     check_transfer_data("srivc", data, structure);
     TransferEstimate estimate;
     estimate.structure = structure;
@@ -83,6 +80,26 @@ TransferEstimate srivc(const IdData& data, const TransferStructure& structure, c
     else
         set_message(estimate, "SRIVC had not settled after " + passes + "; the best of them is given");
     return estimate;
+}
+
+/// Where the passes do not settle, the minimum of the criterion that they aim at, if the search for it ends lower.
+TransferEstimate better_by_search(TransferEstimate estimate, const IdData& data, const TransferOptions& options) {
+    TransferEstimate searched = search_transfer("srivc", data, estimate.structure, options);
+    if (!(searched.loss < estimate.loss)) return estimate;
+    set_message(searched, "SRIVC had not settled after " + std::to_string(estimate.trace.size()) +
+                              " passes; this is the minimum of the output error, which they aim at");
+    return searched;
+}
+
+}  // namespace
+
+TransferEstimate srivc(const IdData& data, const TransferStructure& structure, const TransferOptions& options) {
+    options.validate();
+    if (!passes_suffice(structure, options)) return search_transfer("srivc", data, structure, options);
+    TransferEstimate estimate = estimate_by_passes(data, structure, options);
+    const bool settled =
+        estimate.termination == Termination::kConverged || estimate.termination == Termination::kCancelled;
+    return settled ? estimate : better_by_search(std::move(estimate), data, options);
 }
 
 }  // namespace dynlab

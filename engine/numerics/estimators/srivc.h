@@ -13,9 +13,9 @@ namespace dynlab {
 /// Several inputs, each with its denominator, by back-fitting; several outputs and experiments; regular or irregular
 /// sampling; inputs and delays exactly as the data's hold says. Where delays are free, an initial state or offset is
 /// estimated, or denominators differ within an output, the passes give the start of a joint Gauss-Newton refinement of
-/// the same criterion. Non-convergence and doubtful results are told in `warnings`. Throws InvalidArgument for
-/// unsuitable data (check_transfer_data) or options. References: Young and Jakeman (1980); Young, Garnier and Gilson in
-/// Garnier and Wang (2008), chapter 4.
+/// the same criterion, and that refinement is tried as well where the passes do not settle. Non-convergence and
+/// doubtful results are told in `warnings`. Throws InvalidArgument for unsuitable data (check_transfer_data) or
+/// options. References: Young and Jakeman (1980); Young, Garnier and Gilson in Garnier and Wang (2008), chapter 4.
 TransferEstimate srivc(const IdData& data, const TransferStructure& structure, const TransferOptions& options = {});
 
 }  // namespace dynlab

@@ -9,7 +9,6 @@
 #include <mutex>
 
 #include "numerics/error.h"
-#include "numerics/estimators/coe.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/kernels/thread_count.h"
 #include "numerics/validation/compare.h"
@@ -96,17 +95,6 @@ void measure(OrderCandidate& candidate, const IdData& data, const IdData* valida
     if (validation != nullptr) candidate.validation_fit = validation_fit(*validation, estimate);
 }
 
-void estimate_structure(OrderCandidate& candidate, const IdData& data, const TransferStructure& structure,
-                        const TransferOptions& options) {
-    candidate.estimate = srivc(data, structure, options);
-    // With a free delay srivc has minimised the same loss by the same means as coe.
-    if (candidate.estimate.termination != Termination::kIterationLimit || structure.free_delays) return;
-    TransferEstimate other = coe(data, structure, options);
-    if (!(other.loss < candidate.estimate.loss)) return;
-    candidate.estimate = std::move(other);
-    candidate.method = "coe";
-}
-
 OrderCandidate candidate_of(const IdData& data, const TransferStructure& structure,
                             const OrderSelectionOptions& options) {
     OrderCandidate candidate;
@@ -114,7 +102,7 @@ OrderCandidate candidate_of(const IdData& data, const TransferStructure& structu
     candidate.zeros = structure.channels.front().zeros;
     candidate.delay = structure.channels.front().delay;
     try {
-        estimate_structure(candidate, data, structure, options.estimation);
+        candidate.estimate = srivc(data, structure, options.estimation);
         if (!candidate.estimate.theta.allFinite()) throw InvalidArgument("a parameter is not finite");
         measure(candidate, data, options.validation);
     } catch (const std::exception& error) {

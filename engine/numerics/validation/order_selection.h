@@ -16,7 +16,6 @@ struct OrderCandidate {
     int poles = 1, zeros = 0;
     double delay = 0;     ///< s, fixed or estimated
     std::string failure;  ///< why there is no estimate; empty when there is one, and nothing below holds otherwise
-    std::string method = "srivc";  ///< or "coe"
     TransferEstimate estimate;
     double r_squared = 0, yic = 0, aic = 0, bic = 0, fpe = 0;
     double log_condition = 0;  ///< log10 of the column-scaled equations' condition number
@@ -53,10 +52,9 @@ struct OrderSelectionOptions {
 std::vector<TransferStructure> order_grid(std::pair<int, int> poles, std::pair<int, int> zeros,
                                           const std::vector<double>& delays, bool free_delay = false);
 
-/// Estimates every structure on `data` (one input, one output, any number of experiments) by srivc, several at once;
-/// where its passes do not settle also by coe, whose optimum is the same, and the smaller loss counts. Equal numbers
-/// for any number of threads. Throws InvalidArgument for other data, no candidates, and when none of them could be
-/// estimated.
+/// Estimates every structure on `data` (one input, one output, any number of experiments) by srivc, several at once.
+/// Equal numbers for any number of threads. Throws InvalidArgument for other data, no candidates, and when none of them
+/// could be estimated.
 OrderSelection select_order(const IdData& data, const std::vector<TransferStructure>& candidates,
                             const OrderSelectionOptions& options = {});
 

@@ -5,6 +5,9 @@
 #include <Eigen/Dense>
 
 #include "numerics/kernels/transfer_sensitivity.h"
+#include "numerics/signals/prbs.h"
+#include "numerics/signals/random.h"
+#include "numerics/simulation/lsim.h"
 #include "support/thrown_message.h"
 #include "support/transfer_cases.h"
 
@@ -101,6 +104,20 @@ TEST(srivc, long_records_start_on_their_beginning) {  // oracle: the same fixed 
     const Vector error = y - all.col(0);
     for (Index i = 1; i <= 3; ++i)
         EXPECT_LT(std::abs(all.col(i).dot(error)) / (all.col(i).norm() * error.norm()), 1e-8) << i;
+}
+
+// oracle: nested models; with its third pole far away the larger one is the smaller one
+TEST(srivc, superfluous_poles_do_not_spoil_the_model) {
+    const TransferFunction truth(Vector::Constant(1, 2.0), Eigen::Vector3d(1, 4, 3));
+    const Vector u = prbs(7, 8);
+    const Vector x = lsim(truth, u, 0.05);
+    for (const std::uint32_t seed : {1, 2, 3}) {
+        const IdData data(x + 0.1 * RandomStream(seed).normal(x.size()), u, 0.05);
+        for (const int poles : {3, 4}) {
+            const TransferEstimate large = srivc(data, TransferStructure::single(poles, 0));
+            EXPECT_LT(large.loss, 1.01 * srivc(data, kCourse).loss) << poles << ": " << large.message;
+        }
+    }
 }
 
 TEST(srivc, stops_when_asked_to_and_still_gives_a_model) {  // oracle: definition of the callback
