@@ -41,11 +41,15 @@ const PolynomialModel& polynomials(Call& call) {
     if (model.polynomial) return *model.polynomial;
     throw InvalidArgument(
         "only models of difference equations, as arx, oe and sriv give them, have this polynomial; lssvf and ivsvf "
-        "give A and B");
+        "give A and B, rivc gives C and D");
 }
 bool is_carx(Call& call) {
     const Model& model = self(call);
     return model.estimate && model.estimate->carx;
+}
+const NoiseModel* noise_of(Call& call) {
+    const Model& model = self(call);
+    return model.estimate ? model.estimate->noise.get() : nullptr;
 }
 template <Vector PolynomialModel::*kPolynomial>
 int field_polynomial(Call& call) {
@@ -172,8 +176,13 @@ int field_parameter(Call& call) {
                                       fmt::join(parameters.names, ", ")));
 }
 
-/// The letter D names the noise polynomial of a difference equation and the delay of step_delayed.
+int field_C(Call& call) {
+    if (const NoiseModel* noise = noise_of(call)) return call.give_vector(noise->C);
+    return field_polynomial<&PolynomialModel::C>(call);
+}
+/// The letter D names the noise polynomial of a difference equation or of rivc, and the delay of step_delayed.
 int field_D(Call& call) {
+    if (const NoiseModel* noise = noise_of(call)) return call.give_vector(noise->D);
     return self(call).polynomial ? field_polynomial<&PolynomialModel::D>(call) : field_parameter(call);
 }
 
@@ -233,7 +242,7 @@ constexpr std::array kFields = {
     Member{"D", guarded<field_D>},
     Member{"A", guarded<field_polynomial<&PolynomialModel::A>>},
     Member{"B", guarded<field_input_polynomials<&PolynomialModel::B>>},
-    Member{"C", guarded<field_polynomial<&PolynomialModel::C>>},
+    Member{"C", guarded<field_C>},
     Member{"F", guarded<field_input_polynomials<&PolynomialModel::F>>},
     Member{"channels", guarded<field_channels>},
 };

@@ -12,6 +12,7 @@ FunctionEntries random_functions();
 FunctionEntries signal_functions();
 FunctionEntries estimator_functions();
 FunctionEntries transfer_estimator_functions();
+FunctionEntries noise_model_functions();
 FunctionEntries discrete_estimator_functions();
 FunctionEntries regression_functions();
 FunctionEntries validation_functions();

@@ -17,6 +17,7 @@ const std::vector<FunctionEntry>& catalogue_of_functions() {
                                      simulation_functions(),
                                      estimator_functions(),
                                      transfer_estimator_functions(),
+                                     noise_model_functions(),
                                      discrete_estimator_functions(),
                                      regression_functions(),
                                      validation_functions(),

@@ -1,6 +1,8 @@
 #pragma once
 #include <functional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "numerics/kernels/transfer_estimate.h"
@@ -13,6 +15,12 @@ using Estimation = std::function<TransferEstimate(const IdData&)>;
 
 /// Reads the arguments of one method from the second on; the first, where the data stand, is not looked at.
 using EstimationReader = Estimation (*)(const Call& call);
+
+/// The readers of a file of bindings, by the methods' Lua names.
+using NamedReader = std::pair<const char*, EstimationReader>;
+using EstimationReaders = std::span<const NamedReader>;
+EstimationReaders transfer_estimation_readers();
+EstimationReaders noise_model_readers();
 
 /// The reader of a method's arguments by its Lua name; nullptr for a method that has none.
 EstimationReader find_estimation_reader(const std::string& method);

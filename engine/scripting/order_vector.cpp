@@ -16,13 +16,9 @@ std::string meaning_of(std::span<const OrderEntry> entries) {
     return fmt::format("{{{}}} ({})", fmt::join(names, ", "), fmt::join(meanings, "; "));
 }
 
-[[noreturn]] void refuse(int index, std::span<const OrderEntry> entries, const std::string& given) {
-    throw InvalidArgument(fmt::format("argument {} (orders) must be {}, but {}", index, meaning_of(entries), given));
-}
-
 int checked_order(double value, int index, std::span<const OrderEntry> entries, const char* name) {
     if (std::floor(value) != value || value < 0 || value > kLargestOrder)
-        refuse(index, entries, fmt::format("{} is {:.10g}, and must be a whole number from 0 on", name, value));
+        refuse_orders(index, entries, fmt::format("{} is {:.10g}, and must be a whole number from 0 on", name, value));
     return static_cast<int>(value);
 }
 
@@ -35,12 +31,13 @@ std::vector<int> entry_list(lua_State* L, int index, std::span<const OrderEntry>
         return list;
     }
     if (lua_type(L, -1) != LUA_TTABLE)
-        refuse(index, entries, fmt::format("{} is {}", name, given_text(L, lua_gettop(L))));
+        refuse_orders(index, entries, fmt::format("{} is {}", name, given_text(L, lua_gettop(L))));
     const auto count = static_cast<lua_Integer>(lua_rawlen(L, -1));
+    if (count == 0) refuse_orders(index, entries, fmt::format("{} is an empty table", name));
     for (lua_Integer i = 1; i <= count; ++i) {
         lua_rawgeti(L, -1, i);
         if (lua_type(L, -1) != LUA_TNUMBER)
-            refuse(index, entries, fmt::format("{} holds {}", name, given_text(L, lua_gettop(L))));
+            refuse_orders(index, entries, fmt::format("{} holds {}", name, given_text(L, lua_gettop(L))));
         list.push_back(checked_order(lua_tonumber(L, -1), index, entries, name));
         lua_pop(L, 1);
     }
@@ -51,7 +48,9 @@ std::vector<int> entry_list(lua_State* L, int index, std::span<const OrderEntry>
 
 std::vector<std::vector<int>> order_lists(const Call& call, int index, std::span<const OrderEntry> entries) {
     lua_State* L = call.state();
-    const auto wrong_count = [&](Index count) { refuse(index, entries, fmt::format("{} entries were given", count)); };
+    const auto wrong_count = [&](Index count) {
+        refuse_orders(index, entries, fmt::format("{} entries were given", count));
+    };
     std::vector<std::vector<int>> lists;
     if (index <= call.count()) {
         if (NumericBlock* vector = to_vector(L, index)) {
@@ -72,7 +71,11 @@ std::vector<std::vector<int>> order_lists(const Call& call, int index, std::span
             return lists;
         }
     }
-    refuse(index, entries, call.given(index) ? given_text(L, index) + " was given" : "it is missing");
+    refuse_orders(index, entries, call.given(index) ? given_text(L, index) + " was given" : "it is missing");
+}
+
+void refuse_orders(int index, std::span<const OrderEntry> entries, const std::string& wrong) {
+    throw InvalidArgument(fmt::format("argument {} (orders) must be {}, but {}", index, meaning_of(entries), wrong));
 }
 
 }  // namespace dynlab

@@ -1,5 +1,6 @@
 #pragma once
 #include <span>
+#include <string>
 #include <vector>
 
 #include "scripting/arguments.h"
@@ -16,5 +17,8 @@ struct OrderEntry {
 /// InvalidArgument that says what the entries mean for another number of them, a value that is not whole, or a negative
 /// one.
 std::vector<std::vector<int>> order_lists(const Call& call, int index, std::span<const OrderEntry> entries);
+
+/// Throws InvalidArgument: what the entries of the orders at argument `index` mean, and what is wrong with these.
+[[noreturn]] void refuse_orders(int index, std::span<const OrderEntry> entries, const std::string& wrong);
 
 }  // namespace dynlab

@@ -82,6 +82,18 @@ std::string polynomial_lines(const PolynomialModel& model) {
     return "Polynomials (weights of the present sample, the one before, ...; those not shown are 1):\n" + text;
 }
 
+std::string noise_lines(const NoiseModel& noise) {
+    std::string text = "Noise C(q^-1)/D(q^-1) e, e white (weights of the samples before; the present one's is 1):\n";
+    const auto add = [&](const char* name, const Vector& p, const Vector& std) {
+        for (Index i = 1; i < p.size(); ++i)
+            text += fmt::format("  {:<5} {:>12}  +- {}\n", fmt::format("{}{}", name, i), number_text(p[i], 6),
+                                number_text(std[i], 3));
+    };
+    add("c", noise.C, noise.C_std);
+    add("d", noise.D, noise.D_std);
+    return noise.C.size() + noise.D.size() > 2 ? text : "Noise: taken as white\n";
+}
+
 std::string channel_name(const Model& model, std::size_t channel) {
     const std::string input = fmt::format("From input {}", channel % model.inputs() + 1);
     return model.outputs == 1 ? input : fmt::format("{} to output {}", input, channel / model.inputs() + 1);
@@ -121,6 +133,7 @@ std::string presentation(const Model& model) {
     std::string text = kind_of(model) + "\n" + channels_text(model) + "\n";
     if (model.polynomial) text += polynomial_lines(*model.polynomial);
     text += parameter_lines(model);
+    if (model.estimate && model.estimate->noise) text += noise_lines(*model.estimate->noise);
     if (!model.G.continuous()) text += fmt::format("Sampling time: {} s\n", number_text(model.G.Ts()));
     std::optional<ModelUncertainty> uncertainty;
     if (const auto uncertain = uncertain_model(model)) uncertainty = describe_uncertainty(*uncertain);

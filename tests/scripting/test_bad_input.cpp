@@ -34,7 +34,8 @@ Calls ordered(const std::string& name, const std::string& good, const std::vecto
     const auto call = [&](const std::string& orders) { return name + "(d, " + orders + rest + ")"; };
     Calls calls{call(good), {}};
     for (const std::string& orders : wrong) calls.wrong.push_back(call(orders));
-    for (const char* orders : {"{2, 1}", "{2, 1, 0, 0}", "{2, -1, 0}", "{2, 1.5, 0}", "{2, 1, -1}", "2", "'a'", "nil"})
+    for (const char* orders :
+         {"{2, 1}", "{2, 1, 0, 0}", "{2, -1, 0}", "{2, 1.5, 0}", "{2, 1, -1}", "{2, 1, {}}", "2", "'a'", "nil"})
         calls.wrong.push_back(call(orders));
     return calls;
 }
@@ -45,6 +46,12 @@ Calls filtered(const std::string& name) {
 
 Calls output_error(const std::string& name) {
     return ordered(name, "{1, 2, 1}", {"{0, 2, 0}", "{1, 1e5, 0}"});
+}
+
+Calls with_noise_orders(const std::string& name) {
+    return ordered(name, "{1, 0, 1, 2, 1}",
+                   {"{0, 0, 1, 2, 0}", "{4, 0, 1, 2, 0}", "{1, -1, 1, 2, 0}", "{1, 0, 0.5, 2, 0}", "{1, 0, 1, 0, 0}",
+                    "{1, {0, 0}, 1, 2, 0}", "{1, 0, 1, 1e5, 0}"});
 }
 
 Calls named(const std::string& name) {
@@ -72,6 +79,8 @@ const std::map<std::string, Calls>& dynamic_methods() {
         {"ivgpmf", filtered("ivgpmf")},
         {"srivc", output_error("srivc")},
         {"coe", output_error("coe")},
+        {"rivc", with_noise_orders("rivc")},
+        {"tfrivc", named("tfrivc")},
         {"tfsrivc", named("tfsrivc")},
         {"tfcoe", named("tfcoe")},
         {"procsrivc", structured("procsrivc")},
@@ -154,8 +163,8 @@ TEST(bad_input, every_method_refuses_data_it_cannot_use) {
 // Around zero a constant input could be a step to which nothing answers.
 TEST(bad_input, a_constant_input_without_a_transient_is_refused) {
     for (const char* call : {"srivc(d, {1, 2, 0})", "coe(d, {1, 2, 0})", "tfsrivc(d, 2, 0)", "procsrivc(d, 'P2')",
-                             "tfcoe(d, 2, 0, {InitialState = 'auto', Offset = 'auto'})", "oe(d, {2, 2, 1})",
-                             "sriv(d, {2, 2, 1}, {InitialState = 'auto', Offset = 'auto'})"})
+                             "rivc(d, {1, 0, 1, 2, 0})", "tfcoe(d, 2, 0, {InitialState = 'auto', Offset = 'auto'})",
+                             "oe(d, {2, 2, 1})", "sriv(d, {2, 2, 1}, {InitialState = 'auto', Offset = 'auto'})"})
         for (const char* seed : {"1", "2", "3"})
             EXPECT_THAT(said(std::string("rng(") + seed + ")\nd = iddata(0.1*randn(400), ones(400), 0.05)\nprint(" +
                              call + ")"),
@@ -171,15 +180,25 @@ TEST(bad_input, wrong_orders_are_refused_with_their_meaning) {
                 << call;
     EXPECT_THAT(said("lssvf(d, {2, 1}, 3)"),
                 HasSubstr("{na, nb, nk} (na: poles; nb: coefficients of B; nk: samples of delay)"));
+    const auto continuous = HasSubstr("poles; nb: coefficients of B; nk: samples of delay), but nb is 4, and with na");
+    for (const char* name : {"lssvf", "lsgpmf", "ivsvf", "ivgpmf"})
+        EXPECT_THAT(said(std::string(name) + "(d, {2, 4, 0}, 3)"), continuous) << name;
+    for (const char* call : {"srivc(d, {4, 2, 0})", "coe(d, {4, 2, 0})", "rivc(d, {4, 0, 1, 2, 0})"})
+        EXPECT_THAT(said(call), AllOf(HasSubstr("nf: poles; nk: samples of delay)"),
+                                      HasSubstr("but nb is 4, and with nf = 2 must lie between 1 and 3")))
+            << call;
+    for (const char* call : {"srivc(d, {1, 0, 0})", "coe(d, {1, 0, 0})", "rivc(d, {1, 0, 1, 0, 0})"})
+        EXPECT_THAT(said(call), HasSubstr("but nf is 0, and must be at least 1")) << call;
 }
 
 TEST(bad_input, delays_must_be_shorter_than_the_record) {
-    for (const char* call : {"lssvf(d, {2, 1, 600}, 3)", "lsgpmf(d, {2, 1, 600}, 3)", "ivsvf(d, {2, 1, 600}, 3)",
-                             "ivgpmf(d, {2, 1, 600}, 3)", "srivc(d, {1, 2, 600})", "coe(d, {1, 2, 600})",
-                             "arx(d, {2, 2, 600})", "oe(d, {2, 2, 600})", "sriv(d, {2, 2, 600})"})
-        EXPECT_THAT(said(call), AllOf(StartsWith("ERROR"), HasSubstr("not shorter than the record"))) << call;
     for (const char* call :
-         {"tfsrivc(d, 2, 0, {TdMax = 30})", "tfcoe(d, 2, 0, {TdMax = 30})", "procsrivc(d, 'P1D', {TdMax = 30})"})
+         {"lssvf(d, {2, 1, 600}, 3)", "lsgpmf(d, {2, 1, 600}, 3)", "ivsvf(d, {2, 1, 600}, 3)",
+          "ivgpmf(d, {2, 1, 600}, 3)", "srivc(d, {1, 2, 600})", "coe(d, {1, 2, 600})", "rivc(d, {1, 0, 1, 2, 600})",
+          "arx(d, {2, 2, 600})", "oe(d, {2, 2, 600})", "sriv(d, {2, 2, 600})"})
+        EXPECT_THAT(said(call), AllOf(StartsWith("ERROR"), HasSubstr("not shorter than the record"))) << call;
+    for (const char* call : {"tfsrivc(d, 2, 0, {TdMax = 30})", "tfrivc(d, 2, 0, {TdMax = 30})",
+                             "tfcoe(d, 2, 0, {TdMax = 30})", "procsrivc(d, 'P1D', {TdMax = 30})"})
         EXPECT_THAT(said(call), AllOf(StartsWith("ERROR"), HasSubstr("must be shorter than the record"))) << call;
 }
 

@@ -16,6 +16,11 @@
 
 namespace dynlab {
 
+/// Noise v = C(q^-1)/D(q^-1) e of an estimated model, monic, with standard errors (zero for the leading ones).
+struct NoiseModel {
+    Vector C, D, C_std, D_std;
+};
+
 /// What an estimation method says of a model besides its coefficients.
 struct Estimate {
     std::string method;              ///< Lua name
@@ -32,6 +37,7 @@ struct Estimate {
     std::shared_ptr<const StepTestResult> step_test = {};  ///< of the graphical methods
     /// Whiteness of the output errors and robust standard errors, where a method has them assessed.
     std::shared_ptr<const Assessment> assessment = {};
+    std::shared_ptr<const NoiseModel> noise = {};  ///< of rivc
 
     bool errors_are_coloured() const { return assessment && !assessment->white; }
     /// The robust covariance when the output errors are coloured.

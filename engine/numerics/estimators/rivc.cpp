@@ -1,0 +1,245 @@
+#include "numerics/estimators/rivc.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "numerics/error.h"
+#include "numerics/estimators/srivc.h"
+#include "numerics/kernels/output_error.h"
+#include "numerics/kernels/simulation_report.h"
+#include "numerics/kernels/transfer_data.h"
+#include "numerics/kernels/transfer_output.h"
+#include "numerics/kernels/transfer_report.h"
+#include "numerics/linalg/polynomial.h"
+
+namespace dynlab {
+
+namespace {
+
+constexpr double kRounding = 1e-10;  // of the output's variation: a smaller simulation error holds no noise
+constexpr double kNearUnitCircle = 0.995;
+
+void check(const IdData& data, const NoiseOrders& orders, const TransferStructure& structure) {
+    orders.validate();
+    if (!data.regular())
+        throw InvalidArgument(
+            "rivc: the noise model counts in samples, so the data must be sampled regularly: resample them, or use "
+            "srivc, which takes any sampling");
+    if (structure.outputs != 1 || data.output_count() != 1)
+        throw InvalidArgument(
+            "rivc: one output is wanted, because each has a noise model of its own, and the data have " +
+            std::to_string(data.output_count()) + ": select them one by one");
+    const Index wanted = 3 * (structure.parameter_count() + orders.nc + orders.nd);
+    if (data.sample_count() < wanted)
+        throw InvalidArgument("rivc: at least " + std::to_string(wanted) +
+                              " samples are needed for the model and its noise, and the data hold " +
+                              std::to_string(data.sample_count()));
+}
+
+/// The simulated output of all experiments and its sensitivities, filtered by D/C.
+class WhitenedOutput : public OutputErrorModel {
+  public:
+    WhitenedOutput(const TransferOutput& output, const ArmaNoise& noise) : output_(output), noise_(noise) {}
+
+    Index parameter_count() const override { return output_.parameter_count(); }
+    const Vector& lower() const override { return output_.lower(); }
+    const Vector& upper() const override { return output_.upper(); }
+    void simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const override {
+        output_.simulate(theta, output, sensitivities);
+        output = filtered(output);
+        if (sensitivities != nullptr) *sensitivities = filtered(*sensitivities);
+    }
+    Matrix filtered(const MatrixView& rows) const {
+        Matrix result(rows.rows(), rows.cols());
+        for (std::size_t e = 0; e < output_.experiment_count(); ++e)
+            result.middleRows(output_.row(e, 0), output_.rows(e)) =
+                whitened(noise_, rows.middleRows(output_.row(e, 0), output_.rows(e)));
+        return result;
+    }
+
+  private:
+    const TransferOutput& output_;
+    const ArmaNoise& noise_;
+};
+
+/// srivc's estimate as a point of the search.
+Vector first_point(const TransferOutput& model, const TransferEstimate& start) {
+    Vector theta = Vector::Zero(model.parameter_count());
+    theta.head(start.theta.size()) = start.theta;
+    for (std::size_t e = 0; e < start.initial_values.size(); ++e)
+        theta.segment(model.initial_place(e, 0), start.initial_values[e].size()) = start.initial_values[e];
+    for (std::size_t e = 0; e < model.experiment_count() && start.start.offset; ++e)
+        theta[model.offset_place(e, 0)] = start.offsets(static_cast<Index>(e), 0);
+    return theta.cwiseQuotient(model.seconds()).cwiseMax(model.lower()).cwiseMin(model.upper());
+}
+
+double largest_change(const Vector& next, const Vector& before, const Vector& errors) {
+    double change = 0;
+    for (Index i = 0; i < next.size(); ++i)
+        if (next[i] != before[i])
+            change = std::max(change, std::abs(next[i] - before[i]) / std::max(std::abs(next[i]), errors[i]));
+    return change;
+}
+
+/// The passes between the noise model and the instrumental equations.
+class Passes {
+  public:
+    Passes(const TransferOutput& model, const Vector& y, const NoiseOrders& orders, const TransferOptions& options)
+        : model_(model), y_(y), orders_(orders), options_(options) {}
+
+    void run(const Vector& start) {
+        theta_ = start;
+        noise_ = ArmaNoise::white(orders_.nc, orders_.nd);
+        for (int pass = 0; pass < std::max(1, options_.MaxIter); ++pass) {
+            if (pass > 0 && options_.cancel && options_.cancel()) {
+                termination_ = Termination::kCancelled;
+                break;
+            }
+            const double change = one_pass(pass > 0);
+            const Vector errors = y_ - simulated();
+            trace_.push_back({seconds(theta_), errors.squaredNorm() / static_cast<double>(y_.size()), change});
+            if (change <= options_.Tol) {
+                termination_ = Termination::kConverged;
+                break;
+            }
+        }
+        set_matrix();
+    }
+
+    Vector simulated() const {
+        Vector output;
+        model_.simulate(theta_, output, nullptr);
+        return output;
+    }
+    /// Nothing but rounding is left, so that there is no noise to model.
+    bool exact(const Vector& errors) const {
+        return errors.norm() <= kRounding * (y_.array() - y_.mean()).matrix().norm();
+    }
+    Vector seconds(const Vector& theta) const { return theta.cwiseProduct(model_.seconds()); }
+
+    Vector theta_;
+    ArmaNoise noise_;
+    OutputErrorSolution solution_;
+    double variance_ = 0;
+    bool without_noise_ = false;
+    Termination termination_ = Termination::kIterationLimit;
+    std::vector<TransferIteration> trace_;
+
+  private:
+    std::vector<Vector> residual_records() const {
+        const Vector errors = y_ - simulated();
+        std::vector<Vector> records;
+        for (std::size_t e = 0; e < model_.experiment_count(); ++e)
+            records.push_back(errors.segment(model_.row(e, 0), model_.rows(e)));
+        return records;
+    }
+
+    /// Largest relative change of theta and the noise model.
+    double one_pass(bool noise_known) {
+        const ArmaNoise before = noise_;
+        const double tolerance = std::min(options_.Tol, 1e-6);
+        without_noise_ = exact(y_ - simulated());
+        noise_ = without_noise_ ? ArmaNoise::white(orders_.nc, orders_.nd)
+                                : estimate_arma(residual_records(), orders_.nc, orders_.nd, tolerance,
+                                                noise_known ? &before : nullptr);
+        const WhitenedOutput whitened_output(model_, noise_);
+        solution_ = minimise_output_error(whitened_output, whitened_output.filtered(y_), theta_,
+                                          {options_.MaxIter, tolerance, options_.cancel});
+        const Vector last = theta_;
+        theta_ = solution_.theta;
+        const Vector ones = Vector::Constant(std::max(noise_.C.size(), noise_.D.size()), 1);
+        return std::max({largest_change(theta_, last, solution_.covariance.diagonal().cwiseMax(0).cwiseSqrt()),
+                         largest_change(noise_.C, before.C, ones), largest_change(noise_.D, before.D, ones)});
+    }
+
+    /// Error variance over the samples that the conditional sum of squares uses, and the covariance that follows.
+    void set_matrix() {
+        const WhitenedOutput whitened_output(model_, noise_);
+        const double squares = whitened_output.filtered(y_ - simulated()).squaredNorm();
+        const double used = static_cast<double>(y_.size() - orders_.nd * static_cast<Index>(model_.experiment_count()));
+        variance_ = squares / (used - static_cast<double>(theta_.size() + orders_.nc + orders_.nd));
+        if (solution_.noise_variance > 0) solution_.covariance *= variance_ / solution_.noise_variance;
+    }
+
+    const TransferOutput& model_;
+    const Vector& y_;
+    NoiseOrders orders_;
+    TransferOptions options_;
+};
+
+void fill_noise(RivcResult& result, const Passes& passes, const NoiseOrders& orders) {
+    result.C = passes.noise_.C;
+    result.D = passes.noise_.D;
+    result.noise_covariance = passes.noise_.covariance;
+    const Vector std = result.noise_covariance.diagonal().cwiseMax(0).cwiseSqrt();
+    result.C_std = Vector::Zero(orders.nc + 1);
+    result.D_std = Vector::Zero(orders.nd + 1);
+    result.C_std.tail(orders.nc) = std.head(orders.nc);
+    result.D_std.tail(orders.nd) = std.tail(orders.nd);
+    const bool asked = orders.nc + orders.nd > 0;
+    if (asked && passes.without_noise_)
+        result.warnings.push_back("Nothing but rounding is left of the output, so there is no noise to model.");
+    for (const auto& [name, p] : {std::pair{"C", result.C}, std::pair{"D", result.D}})
+        if (p.tail(p.size() - 1).any() && roots(p).cwiseAbs().maxCoeff() > kNearUnitCircle)
+            result.warnings.push_back(std::string("A root of ") + name +
+                                      " lies nearly on the unit circle: the noise drifts, or its orders do not suit.");
+}
+
+void fill_model(RivcResult& result, const TransferOutput& model, const Passes& passes, const Vector& y) {
+    const Index count = result.structure.parameter_count();
+    const Vector all = passes.seconds(passes.theta_), seconds = model.seconds().head(count);
+    result.theta = all.head(count);
+    result.covariance =
+        seconds.asDiagonal() * passes.solution_.covariance.topLeftCorner(count, count) * seconds.asDiagonal();
+    result.condition_number = passes.solution_.condition_number;
+    result.noise_variance = Vector::Constant(1, passes.variance_);
+    for (std::size_t e = 0; e < result.initial_values.size(); ++e)
+        result.initial_values[e] = all.segment(model.initial_place(e, 0), result.initial_values[e].size());
+    double variation = 0;
+    for (std::size_t e = 0; e < model.experiment_count(); ++e) {
+        const Vector of_experiment = y.segment(model.row(e, 0), model.rows(e));
+        variation += (of_experiment.array() - of_experiment.mean()).square().sum();
+        if (result.start.offset) result.offsets(static_cast<Index>(e), 0) = all[model.offset_place(e, 0)];
+    }
+    const double squares = (y - passes.simulated()).squaredNorm();
+    result.fit_percent = Vector::Constant(1, 100 * (1 - std::sqrt(squares / variation)));
+    result.loss = squares / static_cast<double>(y.size());
+    result.termination = passes.termination_;
+    for (const TransferIteration& pass : passes.trace_)
+        result.trace.push_back({pass.theta.head(count), pass.loss, pass.change});
+}
+
+}  // namespace
+
+void NoiseOrders::validate() const {
+    if (nc < 0 || nd < 0)
+        throw InvalidArgument("nc and nd, the orders of the noise model, must not be negative, and are " +
+                              std::to_string(nc) + " and " + std::to_string(nd));
+}
+
+RivcResult rivc(const IdData& data, const TransferStructure& structure, const NoiseOrders& orders,
+                const TransferOptions& options) {
+    options.validate();
+    check(data, orders, structure);
+    check_transfer_data("rivc", data, structure);
+    RivcResult result;
+    static_cast<TransferEstimate&>(result) = srivc(data, structure, options);
+    result.warnings.clear();
+    result.trace.clear();
+    TransferOptions wanted = options;
+    if (structure.free_delays && !wanted.TdMax) wanted.TdMax = result.delay_grid[result.delay_grid.size() - 1];
+    const DelayRange range = structure.free_delays ? delay_range(data, wanted) : DelayRange{};
+    const bool centre = options.offset == Offset::kRemove;
+    const CentredData centred = centre ? without_operating_points(data) : CentredData{};
+    const TransferOutput model(structure, result.start, centre ? centred.data : data, range.least, range.largest);
+    const Vector y = model.target();
+    Passes passes(model, y, orders, wanted);
+    passes.run(first_point(model, result));
+    fill_model(result, model, passes, y);
+    fill_noise(result, passes, orders);
+    describe_refinement(result, "RIVC", wanted, range);
+    return result;
+}
+
+}  // namespace dynlab

@@ -1,0 +1,91 @@
+#include <array>
+
+#include "numerics/estimators/rivc.h"
+#include "scripting/bindings.h"
+#include "scripting/estimation.h"
+#include "scripting/objects/data_object.h"
+#include "scripting/transfer_arguments.h"
+
+namespace dynlab {
+namespace {
+
+constexpr OrderEntry kNc{"nc", "coefficients of C after the leading one"};
+constexpr OrderEntry kNd{"nd", "coefficients of D after the leading one"};
+constexpr std::array kOrders = {kNb, kNc, kNd, kNf, kNk};
+
+int noise_order(const std::vector<int>& entry, const OrderEntry& what) {
+    if (entry.size() == 1) return entry.front();
+    throw InvalidArgument(
+        fmt::format("{} is one number for the noise of the output, but {} were given", what.name, entry.size()));
+}
+
+int give_with_noise(Call& call, const RivcResult& result) {
+    Estimate estimate = estimate_of(name_of(call), result);
+    estimate.noise = std::make_shared<NoiseModel>(NoiseModel{result.C, result.D, result.C_std, result.D_std});
+    estimate.vectors.insert(estimate.vectors.end(), {{"C_std", result.C_std}, {"D_std", result.D_std}});
+    estimate.matrices.emplace_back("noise_covariance", result.noise_covariance);
+    return give_estimate(call, std::move(estimate), result);
+}
+
+using NoisyEstimation = std::function<RivcResult(const IdData&)>;
+
+NoisyEstimation estimation_of(const StructureMaker& structure, const NoiseOrders& noise,
+                              const TransferOptions& wanted) {
+    return [=](const IdData& data) { return rivc(data, structure(data), noise, wanted); };
+}
+
+NoisyEstimation read_rivc(const Call& call) {
+    call.at_most(3);
+    const auto orders = order_lists(call, 2, kOrders);
+    const Options options(call, 3,
+                          {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator"});
+    TransferOptions wanted;
+    read_common_options(options, wanted);
+    return estimation_of(structure_of_orders(kOrders, orders, sharing_of(options)),
+                         {noise_order(orders[1], kNc), noise_order(orders[2], kNd)}, wanted);
+}
+
+NoisyEstimation read_tfrivc(const Call& call) {
+    call.at_most(4);
+    const Options options(call, 4,
+                          {"nc", "nd", "lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol",
+                           "CommonDenominator", "TdMin", "TdMax", "NumTd", "IODelay"});
+    TransferOptions wanted;
+    read_common_options(options, wanted);
+    const StructureMaker structure = structure_of_counts(call, options, wanted);
+    const NoiseOrders noise{static_cast<int>(options.size("nc", 0)), static_cast<int>(options.size("nd", 1))};
+    return estimation_of(structure, noise, wanted);
+}
+
+template <auto kRead>
+int estimate_with_noise(Call& call) {
+    const IdData& data = object_argument<IdData>(call, 1, "data");
+    return give_with_noise(call, kRead(call)(data));
+}
+
+template <auto kRead>
+Estimation read_estimation(const Call& call) {
+    return kRead(call);
+}
+
+constexpr NamedReader kReaders[] = {{"rivc", read_estimation<read_rivc>}, {"tfrivc", read_estimation<read_tfrivc>}};
+
+constexpr const char* kArea = "continuous time";
+constexpr std::array kFunctions = {
+    FunctionEntry{"rivc", kArea, "rivc(data, {nb, nc, nd, nf, nk}, {lambda =, MaxIter =, Tol =, ...}) -> G",
+                  "y = B/F u + C/D e, coloured noise modelled too", guarded<estimate_with_noise<read_rivc>>},
+    FunctionEntry{"tfrivc", kArea, "tfrivc(data, np, nz, {nc =, nd =, TdMin =, TdMax =, IODelay =, ...}) -> G",
+                  "rivc by numbers of poles and zeros, the delay estimated", guarded<estimate_with_noise<read_tfrivc>>},
+};
+
+}  // namespace
+
+EstimationReaders noise_model_readers() {
+    return kReaders;
+}
+
+FunctionEntries noise_model_functions() {
+    return kFunctions;
+}
+
+}  // namespace dynlab

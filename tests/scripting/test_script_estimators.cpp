@@ -1,0 +1,53 @@
+// Oracle: how the record was made, and srivc on the same record.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "script_run.h"
+
+using namespace dynlab;
+using dynlab::test::error_of;
+using dynlab::test::printed;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+namespace {
+
+const std::string kColoured =
+    "rng(1)\nlocal u = prbs(7, 8)\nlocal e, v = randn(#u), zeros(#u)\nv[1] = e[1]\n"
+    "for k = 2, #u do v[k] = 0.9*v[k - 1] + e[k] end\n"
+    "local data = iddata(lsim(tf({2}, {1, 4, 3}, {IODelay = 0.3}), u, 0.05) + 0.01*v, u, 0.05)\n"
+    "local function near(a, b, std) return math.abs(a - b) <= 3*std end\n";
+
+}  // namespace
+
+TEST(script_estimators, rivc_shows_the_noise_model_with_its_errors) {
+    EXPECT_EQ(printed(kColoured + "local G = rivc(data, {1, 0, 1, 2, 6})\n"
+                                  "print(#G.C, #G.D, G.D[1], near(G.D[2], -0.9, G.report.D_std[2]), G.report.D_std[1], "
+                                  "math.abs(G.report.D_std[2]^2/G.report.noise_covariance[{1, 1}] - 1) < 1e-12)\n"
+                                  "for i, p in ipairs{4, 3, 2} do print(near(G.param[i], p, G.std[i])) end\n"
+                                  "print(near(G.report.noise_variance/1e-4, 1, math.sqrt(2/#u)))"),
+              "1\t2\t1\ttrue\t0\ttrue\ntrue\ntrue\ntrue\ntrue\n");
+    EXPECT_THAT(printed(kColoured + "present(rivc(data, {1, 0, 1, 2, 6}))"),
+                AllOf(HasSubstr("Noise C(q^-1)/D(q^-1) e"), HasSubstr("  d1"), Not(HasSubstr("  c1"))));
+    EXPECT_THAT(printed(kColoured + "present(rivc(data, {1, 0, 0, 2, 6}))"), HasSubstr("Noise: taken as white"));
+}
+
+TEST(script_estimators, tfrivc_finds_the_delay_too) {
+    EXPECT_EQ(printed(kColoured +
+                      "local G = tfrivc(data, 2, 0, {nd = 1, TdMax = 1})\n"
+                      "print(near(G.IODelay, 0.3, G.std[4]), near(G.D[2], -0.9, G.report.D_std[2]))\n"
+                      "print(tfrivc(data, 2, 0, {IODelay = 0.3}).IODelay, #tfrivc(data, 2, 0, {IODelay = 0.3}).param)"),
+              "true\ttrue\n0.3\t3\n");
+}
+
+TEST(script_estimators, rivc_and_tfrivc_can_be_studied) {
+    EXPECT_EQ(printed("local study = montecarlo{system = tf({2}, {1, 4, 3}), input = prbs(7, 8), Ts = 0.05, sigma = "
+                      "0.05, runs = 5, estimators = {rivc = {{1, 0, 1, 2, 0}}, tfrivc = {2, 0, {TdMax = 0}}}}\n"
+                      "print(#study.rivc.mean, #study.tfrivc.mean)"),
+              "3\t3\n");
+}
+
+TEST(script_estimators, models_without_a_noise_model_say_who_has_one) {
+    EXPECT_THAT(error_of(kColoured + "print(srivc(data, {1, 2, 6}).C)"), HasSubstr("rivc gives C and D"));
+}

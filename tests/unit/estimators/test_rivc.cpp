@@ -1,0 +1,130 @@
+#include "numerics/estimators/rivc.h"
+
+#include <gtest/gtest.h>
+
+#include "numerics/estimators/srivc.h"
+#include "support/coloured_noise.h"
+#include "support/thrown_message.h"
+
+using namespace dynlab;
+using namespace dynlab::test;
+
+namespace {
+
+const TransferStructure kCourse = TransferStructure::single(2, 0);
+
+TransferOptions exact() {
+    TransferOptions options;
+    options.Tol = 1e-10;
+    return options;
+}
+
+}  // namespace
+
+TEST(rivc, noise_free_records_give_the_truth) {  // oracle: the simulated system
+    const RivcResult found = rivc(course_record(0, 1), kCourse, {1, 2}, exact());
+    EXPECT_LT(relative_difference(found.theta, values({4, 3, 2})), 1e-9) << found.message;
+    EXPECT_TRUE(found.std.allFinite());
+}
+
+TEST(rivc, without_a_noise_model_it_is_srivc) {  // oracle: srivc's fixed point
+    for (const char* set : {"sys2_s0.2_seed1", "sys2_s0.4_seed1", "rg_snr10_seed1"}) {
+        const IdData data = reference_record(set, 0.01);
+        const TransferStructure structure = set[0] == 'r' ? TransferStructure::single(4, 1) : kCourse;
+        const RivcResult a = rivc(data, structure, {0, 0}, exact());
+        const TransferEstimate b = srivc(data, structure, exact());
+        EXPECT_LT(relative_difference(a.theta, b.theta), 1e-8) << set;
+        EXPECT_LT(relative_difference(a.std, b.std), 1e-6) << set;
+        EXPECT_EQ(a.C, Vector::Ones(1));
+        EXPECT_EQ(a.D, Vector::Ones(1));
+    }
+}
+
+// oracle: the published test problem's system and noise
+TEST(rivc, finds_model_and_noise_within_their_errors) {
+    for (const std::uint32_t seed : {1, 2, 3}) {
+        const RivcResult found = rivc(ColouredProblem().record(seed), kCourse, {1, 2});
+        EXPECT_EQ(found.termination, Termination::kConverged) << found.message;
+        const Vector truth = values({4, 3, 2});
+        for (Index i = 0; i < 3; ++i) EXPECT_NEAR(found.theta[i], truth[i], 3 * found.std[i]) << seed;
+        EXPECT_NEAR(found.C[1], 0.9, 3 * found.C_std[1]) << seed;
+        EXPECT_NEAR(found.D[1], -1, 3 * found.D_std[1]) << seed;
+        EXPECT_NEAR(found.D[2], 0.2, 3 * found.D_std[2]) << seed;
+    }
+}
+
+// oracle: the definition, instruments orthogonal to the prediction error, with sensitivities by differences
+TEST(rivc, instruments_are_orthogonal_to_the_prediction_error) {
+    const IdData data = ColouredProblem().record(4);
+    const RivcResult found = rivc(data, kCourse, {1, 2}, exact());
+    ArmaNoise noise = ArmaNoise::white(1, 2);
+    noise.C = found.C;
+    noise.D = found.D;
+    const Vector u = data.experiments[0].u.col(0), y = data.experiments[0].y.col(0);
+    const auto error = [&](const Vector& theta) -> Vector {
+        return whitened(noise, y - lsim(TransferFunction(theta.tail(1), values({1, theta[0], theta[1]})), u, 0.05));
+    };
+    const Vector e = error(found.theta);
+    for (Index i = 0; i < 3; ++i) {
+        Vector above = found.theta, below = found.theta;
+        above[i] += 1e-5;
+        below[i] -= 1e-5;
+        const Vector z = (error(above) - error(below)) / 2e-5;
+        EXPECT_LT(std::abs(z.dot(e)) / (z.norm() * e.norm()), 1e-7) << i;
+    }
+}
+
+TEST(rivc, delays_offsets_inputs_and_experiments) {  // oracle: the simulated systems
+    const Vector u = prbs(7, 8), w = prbs(7, 5).replicate(2, 1).topRows(u.size());
+    const Vector x = lsim(TransferFunction(values({2}), values({1, 4, 3}), 0, 0.33), u, 0.05);
+    const Vector v = 0.05 * arma_signal(values({1}), values({1, -0.8}), u.size(), 3);
+    TransferStructure free = kCourse;
+    free.free_delays = true;
+    TransferOptions options;
+    options.offset = Offset::kEstimate;
+    const RivcResult late = rivc(IdData(Matrix(x.array() + 5 + v.array()), Matrix(u), 0.05), free, {0, 1}, options);
+    EXPECT_NEAR(late.theta[3], 0.33, 4 * late.std[3]) << late.message;
+    EXPECT_NEAR(late.offsets(0, 0), 5, 0.2) << late.message;
+    EXPECT_NEAR(late.D[1], -0.8, 4 * late.D_std[1]);
+    EXPECT_GE(late.delay_grid.size(), 5);
+
+    Matrix inputs(u.size(), 2);
+    inputs << u, w;
+    const Vector second = lsim(TransferFunction(values({1}), values({1, 0.8})), w, 0.05);
+    const Vector first = lsim(TransferFunction(values({2}), values({1, 4, 3})), u, 0.05);
+    const IdData one(Matrix(first + second + v), inputs, 0.05);
+    const auto structure = TransferStructure::grid(1, 2, Denominators::kPerChannel, {2, 1}, {0, 0}, {0, 0});
+    const RivcResult both = rivc(IdData::merge({one, one}), structure, {0, 1});
+    const Vector truth = values({4, 3, 2, 0.8, 1});
+    for (Index i = 0; i < 5; ++i) EXPECT_NEAR(both.theta[i], truth[i], 6 * both.std[i]) << both.message;
+}
+
+TEST(rivc, refuses_what_it_cannot_do) {
+    const IdData data = ColouredProblem().record(1);
+    const Matrix u = data.experiments[0].u, y = data.experiments[0].y;
+    Vector t = Vector::LinSpaced(u.rows(), 0, 50);
+    t[3] += 0.01;
+    const auto says = [](const std::string& message, const char* part) {
+        return message.find(part) != std::string::npos;
+    };
+    EXPECT_TRUE(says(thrown_message([&] { rivc(IdData(y, u, t), kCourse, {1, 2}); }), "sampled regularly"));
+    EXPECT_TRUE(says(thrown_message([&] { rivc(data, kCourse, {-1, 2}); }), "must not be negative"));
+    EXPECT_TRUE(says(thrown_message([&] { rivc(data.range(1, 15), kCourse, {1, 2}); }), "at least 18 samples"));
+    EXPECT_TRUE(says(thrown_message([&] { rivc(IdData(y, 0 * u, 0.05), kCourse, {1, 2}); }), "excites nothing"));
+    EXPECT_TRUE(says(thrown_message([&] {
+                         rivc(IdData(y.replicate(1, 2), u, 0.05),
+                              TransferStructure::grid(2, 1, Denominators::kPerChannel, {2}, {0}, {0}), {1, 2});
+                     }),
+                     "one output"));
+}
+
+TEST(rivc, always_answers) {
+    TransferOptions options;
+    options.MaxIter = 1;
+    const RivcResult stopped = rivc(ColouredProblem().record(1), kCourse, {1, 2}, options);
+    EXPECT_EQ(stopped.termination, Termination::kIterationLimit);
+    EXPECT_TRUE(stopped.theta.allFinite() && stopped.std.allFinite());
+    EXPECT_NE(stopped.message.find("MaxIter = 1"), std::string::npos);
+    options.cancel = [] { return true; };
+    EXPECT_TRUE(rivc(ColouredProblem().record(1), kCourse, {1, 2}, options).theta.allFinite());
+}
