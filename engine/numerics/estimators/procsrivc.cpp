@@ -270,9 +270,8 @@ void warn_of_search(ProcsrivcResult& result, double condition_number, const Proc
 std::string message_of(const ProcsrivcResult& result) {
     const bool done = result.termination == Termination::kConverged || result.termination == Termination::kNoProgress;
     std::ostringstream text;
-    text << "Output error " << (done ? "converged" : "stopped") << " after " << result.trace.size()
-         << " iterations, simulating " << description(result.start) << ": fit " << number_text(result.fit_percent, 4)
-         << " %.";
+    text << "Output error " << (done ? "converged" : "stopped") << " after " << iterations_text(result.trace.size())
+         << ", simulating " << description(result.start) << ": fit " << number_text(result.fit_percent, 4) << " %.";
     for (const std::string& warning : result.warnings) text << ' ' << warning;
     return text.str();
 }

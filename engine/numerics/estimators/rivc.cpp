@@ -238,7 +238,7 @@ RivcResult rivc(const IdData& data, const TransferStructure& structure, const No
     passes.run(first_point(model, result));
     fill_model(result, model, passes, y);
     fill_noise(result, passes, orders);
-    describe_refinement(result, "RIVC", wanted, range);
+    describe_refinement(result, data, "RIVC", wanted, range);
     return result;
 }
 

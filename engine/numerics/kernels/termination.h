@@ -1,4 +1,6 @@
 #pragma once
+#include <cstddef>
+#include <string>
 
 namespace dynlab {
 
@@ -10,5 +12,10 @@ enum class Termination {
     kDiverged,        ///< the loss grew without bound (a step size that is too large)
     kCancelled,       ///< the cancel callback asked to stop
 };
+
+/// "1 iteration", "2 iterations".
+inline std::string iterations_text(std::size_t count) {
+    return std::to_string(count) + (count == 1 ? " iteration" : " iterations");
+}
 
 }  // namespace dynlab

@@ -238,7 +238,7 @@ TransferEstimate refine_output_error(const IdData& data, const TransferStructure
                                     ? refine_each_output(data, structure, condition, theta_start, options)
                                     : refine_jointly(data, structure, condition, theta_start, options);
     const DelayRange range = structure.free_delays ? delay_range(data, options) : DelayRange{};
-    describe_refinement(estimate, "Output error", options, range);
+    describe_refinement(estimate, data, "Output error", options, range);
     return estimate;
 }
 

@@ -15,6 +15,18 @@ void warn_of_search(TransferEstimate& estimate, const TransferOptions& options) 
         estimate.warnings.push_back("The search was stopped before its end; the best point so far is given.");
 }
 
+/// A step of a held input reaches the output through the direct term at the next sampling instant, wherever between
+/// two instants it arrives, and n + 1 weights of the sampled response cannot tell n + 1 coefficients and a delay.
+void warn_of_ambiguous_delays(TransferEstimate& estimate, const IdData& data) {
+    if (!estimate.structure.free_delays || data.hold != Hold::kZoh || !data.regular()) return;
+    for (std::size_t i = 0; i < estimate.models.size(); ++i)
+        if (estimate.models[i].zero_count() == estimate.models[i].pole_count() && estimate.models[i].delay() > 0)
+            estimate.warnings.push_back("The delay" + channel_text(estimate, i) +
+                                        " is only known to within one sampling time, and its standard error means "
+                                        "nothing: the input is held and the model has as many zeros as poles. Fix the "
+                                        "delay with IODelay, or take one zero fewer.");
+}
+
 void warn_of_delays(TransferEstimate& estimate, const DelayRange& range) {
     if (!estimate.structure.free_delays || !(range.largest > range.least)) return;
     const double edge = 1e-9 * range.largest;
@@ -35,16 +47,16 @@ void warn_of_delays(TransferEstimate& estimate, const DelayRange& range) {
 
 }  // namespace
 
-void describe_refinement(TransferEstimate& estimate, const std::string& method, const TransferOptions& options,
-                         const DelayRange& range) {
+void describe_refinement(TransferEstimate& estimate, const IdData& data, const std::string& method,
+                         const TransferOptions& options, const DelayRange& range) {
     warn_of_search(estimate, options);
     report_errors(estimate);
     warn_of_delays(estimate, range);
+    warn_of_ambiguous_delays(estimate, data);
     const bool settled =
         estimate.termination == Termination::kConverged || estimate.termination == Termination::kNoProgress;
     set_message(estimate, method + (settled ? " converged" : " stopped") + " after " +
-                              std::to_string(estimate.trace.size()) + " iterations, simulated " +
-                              description(estimate.start));
+                              iterations_text(estimate.trace.size()) + ", simulated " + description(estimate.start));
 }
 
 }  // namespace dynlab

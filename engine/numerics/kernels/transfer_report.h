@@ -8,8 +8,9 @@ namespace dynlab {
 
 /// Writes the standard errors, warnings and message of an output-error estimate whose other fields are filled: what
 /// ended the search (`method` begins the sentence), what was simulated, the fit; then doubts: no convergence, those of
-/// report_errors, an unstable model, free delays at an edge of `range`. Warnings that are already there stay in front.
-void describe_refinement(TransferEstimate& estimate, const std::string& method, const TransferOptions& options,
-                         const DelayRange& range);
+/// report_errors, an unstable model, free delays at an edge of `range`, or known only to within one
+/// sampling time of `data`. Warnings that are already there stay in front.
+void describe_refinement(TransferEstimate& estimate, const IdData& data, const std::string& method,
+                         const TransferOptions& options, const DelayRange& range);
 
 }  // namespace dynlab

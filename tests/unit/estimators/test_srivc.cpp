@@ -155,3 +155,20 @@ TEST(srivc, outputs_with_a_common_denominator_share_what_they_know) {
     EXPECT_LT(relative_difference(found.theta.head(2), truth.head(2)), 1e-6) << found.message;
     EXPECT_LT(std::abs(found.theta[2] - 3), 4 * found.std[2]);
 }
+
+// oracle: two delays and numerators that give the same samples, as n + 1 weights of the sampled response follow from
+// n + 2 values
+TEST(srivc, tells_of_delays_that_held_inputs_cannot_show) {
+    const Vector u = prbs(7, 8), a = values({1, 3, 4});
+    const Vector x = lsim(TransferFunction(values({0.5, 1, 2}), a, 0, 0.33), u, 0.05);
+    const IdData data(Matrix(x), Matrix(u), 0.05);
+    TransferStructure fixed = TransferStructure::single(2, 2, 0.31);
+    const TransferEstimate other = srivc(data, fixed);
+    EXPECT_LT(other.loss, 1e-12 * x.squaredNorm());
+    fixed.free_delays = true;
+    const char* doubt = "is only known to within one sampling time";
+    EXPECT_NE(srivc(data, fixed).message.find(doubt), std::string::npos);
+    TransferStructure proper = TransferStructure::single(2, 1);
+    proper.free_delays = true;
+    EXPECT_EQ(srivc(data, proper).message.find(doubt), std::string::npos);
+}
