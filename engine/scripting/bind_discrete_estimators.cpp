@@ -4,6 +4,7 @@
 #include "numerics/estimators/oe.h"
 #include "numerics/estimators/sriv.h"
 #include "scripting/bindings.h"
+#include "scripting/estimation.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/model.h"
 #include "scripting/order_vector.h"
@@ -36,9 +37,9 @@ Estimate estimate_of(const char* method, const PolynomialEstimate& result) {
     return estimate;
 }
 
-int give_estimate(const Call& call, const char* method, const PolynomialEstimate& result) {
+int give_estimate(const Call& call, Estimate estimate, const PolynomialEstimate& result) {
     Model model{result.model.transfer_function()};
-    model.estimate = std::make_shared<Estimate>(estimate_of(method, result));
+    model.estimate = std::make_shared<Estimate>(std::move(estimate));
     model.polynomial = std::make_shared<PolynomialModel>(result.model);
     push_object(call.state(), std::move(model));
     return 1;
@@ -51,7 +52,8 @@ int estimate_arx(Call& call) {
     if (orders[0].size() != 1)
         throw InvalidArgument(
             fmt::format("na is one number of poles for all inputs, but {} were given", orders[0].size()));
-    return give_estimate(call, "arx", arx(data, PolynomialOrders::arx(orders[0][0], orders[1], orders[2])));
+    const PolynomialEstimate result = arx(data, PolynomialOrders::arx(orders[0][0], orders[1], orders[2]));
+    return give_estimate(call, estimate_of("arx", result), result);
 }
 
 PolynomialOptions polynomial_options(const Call& call, int index) {
@@ -71,9 +73,13 @@ int estimate_output_error(Call& call) {
     const char* name = static_cast<const char*>(lua_touserdata(call.state(), lua_upvalueindex(1)));
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const auto orders = order_lists(call, 2, kOutputErrorOrders);
-    return give_estimate(
-        call, name,
-        kMethod(data, PolynomialOrders::output_error(orders[0], orders[1], orders[2]), polynomial_options(call, 3)));
+    const PolynomialOptions wanted = polynomial_options(call, 3);
+    const PolynomialEstimate result =
+        kMethod(data, PolynomialOrders::output_error(orders[0], orders[1], orders[2]), wanted);
+    Estimate estimate = estimate_of(name, result);
+    if (data.sample_count() <= kMostAssessed && result.std.allFinite())
+        estimate.assessment = std::make_shared<Assessment>(assess(data, result, wanted.offset));
+    return give_estimate(call, std::move(estimate), result);
 }
 
 constexpr const char* kArea = "discrete time";

@@ -16,7 +16,6 @@ namespace {
 
 constexpr std::array kCarxOrders = {kNa, kNb, kNk};
 constexpr std::array kOutputErrorOrders = {kNb, kNf, kNk};
-constexpr Index kMostAssessed = 200'000;  // samples: robust errors of longer records would take longer than the fit
 
 /// lssvf and ivsvf; lsgpmf and ivgpmf, whose filter has a gain beta.
 template <auto kMethod, bool kMomentFunctionals>

@@ -27,6 +27,9 @@ EstimationReader find_estimation_reader(const std::string& method);
 /// Names of all methods that have one.
 std::vector<std::string> estimation_names();
 
+/// Samples: robust errors of longer records would take longer than the fit.
+inline constexpr Index kMostAssessed = 200'000;
+
 /// Pushes an estimate as the model that the method's own function gives, without robust standard errors.
 int give_transfer_estimate(const Call& call, const char* method, const TransferEstimate& estimate);
 

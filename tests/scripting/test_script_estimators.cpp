@@ -51,3 +51,12 @@ TEST(script_estimators, rivc_and_tfrivc_can_be_studied) {
 TEST(script_estimators, models_without_a_noise_model_say_who_has_one) {
     EXPECT_THAT(error_of(kColoured + "print(srivc(data, {1, 2, 6}).C)"), HasSubstr("rivc gives C and D"));
 }
+
+TEST(script_estimators, difference_equations_have_robust_errors_too) {
+    for (const char* method : {"oe", "sriv"})
+        EXPECT_THAT(printed(kColoured + "local G = " + method +
+                            "(data, {1, 2, 7})\nprint(#G.robust_std, G.robust_std[3] > G.std[3], G.report.white)\n"
+                            "present(G)"),
+                    AllOf(HasSubstr("3\ttrue\tfalse"), HasSubstr("(robust +- "), HasSubstr("are the ones to use")))
+            << method;
+}

@@ -33,12 +33,8 @@ void remove_operating_point(SampledExperiment& experiment, double& removed_outpu
 
 Record prepared_record(const IdData& data, Offset offset) {
     Record record;
-    record.removed_outputs = Vector::Zero(static_cast<Index>(data.experiments.size()));
-    for (std::size_t e = 0; e < data.experiments.size(); ++e) {
-        record.experiments.push_back({data.experiments[e].u, data.experiments[e].y.col(0)});
-        SampledExperiment& experiment = record.experiments.back();
-        if (offset == Offset::kRemove)
-            remove_operating_point(experiment, record.removed_outputs[static_cast<Index>(e)]);
+    record.experiments = sampled_experiments(data, offset, &record.removed_outputs);
+    for (const SampledExperiment& experiment : record.experiments) {
         record.samples += experiment.y.size();
         record.power += experiment.y.squaredNorm();
     }
@@ -147,13 +143,25 @@ std::string message_of(const PolynomialEstimate& estimate) {
     const bool settled =
         estimate.termination == Termination::kConverged || estimate.termination == Termination::kNoProgress;
     std::string text = std::string(settled ? "Converged" : "Stopped") + " after " +
-                       std::to_string(estimate.trace.size()) + " iterations, simulating " +
-                       description(estimate.start) + ": fit " + number_text(estimate.fit_percent, 4) + " %.";
+                       iterations_text(estimate.trace.size()) + ", simulating " + description(estimate.start) +
+                       ": fit " + number_text(estimate.fit_percent, 4) + " %.";
     for (const std::string& warning : estimate.warnings) text += ' ' + warning;
     return text;
 }
 
 }  // namespace
+
+std::vector<SampledExperiment> sampled_experiments(const IdData& data, Offset offset, Vector* removed_outputs) {
+    std::vector<SampledExperiment> experiments;
+    Vector removed = Vector::Zero(static_cast<Index>(data.experiments.size()));
+    for (const Experiment& experiment : data.experiments) {
+        experiments.push_back({experiment.u, experiment.y.col(0)});
+        if (offset == Offset::kRemove)
+            remove_operating_point(experiments.back(), removed[static_cast<Index>(experiments.size()) - 1]);
+    }
+    if (removed_outputs != nullptr) *removed_outputs = removed;
+    return experiments;
+}
 
 PolynomialEstimate fit_discrete_output(const std::string& method, const IdData& data, const PolynomialOrders& orders,
                                        const PolynomialOptions& options, const DiscreteSearch& search) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "numerics/kernels/instrument_iteration.h"
 #include "numerics/signals/iddata.h"
@@ -9,6 +10,11 @@ namespace dynlab {
 
 /// How a method finds the parameters of a DiscreteOutput from the measured rows.
 using DiscreteSearch = std::function<InstrumentSolution(const DiscreteOutput& model, const Vector& y)>;
+
+/// The experiments as the search sees them: less their operating point when Offset is "remove" (with several inputs
+/// the means), whose outputs, one per experiment, then stand in `removed_outputs` unless it is null.
+std::vector<SampledExperiment> sampled_experiments(const IdData& data, Offset offset,
+                                                   Vector* removed_outputs = nullptr);
 
 /// What oe and sriv have in common: checks data and orders (nb, nf and nk), takes the operating point off when
 /// Offset is "remove" (with several inputs the means), fits every start condition the options and the inputs allow and

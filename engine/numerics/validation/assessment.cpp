@@ -4,6 +4,7 @@
 #include <span>
 
 #include "numerics/error.h"
+#include "numerics/kernels/discrete_fit.h"
 #include "numerics/kernels/process_output.h"
 #include "numerics/kernels/transfer_sensitivity.h"
 #include "numerics/linalg/least_squares.h"
@@ -145,6 +146,25 @@ std::string verdict_of(const Assessment& assessment, const std::vector<std::stri
     return text;
 }
 
+// Robust covariance and standard errors, with the whiteness known.
+void finish(Assessment& assessment, const Matrix& Psi, const Vector& errors, const std::vector<Index>& lengths,
+            const MatrixView& plain, Index linear_unknowns) {
+    const Index N = Psi.rows(), q = Psi.cols();
+    std::vector<Index> free;
+    for (Index i = 0; i < q; ++i)
+        if (plain(i, i) > 0) free.push_back(i);
+    const auto known = static_cast<Index>(free.size()) + linear_unknowns;
+    assessment.covariance = Matrix::Zero(q, q);
+    if (!free.empty() && N > known) {
+        const RobustCovariance robust = robust_covariance(Psi(Eigen::all, free), errors, lengths);
+        const double freedom =
+            static_cast<double>(N - static_cast<Index>(free.size())) / static_cast<double>(N - known);
+        assessment.covariance(free, free) = freedom * robust.covariance;
+        assessment.bandwidth = robust.bandwidth;
+    }
+    assessment.std = assessment.covariance.diagonal().cwiseSqrt();
+}
+
 // `by_parameter` (columns of Psi x q) leads from the channels' coefficients to the parameters of the estimate.
 Assessment assess_channels(const IdData& data, const std::vector<ChannelPlaces>& channels, const StartCondition& start,
                            const MatrixView& by_parameter, const MatrixView& plain, const ResidualOptions& options) {
@@ -175,19 +195,7 @@ Assessment assess_channels(const IdData& data, const std::vector<ChannelPlaces>&
         assessment.whiteness.push_back(whiteness_test(own_errors, options));
         assessment.white = assessment.white && assessment.whiteness.back().white;
     }
-    std::vector<Index> free;
-    for (Index i = 0; i < q; ++i)
-        if (plain(i, i) > 0) free.push_back(i);
-    const auto known = static_cast<Index>(free.size()) + linear_unknowns;
-    assessment.covariance = Matrix::Zero(q, q);
-    if (!free.empty() && N > known) {
-        const RobustCovariance robust = robust_covariance(Psi(Eigen::all, free), errors, lengths);
-        const double freedom =
-            static_cast<double>(N - static_cast<Index>(free.size())) / static_cast<double>(N - known);
-        assessment.covariance(free, free) = freedom * robust.covariance;
-        assessment.bandwidth = robust.bandwidth;
-    }
-    assessment.std = assessment.covariance.diagonal().cwiseSqrt();
+    finish(assessment, Psi, errors, lengths, plain, linear_unknowns);
     assessment.verdict = verdict_of(assessment, data.output_names);
     return assessment;
 }
@@ -221,6 +229,44 @@ Assessment assess(const IdData& data, const ProcsrivcResult& estimate, const Res
     const ChannelPlaces channel{G, 0, 0, n, estimate.model.structure.delay ? n + b_count : -1};
     return assess_channels(counted, {channel}, estimate.start, coefficients_by_parameter(estimate.model),
                            estimate.covariance, options);
+}
+
+Assessment assess(const IdData& data, const PolynomialEstimate& estimate, Offset offset,
+                  const ResidualOptions& options) {
+    check_polynomial_data("assess", data, estimate.orders);
+    const std::vector<SampledExperiment> experiments = sampled_experiments(data, offset);
+    const DiscreteOutput model(estimate.orders, estimate.start, experiments);
+    const Index d = estimate.theta.size(), linear_unknowns = model.parameter_count() - d;
+    Vector theta = Vector::Zero(model.parameter_count()), output;
+    theta.head(d) = estimate.theta;
+    Matrix sensitivities;
+    model.simulate(theta, output, &sensitivities);
+    if (!output.allFinite() || !sensitivities.allFinite())
+        throw InvalidArgument(
+            "The simulated output of the estimate grows beyond all bounds, so that nothing can be said "
+            "of its errors");
+    Matrix Psi = sensitivities.leftCols(d);
+    if (linear_unknowns > 0) {
+        const Matrix linear = sensitivities.rightCols(linear_unknowns);
+        theta.tail(linear_unknowns) = solve_least_squares(linear, model.target() - output).solution;
+        model.simulate(theta, output, &sensitivities);
+        for (Index i = 0; i < d; ++i) Psi.col(i) = solve_least_squares(linear, sensitivities.col(i)).residuals;
+    }
+    const Vector errors = model.target() - output;
+    Assessment assessment;
+    std::vector<Vector> records;
+    std::vector<Index> lengths;
+    Index first = 0;
+    for (const SampledExperiment& experiment : experiments) {
+        lengths.push_back(experiment.y.size() - model.head());
+        records.push_back(errors.segment(first, lengths.back()));
+        first += lengths.back();
+    }
+    assessment.whiteness = {whiteness_test(records, options)};
+    assessment.white = assessment.whiteness.front().white;
+    finish(assessment, Psi, errors, lengths, estimate.covariance, linear_unknowns);
+    assessment.verdict = verdict_of(assessment, data.output_names);
+    return assessment;
 }
 
 }  // namespace dynlab

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "numerics/estimators/procsrivc.h"
+#include "numerics/kernels/polynomial_estimate.h"
 #include "numerics/kernels/transfer_estimate.h"
 #include "numerics/signals/iddata.h"
 #include "numerics/validation/residual_tests.h"
@@ -28,5 +29,9 @@ struct Assessment {
 Assessment assess(const IdData& data, const TransferEstimate& estimate, const ResidualOptions& options = {});
 /// The same for a process model; the operating point the result names is removed here.
 Assessment assess(const IdData& data, const ProcsrivcResult& estimate, const ResidualOptions& options = {});
+/// The same for oe and sriv, with the `offset` they were asked for, so that operating points are removed here. Throws
+/// InvalidArgument where the model's simulation grows beyond all bounds.
+Assessment assess(const IdData& data, const PolynomialEstimate& estimate, Offset offset,
+                  const ResidualOptions& options = {});
 
 }  // namespace dynlab

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <functional>
 
+#include "numerics/estimators/oe.h"
+#include "numerics/estimators/sriv.h"
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
@@ -185,6 +187,50 @@ TEST(assessment, process_models_with_zero_and_integrator_sampled_irregularly) { 
         const auto expected = robust_covariance(both, y - fitted.output, {500, 500});
         EXPECT_LT((actual.covariance - expected.covariance).norm(), 1e-5 * actual.covariance.norm()) << structure;
     }
+}
+
+TEST(assessment, difference_equations) {  // oracle: differences of the simulation, its linear part refitted by hand
+    const Vector f{{-1.5, 0.7}};
+    const double b = 0.2;
+    const auto simulated = [&](const Vector& theta, const Vector& u) {
+        Vector x = Vector::Zero(u.size());
+        for (Index k = 1; k < u.size(); ++k)
+            x[k] = theta[2] * u[k - 1] - theta[0] * x[k - 1] - (k > 1 ? theta[1] * x[k - 2] : 0);
+        return x;
+    };
+    const Vector u = prbs(6, 8), x = simulated(Vector{{f[0], f[1], b}}, u), v = 0.02 * ar1(u.size(), 0.8, 4);
+    const Index N = 400;
+    const auto orders = PolynomialOrders::output_error({1}, {2}, {1});
+    PolynomialOptions options;
+    options.Tol = 1e-10;
+    const IdData whole(Matrix(x + v), Matrix(u), kTs);
+    const auto rest = oe(whole, orders, options);
+    const auto of_rest = [&](const Vector& theta) { return simulated(theta, u); };
+    const auto expected = robust_covariance(differences(of_rest, rest.theta), x + v - of_rest(rest.theta));
+    const Assessment actual = assess(whole, rest, options.offset);
+    EXPECT_FALSE(actual.white);
+    EXPECT_EQ(actual.bandwidth, expected.bandwidth);
+    EXPECT_LT((actual.covariance - expected.covariance).norm(), 1e-5 * actual.covariance.norm());
+    EXPECT_GT(actual.std[2], 1.2 * rest.std[2]);
+
+    options.initial_state = InitialState::kEstimate;
+    options.offset = Offset::kEstimate;
+    const Vector small = 1e-5 * v, cut_u = u.tail(N), y = Vector((x + small).tail(N)).array() + 3;
+    const IdData cut(Matrix(y), Matrix(cut_u), kTs);
+    const auto running = sriv(cut, orders, options);
+    const auto refitted = [&](const Vector& theta) -> Vector {
+        const Vector driven = simulated(theta, cut_u);
+        Matrix linear = Matrix::Ones(N, 3);
+        for (Index j = 0; j < 2; ++j)  // the free motions, from y(-1) and y(-2) in turn
+            for (Index k = 0; k < N; ++k)
+                linear(k, j) = -theta[0] * (k > 0 ? linear(k - 1, j) : (j == 0 ? 1 : 0)) -
+                               theta[1] * (k > 1 ? linear(k - 2, j) : (k == 1 ? (j == 0 ? 1 : 0) : (j == 0 ? 0 : 1)));
+        return driven + linear * linear.colPivHouseholderQr().solve(y - driven);
+    };
+    const auto of_cut = robust_covariance(differences(refitted, running.theta), y - refitted(running.theta));
+    const Assessment cut_actual = assess(cut, running, options.offset);
+    const double freedom = static_cast<double>(N - 3) / static_cast<double>(N - 6);
+    EXPECT_LT((cut_actual.covariance - freedom * of_cut.covariance).norm(), 1e-3 * cut_actual.covariance.norm());
 }
 
 TEST(assessment, parameters_held_at_a_bound_stay_certain) {  // oracle: the definition
