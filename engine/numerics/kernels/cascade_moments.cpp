@@ -279,7 +279,8 @@ std::optional<Matrix> cascade_moments(const std::vector<FilteredSignal>& signals
     const Summation sum = summation_for(sources, outputs, fed, tap, left, right);
     if (!sum) return {};
 
-    SampleMoments samples(signals, left, right, {});
+    const std::vector<OutputSum> no_sums;
+    SampleMoments samples(signals, left, right, no_sums);
     samples.run(0, first);
     for (std::size_t i = 0; i < signals.size(); ++i) {
         Source& source = sources[i + missing];

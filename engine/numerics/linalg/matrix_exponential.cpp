@@ -50,7 +50,7 @@ std::optional<StepMatrices> short_step(const MatrixView& A, const MatrixView& B,
     for (double term = size / 3; term > kNegligible; term *= size / (terms + 2)) ++terms;
     const Square identity = Square::Identity();
     Square phi2 = identity;
-    for (int k = terms; k > 0; --k) phi2 = identity + (Z / (k + 2)).lazyProduct(phi2);
+    for (int k = terms; k > 0; --k) phi2 = identity + Z / (k + 2) * phi2;
     phi2 /= 2;
     const Square phi1 = identity + Z.lazyProduct(phi2), F = identity + Z.lazyProduct(phi1);
     const Matrix input = scale.cwiseInverse().asDiagonal() * (h * B);
