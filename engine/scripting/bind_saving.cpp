@@ -152,18 +152,45 @@ double rounded(double value, int digits) {
     return std::strtod(text, nullptr);
 }
 
+constexpr int kDeepestTable = 16;
+
+VariableTable variables_of(const Call& call, int index, int digits, int depth);
+
+bool is_table_of_variables(lua_State* L, int index) {
+    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) > 0) return false;
+    lua_pushnil(L);
+    if (lua_next(L, index) == 0) return false;
+    lua_pop(L, 2);
+    return true;
+}
+
 /// The entry on top of the stack as a MAT variable.
-Variable variable_on_top(const Call& call, const std::string& name, int digits) {
+Variable variable_on_top(const Call& call, const std::string& name, int digits, int depth) {
     lua_State* L = call.state();
     const auto round = [digits](double value) { return rounded(value, digits); };
     if (NumericBlock* column = to_vector(L, -1)) return {Vector(column->vector().unaryExpr(round))};
     if (NumericBlock* matrix = to_matrix(L, -1)) return {Matrix(matrix->matrix().unaryExpr(round))};
     if (lua_type(L, -1) == LUA_TNUMBER) return {round(lua_tonumber(L, -1))};
     if (lua_type(L, -1) == LUA_TSTRING) return {std::string(lua_tostring(L, -1))};
+    if (is_table_of_variables(L, lua_gettop(L)))
+        return {std::make_shared<VariableTable>(variables_of(call, lua_gettop(L), digits, depth + 1))};
     if (!is_list_of_texts(L, -1)) refuse_entry(L, name);
     auto cells = std::make_shared<VariableList>();
     for (const std::string& text : list_of_texts(L, lua_gettop(L))) cells->push_back({text});
     return {cells};
+}
+
+VariableTable variables_of(const Call& call, int index, int digits, int depth) {
+    if (depth > kDeepestTable)
+        throw InvalidArgument(fmt::format("tables within tables are written to {} levels only", kDeepestTable));
+    luaL_checkstack(call.state(), 8, "the tables are nested too deeply");
+    VariableTable variables;
+    for (const std::string& name : names_of_entries(call, index, Options(call, 0, {}))) {
+        lua_getfield(call.state(), index, name.c_str());
+        variables[name] = variable_on_top(call, name, digits, depth);
+        lua_pop(call.state(), 1);
+    }
+    return variables;
 }
 
 int save_mat(Call& call) {
@@ -171,14 +198,7 @@ int save_mat(Call& call) {
     const std::filesystem::path file = file_to_write(call, ".mat");
     const Options options(call, 3, {"digits"});
     if (call.type(2) != LUA_TTABLE) wrong_argument(call.state(), 2, "variables", "a table of variables by name");
-    const int digits = digits_of(options, 17);
-    VariableTable variables;
-    for (const std::string& name : names_of_entries(call, 2, Options(call, 0, {}))) {
-        lua_getfield(call.state(), 2, name.c_str());
-        variables[name] = variable_on_top(call, name, digits);
-        lua_pop(call.state(), 1);
-    }
-    write_mat_file(file, variables);
+    write_mat_file(file, variables_of(call, 2, digits_of(options, 17), 1));
     return 0;
 }
 
@@ -187,7 +207,7 @@ constexpr std::array kFunctions = {
     FunctionEntry{"save_csv", kArea, "save_csv(path, data, {units =, title =, columns =, Ts =, digits =})",
                   "writes data, or a table of vectors, as CSV", guarded<save_csv>},
     FunctionEntry{"save_mat", kArea, "save_mat(path, variables, {digits =})",
-                  "writes vectors, matrices, numbers and texts as a MAT file", guarded<save_mat>},
+                  "writes vectors, matrices, numbers, texts and tables of them as a MAT file", guarded<save_mat>},
 };
 
 }  // namespace
