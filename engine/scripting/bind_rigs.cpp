@@ -3,9 +3,13 @@
 #include "numerics/rigs/crane_experiments.h"
 #include "numerics/rigs/first_order_step.h"
 #include "numerics/rigs/heat_exchanger.h"
+#include "numerics/rigs/heat_transfer.h"
+#include "numerics/rigs/linear_system.h"
 #include "numerics/rigs/suspension.h"
+#include "numerics/rigs/thruster.h"
 #include "scripting/bindings.h"
 #include "scripting/objects/boxed.h"
+#include "scripting/objects/model.h"
 
 namespace dynlab {
 namespace {
@@ -65,6 +69,51 @@ void heat_exchanger_theory(const Call& call) {
                         {"final_output", truth.final_output}});
 }
 
+void heat_transfer_record(const Call& call, std::uint32_t seed) {
+    const auto [estimation, validation, high] = simulate_heat_transfer({}, {}, seed);
+    give_columns(call, {{"t", &estimation.t},
+                        {"u", &estimation.u},
+                        {"y", &estimation.y},
+                        {"t_val", &validation.t},
+                        {"u_val", &validation.u},
+                        {"y_val", &validation.y},
+                        {"t_high", &high.t},
+                        {"u_high", &high.u},
+                        {"y_high", &high.y}});
+}
+
+void heat_transfer_theory(const Call& call) {
+    const HeatTransferParameters rig;
+    const HeatTransferExperiments plan;
+    give_numbers(call, {{"dead_time", rig.dead_time}, {"sensor_time", rig.sensor_time}});
+    for (const auto& [name, voltage] : {std::pair("low", plan.low), std::pair("high", plan.high)}) {
+        const HeatTransferTruth truth = heat_transfer_truth(rig, voltage);
+        give_numbers(call, {{"voltage", voltage},
+                            {"temperature", truth.temperature},
+                            {"gain", truth.gain},
+                            {"slow", truth.slow},
+                            {"fast", truth.fast}});
+        lua_setfield(call.state(), -2, name);
+    }
+}
+
+void linear_system_record(const Call& call, std::uint32_t seed) {
+    const auto [estimation, validation] = simulate_linear_system({}, seed);
+    give_columns(call, {{"t", &estimation.t},
+                        {"u", &estimation.u},
+                        {"y", &estimation.y},
+                        {"t_val", &validation.t},
+                        {"u_val", &validation.u},
+                        {"y_val", &validation.y}});
+}
+
+void linear_system_theory(const Call& call) {
+    const LinearSystemParameters p;
+    give_numbers(call, {{"noise_std", p.noise_std}});
+    give_model(call, linear_system_truth(p));
+    lua_setfield(call.state(), -2, "G");
+}
+
 void step_response_record(const Call& call, std::uint32_t seed) {
     const FirstOrderStepRecord record = simulate_first_order_step({}, seed);
     give_columns(call, {{"t", &record.t},
@@ -93,6 +142,35 @@ void suspension_theory(const Call& call) {
                         {"overshoot_time", truth.overshoot_time}});
 }
 
+void thruster_record(const Call& call, std::uint32_t seed) {
+    const std::vector<ThrusterRecord> records = simulate_thruster({}, {}, seed);
+    lua_createtable(call.state(), 0, static_cast<int>(records.size()));
+    for (const ThrusterRecord& record : records) {
+        give_columns(call, {{"t", &record.t}, {"pwm", &record.pwm}, {"force", &record.force}});
+        lua_setfield(call.state(), -2, record.name.c_str());
+    }
+}
+
+void thruster_theory(const Call& call) {
+    const ThrusterParameters p;
+    const ThrusterTruth truth = thruster_truth(p);
+    const Vector pwm = Vector::LinSpaced(81, p.neutral - p.full_width, p.neutral + p.full_width);
+    const Vector thrust = pwm.unaryExpr([&p](double width) { return thruster_thrust(p, width); });
+    give_numbers(call, {{"delay", truth.delay},
+                        {"neutral", p.neutral},
+                        {"dead_band", p.dead_band},
+                        {"forward_thrust", truth.forward_thrust},
+                        {"reverse_thrust", truth.reverse_thrust},
+                        {"slow_time_constant", truth.slow_time_constant},
+                        {"fast_time_constant", truth.fast_time_constant},
+                        {"cell_frequency", p.cell_frequency},
+                        {"cell_damping", p.cell_damping}});
+    call.give_vector(pwm);
+    lua_setfield(call.state(), -2, "pwm");
+    call.give_vector(thrust);
+    lua_setfield(call.state(), -2, "thrust");
+}
+
 /// An experiment: both functions push one table.
 struct Rig {
     std::string_view name;
@@ -103,8 +181,11 @@ struct Rig {
 constexpr std::array kRigs = {
     Rig{"crane", crane_record, crane_theory},
     Rig{"heat_exchanger", heat_exchanger_record, heat_exchanger_theory},
+    Rig{"heat_transfer", heat_transfer_record, heat_transfer_theory},
+    Rig{"linear_system", linear_system_record, linear_system_theory},
     Rig{"step_response", step_response_record, step_response_theory},
     Rig{"suspension", suspension_record, suspension_theory},
+    Rig{"thruster", thruster_record, thruster_theory},
 };
 
 const Rig& rig_of(const Call& call) {

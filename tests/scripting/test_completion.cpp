@@ -85,8 +85,8 @@ TEST(completion, ends_with_endless_chains) {
 
 TEST(completion, offers_data_sets_help_pages_and_options) {
     Session session;
-    EXPECT_EQ(session.rest("d = load(\"heat"), "_exchanger\"");
-    EXPECT_EQ(session.rest("d = load 'heat"), "_exchanger'");
+    EXPECT_EQ(session.rest("d = load(\"heat_e"), "xchanger\"");
+    EXPECT_EQ(session.rest("d = load 'heat_e"), "xchanger'");
     EXPECT_THAT(session.names("help('mat"), Contains("matlab"));
     EXPECT_THAT(session.names("lsim(G, u, 0.1, {h"), ElementsAre("hold = "));
     EXPECT_THAT(session.names("lsim(G, u, 0.1, {hold = 'foh', "), ElementsAre("hold = ", "x0 = "));

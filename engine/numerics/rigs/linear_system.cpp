@@ -1,0 +1,47 @@
+#include "numerics/rigs/linear_system.h"
+
+#include "numerics/rigs/seeded_prbs.h"
+#include "numerics/simulation/lsim.h"
+
+namespace dynlab {
+namespace {
+
+RigRecord record_of(const LinearSystemParameters& p, const TransferFunction& G, RandomStream& random) {
+    RigRecord record;
+    record.u = seeded_prbs(p.prbs_stages, p.prbs_hold, -p.amplitude, p.amplitude, random);
+    record.t = Vector::LinSpaced(record.u.size(), 0, static_cast<double>(record.u.size() - 1)) * p.Ts;
+    record.y = measure(lsim(G, record.u, p.Ts), p.noise_std, 0, random);
+    return record;
+}
+
+}  // namespace
+
+void LinearSystemParameters::validate() const {
+    const char* rig = "linear system";
+    require_positive(rig, "gain", gain);
+    require_positive(rig, "zero", zero);
+    require_positive(rig, "pole", pole);
+    require_positive(rig, "frequency", frequency);
+    require_positive(rig, "damping", damping);
+    require_positive(rig, "amplitude", amplitude);
+    require_positive(rig, "sampling time", Ts);
+    require_not_negative(rig, "noise standard deviation", noise_std);
+}
+
+TransferFunction linear_system_truth(const LinearSystemParameters& p) {
+    p.validate();
+    const double w = p.frequency, first = 2 * p.damping * w, scale = p.gain * p.pole * w * w / p.zero;
+    return TransferFunction(Vector{{scale, scale * p.zero}},
+                            Vector{{1, first + p.pole, w * w + first * p.pole, p.pole * w * w}});
+}
+
+LinearSystemRecords simulate_linear_system(const LinearSystemParameters& parameters, std::uint32_t seed) {
+    const TransferFunction G = linear_system_truth(parameters);
+    RandomStream random(seed);
+    LinearSystemRecords records;
+    records.estimation = record_of(parameters, G, random);
+    records.validation = record_of(parameters, G, random);
+    return records;
+}
+
+}  // namespace dynlab

@@ -1,0 +1,155 @@
+#include "numerics/rigs/thruster.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "numerics/error.h"
+#include "numerics/number_text.h"
+#include "numerics/rigs/delayed_input.h"
+#include "numerics/rigs/sensor.h"
+#include "numerics/signals/excitation.h"
+#include "numerics/simulation/ode_solver.h"
+
+namespace dynlab {
+namespace {
+
+enum : Index { kSpeed, kReading, kReadingRate, kStates };
+
+double voltage_of(const ThrusterParameters& p, double width) {
+    const double beyond = std::max(0., std::abs(width - p.neutral) - p.dead_band);
+    return std::copysign(p.supply * beyond / (p.full_width - p.dead_band), width - p.neutral);
+}
+
+double thrust_of_speed(const ThrusterParameters& p, double speed) {
+    return (speed > 0 ? p.forward_thrust : p.reverse_thrust) * speed * std::abs(speed);
+}
+
+/// First-order Gauss-Markov noise of variance one.
+Vector turbulence(Index count, double Ts, double correlation_time, RandomStream& random) {
+    const double kept = std::exp(-Ts / correlation_time), fresh = std::sqrt(1 - kept * kept);
+    Vector noise = random.normal(count);
+    for (Index k = 1; k < count; ++k) noise[k] = kept * noise[k - 1] + fresh * noise[k];
+    return noise;
+}
+
+Vector readings(const ThrusterParameters& p, const Vector& pwm, double Ts, RandomStream& random) {
+    const Vector wake = turbulence(pwm.size(), Ts, p.wake_time, random);
+    double voltage = 0, eddy = 0;
+    const double w = 2 * std::numbers::pi * p.cell_frequency;
+    OdeSolver solver(
+        [&](double, const OdeState& x) {
+            const double speed = x[kSpeed], thrust = thrust_of_speed(p, speed);
+            const double torque = p.motor_constant * (voltage - p.motor_constant * speed) / p.resistance;
+            const double force = thrust + p.wake * std::abs(thrust) * eddy;
+            return OdeState{{(torque - p.drag_torque * speed * std::abs(speed)) / p.inertia, x[kReadingRate],
+                             w * w * (force - x[kReading]) - 2 * p.cell_damping * w * x[kReadingRate]}};
+        },
+        {.relative_tolerance = 1e-9, .absolute_tolerance = 1e-9});
+    OdeState x = OdeState::Zero(kStates);
+    Vector truth(pwm.size());
+    for (Index k = 0; k < pwm.size(); ++k) {
+        truth[k] = x[kReading] + p.tare;
+        eddy = wake[k];
+        over_interval(pwm, k, p.delay, Ts, [&](double width, double duration) {
+            voltage = voltage_of(p, width);
+            double t = 0;
+            solver.advance(t, x, duration);
+        });
+    }
+    return measure(truth, p.noise_std, p.resolution, random);
+}
+
+Vector chirp_about_neutral(const ThrusterParameters& p, const ThrusterExperiments& plan, ChirpShape shape,
+                           double amplitude) {
+    const Vector wave = chirp(plan.start_frequency, plan.end_frequency, plan.duration, plan.Ts, shape);
+    const auto rest = static_cast<Index>(std::llround(plan.rest / plan.Ts));
+    Vector pwm = Vector::Constant(wave.size() + 2 * rest, p.neutral);
+    pwm.segment(rest, wave.size()) = (p.neutral + amplitude * wave.array()).round();
+    return pwm;
+}
+
+}  // namespace
+
+void ThrusterParameters::validate() const {
+    const char* rig = "thruster";
+    require_positive(rig, "neutral pulse width", neutral);
+    require_not_negative(rig, "dead band", dead_band);
+    require_positive(rig, "full width beyond the dead band", full_width - dead_band);
+    require_positive(rig, "supply", supply);
+    require_not_negative(rig, "delay", delay);
+    require_positive(rig, "motor constant", motor_constant);
+    require_positive(rig, "resistance", resistance);
+    require_positive(rig, "inertia", inertia);
+    require_positive(rig, "drag torque", drag_torque);
+    require_positive(rig, "forward thrust", forward_thrust);
+    require_positive(rig, "reverse thrust", reverse_thrust);
+    require_positive(rig, "load cell's frequency", cell_frequency);
+    require_not_negative(rig, "load cell's damping", cell_damping);
+    require_not_negative(rig, "wake", wake);
+    require_positive(rig, "wake's correlation time", wake_time);
+    require_not_negative(rig, "noise standard deviation", noise_std);
+    require_not_negative(rig, "resolution", resolution);
+    require_not_negative(rig, "tare's size", std::abs(tare));
+}
+
+void ThrusterExperiments::validate() const {
+    const char* rig = "thruster";
+    require_positive(rig, "sampling time", Ts);
+    require_positive(rig, "start frequency", start_frequency);
+    require_positive(rig, "end frequency", end_frequency);
+    require_positive(rig, "duration", duration);
+    require_not_negative(rig, "rest", rest);
+    for (double amplitude : amplitudes) require_positive(rig, "amplitude", amplitude);
+}
+
+double thruster_speed(const ThrusterParameters& p, double width) {
+    p.validate();
+    const double voltage = voltage_of(p, width);
+    // drag n^2 + K^2/R n - K |V|/R = 0, by the form of the root that does not cancel.
+    const double b = p.motor_constant * p.motor_constant / p.resistance;
+    const double c = p.motor_constant * std::abs(voltage) / p.resistance;
+    return std::copysign(2 * c / (b + std::sqrt(b * b + 4 * p.drag_torque * c)), voltage);
+}
+
+double thruster_thrust(const ThrusterParameters& p, double width) {
+    return thrust_of_speed(p, thruster_speed(p, width));
+}
+
+ThrusterTruth thruster_truth(const ThrusterParameters& p) {
+    const double b = p.motor_constant * p.motor_constant / p.resistance;
+    const double top_speed = thruster_speed(p, p.neutral + p.full_width);
+    return {p.delay, thrust_of_speed(p, top_speed), thruster_thrust(p, p.neutral - p.full_width), p.inertia / b,
+            p.inertia / (b + 2 * p.drag_torque * top_speed)};
+}
+
+Vector simulate_thruster(const ThrusterParameters& parameters, const Vector& pwm, double Ts, std::uint32_t seed) {
+    parameters.validate();
+    require_positive("thruster", "sampling time", Ts);
+    if (pwm.size() == 0 || !pwm.allFinite())
+        throw InvalidArgument("The thruster's pulse widths must be at least one finite number");
+    RandomStream random(seed);
+    return readings(parameters, pwm, Ts, random);
+}
+
+std::vector<ThrusterRecord> simulate_thruster(const ThrusterParameters& parameters,
+                                              const ThrusterExperiments& experiments, std::uint32_t seed) {
+    parameters.validate();
+    experiments.validate();
+    RandomStream random(seed);
+    std::vector<ThrusterRecord> records;
+    for (const ChirpShape shape : {ChirpShape::kSine, ChirpShape::kSquare}) {
+        for (const double amplitude : experiments.amplitudes) {
+            ThrusterRecord record;
+            record.name = (shape == ChirpShape::kSine ? "sine_" : "square_") + number_text(amplitude);
+            record.pwm = chirp_about_neutral(parameters, experiments, shape, amplitude);
+            const Index N = record.pwm.size();
+            record.t = Vector::LinSpaced(N, 0, static_cast<double>(N - 1)) * experiments.Ts;
+            record.force = readings(parameters, record.pwm, experiments.Ts, random);
+            records.push_back(std::move(record));
+        }
+    }
+    return records;
+}
+
+}  // namespace dynlab

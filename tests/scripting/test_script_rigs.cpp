@@ -1,0 +1,46 @@
+// The course's experiments from scripts. Oracles: the stored data, which are those of seed 1; the models themselves.
+#include <gtest/gtest.h>
+
+#include "script_run.h"
+
+using namespace dynlab;
+using dynlab::test::error_of;
+using dynlab::test::printed;
+
+TEST(script_rigs, repeat_the_stored_data) {
+    EXPECT_EQ(printed("local function compare(name, made, stored)\n"
+                      "  for key, value in pairs(made) do\n"
+                      "    if type(value) == 'table' then compare(name .. '.' .. key, value, stored[key])\n"
+                      "    elseif norm(value - stored[key]) > 1e-6*(1 + norm(value)) then print(name, key) end\n"
+                      "  end\n"
+                      "end\n"
+                      "for _, name in ipairs{'crane', 'heat_exchanger', 'heat_transfer', 'linear_system', "
+                      "'step_response', 'suspension', 'thruster'} do\n"
+                      "  compare(name, rig(name), load(name))\n"
+                      "end\n"
+                      "print('done')"),
+              "done\n");
+}
+
+TEST(script_rigs, truth_of_the_linear_system_leaves_only_noise) {
+    EXPECT_EQ(printed("local record, truth = rig('linear_system', {seed = 9}), rig_truth('linear_system')\n"
+                      "local e = record.y - lsim(truth.G, record.u, 0.05)\n"
+                      "print(math.abs(std(e)/truth.noise_std - 1) < 0.1)"),
+              "true\n");
+}
+
+TEST(script_rigs, static_curve_of_the_thruster_ends_at_its_greatest_thrusts) {
+    EXPECT_EQ(printed("local truth = rig_truth('thruster')\n"
+                      "print(truth.thrust[1] == truth.reverse_thrust, truth.thrust[81] == truth.forward_thrust, "
+                      "truth.pwm[41] == truth.neutral, truth.thrust[41])"),
+              "true\ttrue\ttrue\t0\n");
+}
+
+TEST(script_rigs, refuse_what_there_is_not) {
+    const std::string expected =
+        "there is no experiment 'cranes'; there are crane, heat_exchanger, heat_transfer, linear_system, "
+        "step_response, suspension, thruster";
+    EXPECT_NE(error_of("rig('cranes')").find(expected), std::string::npos) << error_of("rig('cranes')");
+    EXPECT_NE(error_of("rig_truth('cranes')").find(expected), std::string::npos);
+    EXPECT_NE(error_of("rig('crane', {seed = 2^33})").find("whole number"), std::string::npos);
+}
