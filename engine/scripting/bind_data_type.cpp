@@ -3,6 +3,7 @@
 
 #include "numerics/signals/preprocess.h"
 #include "scripting/objects/data_object.h"
+#include "scripting/preprocess_bindings.h"
 #include "scripting/text_form.h"
 
 namespace dynlab {
@@ -133,16 +134,9 @@ int shift(Call& call) {
     return give_data(call, self(call).shifted(call.whole(2, "samples")));
 }
 
-template <TrendKind kKind>
-int without_trend(Call& call) {
+int remove_mean_of(Call& call) {
     call.at_most(1);
-    return give_data(call, detrend(self(call), kKind).data);
-}
-
-int merge(Call& call) {
-    std::vector<IdData> parts;
-    for (int i = 1; i <= call.count(); ++i) parts.push_back(object_argument<IdData>(call, i, "data"));
-    return give_data(call, IdData::merge(parts));
+    return give_data(call, remove_mean(self(call)).data);
 }
 
 int to_text(Call& call) {
@@ -175,9 +169,13 @@ constexpr std::array kMethods = {
     Member{"split", guarded<split>},
     Member{"select", guarded<select>},
     Member{"shift", guarded<shift>},
-    Member{"detrend", guarded<without_trend<TrendKind::kLinear>>},
-    Member{"remove_mean", guarded<without_trend<TrendKind::kConstant>>},
-    Member{"merge", guarded<merge>},
+    Member{"detrend", guarded<detrend_signals>},
+    Member{"remove_mean", guarded<remove_mean_of>},
+    Member{"merge", guarded<merge_data>},
+    Member{"filter", guarded<filter_signals>},
+    Member{"resample", guarded<resample_signals>},
+    Member{"keep", guarded<keep_parts>},
+    Member{"discard", guarded<discard_parts>},
 };
 constexpr std::array kOperators = {Member{"__tostring", guarded<to_text>}};
 

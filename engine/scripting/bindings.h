@@ -19,6 +19,7 @@ FunctionEntries validation_functions();
 FunctionEntries residual_functions();
 FunctionEntries model_functions();
 FunctionEntries data_functions();
+FunctionEntries preprocess_functions();
 FunctionEntries saving_functions();
 FunctionEntries rig_functions();
 FunctionEntries simulation_functions();

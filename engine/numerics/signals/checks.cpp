@@ -15,8 +15,9 @@ namespace {
             const double value = samples(row, column);
             if (std::isfinite(value)) continue;
             const std::string channel = samples.cols() > 1 ? " of channel " + std::to_string(column + 1) : "";
-            throw InvalidArgument(caller + ": sample " + std::to_string(row + 1) + channel + " of " + name +
-                                  (std::isnan(value) ? " is not a number (NaN)" : " is infinite"));
+            throw InvalidArgument(
+                caller + ": sample " + std::to_string(row + 1) + channel + " of " + name +
+                (std::isnan(value) ? " is not a number (NaN); fillmissing(x) mends missing samples" : " is infinite"));
         }
     throw InvalidArgument(caller + ": " + name + " holds samples too large to work with");
 }

@@ -25,4 +25,10 @@ inline Detrended remove_mean(const IdData& data) {
     return detrend(data, TrendKind::kConstant);
 }
 
+/// Removes from every channel its mean over the stretch before anything happens, so that the record starts from rest at
+/// zero: the first `samples` samples, or, when that is 0, those over which every input stays within 5 % of its range of
+/// its first value. Throws InvalidArgument when that stretch is shorter than three samples, for `samples` beyond an
+/// experiment, and for data without inputs unless `samples` is given.
+Detrended remove_initial_level(const IdData& data, Index samples = 0);
+
 }  // namespace dynlab

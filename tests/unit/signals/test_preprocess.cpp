@@ -45,3 +45,25 @@ TEST(preprocess, a_line_needs_two_samples) {
     EXPECT_THROW(detrend(one, TrendKind::kLinear), InvalidArgument);
     EXPECT_NO_THROW(remove_mean(one));
 }
+
+TEST(preprocess, the_level_before_the_step_is_taken_off) {  // oracle: what was put in
+    Vector u = Vector::Constant(10, 2.0), y = Vector::Constant(10, 20.0);
+    u.tail(6).setConstant(3.0), y.tail(5).setConstant(25.0);
+    y[0] += 0.3, y[1] -= 0.3;
+    u[1] += 0.01, u[2] -= 0.01;  // a noisy input has not stepped yet
+    const Detrended result = remove_initial_level(IdData(Matrix(y), Matrix(u), 1));
+    EXPECT_NEAR(result.removed[0].output_offset(0), 20, 1e-14);
+    EXPECT_NEAR(result.removed[0].input_offset(0), 2, 1e-14);
+    EXPECT_NEAR(result.data.experiments[0].y(9, 0), 5, 1e-13);
+    EXPECT_NEAR(result.data.experiments[0].u(9, 0), 1, 1e-13);
+}
+
+TEST(preprocess, the_calm_beginning_may_be_told) {  // oracle: definition
+    const Vector u{{0, 1, 0, 1, 0}}, y{{2, 4, 9, 9, 9}};
+    const IdData data(Matrix(y), Matrix(u), 1);
+    EXPECT_THROW(remove_initial_level(data), InvalidArgument);
+    EXPECT_EQ(remove_initial_level(data, 2).removed[0].output_offset(0), 3);
+    EXPECT_THROW(remove_initial_level(data, 6), InvalidArgument);
+    EXPECT_THROW(remove_initial_level(IdData(Matrix(y), Matrix(), 1)), InvalidArgument);
+    EXPECT_EQ(remove_initial_level(IdData(Matrix(y), Matrix(), 1), 2).removed[0].output_offset(0), 3);
+}

@@ -1,0 +1,64 @@
+#include "numerics/signals/segments.h"
+
+#include <algorithm>
+
+#include "numerics/error.h"
+
+namespace dynlab {
+
+namespace {
+
+void check_segments(const std::string& caller, const IdData& data, const std::vector<Segment>& segments) {
+    if (data.experiments.size() != 1)
+        throw InvalidArgument(caller + ": the data must hold one experiment, but they hold " +
+                              std::to_string(data.experiments.size()) + "; take one with data:experiment(k)");
+    if (segments.empty()) throw InvalidArgument(caller + ": give at least one stretch {first, last}");
+    const Index count = data.sample_count();
+    for (const Segment& segment : segments)
+        if (segment.first < 1 || segment.last > count || segment.first > segment.last)
+            throw InvalidArgument(caller + ": there are no samples " + std::to_string(segment.first) + " to " +
+                                  std::to_string(segment.last) + "; the record has samples 1 to " +
+                                  std::to_string(count));
+}
+
+}  // namespace
+
+IdData keep_segments(const IdData& data, const std::vector<Segment>& kept) {
+    check_segments("keep", data, kept);
+    std::vector<IdData> parts;
+    for (const auto& [first, last] : kept) {
+        parts.push_back(data.range(first, last));
+        parts.back().experiments.front().name = "samples " + std::to_string(first) + " to " + std::to_string(last);
+    }
+    return IdData::merge(parts);
+}
+
+std::vector<Segment> joined(std::vector<Segment> segments) {
+    std::sort(segments.begin(), segments.end(), [](const Segment& a, const Segment& b) { return a.first < b.first; });
+    std::vector<Segment> result;
+    for (const Segment& segment : segments) {
+        if (!result.empty() && segment.first <= result.back().last + 1)
+            result.back().last = std::max(result.back().last, segment.last);
+        else
+            result.push_back(segment);
+    }
+    return result;
+}
+
+IdData discard_segments(const IdData& data, const std::vector<Segment>& discarded, Index shortest) {
+    check_segments("discard", data, discarded);
+    std::vector<Segment> kept;
+    Index next = 1;
+    const auto keep_until = [&](Index last) {
+        if (last - next + 1 >= std::max<Index>(shortest, 1)) kept.push_back({next, last});
+    };
+    for (const Segment& segment : joined(discarded)) {
+        keep_until(segment.first - 1);
+        next = segment.last + 1;
+    }
+    keep_until(data.sample_count());
+    if (kept.empty()) throw InvalidArgument("discard: nothing would be left of the record");
+    return keep_segments(data, kept);
+}
+
+}  // namespace dynlab

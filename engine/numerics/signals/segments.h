@@ -1,0 +1,26 @@
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "numerics/signals/iddata.h"
+
+namespace dynlab {
+
+/// Samples first..last of a record, 1-based, inclusive.
+struct Segment {
+    Index first, last;
+};
+
+/// These stretches of a record (one experiment), each as an experiment of its own that keeps its times, in the order
+/// given. Throws InvalidArgument for no stretch, and for one that is empty or reaches outside the record.
+IdData keep_segments(const IdData& data, const std::vector<Segment>& kept);
+
+/// What is left when these stretches, which may overlap, are cut out. Leftovers shorter than `shortest` samples go too.
+/// Throws like keep_segments, and when nothing is left.
+IdData discard_segments(const IdData& data, const std::vector<Segment>& discarded, Index shortest = 2);
+
+/// In order, overlapping and touching ones joined.
+std::vector<Segment> joined(std::vector<Segment> segments);
+
+}  // namespace dynlab
