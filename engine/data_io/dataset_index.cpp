@@ -9,6 +9,7 @@
 
 #include "data_io/csv_file.h"
 #include "data_io/mat_file.h"
+#include "data_io/packaged_record.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
 #include "platform/spelling.h"
@@ -20,6 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr char kSourceFile[] = "SOURCE.md";
 constexpr char kCourseFileKey[] = "Course file:";
+constexpr char kPackageKey[] = "Package:";
 
 bool is_file(const fs::path& path) {
     std::error_code error;
@@ -55,29 +57,52 @@ std::vector<fs::path> data_sets_in(const fs::path& data_folder) {
     return sets;
 }
 
-/// The names after "Course file:" in a data set's SOURCE.md.
-std::vector<std::string> course_files(const fs::path& data_set) {
+/// The words after `key`, separated by blanks and commas, in the lines of a data set's SOURCE.md that begin with it.
+std::vector<std::string> words_after(const std::string& key, const fs::path& data_set) {
     std::ifstream source(data_set / kSourceFile);
-    std::vector<std::string> names;
+    std::vector<std::string> words;
     for (std::string line; std::getline(source, line);) {
-        if (line.rfind(kCourseFileKey, 0) != 0) continue;
-        std::string list = line.substr(sizeof kCourseFileKey - 1);
+        if (line.rfind(key, 0) != 0) continue;
+        std::string list = line.substr(key.size());
         std::replace(list.begin(), list.end(), ',', ' ');
-        std::istringstream words(list);
-        for (std::string name; words >> name;) names.push_back(name);
+        std::istringstream stream(list);
+        for (std::string word; stream >> word;) words.push_back(word);
     }
-    return names;
+    return words;
 }
 
-/// The file of a data set to read; nothing when its folder holds none.
-std::optional<fs::path> file_of(const fs::path& data_set) {
+std::vector<std::string> course_files(const fs::path& data_set) {
+    return words_after(kCourseFileKey, data_set);
+}
+
+/// What `Package: NAME FILE SAMPLES samples TS s` says, if the data set has that line.
+std::optional<PackagedRecord> packaged_record(const fs::path& data_set) {
+    std::istringstream words(fmt::format("{}", fmt::join(words_after(kPackageKey, data_set), " ")));
+    PackagedRecord record;
+    std::string file, unit;
+    words >> record.package >> file >> record.samples >> unit >> record.Ts;
+    if (!words || record.samples < 1) return std::nullopt;
+    record.file = file;
+    return record;
+}
+
+/// A file of variables, or a record that a package brings.
+struct Source {
+    fs::path file;
+    std::optional<PackagedRecord> record = {};
+};
+
+/// The file of a data set to read; nothing when it has none.
+std::optional<Source> source_of(const fs::path& data_set) {
     std::vector<fs::path> candidates;
     for (const std::string& name : course_files(data_set)) candidates.push_back(data_set / name);
     const std::string name = data_set.filename().string();
     candidates.push_back(data_set / (name + ".csv"));
     candidates.push_back(data_set / (name + ".mat"));
     const auto found = std::find_if(candidates.begin(), candidates.end(), is_file);
-    return found == candidates.end() ? std::nullopt : std::optional<fs::path>(*found);
+    if (found != candidates.end()) return Source{*found};
+    if (const auto record = packaged_record(data_set)) return Source{record->file, record};
+    return std::nullopt;
 }
 
 bool is_course_name(const fs::path& data_set, const std::string& name) {
@@ -88,11 +113,11 @@ bool is_course_name(const fs::path& data_set, const std::string& name) {
 }
 
 /// A data set called `name`, a course file of that name, or a file of that name in a data set's folder.
-std::optional<fs::path> file_in_data_folder(const fs::path& data_folder, const std::string& name) {
-    if (is_file(data_folder / name / kSourceFile)) return file_of(data_folder / name);
+std::optional<Source> source_in_data_folder(const fs::path& data_folder, const std::string& name) {
+    if (is_file(data_folder / name / kSourceFile)) return source_of(data_folder / name);
     for (const fs::path& data_set : data_sets_in(data_folder)) {
-        if (is_file(data_set / name) && (is_mat(name) || is_csv(name))) return data_set / name;
-        if (is_course_name(data_set, name)) return file_of(data_set);
+        if (is_file(data_set / name) && (is_mat(name) || is_csv(name))) return Source{data_set / name};
+        if (is_course_name(data_set, name)) return source_of(data_set);
     }
     return std::nullopt;
 }
@@ -121,16 +146,16 @@ std::optional<fs::path> file_beside(const fs::path& script_folder, const std::st
         fmt::format("{}; files of your own are looked for in {}", message, fs::absolute(script_folder).string()));
 }
 
-fs::path find_data_file(const std::string& name_or_path, const fs::path& script_folder) {
+Source find_source(const std::string& name_or_path, const fs::path& script_folder) {
     const fs::path path = name_or_path;
     if (path.has_parent_path()) {
         const fs::path file = script_folder / path;
         if (!is_file(file)) throw EnvironmentError(fmt::format("there is no file {}", fs::absolute(file).string()));
-        return file;
+        return {file};
     }
-    if (const auto file = file_beside(script_folder, name_or_path)) return *file;
+    if (const auto file = file_beside(script_folder, name_or_path)) return {*file};
     for (const fs::path& data_folder : data_folders(script_folder)) {
-        if (const auto file = file_in_data_folder(data_folder, name_or_path)) return *file;
+        if (const auto source = source_in_data_folder(data_folder, name_or_path)) return *source;
     }
     fail_unknown(name_or_path, script_folder);
 }
@@ -162,9 +187,11 @@ LoadedData from_csv(CsvTable table) {
 }  // namespace
 
 LoadedData load_data(const std::string& name_or_path, const fs::path& script_folder) {
-    const fs::path file = find_data_file(name_or_path, script_folder);
+    const auto [file, record] = find_source(name_or_path, script_folder);
     LoadedData data;
-    if (is_mat(file)) {
+    if (record) {
+        data.variables = read_packaged_record(*record);
+    } else if (is_mat(file)) {
         data.variables = read_mat_file(file, !is_installed_data(file));
     } else if (is_csv(file)) {
         data = from_csv(read_csv_file(file));

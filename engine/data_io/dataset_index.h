@@ -22,8 +22,9 @@ struct LoadedData {
 /// by commas) says under which names a course knows it, and that is the only place where such names stand. Looked
 /// for in `script_folder` (NAME.mat, NAME.csv, data/NAME), then in data/NAME of the current folder, then in the
 /// installed data. Within a data set's folder a course's original file is preferred, then NAME.csv (which states
-/// units), then NAME.mat. Files of the installed data are read without guard. Throws EnvironmentError that lists
-/// the names that exist and suggests the nearest one.
+/// units), then NAME.mat, then what a Debian package brings (packaged_record.h) according to a line
+/// `Package: NAME FILE SAMPLES samples TS s` of SOURCE.md. Files of the installed data are read without guard. Throws
+/// EnvironmentError that lists the names that exist and suggests the nearest one.
 LoadedData load_data(const std::string& name_or_path, const std::filesystem::path& script_folder);
 
 /// Names of the data sets in the installed data/, sorted.

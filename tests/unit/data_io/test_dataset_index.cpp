@@ -141,6 +141,54 @@ TEST_F(dataset_index, damaged_files_of_a_student_are_refused) {
     EXPECT_THAT(complaint("mine.mat"), HasSubstr("is cut off"));
 }
 
+TEST_F(dataset_index, says_how_to_get_a_record_of_a_package) {
+    const fs::path folder = home_.path() / "data/kiln";
+    fs::create_directories(folder);
+    write_file_atomically(folder / "SOURCE.md", "A kiln\n\nPackage: no-kilns-here /nowhere/kiln.gz 10 samples 0.5 s\n");
+    EXPECT_EQ(complaint("kiln"),
+              "this record comes with the Debian package no-kilns-here, which is not installed: sudo apt-get install "
+              "no-kilns-here");
+    write_file_atomically(folder / "SOURCE.md", "A kiln\n\nPackage: nothing but words\n");
+    EXPECT_THAT(complaint("kiln"), HasSubstr("there is no data set \"kiln\""));
+    write_file_atomically(folder / "SOURCE.md", "A kiln\n\nPackage: libc6 /nowhere/kiln.gz 10 samples 0.5 s\n");
+    write_mat(folder / "kiln.mat", 8);
+    EXPECT_EQ(std::get<double>(load("kiln").variables.at("y").value), 8);
+}
+
+TEST_F(dataset_index, refuses_damaged_records_of_packages) {
+    const fs::path folder = home_.path() / "data/kiln", file = folder / "kiln.gz";
+    fs::create_directories(folder);
+    write_file_atomically(folder / "SOURCE.md", "A kiln\n\nPackage: kilns " + file.string() + " 10 samples 0.5 s\n");
+    write_file_atomically(file, "title\nsettings\n1\n2\n");
+    EXPECT_THAT(complaint("kiln"),
+                HasSubstr("kiln.gz ends or holds text at input 1 of 10: reinstall the package kilns"));
+}
+
+// Facts: 1000 samples, a binary input of 3.41 and 6.41, one sample every 0.08 s; first and last values of the file.
+TEST(hairdryer, holds_the_facts) {
+    const LoadedData data = load_data("hairdryer", "/");
+    const Vector u = std::get<Vector>(data.variables.at("u").value), y = std::get<Vector>(data.variables.at("y").value);
+    ASSERT_EQ(u.size(), 1000);
+    ASSERT_EQ(y.size(), 1000);
+    for (double level : u) EXPECT_TRUE(level == 3.41 || level == 6.41) << level;
+    EXPECT_EQ(u[0], 6.41);
+    EXPECT_EQ(u[1], 3.41);
+    EXPECT_EQ(y[999], 4.683079);
+    EXPECT_EQ(std::get<double>(data.variables.at("Ts").value), 0.08);
+}
+
+// Facts: 1024 samples; first values of the file. Second route: the outputs end where the example's seeds begin.
+TEST(robot_arm, holds_the_facts) {
+    const LoadedData data = load_data("robot_arm", "/");
+    const Vector u = std::get<Vector>(data.variables.at("u").value), y = std::get<Vector>(data.variables.at("y").value);
+    ASSERT_EQ(u.size(), 1024);
+    ASSERT_EQ(y.size(), 1024);
+    EXPECT_EQ(u[0], 2.2183165e-01);
+    EXPECT_EQ(u[1], 3.9027807e-02);
+    EXPECT_LT(y.cwiseAbs().maxCoeff(), 10);  // the seeds are 1998 and 1999
+    EXPECT_EQ(std::get<double>(data.variables.at("Ts").value), 1);
+}
+
 // Facts: 30 Games from 1896 to 2024, none in 1916, 1940 and 1944; automatic timing since 1968; records of 1968 and
 // 2012.
 TEST(winning_times, hold_the_facts) {

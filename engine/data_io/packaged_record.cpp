@@ -1,0 +1,58 @@
+#include "data_io/packaged_record.h"
+
+#include <fmt/format.h>
+
+#include <boost/iostreams/filter/gzip.hpp>
+#include <boost/iostreams/filtering_stream.hpp>
+#include <fstream>
+#include <limits>
+
+#include "platform/error.h"
+
+namespace dynlab {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_there(const fs::path& file) {
+    std::error_code error;
+    return fs::exists(file, error);
+}
+
+[[noreturn]] void refuse_missing(const PackagedRecord& record) {
+    if (is_there(fs::path("/var/lib/dpkg/info") / (record.package + ".list")))
+        throw EnvironmentError(
+            fmt::format("the package {} is installed, but without its file {}: this system leaves out documentation "
+                        "(/etc/dpkg/dpkg.cfg.d says so); allow it there, then sudo apt-get install --reinstall {}",
+                        record.package, record.file.string(), record.package));
+    throw EnvironmentError(
+        fmt::format("this record comes with the Debian package {}, which is not installed: sudo apt-get install {}",
+                    record.package, record.package));
+}
+
+Vector next_values(std::istream& text, const PackagedRecord& record, const char* what) {
+    Vector values(record.samples);
+    for (Index k = 0; k < record.samples; ++k)
+        if (!(text >> values[k]))
+            throw EnvironmentError(fmt::format("{} ends or holds text at {} {} of {}: reinstall the package {}",
+                                               record.file.string(), what, k + 1, record.samples, record.package));
+    return values;
+}
+
+}  // namespace
+
+VariableTable read_packaged_record(const PackagedRecord& record) {
+    if (!is_there(record.file)) refuse_missing(record);
+    std::ifstream packed(record.file, std::ios::binary);
+    boost::iostreams::filtering_istream text;
+    text.push(boost::iostreams::gzip_decompressor());
+    text.push(packed);
+    for (int line = 0; line < 2; ++line) text.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+    VariableTable variables;
+    variables["u"] = {next_values(text, record, "input")};
+    variables["y"] = {next_values(text, record, "output")};
+    variables["Ts"] = {record.Ts};
+    return variables;
+}
+
+}  // namespace dynlab
