@@ -60,12 +60,26 @@ std::set<std::string> check_latex() {
     return missing;
 }
 
+/// Looks for the data sets; returns the packages whose records are missing.
+std::set<std::string> check_data() {
+    std::set<std::string> missing;
+    const std::vector<std::string> names = dataset_names();
+    show("data sets", std::to_string(names.size()), !names.empty());
+    for (const std::string& name : names) {
+        const auto package = missing_package(name);
+        if (!package) continue;
+        show(name, "missing: measured record", false);
+        missing.insert(*package);
+    }
+    return missing;
+}
+
 int examine() {
     std::set<std::string> missing = check_programs();
     missing.merge(check_latex());
     show("data and templates", shared_folder().string(), true);
     show("lessons", std::to_string(lessons().size()), !lessons().empty());
-    show("data sets", std::to_string(dataset_names().size()), !dataset_names().empty());
+    missing.merge(check_data());
     show("caches", Cache("reports").root().parent_path().string() + " (safe to delete)", true);
     if (missing.empty()) {
         std::cout << "\nEverything is in place.\n";

@@ -210,4 +210,10 @@ std::vector<std::string> dataset_names() {
     return names;
 }
 
+std::optional<std::string> missing_package(const std::string& name) {
+    const auto source = source_of(shared_folder() / "data" / name);
+    if (!source || !source->record || is_file(source->file)) return std::nullopt;
+    return source->record->package;
+}
+
 }  // namespace dynlab

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,5 +30,8 @@ LoadedData load_data(const std::string& name_or_path, const std::filesystem::pat
 
 /// Names of the data sets in the installed data/, sorted.
 std::vector<std::string> dataset_names();
+
+/// The Debian package an installed data set is read from, when that package's file is not there.
+std::optional<std::string> missing_package(const std::string& name);
 
 }  // namespace dynlab

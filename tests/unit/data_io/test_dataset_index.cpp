@@ -148,11 +148,14 @@ TEST_F(dataset_index, says_how_to_get_a_record_of_a_package) {
     EXPECT_EQ(complaint("kiln"),
               "this record comes with the Debian package no-kilns-here, which is not installed: sudo apt-get install "
               "no-kilns-here");
+    EXPECT_EQ(missing_package("kiln"), "no-kilns-here");
+    EXPECT_EQ(missing_package("heat_exchanger"), std::nullopt);
     write_file_atomically(folder / "SOURCE.md", "A kiln\n\nPackage: nothing but words\n");
     EXPECT_THAT(complaint("kiln"), HasSubstr("there is no data set \"kiln\""));
     write_file_atomically(folder / "SOURCE.md", "A kiln\n\nPackage: libc6 /nowhere/kiln.gz 10 samples 0.5 s\n");
     write_mat(folder / "kiln.mat", 8);
     EXPECT_EQ(std::get<double>(load("kiln").variables.at("y").value), 8);
+    EXPECT_EQ(missing_package("kiln"), std::nullopt);
 }
 
 TEST_F(dataset_index, refuses_damaged_records_of_packages) {
