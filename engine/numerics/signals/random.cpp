@@ -1,7 +1,8 @@
 #include "numerics/signals/random.h"
 
-#include <cmath>
-#include <numbers>
+#include <algorithm>
+
+#include "numerics/signals/box_muller.h"
 
 namespace dynlab {
 
@@ -14,6 +15,13 @@ std::uint32_t twist(std::uint32_t upper, std::uint32_t lower) {
     constexpr std::uint32_t kUpperBit = 0x80000000u, kLowerBits = 0x7fffffffu, kMatrix = 0x9908b0dfu;
     const std::uint32_t mixed = (upper & kUpperBit) | (lower & kLowerBits);
     return (mixed >> 1) ^ ((0u - (mixed & 1u)) & kMatrix);  // a branch would be mispredicted every other time
+}
+
+std::uint32_t tempered(std::uint32_t word) {
+    word ^= word >> 11;
+    word ^= (word << 7) & 0x9d2c5680u;
+    word ^= (word << 15) & 0xefc60000u;
+    return word ^ (word >> 18);
 }
 
 }  // namespace
@@ -31,16 +39,13 @@ void RandomStream::refill() {
     for (std::size_t i = kBefore; i + 1 < kWords; ++i)
         state_[i] = state_[i - kBefore] ^ twist(state_[i], state_[i + 1]);
     state_[kWords - 1] = state_[kShift - 1] ^ twist(state_[kWords - 1], state_[0]);
+    std::transform(state_.begin(), state_.end(), words_.begin(), tempered);
     position_ = 0;
 }
 
 std::uint32_t RandomStream::next_word() {
     if (position_ == kWords) refill();
-    std::uint32_t word = state_[position_++];
-    word ^= word >> 11;
-    word ^= (word << 7) & 0x9d2c5680u;
-    word ^= (word << 15) & 0xefc60000u;
-    return word ^ (word >> 18);
+    return words_[position_++];
 }
 
 double RandomStream::uniform() {
@@ -49,16 +54,33 @@ double RandomStream::uniform() {
 }
 
 double RandomStream::normal() {
-    if (second_normal_) {
-        const double value = *second_normal_;
+    double value;
+    normals(&value, 1);
+    return value;
+}
+
+void RandomStream::normals(double* values, Index count) {
+    Index k = 0;
+    if (second_normal_ && count > 0) {
+        values[k++] = *second_normal_;
         second_normal_.reset();
-        return value;
     }
-    const double first = uniform(), second = uniform();
-    const double radius = std::sqrt(-2.0 * std::log(1.0 - first));
-    const double angle = 2.0 * std::numbers::pi * second;
-    second_normal_ = radius * std::sin(angle);
-    return radius * std::cos(angle);
+    NormalPairs u1{}, u2{}, cosines, sines;
+    while (k < count) {
+        const int pairs = static_cast<int>(std::min<Index>(kNormalPairs, (count - k + 1) / 2));
+        for (int i = 0; i < pairs; ++i) {
+            u1[i] = uniform();
+            u2[i] = uniform();
+        }
+        box_muller(u1, u2, cosines, sines);
+        for (int i = 0; i < pairs; ++i) {
+            values[k++] = cosines[i];
+            if (k < count)
+                values[k++] = sines[i];
+            else
+                second_normal_ = sines[i];
+        }
+    }
 }
 
 Vector RandomStream::uniform(Index count) {
@@ -69,7 +91,7 @@ Vector RandomStream::uniform(Index count) {
 
 Vector RandomStream::normal(Index count) {
     Vector values(count);
-    for (double& value : values) value = normal();
+    normals(values.data(), count);
     return values;
 }
 
