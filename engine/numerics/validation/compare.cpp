@@ -1,5 +1,6 @@
 #include "numerics/validation/compare.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -45,9 +46,10 @@ Vector driven_response(const Record& record, Channels channels, InitialState sta
 std::vector<const TransferFunction*> free_systems(Channels channels) {
     std::vector<const TransferFunction*> systems;
     for (const TransferFunction& G : channels) {
-        bool known = false;
-        for (const TransferFunction* other : systems) known = known || other->den() == G.den();
-        if (!known) systems.push_back(&G);
+        const auto shares = [&G](const TransferFunction* other) {
+            return other->den().size() == G.den().size() && other->den() == G.den();
+        };
+        if (std::none_of(systems.begin(), systems.end(), shares)) systems.push_back(&G);
     }
     return systems;
 }
