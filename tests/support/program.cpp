@@ -51,7 +51,7 @@ ChildResult Workbench::run(std::vector<std::string> command) const {
                            {"DYNLAB", DYNLAB_PROGRAM},
                            {"DYNLAB_HOME", DYNLAB_SOURCE_DIR},
                            {"XDG_CACHE_HOME", (folder_.path() / "cache").string()}};
-    options.timeout = std::chrono::seconds(120);
+    options.timeout = std::chrono::seconds(DYNLAB_SECONDS_OF_A_PROGRAM);
     return run_child(options, "dynlab");
 }
 
