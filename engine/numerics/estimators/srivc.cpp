@@ -9,7 +9,7 @@ namespace dynlab {
 namespace {
 
 constexpr int kReweightings = 3;
-constexpr double kHardlyChanged = 1e-6;  // relative; by so little, errors change no more than that
+constexpr double kHardlyChanged = 1e-6;  // relative; the last pass changes errors by 20 times that at most
 
 /// (sum Z'Z/noise variance)^-1 of each denominator group; `last_gram` is sum Z'Z of the last pass, or empty.
 void set_covariance(TransferEstimate& estimate, const IdData& data, const TransferOptions& options,

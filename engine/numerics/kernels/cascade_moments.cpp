@@ -66,7 +66,7 @@ class LaneCascade {
             centre_[i] = broadcast(pair.centre);
             square_[i] = broadcast(pair.square);
         }
-        if constexpr (kOrder > 0) find_states(source);
+        if constexpr (kOrder > 0) measure_memory(source);
     }
 
     [[gnu::always_inline]] Part sample(Index k) const {
@@ -95,29 +95,31 @@ class LaneCascade {
         });
     }
 
-  private:
-    static constexpr int kPairs = (kOrder + 1) / 2;
-
-    /// Each lane runs over the end of the segment before its own, as far back as the states remember.
-    void find_states(const Source& source) {
-        Transition F = transition(source), power = F;
-        Index back = 1;
-        for (; back < segment_ && power.norm() > kForgotten; back *= 2) power = (power * power).eval();
-        back = std::min(back, segment_);
-        for (Part& x : state_) x = Part{};
-        for (Index k = segment_ - back; k < segment_; ++k) step(sample(k));
-        const bool whole = back == segment_;
-        const Transition through = whole ? matrix_power(F, segment_) : Transition::Zero();
-        State x = source.state;
+    /// Samples before a lane's first one that its state remembers, or all of a segment.
+    Index back() const { return back_; }
+    /// After a run from rest over the end of the segment, each lane's last state is where the next one begins.
+    void hand_over(const Vector& start) {
+        State x = start;
         for (int lane = 0; lane < kLanes; ++lane) {
             State next;
             for (int i = 0; i < kOrder; ++i) {
                 next[i] = state_[i][lane];
                 state_[i][lane] = x[i];
             }
-            if (whole) next += through * x;
-            x = next;
+            x = next + through_ * x;
         }
+    }
+
+  private:
+    static constexpr int kPairs = (kOrder + 1) / 2;
+
+    void measure_memory(const Source& source) {
+        const Transition F = transition(source);
+        Transition power = F;
+        for (back_ = 1; back_ < segment_ && power.cwiseAbs().maxCoeff() > kForgotten; back_ *= 2)
+            power = (power * power).eval();
+        back_ = std::min(back_, segment_);
+        through_ = back_ == segment_ ? matrix_power(F, segment_) : Transition(Transition::Zero());
     }
     static Transition transition(const Source& source) {
         Transition F = Transition::Zero();
@@ -139,9 +141,26 @@ class LaneCascade {
     }
 
     const double* v_;
-    Index segment_;
-    Part feed_, centre_[kPairs + 1], square_[kPairs + 1], state_[kOrder + 1];  // an array of none is not allowed
+    Index segment_, back_ = 0;
+    Transition through_;                                                            ///< of a state, over a segment
+    Part feed_, centre_[kPairs + 1], square_[kPairs + 1], state_[kOrder + 1] = {};  // an array of none is not allowed
 };
+
+/// The states of all lanes at their first samples. Each lane runs over the end of the segment before its own, both
+/// signals at once: alone, each would wait for itself.
+template <class First, class Second>
+[[gnu::always_inline]] inline void find_states(LaneCascade<First>& first, LaneCascade<Second>& second,
+                                               const std::array<Source, 2>& sources, Index segment) {
+    const Index both = segment - std::min(first.back(), second.back());
+    for (Index k = segment - first.back(); k < both; ++k) first.step(first.sample(k));
+    for (Index k = segment - second.back(); k < both; ++k) second.step(second.sample(k));
+    for (Index k = both; k < segment; ++k) {
+        first.step(first.sample(k));
+        second.step(second.sample(k));
+    }
+    if constexpr (First::kOrder > 0) first.hand_over(sources[0].state);
+    if constexpr (Second::kOrder > 0) second.hand_over(sources[1].state);
+}
 
 /// Which products are wanted.
 enum Wanted { kFirstAlone = 1, kSecondPairAlone = 2 };
@@ -157,6 +176,7 @@ Matrix sum_products(const std::array<Source, 2>& sources, Index segment) {
     };
     LaneCascade<First> first(sources[0], segment);
     LaneCascade<Second> second(sources[1], segment);
+    find_states(first, second, sources, segment);
     Part sums[kColumns][kColumns] = {};
     for (Index k = 0; k < segment; ++k) {
         const Part v = first.sample(k), w = second.sample(k);

@@ -18,6 +18,7 @@ constexpr int kCutoffs = 8;       // frequencies that find_start tries
 constexpr int kTrialPasses = 4;   // passes after each of them
 constexpr int kMostHalvings = 3;  // of a pass that raises the loss
 constexpr double kHardlyGained = 0.7;
+constexpr double kQuickest = 0.05;  // of a change is trusted to be left after a pass, however little the last one left
 
 Vector simulate(const IdData& data, const Experiment& experiment, const TransferFunction& G, Index input) {
     const auto u = experiment.u.col(input);
@@ -98,6 +99,12 @@ double largest_change(const Vector& next, const Vector& theta) {
     for (Index i = 0; i < theta.size(); ++i)
         if (next[i] != theta[i]) change = std::max(change, std::abs((next[i] - theta[i]) / next[i]));
     return change;
+}
+
+/// How far the passes still are from where they lead: the changes shrink by a factor that hardly varies.
+double change_to_come(double change, double last_change) {
+    const double factor = std::max(kQuickest, change / last_change);
+    return factor < kHardlyGained ? change * factor / (1 - factor) : kInfinity;
 }
 
 double mean_sampling_time(const IdData& data) {
@@ -204,7 +211,9 @@ RefinedSolution iterate_refined(const IdData& data, const TransferStructure& str
         }
         const double change = largest_change(found, solution.theta);
         Vector next = groups.mirrored(found, solution.mirrored);
-        if (change > options.tolerance && change > kHardlyGained * last_change) {
+        const bool settled =
+            change <= options.tolerance || (pass > 0 && change_to_come(change, last_change) <= options.tolerance);
+        if (!settled && change > kHardlyGained * last_change) {
             const double loss = simulation_loss(data, structure, solution.theta);
             for (int i = 0; i < kMostHalvings && simulation_loss(data, structure, next) > loss; ++i)
                 next = groups.mirrored(0.5 * (next + solution.theta), solution.mirrored);
@@ -212,7 +221,7 @@ RefinedSolution iterate_refined(const IdData& data, const TransferStructure& str
         last_change = change;
         solution.theta = next;
         solution.trace.push_back({next, std::numeric_limits<double>::quiet_NaN(), change});
-        if (change <= options.tolerance) {
+        if (settled) {
             solution.termination = Termination::kConverged;
             solution.gram = groups.gram();
             return solution;

@@ -34,8 +34,9 @@ struct RefinedSolution {
 /// signals filtered by 1/A of the pass before, z the exact sensitivities of the simulated output; unstable poles are
 /// mirrored. Where channels of one output have different denominators, each group explains what the others leave over
 /// (back-fitting). It has converged when no parameter changes by more than tolerance of itself, judged before poles are
-/// mirrored; a pass that hardly gains on the one before it and raises the loss is shortened. Without convergence the
-/// pass of smallest loss is given.
+/// mirrored, or when all changes still to come are no more than that: they shrink by a nearly constant factor, taken
+/// from the last two, but no less than 1/20. A pass that hardly gains on the one before it and raises the loss is
+/// shortened. Without convergence the pass of smallest loss is given.
 RefinedSolution iterate_refined(const IdData& data, const TransferStructure& structure, const Vector& start,
                                 const RefinedOptions& options);
 

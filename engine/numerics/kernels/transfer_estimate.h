@@ -23,7 +23,7 @@ struct TransferOptions {
     std::optional<double> TdMax;  ///< s; from the input-output cross-correlation unless given
     int NumTd = 100;              ///< most delays on the grid between the two
     int MaxIter = 50;
-    double Tol = 1e-6;             ///< on the largest relative parameter change
+    double Tol = 1e-6;             ///< on the largest relative parameter change, made or still to come
     std::function<bool()> cancel;  ///< asked before every iteration
 
     /// Throws InvalidArgument naming the option.
