@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <numbers>
 
@@ -24,10 +25,10 @@ inline double logarithm(double x) {
     return exponent * std::numbers::ln2 + 2 * (s + s * z * series);
 }
 
-/// 1 - z/(f (f+1)) (1 - z/((f+2) (f+3)) (1 - ...)); for z <= (pi/2)^2 what is left out is below 1e-18.
+/// 1 - z/(f (f+1)) (1 - z/((f+2) (f+3)) (1 - ...)); for z <= (pi/4)^2 what is left out is below 1e-18.
 inline double series(double z, int f) {
     double sum = 1;
-    for (int k = 22; k >= 0; k -= 2) sum = 1 - z * (1. / ((f + k) * (f + k + 1))) * sum;
+    for (int k = 14; k >= 0; k -= 2) sum = 1 - z * (1. / ((f + k) * (f + k + 1))) * sum;
     return sum;
 }
 
@@ -35,11 +36,15 @@ struct SineCosine {
     double sine, cosine;
 };
 
-/// Of 2 pi u, u in [0, 1), from those of h = pi (u - 1/2).
+/// Of 2 pi u, u in [0, 1), by the nearest quarter of a turn, -2 to 2 from the half turn, and what is left.
 inline SineCosine of_turn(double u) {
-    const double h = std::numbers::pi * (u - 0.5), z = h * h;
-    const double sine = h * series(z, 2), cosine = series(z, 1);
-    return {-2 * sine * cosine, 2 * sine * sine - 1};
+    constexpr double kRound = 0x1.8p52;  // sums with it have no room for a fraction
+    const double quarters = 4 * u - 2, quarter = (quarters + kRound) - kRound;
+    const double x = std::numbers::pi / 2 * (quarters - quarter), z = x * x;
+    const double sine = x * series(z, 2), cosine = series(z, 1);
+    // Cosine and sine of the quarter and the half turn: whole numbers, one of them 0.
+    const double along = std::abs(quarter) - 1, across = -quarter * (2 - std::abs(quarter));
+    return {along * sine + across * cosine, along * cosine - across * sine};
 }
 
 }  // namespace

@@ -8,8 +8,7 @@
 namespace dynlab {
 
 /// The course's reproducible source of random numbers: the Mersenne twister MT19937 (Matsumoto and Nishimura
-/// 1998), uniforms from 53 bits, normals by Box-Muller in pairs. Equal on every machine to 2e-15 for equal
-/// seeds.
+/// 1998), uniforms from 53 bits, normals by Box-Muller in pairs. The same on every machine for equal seeds.
 class RandomStream {
   public:
     explicit RandomStream(std::uint32_t seed = 1);
