@@ -8,48 +8,29 @@
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/model.h"
+#include "scripting/table_fields.h"
 
 namespace dynlab {
 namespace {
 
-/// __index of the table that load returns; upvalue 1 is the data set's name.
-int unknown_variable(lua_State* L) {
-    std::vector<std::string> names;
-    lua_pushnil(L);
-    while (lua_next(L, 1)) {
-        lua_pop(L, 1);
-        if (lua_type(L, -1) == LUA_TSTRING) names.emplace_back(lua_tostring(L, -1));
-    }
-    std::sort(names.begin(), names.end());
-    const std::string wanted = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : luaL_typename(L, 2);
-    raise_error(L, fmt::format("the data of '{}' have no variable '{}'; they have {}",
-                               lua_tostring(L, lua_upvalueindex(1)), wanted, fmt::join(names, ", ")));
-}
+/// `place` is the name by which messages speak of what is pushed, such as crane.steps.
+void push_variable(const Call& call, const Variable& variable, const std::string& place);
 
-void report_unknown_variables(lua_State* L, const std::string& name) {
-    lua_createtable(L, 0, 2);
-    lua_pushstring(L, name.c_str());
-    lua_pushcclosure(L, unknown_variable, 1);
-    lua_setfield(L, -2, "__index");
-    lua_pushliteral(L, "data");
-    lua_setfield(L, -2, "__metatable");
-    lua_setmetatable(L, -2);
-}
-
-void push_variables(const Call& call, const VariableTable& variables) {
+void push_variables(const Call& call, const VariableTable& variables, const std::string& place) {
     luaL_checkstack(call.state(), 8, "the data are nested too deeply");
     lua_createtable(call.state(), 0, static_cast<int>(variables.size()));
     for (const auto& [name, variable] : variables) {
-        push_variable(call, variable);
+        push_variable(call, variable, place + "." + name);
         lua_setfield(call.state(), -2, name.c_str());
     }
+    refuse_unknown_fields(call.state(), place);
 }
 
-void push_list(const Call& call, const VariableList& list) {
+void push_list(const Call& call, const VariableList& list, const std::string& place) {
     luaL_checkstack(call.state(), 8, "the data are nested too deeply");
     lua_createtable(call.state(), static_cast<int>(list.size()), 0);
     for (std::size_t i = 0; i < list.size(); ++i) {
-        push_variable(call, list[i]);
+        push_variable(call, list[i], fmt::format("{}[{}]", place, i + 1));
         lua_rawseti(call.state(), -2, static_cast<lua_Integer>(i + 1));
     }
 }
@@ -57,6 +38,7 @@ void push_list(const Call& call, const VariableList& list) {
 /// What each kind of variable becomes in Lua.
 struct Pusher {
     const Call& call;
+    const std::string& place;
     void operator()(double value) const { call.give(value); }
     void operator()(bool value) const { call.give(value); }
     void operator()(const std::string& value) const { call.give(value); }
@@ -70,17 +52,20 @@ struct Pusher {
         call.give_matrix(value.imag());
         lua_setfield(call.state(), -2, "im");
     }
-    void operator()(const std::shared_ptr<VariableTable>& value) const { push_variables(call, *value); }
-    void operator()(const std::shared_ptr<VariableList>& value) const { push_list(call, *value); }
+    void operator()(const std::shared_ptr<VariableTable>& value) const { push_variables(call, *value, place); }
+    void operator()(const std::shared_ptr<VariableList>& value) const { push_list(call, *value, place); }
 };
+
+void push_variable(const Call& call, const Variable& variable, const std::string& place) {
+    std::visit(Pusher{call, place}, variable.value);
+}
 
 int load(Call& call) {
     call.at_most(1);
     const std::string name = call.text(1, "name or path");
     const LoadedData loaded = load_data(name, call.context().options.script_folder);
     call.context().recorder.note_file_read(loaded.file);
-    push_variables(call, loaded.variables);
-    report_unknown_variables(call.state(), name);
+    push_variables(call, loaded.variables, name);
     return 1;
 }
 
@@ -150,10 +135,6 @@ constexpr std::array kFunctions = {
 };
 
 }  // namespace
-
-void push_variable(const Call& call, const Variable& variable) {
-    std::visit(Pusher{call}, variable.value);
-}
 
 FunctionEntries data_functions() {
     return kFunctions;

@@ -10,6 +10,7 @@
 #include "scripting/bindings.h"
 #include "scripting/objects/boxed.h"
 #include "scripting/objects/model.h"
+#include "scripting/table_fields.h"
 
 namespace dynlab {
 namespace {
@@ -19,18 +20,12 @@ using Numbers = std::initializer_list<std::pair<const char*, double>>;
 
 void give_columns(const Call& call, Columns columns) {
     lua_createtable(call.state(), 0, static_cast<int>(columns.size()));
-    for (const auto& [name, values] : columns) {
-        call.give_vector(*values);
-        lua_setfield(call.state(), -2, name);
-    }
+    for (const auto& [name, values] : columns) set_vector(call, name, *values);
 }
 
 void give_numbers(const Call& call, Numbers numbers) {
     lua_createtable(call.state(), 0, static_cast<int>(numbers.size()));
-    for (const auto& [name, value] : numbers) {
-        lua_pushnumber(call.state(), value);
-        lua_setfield(call.state(), -2, name);
-    }
+    for (const auto& [name, value] : numbers) set_number(call.state(), name, value);
 }
 
 void give_record(const Call& call, const RigRecord& record) {
@@ -42,6 +37,7 @@ void crane_record(const Call& call, std::uint32_t seed) {
     lua_createtable(call.state(), 0, static_cast<int>(records.size()));
     for (const CraneRecord& record : records) {
         give_columns(call, {{"t", &record.t}, {"u", &record.u}, {"x", &record.x}, {"theta", &record.theta}});
+        refuse_unknown_fields(call.state(), "crane." + record.name);
         lua_setfield(call.state(), -2, record.name.c_str());
     }
 }
@@ -147,6 +143,7 @@ void thruster_record(const Call& call, std::uint32_t seed) {
     lua_createtable(call.state(), 0, static_cast<int>(records.size()));
     for (const ThrusterRecord& record : records) {
         give_columns(call, {{"t", &record.t}, {"pwm", &record.pwm}, {"force", &record.force}});
+        refuse_unknown_fields(call.state(), "thruster." + record.name);
         lua_setfield(call.state(), -2, record.name.c_str());
     }
 }
@@ -165,10 +162,8 @@ void thruster_theory(const Call& call) {
                         {"fast_time_constant", truth.fast_time_constant},
                         {"cell_frequency", p.cell_frequency},
                         {"cell_damping", p.cell_damping}});
-    call.give_vector(pwm);
-    lua_setfield(call.state(), -2, "pwm");
-    call.give_vector(thrust);
-    lua_setfield(call.state(), -2, "thrust");
+    set_vector(call, "pwm", pwm);
+    set_vector(call, "thrust", thrust);
 }
 
 /// An experiment: both functions push one table.
@@ -203,13 +198,17 @@ int rig(Call& call) {
     const Options options(call, 2, {"seed"});
     const Index seed = options.size("seed", 1);
     if (seed > 0xFFFFFFFF) throw InvalidArgument("option 'seed' must be a whole number from 0 to 4294967295");
-    rig_of(call).record(call, static_cast<std::uint32_t>(seed));
+    const Rig& rig = rig_of(call);
+    rig.record(call, static_cast<std::uint32_t>(seed));
+    refuse_unknown_fields(call.state(), std::string(rig.name));
     return 1;
 }
 
 int rig_truth(Call& call) {
     call.at_most(1);
-    rig_of(call).theory(call);
+    const Rig& rig = rig_of(call);
+    rig.theory(call);
+    refuse_unknown_fields(call.state(), fmt::format("the truth of {}", rig.name));
     return 1;
 }
 

@@ -1,5 +1,11 @@
 #include "scripting/table_fields.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scripting/errors.h"
+
 namespace dynlab {
 
 void set_number(lua_State* L, const char* name, double value) {
@@ -33,6 +39,34 @@ void set_vector(const Call& call, const char* name, const VectorView& values) {
 void set_matrix(const Call& call, const char* name, const MatrixView& values) {
     call.give_matrix(values);
     lua_setfield(call.state(), -2, name);
+}
+
+namespace {
+
+/// __index of such a table; upvalue 1 is the name of the data.
+int unknown_field(lua_State* L) {
+    std::vector<std::string> names;
+    lua_pushnil(L);
+    while (lua_next(L, 1)) {
+        lua_pop(L, 1);
+        if (lua_type(L, -1) == LUA_TSTRING) names.emplace_back(lua_tostring(L, -1));
+    }
+    std::sort(names.begin(), names.end());
+    const std::string wanted = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : luaL_typename(L, 2);
+    raise_error(L, fmt::format("the data of '{}' have no variable '{}'; they have {}",
+                               lua_tostring(L, lua_upvalueindex(1)), wanted, fmt::join(names, ", ")));
+}
+
+}  // namespace
+
+void refuse_unknown_fields(lua_State* L, const std::string& name) {
+    lua_createtable(L, 0, 2);
+    lua_pushstring(L, name.c_str());
+    lua_pushcclosure(L, unknown_field, 1);
+    lua_setfield(L, -2, "__index");
+    lua_pushliteral(L, "data");
+    lua_setfield(L, -2, "__metatable");
+    lua_setmetatable(L, -2);
 }
 
 }  // namespace dynlab

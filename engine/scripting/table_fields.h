@@ -15,4 +15,8 @@ void set_texts(const Call& call, const char* name, const std::vector<std::string
 void set_vector(const Call& call, const char* name, const VectorView& values);
 void set_matrix(const Call& call, const char* name, const MatrixView& values);
 
+/// From now on reading a field that the table on top of the stack has not is an error that lists those it has; `name`
+/// is that of the data.
+void refuse_unknown_fields(lua_State* L, const std::string& name);
+
 }  // namespace dynlab

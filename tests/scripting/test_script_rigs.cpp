@@ -44,3 +44,15 @@ TEST(script_rigs, refuse_what_there_is_not) {
     EXPECT_NE(error_of("rig_truth('cranes')").find(expected), std::string::npos);
     EXPECT_NE(error_of("rig('crane', {seed = 2^33})").find("whole number"), std::string::npos);
 }
+
+TEST(script_rigs, unknown_fields_are_told_at_every_level) {
+    for (const std::string table : {"load('crane')", "rig('crane')"}) {
+        EXPECT_NE(error_of("print(" + table + ".estimaton)")
+                      .find("the data of 'crane' have no variable 'estimaton'; they have estimation, free_swing"),
+                  std::string::npos);
+        EXPECT_NE(error_of("print(" + table + ".steps.phi)")
+                      .find("the data of 'crane.steps' have no variable 'phi'; they have t, theta, u, x"),
+                  std::string::npos);
+    }
+    EXPECT_NE(error_of("print(rig_truth('suspension').wn)").find("the truth of suspension"), std::string::npos);
+}

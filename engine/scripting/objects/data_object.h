@@ -1,5 +1,4 @@
 #pragma once
-#include "data_io/variable.h"
 #include "numerics/signals/iddata.h"
 #include "scripting/objects/boxed.h"
 
@@ -12,7 +11,5 @@ struct Boxed<IdData> {
 };
 
 int give_data(const Call& call, IdData data);
-/// Pushes a variable of a data file; structs and cell arrays become tables.
-void push_variable(const Call& call, const Variable& variable);
 
 }  // namespace dynlab
