@@ -61,9 +61,11 @@ int make_document(ReportRequest request, bool show_timings) {
     }
     status.clear();
     const std::string file = std::filesystem::absolute(request.output).lexically_normal().string();
-    std::cout << file << (result.up_to_date ? " (up to date)" : "") << '\n';
+    const char* const state = result.up_to_date ? " (up to date)" : result.error ? " (up to the error)" : "";
+    if (result.error) std::cerr << "dynlab: " << *result.error << std::endl;
+    std::cout << file << state << '\n';
     if (show_timings) show(result.timings);
-    return kDone;
+    return result.error ? kFailed : kDone;
 }
 
 }  // namespace dynlab

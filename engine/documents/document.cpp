@@ -1,5 +1,6 @@
 #include "documents/document.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "documents/characters.h"
@@ -80,6 +81,7 @@ class Making {
         }
         if (metadata_.count("lang") && !metadata_.at("lang").empty()) language_ = metadata_.at("lang");
         record_ = source.record ? source.record : &nothing_reported_;
+        if (record_->error && !shows_cells(template_)) begin_with_error();
     }
 
     void make(const std::function<void()>& wait_for_figures) {
@@ -104,6 +106,15 @@ class Making {
     std::string prefix() const {
         if (format_ == DocumentFormat::kMarkdown) return output_.stem().string() + "_files/picture-";
         return "dynlab-picture-";
+    }
+
+    void begin_with_error() {
+        MarkdownText begun;
+        begun.append(error_block(record_->error->message), source_.template_file, 0);
+        begun.text += markdown_.text;
+        begun.origin.insert(begun.origin.end(), markdown_.origin.begin(), markdown_.origin.end());
+        for (SourceLine& line : begun.origin) line.line = std::max(line.line, 1);
+        markdown_ = std::move(begun);
     }
 
     PandocJob pandoc_job() const {

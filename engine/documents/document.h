@@ -15,7 +15,9 @@ DocumentFormat document_format(
     const std::filesystem::path& file);  ///< by extension; throws DocumentError naming the three
 
 /// What a document is made of: a template (Pandoc Markdown with slots, metadata in its YAML header), the run
-/// record that fills the slots and, for templates with a `::: {.cells}` block, the woven script.
+/// record that fills the slots and, for templates with a `::: {.cells}` block, the woven script. Where the run
+/// stopped with an error, it stands in the document (at its cell, else at the beginning) and slots without entry say
+/// so.
 struct DocumentSource {
     std::filesystem::path template_file;
     std::map<std::string, std::string> metadata;  ///< title, subtitle, lang, date...: override the template's own

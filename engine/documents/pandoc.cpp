@@ -88,7 +88,7 @@ std::string slots_file(const PandocJob& job) {
     const RunRecord& record = *job.record;
     return "return {\nformat=" + lua_string(format_name(job.format)) + ",language=" + lua_string(job.language) +
            ",reader=" + lua_string(kReader) + ",numbersections=" + (numbered ? "true" : "false") +
-           ",\npicture_prefix=" + lua_string(job.picture_prefix) +
+           ",stopped=" + (record.error ? "true" : "false") + ",\npicture_prefix=" + lua_string(job.picture_prefix) +
            ",figure_extension=" + lua_string(figure_extension(job.format)) + ",\nvariables=" + variables +
            "},\nmetadata=" + lua_map(shown, as_string) +
            ",\nvalue=" + lua_map(record.values, [](const RecordedValue& v) { return lua_string(one_line(v.text)); }) +

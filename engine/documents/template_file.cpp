@@ -85,6 +85,11 @@ class FenceState {
     std::size_t open_ = 0;
 };
 
+bool opens_cells(const std::string& line) {
+    static const std::regex opening(R"(:::+\s*(\{\s*\.cells\s*\}|cells)\s*:*\s*)");
+    return std::regex_match(line, opening);
+}
+
 }  // namespace
 
 void check_metadata(const std::string& key, const std::string& value, const std::string& where) {
@@ -118,8 +123,14 @@ TemplateFile read_template(const std::filesystem::path& file) {
     return result;
 }
 
+bool shows_cells(const TemplateFile& source) {
+    FenceState fence;
+    const std::vector<std::string> lines = lines_of(source.body.text);
+    return std::any_of(lines.begin(), lines.end(),
+                       [&](const std::string& line) { return !fence.inside(line) && opens_cells(line); });
+}
+
 MarkdownText with_cells(const TemplateFile& source, const MarkdownText& cells) {
-    static const std::regex opening(R"(:::+\s*(\{\s*\.cells\s*\}|cells)\s*:*\s*)");
     const std::vector<std::string> lines = lines_of(source.body.text);
     MarkdownText result;
     FenceState fence;
@@ -129,7 +140,7 @@ MarkdownText with_cells(const TemplateFile& source, const MarkdownText& cells) {
     };
     for (std::size_t i = 0; i < lines.size(); ++i) {
         const SourceLine from = source.body.origin[i];
-        if (fence.inside(lines[i]) || !std::regex_match(lines[i], opening)) {
+        if (fence.inside(lines[i]) || !opens_cells(lines[i])) {
             result.append(lines[i] + "\n", from.file, from.line);
             continue;
         }

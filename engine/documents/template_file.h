@@ -22,6 +22,9 @@ TemplateFile read_template(const std::filesystem::path& file);
 /// and numbersections other than true and false); `where` starts the message.
 void check_metadata(const std::string& key, const std::string& value, const std::string& where);
 
+/// Whether the body has a block `::: {.cells}`.
+bool shows_cells(const TemplateFile& source);
+
 /// The body with `cells` in place of the block `::: {.cells}` ... `:::`. Throws DocumentError when the block has
 /// content or stands there twice.
 MarkdownText with_cells(const TemplateFile& source, const MarkdownText& cells);

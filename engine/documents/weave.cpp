@@ -23,6 +23,13 @@ bool option_is_off(const Cell& cell, const std::string& key) {
     return option != cell.options.end() && option->second == "false";
 }
 
+std::string fenced(const std::string& text, const std::string& block_class) {
+    const std::string fence = fence_around(text);
+    return fence + "{." + block_class + "}\n" + text + (text.ends_with('\n') ? "" : "\n") + fence + "\n\n";
+}
+
+const std::string kStopped = "\nThe script stopped here; nothing below was run.";
+
 class Weaver {
   public:
     Weaver(const PercentScript& script, const RunRecord& record) : script_(script), record_(record) {}
@@ -37,7 +44,7 @@ class Weaver {
                 if (!option_is_off(cell, "echo")) add_code(cell);
                 if (!option_is_off(cell, "output")) add_outputs(cell);
             }
-            if (&cell == failed) add_block(record_.error->message, "error", cell.last_line());
+            if (&cell == failed) add_block(record_.error->message + kStopped, "error", cell.last_line());
         }
         if (record_.error && !failed) add_block(record_.error->message, "error", 1);
         return std::move(text_);
@@ -69,11 +76,7 @@ class Weaver {
     }
 
     void add_block(const std::string& text, const std::string& block_class, int number) {
-        const std::string fence = fence_around(text);
-        add(fence + "{." + block_class + "}", number);
-        for (const std::string& line : lines_of(text)) add(line, number);
-        add(fence, number);
-        add("", number);
+        for (const std::string& line : lines_of(fenced(text, block_class))) add(line, number);
     }
 
     void add_outputs(const Cell& cell) {
@@ -110,6 +113,10 @@ void MarkdownText::append(const std::string& lines, const std::filesystem::path&
 SourceLine MarkdownText::origin_of(int line) const {
     if (line < 1 || line > static_cast<int>(origin.size())) return {};
     return origin[static_cast<std::size_t>(line) - 1];
+}
+
+std::string error_block(const std::string& message) {
+    return fenced(message, "error");
 }
 
 MarkdownText weave_cells(const PercentScript& script, const RunRecord& record) {

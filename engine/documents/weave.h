@@ -25,4 +25,7 @@ struct MarkdownText {
 /// left out; a recorded error appears at its cell.
 MarkdownText weave_cells(const PercentScript& script, const RunRecord& record);
 
+/// A block that shows an error's message.
+std::string error_block(const std::string& message);
+
 }  // namespace dynlab

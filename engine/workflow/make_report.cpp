@@ -116,7 +116,7 @@ ReportResult make_report(const ReportRequest& request) {
     RunRequest run{
         .script = request.script, .seed = request.seed, .out_folder = workplace.path(), .print = request.print};
     RunRecord record = run_script(run, renderer);
-    if (record.error) throw DocumentError(record.error->message);
+    if (record.error) result.error = record.error->message;
     draw_figures(record, renderer, workplace.path(), figure_format_for(format));
     watch.lap("run the script");
 
@@ -126,10 +126,15 @@ ReportResult make_report(const ReportRequest& request) {
     source.metadata = request.metadata;
     source.record = &record;
     source.cells = weave_cells(request.script, record);
-    DocumentMaker({.use_cache = true, .timings = &result.timings}).make(source, request.output, format, [&] {
-        renderer.finish();
-    });
-    memory.remember(record);
+    try {
+        DocumentMaker({.use_cache = true, .timings = &result.timings}).make(source, request.output, format, [&] {
+            renderer.finish();
+        });
+    } catch (const DocumentError& complaint) {
+        if (!result.error) throw;
+        throw DocumentError(*result.error + "\nThe report up to there cannot be made: " + complaint.what());
+    }
+    if (!result.error) memory.remember(record);
     return result;
 }
 

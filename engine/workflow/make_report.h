@@ -26,6 +26,7 @@ struct ReportRequest {
 
 struct ReportResult {
     bool up_to_date = false;                              ///< nothing had changed, nothing was made
+    std::optional<std::string> error;                     ///< the script stopped with it; the report says so
     std::vector<std::pair<std::string, double>> timings;  ///< seconds of each step
 };
 
@@ -37,8 +38,8 @@ ReportRequest report_of(const std::string& lesson_or_folder, const std::filesyst
 ReportRequest report_of_script(const PercentScript& script, const std::filesystem::path& output);
 
 /// Runs the script and makes the document; `output` appears whole or stays as it was. With unchanged inputs (script,
-/// template, data, seed, program) and an untouched output nothing is done. Throws DocumentError with the script's error
-/// when it fails.
+/// template, data, seed, program) and an untouched output nothing is done. Where the script stops with an error, the
+/// report shows what there is, and the error in its place. Throws DocumentError when no document can be made.
 ReportResult make_report(const ReportRequest& request);
 
 }  // namespace dynlab

@@ -31,8 +31,11 @@ local function entry(kind, name, needle)
       return nil
     end
   end
-  report("no-entry", needle, kind, name)
+  if not slots.stopped then report("no-entry", needle, kind, name) end
 end
+
+-- What stands in the place of an entry that is not there, once that was told or the script stopped before it.
+local function missing_block(name) return slots.stopped and layout:missing_block(name) or {} end
 
 local pictures = {}
 local picture_count = 0
@@ -107,7 +110,7 @@ local function picture(image)
   local name = image.src:match("^figure:(.+)$")
   if not name then return picture_file("image", image.src), image.caption end
   local found = entry("figure", name, image.src)
-  if not found then return nil end
+  if not found then return nil, nil, name end
   local caption = image.caption
   if #caption == 0 then caption = checked_inlines(found.caption) end
   return picture_file("figure", name), caption, name
@@ -116,7 +119,7 @@ end
 local function figure(image)
   local file, caption, name = picture(image)
   local label = label_of(image.identifier, "fig")
-  if not file then return {} end
+  if not file then return missing_block(name) end
   local alternative = pandoc.utils.stringify(caption)
   if alternative == "" then alternative = name or image.src end
   if #caption > 0 or label then
@@ -146,7 +149,7 @@ local function table_slot(division)
     label = take_label(caption, "tbl") or label
   end
   local found = entry("table", name, "name=" .. name)
-  if not found then return {} end
+  if not found then return missing_block(name) end
   if #caption > 0 or label then caption = layout:numbered_caption("tbl", number("tbl", label), caption) end
   local element, size = layout:table(found, caption)
   if not element then
@@ -172,7 +175,7 @@ end
 local function text_slot(division)
   local name = division.attributes.name or ""
   local found = entry("text", name, "name=" .. name)
-  if not found then return {} end
+  if not found then return missing_block(name) end
   return pandoc.Div(read_blocks(found)):walk {
     Div = function(inner)
       if inner.classes[1] == "text" then
@@ -272,7 +275,7 @@ end
 local function code(element)
   if element.classes:includes("value") then
     local found = entry("value", element.text, "`" .. element.text .. "`")
-    return found and printed_value(found) or {}
+    return found and printed_value(found) or slots.stopped and layout:missing_word(element.text) or {}
   end
   return layout:inline_code(element)
 end
@@ -344,7 +347,7 @@ local function reference(citation)
   if kind ~= "sec" and not counters[kind] then
     report("reference-kind", "@" .. id, id)
   elseif not labels[id] then
-    report("dangling", "@" .. id, id)
+    if not slots.stopped then report("dangling", "@" .. id, id) end
   else
     local shown = labels[id]
     if citation.mode == "SuppressAuthor" then shown = shown:match("\u{A0}(.*)$") or shown end

@@ -3,9 +3,9 @@ local layout = {}
 
 local words = {
   en = { fig = "Figure", tbl = "Table", eq = "Equation", sec = "Section", note = "Note", warning = "Take care",
-         exercise = "Exercise" },
+         exercise = "Exercise", missing = "is not there: the script stopped before" },
   fr = { fig = "Figure", tbl = "Tableau", eq = "Équation", sec = "Section", note = "Remarque", warning = "Attention",
-         exercise = "Exercice" },
+         exercise = "Exercice", missing = "manque : le programme s’est arrêté avant" },
 }
 
 local latex_escapes = { ["\\"] = "\\textbackslash{}", ["{"] = "\\{", ["}"] = "\\}" }
@@ -123,6 +123,13 @@ function layout:code_block(block)
     block.classes = block.classes:filter(function(class) return class ~= "cell" end)
     return block
   end
+end
+
+-- In the place of what a script that stopped has not reported, within a line or alone.
+function layout:missing_word(name) return pandoc.Strong { pandoc.Str("[" .. name .. "]") } end
+
+function layout:missing_block(name)
+  return pandoc.Para { pandoc.Strong { pandoc.Str("[" .. name .. " " .. self.words.missing .. "]") } }
 end
 
 function layout:box(division, kind)

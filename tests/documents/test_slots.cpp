@@ -54,6 +54,19 @@ TEST_F(slots, an_entry_that_is_missing_is_named_with_the_nearest_name_and_the_li
     EXPECT_THAT(refusal("::: {.text name=end}\n:::\n"), HasSubstr("report.md:1: the script reported no text \"end\""));
 }
 
+TEST_F(slots, a_script_that_stopped_leaves_gaps_with_names_and_its_error_first) {
+    record_.error = RecordedError{"analysis.lua:10: there is no function 'f`oo'", 10};
+    record_.values["fit"] = {93.2, "93.2"};
+    const std::string text = html(
+        "Fit `fit`{.value}, later `late`{.value}, @fig:raw.\n\n![A](figure:raw){#fig:raw}\n\n"
+        "::: {.table name=models}\n:::\n\n::: {.text name=end}\n:::\n");
+    EXPECT_THAT(text, HasSubstr("<pre class=\"error\"><code>analysis.lua:10: there is no function 'f`oo'"));
+    EXPECT_LT(text.find("analysis.lua:10"), text.find("Fit 93.2"));
+    EXPECT_THAT(text, HasSubstr("Fit 93.2, later <strong>[late]</strong>, fig:raw."));
+    for (const char* name : {"raw", "models", "end"})
+        EXPECT_THAT(text, HasSubstr("<strong>[" + std::string(name) + " is not there: the script stopped before]"));
+}
+
 TEST_F(slots, an_entry_of_another_kind_is_named_with_its_kind) {
     record_.tables["fit"] = {{"a"}, {{"1"}}};
     EXPECT_THAT(refusal("`fit`{.value}\n"),

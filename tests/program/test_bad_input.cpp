@@ -8,6 +8,7 @@
 namespace dynlab::test {
 namespace {
 
+using testing::ContainsRegex;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
@@ -63,10 +64,27 @@ TEST(bad_input, syntax_and_runtime_errors_have_file_and_line) {
     expect_failure(bench.dynlab({"run", "absent.lua"}), 1, "absent.lua");
 }
 
-TEST(bad_input, failed_script_leaves_no_report) {
+TEST(bad_input, script_that_fails_gives_the_report_up_to_there_and_its_error) {
     const Workbench bench;
-    write_folder(bench, "error('on purpose')\n", "::: {.cells}\n:::\n");
-    expect_failure(bench.dynlab({"report", "mine"}), 1, "analysis.lua:1");
+    write_folder(bench, "-- %%\nprint('before')\n-- %%\nerror('on purpose')\n-- %%\nprint('after')\n",
+                 "::: {.cells}\n:::\n\nFit `fit`{.value}\n");
+    const std::vector<std::string> make = {"report", "mine", "-o", "out.md"};
+    for (int repeat = 0; repeat < 2; ++repeat) {  // such a report is never up to date
+        const ChildResult result = bench.dynlab(make);
+        expect_failure(result, 1, "analysis.lua:4: on purpose");
+        EXPECT_THAT(result.output, HasSubstr("out.md (up to the error)"));
+    }
+    const std::string report = bench.read("out.md");
+    EXPECT_THAT(report, ContainsRegex("\nbefore\n(.|\n)*on purpose(.|\n)*nothing below was run(.|\n)*print"));
+    EXPECT_THAT(report, Not(HasSubstr("\nafter\n")));
+    EXPECT_THAT(report, HasSubstr("[fit]"));
+}
+
+TEST(bad_input, script_that_fails_is_told_even_where_no_report_can_be_made) {
+    const Workbench bench;
+    write_folder(bench, "error('on purpose')\n", "![A](absent.png)\n");
+    const ChildResult result = bench.dynlab({"report", "mine"});
+    expect_failure(result, 1, "on purpose\nThe report up to there cannot be made: ");
     EXPECT_THAT(bench.files(), ElementsAre("mine"));
 }
 
