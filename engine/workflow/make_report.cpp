@@ -10,6 +10,7 @@
 #include "platform/temporary_folder.h"
 #include "workflow/lesson_catalogue.h"
 #include "workflow/report_memory.h"
+#include "workflow/run_memory.h"
 #include "workflow/run_script.h"
 
 namespace dynlab {
@@ -110,15 +111,25 @@ ReportResult make_report(const ReportRequest& request) {
     watch.lap("look for changes");
     if (result.up_to_date) return result;
 
-    begin("running the script");
+    const RunMemory runs(request.script, request.seed, figure_format_for(format));
     const TemporaryFolder workplace;
     GnuplotRenderer renderer;
-    RunRequest run{
-        .script = request.script, .seed = request.seed, .out_folder = workplace.path(), .print = request.print};
-    RunRecord record = run_script(run, renderer);
-    if (record.error) result.error = record.error->message;
-    draw_figures(record, renderer, workplace.path(), figure_format_for(format));
-    watch.lap("run the script");
+    std::optional<RunRecord> known;
+    if (!request.print) known = runs.recall();
+    const bool recalled = known.has_value();
+    RunRecord record;
+    if (recalled) {
+        record = *std::move(known);
+        watch.lap("recall the run");
+    } else {
+        begin("running the script");
+        RunRequest run{
+            .script = request.script, .seed = request.seed, .out_folder = workplace.path(), .print = request.print};
+        record = run_script(run, renderer);
+        if (record.error) result.error = record.error->message;
+        draw_figures(record, renderer, workplace.path(), figure_format_for(format));
+        watch.lap("run the script");
+    }
 
     begin("making the document");
     DocumentSource source;
@@ -129,6 +140,7 @@ ReportResult make_report(const ReportRequest& request) {
     try {
         DocumentMaker({.use_cache = true, .timings = &result.timings}).make(source, request.output, format, [&] {
             renderer.finish();
+            if (!recalled) runs.remember(record);
         });
     } catch (const DocumentError& complaint) {
         if (!result.error) throw;

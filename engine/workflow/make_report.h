@@ -38,8 +38,9 @@ ReportRequest report_of(const std::string& lesson_or_folder, const std::filesyst
 ReportRequest report_of_script(const PercentScript& script, const std::filesystem::path& output);
 
 /// Runs the script and makes the document; `output` appears whole or stays as it was. With unchanged inputs (script,
-/// template, data, seed, program) and an untouched output nothing is done. Where the script stops with an error, the
-/// report shows what there is, and the error in its place. Throws DocumentError when no document can be made.
+/// template, data, seed, program) and an untouched output nothing is done; with unchanged code and data the script is
+/// not run again. Where the script stops with an error, the report shows what there is, and the error in its place.
+/// Throws DocumentError when no document can be made.
 ReportResult make_report(const ReportRequest& request);
 
 }  // namespace dynlab

@@ -6,18 +6,13 @@
 
 #include "platform/content_hash.h"
 #include "platform/program_lookup.h"
+#include "workflow/inputs_read.h"
+#include "workflow/program_identity.h"
 
 namespace dynlab {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The running program by size and time of writing: hashing megabytes would cost more than the rest together.
-std::string program_identity() {
-    const fs::path program = fs::read_symlink("/proc/self/exe");
-    return std::to_string(fs::file_size(program)) + "/" +
-           std::to_string(fs::last_write_time(program).time_since_epoch().count());
-}
 
 std::vector<fs::path> template_files() {
     std::vector<fs::path> files;
@@ -35,7 +30,9 @@ std::string hash_or_nothing(const fs::path& file) {
 }  // namespace
 
 ReportMemory::ReportMemory(const ReportRequest& request)
-    : cache_("reports", 4u << 20), output_(fs::absolute(request.output)) {
+    : cache_("reports", 4u << 20),
+      output_(fs::absolute(request.output)),
+      script_folder_(fs::absolute(request.script.file).parent_path()) {
     ContentHash hash;
     const auto add = [&hash](const std::string& text) { hash.add(std::to_string(text.size()) + ":").add(text); };
     add(program_identity());
@@ -58,17 +55,12 @@ bool ReportMemory::unchanged() const {
     if (!remembered) return false;
     const auto facts = nlohmann::json::parse(*remembered, nullptr, false);
     if (!facts.is_object() || facts.value("output", "") != hash_or_nothing(output_)) return false;
-    const auto files = facts.value("files", std::map<std::string, std::string>());
-    return std::all_of(files.begin(), files.end(),
-                       [](const auto& file) { return hash_or_nothing(file.first) == file.second; });
+    return dynlab::unchanged(facts.value("inputs", InputsRead()));
 }
 
 void ReportMemory::remember(const RunRecord& record) const {
-    std::map<std::string, std::string> files;
-    for (const fs::path& file : record.files_read) {
-        files[fs::absolute(file).string()] = hash_or_nothing(file);
-    }
-    const nlohmann::json facts = {{"output", hash_or_nothing(output_)}, {"files", files}};
+    const nlohmann::json facts = {{"output", hash_or_nothing(output_)},
+                                  {"inputs", inputs_read(record, script_folder_)}};
     cache_.store(key_, facts.dump());
 }
 

@@ -8,7 +8,7 @@
 namespace dynlab {
 
 /// Remembers what a report was made from, so that it is not made again when nothing changed: script, template, all of
-/// report_templates/, seed, program, the data files the script read, and the output file itself, all by content.
+/// report_templates/, seed, program, what the script read, and the output file itself, all by content.
 class ReportMemory {
   public:
     explicit ReportMemory(const ReportRequest& request);
@@ -18,7 +18,7 @@ class ReportMemory {
 
   private:
     Cache cache_;
-    std::filesystem::path output_;
+    std::filesystem::path output_, script_folder_;
     std::string key_;  ///< of everything that is known before the run
 };
 

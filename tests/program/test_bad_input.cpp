@@ -77,7 +77,7 @@ TEST(bad_input, script_that_fails_gives_the_report_up_to_there_and_its_error) {
     const std::string report = bench.read("out.md");
     EXPECT_THAT(report, ContainsRegex("\nbefore\n(.|\n)*on purpose(.|\n)*nothing below was run(.|\n)*print"));
     EXPECT_THAT(report, Not(HasSubstr("\nafter\n")));
-    EXPECT_THAT(report, HasSubstr("[fit]"));
+    EXPECT_THAT(report, HasSubstr("**\\[fit\\]**"));
 }
 
 TEST(bad_input, script_that_fails_is_told_even_where_no_report_can_be_made) {

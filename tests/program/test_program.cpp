@@ -8,6 +8,7 @@
 namespace dynlab::test {
 namespace {
 
+using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -97,6 +98,39 @@ TEST(program, report_is_made_again_when_anything_it_is_made_of_changes) {
     bench.write("report.pdf", "changed by hand");
     EXPECT_FALSE(up_to_date());
     EXPECT_TRUE(up_to_date());
+}
+
+TEST(program, script_is_run_again_only_when_its_code_or_its_data_change) {
+    const Workbench bench;
+    const std::string header = "-- ---\n-- title: A\n-- ---\n-- %% [markdown]\n-- ";
+    const std::string code = "\n-- %%\nlocal d = load('d.csv')\nprint(sum(d.y))\nplot(d.t, d.y)\n";
+    const auto write = [&](const std::string& prose, const std::string& last) {
+        bench.write("a.lua", header + prose + code + last);
+    };
+    const auto run_again = [&] {
+        const ChildResult made = bench.dynlab({"weave", "a.lua", "-o", "a.md", "--timings"});
+        EXPECT_EQ(made.exit_code, 0) << made.error_output;
+        return made.output.find("  run the script") != std::string::npos;
+    };
+    bench.write("a.md", "");
+    bench.write("d.csv", "t,y\n0,1\n1,2\n");
+    write("Prose.", "");
+    EXPECT_TRUE(run_again());
+    write("Other prose,\n-- of two lines.", "");
+    EXPECT_FALSE(run_again());
+    EXPECT_THAT(bench.read("a.md"), AllOf(HasSubstr("of two lines"), HasSubstr("\n3\n"), HasSubstr("a_files/")));
+    bench.write("d.csv", "t,y\n0,1\n1,5\n");
+    EXPECT_TRUE(run_again());
+    EXPECT_THAT(bench.read("a.md"), HasSubstr("\n6\n"));
+    bench.write("other.csv", "t,y\n0,1\n1,5\n");  // load might prefer it
+    EXPECT_TRUE(run_again());
+    write("Prose.", "print(7)\n");
+    EXPECT_TRUE(run_again());
+    // What tells a line of the script is never kept: an edit of the prose moves it.
+    write("Prose.", "print(select(2, pcall(function() error('told') end)))\n");
+    EXPECT_TRUE(run_again());
+    write("Prose\n-- of two lines.", "print(select(2, pcall(function() error('told') end)))\n");
+    EXPECT_TRUE(run_again());
 }
 
 TEST(program, students_copy_has_no_solutions_and_its_report_works) {

@@ -1,0 +1,47 @@
+#include "workflow/inputs_read.h"
+
+#include <algorithm>
+#include <set>
+
+#include "platform/content_hash.h"
+
+namespace dynlab {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string state_of_folder(const fs::path& folder) {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const fs::path& file = entry.path();
+        if (file.extension() == ".mat" || file.extension() == ".csv") names.insert(file.filename().string());
+    }
+    ContentHash hash;
+    for (const std::string& name : names) hash.add(std::to_string(name.size()) + ":").add(name);
+    return hash.hex();
+}
+
+std::string state_of(const fs::path& path) {
+    if (fs::is_directory(path)) return state_of_folder(path);
+    return fs::is_regular_file(path) ? hash_of_file(path) : std::string();
+}
+
+}  // namespace
+
+InputsRead inputs_read(const RunRecord& record, const fs::path& script_folder) {
+    InputsRead inputs;
+    const auto add = [&inputs](const fs::path& path) { inputs[fs::absolute(path).string()] = state_of(path); };
+    add(script_folder.empty() ? "." : script_folder);
+    for (const fs::path& file : record.files_read) {
+        add(file);
+        add(fs::absolute(file).parent_path());
+    }
+    return inputs;
+}
+
+bool unchanged(const InputsRead& inputs) {
+    return std::all_of(inputs.begin(), inputs.end(),
+                       [](const auto& input) { return state_of(input.first) == input.second; });
+}
+
+}  // namespace dynlab

@@ -1,0 +1,18 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "documents/run_record.h"
+
+namespace dynlab {
+
+/// What a run read: the data files, by content, and which data files lie beside them and beside the script, since
+/// `load` may prefer a new one. From path to a hash.
+using InputsRead = std::map<std::string, std::string>;
+
+InputsRead inputs_read(const RunRecord& record, const std::filesystem::path& script_folder);
+/// Whether all of it is there as it was.
+bool unchanged(const InputsRead& inputs);
+
+}  // namespace dynlab

@@ -1,0 +1,30 @@
+#pragma once
+#include <optional>
+#include <string>
+
+#include "documents/percent_script.h"
+#include "documents/run_record.h"
+#include "figures/gnuplot_renderer.h"
+#include "platform/cache.h"
+
+namespace dynlab {
+
+/// Remembers what runs produced, figures drawn, so that a script is not run again when only its prose or its template
+/// was edited. A run is known by the script's code (all its code cells), its folder, the seed, the program and what it
+/// read. Runs that failed are not remembered, nor those whose output names lines of the script, which an edit moves.
+class RunMemory {
+  public:
+    RunMemory(const PercentScript& script, std::uint32_t seed, FigureFormat format);
+
+    /// The record of an equal run, its figures' files in the cache.
+    std::optional<RunRecord> recall() const;
+    /// All figures of the record must have been drawn.
+    void remember(const RunRecord& record) const;
+
+  private:
+    Cache cache_;
+    std::filesystem::path script_;
+    std::string key_;  ///< of everything that is known before the run
+};
+
+}  // namespace dynlab
