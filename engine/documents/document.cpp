@@ -118,8 +118,9 @@ class Making {
     }
 
     PandocJob pandoc_job() const {
-        return {markdown_,         metadata_, language_,   record_, format_, source_.template_file,
-                shared_templates_, prefix(),  work_.path()};
+        return {markdown_, metadata_,   document_rules(template_), language_,
+                record_,   format_,     source_.template_file,     shared_templates_,
+                prefix(),  work_.path()};
     }
 
     void check_characters(Complaints& complaints) const {

@@ -71,6 +71,14 @@ bool is_switch(const std::string& key) {
     return key == "toc" || key == "numbersections";
 }
 
+/// The titles of sections, in any language, with that of the document's.
+std::map<std::string, std::string> section_titles(const PandocJob& job) {
+    std::map<std::string, std::string> titles;
+    for (const SectionRule& section : job.rules.sections)
+        titles[section.english] = titles[section.french] = section.title(job.language);
+    return titles;
+}
+
 std::string format_name(DocumentFormat format) {
     if (format == DocumentFormat::kPdf) return "latex";
     return format == DocumentFormat::kHtml ? "html" : "markdown";
@@ -79,7 +87,7 @@ std::string format_name(DocumentFormat format) {
 std::string slots_file(const PandocJob& job) {
     std::map<std::string, std::string> shown, switches;
     for (const auto& [key, value] : job.metadata)
-        if (key != "lang" && !value.empty()) (is_switch(key) ? switches : shown)[key] = value;
+        if (key != "lang" && !is_document_rule(key) && !value.empty()) (is_switch(key) ? switches : shown)[key] = value;
     const auto as_string = [](const std::string& text) { return lua_string(text); };
     const bool numbered = switches.count("numbersections") && switches.at("numbersections") == "true";
     std::string variables =
@@ -91,6 +99,7 @@ std::string slots_file(const PandocJob& job) {
            ",stopped=" + (record.error ? "true" : "false") + ",\npicture_prefix=" + lua_string(job.picture_prefix) +
            ",figure_extension=" + lua_string(figure_extension(job.format)) + ",\nvariables=" + variables +
            "},\nmetadata=" + lua_map(shown, as_string) +
+           ",\nsection_titles=" + lua_map(section_titles(job), as_string) +
            ",\nvalue=" + lua_map(record.values, [](const RecordedValue& v) { return lua_string(one_line(v.text)); }) +
            ",\ntable=" + lua_map(record.tables, lua_table_entry) + ",\nfigure=" +
            lua_map(record.figures, [](const RecordedFigure& f) { return "{caption=" + lua_string(f.caption) + "}"; }) +

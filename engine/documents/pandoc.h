@@ -6,6 +6,7 @@
 
 #include "documents/complaints.h"
 #include "documents/document.h"
+#include "documents/document_rules.h"
 #include "documents/filter_findings.h"
 
 namespace dynlab {
@@ -14,6 +15,7 @@ namespace dynlab {
 struct PandocJob {
     MarkdownText markdown;                        ///< without YAML header
     std::map<std::string, std::string> metadata;  ///< checked keys
+    DocumentRules rules;                          ///< whose section titles are set in the document's language
     std::string language = "en";
     const RunRecord* record = nullptr;
     DocumentFormat format = DocumentFormat::kPdf;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <regex>
 
+#include "documents/document_rules.h"
 #include "documents/error.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
@@ -12,8 +13,8 @@
 namespace dynlab {
 namespace {
 
-const std::vector<std::string> kAllowedKeys = {"title",    "subtitle", "date",          "lang",
-                                               "abstract", "toc",      "numbersections"};
+const std::vector<std::string> kAllowedKeys = {"title", "subtitle",       "date",     "lang",  "abstract",
+                                               "toc",   "numbersections", "sections", "pages", "appendix_pages"};
 
 std::string place(const std::filesystem::path& file, std::size_t index) {
     return file.string() + ":" + std::to_string(index + 1) + ": ";
@@ -100,12 +101,16 @@ void check_metadata(const std::string& key, const std::string& value, const std:
         std::string message = where + "metadata key \"" + key + "\" is not allowed; ";
         if (const auto near = nearest_word(key, kAllowedKeys))
             throw DocumentError(message + "did you mean \"" + *near + "\"?");
-        throw DocumentError(message + "allowed are title, subtitle, date, lang, abstract, toc, numbersections");
+        throw DocumentError(message +
+                            "allowed are title, subtitle, date, lang, abstract, toc, numbersections, sections, "
+                            "pages, appendix_pages");
     }
     if (key == "lang" && value != "en" && value != "fr")
         throw DocumentError(where + "lang \"" + value + "\" is not known; write en or fr");
     if ((key == "toc" || key == "numbersections") && value != "true" && value != "false")
         throw DocumentError(where + key + " is true or false, not \"" + value + "\"");
+    DocumentRules rules;
+    read_document_rule(key, value, where, rules);
 }
 
 TemplateFile read_template(const std::filesystem::path& file) {

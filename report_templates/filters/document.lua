@@ -218,6 +218,8 @@ local section_numbers = { 0, 0, 0, 0, 0, 0 }
 local function header(element)
   local bad = safety.unknown_attribute(element.attributes, {})
   if bad then report("attribute", bad, bad, "a heading") end
+  local title = slots.section_titles[pandoc.utils.stringify(element.content)]
+  if title then element.content = pandoc.List { pandoc.Str(title) } end
   local shown = "“" .. pandoc.utils.stringify(element.content) .. "”"
   if slots.numbersections and not element.classes:includes("unnumbered") then
     section_numbers[element.level] = section_numbers[element.level] + 1

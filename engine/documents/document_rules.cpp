@@ -1,0 +1,59 @@
+#include "documents/document_rules.h"
+
+#include <charconv>
+
+#include "documents/error.h"
+#include "documents/text_lines.h"
+
+namespace dynlab {
+namespace {
+
+constexpr const char* kKeys[] = {"sections", "pages", "appendix_pages"};
+
+SectionRule section_rule(const std::string& line, const std::string& where) {
+    std::vector<std::string> parts;
+    for (std::size_t begin = 0; begin <= line.size();) {
+        const std::size_t end = std::min(line.find('|', begin), line.size());
+        parts.push_back(trimmed(line.substr(begin, end - begin)));
+        begin = end + 1;
+    }
+    const bool optional = parts.size() == 3 && parts[2] == "optional";
+    if ((parts.size() != 2 && !optional) || parts[0].empty() || parts[1].empty())
+        throw DocumentError(where + "section \"" + line +
+                            "\" must be \"English title | French title\", with \"| optional\" behind when it may be "
+                            "missing");
+    return {parts[0], parts[1], optional};
+}
+
+int page_count(const std::string& key, const std::string& value, const std::string& where) {
+    int count = 0;
+    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), count);
+    if (error != std::errc{} || end != value.data() + value.size() || count < 1)
+        throw DocumentError(where + key + " must be a number of pages such as 6, not \"" + value + "\"");
+    return count;
+}
+
+}  // namespace
+
+bool is_document_rule(const std::string& key) {
+    for (const char* known : kKeys)
+        if (key == known) return true;
+    return false;
+}
+
+void read_document_rule(const std::string& key, const std::string& value, const std::string& where,
+                        DocumentRules& rules) {
+    if (key == "pages") rules.pages = page_count(key, value, where);
+    if (key == "appendix_pages") rules.appendix_pages = page_count(key, value, where);
+    if (key != "sections") return;
+    for (const std::string& line : lines_of(value))
+        if (!is_blank(line)) rules.sections.push_back(section_rule(line, where));
+}
+
+DocumentRules document_rules(const TemplateFile& source) {
+    DocumentRules rules;
+    for (const auto& [key, value] : source.metadata) read_document_rule(key, value, source.file.string() + ": ", rules);
+    return rules;
+}
+
+}  // namespace dynlab

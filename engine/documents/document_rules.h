@@ -1,0 +1,42 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "documents/template_file.h"
+
+namespace dynlab {
+
+/// A section that a template asks for, by its heading in English and French.
+struct SectionRule {
+    std::string english, french;
+    bool optional = false;
+
+    const std::string& title(const std::string& language) const { return language == "fr" ? french : english; }
+};
+
+/// What a template asks of the documents made with it, in its YAML header:
+///
+///     sections: |
+///       Process | Procédé
+///       Appendix | Annexe | optional
+///     pages: 6
+///     appendix_pages: 1
+///
+/// A heading that is one of these titles, in either language, is set in the document's language. `pages` counts what
+/// stands before the first optional section, `appendix_pages` what begins with it.
+struct DocumentRules {
+    std::vector<SectionRule> sections;
+    std::optional<int> pages, appendix_pages;
+};
+
+bool is_document_rule(const std::string& key);  ///< sections, pages, appendix_pages
+
+/// Throws DocumentError, its message begun with `where`, for a line of `sections` without both titles, or a number of
+/// pages that is not whole and positive.
+void read_document_rule(const std::string& key, const std::string& value, const std::string& where,
+                        DocumentRules& rules);
+
+DocumentRules document_rules(const TemplateFile& source);
+
+}  // namespace dynlab
