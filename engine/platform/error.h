@@ -9,6 +9,7 @@ namespace dynlab {
 class MissingProgram : public std::runtime_error {
   public:
     MissingProgram(const std::string& program, const std::string& package);
+    explicit MissingProgram(const std::string& sentence) : std::runtime_error(sentence) {}  ///< as another dynlab said
 };
 
 /// Something outside failed: a file, a folder, a child process. The message names it and says what was tried

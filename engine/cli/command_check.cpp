@@ -1,0 +1,78 @@
+#include <unistd.h>
+
+#include <cstdlib>
+#include <iostream>
+
+#include "cli/commands.h"
+#include "course/findings_report.h"
+#include "course/folder_check.h"
+#include "platform/error.h"
+
+namespace dynlab {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CheckWords {
+    std::string subject, template_name;
+    int pages = 0;
+    bool as_json = false;
+};
+
+bool in_colour() {
+    const char* no_colour = std::getenv("NO_COLOR");
+    return ::isatty(STDOUT_FILENO) != 0 && (no_colour == nullptr || *no_colour == '\0');
+}
+
+int check(const CheckWords& words) {
+    CheckWishes wishes;
+    CheckResult result;
+    if (words.pages > 0) wishes.pages = words.pages;
+    const auto misuse = [](const std::string& sentence) {
+        std::cerr << "dynlab: " << sentence << '\n';
+        return kUsage;
+    };
+    try {
+        if (!words.template_name.empty()) wishes.standard = standard_of(words.template_name);
+    } catch (const std::runtime_error& error) {
+        return misuse(error.what());
+    }
+    if (!fs::exists(words.subject)) return misuse("there is no file or folder '" + words.subject + "'");
+    if (fs::is_directory(words.subject))
+        result = check_folder(words.subject, fs::read_symlink("/proc/self/exe"), wishes);
+    else
+        result = check_pdf(words.subject, wishes);
+    std::cout << (words.as_json ? findings_as_json(result) : findings_in_words(result, in_colour()));
+    return result.passed() ? kDone : kFailed;
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, Action& action) {
+    auto words = std::make_shared<CheckWords>();
+    CLI::App* command =
+        app.add_subcommand("check", "Look at a report as an instructor does first: what must be mended");
+    command->add_option("FOLDER|FILE.pdf", words->subject, "A folder made by dynlab new, or a PDF from anywhere")
+        ->required();
+    command
+        ->add_option("--template", words->template_name, "Hold it against this template, such as lab_report or slides")
+        ->type_name("NAME|FILE.md");
+    command->add_option("--pages", words->pages, "At most so many pages, whatever the template allows")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1000));
+    command->add_flag("--json", words->as_json, "Print the findings as JSON, for programs");
+    command->footer(
+        "A folder is copied and its analysis run in the clean copy; nothing is written into it.\n"
+        "What is demanded comes from the template that analysis.lua names; of a PDF alone, wide pages are slides, "
+        "others a\n"
+        "lab_report. Pages, sections, figures that the text never mentions, unfilled slots, languages, text size and\n"
+        "margins are looked at.\n"
+        "Examples:  dynlab check my-crane     dynlab check report.pdf     dynlab check talk.pdf --template slides "
+        "--json\n"
+        "Exit codes: 0 no rule is broken (there may be hints), 1 a rule is broken, 2 wrong usage.\n"
+        "JSON: {subject, template, language, pages, passed, checked: [text],\n"
+        "       findings: [{id, severity: \"rule\"|\"hint\", page, place, what, remedy}]}; what is not known is null.");
+    command->callback([words, &action] { action = [words] { return check(*words); }; });
+}
+
+}  // namespace dynlab

@@ -1,0 +1,176 @@
+// `dynlab check` as it is typed. Oracles: the exit codes of its help, the defects put in, and the files in the folder
+// before and after.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "course/folder_check.h"
+#include "support/program.h"
+
+namespace dynlab::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+constexpr const char* kAnalysis = "report.value('sum', sum(load('values.csv').y), '%.0f')\n";
+constexpr const char* kReport =
+    "---\ntitle: A\npages: 1\n---\n\nThe sum of the values is `sum`{.value}, and it is the one that was to be found "
+    "from "
+    "the file which lies beside the analysis.\n";
+
+/// A student's folder `mine` in which all is well.
+void make_folder(const Workbench& bench, const std::string& analysis = kAnalysis, const std::string& report = kReport) {
+    bench.write("mine/values.csv", "y\n1\n2\n");
+    bench.write("mine/analysis.lua", analysis);
+    bench.write("mine/report.md", report);
+}
+
+std::string listing(const Workbench& bench) {
+    return bench.shell("cd mine && find . -printf '%p %s %T@\\n' | sort").output;
+}
+
+TEST(check_command, a_sound_folder_passes_with_one_line_and_is_left_as_it_was) {
+    const Workbench bench;
+    make_folder(bench);
+    const std::string before = listing(bench);
+    const ChildResult result = bench.dynlab({"check", "mine"});
+    EXPECT_EQ(result.exit_code, 0) << result.error_output;
+    EXPECT_EQ(result.output,
+              "mine: nothing to mend; checked: run from a clean copy, 1 page of at most 1, 0 "
+              "numbered figures, unfilled slots, English only, text size and margins.\n");
+    EXPECT_THAT(result.error_output, IsEmpty());
+    EXPECT_EQ(listing(bench), before);
+    EXPECT_THAT(bench.files(), ElementsAre("mine"));
+}
+
+TEST(check_command, what_needs_more_than_the_folder_fails_from_a_clean_copy) {
+    const Workbench bench;
+    make_folder(bench);
+    std::filesystem::remove(bench.path("mine/values.csv"));
+    bench.write("elsewhere.csv", "y\n1\n");
+    std::filesystem::create_symlink(bench.path("elsewhere.csv"), bench.path("mine/values.csv"));
+    const ChildResult result = bench.dynlab({"check", "mine"});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.output, HasSubstr("analysis-fails"));
+    EXPECT_THAT(result.output, HasSubstr("analysis.lua:1:"));
+    EXPECT_THAT(result.output, HasSubstr("link-left-out\n    values.csv: "));
+    EXPECT_THAT(result.output, Not(HasSubstr("/folder/")));
+}
+
+TEST(check_command, an_analysis_that_fails_or_never_ends_its_report_is_quoted) {
+    const Workbench bench;
+    make_folder(bench, "local x = nothing + 1\n");
+    EXPECT_THAT(bench.dynlab({"check", "mine"}).output, HasSubstr("nothing"));
+    make_folder(bench, kAnalysis, "Sum `total`{.value}.\n");
+    const ChildResult slot = bench.dynlab({"check", "mine"});
+    EXPECT_EQ(slot.exit_code, 1);
+    EXPECT_THAT(slot.output, HasSubstr("total"));
+    EXPECT_THAT(slot.output, HasSubstr("report.md:1"));
+    make_folder(bench, "-- ---\n-- titel: A\n-- ---\n");
+    EXPECT_THAT(bench.dynlab({"check", "mine"}).output, HasSubstr("did you mean"));
+}
+
+TEST(check_command, a_folder_that_takes_too_long_or_is_too_large_is_given_up) {
+    const Workbench bench;
+    make_folder(bench, "while true do end\n");
+    FolderLimits limits;
+    limits.time = std::chrono::seconds(1);
+    const CheckResult endless = check_folder(bench.path("mine"), DYNLAB_PROGRAM, {}, limits);
+    ASSERT_EQ(endless.findings.size(), 1u);
+    EXPECT_EQ(endless.findings[0].id, "analysis-fails");
+    EXPECT_THAT(endless.findings[0].what, HasSubstr("takes more than 1 s"));
+    limits.folder_bytes = 10;
+    EXPECT_EQ(check_folder(bench.path("mine"), DYNLAB_PROGRAM, {}, limits).findings.at(0).id, "folder-too-large");
+    limits = {};
+    limits.files = 2;
+    EXPECT_EQ(check_folder(bench.path("mine"), DYNLAB_PROGRAM, {}, limits).findings.at(0).id, "folder-too-large");
+}
+
+TEST(check_command, a_program_that_is_missing_here_is_no_fault_of_the_folder) {
+    Workbench bench;
+    make_folder(bench);
+    bench.hide_program("pandoc");
+    const ChildResult result = bench.dynlab({"check", "mine"});
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_EQ(result.error_output, "dynlab: pandoc is not installed: sudo apt install pandoc\n");
+}
+
+TEST(check_command, open_questions_and_missing_answers_are_found_by_line_and_name) {
+    const Workbench bench;
+    make_folder(bench, std::string("-- ---\n-- title: A\n-- answers:\n--   sum: number\n--   gain: number\n-- ---\n") +
+                           kAnalysis + "-- YOUR CODE HERE\n");
+    const auto json = nlohmann::json::parse(bench.dynlab({"check", "mine", "--json"}).output);
+    ASSERT_EQ(json.at("findings").size(), 2u) << json.dump(1);
+    EXPECT_EQ(json.at("findings").at(0).at("id"), "answer-open");
+    EXPECT_EQ(json.at("findings").at(0).at("place"), "analysis.lua:8");
+    EXPECT_EQ(json.at("findings").at(1).at("id"), "answer-missing");
+    EXPECT_THAT(json.at("findings").at(1).at("what").get<std::string>(), HasSubstr("\"gain\" (number)"));
+}
+
+TEST(check_command, tells_whether_the_pdf_in_the_folder_is_that_of_the_analysis) {
+    const Workbench bench;
+    make_folder(bench);
+    ASSERT_EQ(bench.dynlab({"report", "mine", "-o", "mine/report.pdf"}).exit_code, 0);
+    EXPECT_THAT(bench.dynlab({"check", "mine"}).output, HasSubstr("report.pdf is up to date"));
+    bench.shell("touch -d 2020-01-01 mine/report.pdf");
+    EXPECT_THAT(bench.dynlab({"check", "mine"}).output, HasSubstr("report.pdf is up to date"));
+    bench.write("mine/values.csv", "y\n1\n5\n");
+    const ChildResult old = bench.dynlab({"check", "mine"});
+    EXPECT_EQ(old.exit_code, 0);
+    EXPECT_THAT(old.output, HasSubstr("pdf-outdated\n    report.pdf: "));
+    bench.shell("touch mine/report.pdf");
+    EXPECT_THAT(bench.dynlab({"check", "mine"}).output, HasSubstr("pdf-differs"));
+}
+
+TEST(check_command, a_students_untouched_copy_is_told_what_is_open) {
+    const Workbench bench;
+    ASSERT_EQ(bench.dynlab({"new", "02", "mine"}).exit_code, 0);
+    const ChildResult result = bench.dynlab({"check", "mine"});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.output, HasSubstr("answer-open"));
+    EXPECT_THAT(result.output, Not(HasSubstr("analysis-fails")));
+}
+
+TEST(check_command, a_folder_without_analysis_breaks_a_rule) {
+    const Workbench bench;
+    bench.write("mine/notes.txt", "nothing");
+    const ChildResult result = bench.dynlab({"check", "mine"});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.output, HasSubstr("The folder has no file analysis.lua."));
+    EXPECT_THAT(result.output, HasSubstr("report.md: "));
+}
+
+TEST(check_command, a_pdf_is_checked_by_itself_against_the_template_asked_for) {
+    const Workbench bench;
+    make_folder(bench);
+    ASSERT_EQ(bench.dynlab({"report", "mine", "-o", "-odd; name.pdf"}).exit_code, 0);
+    bench.write("lab.md", "---\nsections: |\n  Process | Procédé\n---\n");
+    const ChildResult lab = bench.dynlab({"check", "--template", "lab.md", "--", "-odd; name.pdf"});
+    EXPECT_EQ(lab.exit_code, 1);
+    EXPECT_THAT(lab.output, HasSubstr("section-missing"));
+    bench.write("own.md", "---\npages: 1\n---\n");
+    const ChildResult own = bench.dynlab({"check", "--template", "own.md", "--", "-odd; name.pdf"});
+    EXPECT_EQ(own.exit_code, 0) << own.output;
+    EXPECT_THAT(own.output, HasSubstr("checked as own: 1 page of at most 1"));
+}
+
+TEST(check_command, misuse_ends_with_two) {
+    const Workbench bench;
+    const ChildResult none = bench.dynlab({"check", "nowhere"});
+    EXPECT_EQ(none.exit_code, 2);
+    EXPECT_THAT(none.error_output, HasSubstr("there is no file or folder 'nowhere'"));
+    bench.write("a.pdf", "x");
+    const ChildResult unknown = bench.dynlab({"check", "a.pdf", "--template", "novel"});
+    EXPECT_EQ(unknown.exit_code, 2);
+    EXPECT_THAT(unknown.error_output, HasSubstr("the templates are exercise_sheet"));
+    EXPECT_EQ(bench.dynlab({"check", "a.pdf", "--pages", "0"}).exit_code, 2);
+    EXPECT_EQ(bench.dynlab({"check"}).exit_code, 2);
+    EXPECT_EQ(bench.dynlab({"check", "a.pdf"}).exit_code, 1);
+}
+
+}  // namespace
+}  // namespace dynlab::test

@@ -1,0 +1,242 @@
+// Every finding in a document that has the defect, and none in one that has not. Oracle: how the document was made.
+#include <gmock/gmock.h>
+
+#include "check_fixture.h"
+#include "course/leftover_findings.h"
+#include "documents/pdf_inspection.h"
+
+namespace dynlab {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::UnorderedElementsAre;
+
+class document_findings : public CheckTest {};
+
+constexpr const char* kFigure = "![A step](figure:raw){#fig:raw}\n\n";
+
+TEST_F(document_findings, a_sound_report_has_none_and_the_summary_says_what_was_looked_at) {
+    add_figure("raw", "A step", DocumentFormat::kPdf);
+    const CheckResult result = check_report("---\ntitle: The crane\nnumbersections: true\n---\n" +
+                                            english_report(kFigure + std::string("See @fig:raw.")));
+    EXPECT_THAT(ids(result), IsEmpty());
+    EXPECT_TRUE(result.passed());
+    EXPECT_EQ(result.language, "en");
+    EXPECT_THAT(result.checked, Contains("9 sections"));
+    EXPECT_THAT(result.checked, Contains("1 numbered figure"));
+    EXPECT_THAT(result.checked, Contains("English only"));
+    EXPECT_THAT(result.checked, Contains(HasSubstr("of at most 6 + 1 of appendix")));
+}
+
+TEST_F(document_findings, a_sound_french_report_has_none) {
+    standard_->language = "fr";
+    const CheckResult result = check_report("---\ntitle: La grue\n---\n" + french_report());
+    EXPECT_THAT(ids(result), IsEmpty());
+    EXPECT_EQ(result.language, "fr");
+    EXPECT_THAT(result.checked, Contains("French only"));
+}
+
+TEST_F(document_findings, own_wordings_of_headings_are_understood) {
+    std::string body;
+    for (const char* title : {"Short description of the process", "Design of the experiment",
+                              "Description of the raw dataset", "Data pre-processing", "Model structure selection",
+                              "Estimation of the parameters", "Model validation", "Conclusions"})
+        body += std::string("\\section{") + title + "}\n" + kProse;
+    EXPECT_THAT(ids(check_latex("", "\\title{Process and validation}\\author{}\\date{}\\maketitle\n" + body)),
+                IsEmpty());
+}
+
+TEST_F(document_findings, a_missing_section_is_named_in_the_documents_language) {
+    std::string text = english_report();
+    text.erase(text.find("# Raw data"), text.find("# Pre-processing") - text.find("# Raw data"));
+    const Finding missing = only(check_report(text), "section-missing");
+    EXPECT_THAT(missing.what, HasSubstr("\"Raw data\""));
+    EXPECT_EQ(missing.severity, Severity::kRule);
+
+    text = french_report();
+    text.erase(text.find("# Données brutes"), text.find("# Prétraitement") - text.find("# Données brutes"));
+    EXPECT_THAT(only(check_report(text), "section-missing").what, HasSubstr("Données brutes"));
+}
+
+TEST_F(document_findings, empty_and_short_sections_are_told_apart) {
+    std::string text = english_report();
+    const std::size_t start = text.find("# Raw data"), end = text.find("# Pre-processing");
+    const Finding empty =
+        only(check_report(std::string(text).replace(start, end - start, "# Raw data\n\n")), "section-empty");
+    EXPECT_EQ(empty.page, 1);
+    EXPECT_THAT(empty.what, HasSubstr("\"Raw data\" is empty"));
+    const CheckResult result = check_report(std::string(text).replace(
+        start, end - start, "# Raw data\n\nThe data are good and they were used as such.\n\n"));
+    EXPECT_THAT(only(result, "section-short").what, HasSubstr("10 words"));
+    EXPECT_TRUE(result.passed());
+    EXPECT_THAT(ids(check_report(std::string(text).replace(start, end - start,
+                                                           std::string("# Raw data\n\n## The record\n\n") + kProse))),
+                IsEmpty());
+    EXPECT_THAT(ids(check_report(text + "# Appendix: control\n")), ElementsAre("section-empty"));
+}
+
+TEST_F(document_findings, pages_beyond_the_limit_count_and_an_appendix_has_its_own) {
+    const std::string page = "\n::: {.pagebreak}\n:::\n\nThis is one of the pages that were added for the test.\n";
+    std::string text = english_report();
+    const auto pages = [&](int more, const std::string& then = "") {
+        std::string longer = text;
+        for (int i = 0; i < more; ++i) longer += page;
+        return check_report(longer + then);
+    };
+    const int own = check_report(text).pages;
+    EXPECT_THAT(ids(pages(6 - own)), IsEmpty());
+    const Finding seven = only(pages(7 - own), "pages");
+    EXPECT_EQ(seven.page, 7);
+    EXPECT_THAT(seven.what, HasSubstr("has 7 pages; at most 6 pages and 1 page of appendix"));
+    EXPECT_THAT(seven.remedy, HasSubstr("heading \"Appendix\""));
+    const std::string appendix = std::string("\n::: {.pagebreak}\n:::\n\n# Appendix: control\n\n") + kProse;
+    EXPECT_THAT(ids(pages(6 - own, appendix)), IsEmpty());
+    EXPECT_EQ(only(pages(7 - own, appendix), "pages").page, 8);
+    EXPECT_THAT(ids(check_pdf(file("report.pdf"), {standard_, 8})), IsEmpty());
+    EXPECT_THAT(ids(check_pdf(file("report.pdf"), {standard_, 7})), ElementsAre("pages"));
+}
+
+TEST_F(document_findings, a_figure_that_is_never_mentioned_is_found_in_every_caption_style) {
+    add_figure("raw", "A step", DocumentFormat::kPdf);
+    const Finding finding = only(check_report(english_report(kFigure)), "figure-not-mentioned");
+    EXPECT_EQ(finding.what, "Figure 1 is never mentioned in the text.");
+    const std::vector<std::string> pages = inspect_pdf(file("report.pdf")).pages;
+    EXPECT_THAT(pages.at(static_cast<std::size_t>(finding.page) - 1), HasSubstr("Figure"));
+
+    standard_ = DocumentStandard();
+    for (const char* sign : {":", ".", " --"}) {
+        for (const char* name : {"Figure", "Fig.", "FIGURE"}) {
+            const std::string caption = "\\begin{center}\\rule{3cm}{1cm}\n\n " + std::string(name) + " 1" + sign +
+                                        " The response to a step\\end{center}\n\n";
+            EXPECT_THAT(ids(check_latex("", kProse + caption + kProse)), ElementsAre("figure-not-mentioned"))
+                << name << sign;
+            EXPECT_THAT(ids(check_latex("", std::string("As Fig.~1 shows, it is slow. ") + kProse + caption + kProse)),
+                        IsEmpty())
+                << name << sign;
+        }
+    }
+}
+
+TEST_F(document_findings, lists_and_ranges_of_figures_mention_all_of_them) {
+    standard_ = DocumentStandard();
+    std::string captions;
+    for (int i = 1; i <= 6; ++i)
+        captions += "\\begin{figure}[h]\\centering\\rule{2cm}{1cm}\\caption{A response}\\end{figure}\n\n";
+    const auto found = [&](const std::string& sentence) {
+        std::vector<std::string> missing;
+        for (const Finding& finding : check_latex("", kProse + sentence + "\n\n" + captions).findings)
+            missing.push_back(finding.what.substr(0, 8));
+        return missing;
+    };
+    EXPECT_THAT(found("See Figures 1, 2 and 3, Figs. 4--5 and figure~6."), IsEmpty());
+    EXPECT_THAT(found("Voir les figures 1 \\`a 4, et (Fig. 6b)."), ElementsAre("Figure 5"));
+    EXPECT_THAT(found("Figure 1 shows 2 steps. Figures 5 et 6."), ElementsAre("Figure 2", "Figure 3", "Figure 4"));
+    EXPECT_THAT(found("Figures 1 to 6, but also Figure 9."), ElementsAre("The text"));
+}
+
+TEST_F(document_findings, what_was_left_unfilled_is_quoted_with_its_page) {
+    const std::pair<const char*, const char*> leftovers[] = {
+        {"The fit is \\{.value} percent.", "slot-unfilled"},
+        {"See @@fig:raw for this.", "slot-unfilled"},
+        {"This is shown in Figure ?? of it.", "reference-unresolved"},
+        {"TODO: say more of this.", "placeholder-left"},
+        {"The gain is \\_\\_\\_\\_\\_ here.", "placeholder-left"},
+        {"Lorem ipsum dolor sit amet.", "placeholder-left"}};
+    for (const auto& [sentence, id] : leftovers) {
+        std::string tex = sentence;
+        standard_ = DocumentStandard();
+        tex = replaced(replaced(tex, "\\{.value}", "\\{.value\\}"), "@@", "@");
+        const Finding finding = only(check_latex("", std::string(kProse) + "\\newpage\n" + tex + "\n\n"), id);
+        EXPECT_EQ(finding.page, 2) << sentence;
+        EXPECT_EQ(finding.severity, Severity::kRule);
+    }
+    EXPECT_THAT(ids(check_latex(
+                    "", std::string(kProse) + "\\texttt{local x = f(a ?? b) -- TODO}\n\nThe mastodon is a word.\n")),
+                IsEmpty());
+}
+
+TEST_F(document_findings, guidance_of_the_template_must_not_be_printed) {
+    standard_ = DocumentStandard{
+        "mine", {}, guidance_of("# A\n\n<!-- What moves the process, and what is measured on it? Be brief. -->\n"), {}};
+    const CheckResult result =
+        check_latex("", std::string(kProse) + "What moves the process, and what is measured on it?\n");
+    EXPECT_THAT(only(result, "guidance-left").what, HasSubstr("What moves the process"));
+    EXPECT_THAT(ids(check_latex("", std::string(kProse) + "Be brief. What moves it is measured.\n")), IsEmpty());
+}
+
+TEST_F(document_findings, a_passage_in_the_other_language_is_a_hint_with_its_page) {
+    const CheckResult result = check_report(english_report(kFrenchProse));
+    const Finding finding = only(result, "language-mixed");
+    EXPECT_EQ(finding.severity, Severity::kHint);
+    EXPECT_THAT(finding.what, HasSubstr("looks French: \""));
+    EXPECT_TRUE(result.passed());
+    EXPECT_THAT(only(check_report(french_report() + kProse), "language-mixed").what, HasSubstr("looks English"));
+    EXPECT_THAT(
+        ids(check_report(english_report("A term such as *mise en \u0153uvre* or *coup de force* is none, nor is the "
+                                        "title *Identification des syst\u00E8mes* in a reference."))),
+        IsEmpty());
+    standard_->language = "fr";
+    EXPECT_THAT(only(check_report(english_report()), "language-differs").what, HasSubstr("lang: fr"));
+}
+
+TEST_F(document_findings, small_text_and_narrow_margins_break_the_rules) {
+    standard_ = DocumentStandard();
+    std::string prose;
+    for (int i = 0; i < 4; ++i) prose += kProse;
+    EXPECT_THAT(ids(check_latex("", prose)), IsEmpty());
+    EXPECT_THAT(ids(check_latex("\\usepackage[margin=16mm]{geometry}", prose)), IsEmpty());
+    EXPECT_THAT(ids(check_latex("", "\\small " + prose)), IsEmpty());
+    EXPECT_THAT(only(check_latex("", "\\footnotesize " + prose), "text-small").what, HasSubstr("9.0 pt"));
+    EXPECT_EQ(only(check_latex("", prose + "\\newpage\\scriptsize " + prose), "text-small").page, 2);
+    EXPECT_EQ(only(check_latex("\\usepackage[margin=8mm]{geometry}", prose), "margins").severity, Severity::kRule);
+    EXPECT_THAT(ids(check_latex("\\usepackage[left=12mm,right=25mm]{geometry}", prose)), ElementsAre("margins"));
+}
+
+TEST_F(document_findings, a_line_in_the_margin_is_a_hint_and_over_the_edge_a_rule) {
+    standard_ = DocumentStandard();
+    const CheckResult overflow =
+        check_latex("", kProse +
+                            std::string("\\mbox{This line is much longer than the width of the text and it can not be "
+                                        "broken since it stands in a box.}\n\n") +
+                            kProse);
+    EXPECT_THAT(only(overflow, "text-overflow").what, HasSubstr("This line is much longer"));
+    EXPECT_THAT(
+        ids(check_latex("", kProse + std::string("\\hspace*{13.4cm}\\mbox{Ausserordentlichlang}\n\n") + kProse)),
+        Contains("text-cut-off"));
+}
+
+TEST_F(document_findings, slides_are_held_against_their_own_limits) {
+    standard_ = DocumentStandard{"slides", {{{"Process", "Procédé"}, {"Validation", "Validation"}}, 3, {}}, {}, {}};
+    const std::string text =
+        "The thruster was driven by a chirp, and the force was measured by a load cell on the arm.";
+    using Slides = std::vector<std::pair<std::string, std::string>>;
+    const auto found = [&](Slides slides, const std::pair<std::string, std::string>& last) {
+        slides.push_back(last);
+        return check_slides(slides);
+    };
+    const Slides one = {{"The process", text}}, four(4, {"The process", text});
+    EXPECT_THAT(ids(found(one, {"Validation of the model", text})), IsEmpty());
+    EXPECT_THAT(ids(found(one, {"Raw data", text})), ElementsAre("section-missing"));
+    EXPECT_EQ(only(found(one, {"Validation", "None."}), "section-empty").page, 2);
+    EXPECT_THAT(only(found(four, {"Validation", text}), "pages").what,
+                HasSubstr("has 5 slides; at most 3 slides are allowed"));
+    std::string much;
+    for (int i = 0; i < 6; ++i) much += text + " ";
+    EXPECT_EQ(only(found(one, {"Validation", "\\tiny " + much}), "text-small").page, 2);
+}
+
+TEST_F(document_findings, without_a_wish_wide_pages_are_slides_and_others_a_lab_report) {
+    const auto known = [](const std::string& name) {
+        return std::filesystem::exists(DYNLAB_SOURCE_DIR "/report_templates/" + name + ".md") ? name : "";
+    };
+    check_latex("", kProse);
+    EXPECT_EQ(check_pdf(file("own.pdf")).template_name, known("lab_report"));
+    check_slides({{"Process", "A chirp."}});
+    EXPECT_EQ(check_pdf(file("own.pdf")).template_name, known("slides"));
+}
+
+}  // namespace
+}  // namespace dynlab

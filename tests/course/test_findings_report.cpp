@@ -1,0 +1,75 @@
+// Oracle: the definition in findings_report.h.
+#include "course/findings_report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace dynlab {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+CheckResult some_result() {
+    CheckResult result{"report.pdf", "lab_report", "en", 7, {"7 pages of at most 6", "unfilled slots"}, {}};
+    result.findings = {{"language-mixed", Severity::kHint, 2, "", "A hint.", "Look at it."},
+                       {"pages", Severity::kRule, 7, "", "It is long.", "Shorten it."},
+                       {"answer-open", Severity::kRule, 9, "", "Another.", "Write."},
+                       {"answer-open", Severity::kRule, 0, "analysis.lua:12",
+                        std::string(30, 'x') + " " + std::string(80, 'y') + ".", "Write."}};
+    sort_findings(result.findings);
+    return result;
+}
+
+TEST(findings_report, rules_come_before_hints_with_place_and_remedy) {
+    EXPECT_EQ(findings_in_words(some_result(), false),
+              "report.pdf: checked as lab_report: 7 pages of at most 6, unfilled slots\n"
+              "\nRules broken (3)\n"
+              "\n  answer-open\n    analysis.lua:12: " +
+                  std::string(30, 'x') + "\n    " + std::string(80, 'y') +
+                  ".\n    page 9: Another.\n    -> Write.\n"
+                  "\n  pages\n    page 7: It is long.\n    -> Shorten it.\n"
+                  "\nHints (1)\n"
+                  "\n  language-mixed\n    page 2: A hint.\n    -> Look at it.\n");
+}
+
+TEST(findings_report, hints_alone_say_that_no_rule_is_broken) {
+    CheckResult result = some_result();
+    result.findings.erase(result.findings.begin(), result.findings.begin() + 3);
+    EXPECT_THAT(findings_in_words(result, false), HasSubstr("\nNo rule is broken.\n"));
+    EXPECT_THAT(findings_in_words(result, false), Not(HasSubstr("Rules broken")));
+}
+
+TEST(findings_report, a_pass_is_one_line_that_says_what_was_checked) {
+    CheckResult result = some_result();
+    result.findings.clear();
+    EXPECT_EQ(findings_in_words(result, false),
+              "report.pdf: nothing to mend; checked as lab_report: 7 pages of at most 6, unfilled slots.\n");
+}
+
+TEST(findings_report, colour_only_when_asked_for) {
+    EXPECT_THAT(findings_in_words(some_result(), false), Not(HasSubstr("\033")));
+    EXPECT_THAT(findings_in_words(some_result(), true), HasSubstr("\033[31mRules broken (3)\033[0m"));
+}
+
+TEST(findings_report, json_holds_everything_and_null_where_nothing_is_known) {
+    const auto json = nlohmann::json::parse(findings_as_json(some_result()));
+    EXPECT_EQ(json.at("subject"), "report.pdf");
+    EXPECT_EQ(json.at("template"), "lab_report");
+    EXPECT_EQ(json.at("language"), "en");
+    EXPECT_EQ(json.at("pages"), 7);
+    EXPECT_EQ(json.at("passed"), false);
+    EXPECT_EQ(json.at("checked").size(), 2u);
+    ASSERT_EQ(json.at("findings").size(), 4u);
+    EXPECT_EQ(json.at("findings").at(0).at("place"), "analysis.lua:12");
+    EXPECT_TRUE(json.at("findings").at(0).at("page").is_null());
+    EXPECT_EQ(json.at("findings").at(1).at("page"), 7);
+    EXPECT_EQ(json.at("findings").at(1).at("severity"), "rule");
+    EXPECT_EQ(json.at("findings").at(3).at("severity"), "hint");
+    EXPECT_TRUE(nlohmann::json::parse(findings_as_json(CheckResult())).at("pages").is_null());
+}
+
+}  // namespace
+}  // namespace dynlab
