@@ -111,12 +111,20 @@ std::vector<TextLine> lines_of_page(const PdfPage& page, int number) {
     return lines;
 }
 
+/// The smallest size: what stands for the prose where there are headings only.
+double smallest_size(const std::vector<TextLine>& lines) {
+    const auto smaller = [](const TextLine& a, const TextLine& b) { return a.size < b.size; };
+    const auto smallest = std::min_element(lines.begin(), lines.end(), smaller);
+    return smallest == lines.end() ? 0 : smallest->size;
+}
+
 /// Median size, each line counting with its letters; of prose, or of all text when there is next to no prose (slides).
+/// Bold lines are headings.
 double median_size(const std::vector<TextLine>& lines) {
     std::vector<std::pair<double, double>> prose, all;
     double prose_letters = 0, all_letters = 0;
     for (const TextLine& line : lines) {
-        if (line.fixed_width) continue;
+        if (line.fixed_width || line.bold) continue;
         const double letters = static_cast<double>(line.text().size());
         all.emplace_back(line.size, letters);
         all_letters += letters;
@@ -132,7 +140,7 @@ double median_size(const std::vector<TextLine>& lines) {
         passed += letters;
         if (2 * passed >= (enough ? prose_letters : all_letters)) return size;
     }
-    return 0;
+    return smallest_size(lines);
 }
 
 bool looks_like_heading(const TextLine& line, double body_size) {

@@ -78,6 +78,12 @@ TEST_F(document_findings, empty_and_short_sections_are_told_apart) {
     EXPECT_THAT(ids(check_report(text + "# Appendix: control\n")), ElementsAre("section-empty"));
 }
 
+TEST_F(document_findings, a_form_that_was_not_filled_in_has_all_its_sections_empty) {
+    std::string text = "---\ntitle: Identification of a trolley crane\n---\n";
+    for (const char* title : kTitles) text += std::string("# ") + title + "\n\n";
+    EXPECT_EQ(ids(check_report(text)), std::vector<std::string>(std::size(kTitles), "section-empty"));
+}
+
 TEST_F(document_findings, pages_beyond_the_limit_count_and_an_appendix_has_its_own) {
     const std::string page = "\n::: {.pagebreak}\n:::\n\nThis is one of the pages that were added for the test.\n";
     std::string text = english_report();
