@@ -76,15 +76,16 @@ void push_tests(const Call& call, const ResidualTests& tests) {
 int test_residuals(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const Options options(call, 3, {"lags", "confidence", "InitialState", "Offset"});
+    const Options options(call, 3, {"lags", "confidence", "InitialState", "Offset", "quiet"});
+    const bool quiet = options.flag("quiet", false);
     ResidualOptions wanted;
     wanted.lags = options.size("lags", wanted.lags);
     wanted.confidence = options.number("confidence", wanted.confidence);
     const ResidualTests tests = residual_tests(data, channels_argument(call, 2, "G"), compare_options(options), wanted);
-    call.print(tests.verdict + "\n");
+    if (!quiet) call.print(tests.verdict + "\n");
     bool drawable = false;
     for (const OutputResiduals& output : tests.outputs) drawable = drawable || !output.exact;
-    if (drawable)
+    if (drawable && !quiet)
         give_figure(call, residual_plot(tests, data, wanted.confidence));
     else
         lua_pushnil(call.state());
@@ -151,9 +152,9 @@ int validate_across(Call& call) {
 
 constexpr const char* kArea = "validation";
 constexpr std::array kFunctions = {
-    FunctionEntry{"resid", kArea, "resid(data, G, {lags =, confidence =, InitialState =, Offset =}) -> fig, table",
-                  "is the simulation error white and independent of the input? with a verdict in words",
-                  guarded<test_residuals>},
+    FunctionEntry{
+        "resid", kArea, "resid(data, G, {lags =, confidence =, InitialState =, Offset =, quiet =}) -> fig, table",
+        "is the simulation error white and independent of the input? with a verdict in words", guarded<test_residuals>},
     FunctionEntry{"crossvalidate", kArea,
                   "crossvalidate(data, fit, {folds =, by_experiment =, InitialState =, Offset =}) -> fig, table",
                   "fits on all parts but one and simulates on that one, part by part", guarded<validate_across>},

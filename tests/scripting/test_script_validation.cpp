@@ -31,6 +31,12 @@ TEST(script_validation, resid_says_what_is_left) {
                 testing::AllOf(HasSubstr("to rounding"), HasSubstr("nil\n")));
 }
 
+TEST(script_validation, resid_can_be_quiet_in_a_loop) {
+    EXPECT_EQ(printed(kRecord + "local fig, t = resid(white, procsrivc(white, 'P1'), {quiet = true})\n"
+                                "print(fig, t.independent)"),
+              "nil\tfalse\n");
+}
+
 TEST(script_validation, resid_takes_discrete_models_and_experiments) {
     EXPECT_THAT(printed(kRecord + "local _, t = resid(white, c2d(idproc('P2', {Kp = 2, Tp1 = 1, Tp2 = 0.3}), 0.05))\n"
                                   "print(t.white, t.independent)"),
