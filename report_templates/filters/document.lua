@@ -151,12 +151,12 @@ local function table_slot(division)
   local found = entry("table", name, "name=" .. name)
   if not found then return missing_block(name) end
   if #caption > 0 or label then caption = layout:numbered_caption("tbl", number("tbl", label), caption) end
-  local element, size = layout:table(found, caption)
+  local element, size, lines = layout:table(found, caption)
   if not element then
     report("table-width", "name=" .. name, name, #found.header)
     return {}
   end
-  return layout:place_table(element, label, size), false
+  return layout:place_table(element, label, size, lines), false
 end
 
 local function written_table(element)

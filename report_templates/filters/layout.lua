@@ -165,18 +165,34 @@ local function is_number(cell)
     cell:match("^[+-]?[%d.]+e?[+-]?%d*%s*±%s*[%d.]+e?[+-]?%d*$") ~= nil
 end
 
+-- Lines that a table takes whose columns have these relative widths (0: as wide as their text).
+local function table_lines(rows, widths, characters)
+  local total = 1
+  for _, row in ipairs(rows) do
+    local lines = 1
+    for c, text in ipairs(row) do
+      if widths[c] > 0 then lines = math.max(lines, math.ceil((utf8.len(text) or #text) / (widths[c] * characters))) end
+    end
+    total = total + lines
+  end
+  return total
+end
+
 local function longest_word(text)
   local longest = 0
   for word in text:gmatch("%S+") do longest = math.max(longest, utf8.len(word) or #word) end
   return longest
 end
 
+-- Tables of so many lines are kept on one page.
+local most_table_lines = 24
+
 -- Type sizes with the width of a character in points; the text is 455 points wide, columns stand 12 points apart.
 local sizes = { { "\\normalsize", 5.5 }, { "\\small", 5.0 }, { "\\footnotesize", 4.6 }, { "\\scriptsize", 4.25 } }
 local text_width, column_gap = 455, 12
 
--- least, natural: characters each column needs at least and would like. Returns relative widths (0: natural) and the
--- type size with which the table stays inside the text; nothing when it cannot.
+-- least, natural: characters each column needs at least and would like. Returns relative widths (0: natural), the
+-- type size with which the table stays inside the text, and the characters of a line; nothing when it cannot.
 local function fit_columns(least, natural)
   local room = text_width - column_gap * (#least - 1)
   local least_sum, natural_sum, widths = 0, 0, {}
@@ -185,7 +201,7 @@ local function fit_columns(least, natural)
   end
   for _, size in ipairs(sizes) do
     local name, character = size[1], size[2]
-    if natural_sum * character <= room then return widths, name end
+    if natural_sum * character <= room then return widths, name, room / character end
     if least_sum < natural_sum and (least_sum + 8) * character <= room then
       -- What the longest words leave of the line goes to the columns that have more text.
       local left = room / character - least_sum
@@ -193,13 +209,13 @@ local function fit_columns(least, natural)
         local more = left * (natural[c] - least[c]) / (natural_sum - least_sum)
         widths[c] = (least[c] + more) * character / room
       end
-      return widths, name
+      return widths, name, room / character
     end
   end
 end
 
--- data: {header = {...}, rows = {{...}, ...}} of plain text; returns Pandoc's table and its type size, nil when it is
--- too wide for the page
+-- data: {header = {...}, rows = {{...}, ...}} of plain text; returns Pandoc's table, its type size and its
+-- lines, nil when it is too wide for the page
 function layout:table(data, caption)
   local columns = #data.header
   local numeric, natural, least, alignments = {}, {}, {}, {}
@@ -214,7 +230,8 @@ function layout:table(data, caption)
     if numeric[c] then least[c] = natural[c] end
     alignments[c] = numeric[c] and pandoc.AlignRight or pandoc.AlignLeft
   end
-  local widths, size = fit_columns(least, natural)
+  local widths, size, characters = fit_columns(least, natural)
+  local lines = widths and table_lines(data.rows, widths, characters)
   if self.format ~= "latex" then
     widths = {}
     for c = 1, columns do widths[c] = 0 end
@@ -233,12 +250,14 @@ function layout:table(data, caption)
     for c = 1, columns do rows[r][c] = cell(row[c], numeric[c]) end
   end
   local simple = pandoc.SimpleTable(caption, alignments, widths, header, rows)
-  return pandoc.utils.from_simple_table(simple), size
+  return pandoc.utils.from_simple_table(simple), size, lines
 end
 
-function layout:place_table(element, id, size)
+-- A short table does not begin where it would be broken; four lines are for caption and rules.
+function layout:place_table(element, id, size, lines)
   if self.format == "latex" then
-    local start = "{" .. (size or "\\normalsize") .. (id and "\\hypertarget{" .. id .. "}{}" or "")
+    local need = lines and lines <= most_table_lines and string.format("\\dynlabneed{%d\\baselineskip}", lines + 4) or ""
+    local start = need .. "{" .. (size or "\\normalsize") .. (id and "\\hypertarget{" .. id .. "}{}" or "")
     return { pandoc.RawBlock("latex", start), element, pandoc.RawBlock("latex", "}") }
   elseif self.format == "html" then
     return { pandoc.Div({ element }, { id = id or "", class = "table" }) }

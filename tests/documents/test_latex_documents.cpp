@@ -184,6 +184,20 @@ TEST_F(latex_documents, wide_and_long_tables_stay_inside_the_page) {
                 HasSubstr("report.md:1: the table \"wide\" with its 14 columns is too wide"));
 }
 
+// Oracle: the pages on which poppler finds the words, wherever on the page the table or the headings begin.
+TEST_F(latex_documents, short_tables_and_headings_below_each_other_are_not_parted) {
+    record_.tables["short"] = {{"k", "y"}, {{"topmost", "1"}, {"2", "2"}, {"3", "3"}, {"4", "4"}, {"bottommost", "5"}}};
+    for (int lines = 20; lines <= 29; ++lines) {
+        std::string above;
+        for (int line = 0; line < lines; ++line) above += "Line.\n\n";
+        for (const std::string& page :
+             inspect_pdf(make(above + "::: {.table name=short}\nS {#tbl:s}\n:::\n", "out.pdf")).pages)
+            EXPECT_EQ(page.find("topmost") == page.npos, page.find("bottommost") == page.npos) << lines;
+        for (const std::string& page : inspect_pdf(make(above + "# Upper\n\n## Lower\n\nText.\n", "out.pdf")).pages)
+            EXPECT_EQ(page.find("Upper") == page.npos, page.find("Lower") == page.npos) << lines;
+    }
+}
+
 // Oracle: the order in the text poppler reads.
 TEST_F(latex_documents, figures_stay_where_they_were_placed) {
     add_figure("raw", "The caption", DocumentFormat::kPdf);
