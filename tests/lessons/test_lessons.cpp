@@ -102,6 +102,46 @@ TEST(lesson_02, line_residuals_and_forecast_follow_the_textbook_formulas) {
     EXPECT_EQ(number(record, "actual"), 9.79);
 }
 
+// Oracles: the simulators' parameters as SOURCE.md states them, within four standard errors, the standard deviation of
+// the noise, and an independent program's estimates and fits for the hair dryer.
+TEST(lesson_03_workflow, models_agree_with_the_simulators_and_with_an_independent_program) {
+    const Workbench bench;
+    const ChildResult run = bench.dynlab({"run", DYNLAB_SOURCE_DIR "/lessons/03_workflow/lesson.lua", "--out", "made"});
+    ASSERT_EQ(run.exit_code, 0) << run.error_output;
+    const auto record = nlohmann::json::parse(bench.read("made/record.json"));
+    const auto expect_near = [&record](const std::string& name, double truth) {
+        EXPECT_NEAR(number(record, name), truth, 4 * number(record, name + "_std")) << name;
+    };
+
+    EXPECT_EQ(number(record, "linear_poles"), 3);
+    EXPECT_EQ(number(record, "linear_zeros"), 1);
+    for (const auto& [name, truth] :
+         {std::pair("a1", 3.05), {"a2", 11.25}, {"a3", 11.25}, {"b0", 5.625}, {"b1", 22.5}, {"td", 0.0}})
+        expect_near(std::string("linear_") + name, truth);
+    const double relative_spread = 1 / std::sqrt(2.0 * 1016);  // of a standard deviation from 1016 samples
+    EXPECT_NEAR(number(record, "linear_noise"), 0.2, 4 * 0.2 * relative_spread);
+    EXPECT_GE(number(record, "agreed_recommended"), 27) << "of 30 repetitions";
+
+    expect_near("heat_gain", 1 / 1.5);  // the heat that is carried away with the air, 1.5 W/K
+    expect_near("heat_slow", 64.6);
+    expect_near("heat_small", 4.5 + 3 + 2.06);
+
+    EXPECT_NEAR(number(record, "dryer_a1"), 11.8728, 5e-5);
+    EXPECT_NEAR(number(record, "dryer_a2"), 30.5013, 5e-5);
+    EXPECT_NEAR(number(record, "dryer_b0"), 28.2254, 5e-5);
+    EXPECT_NEAR(number(record, "dryer_fit"), 89.01, 5e-3);
+    EXPECT_NEAR(number(record, "dryer_rt2"), 0.98794, 5e-6);
+    EXPECT_NEAR(number(record, "dryer1_a1"), 2.8200, 5e-5);
+    EXPECT_NEAR(number(record, "dryer1_b0"), 2.6316, 5e-5);
+    EXPECT_NEAR(number(record, "dryer1_fit"), 84.28, 5e-3);
+    const double three[] = {-1.28872986, 0.40665869, 0.06551796, 0.04382600};
+    const double two[] = {-1.50096, 0.59173, 0.00531, 0.07323};
+    for (int i = 0; i < 4; ++i) {
+        EXPECT_NEAR(number(record, "arx3_" + std::to_string(i + 1)), three[i], 5e-9);
+        EXPECT_NEAR(number(record, "arx2_" + std::to_string(i + 1)), two[i], 5e-6);
+    }
+}
+
 /// "3.195 (0.208)", as the lesson's tables write a mean and a standard deviation.
 std::pair<double, double> mean_and_std(const std::string& cell) {
     const auto bracket = cell.find('(');
