@@ -47,12 +47,17 @@ void check_curve(const Curve& curve, const Panel& panel, const std::string& wher
                                       panel.log_x || panel.log_y ? " and positive on the logarithmic axis" : ""));
 }
 
+void check_tick_step(const std::optional<double>& step, const char* axis, const std::string& where) {
+    if (step && !(std::isfinite(*step) && *step > 0))
+        throw InvalidArgument(
+            fmt::format("{}: the step of the numbers on {} must be positive, not {}", where, axis, *step));
+}
+
 void check_panel(const Panel& panel, const std::string& where) {
     check_range(panel.x_range, panel.log_x, "x", where);
     check_range(panel.y_range, panel.log_y, "y", where);
-    if (panel.y_tick_step && !(std::isfinite(*panel.y_tick_step) && *panel.y_tick_step > 0))
-        throw InvalidArgument(
-            fmt::format("{}: the step of the numbers on y must be positive, not {}", where, *panel.y_tick_step));
+    check_tick_step(panel.x_tick_step, "x", where);
+    check_tick_step(panel.y_tick_step, "y", where);
     for (std::size_t i = 0; i < panel.curves.size(); ++i)
         check_curve(panel.curves[i], panel,
                     fmt::format("{}, {}", where, name_of("curve", i + 1, panel.curves[i].label)));

@@ -51,7 +51,8 @@ struct Panel {
     std::string title, x_label, y_label;
     bool log_x = false, log_y = false;
     std::optional<std::pair<double, double>> x_range, y_range;
-    std::optional<double> y_tick_step;  ///< distance of the numbers on y, e.g. 45 for degrees; chosen unless given
+    std::optional<double> x_tick_step;  ///< distance of the numbers on x, e.g. 1 for orders; chosen unless given
+    std::optional<double> y_tick_step;  ///< the same on y, e.g. 45 for degrees
     bool equal_axes = false;            ///< one unit the same length on both axes (pole-zero maps, Nyquist)
     LegendPlace legend = LegendPlace::kAutomatic;
     std::vector<Curve> curves;

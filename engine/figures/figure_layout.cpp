@@ -23,15 +23,23 @@ double block_height(const FittedText& text) {
     return text.lines.empty() ? 0 : static_cast<double>(text.lines.size()) * kTextLine * text.size / kTextSize;
 }
 
-double entry_width(const std::string& text) {
-    return kLegendSample + kGap + text_width(text, kTextSize);
+double entry_width(const LegendEntry& entry) {
+    return kLegendSample + kGap + text_width(entry.text, entry.size);
+}
+
+double widest_entry(const std::vector<LegendEntry>& entries) {
+    double widest = 0;
+    for (const LegendEntry& entry : entries) widest = std::max(widest, entry_width(entry));
+    return widest;
 }
 
 std::vector<LegendEntry> legend_entries(const Panel& panel, double room) {
     std::vector<LegendEntry> entries;
     for (std::size_t i = 0; i < panel.curves.size(); ++i)
-        if (!panel.curves[i].label.empty())
-            entries.push_back({i, cut_text(panel.curves[i].label, room - kLegendSample - kGap, kTextSize), 0, 0});
+        if (!panel.curves[i].label.empty()) {
+            const FittedText text = fit_line(panel.curves[i].label, room - kLegendSample - kGap, kTextSize);
+            entries.push_back({i, text.lines.front(), text.size, 0, 0});
+        }
     return entries;
 }
 
@@ -70,9 +78,7 @@ class LayoutWork {
     bool legend_at_right(const Panel& panel, const std::vector<LegendEntry>& entries) const {
         if (panel.legend == LegendPlace::kRight) return true;
         if (panel.legend == LegendPlace::kAbove || figure_.columns > 1 || figure_.width_cm < 10) return false;
-        double widest = 0;
-        for (const LegendEntry& entry : entries) widest = std::max(widest, entry_width(entry.text));
-        return entries.size() > 6 && widest < 0.3 * figure_.width_cm;
+        return entries.size() > 6 && widest_entry(entries) < 0.3 * figure_.width_cm;
     }
 
     void fill_panel(std::size_t i) {
@@ -88,7 +94,8 @@ class LayoutWork {
         title_.text = fitted(figure_.title, figure_.width_cm - 2 * kEdge, kTitleSize);
         out.legend.clear();
         if (panel.legend == LegendPlace::kNone) return;
-        out.legend = legend_entries(panel, out.box.width());
+        const double beside = column_margins_.empty() ? 0 : column_margins_[column_of(i)].left;
+        out.legend = legend_entries(panel, out.box.width() + beside);
         if (legend_at_right(panel, out.legend)) {
             out.legend = legend_entries(panel, 0.4 * figure_.width_cm);
             place_legend_at_right(out);
@@ -97,12 +104,14 @@ class LayoutWork {
         }
     }
 
-    // Legend positions are relative to the frame's upper corner until place_texts() moves them.
+    // Legend positions are relative to the frame's upper corner until place_texts() moves them. An entry wider than the
+    // frame begins left of it, above the numbers of y.
     static void place_legend_above(PanelLayout& out) {
-        double x = 0, row = 0;
+        const double left = std::min(0.0, out.box.width() - widest_entry(out.legend));
+        double x = left, row = 0;
         for (LegendEntry& entry : out.legend) {
-            const double width = entry_width(entry.text);
-            if (x > 0 && x + width > out.box.width() + 0.01) x = 0, ++row;
+            const double width = entry_width(entry);
+            if (x > left && x + width > out.box.width() + 0.01) x = left, ++row;
             entry.x = x, entry.y = row;
             x += width + kBetweenEntries;
         }
@@ -141,7 +150,7 @@ class LayoutWork {
         }
         for (const LegendEntry& entry : panel.legend) {
             margins.top = std::max(margins.top, entry.y + 0.5 * kTextLine + 0.5 * kGap);
-            margins.right = std::max(margins.right, entry.x + entry_width(entry.text) - panel.box.width());
+            margins.right = std::max(margins.right, entry.x + entry_width(entry) - panel.box.width());
         }
         margins.top += block_height(panel.title.text);
         return margins;

@@ -18,6 +18,7 @@ struct Box {
 struct LegendEntry {
     std::size_t curve;
     std::string text;
+    double size;  ///< of its type, points
     double x, y;
 };
 

@@ -95,6 +95,14 @@ double character_width(char32_t c) {
     return c < 0x2000 ? 0.56 : 0.7;
 }
 
+/// Smaller type for lines of which the widest is `widest` long; what is still longer than `length` is cut.
+FittedText made_smaller(FittedText text, double widest, double length) {
+    constexpr double kSmallest = 0.7;
+    text.size *= std::clamp(length / widest, kSmallest, 1.0);
+    for (std::string& line : text.lines) line = cut_text(line, length, text.size);
+    return text;
+}
+
 }  // namespace
 
 std::string to_utf8(std::u32string_view text) {
@@ -149,8 +157,11 @@ std::string cut_text(const std::string& text, double length, double size) {
     return to_utf8(kept + U'…');
 }
 
+FittedText fit_line(const std::string& text, double length, double size) {
+    return made_smaller({{text}, size}, text_width(text, size), length);
+}
+
 FittedText fit_text(const std::string& text, double length, double size) {
-    constexpr double kSmallest = 0.7;
     FittedText fitted{{text}, size};
     double widest = text_width(text, size);
     if (widest <= length) return fitted;
@@ -161,9 +172,7 @@ FittedText fit_text(const std::string& text, double length, double size) {
         widest = width;
         fitted.lines = {first, second};
     }
-    fitted.size = size * std::clamp(length / widest, kSmallest, 1.0);
-    for (std::string& line : fitted.lines) line = cut_text(line, length, fitted.size);
-    return fitted;
+    return made_smaller(std::move(fitted), widest, length);
 }
 
 std::string gnuplot_quoted(std::string_view text) {

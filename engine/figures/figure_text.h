@@ -28,6 +28,8 @@ struct FittedText {
 };
 /// At most two lines, broken where they come out most alike; down to 70 % of `size`, then cut.
 FittedText fit_text(const std::string& text, double length, double size);
+/// One line, likewise.
+FittedText fit_line(const std::string& text, double length, double size);
 /// One line, cut with an ellipsis to fit `length` cm.
 std::string cut_text(const std::string& text, double length, double size);
 

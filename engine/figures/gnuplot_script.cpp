@@ -181,7 +181,7 @@ class PanelScript {
             segment({x, y}, {x + kLegendSample, y}, "nohead", curve.line_width, look.colour, look.dash, "front");
         if (draws_points(curve.style))
             marker({x + 0.5 * kLegendSample, y}, look.point_type, marker_size(curve), marker_line(curve), look.colour);
-        text(entry.text, x + kLegendSample + kGap, y, "left", kTextSize, kAnnotationColour);
+        text(entry.text, x + kLegendSample + kGap, y, "left", entry.size, kAnnotationColour);
     }
 
     static const char* fill(CurveStyle style) {

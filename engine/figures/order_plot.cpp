@@ -107,6 +107,7 @@ Figure order_plot(const OrderSelection& selection, OrderCriterion criterion, con
         panel.curves.push_back(mark_at(over_delay ? chosen.delay : chosen.poles, value));
     panel.x_range = x_extent.padded(0.08);
     panel.y_range = y_extent.padded(0.1);
+    if (!over_delay) panel.x_tick_step = 1;
     panel.x_label = over_delay ? "delay (s)" : "number of poles";
     panel.y_label = quantity.label;
     return Figure(std::move(panel));

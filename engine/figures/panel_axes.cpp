@@ -62,21 +62,46 @@ void widen(Range& range, double span) {
     range = {middle - 0.5 * span, middle + 0.5 * span};
 }
 
-bool fits(const Axis& axis, double width) {
-    double total = 0;
-    for (const Tick& tick : axis.ticks) total += text_width(tick.label, style::kTickSize) + 0.3;
-    return total <= width;
+/// The numbers of x stand side by side with air between them, those of y one above the other.
+struct AxisLength {
+    double cm;
+    bool upright;
+
+    bool holds(const Axis& axis) const {
+        double total = 0;
+        for (const Tick& tick : axis.ticks)
+            total += upright ? style::kTickLine : text_width(tick.label, style::kTickSize) + 0.3;
+        return total <= cm;
+    }
+};
+
+/// Numbers at every second, third, ... tick only, so that they fit; the others stay as short ticks. `axis` itself when
+/// not even two numbers fit.
+Axis thinned(const Axis& axis, AxisLength length) {
+    const std::size_t count = axis.ticks.size();
+    for (std::size_t stride = 2; stride < count; ++stride)
+        for (std::size_t first = 0; first < stride && first + stride < count; ++first) {
+            Axis sparse = axis;
+            sparse.ticks.clear();
+            for (std::size_t i = 0; i < count; ++i)
+                if (i % stride == first)
+                    sparse.ticks.push_back(axis.ticks[i]);
+                else
+                    sparse.minor.push_back(axis.ticks[i].value);
+            if (length.holds(sparse)) return sparse;
+        }
+    return axis;
 }
 
-/// As many numbers as fit side by side with air between them; more than one where there is room, as one tells no scale.
-Axis make_x_axis(Range range, bool log, double width) {
-    constexpr double kFewest = 1.2;
-    double count = std::max(2.0, width / 1.4);
-    Axis axis = make_axis(range, log, count);
-    while (!fits(axis, width) && count >= kFewest) axis = make_axis(range, log, count *= 0.75);
-    if (axis.ticks.size() > 1) return axis;
-    const Axis finer = make_axis(range, log, 2 * count);
-    return fits(finer, width) ? finer : axis;
+/// As many numbers as fit, more than one where there is room, as one tells no scale. A wanted step is never divided.
+Axis fitted_axis(Range range, bool log, double count, std::optional<double> step, AxisLength length) {
+    constexpr double kFewest = 1.2, kMost = 20;
+    Axis axis = make_axis(range, log, count, step);
+    while (!step && !length.holds(axis) && count >= kFewest) axis = make_axis(range, log, count *= 0.75);
+    Axis finer = axis;
+    while (!step && finer.ticks.size() < 2 && count < kMost) finer = make_axis(range, log, count *= 1.5);
+    if (!length.holds(finer)) finer = thinned(finer, length);
+    return length.holds(finer) ? finer : axis;
 }
 
 }  // namespace
@@ -97,8 +122,8 @@ void choose_axes(const Panel& panel, double width, double height, Axis& x, Axis&
         widen(x_range, scale * width);
         widen(y_range, scale * height);
     }
-    x = make_x_axis(x_range, panel.log_x, width);
-    y = make_axis(y_range, panel.log_y, std::max(2.0, height / 0.75), panel.y_tick_step);
+    x = fitted_axis(x_range, panel.log_x, std::max(2.0, width / 1.4), panel.x_tick_step, {width, false});
+    y = fitted_axis(y_range, panel.log_y, std::max(2.0, height / 0.75), panel.y_tick_step, {height, true});
 }
 
 }  // namespace dynlab

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "figures/panel_axes.h"
 #include "numerics/error.h"
 
 using namespace dynlab;
@@ -34,6 +35,13 @@ TEST(order_plot, a_curve_for_each_number_of_zeros) {  // oracle: the candidates 
     EXPECT_EQ(panel.curves[0].y, (Vector{{3, 0.5}}));  // the better of two delays
     EXPECT_EQ(panel.curves[1].y, Vector::Constant(1, 1.5));
     EXPECT_EQ(panel.curves[2].y, Vector::Constant(1, 0.5));
+    for (const double width : {12.0, 3.0, 1.5}) {  // there is no half a pole, whatever the room
+        Axis x, y;
+        choose_axes(panel, width, 4, x, y);
+        ASSERT_EQ(x.ticks.size(), 2u);
+        EXPECT_EQ(x.ticks[0].label, "1");
+        EXPECT_EQ(x.ticks[1].label, "2");
+    }
 }
 
 TEST(order_plot, over_the_delay_when_nothing_else_differs) {
