@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <regex>
 
 #include "figures/axis.h"
 #include "figures/histogram.h"
@@ -34,6 +35,15 @@ Index place_of(const MonteCarloResult& result, const std::string& name) {
         throw InvalidArgument(fmt::format("{} has no parameter '{}'; its parameters are {}", result.label, name,
                                           fmt::join(result.names, ", ")));
     return found - result.names.begin();
+}
+
+/// A parameter's name with its index lowered: a1 as a_{1}, Tp1 as T_{p1}, b0_u2 as b_{0,u2}; other names as they are.
+std::string symbol_of(const std::string& name) {
+    static const std::regex indexed("(?:([KT])(p[0-9]?|[wzd])|([A-Za-z]+)([0-9]+))(?:_([a-z0-9]+))?");
+    std::smatch part;
+    if (!std::regex_match(name, part, indexed)) return name;
+    return fmt::format("{}{}_{{{}{}{}{}}}", part[1].str(), part[3].str(), part[2].str(), part[4].str(),
+                       part[5].matched ? "," : "", part[5].str());
 }
 
 void check(const MonteCarlo& study) {
@@ -169,7 +179,7 @@ Figure monte_carlo_histograms(const MonteCarlo& study) {
             Panel panel =
                 histogram_panel(estimates_of(result, i), ranges[place], truth_of(result, i), static_cast<int>(j));
             panel.y_label = i == 0 ? result.label : "";
-            panel.x_label = j + 1 == study.results.size() ? result.names[place] : "";
+            panel.x_label = j + 1 == study.results.size() ? symbol_of(result.names[place]) : "";
             figure.panels.push_back(std::move(panel));
         }
     }
@@ -201,8 +211,8 @@ Figure monte_carlo_scatter(const MonteCarlo& study, const std::string& x_name, c
     }
     panel.x_range = range_of(xs, true_x);
     panel.y_range = range_of(ys, true_y);
-    panel.x_label = x_name;
-    panel.y_label = y_name;
+    panel.x_label = symbol_of(x_name);
+    panel.y_label = symbol_of(y_name);
     Figure figure(std::move(panel));
     figure.height_cm = 9;
     return figure;

@@ -52,6 +52,7 @@ TEST(monte_carlo_plot, histograms_hold_every_run_and_the_truth) {  // oracle: co
         const Panel& panel = figure.panels[i];
         EXPECT_EQ(panel.curves.front().y.sum(), 500);
         EXPECT_EQ(panel.references.front().at, i % 2 == 0 ? 4 : 2);
+        EXPECT_EQ(panel.x_label, i < 2 ? "" : i == 2 ? "a_{1}" : "b_{0}");
         EXPECT_EQ(panel.x_range, figure.panels[i % 2].x_range);  // methods share a column's range
     }
 }
@@ -71,6 +72,17 @@ TEST(monte_carlo_plot, failed_runs_are_left_out) {
     all.results.front().theta.row(3).setConstant(std::nan(""));
     EXPECT_EQ(monte_carlo_histograms(all).panels.front().curves.front().y.sum(), 499);
     EXPECT_EQ(monte_carlo_scatter(all, "a1", "b0").panels.front().curves.front().x.size(), 499);
+}
+
+TEST(monte_carlo_plot, indices_of_parameters_are_lowered) {  // oracle: how the names are written by hand
+    const std::vector<std::pair<std::string, std::string>> cases = {
+        {"b10", "b_{10}"},     {"Kp", "K_{p}"},  {"Tp1", "T_{p1}"}, {"b0_u2", "b_{0,u2}"},
+        {"Td_u1", "T_{d,u1}"}, {"Zeta", "Zeta"}, {"Tau", "Tau"},    {"my gain", "my gain"}};
+    for (const auto& [name, symbol] : cases) {
+        MonteCarlo all = study();
+        for (MonteCarloResult& result : all.results) result.names.front() = name;
+        EXPECT_EQ(monte_carlo_scatter(all, name, "b0").panels.front().x_label, symbol);
+    }
 }
 
 TEST(monte_carlo_plot, ellipse_holds_its_share_of_efficient_estimates) {
