@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "figures/style.h"
 #include "numerics/error.h"
 
 namespace dynlab {
@@ -38,6 +39,20 @@ void check(const std::vector<const IdData*>& data, const std::vector<std::string
                             object->input_count()));
 }
 
+bool draws_the_same(const Curve& a, const Curve& b) {
+    return a.style == b.style && a.x.size() == b.x.size() && a.x == b.x && a.y == b.y;
+}
+
+/// Puts a curve into the panel, but an input that stands there already only once, in grey as it belongs to several.
+void add_curve(Panel& panel, Curve curve, bool output) {
+    const auto same = std::find_if(panel.curves.begin(), panel.curves.end(),
+                                   [&](const Curve& other) { return !output && draws_the_same(curve, other); });
+    if (same == panel.curves.end())
+        panel.curves.push_back(std::move(curve));
+    else
+        same->colour = style::kGreyColour;
+}
+
 Panel panel_of(const Channel& channel, const std::vector<const IdData*>& data, const std::vector<std::string>& labels) {
     Panel panel;
     panel.y_label = label_of(channel, *data.front());
@@ -60,7 +75,7 @@ Panel panel_of(const Channel& channel, const std::vector<const IdData*>& data, c
             }
             curve.colour = place++;
             curve.dash = 0;
-            panel.curves.push_back(std::move(curve));
+            add_curve(panel, std::move(curve), channel.output);
         }
     return panel;
 }

@@ -31,6 +31,17 @@ TEST(id_plot, several_objects_are_told_apart) {
     EXPECT_THROW(id_plot({&kData, &kData}, {"raw"}), InvalidArgument);
 }
 
+TEST(id_plot, an_input_that_several_share_is_drawn_once) {
+    IdData other = kData;
+    other.experiments[0].y *= 2;
+    const Figure shared = id_plot({&kData, &other});
+    EXPECT_EQ(shared.panels[0].curves.size(), 2u);
+    ASSERT_EQ(shared.panels[1].curves.size(), 1u);
+    EXPECT_NE(shared.panels[1].curves[0].colour, shared.panels[0].curves[0].colour);  // it is not the first one's alone
+    other.experiments[0].u(1) = 0.5;
+    EXPECT_EQ(id_plot({&kData, &other}).panels[1].curves.size(), 2u);
+}
+
 TEST(id_plot, held_inputs_are_stairs_below_the_outputs) {
     const Figure figure = id_plot({&kData});
     ASSERT_EQ(figure.panels.size(), 2u);
