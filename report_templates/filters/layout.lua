@@ -103,6 +103,11 @@ function layout:inline_code(code)
   return code
 end
 
+-- Printed blocks of so many lines, a presented model among them, stay on one page.
+local most_kept_together = 16
+
+local function line_count(text) return select(2, text:gsub("\n", "\n")) + 1 end
+
 local verbatim_environments = { output = "dynlaboutput", error = "dynlaberror" }
 
 function layout:code_block(block)
@@ -111,7 +116,8 @@ function layout:code_block(block)
     local class = block.classes[1]
     if class and not verbatim_environments[class] and class ~= "text" then return block end
     local environment = verbatim_environments[class] or "Highlighting"
-    return pandoc.RawBlock("latex", "\\begin{Shaded}\n\\begin{" .. environment .. "}\n" ..
+    local options = line_count(block.text) <= most_kept_together and "[samepage=true]" or ""
+    return pandoc.RawBlock("latex", "\\begin{Shaded}\n\\begin{" .. environment .. "}" .. options .. "\n" ..
       block.text:gsub("[\\{}]", latex_escapes) .. "\n\\end{" .. environment .. "}\n\\end{Shaded}")
   elseif self.format == "html" then
     -- Pandoc would look for a language "output" in all its syntax definitions, which takes 0.3 s.
@@ -178,6 +184,12 @@ local function table_lines(rows, widths, characters)
   return total
 end
 
+-- A number with what may stand around it: signs, an error, brackets, a percent sign.
+local function is_number_like(cell)
+  local plain = cell:gsub("±", ""):gsub("×", ""):gsub("−", "")
+  return plain:find("%d") ~= nil and plain:find("^[%d%s.,eE+%-()%%]+$") ~= nil
+end
+
 local function longest_word(text)
   local longest = 0
   for word in text:gmatch("%S+") do longest = math.max(longest, utf8.len(word) or #word) end
@@ -241,6 +253,9 @@ function layout:table(data, caption)
   local function cell(text, is_numeric)
     if text == "" then return {} end
     if is_numeric and self.format ~= "markdown" then text = text:gsub("^%-(%d)", "\u{2212}%1") end
+    if self.format == "html" and not is_numeric and is_number_like(text) then
+      return { pandoc.Plain { pandoc.Span({ pandoc.Str(text) }, { class = "number" }) } }
+    end
     return { pandoc.Plain { pandoc.Str(text) } }
   end
   local header, rows = {}, {}

@@ -52,6 +52,17 @@ TEST_F(html_documents, markdown_output_has_slots_filled_and_pictures_beside_it) 
     EXPECT_EQ(read(file("x_files/picture-1.svg")), small_svg());
 }
 
+TEST_F(html_documents, numbers_in_tables_do_not_break) {
+    record_.tables["t"] = {{"a", "b"}, {{"4.059 (0.284)", "a word"}, {"none", "-1.5 ± 0.2"}, {"no 2", "50 %"}}};
+    const std::string text = html("::: {.table name=t}\n:::\n");
+    for (const char* number : {"4.059 (0.284)", "50 %"})
+        EXPECT_THAT(text, HasSubstr(std::string("<span class=\"number\">") + number + "</span>"));
+    EXPECT_THAT(text, HasSubstr("1.5 ± 0.2</span>"));
+    for (const char* words : {"a word", "none", "no 2"})
+        EXPECT_THAT(text, HasSubstr(std::string(">") + words + "</td>"));
+    EXPECT_THAT(text, HasSubstr("td .number"));
+}
+
 TEST_F(html_documents, two_runs_give_the_same_bytes) {
     add_figure("raw", "Raw", DocumentFormat::kHtml);
     const std::string text = "# A\n\n![](figure:raw){#fig:raw}\n\n$x$ @fig:raw\n";

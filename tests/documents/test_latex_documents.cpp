@@ -149,6 +149,24 @@ TEST_F(latex_documents, pages_say_how_many_there_are) {
     EXPECT_THAT(content.pages[1], HasSubstr("2/2"));
 }
 
+// Oracle: the page on which poppler finds the first and the last line, wherever on the page the block begins.
+TEST_F(latex_documents, short_outputs_stay_on_one_page) {
+    std::string output = "```{.output}\nFIRST\n";
+    for (int i = 0; i < 10; ++i) output += "1.23\n";
+    output += "LAST\n```\n";
+    int begun_on_the_second = 0;
+    for (int paragraphs = 28; paragraphs <= 38; paragraphs += 2) {
+        std::string text;
+        for (int i = 0; i < paragraphs; ++i) text += "Prose.\n\n";
+        const PdfContent content = pdf(text + output);
+        for (const std::string& page : content.pages)
+            EXPECT_EQ(page.find("FIRST") == std::string::npos, page.find("LAST") == std::string::npos) << paragraphs;
+        begun_on_the_second += content.pages.size() == 2 && content.pages[1].find("FIRST") != std::string::npos;
+    }
+    EXPECT_GT(begun_on_the_second, 0);
+    EXPECT_LT(begun_on_the_second, 6);
+}
+
 // Oracle: bounding boxes of the words against the margins of A4.
 TEST_F(latex_documents, long_code_and_output_lines_stay_inside_the_text) {
     std::string spaces, solid;
