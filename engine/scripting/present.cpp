@@ -15,6 +15,12 @@ std::string kind_of(const Model& model) {
     return time + " transfer function";
 }
 
+/// "  +- 0.0312"; an error of exactly zero beside others belongs to a parameter that the search left at its bound.
+std::string error_text(const Vector& std, Index place) {
+    if (std[place] == 0 && (std.array() > 0).any()) return "  (at its bound)";
+    return "  +- " + number_text(std[place], 3);
+}
+
 std::string parameter_lines(const Model& model) {
     const ModelParameters parameters = parameters_of(model);
     const bool coloured = model.estimate && model.estimate->errors_are_coloured();
@@ -22,8 +28,9 @@ std::string parameter_lines(const Model& model) {
     for (std::size_t i = 0; i < parameters.names.size(); ++i) {
         const auto place = static_cast<Index>(i);
         text += fmt::format("  {:<5} {:>12}", parameters.names[i], number_text(parameters.values[place], 6));
-        if (parameters.std.size() > place) text += fmt::format("  +- {}", number_text(parameters.std[place], 3));
-        if (coloured) text += fmt::format("  (robust +- {})", number_text(model.estimate->assessment->std[place], 3));
+        if (parameters.std.size() > place) text += error_text(parameters.std, place);
+        if (coloured && model.estimate->assessment->std[place] > 0)
+            text += fmt::format("  (robust +- {})", number_text(model.estimate->assessment->std[place], 3));
         text += '\n';
     }
     return text;

@@ -61,6 +61,12 @@ TEST(script_validation, present_shows_robust_errors_for_coloured_noise_only) {
               "3\ttrue\ttrue\n");
 }
 
+TEST(script_validation, present_gives_no_error_of_a_delay_at_its_bound) {
+    const std::string shown = printed(kRecord + "present(tfsrivc(white, 2, 0, {TdMax = 0.3}))");
+    EXPECT_THAT(shown, HasSubstr("  Td               0  (at its bound)\n"));
+    EXPECT_THAT(shown, Not(HasSubstr("+- 0\n")));
+}
+
 TEST(script_validation, present_tells_errors_of_gain_and_time_constants) {  // oracle: the gain's own standard error
     const std::string text = printed(kRecord +
                                      "local G = procsrivc(white, 'P1')\npresent(G)\n"
