@@ -4,6 +4,7 @@
 #include <cmath>
 #include <new>
 
+#include "numerics/estimators/catalogue.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
 #include "platform/spelling.h"
@@ -60,6 +61,15 @@ VectorMap vector_at(lua_State* L, int index, const std::string& label) {
 
 std::string argument_label(int index, const char* what) {
     return fmt::format("argument {} ({})", index, what);
+}
+
+/// A failure told with the called function's name before it, once. Where one method does the work of another, as lssvf
+/// that of lsgpmf, it tells of the one that was called.
+std::string with_name(const std::string& name, const std::string& message) {
+    const std::string first = message.substr(0, message.find_first_of(": "));
+    if (first == name) return message;
+    const bool of_method = message.compare(first.size(), 2, ": ") == 0 && find_method(first) && find_method(name);
+    return name + ": " + (of_method ? message.substr(first.size() + 2) : message);
 }
 
 }  // namespace
@@ -322,9 +332,7 @@ int run_guarded(lua_State* L, Binding body) {
     }
     if (message.empty()) raise_stop(L, StopReason::kInterrupted);
     const char* name = static_cast<const char*>(lua_touserdata(L, lua_upvalueindex(1)));
-    const bool named = name == nullptr || name[0] == '_' ||
-                       message.compare(0, std::string_view(name).size() + 1, std::string(name) + ":") == 0;
-    raise_error(L, named ? message : fmt::format("{}: {}", name, message));
+    raise_error(L, name == nullptr || name[0] == '_' ? message : with_name(name, message));
 }
 
 }  // namespace dynlab

@@ -47,6 +47,20 @@ TEST(script_errors, name_the_lua_form_of_a_matlab_function) {
     });
 }
 
+TEST(script_errors, name_the_called_method_once) {
+    const std::string record = "local u = ones(50)\nlocal d = iddata(0.5*u, u, 0.1)\n";
+    for (const auto& [method, call] : {std::pair{"lsgpmf", "lsgpmf(d, {2, 1, 0}, 3)"},
+                                       {"ivsvf", "ivsvf(d, {2, 1, 0}, 3)"},
+                                       {"tfsrivc", "tfsrivc(d, 2, 1)"},
+                                       {"tfcoe", "tfcoe(d, 2, 1)"}})
+        EXPECT_EQ(error_of(record + call).find("lesson.lua:3: " + std::string(method) + ": the input never changes"),
+                  0u)
+            << error_of(record + call);
+    EXPECT_EQ(error_of("local u = prbs(3, 1)\narx(iddata(u, u, 1), {3, 3, 1})").find("lesson.lua:2: arx needs more"),
+              0u)
+        << error_of("local u = prbs(3, 1)\narx(iddata(u, u, 1), {3, 3, 1})");
+}
+
 TEST(script_errors, put_what_lua_says_into_plain_words) {
     check({
         {"local m\nprint(m.gain)",
