@@ -104,17 +104,26 @@ function layout:inline_code(code)
 end
 
 -- Printed blocks of so many lines, a presented model among them, stay on one page.
-local most_kept_together = 16
+local most_kept_together = 20
+
+-- Code of so many lines stays on one page; of longer code so many lines at least stand below the text above it.
+local short_code, least_code = 10, 6
 
 local function line_count(text) return select(2, text:gsub("\n", "\n")) + 1 end
 
 local verbatim_environments = { output = "dynlaboutput", error = "dynlaberror" }
 
+-- Begins a new page unless so many lines fit on this one.
+function layout:need(lines) return pandoc.RawBlock("latex", string.format("\\dynlabneed{%d\\baselineskip}", lines)) end
+
 function layout:code_block(block)
   if self.format == "latex" then
     block.text = breakable(block.text, 60)
     local class = block.classes[1]
-    if class and not verbatim_environments[class] and class ~= "text" then return block end
+    if class and not verbatim_environments[class] and class ~= "text" then
+      local lines = line_count(block.text)
+      return { self:need(lines <= short_code and lines or least_code), block }
+    end
     local environment = verbatim_environments[class] or "Highlighting"
     local options = line_count(block.text) <= most_kept_together and "[samepage=true]" or ""
     return pandoc.RawBlock("latex", "\\begin{Shaded}\n\\begin{" .. environment .. "}" .. options .. "\n" ..
@@ -271,9 +280,10 @@ end
 -- A short table does not begin where it would be broken; four lines are for caption and rules.
 function layout:place_table(element, id, size, lines)
   if self.format == "latex" then
-    local need = lines and lines <= most_table_lines and string.format("\\dynlabneed{%d\\baselineskip}", lines + 4) or ""
-    local start = need .. "{" .. (size or "\\normalsize") .. (id and "\\hypertarget{" .. id .. "}{}" or "")
-    return { pandoc.RawBlock("latex", start), element, pandoc.RawBlock("latex", "}") }
+    local start = "{" .. (size or "\\normalsize") .. (id and "\\hypertarget{" .. id .. "}{}" or "")
+    local blocks = pandoc.List { pandoc.RawBlock("latex", start), element, pandoc.RawBlock("latex", "}") }
+    if lines and lines <= most_table_lines then blocks:insert(1, self:need(lines + 4)) end
+    return blocks
   elseif self.format == "html" then
     return { pandoc.Div({ element }, { id = id or "", class = "table" }) }
   end

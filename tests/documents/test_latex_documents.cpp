@@ -150,21 +150,27 @@ TEST_F(latex_documents, pages_say_how_many_there_are) {
 }
 
 // Oracle: the page on which poppler finds the first and the last line, wherever on the page the block begins.
-TEST_F(latex_documents, short_outputs_stay_on_one_page) {
+TEST_F(latex_documents, short_blocks_stay_on_one_page) {
     std::string output = "```{.output}\nFIRST\n";
-    for (int i = 0; i < 10; ++i) output += "1.23\n";
-    output += "LAST\n```\n";
-    int begun_on_the_second = 0;
-    for (int paragraphs = 28; paragraphs <= 38; paragraphs += 2) {
-        std::string text;
-        for (int i = 0; i < paragraphs; ++i) text += "Prose.\n\n";
-        const PdfContent content = pdf(text + output);
-        for (const std::string& page : content.pages)
-            EXPECT_EQ(page.find("FIRST") == std::string::npos, page.find("LAST") == std::string::npos) << paragraphs;
-        begun_on_the_second += content.pages.size() == 2 && content.pages[1].find("FIRST") != std::string::npos;
+    for (int i = 0; i < 15; ++i) output += "1.23\n";
+    std::string table = "::: {.table name=short}\nS {#tbl:s}\n:::\n";
+    record_.tables["short"] = {{"k", "y"},
+                               {{"FIRST", "1"}, {"2", "2"}, {"3", "3"}, {"4", "4"}, {"5", "5"}, {"LAST", "6"}}};
+    const std::string code = "```{.lua}\nFIRST = 1\nb = 2\nc = 3\nd = 4\ne = 5\nLAST = 6\n```\n";
+    for (const std::string& block :
+         {output + "LAST\n```\n", table, code, std::string("# FIRST\n\n## LAST\n\nProse.\n")}) {
+        int begun_on_the_second = 0;
+        for (int paragraphs = 22; paragraphs <= 40; paragraphs += 3) {
+            std::string text;
+            for (int i = 0; i < paragraphs; ++i) text += "Prose.\n\n";
+            const PdfContent content = pdf(text + block);
+            for (const std::string& page : content.pages)
+                EXPECT_EQ(page.find("FIRST") == page.npos, page.find("LAST") == page.npos) << paragraphs << block;
+            begun_on_the_second += content.pages.size() == 2 && content.pages[1].find("FIRST") != std::string::npos;
+        }
+        EXPECT_GT(begun_on_the_second, 0) << block;
+        EXPECT_LT(begun_on_the_second, 7) << block;
     }
-    EXPECT_GT(begun_on_the_second, 0);
-    EXPECT_LT(begun_on_the_second, 6);
 }
 
 // Oracle: bounding boxes of the words against the margins of A4.
@@ -200,20 +206,6 @@ TEST_F(latex_documents, wide_and_long_tables_stay_inside_the_page) {
     record_.tables["wide"] = {std::vector<std::string>(14, "column"), {std::vector<std::string>(14, "-1.2345e-05")}};
     EXPECT_THAT(refusal("::: {.table name=wide}\n:::\n", "other.pdf"),
                 HasSubstr("report.md:1: the table \"wide\" with its 14 columns is too wide"));
-}
-
-// Oracle: the pages on which poppler finds the words, wherever on the page the table or the headings begin.
-TEST_F(latex_documents, short_tables_and_headings_below_each_other_are_not_parted) {
-    record_.tables["short"] = {{"k", "y"}, {{"topmost", "1"}, {"2", "2"}, {"3", "3"}, {"4", "4"}, {"bottommost", "5"}}};
-    for (int lines = 20; lines <= 29; ++lines) {
-        std::string above;
-        for (int line = 0; line < lines; ++line) above += "Line.\n\n";
-        for (const std::string& page :
-             inspect_pdf(make(above + "::: {.table name=short}\nS {#tbl:s}\n:::\n", "out.pdf")).pages)
-            EXPECT_EQ(page.find("topmost") == page.npos, page.find("bottommost") == page.npos) << lines;
-        for (const std::string& page : inspect_pdf(make(above + "# Upper\n\n## Lower\n\nText.\n", "out.pdf")).pages)
-            EXPECT_EQ(page.find("Upper") == page.npos, page.find("Lower") == page.npos) << lines;
-    }
 }
 
 // Oracle: the order in the text poppler reads.
