@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "figures/axis.h"
@@ -41,6 +42,15 @@ double loss_near(const DelaySearch& search, double delay) {
     return search.losses()[nearest];
 }
 
+/// "0.1598 ± 0.0036": the error with two digits, the delay with as many decimals.
+std::string delay_text(const DelaySearch& search) {
+    if (!std::isfinite(search.std)) return number_text(search.delay);
+    const double wanted = 1 - std::floor(std::log10(search.std));
+    if (wanted > 9) return number_text(search.delay) + " ± " + number_text(search.std, 2);
+    const int decimals = std::max(0, static_cast<int>(wanted));
+    return fmt::format("{:.{}f} ± {:.{}f}", search.delay, decimals, search.std, decimals);
+}
+
 }  // namespace
 
 Figure delay_plot(const DelaySearch& search) {
@@ -52,10 +62,9 @@ Figure delay_plot(const DelaySearch& search) {
     x_extent.include(search.delay);
     y_extent.include(panel.curves.front().y);
     y_extent.include(search.loss());
-    const std::string error = std::isfinite(search.std) ? " ± " + number_text(search.std, 2) : "";
     panel.references = {{false, search.delay, "", 1}};
-    panel.curves.push_back(mark(search.delay, search.loss(), style::kOpenCircle, 6,
-                                fmt::format("estimate, {}{} s", number_text(search.delay), error)));
+    panel.curves.push_back(
+        mark(search.delay, search.loss(), style::kOpenCircle, 6, fmt::format("estimate, {} s", delay_text(search))));
     if (search.rival)
         panel.curves.push_back(mark(*search.rival, loss_near(search, *search.rival), style::kCross, style::kGreyColour,
                                     fmt::format("nearly as good, {} s", number_text(*search.rival))));
