@@ -1,6 +1,9 @@
 #include <array>
 
+#include "numerics/estimators/armax.h"
 #include "numerics/estimators/arx.h"
+#include "numerics/estimators/bj.h"
+#include "numerics/estimators/iv4.h"
 #include "numerics/estimators/oe.h"
 #include "numerics/estimators/sriv.h"
 #include "scripting/bindings.h"
@@ -14,8 +17,13 @@ namespace {
 
 constexpr OrderEntry kNb{"nb", "coefficients of B"};
 constexpr OrderEntry kNk{"nk", "samples of delay, 1 for no direct term"};
-constexpr std::array kArxOrders = {OrderEntry{"na", "poles"}, kNb, kNk};
-constexpr std::array kOutputErrorOrders = {kNb, OrderEntry{"nf", "poles"}, kNk};
+constexpr OrderEntry kNa{"na", "poles"}, kNf{"nf", "poles"};
+constexpr OrderEntry kNc{"nc", "coefficients of C after the leading one"};
+constexpr OrderEntry kNd{"nd", "coefficients of D after the leading one"};
+constexpr std::array kArxOrders = {kNa, kNb, kNk};
+constexpr std::array kArmaxOrders = {kNa, kNb, kNc, kNk};
+constexpr std::array kOutputErrorOrders = {kNb, kNf, kNk};
+constexpr std::array kBoxJenkinsOrders = {kNb, kNc, kNd, kNf, kNk};
 
 Estimate estimate_of(const char* method, const PolynomialEstimate& result) {
     Estimate estimate;
@@ -45,15 +53,31 @@ int give_estimate(const Call& call, Estimate estimate, const PolynomialEstimate&
     return 1;
 }
 
-int estimate_arx(Call& call) {
+/// The entry of an order vector that is one number for all inputs.
+int only_value(const std::vector<int>& entry, const OrderEntry& what) {
+    if (entry.size() == 1) return entry.front();
+    throw InvalidArgument(
+        fmt::format("{} is one number of {} for all inputs, but {} were given", what.name, what.meaning, entry.size()));
+}
+
+const char* name_of(Call& call) {
+    return static_cast<const char*>(lua_touserdata(call.state(), lua_upvalueindex(1)));
+}
+
+template <auto kMethod>
+int estimate_equation_error(Call& call) {
     call.at_most(2);
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const auto orders = order_lists(call, 2, kArxOrders);
-    if (orders[0].size() != 1)
-        throw InvalidArgument(
-            fmt::format("na is one number of poles for all inputs, but {} were given", orders[0].size()));
-    const PolynomialEstimate result = arx(data, PolynomialOrders::arx(orders[0][0], orders[1], orders[2]));
-    return give_estimate(call, estimate_of("arx", result), result);
+    const PolynomialEstimate result =
+        kMethod(data, PolynomialOrders::arx(only_value(orders[0], kNa), orders[1], orders[2]));
+    return give_estimate(call, estimate_of(name_of(call), result), result);
+}
+
+void read_search_options(const Options& options, PolynomialOptions& wanted) {
+    wanted.MaxIter = static_cast<int>(options.size("MaxIter", wanted.MaxIter));
+    wanted.Tol = options.number("Tol", wanted.Tol);
+    wanted.cancel = options.call().cancel();
 }
 
 PolynomialOptions polynomial_options(const Call& call, int index) {
@@ -61,35 +85,66 @@ PolynomialOptions polynomial_options(const Call& call, int index) {
     PolynomialOptions wanted;
     wanted.initial_state = parse_initial_state(options.text("InitialState", "zero"));
     wanted.offset = parse_offset(options.text("Offset", "none"));
-    wanted.MaxIter = static_cast<int>(options.size("MaxIter", wanted.MaxIter));
-    wanted.Tol = options.number("Tol", wanted.Tol);
-    wanted.cancel = call.cancel();
+    read_search_options(options, wanted);
     return wanted;
+}
+
+/// With robust standard errors, where the record is not too long for them.
+int give_assessed(Call& call, const IdData& data, const PolynomialEstimate& result, Offset offset) {
+    Estimate estimate = estimate_of(name_of(call), result);
+    if (data.sample_count() <= kMostAssessed && result.std.allFinite())
+        estimate.assessment = std::make_shared<Assessment>(assess(data, result, offset));
+    return give_estimate(call, std::move(estimate), result);
 }
 
 template <auto kMethod>
 int estimate_output_error(Call& call) {
     call.at_most(3);
-    const char* name = static_cast<const char*>(lua_touserdata(call.state(), lua_upvalueindex(1)));
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const auto orders = order_lists(call, 2, kOutputErrorOrders);
     const PolynomialOptions wanted = polynomial_options(call, 3);
-    const PolynomialEstimate result =
-        kMethod(data, PolynomialOrders::output_error(orders[0], orders[1], orders[2]), wanted);
-    Estimate estimate = estimate_of(name, result);
-    if (data.sample_count() <= kMostAssessed && result.std.allFinite())
-        estimate.assessment = std::make_shared<Assessment>(assess(data, result, wanted.offset));
-    return give_estimate(call, std::move(estimate), result);
+    return give_assessed(call, data,
+                         kMethod(data, PolynomialOrders::output_error(orders[0], orders[1], orders[2]), wanted),
+                         wanted.offset);
+}
+
+int estimate_armax(Call& call) {
+    call.at_most(3);
+    const IdData& data = object_argument<IdData>(call, 1, "data");
+    const auto lists = order_lists(call, 2, kArmaxOrders);
+    PolynomialOrders orders = PolynomialOrders::arx(only_value(lists[0], kNa), lists[1], lists[3]);
+    orders.nc = only_value(lists[2], kNc);
+    const Options options(call, 3, {"MaxIter", "Tol"});
+    PolynomialOptions wanted;
+    read_search_options(options, wanted);
+    return give_assessed(call, data, armax(data, orders, wanted), Offset::kNone);
+}
+
+int estimate_bj(Call& call) {
+    call.at_most(3);
+    const IdData& data = object_argument<IdData>(call, 1, "data");
+    const auto lists = order_lists(call, 2, kBoxJenkinsOrders);
+    PolynomialOrders orders = PolynomialOrders::output_error(lists[0], lists[3], lists[4]);
+    orders.nc = only_value(lists[1], kNc);
+    orders.nd = only_value(lists[2], kNd);
+    const PolynomialOptions wanted = polynomial_options(call, 3);
+    return give_assessed(call, data, bj(data, orders, wanted), wanted.offset);
 }
 
 constexpr const char* kArea = "discrete time";
 constexpr std::array kFunctions = {
     FunctionEntry{"arx", kArea, "arx(data, {na, nb, nk}) -> G", "A y = B u + e by least squares",
-                  guarded<estimate_arx>},
+                  guarded<estimate_equation_error<arx>>},
+    FunctionEntry{"iv4", kArea, "iv4(data, {na, nb, nk}) -> G", "A y = B u + v by instrumental variables in four steps",
+                  guarded<estimate_equation_error<iv4>>},
+    FunctionEntry{"armax", kArea, "armax(data, {na, nb, nc, nk}, {MaxIter =, Tol =}) -> G",
+                  "A y = B u + C e with the smallest prediction error", guarded<estimate_armax>},
     FunctionEntry{"oe", kArea, "oe(data, {nb, nf, nk}, {InitialState =, Offset =, MaxIter =, Tol =}) -> G",
                   "y = B/F u + e with the smallest simulation error", guarded<estimate_output_error<oe>>},
     FunctionEntry{"sriv", kArea, "sriv(data, {nb, nf, nk}, {InitialState =, Offset =, MaxIter =, Tol =}) -> G",
                   "y = B/F u + e by refined instrumental variables", guarded<estimate_output_error<sriv>>},
+    FunctionEntry{"bj", kArea, "bj(data, {nb, nc, nd, nf, nk}, {InitialState =, Offset =, MaxIter =, Tol =}) -> G",
+                  "y = B/F u + C/D e with the smallest prediction error", guarded<estimate_bj>},
 };
 
 }  // namespace

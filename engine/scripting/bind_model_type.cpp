@@ -41,7 +41,7 @@ const PolynomialModel& polynomials(Call& call) {
     if (model.polynomial) return *model.polynomial;
     throw InvalidArgument(
         "only models of difference equations, as arx, oe and sriv give them, have this polynomial; lssvf and ivsvf "
-        "give A and B, rivc gives C and D");
+        "give A and B, rivc gives C and D, n4sid matrices A, B, C and D");
 }
 bool is_carx(Call& call) {
     const Model& model = self(call);
@@ -176,6 +176,13 @@ int field_parameter(Call& call) {
                                       fmt::join(parameters.names, ", ")));
 }
 
+/// A matrix of a state-space model, or what the letter stands for in any other.
+template <Matrix StateSpace::*kMatrix, int (*kOther)(Call&)>
+int field_matrix(Call& call) {
+    const Model& model = self(call);
+    return model.system ? call.give_matrix((*model.system).*kMatrix) : kOther(call);
+}
+
 int field_C(Call& call) {
     if (const NoiseModel* noise = noise_of(call)) return call.give_vector(noise->C);
     return field_polynomial<&PolynomialModel::C>(call);
@@ -239,10 +246,10 @@ constexpr std::array kFields = {
     Member{"T", guarded<field_parameter>},
     Member{"z", guarded<field_parameter>},
     Member{"w0", guarded<field_parameter>},
-    Member{"D", guarded<field_D>},
-    Member{"A", guarded<field_polynomial<&PolynomialModel::A>>},
-    Member{"B", guarded<field_input_polynomials<&PolynomialModel::B>>},
-    Member{"C", guarded<field_C>},
+    Member{"D", guarded<field_matrix<&StateSpace::D, field_D>>},
+    Member{"A", guarded<field_matrix<&StateSpace::A, field_polynomial<&PolynomialModel::A>>>},
+    Member{"B", guarded<field_matrix<&StateSpace::B, field_input_polynomials<&PolynomialModel::B>>>},
+    Member{"C", guarded<field_matrix<&StateSpace::C, field_C>>},
     Member{"F", guarded<field_input_polynomials<&PolynomialModel::F>>},
     Member{"channels", guarded<field_channels>},
 };

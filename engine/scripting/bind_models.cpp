@@ -49,6 +49,11 @@ int make_idproc(Call& call) {
 int make_ss(Call& call) {
     call.at_most(5);
     if (holds_model(call, 1)) {
+        const Model* model = to_object<Model>(call.state(), 1);
+        if (model != nullptr && model->system) {
+            push_object(call.state(), StateSpace(*model->system));
+            return 1;
+        }
         push_object(call.state(), to_state_space(model_argument(call, 1, "G").G));
         return 1;
     }

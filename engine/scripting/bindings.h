@@ -14,6 +14,7 @@ FunctionEntries estimator_functions();
 FunctionEntries transfer_estimator_functions();
 FunctionEntries noise_model_functions();
 FunctionEntries discrete_estimator_functions();
+FunctionEntries subspace_functions();
 FunctionEntries regression_functions();
 FunctionEntries validation_functions();
 FunctionEntries residual_functions();

@@ -11,6 +11,7 @@ namespace {
 std::string kind_of(const Model& model) {
     const std::string time = model.G.continuous() ? "continuous-time" : "discrete-time";
     if (model.process) return fmt::format("{} process model {}", time, model.process->structure.text());
+    if (model.system) return fmt::format("{} state-space model of order {}", time, model.system->order());
     if (model.polynomial) return time + " polynomial model A y = B/F u + C/D e";
     return time + " transfer function";
 }
@@ -139,7 +140,7 @@ std::string channels_text(const Model& model) {
 std::string presentation(const Model& model) {
     std::string text = kind_of(model) + "\n" + channels_text(model) + "\n";
     if (model.polynomial) text += polynomial_lines(*model.polynomial);
-    text += parameter_lines(model);
+    if (!model.system) text += parameter_lines(model);
     if (model.estimate && model.estimate->noise) text += noise_lines(*model.estimate->noise);
     if (!model.G.continuous()) text += fmt::format("Sampling time: {} s\n", number_text(model.G.Ts()));
     std::optional<ModelUncertainty> uncertainty;

@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
+#include "numerics/estimators/armax.h"
 #include "numerics/estimators/arx.h"
+#include "numerics/estimators/bj.h"
+#include "numerics/estimators/iv4.h"
+#include "numerics/estimators/n4sid.h"
 #include "numerics/estimators/oe.h"
 #include "numerics/estimators/sriv.h"
 #include "support/difference_equation.h"
@@ -17,6 +21,12 @@ PolynomialOptions tight() {
     return options;
 }
 
+PolynomialOrders with_noise(PolynomialOrders orders, int nc, int nd) {
+    orders.nc = nc;
+    orders.nd = nd;
+    return orders;
+}
+
 struct Method {
     const char* name;
     PolynomialOrders (*orders)(int nk);
@@ -30,6 +40,12 @@ const Method kMethods[] = {
      [](const IdData& data, const PolynomialOrders& orders) { return oe(data, orders, tight()); }},
     {"sriv", [](int nk) { return PolynomialOrders::output_error({2}, {2}, {nk}); },
      [](const IdData& data, const PolynomialOrders& orders) { return sriv(data, orders, tight()); }},
+    {"iv4", [](int nk) { return PolynomialOrders::arx(2, {2}, {nk}); },
+     [](const IdData& data, const PolynomialOrders& orders) { return iv4(data, orders); }},
+    {"armax", [](int nk) { return with_noise(PolynomialOrders::arx(2, {2}, {nk}), 2, 0); },
+     [](const IdData& data, const PolynomialOrders& orders) { return armax(data, orders, tight()); }},
+    {"bj", [](int nk) { return with_noise(PolynomialOrders::output_error({2}, {2}, {nk}), 1, 1); },
+     [](const IdData& data, const PolynomialOrders& orders) { return bj(data, orders, tight()); }},
 };
 
 struct Signals {
@@ -73,8 +89,8 @@ TEST_P(discrete_properties, a_scaled_output_scales_b) {  // oracle: invariance
     const auto [u, y] = record(0.5);
     const auto one = fit(data_of(u, y)), large = fit(data_of(u, 1e4 * y));
     Vector expected = one.theta, errors = one.std;
-    expected.tail(2) *= 1e4;
-    errors.tail(2) *= 1e4;
+    expected.segment(2, 2) *= 1e4;
+    errors.segment(2, 2) *= 1e4;
     EXPECT_LT(worst_relative(large.theta, expected), 1e-8);
     EXPECT_LT(worst_relative(large.std, errors), 1e-7);
     EXPECT_NEAR(large.fit_percent, one.fit_percent, 1e-7);
@@ -84,7 +100,7 @@ TEST_P(discrete_properties, a_scaled_input_scales_b_back) {  // oracle: invarian
     const auto [u, y] = record(0.5);
     const auto one = fit(data_of(u, y)), large = fit(data_of(-1e3 * u, y));
     Vector expected = one.theta;
-    expected.tail(2) /= -1e3;
+    expected.segment(2, 2) /= -1e3;
     EXPECT_LT(worst_relative(large.theta, expected), 1e-8);
 }
 
@@ -104,4 +120,29 @@ TEST_P(discrete_properties, order_of_experiments_does_not_matter) {  // oracle: 
     const auto a = fit(IdData::merge({one, other})), b = fit(IdData::merge({other, one}));
     EXPECT_LT(worst_relative(a.theta, b.theta), 1e-8);
     EXPECT_LT(worst_relative(a.std, b.std), 1e-7);
+}
+
+// Oracle: invariance. Units change the gain only, and the order of experiments nothing.
+TEST(subspace_properties, units_and_order_of_experiments_have_no_say) {
+    const auto [u, y] = record(0.5);
+    Matrix two(600, 2);
+    two << y, divided_by(Vector{{1, -0.6}}, u) + 0.2 * RandomStream(2).normal(600);
+    for (const SubspaceWeighting weighting :
+         {SubspaceWeighting::kMoesp, SubspaceWeighting::kN4sid, SubspaceWeighting::kCva}) {
+        SubspaceOptions options;
+        options.Weighting = weighting;
+        const Complex z = std::polar(1.0, 0.3);
+        const auto one = n4sid(IdData(two, Matrix(u), 1), 3, options);
+        Matrix scaled = two;
+        scaled.col(1) *= 1e4;
+        const auto large = n4sid(IdData(scaled, Matrix(-1e3 * u), 1e-6), 3, options);
+        EXPECT_LT(std::abs(large.models[0].at(z) / one.models[0].at(z) + 1e-3), 1e-10);
+        EXPECT_LT(std::abs(large.models[1].at(z) / one.models[1].at(z) + 10.0), 1e-6);
+        EXPECT_LT((large.fit_percent - one.fit_percent).cwiseAbs().maxCoeff(), 1e-6);
+
+        const IdData first = data_of(u, y), second = data_of(u.head(400), 1.1 * y.head(400));
+        const auto a = n4sid(IdData::merge({first, second}), 2, options);
+        const auto b = n4sid(IdData::merge({second, first}), 2, options);
+        EXPECT_LT(std::abs(a.models[0].at(z) / b.models[0].at(z) - 1.0), 1e-8);
+    }
 }

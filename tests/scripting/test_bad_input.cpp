@@ -60,6 +60,12 @@ Calls named(const std::string& name) {
              name + "(d, {2, 0})"}};
 }
 
+Calls subspace(const std::string& name) {
+    return {name + "(d, 2)",
+            {name + "(d)", name + "(d, 0)", name + "(d, -1)", name + "(d, 2.5)", name + "(d, 1e5)", name + "(d, 'a')",
+             name + "(d, {2, 1, 0})", name + "(d, 2, {BlockRows = 2})", name + "(d, 2, {Weighting = 'none'})"}};
+}
+
 Calls structured(const std::string& name) {
     std::vector<std::string> wrong;
     for (const char* structure : {"'Q'", "'P'", "'P4'", "'P1U'", "'P1DD'", "'P2X'", "{2, 1}", "nil"})
@@ -87,6 +93,18 @@ const std::map<std::string, Calls>& dynamic_methods() {
         {"arx", ordered("arx", "{2, 2, 1}", {"{2, 0, 1}", "{1e5, 1, 1}"})},
         {"oe", output_error("oe")},
         {"sriv", output_error("sriv")},
+        {"n4sid", subspace("n4sid")},
+        {"iv4", ordered("iv4", "{2, 2, 1}", {"{2, 0, 1}", "{1e5, 1, 1}"})},
+        {"armax",
+         {"armax(d, {2, 2, 1, 1})",
+          {"armax(d, {2, 2, 1})", "armax(d, {2, 0, 1, 1})", "armax(d, {2, 2, -1, 1})", "armax(d, {2, 2, {1, 1}, 1})",
+           "armax(d, {2, 2, 1e5, 1})", "armax(d, {2, 2, 0.5, 1})", "armax(d, {{2, 2}, 2, 1, 1})",
+           "armax(d, {2, 2, 1, {}})", "armax(d, 'a')", "armax(d, nil)"}}},
+        {"bj",
+         {"bj(d, {1, 0, 1, 2, 1})",
+          {"bj(d, {0, 0, 1, 2, 0})", "bj(d, {1, -1, 1, 2, 0})", "bj(d, {1, 0, 0.5, 2, 0})",
+           "bj(d, {1, {0, 0}, 1, 2, 0})", "bj(d, {1, 0, 1, 1e5, 0})", "bj(d, {1, 0, 1, 2})", "bj(d, 2)",
+           "bj(d, nil)"}}},
         {"step_first_order", reading("step_first_order")},
         {"step_second_order", reading("step_second_order")},
         {"step_delayed", reading("step_delayed")},
@@ -162,9 +180,10 @@ TEST(bad_input, every_method_refuses_data_it_cannot_use) {
 
 // Around zero a constant input could be a step to which nothing answers.
 TEST(bad_input, a_constant_input_without_a_transient_is_refused) {
-    for (const char* call : {"srivc(d, {1, 2, 0})", "coe(d, {1, 2, 0})", "tfsrivc(d, 2, 0)", "procsrivc(d, 'P2')",
-                             "rivc(d, {1, 0, 1, 2, 0})", "tfcoe(d, 2, 0, {InitialState = 'auto', Offset = 'auto'})",
-                             "oe(d, {2, 2, 1})", "sriv(d, {2, 2, 1}, {InitialState = 'auto', Offset = 'auto'})"})
+    for (const char* call :
+         {"srivc(d, {1, 2, 0})", "coe(d, {1, 2, 0})", "tfsrivc(d, 2, 0)", "procsrivc(d, 'P2')",
+          "rivc(d, {1, 0, 1, 2, 0})", "tfcoe(d, 2, 0, {InitialState = 'auto', Offset = 'auto'})", "oe(d, {2, 2, 1})",
+          "bj(d, {2, 0, 1, 2, 1})", "sriv(d, {2, 2, 1}, {InitialState = 'auto', Offset = 'auto'})"})
         for (const char* seed : {"1", "2", "3"})
             EXPECT_THAT(said(std::string("rng(") + seed + ")\nd = iddata(0.1*randn(400), ones(400), 0.05)\nprint(" +
                              call + ")"),
@@ -195,7 +214,8 @@ TEST(bad_input, delays_must_be_shorter_than_the_record) {
     for (const char* call :
          {"lssvf(d, {2, 1, 600}, 3)", "lsgpmf(d, {2, 1, 600}, 3)", "ivsvf(d, {2, 1, 600}, 3)",
           "ivgpmf(d, {2, 1, 600}, 3)", "srivc(d, {1, 2, 600})", "coe(d, {1, 2, 600})", "rivc(d, {1, 0, 1, 2, 600})",
-          "arx(d, {2, 2, 600})", "oe(d, {2, 2, 600})", "sriv(d, {2, 2, 600})"})
+          "arx(d, {2, 2, 600})", "iv4(d, {2, 2, 600})", "armax(d, {2, 2, 1, 600})", "bj(d, {2, 0, 1, 2, 600})",
+          "oe(d, {2, 2, 600})", "sriv(d, {2, 2, 600})"})
         EXPECT_THAT(said(call), AllOf(StartsWith("ERROR"), HasSubstr("not shorter than the record"))) << call;
     for (const char* call : {"tfsrivc(d, 2, 0, {TdMax = 30})", "tfrivc(d, 2, 0, {TdMax = 30})",
                              "tfcoe(d, 2, 0, {TdMax = 30})", "procsrivc(d, 'P1D', {TdMax = 30})"})
@@ -282,7 +302,7 @@ TEST(bad_input, poor_inputs_leave_the_parameters_without_effect) {  // oracle: e
 // A step from rest at the first sample is a constant input as well, and is not refused.
 TEST(bad_input, a_step_at_the_first_sample_is_no_poor_input) {  // oracle: the simulated system
     for (const char* call : {"srivc(d, {1, 2, 0})", "coe(d, {1, 2, 0})", "procsrivc(d, 'P2')", "lssvf(d, {2, 1, 0}, 3)",
-                             "oe(d, {2, 2, 1})", "sriv(d, {2, 2, 1})"})
+                             "oe(d, {2, 2, 1})", "bj(d, {2, 0, 1, 2, 1})", "sriv(d, {2, 2, 1})"})
         EXPECT_THAT(said("d = iddata(lsim(G, ones(N), 0.05) + 0.01*e, ones(N), 0.05)\nprint(" + std::string(call) +
                          ".report.message)"),
                     Not(HasSubstr("ERROR")))

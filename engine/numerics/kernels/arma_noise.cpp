@@ -15,21 +15,6 @@ namespace {
 
 constexpr double kLargestRoot = 0.98;  // of a start whose root lies on the unit circle
 
-bool inside_unit_circle(const Vector& p) {
-    return p.size() == 1 || roots(p).cwiseAbs().maxCoeff() < 1;
-}
-
-/// The monic polynomial whose roots outside the unit circle are replaced by their mirror images.
-Vector mirrored_inside(const Vector& p) {
-    if (inside_unit_circle(p)) return p;
-    ComplexVector z = roots(p);
-    for (Complex& root : z) {
-        if (std::abs(root) > 1) root = 1.0 / std::conj(root);
-        if (std::abs(root) > kLargestRoot) root *= kLargestRoot / std::abs(root);
-    }
-    return polynomial_from_roots(z);
-}
-
 /// w/C of one signal, from rest.
 void divide(const Vector& C, Eigen::Ref<Vector> w) {
     for (Index k = 1; k < w.size(); ++k)
@@ -77,19 +62,12 @@ class Prediction : public OutputErrorModel {
         for (const Vector& v : records_) {
             const Vector e = whitened(at, v);
             output.segment(row, v.size()) = v - e;
-            if (sensitivities != nullptr) fill(at, v, e, sensitivities->middleRows(row, v.size()));
+            if (sensitivities != nullptr) sensitivities->middleRows(row, v.size()) = noise_sensitivities(at, v, e);
             row += v.size();
         }
     }
 
   private:
-    /// d(v - e)/dc_j = q^-j e/C, d(v - e)/dd_i = -q^-i v/C.
-    void fill(const ArmaNoise& at, const Vector& v, const Vector& e, Eigen::Ref<Matrix> J) const {
-        for (Index j = 1; j <= nc_; ++j) J.col(j - 1) = lagged(e, j, nd_);
-        for (Index i = 1; i <= nd_; ++i) J.col(nc_ + i - 1) = -lagged(v, i, nd_);
-        for (Index i = 0; i < J.cols(); ++i) divide(at.C, J.col(i));
-    }
-
     const std::vector<Vector>& records_;
     Index nc_, nd_, samples_ = 0;
     Vector lower_, upper_;
@@ -139,6 +117,20 @@ Vector regression_start(const std::vector<Vector>& records, Index nc, Index nd) 
 
 }  // namespace
 
+bool inside_unit_circle(const Vector& p) {
+    return p.size() == 1 || roots(p).cwiseAbs().maxCoeff() < 1;
+}
+
+Vector mirrored_inside(const Vector& p) {
+    if (inside_unit_circle(p)) return p;
+    ComplexVector z = roots(p);
+    for (Complex& root : z) {
+        if (std::abs(root) > 1) root = 1.0 / std::conj(root);
+        if (std::abs(root) > kLargestRoot) root *= kLargestRoot / std::abs(root);
+    }
+    return polynomial_from_roots(z);
+}
+
 ArmaNoise ArmaNoise::white(int nc, int nd) {
     return {Vector::Unit(nc + 1, 0), Vector::Unit(nd + 1, 0), Matrix::Zero(nc + nd, nc + nd), 0,
             Termination::kConverged};
@@ -154,6 +146,15 @@ Matrix whitened(const ArmaNoise& noise, const MatrixView& v) {
         divide(noise.C, e.col(column));
     }
     return e;
+}
+
+Matrix noise_sensitivities(const ArmaNoise& noise, const VectorView& v, const VectorView& e) {
+    const Index nc = noise.C.size() - 1, nd = noise.D.size() - 1;
+    Matrix J(v.size(), nc + nd);
+    for (Index j = 1; j <= nc; ++j) J.col(j - 1) = lagged(e, j, nd);
+    for (Index i = 1; i <= nd; ++i) J.col(nc + i - 1) = -lagged(v, i, nd);
+    for (Index i = 0; i < J.cols(); ++i) divide(noise.C, J.col(i));
+    return J;
 }
 
 ArmaNoise estimate_arma(const std::vector<Vector>& records, int nc, int nd, double tolerance, const ArmaNoise* start) {

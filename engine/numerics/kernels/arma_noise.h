@@ -21,6 +21,14 @@ struct ArmaNoise {
 /// the recursion runs with the e before taken as zero (the conditional likelihood). Linear in v, column by column.
 Matrix whitened(const ArmaNoise& noise, const MatrixView& v);
 
+/// Derivatives of v - whitened(v) with respect to [c_1..c_nc d_1..d_nd], where e = whitened(v): q^-j e/C and -q^-i v/C.
+Matrix noise_sensitivities(const ArmaNoise& noise, const VectorView& v, const VectorView& e);
+
+/// All roots of the monic polynomial in q^-1 lie inside the unit circle.
+bool inside_unit_circle(const Vector& p);
+/// The same polynomial with roots outside the unit circle replaced by their mirror images, and those on it moved in.
+Vector mirrored_inside(const Vector& p);
+
 /// The C and D for which sum e^2 over all records is smallest, given the first nd values of each. Starts from `start`
 /// when given, else from Hannan and Rissanen's (1982) two regressions with roots mirrored into the unit circle; then
 /// damped Gauss-Newton with exact derivatives that never leaves it. Throws InvalidArgument for negative orders or too

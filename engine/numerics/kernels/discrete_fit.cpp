@@ -12,6 +12,9 @@ namespace dynlab {
 
 namespace {
 
+constexpr int kRoughIterations = 20;
+constexpr double kRoughTolerance = 1e-3;
+
 struct Record {
     std::vector<SampledExperiment> experiments;
     Vector removed_outputs;  ///< per experiment
@@ -126,11 +129,7 @@ void add_uncertainty(PolynomialEstimate& estimate, const DiscreteOutput& model, 
 
 void add_warnings(PolynomialEstimate& estimate, const Fit& fit, const PolynomialOptions& options) {
     auto& warnings = estimate.warnings;
-    if (estimate.termination == Termination::kIterationLimit)
-        warnings.push_back("It had not settled after MaxIter = " + std::to_string(options.MaxIter) +
-                           " iterations; the best point on the way is given.");
-    if (estimate.termination == Termination::kCancelled)
-        warnings.push_back("It was stopped before its end; the best point on the way is given.");
+    warn_of_termination(estimate, options.MaxIter);
     if (fit.solution.reflected)
         warnings.push_back("Unstable poles turned up on the way and were mirrored into the unit circle.");
     warn_of_doubtful_parameters(estimate);
@@ -140,16 +139,30 @@ void add_warnings(PolynomialEstimate& estimate, const Fit& fit, const Polynomial
 }
 
 std::string message_of(const PolynomialEstimate& estimate) {
-    const bool settled =
-        estimate.termination == Termination::kConverged || estimate.termination == Termination::kNoProgress;
-    std::string text = std::string(settled ? "Converged" : "Stopped") + " after " +
-                       iterations_text(estimate.trace.size()) + ", simulating " + description(estimate.start) +
-                       ": fit " + number_text(estimate.fit_percent, 4) + " %.";
+    std::string text = ending_text(estimate) + ", simulating " + description(estimate.start) + ": fit " +
+                       number_text(estimate.fit_percent, 4) + " %.";
     for (const std::string& warning : estimate.warnings) text += ' ' + warning;
     return text;
 }
 
 }  // namespace
+
+DiscreteSearch output_error_search(const PolynomialOptions& options) {
+    return [options](const DiscreteOutput& model, const Vector& y) {
+        const Vector start = instrument_start(model, y, options.cancel);
+        const InstrumentSolution rough =
+            iterate_instruments(model, y, start, kRoughIterations, kRoughTolerance, options.cancel);
+        const OutputErrorSolution end =
+            minimise_output_error(model, y, rough.theta, {options.MaxIter, options.Tol, options.cancel});
+        InstrumentSolution solution;
+        solution.theta = end.theta;
+        solution.loss = end.loss;
+        solution.termination = end.termination;
+        for (const OutputErrorIteration& iteration : end.trace)
+            solution.trace.push_back({iteration.loss, iteration.change});
+        return solution;
+    };
+}
 
 std::vector<SampledExperiment> sampled_experiments(const IdData& data, Offset offset, Vector* removed_outputs) {
     std::vector<SampledExperiment> experiments;

@@ -11,6 +11,9 @@ namespace dynlab {
 /// How a method finds the parameters of a DiscreteOutput from the measured rows.
 using DiscreteSearch = std::function<InstrumentSolution(const DiscreteOutput& model, const Vector& y)>;
 
+/// The smallest output error: a few rough instrument iterations, then damped Gauss-Newton from where they lead.
+DiscreteSearch output_error_search(const PolynomialOptions& options);
+
 /// The experiments as the search sees them: less their operating point when Offset is "remove" (with several inputs
 /// the means), whose outputs, one per experiment, then stand in `removed_outputs` unless it is null.
 std::vector<SampledExperiment> sampled_experiments(const IdData& data, Offset offset,

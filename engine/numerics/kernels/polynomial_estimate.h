@@ -41,7 +41,7 @@ struct PolynomialEstimate {
         0;                        ///< one step ahead; the same as fit_percent when the noise is white at the output
     double condition_number = 0;  ///< of the column-scaled Psi
 
-    StartCondition start{InitialState::kZero, false};  ///< what was assumed or chosen; arx assumes nothing
+    StartCondition start{InitialState::kZero, false};  ///< assumed or chosen; kEstimate where nothing is assumed
     Vector offsets;                                    ///< per experiment: constant that the simulation adds
 
     Termination termination = Termination::kConverged;
@@ -59,12 +59,19 @@ inline constexpr double kAmbiguousCondition = 1e10;
 /// Tells of an ambiguous condition number, otherwise of parameters whose standard error is larger than their value.
 void warn_of_doubtful_parameters(PolynomialEstimate& estimate);
 
+/// Tells of a search that did not come to its end.
+void warn_of_termination(PolynomialEstimate& estimate, int max_iterations);
+/// "Converged after 5 iterations", or "Stopped after".
+std::string ending_text(const PolynomialEstimate& estimate);
+
 /// 100 (1 - |error|/|y - mean(y)|), the means taken experiment by experiment, from the two sums of squares.
 double fit_percent_of_sums(double squared_errors, double squared_variations);
 
-/// Throws InvalidArgument that begins with `caller` unless the data are regularly sampled, with one output that
-/// changes and as many inputs as the orders have, none of which is zero throughout, and delays shorter than each
-/// record.
+/// Throws InvalidArgument that begins with `caller` unless the data are regularly sampled, with inputs none of which is
+/// zero throughout, and outputs that all change.
+void check_sampled_data(const std::string& caller, const IdData& data);
+
+/// The same for one output and as many inputs as the orders have, with delays shorter than each record.
 void check_polynomial_data(const std::string& caller, const IdData& data, const PolynomialOrders& orders);
 
 }  // namespace dynlab

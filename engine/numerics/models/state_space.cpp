@@ -39,8 +39,8 @@ ComplexVector balanced_eigenvalues(Matrix A) {
 /// The output and its derivatives up to the first that the input reaches directly must vanish: the zeros are the
 /// eigenvalues of the motion left inside that null space (zero dynamics; Isidori 1995, section 4.3).
 ZerosAndGain zeros_and_gain(const Matrix& A, const Vector& b, const Eigen::RowVectorXd& c, double d) {
-    if (d != 0) return {balanced_eigenvalues(A - b * c / d), d};
     constexpr double kRounding = 1e-13;
+    if (std::abs(d) > kRounding * c.stableNorm() * b.stableNorm()) return {balanced_eigenvalues(A - b * c / d), d};
     const Index n = A.rows();
     Matrix derivatives(0, n);
     Eigen::RowVectorXd row = c;

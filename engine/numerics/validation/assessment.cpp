@@ -5,6 +5,7 @@
 
 #include "numerics/error.h"
 #include "numerics/kernels/discrete_fit.h"
+#include "numerics/kernels/prediction_model.h"
 #include "numerics/kernels/process_output.h"
 #include "numerics/kernels/transfer_sensitivity.h"
 #include "numerics/linalg/least_squares.h"
@@ -235,32 +236,26 @@ Assessment assess(const IdData& data, const PolynomialEstimate& estimate, Offset
                   const ResidualOptions& options) {
     check_polynomial_data("assess", data, estimate.orders);
     const std::vector<SampledExperiment> experiments = sampled_experiments(data, offset);
-    const DiscreteOutput model(estimate.orders, estimate.start, experiments);
-    const Index d = estimate.theta.size(), linear_unknowns = model.parameter_count() - d;
-    Vector theta = Vector::Zero(model.parameter_count()), output;
-    theta.head(d) = estimate.theta;
+    const PredictionModel model(estimate.orders, estimate.start, experiments);
+    const Index d = estimate.theta.size(), linear_unknowns = model.linear_count();
+    const Vector theta = model.completed(estimate.theta);
+    Vector output;
     Matrix sensitivities;
     model.simulate(theta, output, &sensitivities);
     if (!output.allFinite() || !sensitivities.allFinite())
         throw InvalidArgument(
-            "The simulated output of the estimate grows beyond all bounds, so that nothing can be said "
-            "of its errors");
+            "The output of the estimate grows beyond all bounds, so that nothing can be said of its errors");
     Matrix Psi = sensitivities.leftCols(d);
-    if (linear_unknowns > 0) {
-        const Matrix linear = sensitivities.rightCols(linear_unknowns);
-        theta.tail(linear_unknowns) = solve_least_squares(linear, model.target() - output).solution;
-        model.simulate(theta, output, &sensitivities);
-        for (Index i = 0; i < d; ++i) Psi.col(i) = solve_least_squares(linear, sensitivities.col(i)).residuals;
-    }
+    const Matrix linear = sensitivities.rightCols(linear_unknowns);
+    for (Index i = 0; i < d && linear_unknowns > 0; ++i) Psi.col(i) = solve_least_squares(linear, Psi.col(i)).residuals;
     const Vector errors = model.target() - output;
     Assessment assessment;
     std::vector<Vector> records;
-    std::vector<Index> lengths;
+    const std::vector<Index> lengths = model.lengths();
     Index first = 0;
-    for (const SampledExperiment& experiment : experiments) {
-        lengths.push_back(experiment.y.size() - model.head());
-        records.push_back(errors.segment(first, lengths.back()));
-        first += lengths.back();
+    for (const Index length : lengths) {
+        records.push_back(errors.segment(first, length));
+        first += length;
     }
     assessment.whiteness = {whiteness_test(records, options)};
     assessment.white = assessment.whiteness.front().white;

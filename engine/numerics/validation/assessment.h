@@ -29,8 +29,9 @@ struct Assessment {
 Assessment assess(const IdData& data, const TransferEstimate& estimate, const ResidualOptions& options = {});
 /// The same for a process model; the operating point the result names is removed here.
 Assessment assess(const IdData& data, const ProcsrivcResult& estimate, const ResidualOptions& options = {});
-/// The same for oe and sriv, with the `offset` they were asked for, so that operating points are removed here. Throws
-/// InvalidArgument where the model's simulation grows beyond all bounds.
+/// The same for models of difference equations (not of iv4, whose instruments it does not know), with the `offset` they
+/// were asked for, so that operating points are removed here: of their prediction errors, which for oe and sriv are the
+/// simulation errors. Throws InvalidArgument where the model's output grows beyond all bounds.
 Assessment assess(const IdData& data, const PolynomialEstimate& estimate, Offset offset,
                   const ResidualOptions& options = {});
 

@@ -68,7 +68,7 @@ std::optional<UncertainModel> uncertain_model(const Model& model) {
 }
 
 ModelParameters parameters_of(const Model& model) {
-    if (model.estimate) return {model.estimate->names, model.estimate->theta, model.estimate->std};
+    if (model.estimate && !model.system) return {model.estimate->names, model.estimate->theta, model.estimate->std};
     if (model.process) return {model.process->structure.parameter_names(), model.process->parameters, {}};
     ModelParameters result;
     const Vector &num = model.G.num(), &den = model.G.den();

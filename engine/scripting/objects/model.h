@@ -51,9 +51,10 @@ struct Model {
     std::optional<ProcessModel> process = {};
     std::shared_ptr<const Estimate> estimate = {};
     std::shared_ptr<const PolynomialModel> polynomial = {};
-    /// Continuous-time models with several channels: all of them, output by output.
+    /// Models with several channels that are no polynomial model: all of them, output by output.
     std::vector<TransferFunction> channels = {};
     std::size_t outputs = 1;
+    std::shared_ptr<const StateSpace> system = {};  ///< of n4sid
 
     std::size_t inputs() const {
         if (polynomial) return polynomial->B.size();

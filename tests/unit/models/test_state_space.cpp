@@ -59,5 +59,14 @@ TEST(state_space, names_the_matrix_that_does_not_fit) {
     EXPECT_NE(thrown_message([&] { to_state_space(TransferFunction(from({1, 0}), from({1}))); }), "");
 }
 
+// Oracle: the system without the direct term, which is rounding.
+TEST(state_space, a_direct_term_of_rounding_size_is_none) {
+    const Matrix A{{0.9, 0.2}, {-0.2, 0.8}}, B{{1.0}, {0.5}}, C{{1.0, -2.0}};
+    const auto with = to_transfer_function(StateSpace(A, B, C, Matrix::Constant(1, 1, 1e-16), 0.1));
+    const auto without = to_transfer_function(StateSpace(A, B, C, Matrix::Zero(1, 1), 0.1));
+    EXPECT_EQ(with.num(), without.num());
+    EXPECT_EQ(with.den(), without.den());
+}
+
 }  // namespace
 }  // namespace dynlab

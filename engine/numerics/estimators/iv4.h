@@ -1,0 +1,22 @@
+#pragma once
+#include "numerics/kernels/polynomial_estimate.h"
+#include "numerics/signals/iddata.h"
+
+namespace dynlab {
+
+/// A(q) y(k) = sum_i B_i(q) u_i(k) + v(k) with coloured v, by instrumental variables in four steps:
+///   1. least squares (arx);
+///   2. Z'(y - Phi theta) = 0 with instruments Z made as Phi is, but from the output that the model of step 1 simulates
+///      out of the inputs alone, which knows nothing of v;
+///   3. an autoregression L v = e of order na + sum nb for the errors v of step 2 (of 100 at most);
+///   4. step 2 once more with the model of step 2 for the instruments and everything filtered by L.
+/// Linear equations only, so it never fails to converge. Consistent for any v independent of the inputs, and as precise
+/// as an instrumental-variable estimate of this structure can be when v is autoregressive of that order; the
+/// covariance, sigma^2 (Z'Phi)^-1 Z'Z (Phi'Z)^-1 of the filtered ones, is right then. Poles outside the unit circle are
+/// mirrored into it for the simulation of the instruments. Nothing is assumed about what came before the record, but
+/// the instruments are simulated from rest. `noise_variance` and `loss` are those of v, `std` uses that of e. Data,
+/// orders and what throws: as arx; also a record too short for step 3. Reference: Ljung (1999), section 15.3
+/// (15.21-24).
+PolynomialEstimate iv4(const IdData& data, const PolynomialOrders& orders);
+
+}  // namespace dynlab

@@ -1,0 +1,303 @@
+#include "numerics/estimators/n4sid.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "numerics/error.h"
+#include "numerics/kernels/polynomial_estimate.h"
+#include "numerics/linalg/least_squares.h"
+#include "numerics/linalg/triangular_factor.h"
+#include "numerics/number_text.h"
+
+namespace dynlab {
+
+namespace {
+
+constexpr Index kBlock = 512;  // equations worked on together
+constexpr Index kUsualBlockRows = 15;
+constexpr double kNoSignal = 1e-10;  // of a singular value against the largest
+constexpr int kHighestOrder = 100;
+
+struct Sizes {
+    Index n, nu, ny, s;
+    Index future_inputs() const { return s * nu; }
+    Index past() const { return s * (nu + ny); }
+    Index future_outputs() const { return s * ny; }
+    Index columns() const { return 2 * s * (nu + ny); }
+};
+
+Index places(const IdData& data, Index s) {
+    Index count = 0;
+    for (const Experiment& experiment : data.experiments) count += std::max<Index>(0, experiment.y.rows() - 2 * s + 1);
+    return count;
+}
+
+bool fits(const IdData& data, Index s) {
+    return places(data, s) >= 2 * s * (data.input_count() + data.output_count());
+}
+
+Index chosen_block_rows(const IdData& data, int order, int wanted) {
+    const Index least = order + 1;
+    Index s = wanted > 0 ? wanted : std::max(kUsualBlockRows, 2 * least - 2);
+    if (wanted > 0 && wanted < least)
+        throw InvalidArgument("n4sid: BlockRows must be greater than the order, " + std::to_string(order) +
+                              ", and is " + std::to_string(wanted));
+    while (wanted == 0 && s > least && !fits(data, s)) --s;
+    if (fits(data, s)) return s;
+    throw InvalidArgument("n4sid: the record of " + std::to_string(data.sample_count()) +
+                          " samples is too short for order " + std::to_string(order) + " and " + std::to_string(s) +
+                          " block rows: it gives " + std::to_string(places(data, s)) + " equations for " +
+                          std::to_string(2 * s * (data.input_count() + data.output_count())) + " values");
+}
+
+/// Divides every output by its largest value, which is returned.
+Vector scale_outputs(IdData& data) {
+    Vector scale = Vector::Zero(data.output_count());
+    for (const Experiment& experiment : data.experiments)
+        scale = scale.cwiseMax(experiment.y.cwiseAbs().colwise().maxCoeff().transpose());
+    for (Experiment& experiment : data.experiments) experiment.y = experiment.y * scale.cwiseInverse().asDiagonal();
+    return scale;
+}
+
+/// The triangular factor of [future inputs, past inputs, past outputs, future outputs], a row for each place between
+/// past and future.
+Matrix past_and_future(const IdData& data, const Sizes& sizes) {
+    const Index s = sizes.s;
+    TriangularFactor factor(sizes.columns());
+    Matrix block(kBlock, sizes.columns());
+    for (const Experiment& experiment : data.experiments) {
+        const Index last = experiment.y.rows() - s;
+        for (Index k = s; k <= last; k += kBlock) {
+            const Index rows = std::min(kBlock, last - k + 1);
+            Index column = 0;
+            const auto append = [&](const Matrix& signal, Index first) {
+                for (Index i = 0; i < s; ++i, column += signal.cols())
+                    block.block(0, column, rows, signal.cols()) = signal.middleRows(first + i, rows);
+            };
+            append(experiment.u, k);
+            append(experiment.u, k - s);
+            append(experiment.y, k - s);
+            append(experiment.y, k);
+            factor.add(block.topRows(rows));
+        }
+    }
+    return factor.R();
+}
+
+void require_rich_inputs(const Matrix& R, const Sizes& sizes) {
+    const Index f = sizes.future_inputs();
+    const Matrix inputs = R.topLeftCorner(f, f);
+    if (solve_least_squares(inputs, Vector::Zero(f)).condition_number < kAmbiguousCondition) return;
+    throw InvalidArgument("n4sid: the input is too poor to tell " + std::to_string(sizes.s) +
+                          " samples of it apart (as a constant or a few sines are): excite the system with an input "
+                          "that changes more, or lower BlockRows");
+}
+
+struct Observability {
+    Matrix directions;  ///< s ny x n
+    Vector singular_values;
+};
+
+Observability observability(const Matrix& R, const Sizes& sizes, SubspaceWeighting weighting) {
+    const Index f = sizes.future_inputs(), p = sizes.past(), q = sizes.future_outputs();
+    const auto rest = R.block(f + p, f + p, q, q);
+    // Only what the past really spans: directions of rounding size, as in noise-free records, point anywhere.
+    Vector unscale = R.middleCols(f, p).colwise().norm().transpose();
+    for (double& value : unscale) value = value > 0 ? 1 / value : 1;
+    const Eigen::BDCSVD<Matrix> span(R.block(f, f, p, p) * unscale.asDiagonal(), Eigen::ComputeThinU);
+    const Index rank = (span.singularValues().array() > kNoSignal * span.singularValues()[0]).count();
+    const Matrix basis = span.matrixU().leftCols(rank).transpose();
+    const Matrix past = basis * R.block(f, f, p, p), by_past = basis * R.block(f, f + p, p, q);
+    Matrix weighed = by_past, unweigh = Matrix::Identity(q, q);
+    if (weighting == SubspaceWeighting::kN4sid) {
+        const Matrix on_past = past.completeOrthogonalDecomposition().solve(by_past);
+        weighed.resize(f + rank, q);
+        weighed << R.block(0, f, f, p) * on_past, past * on_past;
+    } else if (weighting == SubspaceWeighting::kCva) {
+        Matrix future(rank + q, q);
+        future << by_past, rest;
+        const Eigen::BDCSVD<Matrix> spread(future, Eigen::ComputeThinV);
+        const Vector& root = spread.singularValues();
+        Vector inverse = Vector::Zero(q);
+        for (Index i = 0; i < q && root[i] > kNoSignal * root[0]; ++i) inverse[i] = 1 / root[i];
+        const Matrix& E = spread.matrixV();
+        weighed = by_past * E * inverse.asDiagonal() * E.transpose();
+        unweigh = E * root.asDiagonal() * E.transpose();
+    }
+    const Eigen::BDCSVD<Matrix> svd(weighed, Eigen::ComputeThinV);
+    return {unweigh * svd.matrixV().leftCols(sizes.n), svd.singularValues()};
+}
+
+/// A whose eigenvalues outside the unit circle are mirrored into it; `reflected` tells whether there were any.
+Matrix mirrored_inside(const Matrix& A, bool& reflected) {
+    const Eigen::EigenSolver<Matrix> eigen(A);
+    ComplexVector values = eigen.eigenvalues();
+    reflected = values.cwiseAbs().maxCoeff() > 1;
+    if (!reflected) return A;
+    for (Complex& value : values)
+        if (std::abs(value) > 1) value = 1.0 / std::conj(value);
+    const Eigen::MatrixXcd V = eigen.eigenvectors();
+    return (V * values.asDiagonal() * V.inverse()).real();
+}
+
+/// B, D and the initial states by least squares: the simulated output is linear in them.
+class InputEquations {
+  public:
+    InputEquations(const IdData& data, const Sizes& sizes, const Matrix& A, const Matrix& C, bool feedthrough)
+        : data_(data),
+          sizes_(sizes),
+          A_(A),
+          C_(C),
+          feedthrough_(feedthrough),
+          unknowns_(sizes.n * sizes.nu + (feedthrough ? sizes.ny * sizes.nu : 0) +
+                    sizes.n * static_cast<Index>(data.experiments.size())) {}
+
+    Index unknowns() const { return unknowns_; }
+
+    LeastSquares solve() const {
+        TriangularFactor factor(unknowns_ + 1);
+        for (std::size_t e = 0; e < data_.experiments.size(); ++e) add_equations(e, factor);
+        const Matrix& R = factor.R();
+        return solve_least_squares(R.leftCols(unknowns_), R.col(unknowns_));
+    }
+
+    StateSpace system(const Vector& solution) const {
+        const Index n = sizes_.n, nu = sizes_.nu, ny = sizes_.ny;
+        Matrix D = Matrix::Zero(ny, nu);
+        if (feedthrough_) D = solution.segment(n * nu, ny * nu).reshaped(ny, nu);
+        return StateSpace(A_, solution.head(n * nu).reshaped(n, nu), C_, D, data_.Ts);
+    }
+    Matrix initial_states(const Vector& solution) const {
+        const auto count = static_cast<Index>(data_.experiments.size());
+        return solution.tail(sizes_.n * count).reshaped(sizes_.n, count);
+    }
+
+  private:
+    void add_equations(std::size_t e, TriangularFactor& factor) const {
+        const Experiment& experiment = data_.experiments[e];
+        const Index n = sizes_.n, nu = sizes_.nu, ny = sizes_.ny;
+        Matrix block = Matrix::Zero(kBlock * ny, unknowns_ + 1);
+        Matrix driven = Matrix::Zero(n, n * nu), free = Matrix::Identity(n, n);  // d x/d B, d x/d x(0)
+        const Index free_place = unknowns_ - n * (static_cast<Index>(data_.experiments.size() - e));
+        Index row = 0;
+        for (Index k = 0; k < experiment.y.rows(); ++k, row += ny) {
+            if (row == block.rows()) {
+                factor.add(block);
+                row = 0;
+            }
+            block.block(row, 0, ny, n * nu) = C_ * driven;
+            for (Index j = 0; feedthrough_ && j < nu; ++j)
+                block.block(row, n * nu + j * ny, ny, ny).diagonal().setConstant(experiment.u(k, j));
+            block.block(row, free_place, ny, n) = C_ * free;
+            block.col(unknowns_).segment(row, ny) = experiment.y.row(k).transpose();
+            driven = A_ * driven;
+            for (Index j = 0; j < nu; ++j) driven.middleCols(j * n, n).diagonal().array() += experiment.u(k, j);
+            free = A_ * free;
+        }
+        factor.add(block.topRows(row));
+    }
+
+    const IdData& data_;
+    Sizes sizes_;
+    const Matrix &A_, &C_;
+    bool feedthrough_;
+    Index unknowns_;
+};
+
+void measure_fit(SubspaceEstimate& estimate, const IdData& data) {
+    const StateSpace& system = estimate.system;
+    const Index ny = data.output_count();
+    Vector errors = Vector::Zero(ny), variation = Vector::Zero(ny);
+    for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+        const Experiment& experiment = data.experiments[e];
+        Vector x = estimate.initial_states.col(static_cast<Index>(e));
+        for (Index k = 0; k < experiment.y.rows(); ++k) {
+            const Vector u = experiment.u.row(k).transpose();
+            errors += (experiment.y.row(k).transpose() - system.C * x - system.D * u).cwiseAbs2();
+            x = system.A * x + system.B * u;
+        }
+        variation += (experiment.y.rowwise() - experiment.y.colwise().mean()).colwise().squaredNorm().transpose();
+    }
+    estimate.loss = errors.sum() / static_cast<double>(data.sample_count() * ny);
+    estimate.fit_percent.resize(ny);
+    for (Index i = 0; i < ny; ++i) estimate.fit_percent[i] = fit_percent_of_sums(errors[i], variation[i]);
+}
+
+void add_warnings(SubspaceEstimate& estimate, bool reflected) {
+    const Vector& values = estimate.singular_values;
+    const auto seen = (values.array() > kNoSignal * values[0]).count();
+    if (seen < estimate.system.order())
+        estimate.warnings.push_back("The data show " + std::to_string(seen) +
+                                    " states only: what the others say is rounding, so a lower order is wanted.");
+    if (reflected) estimate.warnings.push_back("Eigenvalues outside the unit circle were mirrored into it.");
+    if (estimate.condition_number > kAmbiguousCondition)
+        estimate.warnings.push_back("The data do not tell all entries of B apart (condition number " +
+                                    number_text(estimate.condition_number, 2) + ").");
+}
+
+void set_message(SubspaceEstimate& estimate) {
+    estimate.message = "Subspace with " + std::to_string(estimate.block_rows) + " block rows, order " +
+                       std::to_string(estimate.system.order()) + ": fit ";
+    for (Index i = 0; i < estimate.fit_percent.size(); ++i)
+        estimate.message += (i > 0 ? " % and " : "") + number_text(estimate.fit_percent[i], 4);
+    estimate.message += " %, simulating from estimated initial states.";
+    for (const std::string& warning : estimate.warnings) estimate.message += ' ' + warning;
+}
+
+}  // namespace
+
+SubspaceWeighting parse_subspace_weighting(const std::string& text) {
+    if (text == "MOESP") return SubspaceWeighting::kMoesp;
+    if (text == "N4SID") return SubspaceWeighting::kN4sid;
+    if (text == "CVA") return SubspaceWeighting::kCva;
+    throw InvalidArgument("Weighting must be \"MOESP\", \"N4SID\" or \"CVA\", and is \"" + text + "\"");
+}
+
+void SubspaceOptions::validate() const {
+    if (BlockRows < 0) throw InvalidArgument("BlockRows must not be negative, and is " + std::to_string(BlockRows));
+}
+
+SubspaceEstimate n4sid(const IdData& data, int order, const SubspaceOptions& options) {
+    options.validate();
+    if (order < 1 || order > kHighestOrder)
+        throw InvalidArgument("n4sid: the order, a number of states, must lie between 1 and " +
+                              std::to_string(kHighestOrder) + ", and is " + std::to_string(order));
+    check_sampled_data("n4sid", data);
+    const Sizes sizes{order, data.input_count(), data.output_count(),
+                      chosen_block_rows(data, order, options.BlockRows)};
+    IdData scaled = data;
+    const Vector scale = scale_outputs(scaled);
+    const Matrix R = past_and_future(scaled, sizes);
+    require_rich_inputs(R, sizes);
+
+    const auto [directions, singular_values] = observability(R, sizes, options.Weighting);
+    const Index shifted = (sizes.s - 1) * sizes.ny;
+    bool reflected = false;
+    const Matrix A = mirrored_inside(
+        directions.topRows(shifted).colPivHouseholderQr().solve(directions.bottomRows(shifted)), reflected);
+    const Matrix C = directions.topRows(sizes.ny);
+
+    const InputEquations equations(scaled, sizes, A, C, options.Feedthrough);
+    if (data.sample_count() * sizes.ny <= equations.unknowns())
+        throw InvalidArgument("n4sid needs more samples than the " + std::to_string(equations.unknowns()) +
+                              " values it estimates, and the record holds " + std::to_string(data.sample_count()));
+    const LeastSquares fit = equations.solve();
+    SubspaceEstimate estimate;
+    estimate.system = equations.system(fit.solution);
+    estimate.system.C = scale.asDiagonal() * estimate.system.C;
+    estimate.system.D = scale.asDiagonal() * estimate.system.D;
+    estimate.initial_states = equations.initial_states(fit.solution);
+    estimate.singular_values = singular_values;
+    estimate.block_rows = static_cast<int>(sizes.s);
+    estimate.condition_number = fit.condition_number;
+    for (Index output = 0; output < sizes.ny; ++output)
+        for (Index input = 0; input < sizes.nu; ++input)
+            estimate.models.push_back(to_transfer_function(estimate.system, output, input));
+    measure_fit(estimate, data);
+    add_warnings(estimate, reflected);
+    set_message(estimate);
+    return estimate;
+}
+
+}  // namespace dynlab

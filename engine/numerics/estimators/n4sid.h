@@ -1,0 +1,58 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "numerics/models/state_space.h"
+#include "numerics/models/transfer_function.h"
+#include "numerics/signals/iddata.h"
+
+namespace dynlab {
+
+/// How the directions of the state are weighed against the noise.
+enum class SubspaceWeighting {
+    kMoesp,  ///< "MOESP": by what they give to the future outputs (Verhaegen 1994)
+    kN4sid,  ///< "N4SID": the same, future inputs left in (Van Overschee and De Moor 1994)
+    kCva,    ///< "CVA": by their correlation with the future outputs (Larimore 1990)
+};
+
+/// Throws InvalidArgument that lists the words.
+SubspaceWeighting parse_subspace_weighting(const std::string& text);
+
+/// Fields carry the names of the scripting language's options.
+struct SubspaceOptions {
+    int BlockRows = 0;  ///< s: samples of past and of future; 0 for 15, or 2 order if that is more, or what fits
+    SubspaceWeighting Weighting = SubspaceWeighting::kMoesp;
+    bool Feedthrough = false;  ///< D is estimated rather than zero
+
+    /// Throws InvalidArgument naming the option.
+    void validate() const;
+};
+
+struct SubspaceEstimate {
+    StateSpace system;                     ///< order n, ny outputs, nu inputs, discrete time
+    Vector singular_values;                ///< s ny of them: a gap after the n-th speaks for order n
+    Matrix initial_states;                 ///< n x experiments
+    Vector fit_percent;                    ///< per output: simulation from the estimated initial states
+    double loss = 0;                       ///< mean square of the simulation error over samples and outputs
+    double condition_number = 0;           ///< of the column-scaled equations for B, D and the initial states
+    int block_rows = 0;                    ///< s
+    std::vector<TransferFunction> models;  ///< ny nu of them, output by output
+    std::vector<std::string> warnings;     ///< whole sentences
+    std::string message;                   ///< one sentence, then the warnings
+};
+
+/// x(k+1) = A x(k) + B u(k), y(k) = C x(k) + D u(k) + v(k) by subspace identification, without any iteration. With the
+/// block rows s, the future outputs y(k)..y(k+s-1), less what the future inputs explain, are regressed on the past
+/// inputs and outputs (one orthogonal triangularisation of all of them together, in which nothing is stored that grows
+/// with the record); the n largest singular values of that regression, weighed as Weighting says, tell the extended
+/// observability matrix [C; C A; C A^2; ..], whose shift gives A and C. B, D and the initial state of each experiment
+/// then follow by linear least squares on the simulated output. Eigenvalues outside the unit circle are mirrored into
+/// it. Consistent for any stationary v that is independent of the inputs, which must be rich enough for s; less precise
+/// than an output-error or prediction-error estimate, for which it is a start that needs no guess. No standard errors.
+/// Outputs are scaled to equal size beforehand, so that their units have no say.
+/// Data: any number of inputs, outputs and experiments, regular sampling. Throws InvalidArgument for other data, an
+/// order below 1 or not below s, a record too short or an input too poor for s. Reference: Verhaegen and Dewilde
+/// (1992); Verhaegen (1994), Automatica 30, 61-74; Ljung (1999), section 10.6.
+SubspaceEstimate n4sid(const IdData& data, int order, const SubspaceOptions& options = {});
+
+}  // namespace dynlab
