@@ -6,6 +6,7 @@
 #include "numerics/estimators/iv4.h"
 #include "numerics/estimators/oe.h"
 #include "numerics/estimators/sriv.h"
+#include "numerics/kernels/integrated_input.h"
 #include "scripting/bindings.h"
 #include "scripting/estimation.h"
 #include "scripting/objects/data_object.h"
@@ -26,15 +27,7 @@ constexpr std::array kOutputErrorOrders = {kNb, kNf, kNk};
 constexpr std::array kBoxJenkinsOrders = {kNb, kNc, kNd, kNf, kNk};
 
 Estimate estimate_of(const char* method, const PolynomialEstimate& result) {
-    Estimate estimate;
-    estimate.method = method;
-    estimate.names = result.names;
-    estimate.theta = result.theta;
-    estimate.std = result.std;
-    estimate.covariance = result.covariance;
-    estimate.message = result.message;
-    estimate.warnings = result.warnings;
-    estimate.converged = result.termination == Termination::kConverged;
+    Estimate estimate = common_estimate(method, result);
     estimate.numbers = {
         {"fit_percent", result.fit_percent},           {"prediction_fit_percent", result.prediction_fit_percent},
         {"noise_variance", result.noise_variance},     {"loss", result.loss},
@@ -80,8 +73,7 @@ void read_search_options(const Options& options, PolynomialOptions& wanted) {
     wanted.cancel = options.call().cancel();
 }
 
-PolynomialOptions polynomial_options(const Call& call, int index) {
-    const Options options(call, index, {"InitialState", "Offset", "MaxIter", "Tol"});
+PolynomialOptions polynomial_options(const Options& options) {
     PolynomialOptions wanted;
     wanted.initial_state = parse_initial_state(options.text("InitialState", "zero"));
     wanted.offset = parse_offset(options.text("Offset", "none"));
@@ -90,22 +82,32 @@ PolynomialOptions polynomial_options(const Call& call, int index) {
 }
 
 /// With robust standard errors, where the record is not too long for them.
-int give_assessed(Call& call, const IdData& data, const PolynomialEstimate& result, Offset offset) {
+int give_assessed(Call& call, const IdData& data, PolynomialEstimate result, Offset offset, bool integration) {
     Estimate estimate = estimate_of(name_of(call), result);
     if (data.sample_count() <= kMostAssessed && result.std.allFinite())
         estimate.assessment = std::make_shared<Assessment>(assess(data, result, offset));
+    if (integration) append_integrator(result);
     return give_estimate(call, std::move(estimate), result);
+}
+
+/// oe, sriv and bj; with Integration the running sum of the input stands for the input.
+template <auto kMethod>
+int estimate_simulation(Call& call, const PolynomialOrders& orders) {
+    const IdData& data = object_argument<IdData>(call, 1, "data");
+    const Options options(call, 3, {"InitialState", "Offset", "MaxIter", "Tol", "Integration"});
+    const PolynomialOptions wanted = polynomial_options(options);
+    if (!options.flag("Integration", false))
+        return give_assessed(call, data, kMethod(data, orders, wanted), wanted.offset, false);
+    const IdData summed = summed_inputs(data);
+    return give_assessed(call, summed, kMethod(summed, orders, wanted), wanted.offset, true);
 }
 
 template <auto kMethod>
 int estimate_output_error(Call& call) {
     call.at_most(3);
-    const IdData& data = object_argument<IdData>(call, 1, "data");
+    object_argument<IdData>(call, 1, "data");
     const auto orders = order_lists(call, 2, kOutputErrorOrders);
-    const PolynomialOptions wanted = polynomial_options(call, 3);
-    return give_assessed(call, data,
-                         kMethod(data, PolynomialOrders::output_error(orders[0], orders[1], orders[2]), wanted),
-                         wanted.offset);
+    return estimate_simulation<kMethod>(call, PolynomialOrders::output_error(orders[0], orders[1], orders[2]));
 }
 
 int estimate_armax(Call& call) {
@@ -117,18 +119,17 @@ int estimate_armax(Call& call) {
     const Options options(call, 3, {"MaxIter", "Tol"});
     PolynomialOptions wanted;
     read_search_options(options, wanted);
-    return give_assessed(call, data, armax(data, orders, wanted), Offset::kNone);
+    return give_assessed(call, data, armax(data, orders, wanted), Offset::kNone, false);
 }
 
 int estimate_bj(Call& call) {
     call.at_most(3);
-    const IdData& data = object_argument<IdData>(call, 1, "data");
+    object_argument<IdData>(call, 1, "data");
     const auto lists = order_lists(call, 2, kBoxJenkinsOrders);
     PolynomialOrders orders = PolynomialOrders::output_error(lists[0], lists[3], lists[4]);
     orders.nc = only_value(lists[1], kNc);
     orders.nd = only_value(lists[2], kNd);
-    const PolynomialOptions wanted = polynomial_options(call, 3);
-    return give_assessed(call, data, bj(data, orders, wanted), wanted.offset);
+    return estimate_simulation<bj>(call, orders);
 }
 
 constexpr const char* kArea = "discrete time";
@@ -139,11 +140,11 @@ constexpr std::array kFunctions = {
                   guarded<estimate_equation_error<iv4>>},
     FunctionEntry{"armax", kArea, "armax(data, {na, nb, nc, nk}, {MaxIter =, Tol =}) -> G",
                   "A y = B u + C e with the smallest prediction error", guarded<estimate_armax>},
-    FunctionEntry{"oe", kArea, "oe(data, {nb, nf, nk}, {InitialState =, Offset =, MaxIter =, Tol =}) -> G",
+    FunctionEntry{"oe", kArea, "oe(data, {nb, nf, nk}, {InitialState =, Offset =, Integration =, ...}) -> G",
                   "y = B/F u + e with the smallest simulation error", guarded<estimate_output_error<oe>>},
-    FunctionEntry{"sriv", kArea, "sriv(data, {nb, nf, nk}, {InitialState =, Offset =, MaxIter =, Tol =}) -> G",
+    FunctionEntry{"sriv", kArea, "sriv(data, {nb, nf, nk}, {InitialState =, Offset =, Integration =, ...}) -> G",
                   "y = B/F u + e by refined instrumental variables", guarded<estimate_output_error<sriv>>},
-    FunctionEntry{"bj", kArea, "bj(data, {nb, nc, nd, nf, nk}, {InitialState =, Offset =, MaxIter =, Tol =}) -> G",
+    FunctionEntry{"bj", kArea, "bj(data, {nb, nc, nd, nf, nk}, {InitialState =, Offset =, Integration =, ...}) -> G",
                   "y = B/F u + C/D e with the smallest prediction error", guarded<estimate_bj>},
 };
 

@@ -67,15 +67,7 @@ ProcsrivcOptions procsrivc_options(const Call& call, int index) {
 }
 
 Estimate estimate_of(const ProcsrivcResult& result) {
-    Estimate estimate;
-    estimate.method = "procsrivc";
-    estimate.names = result.names;
-    estimate.theta = result.theta;
-    estimate.std = result.std;
-    estimate.covariance = result.covariance;
-    estimate.message = result.message;
-    estimate.warnings = result.warnings;
-    estimate.converged = result.termination == Termination::kConverged;
+    Estimate estimate = common_estimate("procsrivc", result);
     estimate.numbers = {{"fit_percent", result.fit_percent},
                         {"noise_variance", result.noise_variance},
                         {"loss", result.loss},

@@ -4,6 +4,7 @@
 #include "numerics/estimators/ivsvf.h"
 #include "numerics/estimators/lssvf.h"
 #include "numerics/estimators/srivc.h"
+#include "numerics/kernels/integrated_input.h"
 #include "numerics/kernels/simulation_report.h"
 #include "numerics/kernels/transfer_data.h"
 #include "scripting/bindings.h"
@@ -52,21 +53,30 @@ std::shared_ptr<const Assessment> assessment_of(const IdData& data, const Transf
     return std::make_shared<Assessment>(assess(without_operating_points(data).data, result));
 }
 
-int give_refined(Call& call, const IdData& data, const TransferEstimate& result, const TransferOptions& options) {
-    Estimate estimate = estimate_of(name_of(call), result);
-    estimate.assessment = assessment_of(data, result, options);
-    return give_estimate(call, std::move(estimate), result);
-}
-
 /// An output-error estimation with the options it was asked for.
 struct RefinedReading {
     TransferOptions options;
+    bool integration;  ///< the models have an integrator besides
     Estimation estimation;
 };
 
+int give_refined(Call& call, const IdData& data, const RefinedReading& reading) {
+    const TransferEstimate result = reading.estimation(data);
+    Estimate estimate = estimate_of(name_of(call), result);
+    estimate.of_coefficients = !reading.integration;
+    estimate.assessment = assessment_of(reading.integration ? integrated_inputs(data) : data, result, reading.options);
+    return give_estimate(call, std::move(estimate), result);
+}
+
 template <auto kMethod>
-RefinedReading reading_of(const StructureMaker& structure, const TransferOptions& wanted) {
-    return {wanted, [structure, wanted](const IdData& data) { return kMethod(data, structure(data), wanted); }};
+RefinedReading reading_of(const StructureMaker& structure, const Options& options, const TransferOptions& wanted) {
+    const bool integration = options.flag("Integration", false);
+    return {wanted, integration, [structure, wanted, integration](const IdData& data) {
+                if (!integration) return kMethod(data, structure(data), wanted);
+                TransferEstimate estimate = kMethod(integrated_inputs(data), structure(data), wanted);
+                append_integrator(estimate);
+                return estimate;
+            }};
 }
 
 /// srivc and coe: orders and fixed delays in samples.
@@ -74,11 +84,11 @@ template <auto kMethod>
 RefinedReading read_refined(const Call& call) {
     call.at_most(3);
     const auto orders = order_lists(call, 2, kOutputErrorOrders);
-    const Options options(call, 3,
-                          {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator"});
+    const Options options(
+        call, 3, {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator", "Integration"});
     TransferOptions wanted;
     read_common_options(options, wanted);
-    return reading_of<kMethod>(structure_of_orders(kOutputErrorOrders, orders, sharing_of(options)), wanted);
+    return reading_of<kMethod>(structure_of_orders(kOutputErrorOrders, orders, sharing_of(options)), options, wanted);
 }
 
 /// tfsrivc and tfcoe: numbers of poles and zeros, and a delay that is estimated unless it is given.
@@ -86,19 +96,18 @@ template <auto kMethod>
 RefinedReading read_transfer_function(const Call& call) {
     call.at_most(4);
     const Options options(call, 4,
-                          {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator", "TdMin",
-                           "TdMax", "NumTd", "IODelay"});
+                          {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator",
+                           "Integration", "TdMin", "TdMax", "NumTd", "IODelay"});
     TransferOptions wanted;
     read_common_options(options, wanted);
     const StructureMaker structure = structure_of_counts(call, options, wanted);
-    return reading_of<kMethod>(structure, wanted);
+    return reading_of<kMethod>(structure, options, wanted);
 }
 
 template <auto kRead>
 int estimate_refined(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const RefinedReading reading = kRead(call);
-    return give_refined(call, data, reading.estimation(data), reading.options);
+    return give_refined(call, data, kRead(call));
 }
 
 template <auto kRead>

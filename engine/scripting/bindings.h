@@ -15,6 +15,7 @@ FunctionEntries transfer_estimator_functions();
 FunctionEntries noise_model_functions();
 FunctionEntries discrete_estimator_functions();
 FunctionEntries subspace_functions();
+FunctionEntries hammerstein_functions();
 FunctionEntries regression_functions();
 FunctionEntries validation_functions();
 FunctionEntries residual_functions();

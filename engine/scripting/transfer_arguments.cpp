@@ -124,15 +124,7 @@ void read_common_options(const Options& options, TransferOptions& wanted) {
 }
 
 Estimate estimate_of(const char* method, const TransferEstimate& result) {
-    Estimate estimate;
-    estimate.method = method;
-    estimate.names = result.names;
-    estimate.theta = result.theta;
-    estimate.std = result.std;
-    estimate.covariance = result.covariance;
-    estimate.message = result.message;
-    estimate.warnings = result.warnings;
-    estimate.converged = result.termination == Termination::kConverged;
+    Estimate estimate = common_estimate(method, result);
     estimate.numbers = {{"fit_percent", result.fit_percent[0]},
                         {"noise_variance", result.noise_variance[0]},
                         {"loss", result.loss},

@@ -44,7 +44,8 @@ const Method kMethods[] = {
      [](const IdData& data, const PolynomialOrders& orders) { return iv4(data, orders); }},
     {"armax", [](int nk) { return with_noise(PolynomialOrders::arx(2, {2}, {nk}), 2, 0); },
      [](const IdData& data, const PolynomialOrders& orders) { return armax(data, orders, tight()); }},
-    {"bj", [](int nk) { return with_noise(PolynomialOrders::output_error({2}, {2}, {nk}), 1, 1); },
+    // Without D: with it the first nd samples are left out, which are others in a later record.
+    {"bj", [](int nk) { return with_noise(PolynomialOrders::output_error({2}, {2}, {nk}), 2, 0); },
      [](const IdData& data, const PolynomialOrders& orders) { return bj(data, orders, tight()); }},
 };
 

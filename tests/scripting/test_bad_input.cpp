@@ -94,6 +94,7 @@ const std::map<std::string, Calls>& dynamic_methods() {
         {"oe", output_error("oe")},
         {"sriv", output_error("sriv")},
         {"n4sid", subspace("n4sid")},
+        {"hammerstein", named("hammerstein")},
         {"iv4", ordered("iv4", "{2, 2, 1}", {"{2, 0, 1}", "{1e5, 1, 1}"})},
         {"armax",
          {"armax(d, {2, 2, 1, 1})",

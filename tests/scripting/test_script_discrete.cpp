@@ -72,3 +72,15 @@ TEST(script_discrete, orders_are_explained) {
     EXPECT_THAT(refusal("oe(data, {2, 2, 1}, {InitialState = 'rest'})"), HasSubstr("InitialState is \"zero\""));
     EXPECT_THAT(refusal("print(Go.A)"), HasSubstr("difference equations"));
 }
+
+// Oracle: the simulated system, of which every method is told that it has an integrator.
+TEST(script_discrete, integration_adds_an_integrator) {
+    const std::string record =
+        "local u = prbs(7, 6)\nlocal data = iddata(lsim(tf({3}, {1, 2, 0}), u, 0.05), u, 0.05)\n";
+    EXPECT_THAT(printed(record + "local G = srivc(data, {1, 1, 0}, {Integration = true})\n"
+                                 "print(G.den[3] == 0, norm(G.den - vector{1, 2, 0}) < 1e-4, #G.param)"),
+                HasSubstr("true\ttrue\t2"));
+    EXPECT_THAT(printed(record + "local G = oe(data, {2, 1, 1}, {Integration = true})\n"
+                                 "print(norm(G.F - c2d(tf({3}, {1, 2, 0}), 0.05).den) < 1e-6)"),
+                HasSubstr("true"));
+}

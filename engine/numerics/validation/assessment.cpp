@@ -205,11 +205,12 @@ Assessment assess_channels(const IdData& data, const std::vector<ChannelPlaces>&
 
 Assessment assess(const IdData& data, const TransferEstimate& estimate, const ResidualOptions& options) {
     const TransferStructure& structure = estimate.structure;
+    const std::vector<TransferFunction> models = structure.models(estimate.theta);
     std::vector<ChannelPlaces> channels;
     for (Index i = 0; i < structure.outputs; ++i)
         for (Index j = 0; j < structure.inputs; ++j) {
             const Index denominator = structure.channel(i, j).denominator;
-            channels.push_back({estimate.models[channels.size()], denominator, structure.a_place(denominator),
+            channels.push_back({models[channels.size()], denominator, structure.a_place(denominator),
                                 structure.b_place(i, j), structure.delay_place(i, j)});
         }
     const Index d = structure.parameter_count();

@@ -62,6 +62,7 @@ std::optional<UncertainModel> uncertain_model(const Model& model) {
     const Matrix& covariance = model.estimate->trusted_covariance();
     if (covariance.size() == 0 || !covariance.allFinite()) return std::nullopt;
     if (model.process) return UncertainModel(*model.process, covariance);
+    if (!model.estimate->of_coefficients) return std::nullopt;
     const Index coefficients = model.G.pole_count() + model.G.num().size();
     if (covariance.rows() != coefficients && covariance.rows() != coefficients + 1) return std::nullopt;
     return UncertainModel(model.G, covariance);

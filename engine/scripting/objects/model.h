@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "numerics/estimators/step_test.h"
+#include "numerics/kernels/termination.h"
 #include "numerics/models/polynomial_model.h"
 #include "numerics/models/process_model.h"
 #include "numerics/models/state_space.h"
@@ -33,6 +34,8 @@ struct Estimate {
     std::vector<std::pair<std::string, Vector>> vectors;        ///< output, delay_grid, delay_loss, ...
     std::vector<std::pair<std::string, Matrix>> matrices = {};  ///< path (parameters after each iteration)
     bool converged = true;
+    bool of_coefficients =
+        true;           ///< theta and covariance are those of G's coefficients, with the delay where it is free
     bool carx = false;  ///< of the equation A(p) y = B(p) u + e: G has fields A and B
     std::shared_ptr<const StepTestResult> step_test = {};  ///< of the graphical methods
     /// Whiteness of the output errors and robust standard errors, where a method has them assessed.
@@ -43,6 +46,21 @@ struct Estimate {
     /// The robust covariance when the output errors are coloured.
     const Matrix& trusted_covariance() const { return errors_are_coloured() ? assessment->covariance : covariance; }
 };
+
+/// What the results of all iterative methods have in common.
+template <class Result>
+Estimate common_estimate(const char* method, const Result& result) {
+    Estimate estimate;
+    estimate.method = method;
+    estimate.names = result.names;
+    estimate.theta = result.theta;
+    estimate.std = result.std;
+    estimate.covariance = result.covariance;
+    estimate.message = result.message;
+    estimate.warnings = result.warnings;
+    estimate.converged = result.termination == Termination::kConverged;
+    return estimate;
+}
 
 /// A model as scripts hold it: a transfer function, with its process parameters, polynomials and estimate where it has
 /// them. With several inputs or outputs G is the first channel's.

@@ -1,0 +1,175 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "numerics/estimators/hammerstein.h"
+#include "numerics/simulation/lsim.h"
+#include "support/difference_equation.h"
+#include "support/thrown_message.h"
+#include "support/transfer_cases.h"
+
+using namespace dynlab;
+using namespace dynlab::test;
+using testing::HasSubstr;
+
+namespace {
+
+const Vector kEdges{{-1, -0.2, 0.2, 1}};
+const Vector kLevels{{-1.6, 0.1, 0.1, 2.1}};  // a dead band, and a smaller gain backwards
+
+/// Dead band from -0.2 to 0.2, gains 2.125 and 2.5, on straight lines.
+Vector characteristic(const Vector& u) {
+    return hat_functions(kEdges, u) * kLevels;
+}
+
+/// Many levels between -1 and 1, each held for some samples.
+Vector levels_of(Index N, std::uint32_t seed) {
+    RandomStream random(seed);
+    const Vector draws = random.normal(N);
+    Vector u(N);
+    for (Index k = 0; k < N; ++k) u[k] = std::tanh(0.8 * draws[k / 6]);
+    u[0] = -1;
+    u[6] = 1;
+    return u;
+}
+
+struct System {
+    TransferFunction G;
+    TransferStructure structure;
+};
+
+System without_zero() {
+    return {TransferFunction(values({9}), values({1, 2, 9})), TransferStructure::single(2, 0)};
+}
+System with_zero() {
+    return {TransferFunction(values({1.5, 9}), values({1, 2, 9}), 0, 0.13), TransferStructure::single(2, 1, 0.13)};
+}
+
+IdData record(const TransferFunction& G, double noise, std::uint32_t seed, Index N = 1500) {
+    const Vector u = levels_of(N, seed);
+    const Vector f = characteristic(u);
+    const Vector x = lsim(G, f.array() - f[0], 0.05).array() + f[0];
+    return IdData(Matrix(x + noise * RandomStream(seed + 100).normal(N)), Matrix(u), 0.05);
+}
+
+HammersteinOptions at_edges(const Vector& edges) {
+    HammersteinOptions options;
+    options.Breakpoints = edges;
+    options.Tol = 1e-9;
+    return options;
+}
+
+}  // namespace
+
+TEST(hammerstein, hat_functions_share_out_every_value) {  // oracle: definition
+    const Matrix hats = hat_functions(kEdges, values({-3, -1, -0.6, 0.1, 0.2, 0.6, 1, 4}));
+    EXPECT_LT((hats.rowwise().sum().array() - 1).abs().maxCoeff(), 1e-15);
+    EXPECT_LT((hats.row(2) - Eigen::RowVector4d(0.5, 0.5, 0, 0)).norm(), 1e-15);
+    EXPECT_LT((hats.row(3) - Eigen::RowVector4d(0, 0.25, 0.75, 0)).norm(), 1e-15);
+    EXPECT_EQ(hats(4, 2), 1);
+    EXPECT_EQ(hats(0, 0), 1);
+    EXPECT_EQ(hats(7, 3), 1);
+}
+
+TEST(hammerstein, recovers_a_dead_band_without_noise) {  // oracle: the simulated system
+    for (const System& system : {without_zero(), with_zero()}) {
+        const auto result = hammerstein(record(system.G, 0, 1), system.structure, at_edges(kEdges));
+        EXPECT_LT((result.levels - kLevels).cwiseAbs().maxCoeff(), 1e-6) << result.message;
+        EXPECT_LT((result.model.den() - system.G.den()).cwiseAbs().maxCoeff(), 1e-5);
+        EXPECT_LT((result.model.num() - system.G.num()).cwiseAbs().maxCoeff(), 1e-5);
+        EXPECT_NEAR(result.model.dc_gain(), 1, 1e-12);
+        EXPECT_GT(result.fit_percent, 100 - 1e-4);
+        EXPECT_LT(result.linear_fit_percent, 95);
+    }
+}
+
+TEST(hammerstein, finds_the_delay_together_with_the_rest) {  // oracle: the simulated system
+    System system = with_zero();
+    system.structure.free_delays = true;
+    const auto result = hammerstein(record(system.G, 0.01, 2), system.structure, at_edges(kEdges));
+    ASSERT_EQ(result.names.back(), "Td");
+    EXPECT_NEAR(result.model.delay(), 0.13, 4 * result.std[result.std.size() - 1]) << result.message;
+    EXPECT_LT(result.std[result.std.size() - 1], 0.01);
+}
+
+// Oracle: statistics with fixed seeds; white noise, so that the covariance is right.
+TEST(hammerstein, scatters_as_its_standard_errors_say) {
+    constexpr Index kRuns = 60;
+    const System system = without_zero();
+    Matrix thetas(6, kRuns), errors(6, kRuns);
+    for (Index run = 0; run < kRuns; ++run) {
+        const auto result =
+            hammerstein(record(system.G, 0.2, static_cast<std::uint32_t>(run + 1)), system.structure, at_edges(kEdges));
+        thetas.col(run) = result.theta;
+        errors.col(run) = result.std;
+    }
+    const Vector truth = values({2, 9, -1.6, 0.1, 0.1, 2.1});
+    for (Index i = 0; i < 6; ++i) {
+        const double mean = thetas.row(i).mean();
+        const double spread = std::sqrt((thetas.row(i).array() - mean).square().sum() / (kRuns - 1));
+        EXPECT_NEAR(mean, truth[i], 3.5 * spread / std::sqrt(double(kRuns))) << i;
+        EXPECT_NEAR(spread / errors.row(i).mean(), 1, 0.3) << i;
+    }
+}
+
+TEST(hammerstein, errors_are_orthogonal_to_what_the_parameters_do) {  // oracle: the loss nearby, simulated by lsim
+    const System system = with_zero();
+    const IdData data = record(system.G, 0.1, 3);
+    const auto result = hammerstein(data, system.structure, at_edges(kEdges));
+    const Vector u = data.experiments[0].u, y = data.experiments[0].y;
+    const auto loss = [&](const Vector& theta) {  // [a1 a2 b0 f1..f4]
+        const TransferFunction G(values({theta[2], theta[1]}), values({1, theta[0], theta[1]}), 0, 0.13);
+        const Vector f = hat_functions(kEdges, u) * theta.tail(4);
+        const Vector x = lsim(G, f.array() - f[0], 0.05).array() + f[0];
+        return (y - x).squaredNorm() / static_cast<double>(y.size());
+    };
+    EXPECT_NEAR(loss(result.theta), result.loss, 1e-9);
+    for (Index i = 0; i < result.theta.size(); ++i) {
+        const Vector step = 1e-4 * Vector::Unit(result.theta.size(), i);
+        EXPECT_LT(std::abs(loss(result.theta + step) - loss(result.theta - step)) / 2e-4, 1e-4 * result.loss) << i;
+        EXPECT_GT(loss(result.theta + 10 * step), result.loss) << i;
+    }
+}
+
+TEST(hammerstein, bins_do_without_edges_that_the_input_does_not_visit) {  // oracle: definition
+    const System system = without_zero();
+    IdData data = record(system.G, 0.02, 4);
+    HammersteinOptions options;
+    options.Bins = 8;
+    const auto equal = hammerstein(data, system.structure, options);
+    EXPECT_EQ(equal.breakpoints.size(), 9);
+    EXPECT_GT(equal.fit_percent, equal.linear_fit_percent + 5) << equal.message;
+    const auto wide = hammerstein(data, system.structure, at_edges(values({-9, -5, -1, -0.2, 0.2, 1, 4})));
+    EXPECT_EQ(wide.breakpoints.size(), 4) << wide.breakpoints.transpose();
+    EXPECT_THAT(wide.message, HasSubstr("edges of bins were left out"));
+}
+
+TEST(hammerstein, tells_when_a_line_would_do) {  // oracle: the simulated system is linear
+    const Vector u = levels_of(1500, 5);
+    const Vector y = lsim(without_zero().G, u.array() - u[0], 0.05).array() + u[0];
+    const IdData data(Matrix(y + 0.05 * RandomStream(1).normal(1500)), Matrix(u), 0.05);
+    const auto result = hammerstein(data, TransferStructure::single(2, 0), HammersteinOptions());
+    EXPECT_THAT(result.message, HasSubstr("A linear model fits as well"));
+    for (Index i = 0; i < result.levels.size(); ++i)
+        EXPECT_NEAR(result.levels[i], result.breakpoints[i], 4 * result.levels_std[i]) << i;
+}
+
+TEST(hammerstein, refuses_what_it_cannot_fit) {  // oracle: definitions
+    const System system = without_zero();
+    const IdData data = record(system.G, 0.1, 1, 300);
+    const auto refusal = [&](const IdData& given, const HammersteinOptions& options) {
+        return thrown_message([&] { hammerstein(given, system.structure, options); });
+    };
+    EXPECT_THAT(refusal(data, at_edges(values({1, 0}))), HasSubstr("Breakpoints must increase"));
+    EXPECT_THAT(refusal(data, at_edges(values({20, 30}))), HasSubstr("edges of the bins"));
+    HammersteinOptions options;
+    options.Bins = 0;
+    EXPECT_THAT(refusal(data, options), HasSubstr("Bins must lie"));
+    options = {};
+    options.offset = Offset::kEstimate;
+    EXPECT_THAT(refusal(data, options), HasSubstr("Offset must be"));
+    IdData other = data;
+    other.hold = Hold::kFoh;
+    EXPECT_THAT(refusal(other, {}), HasSubstr("held input"));
+}
