@@ -28,23 +28,6 @@ Vector below_nyquist(const TransferFunction& G, const Vector& w) {
     return Eigen::Map<const Vector>(kept.data(), static_cast<Index>(kept.size()));
 }
 
-/// Where the uncertainty is large, the panel shows the band only as far as it keeps the curve readable.
-void limit_range(Panel& panel, std::size_t lines, double least_room) {
-    double low = std::numeric_limits<double>::infinity(), high = -low, band_low = low, band_high = high;
-    for (std::size_t i = 0; i < panel.curves.size(); ++i) {
-        const Curve& curve = panel.curves[i];
-        for (Index k = 0; k < curve.y.size(); ++k) {
-            if (!std::isfinite(curve.y[k])) continue;
-            const double upper = curve.style == CurveStyle::kBand ? curve.y_upper[k] : curve.y[k];
-            if (i < lines) low = std::min(low, curve.y[k]), high = std::max(high, upper);
-            band_low = std::min(band_low, curve.y[k]), band_high = std::max(band_high, upper);
-        }
-    }
-    const double room = std::max(0.5 * (high - low), least_room);
-    if (band_low >= low - room && band_high <= high + room) return;
-    panel.y_range = {std::max(band_low, low - room), std::min(band_high, high + room)};
-}
-
 void add_bands(Panel& magnitude, Panel& phase, const std::vector<NamedModel>& models) {
     constexpr double kLeastDecibels = 20, kLeastDegrees = 90;
     for (std::size_t i = 0; i < models.size(); ++i) {
@@ -55,16 +38,8 @@ void add_bands(Panel& magnitude, Panel& phase, const std::vector<NamedModel>& mo
         add_confidence_band(magnitude, i, width * spread.magnitude_std, level);
         add_confidence_band(phase, i, width * spread.phase_std, level);
     }
-    limit_range(magnitude, models.size(), kLeastDecibels);
-    limit_range(phase, models.size(), kLeastDegrees);
-}
-
-double phase_step(const Panel& phase) {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const Curve& curve : phase.curves)
-        for (const double value : curve.y)
-            if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
-    return high - low <= 200 ? 45 : high - low <= 450 ? 90 : 180 * std::ceil((high - low) / 900);
+    limit_to_readable(magnitude, models.size(), kLeastDecibels);
+    limit_to_readable(phase, models.size(), kLeastDegrees);
 }
 
 }  // namespace
@@ -103,7 +78,7 @@ Figure bode_plot(const std::vector<NamedModel>& models, const Vector& w) {
         const ReferenceLine end{false, std::numbers::pi / model.G.Ts(), "", 2};
         if (end.at <= grid.maxCoeff() * 1.001) magnitude.references.push_back(end), phase.references.push_back(end);
     }
-    phase.y_tick_step = phase_step(phase);
+    phase.y_tick_step = phase_tick_step(phase);
     fix_colours(magnitude);
     fix_colours(phase);
     add_bands(magnitude, phase, models);

@@ -31,9 +31,33 @@ void add_confidence_band(Panel& panel, std::size_t line, const Vector& half_widt
     panel.curves.push_back(std::move(band));
 }
 
+void limit_to_readable(Panel& panel, std::size_t lines, double least_room) {
+    double low = std::numeric_limits<double>::infinity(), high = -low, band_low = low, band_high = high;
+    for (std::size_t i = 0; i < panel.curves.size(); ++i) {
+        const Curve& curve = panel.curves[i];
+        for (Index k = 0; k < curve.y.size(); ++k) {
+            if (!std::isfinite(curve.y[k])) continue;
+            const double upper = curve.style == CurveStyle::kBand ? curve.y_upper[k] : curve.y[k];
+            if (i < lines) low = std::min(low, curve.y[k]), high = std::max(high, upper);
+            band_low = std::min(band_low, curve.y[k]), band_high = std::max(band_high, upper);
+        }
+    }
+    const double room = std::max(0.5 * (high - low), least_room);
+    if (band_low >= low - room && band_high <= high + room) return;
+    panel.y_range = {std::max(band_low, low - room), std::min(band_high, high + room)};
+}
+
 void fix_colours(Panel& panel) {
     for (std::size_t i = 0; i < panel.curves.size(); ++i)
         if (!panel.curves[i].colour) panel.curves[i].colour = static_cast<int>(i) % style::kGreyColour;
+}
+
+double phase_tick_step(const Panel& phase) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Curve& curve : phase.curves)
+        for (const double value : curve.y)
+            if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
+    return high - low <= 200 ? 45 : high - low <= 450 ? 90 : 180 * std::ceil((high - low) / 900);
 }
 
 }  // namespace dynlab

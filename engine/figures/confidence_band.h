@@ -14,6 +14,13 @@ std::string confidence_text(double level);
 /// named in the legend. Samples without a finite width become gaps.
 void add_confidence_band(Panel& panel, std::size_t line, const Vector& half_width, double level);
 
+/// Where the uncertainty is large, the panel shows the bands only as far as they keep its first `lines` curves
+/// readable: half their height, and at least `least_room`, beyond them.
+void limit_to_readable(Panel& panel, std::size_t lines, double least_room);
+
+/// Distance of the numbers on a phase axis: 45 degrees, or a larger divisor of the turn for long ranges.
+double phase_tick_step(const Panel& phase);
+
 /// Gives every curve of the panel the colour of its place, which bands added later must not move.
 void fix_colours(Panel& panel);
 

@@ -16,6 +16,7 @@ FunctionEntries noise_model_functions();
 FunctionEntries discrete_estimator_functions();
 FunctionEntries subspace_functions();
 FunctionEntries hammerstein_functions();
+FunctionEntries nonparametric_functions();
 FunctionEntries regression_functions();
 FunctionEntries validation_functions();
 FunctionEntries residual_functions();

@@ -6,18 +6,19 @@ namespace dynlab {
 const std::vector<FunctionEntry>& catalogue_of_functions() {
     static const std::vector<FunctionEntry> catalogue = [] {
         std::vector<FunctionEntry> all;
-        for (FunctionEntries area : {data_functions(),        preprocess_functions(),
-                                     saving_functions(),      rig_functions(),
-                                     vector_functions(),      vector_comparisons(),
-                                     random_functions(),      signal_functions(),
-                                     model_functions(),       simulation_functions(),
-                                     estimator_functions(),   transfer_estimator_functions(),
-                                     noise_model_functions(), discrete_estimator_functions(),
-                                     subspace_functions(),    hammerstein_functions(),
-                                     regression_functions(),  validation_functions(),
-                                     residual_functions(),    order_functions(),
-                                     study_functions(),       figure_functions(),
-                                     report_functions(),      help_functions()})
+        for (FunctionEntries area : {data_functions(),          preprocess_functions(),
+                                     saving_functions(),        rig_functions(),
+                                     vector_functions(),        vector_comparisons(),
+                                     random_functions(),        signal_functions(),
+                                     model_functions(),         simulation_functions(),
+                                     estimator_functions(),     transfer_estimator_functions(),
+                                     noise_model_functions(),   discrete_estimator_functions(),
+                                     subspace_functions(),      hammerstein_functions(),
+                                     nonparametric_functions(), regression_functions(),
+                                     validation_functions(),    residual_functions(),
+                                     order_functions(),         study_functions(),
+                                     figure_functions(),        report_functions(),
+                                     help_functions()})
             all.insert(all.end(), area.begin(), area.end());
         return all;
     }();

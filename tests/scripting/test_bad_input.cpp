@@ -77,6 +77,13 @@ Calls reading(const std::string& name) {
     return {name + "(d)", {name + "(d, {1, 2, 0})", name + "()"}};
 }
 
+/// `wrong` holds what follows the data.
+Calls shown(const std::string& name, const std::vector<std::string>& wrong) {
+    Calls calls{name + "(d)", {name + "()", name + "(u)"}};
+    for (const std::string& rest : wrong) calls.wrong.push_back(name + "(d, " + rest + ")");
+    return calls;
+}
+
 const std::map<std::string, Calls>& dynamic_methods() {
     static const std::map<std::string, Calls> kMethods = {
         {"lssvf", filtered("lssvf")},
@@ -106,6 +113,11 @@ const std::map<std::string, Calls>& dynamic_methods() {
           {"bj(d, {0, 0, 1, 2, 0})", "bj(d, {1, -1, 1, 2, 0})", "bj(d, {1, 0, 0.5, 2, 0})",
            "bj(d, {1, {0, 0}, 1, 2, 0})", "bj(d, {1, 0, 1, 1e5, 0})", "bj(d, {1, 0, 1, 2})", "bj(d, 2)",
            "bj(d, nil)"}}},
+        {"etfe", shown("etfe", {"{smooth = -1}", "{smooth = 300}", "{window = 3}", "2, 1", "'a'"})},
+        {"spa",
+         shown("spa", {"{window = 1}", "{window = 504}", "{w = {100}}", "{w = 'a'}", "{confidence = 2}", "'a'"})},
+        {"impulseest", shown("impulseest", {"{lags = 200}", "{lags = 401}", "{lags = 1.5}", "{smooth = 3}", "'a'"})},
+        {"cra", shown("cra", {"{lags = 200}", "{whitening = 101}", "{whitening = -1}", "{confidence = 0}", "'a'"})},
         {"step_first_order", reading("step_first_order")},
         {"step_second_order", reading("step_second_order")},
         {"step_delayed", reading("step_delayed")},

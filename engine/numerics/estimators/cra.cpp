@@ -1,0 +1,96 @@
+#include "numerics/estimators/cra.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "numerics/error.h"
+#include "numerics/kernels/spectral_estimate.h"
+#include "numerics/number_text.h"
+#include "numerics/signals/correlation.h"
+#include "numerics/validation/chi_squared.h"
+
+namespace dynlab {
+
+namespace {
+
+constexpr Index kFewestSamples = 8;
+constexpr double kPredictable = 1e-6;  // part of its power that a signal keeps when its past tells it: a sine, say
+
+/// Sums over all experiments of lagged_products, lags 0 .. lags.
+Vector joint_products(const IdData& data, const Matrix Experiment::*x, const Matrix Experiment::*y, Index lags) {
+    Vector sums = Vector::Zero(lags + 1);
+    for (const Experiment& experiment : data.experiments)
+        sums += lagged_products((experiment.*x).col(0), (experiment.*y).col(0), lags).tail(lags + 1);
+    return sums;
+}
+
+/// Levinson-Durbin recursion; ends early when hardly anything is left to predict.
+Vector whitening_filter(const Vector& r, Index order) {
+    Vector a = Vector::Unit(order + 1, 0);
+    double rest = r[0];
+    for (Index n = 1; n <= order && rest > kPredictable * r[0]; ++n) {
+        const double reflection = -a.head(n).dot(r.segment(1, n).reverse()) / rest;
+        const Vector before = a.head(n + 1);
+        a.head(n + 1) += reflection * before.reverse();
+        rest *= 1 - reflection * reflection;
+    }
+    return a;
+}
+
+/// Drops the samples whose past is not recorded.
+Vector filtered(const Vector& a, const VectorView& x) {
+    const Index n = a.size() - 1, count = x.size() - n;
+    Vector result = Vector::Zero(count);
+    for (Index i = 0; i <= n; ++i) result += a[i] * x.segment(n - i, count);
+    return result;
+}
+
+void whiten(IdData& data, const Vector& filter) {
+    for (Experiment& experiment : data.experiments) {
+        experiment.u = filtered(filter, experiment.u.col(0));
+        experiment.y = filtered(filter, experiment.y.col(0));
+    }
+}
+
+}  // namespace
+
+void CraOptions::validate() const {
+    if (whitening < 0 || whitening > 100)
+        throw InvalidArgument("cra: the order of the whitening filter must lie between 0 and 100, but it is " +
+                              std::to_string(whitening));
+    normal_half_width(confidence);
+}
+
+CorrelationAnalysis cra(const IdData& data, const CraOptions& options) {
+    options.validate();
+    IdData record = nonparametric_data("cra", data, kFewestSamples + options.whitening, true);
+    Index shortest = record.sample_count();
+    for (const Experiment& experiment : record.experiments) shortest = std::min(shortest, experiment.y.rows());
+    const Index lags = lags_or_default("cra", options.lags, shortest - options.whitening);
+    CorrelationAnalysis result;
+    const Vector raw = joint_products(record, &Experiment::u, &Experiment::u, options.whitening);
+    result.whitening_filter = whitening_filter(raw, options.whitening);
+    whiten(record, result.whitening_filter);
+    const Vector input = joint_products(record, &Experiment::u, &Experiment::u, lags);
+    const double output = joint_products(record, &Experiment::y, &Experiment::y, 0)[0];
+    result.input_correlation = input / input[0];
+    ImpulseEstimate& impulse = result.impulse;
+    impulse.t = Vector::LinSpaced(lags + 1, 0, static_cast<double>(lags)) * data.Ts;
+    impulse.response = joint_products(record, &Experiment::y, &Experiment::u, lags) / input[0];
+    const auto count = static_cast<double>(record.sample_count());
+    impulse.noise_variance = std::max(output - impulse.response.squaredNorm() * input[0], 0.0) / count;
+    impulse.null_std = Vector::Constant(lags + 1, std::sqrt(output / (count * input[0])));
+    impulse.std = impulse.null_std;
+    impulse.message = "Impulse response over " + std::to_string(lags) + " lags by correlation analysis.";
+    read_dead_time(impulse, data.Ts, normal_half_width(options.confidence));
+    const double limit = normal_half_width(options.confidence) / std::sqrt(count);
+    const double worst = input.tail(lags).cwiseAbs().maxCoeff() / input[0];
+    if (worst > std::max(2 * limit, 0.2))
+        impulse.warnings.push_back(
+            "The whitened input still has a correlation of up to " + number_text(worst, 2) +
+            " over the lags, which blurs the response: the input is too regular for this method; "
+            "impulseest does not need a white input.");
+    return result;
+}
+
+}  // namespace dynlab

@@ -1,0 +1,110 @@
+#include "numerics/estimators/etfe.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "numerics/error.h"
+#include "numerics/number_text.h"
+#include "numerics/signals/fourier.h"
+
+namespace dynlab {
+
+namespace {
+
+constexpr Index kFewestSamples = 8;
+
+/// Weights 1 + cos over -m..m, none of them zero, of sum one.
+Vector hann_weights(Index m) {
+    Vector weights(2 * m + 1);
+    for (Index i = -m; i <= m; ++i)
+        weights[i + m] = 1 + std::cos(std::numbers::pi * static_cast<double>(i) / static_cast<double>(m + 1));
+    return weights / weights.sum();
+}
+
+/// Smoothed spectra around line k; the transforms of real signals go on periodically. The mean (k = 0) is left out when
+/// it was removed.
+SpectralPoint smoothed_point(const ComplexVector& U, const ComplexVector& Y, Index k, const Vector& weights,
+                             bool means_removed) {
+    const Index N = U.size(), m = weights.size() / 2;
+    double input = 0, output = 0, sum = 0, squares = 0;
+    Complex cross = 0;
+    for (Index i = -m; i <= m; ++i) {
+        const Index line = ((k + i) % N + N) % N;
+        if (line == 0 && means_removed) continue;
+        const double weight = weights[i + m];
+        input += weight * std::norm(U[line]);
+        output += weight * std::norm(Y[line]);
+        cross += weight * Y[line] * std::conj(U[line]);
+        sum += weight, squares += weight * weight;
+    }
+    SpectralPoint point = spectral_point(input / sum, output / sum, cross / sum, sum * sum / squares, false);
+    point.noise /= static_cast<double>(N);
+    return point;
+}
+
+void set_size(SpectralEstimate& estimate, Index count, bool smoothed) {
+    estimate.w.resize(count), estimate.response.resize(count);
+    if (!smoothed) return;
+    estimate.std.resize(count), estimate.coherence.resize(count), estimate.noise_spectrum.resize(count);
+}
+
+void describe(SpectralEstimate& estimate, const EtfeOptions& options, Index lines) {
+    estimate.message = "Empirical transfer function estimate at " + std::to_string(estimate.w.size()) + " of " +
+                       std::to_string(lines) + " frequencies";
+    estimate.message +=
+        options.smooth > 0 ? ", smoothed over " + std::to_string(2 * options.smooth + 1) + " lines." : ".";
+    if (estimate.w.size() < lines)
+        estimate.message += " At the others the input has less than " + number_text(100 * options.least_input, 3) +
+                            " % of its largest amplitude, and noise alone would be shown.";
+    if (estimate.w.size() < 3)
+        estimate.warnings.push_back("The input excites " + std::to_string(estimate.w.size()) +
+                                    " frequencies only: the response is known there and nowhere else.");
+}
+
+}  // namespace
+
+void EtfeOptions::validate() const {
+    if (smooth < 0)
+        throw InvalidArgument("etfe: the number of frequencies to smooth over must not be negative, but it is " +
+                              std::to_string(smooth));
+    if (!(least_input >= 0 && least_input < 1))
+        throw InvalidArgument("etfe: the least part of the input's amplitude must lie between 0 and 1, but it is " +
+                              number_text(least_input));
+}
+
+SpectralEstimate etfe(const IdData& data, const EtfeOptions& options) {
+    options.validate();
+    if (data.experiments.size() != 1)
+        throw InvalidArgument("etfe: the data must hold one experiment, but they hold " +
+                              std::to_string(data.experiments.size()) +
+                              "; take one with data:experiment(k), or use spa, which joins them");
+    const Experiment record = nonparametric_data("etfe", data, kFewestSamples, options.remove_mean).experiments.front();
+    const ComplexVector U = fourier_transform(record.u.col(0)), Y = fourier_transform(record.y.col(0));
+    const Index N = U.size(), lines = N / 2;
+    if (2 * options.smooth + 1 > lines)
+        throw InvalidArgument("etfe: smoothing over " + std::to_string(2 * options.smooth + 1) +
+                              " frequencies leaves nothing of the " + std::to_string(lines) + " that the record has");
+    const Vector amplitudes = U.segment(1, lines).cwiseAbs();
+    const double least = options.least_input * amplitudes.maxCoeff();
+    const Vector weights = hann_weights(options.smooth);
+    SpectralEstimate estimate;
+    set_size(estimate, lines, options.smooth > 0);
+    Index kept = 0;
+    for (Index k = 1; k <= lines; ++k) {
+        const SpectralPoint point = smoothed_point(U, Y, k, weights, options.remove_mean);
+        if (options.smooth == 0 && amplitudes[k - 1] < least) continue;
+        estimate.w[kept] = 2 * std::numbers::pi * static_cast<double>(k) / (static_cast<double>(N) * data.Ts);
+        estimate.response[kept] = point.response;
+        if (options.smooth > 0) {
+            estimate.std[kept] = point.std;
+            estimate.coherence[kept] = point.coherence;
+            estimate.noise_spectrum[kept] = point.noise;
+        }
+        ++kept;
+    }
+    estimate.w.conservativeResize(kept), estimate.response.conservativeResize(kept);
+    describe(estimate, options, lines);
+    return estimate;
+}
+
+}  // namespace dynlab

@@ -1,0 +1,128 @@
+#include "numerics/estimators/spa.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "numerics/error.h"
+#include "numerics/number_text.h"
+#include "numerics/signals/correlation.h"
+
+namespace dynlab {
+
+namespace {
+
+constexpr Index kFewestSamples = 8, kDefaultWindow = 30, kDefaultFrequencies = 128;
+constexpr double kPoorInput = 1e-4;    // part of the largest input power below which hardly anything is excited
+constexpr double kLeastInput = 1e-10;  // what the response is divided by at least
+
+Index window_of(const SpaOptions& options, Index shortest) {
+    if (options.window == 0) return std::max<Index>(2, std::min(shortest / 10, kDefaultWindow));
+    if (options.window < 2 || options.window >= shortest)
+        throw InvalidArgument("spa: the lag window must reach from 2 samples to less than the shortest experiment's " +
+                              std::to_string(shortest) + ", but it is " + std::to_string(options.window));
+    return options.window;
+}
+
+Vector frequencies_of(const SpaOptions& options, Index window, double Ts) {
+    const double end = std::numbers::pi / Ts;
+    if (options.w.size() == 0) {
+        const double first = std::min(1 / (static_cast<double>(window) * Ts), 0.1 * end);
+        Vector w = Vector::LinSpaced(kDefaultFrequencies, std::log(first), std::log(end)).array().exp();
+        w[w.size() - 1] = end;
+        return w;
+    }
+    for (const double value : options.w)
+        if (!(value >= 0 && value <= end * (1 + 1e-12)))
+            throw InvalidArgument("spa: frequencies must lie between 0 and pi/Ts = " + number_text(end) +
+                                  " rad per time unit, but one is " + number_text(value));
+    return options.w;
+}
+
+struct Covariances {
+    Vector u, y, yu;  // lags -M..M
+};
+
+Covariances covariances_of(const IdData& data, Index M) {
+    Covariances R{Vector::Zero(2 * M + 1), Vector::Zero(2 * M + 1), Vector::Zero(2 * M + 1)};
+    for (const Experiment& experiment : data.experiments) {
+        const Vector u = experiment.u.col(0), y = experiment.y.col(0);
+        R.u += lagged_products(u, u, M);
+        R.y += lagged_products(y, y, M);
+        R.yu += lagged_products(y, u, M);
+    }
+    const auto count = static_cast<double>(data.sample_count());
+    Vector window(2 * M + 1);
+    for (Index lag = -M; lag <= M; ++lag)
+        window[lag + M] =
+            0.5 * (1 + std::cos(std::numbers::pi * static_cast<double>(lag) / static_cast<double>(M))) / count;
+    for (Vector* r : {&R.u, &R.y, &R.yu}) *r = r->cwiseProduct(window);
+    return R;
+}
+
+/// sum over the lags of r(tau) exp(-i angle tau)
+Complex transform_at(const Vector& r, double angle) {
+    const Index M = r.size() / 2;
+    Complex sum = r[M];
+    for (Index lag = 1; lag <= M; ++lag) {
+        const Complex turn = std::polar(1.0, -angle * static_cast<double>(lag));
+        sum += r[M + lag] * turn + r[M - lag] * std::conj(turn);
+    }
+    return sum;
+}
+
+void describe(SpectralEstimate& estimate, Index M, double averages, double Ts) {
+    estimate.message = "Spectral analysis with a lag window of " + std::to_string(M) +
+                       " samples: details narrower than " +
+                       number_text(std::numbers::pi / (static_cast<double>(M) * Ts), 3) +
+                       " rad per time unit are smoothed away, and every value averages about " +
+                       number_text(averages, 2) + " independent ones.";
+    if (averages < 4)
+        estimate.warnings.push_back("The window is long for so short a record: the errors are large and uncertain.");
+}
+
+}  // namespace
+
+void SpaOptions::validate() const {
+    if (window < 0)
+        throw InvalidArgument("spa: the lag window must be a positive number of samples, but it is " +
+                              std::to_string(window));
+    if (!w.allFinite()) throw InvalidArgument("spa: a frequency is not a finite number");
+}
+
+SpectralEstimate spa(const IdData& data, const SpaOptions& options) {
+    options.validate();
+    const IdData record = nonparametric_data("spa", data, kFewestSamples, options.remove_mean);
+    Index shortest = record.sample_count();
+    for (const Experiment& experiment : record.experiments) shortest = std::min(shortest, experiment.y.rows());
+    const Index M = window_of(options, shortest);
+    const Covariances R = covariances_of(record, M);
+    SpectralEstimate estimate;
+    estimate.w = frequencies_of(options, M, data.Ts);
+    const Index count = estimate.w.size();
+    estimate.response.resize(count), estimate.std.resize(count);
+    estimate.coherence.resize(count), estimate.noise_spectrum.resize(count);
+    const double averages = static_cast<double>(record.sample_count()) / (0.75 * static_cast<double>(M));
+    Vector input(count);
+    for (Index i = 0; i < count; ++i) input[i] = transform_at(R.u, estimate.w[i] * data.Ts).real();
+    const double most = input.cwiseAbs().maxCoeff(), floor = kLeastInput * most;
+    bool poor = false;
+    for (Index i = 0; i < count; ++i) {
+        const double angle = estimate.w[i] * data.Ts;
+        const bool real = angle < 1e-12 || std::numbers::pi - angle < 1e-9;
+        poor = poor || input[i] < kPoorInput * most;
+        const SpectralPoint point = spectral_point(std::max(input[i], floor), transform_at(R.y, angle).real(),
+                                                   transform_at(R.yu, angle), averages, real);
+        estimate.response[i] = point.response;
+        estimate.std[i] = point.std;
+        estimate.coherence[i] = point.coherence;
+        estimate.noise_spectrum[i] = point.noise;
+    }
+    describe(estimate, M, averages, data.Ts);
+    if (poor)
+        estimate.warnings.push_back(
+            "At some frequencies the input has practically no power; the response there means nothing.");
+    return estimate;
+}
+
+}  // namespace dynlab

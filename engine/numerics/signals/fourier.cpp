@@ -1,0 +1,60 @@
+#include "numerics/signals/fourier.h"
+
+#include <numbers>
+#include <unsupported/Eigen/FFT>
+#include <vector>
+
+namespace dynlab {
+
+namespace {
+
+using Samples = std::vector<Complex>;
+
+constexpr Index kLargestPrime = 50;
+
+Index largest_prime_factor(Index n) {
+    Index largest = 1;
+    for (Index p = 2; p * p <= n; ++p)
+        for (; n % p == 0; n /= p) largest = p;
+    return std::max(largest, n);
+}
+
+/// k n = (k^2 + n^2 - (k - n)^2)/2 turns the transform into a convolution with the chirp exp(i pi n^2/N).
+Samples by_convolution(const VectorView& x) {
+    const Index N = x.size();
+    std::size_t length = 1;
+    while (length < static_cast<std::size_t>(2 * N)) length *= 2;
+    Samples chirp(static_cast<std::size_t>(N)), signal(length), kernel(length), S, K, product;
+    for (Index n = 0; n < N; ++n) {
+        const auto turned = static_cast<double>((n * n) % (2 * N));
+        const auto i = static_cast<std::size_t>(n);
+        chirp[i] = std::polar(1.0, std::numbers::pi * turned / static_cast<double>(N));
+        signal[i] = x[n] * std::conj(chirp[i]);
+        kernel[i] = chirp[i];
+        if (n > 0) kernel[length - i] = chirp[i];
+    }
+    Eigen::FFT<double> transform;
+    transform.fwd(S, signal);
+    transform.fwd(K, kernel);
+    for (std::size_t i = 0; i < length; ++i) S[i] *= K[i];
+    transform.inv(product, S);
+    Samples result(static_cast<std::size_t>(N));
+    for (std::size_t k = 0; k < result.size(); ++k) result[k] = product[k] * std::conj(chirp[k]);
+    return result;
+}
+
+}  // namespace
+
+ComplexVector fourier_transform(const VectorView& x) {
+    if (x.size() <= 1) return x.cast<Complex>();
+    Samples X;
+    if (largest_prime_factor(x.size()) > kLargestPrime) {
+        X = by_convolution(x);
+    } else {
+        Eigen::FFT<double> transform;
+        transform.fwd(X, Samples(x.begin(), x.end()));
+    }
+    return Eigen::Map<const ComplexVector>(X.data(), x.size());
+}
+
+}  // namespace dynlab
