@@ -23,6 +23,7 @@ FunctionEntries residual_functions();
 FunctionEntries model_functions();
 FunctionEntries data_functions();
 FunctionEntries preprocess_functions();
+FunctionEntries advice_functions();
 FunctionEntries saving_functions();
 FunctionEntries rig_functions();
 FunctionEntries simulation_functions();

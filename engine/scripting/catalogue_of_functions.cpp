@@ -14,11 +14,11 @@ const std::vector<FunctionEntry>& catalogue_of_functions() {
                                      estimator_functions(),     transfer_estimator_functions(),
                                      noise_model_functions(),   discrete_estimator_functions(),
                                      subspace_functions(),      hammerstein_functions(),
-                                     nonparametric_functions(), regression_functions(),
-                                     validation_functions(),    residual_functions(),
-                                     order_functions(),         study_functions(),
-                                     figure_functions(),        report_functions(),
-                                     help_functions()})
+                                     nonparametric_functions(), advice_functions(),
+                                     regression_functions(),    validation_functions(),
+                                     residual_functions(),      order_functions(),
+                                     study_functions(),         figure_functions(),
+                                     report_functions(),        help_functions()})
             all.insert(all.end(), area.begin(), area.end());
         return all;
     }();

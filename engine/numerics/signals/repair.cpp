@@ -7,18 +7,13 @@
 #include "numerics/number_text.h"
 #include "numerics/signals/checks.h"
 #include "numerics/signals/quantisation.h"
+#include "numerics/signals/robust_statistics.h"
 
 namespace dynlab {
 
 namespace {
 
 constexpr double kNormal = 1.4826;  // standard deviation of a normal variable by its median absolute deviation
-
-double median_of(std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 std::vector<Segment> stretches_of(const std::vector<Index>& places) {
     std::vector<Segment> single;
@@ -55,15 +50,6 @@ RepairedSignal bridged(const VectorView& x, const Vector& t, const std::vector<b
     return result;
 }
 
-/// Standard deviation of the noise on a smooth signal, from its second differences, which slopes do not enter.
-double noise_scatter(const VectorView& x) {
-    if (x.size() < 3) return 0;
-    const Index n = x.size() - 2;
-    const Vector second = (x.head(n) - 2 * x.segment(1, n) + x.tail(n)).cwiseAbs();
-    std::vector<double> differences(second.begin(), second.end());
-    return kNormal * median_of(differences) / std::sqrt(6.0);
-}
-
 Vector counted(Index count) {
     return Vector::LinSpaced(count, 1, static_cast<double>(count));
 }
@@ -78,9 +64,9 @@ void moving_medians(const VectorView& x, Index half, Vector& centre, Vector& spr
         const Index first = reach > 0 ? k - reach : k == 0 ? 0 : std::max<Index>(N - 3, 0);
         const Index last = reach > 0 ? k + reach : std::min(first + 2, N - 1);
         window.assign(x.begin() + first, x.begin() + last + 1);
-        centre[k] = median_of(window);
+        centre[k] = median(window);
         for (double& value : window) value = std::abs(value - centre[k]);
-        spread[k] = median_of(window);
+        spread[k] = median(window);
     }
 }
 
@@ -121,7 +107,7 @@ RepairedSignal replace_outliers(const VectorView& x, const OutlierOptions& optio
     Vector centre, spread;
     moving_medians(x, options.window / 2, centre, spread);
     const Vector distance = (x - centre).cwiseAbs();
-    const double scatter = noise_scatter(x);
+    const double scatter = noise_from_differences(x);
     const double rounding = 1.5 * quantisation_of(x).step + 1e-9 * (x.maxCoeff() - x.minCoeff());
     std::vector<bool> good(static_cast<std::size_t>(x.size()));
     for (Index k = 0; k < x.size(); ++k)

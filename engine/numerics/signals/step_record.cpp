@@ -7,19 +7,13 @@
 #include <vector>
 
 #include "numerics/error.h"
+#include "numerics/signals/robust_statistics.h"
 
 namespace dynlab {
 
 namespace {
 
 constexpr Index kSamplesAfterStep = 10;
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    if (values.size() % 2) return *middle;
-    return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
 
 std::vector<double> to_std(const VectorView& x) {
     return {x.begin(), x.end()};
@@ -32,15 +26,6 @@ double trimmed_mean(const VectorView& x) {
     double sum = 0;
     for (std::size_t i = dropped; i < values.size() - dropped; ++i) sum += values[i];
     return sum / static_cast<double>(values.size() - 2 * dropped);
-}
-
-// Second differences cancel a smooth response; their median is not moved by a few outliers.
-double noise_from_differences(const VectorView& y) {
-    if (y.size() < 3) return 0;
-    const Index n = y.size() - 2;
-    const Vector differences = (y.head(n) - 2 * y.segment(1, n) + y.tail(n)).cwiseAbs();
-    constexpr double kNormalMedian = 0.6744897501960817;
-    return median(to_std(differences)) / (kNormalMedian * std::sqrt(6.0));
 }
 
 void require_one_record(const IdData& data) {
@@ -73,8 +58,8 @@ void find_step(StepRecord& record) {
     }
     if (changes == 1) {
         record.step_time = record.t[record.step_index];
-        record.input_before = median(to_std(u.head(record.step_index)));
-        record.input_after = median(to_std(u.tail(u.size() - record.step_index)));
+        record.input_before = median(u.head(record.step_index));
+        record.input_after = median(u.tail(u.size() - record.step_index));
         const double tolerance = 0.1 * std::abs(record.input_change());
         Vector departure = u.array() - record.input_before;
         departure.tail(u.size() - record.step_index).array() -= record.input_change();
@@ -136,8 +121,7 @@ Index rough_rise(const StepRecord& record) {
     Index from = -1;
     for (Index k = record.step_index; k < N; ++k) {
         const Index first = std::max(record.step_index, k - 2), count = std::min(N - 1, k + 2) - first + 1;
-        const double rise =
-            (median(to_std(record.y.segment(first, count))) - record.initial.value) / record.output_change();
+        const double rise = (median(record.y.segment(first, count)) - record.initial.value) / record.output_change();
         if (from < 0 && rise > 0.283) from = k;
         if (rise > 0.632) return k - from;
     }
@@ -155,7 +139,7 @@ Vector without_outliers(const StepRecord& record) {
     const double allowed = 6 * record.noise_std + 0.25 * std::abs(record.output_change());
     Vector y = record.y;
     for (Index k = 1; k + 1 < y.size(); ++k) {
-        const double middle = median({record.y[k - 1], record.y[k], record.y[k + 1]});
+        const double middle = median(record.y.segment(k - 1, 3));
         if (std::abs(record.y[k] - middle) > allowed) y[k] = middle;
     }
     return y;

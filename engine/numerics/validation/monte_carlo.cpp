@@ -14,6 +14,7 @@
 #include "numerics/kernels/thread_count.h"
 #include "numerics/number_text.h"
 #include "numerics/signals/random.h"
+#include "numerics/signals/robust_statistics.h"
 #include "numerics/simulation/lsim.h"
 #include "numerics/validation/cramer_rao.h"
 
@@ -141,14 +142,6 @@ std::vector<std::string> names_for(const MonteCarloEstimate& estimate, const Tra
     return names;
 }
 
-/// The middle of the values; reorders them.
-double median_of(std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    if (values.size() % 2 == 1) return *middle;
-    return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
-
 /// Statistics of parameter i over the runs that gave an estimate.
 void describe_parameter(MonteCarloResult& result, Index i) {
     std::vector<double> values, reported;
@@ -164,7 +157,7 @@ void describe_parameter(MonteCarloResult& result, Index i) {
     result.high[i] = v.maxCoeff();
     if (!reported.empty())
         result.reported[i] = Eigen::Map<const Vector>(reported.data(), static_cast<Index>(reported.size())).mean();
-    result.median[i] = median_of(values);
+    result.median[i] = median(values);
 }
 
 void fill_runs(MonteCarloResult& result, const std::vector<Outcome>& outcomes, Index d) {

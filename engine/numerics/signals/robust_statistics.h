@@ -1,0 +1,16 @@
+#pragma once
+#include <vector>
+
+#include "numerics/linalg/types.h"
+
+namespace dynlab {
+
+/// The middle of the values, of an even number the mean of the two in the middle. Needs at least one.
+double median(std::vector<double> values);
+double median(const VectorView& values);
+
+/// Standard deviation of white noise on a smooth signal: 1.4826 times the median of its second differences, over
+/// sqrt(6). Slopes and a few outliers do not enter; 0 for fewer than three samples.
+double noise_from_differences(const VectorView& x);
+
+}  // namespace dynlab

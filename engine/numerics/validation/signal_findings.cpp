@@ -1,0 +1,318 @@
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <numbers>
+
+#include "numerics/number_text.h"
+#include "numerics/signals/correlation.h"
+#include "numerics/signals/quantisation.h"
+#include "numerics/signals/repair.h"
+#include "numerics/signals/robust_statistics.h"
+#include "numerics/validation/advice.h"
+
+namespace dynlab {
+
+namespace {
+
+constexpr Index kShortestRun = 5;        // samples at a limit that are no chance
+constexpr double kClippedExcess = 0.05;  // of the range, what the signal would have gone beyond its limit
+constexpr double kCoarse = 100;          // steps over the range below which quantisation matters
+constexpr Index kHighestOrder = 20, kPoorOrder = 6;
+constexpr double kExcited = 5e-3;  // singular value against the largest one
+
+struct Channel {
+    std::string name, unit;
+    bool output;
+    Vector x;
+    std::size_t experiment;
+};
+
+std::string with_unit(double value, const std::string& unit, int digits = 4) {
+    return number_text(value, digits) + (unit.empty() ? "" : " " + unit);
+}
+
+std::string subject(const Channel& channel) {
+    return (channel.output ? "The output " : "The input ") + channel.name;
+}
+
+std::vector<Channel> channels_of(const IdData& data) {
+    std::vector<Channel> channels;
+    for (std::size_t k = 0; k < data.experiments.size(); ++k) {
+        const Experiment& experiment = data.experiments[k];
+        for (const bool output : {true, false}) {
+            const Matrix& signals = output ? experiment.y : experiment.u;
+            for (Index i = 0; i < signals.cols(); ++i) {
+                const auto place = static_cast<std::size_t>(i);
+                channels.push_back({(output ? data.output_names : data.input_names)[place],
+                                    (output ? data.output_units : data.input_units)[place], output, signals.col(i), k});
+            }
+        }
+    }
+    return channels;
+}
+
+Finding about(const Channel& channel, const char* code, Weight weight, const std::string& message, double value = 0) {
+    return {code, weight, channel.name, message, value, channel.experiment, {}};
+}
+
+double range_of(const Vector& x) {
+    return x.maxCoeff() - x.minCoeff();
+}
+
+/// A constant input other than zero may be a step with which the record begins.
+void find_step_at_the_start(const Channel& channel, std::vector<Finding>& findings) {
+    findings.push_back(about(channel, "step_input", Weight::kNote,
+                             subject(channel) + " stays at " + with_unit(channel.x[0], channel.unit) +
+                                 " throughout: a step experiment, if it was switched on with the first sample and the "
+                                 "output started from rest. It shows gain, dead time and one or two time constants.",
+                             0));
+}
+
+void find_constant(const Channel& channel, std::vector<Finding>& findings) {
+    findings.push_back(about(channel, "constant", Weight::kWarning,
+                             subject(channel) + " stays at " + with_unit(channel.x[0], channel.unit) +
+                                 " throughout, so nothing can be learnt from it. It is at a limit all the time, its "
+                                 "sensor or wire is dead, or a wrong column was read.",
+                             channel.x[0]));
+}
+
+void find_time_column(const Channel& channel, std::vector<Finding>& findings) {
+    const Index N = channel.x.size();
+    if (N < 10) return;
+    const Vector steps = channel.x.tail(N - 1) - channel.x.head(N - 1);
+    const double mean = steps.mean();
+    if (!(mean > 0) || (steps.array() - mean).abs().maxCoeff() > 1e-3 * mean) return;
+    findings.push_back(about(channel, "time_column", Weight::kWarning,
+                             subject(channel) + " rises by the same " + number_text(mean, 4) +
+                                 " from every sample to the next: it looks like the time. Check which column of the "
+                                 "file is which.",
+                             mean));
+}
+
+/// Slope per sample over the last few samples before `place`; 0 where the record does not go back so far.
+double slope_before(const Vector& x, Index place) {
+    constexpr Index kReach = 4;
+    return place < kReach ? 0 : std::abs(x[place] - x[place - kReach]) / static_cast<double>(kReach);
+}
+
+/// Runs at the largest or smallest value into which the signal comes at speed: it would have gone on.
+std::vector<Segment> saturated_runs(const Vector& x, const Quantisation& grid) {
+    std::vector<Segment> runs;
+    const double range = range_of(x), tolerance = 1e-9 * range;
+    for (const double limit : {x.maxCoeff(), x.minCoeff()})
+        for (Index first = 0; first < x.size();) {
+            Index last = first;
+            while (last < x.size() && std::abs(x[last] - limit) <= tolerance) ++last;
+            const Index length = last - first;
+            const double slope = slope_before(x, first);
+            const double excess = slope * static_cast<double>(std::min<Index>(length, 40));
+            if (length >= kShortestRun && excess > kClippedExcess * range && 4 * slope > 2.5 * grid.step)
+                runs.push_back({first + 1, last});
+            first = std::max(last, first + 1);
+        }
+    return joined(std::move(runs));
+}
+
+std::string listed(const std::vector<Segment>& segments) {
+    constexpr std::size_t kMost = 4;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(kMost, segments.size()); ++i) {
+        text += (i > 0 ? ", " : "") + std::to_string(segments[i].first);
+        if (segments[i].last > segments[i].first) text += " to " + std::to_string(segments[i].last);
+    }
+    return text + (segments.size() > kMost ? ", ..." : "");
+}
+
+/// A signal that jumps between a few levels (a relay, a PRBS, a keyed-in step) has no limits to run into.
+bool has_few_levels(const Quantisation& grid) {
+    return grid.levels <= 5;
+}
+
+void find_saturation(const Channel& channel, const Quantisation& grid, std::vector<Finding>& findings) {
+    if (has_few_levels(grid)) return;
+    const std::vector<Segment> runs = saturated_runs(channel.x, grid);
+    if (runs.empty()) return;
+    Index samples = 0;
+    for (const Segment& run : runs) samples += run.last - run.first + 1;
+    const double share = static_cast<double>(samples) / static_cast<double>(channel.x.size());
+    std::string message = subject(channel) + " is cut off at a limit for " + number_text(100 * share, 2) +
+                          " % of the record (samples " + listed(runs) + "): it runs into " +
+                          with_unit(channel.x[runs[0].first - 1], channel.unit) +
+                          " at full speed and stays there. A linear model cannot follow that. ";
+    message += share > 0.5
+                   ? "Most of the record is saturated: repeat the experiment with a smaller amplitude or another "
+                     "range of the sensor."
+                   : "Leave these stretches out with data:discard, or repeat the experiment with a smaller "
+                     "amplitude.";
+    Finding finding = about(channel, "saturation", Weight::kWarning, message, share);
+    finding.sections = runs;
+    findings.push_back(std::move(finding));
+}
+
+void find_quantisation(const Channel& channel, const Quantisation& grid, std::vector<Finding>& findings) {
+    const double range = range_of(channel.x);
+    if (!channel.output || grid.step == 0 || range / grid.step >= kCoarse) return;
+    findings.push_back(about(channel, "quantisation", Weight::kWarning,
+                             subject(channel) + " is recorded in steps of " + with_unit(grid.step, channel.unit, 3) +
+                                 ", only " + number_text(std::round(range / grid.step)) +
+                                 " steps over its range. That acts like noise of standard deviation " +
+                                 with_unit(grid.step / std::sqrt(12.0), channel.unit, 2) +
+                                 "; use a finer range of the converter or a larger amplitude.",
+                             grid.step));
+}
+
+void find_outliers(const Channel& channel, const Quantisation& grid, std::vector<Finding>& findings) {
+    if (!channel.output || has_few_levels(grid)) return;
+    const RepairedSignal repaired = replace_outliers(channel.x);
+    const auto count = static_cast<double>(repaired.replaced.size());
+    if (count == 0 || count > 0.05 * static_cast<double>(channel.x.size())) return;
+    Finding finding = about(channel, "outliers", Weight::kWarning,
+                            subject(channel) + " has " + number_text(count) +
+                                (count == 1 ? " sample that stands" : " samples that stand") +
+                                " far out from the neighbours (" + listed(repaired.stretches) +
+                                "). Look whether they can be true; if not, filloutliers puts straight lines there.",
+                            count);
+    finding.sections = repaired.stretches;
+    findings.push_back(std::move(finding));
+}
+
+void find_degrees(const Channel& channel, std::vector<Finding>& findings) {
+    std::string unit = channel.unit;
+    std::transform(unit.begin(), unit.end(), unit.begin(), [](unsigned char c) { return std::tolower(c); });
+    const double swing = range_of(channel.x) / 2;
+    if ((unit != "rad" && unit != "radian" && unit != "radians") || swing <= std::numbers::pi) return;
+    findings.push_back(about(channel, "degrees", Weight::kWarning,
+                             subject(channel) + " is declared in rad but swings by +-" + number_text(swing, 3) +
+                                 ", which would be " + number_text(swing / (2 * std::numbers::pi), 2) +
+                                 " turns. It is probably in degrees: multiply it by pi/180, or declare the unit deg.",
+                             swing));
+}
+
+/// First lag at which the autocorrelation has fallen to one half.
+Index half_correlation(const Vector& x, Index most) {
+    const Vector r = lagged_products(x, x, most).tail(most + 1);
+    for (Index lag = 1; lag <= most; ++lag)
+        if (r[lag] < 0.5 * r[0]) return lag;
+    return most;
+}
+
+/// Rank of the input's shifted copies, shifts as far apart as the input takes to change: how many parameters of a
+/// model it can determine.
+Index excitation_order(const Vector& u) {
+    const Index N = u.size(), shift = half_correlation(u.array() - u.mean(), std::max<Index>(N / 20, 1));
+    const Index order = std::min(kHighestOrder, N / (2 * shift));
+    if (order < 1) return 1;
+    const Index rows = N - (order - 1) * shift;
+    Matrix copies(rows, order);
+    for (Index i = 0; i < order; ++i) copies.col(i) = u.segment(i * shift, rows);
+    copies.rowwise() -= copies.colwise().mean().eval();
+    const Eigen::HouseholderQR<Matrix> qr(copies);
+    const Matrix R = qr.matrixQR().topRows(std::min(rows, order)).triangularView<Eigen::Upper>();
+    const Vector singular = R.jacobiSvd().singularValues();
+    return (singular.array() > kExcited * singular[0]).count();
+}
+
+Index changes_of(const Vector& u) {
+    const double least = 0.05 * range_of(u);
+    Index changes = 0;
+    for (Index k = 1; k < u.size(); ++k) changes += std::abs(u[k] - u[k - 1]) > least;
+    return changes;
+}
+
+void find_excitation(const Channel& channel, const Quantisation& grid, std::vector<Finding>& findings) {
+    const Index changes = changes_of(channel.x);
+    if (has_few_levels(grid) && changes <= 3) {
+        findings.push_back(about(channel, "step_input", Weight::kNote,
+                                 subject(channel) + " changes " +
+                                     (changes == 1 ? "once" : std::to_string(changes) + " times") +
+                                     " only: a step experiment. It shows gain, dead time and one or two time constants "
+                                     "(procsrivc, step_first_order); for higher orders excite with a prbs.",
+                                 static_cast<double>(changes)));
+        return;
+    }
+    const Index order = excitation_order(channel.x);
+    const bool poor = order < kPoorOrder;
+    findings.push_back(
+        about(channel, poor ? "poor_excitation" : "excitation", poor ? Weight::kWarning : Weight::kNote,
+              subject(channel) +
+                  (poor ? " can determine no more than " + std::to_string(order) + " parameters: it holds about " +
+                              std::to_string((order + 1) / 2) + (order > 2 ? " frequencies" : " frequency") +
+                              " only. Excite with a prbs, a chirp or a multisine that covers the plant's bandwidth."
+                        : " is rich enough for models with " +
+                              (order >= kHighestOrder ? std::string("20 parameters or more")
+                                                      : std::to_string(order) + " parameters") +
+                              "."),
+              static_cast<double>(order)));
+}
+
+void find_twins(const std::vector<Channel>& channels, std::vector<Finding>& findings) {
+    for (std::size_t i = 0; i < channels.size(); ++i)
+        for (std::size_t j = i + 1; j < channels.size(); ++j) {
+            const Channel &a = channels[i], &b = channels[j];
+            if (a.experiment != b.experiment || range_of(a.x) == 0 || a.x != b.x) continue;
+            findings.push_back(about(b, "same_column", Weight::kWarning,
+                                     subject(b) + " is sample by sample the same as " + a.name +
+                                         ": one column of the file was probably read twice."));
+        }
+}
+
+/// Irregular instants: two clocks, or a regular one with samples missing?
+void find_sampling(const IdData& data, std::vector<Finding>& findings) {
+    for (std::size_t k = 0; k < data.experiments.size(); ++k) {
+        const Vector& t = data.experiments[k].t;
+        if (t.size() < 10) continue;
+        const Vector steps = t.tail(t.size() - 1) - t.head(t.size() - 1);
+        const double usual = median(steps);
+        const auto alike_to = [&](double step) -> Index { return ((steps.array() / step - 1).abs() < 0.05).count(); };
+        const Index regular = alike_to(usual), others = steps.size() - regular;
+        if (others == 0 || regular < steps.size() / 3) continue;
+        Index place = 0;
+        while (std::abs(steps[place] / usual - 1) < 0.05) ++place;
+        const double other = steps[place];
+        const Index alike = alike_to(other);
+        const std::string unit = " " + data.time_unit;
+        const bool mixed = alike > std::max<Index>(5, steps.size() / 20) && alike > others / 2;
+        Finding finding{mixed ? "mixed_sampling" : "gaps", Weight::kWarning, "", "", other, k,
+                        {{place + 1, place + 2}}};
+        if (mixed)
+            finding.message = "The record mixes two sampling times: " + std::to_string(regular) + " steps of " +
+                              number_text(usual, 4) + unit + " and " + std::to_string(alike) + " of " +
+                              number_text(other, 4) + unit + ", first at sample " + std::to_string(place + 1) +
+                              ". Two files were probably joined; make an experiment of each part, resample one and "
+                              "merge them.";
+        else
+            finding.message = "The time jumps at " + std::to_string(others) + " places, first after sample " +
+                              std::to_string(place + 1) + " by " + number_text(other, 4) + unit + " instead of " +
+                              number_text(usual, 4) + unit +
+                              ": samples are missing. Interpolate small gaps (interp1); make experiments of the parts "
+                              "between large ones.";
+        findings.push_back(std::move(finding));
+    }
+}
+
+}  // namespace
+
+std::vector<Finding> signal_findings(const IdData& data) {
+    std::vector<Finding> findings;
+    find_sampling(data, findings);
+    const std::vector<Channel> channels = channels_of(data);
+    find_twins(channels, findings);
+    for (const Channel& channel : channels) {
+        if (range_of(channel.x) == 0) {
+            !channel.output&& channel.x[0] != 0 ? find_step_at_the_start(channel, findings)
+                                                : find_constant(channel, findings);
+            continue;
+        }
+        const Quantisation grid = quantisation_of(channel.x);
+        find_time_column(channel, findings);
+        find_saturation(channel, grid, findings);
+        find_quantisation(channel, grid, findings);
+        find_outliers(channel, grid, findings);
+        find_degrees(channel, findings);
+        if (!channel.output) find_excitation(channel, grid, findings);
+    }
+    return findings;
+}
+
+}  // namespace dynlab

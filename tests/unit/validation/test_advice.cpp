@@ -1,0 +1,246 @@
+// Each finding on a record that we gave that defect, and none of the warnings on records without.
+#include "numerics/validation/advice.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "numerics/signals/prbs.h"
+#include "numerics/signals/random.h"
+#include "numerics/simulation/lsim.h"
+#include "support/difference_equation.h"
+
+using namespace dynlab;
+using dynlab::test::random_levels;
+using testing::AllOf;
+using testing::HasSubstr;
+
+namespace {
+
+constexpr double kTs = 0.1;
+
+struct Record {
+    Vector u, x, y;
+
+    IdData data() const { return IdData(Matrix(y), Matrix(u), kTs); }
+};
+
+/// 2/(s^2 + s + 4) behind a dead time, driven by random levels.
+Record record(std::uint32_t seed = 1, double noise = 0.03, double delay = 0) {
+    Record r;
+    r.u = random_levels(1000, 8, seed);
+    r.x = lsim(TransferFunction(Vector{{2.0}}, Vector{{1.0, 1.0, 4.0}}, 0, delay), r.u, kTs);
+    r.y = r.x + noise * RandomStream(seed + 100).normal(1000);
+    return r;
+}
+
+std::string codes(const Advice& advice) {
+    std::string all;
+    for (const Finding& finding : advice.findings) all += finding.code + ": " + finding.message + "\n";
+    return all;
+}
+
+/// The message of a finding, or all codes when it is not there.
+std::string said(const Advice& advice, const std::string& code) {
+    const Finding* finding = advice.find(code);
+    return finding != nullptr ? finding->message : "no " + code + " among:\n" + codes(advice);
+}
+
+}  // namespace
+
+TEST(advice, clean_records_raise_no_warning) {  // oracle: nothing was put in; false alarms over 30 seeds
+    int alarms = 0;
+    for (std::uint32_t seed = 1; seed <= 30; ++seed) {
+        const Advice advice = advise(record(seed).data());
+        alarms += !advice.clean();
+        EXPECT_FALSE(advice.has("dead_time")) << seed << said(advice, "dead_time");
+        EXPECT_TRUE(advice.clean()) << seed << "\n" << codes(advice);
+    }
+    EXPECT_LE(alarms, 1);
+}
+
+TEST(advice, clean_noise_free_records_raise_no_warning) {
+    Record r = record(1, 0);
+    EXPECT_TRUE(advise(r.data()).clean()) << codes(advise(r.data()));
+}
+
+TEST(advice, the_signal_to_noise_ratio_is_that_put_in) {  // oracle: known noise
+    for (const double noise : {0.01, 0.1, 0.5}) {
+        const Record r = record(3, noise);
+        const double power = (r.x.array() - r.x.mean()).square().mean();
+        const double decibels = 10 * std::log10(power / (noise * noise));
+        const Advice advice = advise(r.data());
+        const Finding* finding = advice.find(decibels < 10 ? "low_snr" : "noise");
+        ASSERT_NE(finding, nullptr) << codes(advice);
+        EXPECT_NEAR(finding->value, decibels, 0.7);
+    }
+}
+
+TEST(advice, dead_time_is_told_in_seconds_and_samples) {  // oracle: the delay put in
+    const Advice advice = advise(record(2, 0.03, 0.85).data());
+    ASSERT_TRUE(advice.has("dead_time")) << codes(advice);
+    EXPECT_NEAR(advice.find("dead_time")->value, 0.85, 0.03);
+    EXPECT_TRUE(advice.clean()) << codes(advice);
+}
+
+TEST(advice, saturation_is_found_with_its_sections) {  // oracle: a clipped record
+    Record r = record(4, 0);
+    const double limit = 0.6 * r.x.maxCoeff();
+    r.y = r.x.cwiseMin(limit);
+    const Advice advice = advise(r.data());
+    ASSERT_TRUE(advice.has("saturation")) << codes(advice);
+    EXPECT_THAT(said(advice, "saturation"), AllOf(HasSubstr("% of the record"), HasSubstr("data:discard")));
+    Index clipped = 0, listed = 0;
+    for (Index k = 0; k < 1000; ++k) clipped += r.y[k] == limit;
+    for (const Segment& section : advice.find("saturation")->sections) {
+        for (Index k = section.first; k <= section.last; ++k) EXPECT_EQ(r.y[k - 1], limit);
+        listed += section.last - section.first + 1;
+    }
+    EXPECT_GT(listed, 0.8 * static_cast<double>(clipped));
+    EXPECT_FALSE(advice.discard.empty());
+}
+
+TEST(advice, a_settled_response_is_not_saturated) {  // oracle: first-order steps, exact and quantised
+    Vector u = Vector::Zero(400);
+    u.tail(350).setOnes();
+    const Vector y = lsim(TransferFunction(Vector{{1.0}}, Vector{{1.0, 1.0}}), u, 0.1);
+    for (const double step : {0.0, 1.0 / 4096, 1.0 / 256}) {
+        const Vector z = step > 0 ? Vector((y.array() / step).round() * step) : y;
+        const Advice advice = advise(IdData(Matrix(z), Matrix(u), 0.1));
+        EXPECT_FALSE(advice.has("saturation")) << step << codes(advice);
+        EXPECT_TRUE(advice.has("step_input"));
+    }
+}
+
+TEST(advice, a_constant_input_may_be_a_step) {  // oracle: definition
+    const Vector y = lsim(TransferFunction(Vector{{1.0}}, Vector{{1.0, 1.0}}), Vector::Ones(200), 0.1);
+    const Advice step = advise(IdData(Matrix(y), Matrix(Vector::Ones(200)), 0.1));
+    EXPECT_THAT(said(step, "step_input"), HasSubstr("switched on with the first sample"));
+    EXPECT_TRUE(step.clean()) << codes(step);
+    EXPECT_TRUE(advise(IdData(Matrix(y), Matrix(Vector::Zero(200)), 0.1)).has("constant"));
+}
+
+TEST(advice, saturated_throughout_is_told) {  // oracle: clipped at a tenth of the range, and a dead signal
+    Record r = record(5, 0);
+    r.y = r.x.cwiseMin(0.1 * r.x.maxCoeff()).cwiseMax(0.1 * r.x.minCoeff());
+    EXPECT_THAT(said(advise(r.data()), "saturation"), HasSubstr("Most of the record is saturated"));
+    r.y.setConstant(5);
+    EXPECT_THAT(said(advise(r.data()), "constant"), HasSubstr("stays at 5 throughout"));
+}
+
+TEST(advice, quantisation_is_told_with_its_step) {  // oracle: rounded by us
+    Record r = record(6);
+    r.y = (r.y.array() / 0.1).round() * 0.1;
+    const Advice advice = advise(r.data());
+    ASSERT_TRUE(advice.has("quantisation")) << codes(advice);
+    EXPECT_NEAR(advice.find("quantisation")->value, 0.1, 1e-6);
+    r.y = (record(6).y.array() / 0.001).round() * 0.001;
+    EXPECT_FALSE(advise(r.data()).has("quantisation"));
+}
+
+TEST(advice, outliers_are_told_with_their_places) {  // oracle: the places
+    Record r = record(7);
+    r.y[300] += 4, r.y[700] -= 3;  // beyond what fast passages of the signal can do
+    const Advice advice = advise(r.data());
+    EXPECT_THAT(said(advice, "outliers"), HasSubstr("2 samples that stand far out from the neighbours (301, 701)"));
+}
+
+TEST(advice, offsets_are_told) {  // oracle: the offset put in
+    Record r = record(8);
+    r.y.array() += 20;
+    const Advice advice = advise(r.data());
+    ASSERT_TRUE(advice.has("offset")) << codes(advice);
+    EXPECT_NEAR(advice.find("offset")->value, 20, 0.05);
+}
+
+TEST(advice, a_running_start_is_told) {  // oracle: the record cut out of a movement
+    Record r = record(9, 0.01);
+    Index fastest = 0;
+    (r.x.segment(101, 400) - r.x.segment(100, 400)).cwiseAbs().maxCoeff(&fastest);
+    const IdData cut = r.data().range(fastest + 101, 1000);
+    EXPECT_THAT(said(advise(cut), "running_start"), HasSubstr("in the middle of a movement"));
+}
+
+TEST(advice, poor_excitation_is_told) {  // oracle: one sine determines two parameters, a PRBS many
+    Record r = record();
+    for (Index k = 0; k < 1000; ++k) r.u[k] = std::sin(0.13 * static_cast<double>(k));
+    r.y = lsim(TransferFunction(Vector{{2.0}}, Vector{{1.0, 1.0, 4.0}}), r.u, kTs);
+    const Advice advice = advise(r.data());
+    EXPECT_THAT(said(advice, "poor_excitation"),
+                HasSubstr("no more than 2 parameters: it holds about 1 frequency only"));
+    EXPECT_EQ(advise(record().data()).find("excitation")->value, 20);
+}
+
+TEST(advice, sampling_against_the_bandwidth_is_told) {  // oracle: bandwidth 1 rad/s, sampled too rarely and too often
+    const auto sampled = [](double Ts, Index hold) {
+        const Vector u = random_levels(2000, hold, 11);
+        const Vector y =
+            lsim(TransferFunction(Vector{{1.0}}, Vector{{1.0, 1.0}}), u, Ts) + 0.005 * RandomStream(2).normal(2000);
+        return advise(IdData(Matrix(y), Matrix(u), Ts));
+    };
+    EXPECT_THAT(said(sampled(1.5, 2), "slow_sampling"), HasSubstr("sample faster"));
+    EXPECT_THAT(said(sampled(0.01, 100), "fast_sampling"), HasSubstr("resample(data, 1, 20)"));
+    const Advice usual = sampled(0.25, 4);
+    EXPECT_FALSE(usual.has("slow_sampling") || usual.has("fast_sampling")) << codes(usual);
+}
+
+TEST(advice, degrees_declared_as_radians_are_told) {  // oracle: the unit put in
+    Record r = record(12);
+    r.y *= 30;
+    IdData data = r.data();
+    data.output_units = {"rad"};
+    EXPECT_THAT(said(advise(data), "degrees"), AllOf(HasSubstr("probably in degrees"), HasSubstr("pi/180")));
+    data.output_units = {"deg"};
+    EXPECT_FALSE(advise(data).has("degrees"));
+    IdData small = record(12).data();
+    small.output_units = {"rad"};
+    EXPECT_FALSE(advise(small).has("degrees"));
+}
+
+TEST(advice, wrong_columns_are_told) {  // oracle: columns mixed up by us
+    const Record r = record(13, 0.02);
+    const Vector t = Vector::LinSpaced(1000, 0, 99.9);
+    EXPECT_THAT(said(advise(IdData(Matrix(r.y), Matrix(t), kTs)), "time_column"), HasSubstr("looks like the time"));
+    EXPECT_THAT(said(advise(IdData(Matrix(r.y), Matrix(r.y), kTs)), "same_column"), HasSubstr("read twice"));
+    EXPECT_THAT(said(advise(IdData(Matrix(r.u), Matrix(r.y), kTs)), "causality"), HasSubstr("exchanged"));
+}
+
+TEST(advice, sampling_instants_are_looked_at) {  // oracle: instants put together by us
+    const Record r = record(14);
+    Vector mixed(1000), gaps(1000);
+    for (Index k = 0; k < 1000; ++k) {
+        mixed[k] = k < 600 ? 0.1 * static_cast<double>(k) : 60 + 0.2 * static_cast<double>(k - 600);
+        gaps[k] = 0.1 * static_cast<double>(k + (k > 400 ? 3 : 0) + (k > 800 ? 1 : 0));
+    }
+    EXPECT_THAT(said(advise(IdData(Matrix(r.y), Matrix(r.u), mixed)), "mixed_sampling"),
+                HasSubstr("600 steps of 0.1 s and 399 of 0.2 s"));
+    EXPECT_THAT(said(advise(IdData(Matrix(r.y), Matrix(r.u), gaps)), "gaps"),
+                HasSubstr("jumps at 2 places, first after sample 401"));
+    const Vector even = Vector::LinSpaced(1000, 0, 99.9);
+    EXPECT_FALSE(advise(IdData(Matrix(r.y), Matrix(r.u), even)).has("gaps"));
+}
+
+TEST(advice, sections_that_do_not_follow_are_told) {  // oracle: the section spoilt by us
+    Record r = record(15, 0.02);
+    for (Index k = 500; k < 570; ++k) r.y[k] += 0.8 * std::sin(0.09 * static_cast<double>(k - 500));
+    const Advice advice = advise(r.data());
+    ASSERT_TRUE(advice.has("nonlinear")) << codes(advice);
+    ASSERT_EQ(advice.discard.size(), 1u);
+    EXPECT_LE(advice.discard[0].first, 530);
+    EXPECT_GE(advice.discard[0].last, 540);
+}
+
+TEST(advice, short_records_are_told) {
+    EXPECT_THAT(said(advise(record().data().range(1, 40)), "short"), HasSubstr("only 40 samples"));
+}
+
+TEST(advice, outputs_are_judged_one_by_one) {  // oracle: only the second has an offset
+    const Record r = record(16);
+    Matrix y(1000, 2);
+    y << r.y, r.y.array() + 9;
+    const Advice advice = advise(IdData(y, Matrix(r.u), kTs));
+    ASSERT_TRUE(advice.has("offset")) << codes(advice);
+    EXPECT_EQ(advice.find("offset")->channel, "y2");
+}
