@@ -38,6 +38,19 @@ TEST_F(cross_references, french_documents_use_french_words) {
     EXPECT_THAT(text, HasSubstr("Remarque"));
 }
 
+TEST_F(cross_references, section_titles_of_the_template_come_in_the_document_s_language) {
+    const std::string rules = "sections: |\n  Process | Procédé\n  Raw data | Données brutes\n";
+    const std::string body = "---\n# Process {#sec:a}\n\n# Données brutes\n\n# Mine\n\n@sec:a\n";
+    const std::string french = html("---\nlang: fr\n" + rules + body);
+    EXPECT_THAT(french, HasSubstr(">Procédé</h"));
+    EXPECT_THAT(french, HasSubstr(">Données brutes</h"));
+    EXPECT_THAT(french, HasSubstr(">Mine</h"));
+    EXPECT_THAT(french, HasSubstr("“Procédé”"));
+    const std::string english = html("---\nlang: en\n" + rules + body);
+    EXPECT_THAT(english, HasSubstr(">Process</h"));
+    EXPECT_THAT(english, HasSubstr(">Raw data</h"));
+}
+
 TEST_F(cross_references, sections_are_referred_to_by_number_or_title) {
     EXPECT_THAT(html("# First {#sec:a}\n\n@sec:a\n"), HasSubstr("<a href=\"#sec:a\">“First”</a>"));
     const std::string text = html(
