@@ -6,13 +6,13 @@ namespace dynlab {
 namespace {
 
 struct ReportWords {
-    std::string subject, output;
+    std::string subject, output, language;
     bool timings = false;
     SeedOption seed;
 };
 
 int report(const ReportWords& words) {
-    ReportRequest request = report_of(words.subject, words.output);
+    ReportRequest request = report_of(words.subject, words.output, words.language);
     request.seed = words.seed.value().value_or(request.seed);
     return make_document(std::move(request), words.timings);
 }
@@ -26,6 +26,8 @@ void add_report(CLI::App& app, Action& action) {
         ->required();
     command->add_option("-o,--output", words->output, "Where to write it (.pdf, .html or .md); else the current folder")
         ->type_name("FILE");
+    command->add_option("--lang", words->language, "Language of a lesson's report, where it has several")
+        ->check(CLI::IsMember({"en", "fr"}));
     command->add_flag("--timings", words->timings, "Say how long each step took");
     words->seed.add_to(*command);
     command->footer("Examples:  dynlab report 02     dynlab report my-work -o my-work.html");

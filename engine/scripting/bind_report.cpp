@@ -3,6 +3,7 @@
 
 #include "scripting/bindings.h"
 #include "scripting/objects/figure_object.h"
+#include "scripting/report_language.h"
 #include "scripting/sandbox.h"
 #include "scripting/text_form.h"
 
@@ -102,6 +103,14 @@ int report_text(Call& call) {
     return 0;
 }
 
+int report_language(Call& call) {
+    call.at_most(0);
+    const auto& services = call.context().services;
+    const auto found = services.find(typeid(ReportLanguage).hash_code());
+    return call.give(found == services.end() ? ReportLanguage{}.code
+                                             : static_cast<ReportLanguage*>(found->second)->code);
+}
+
 constexpr const char* kArea = "report";
 constexpr std::array kFunctions = {
     FunctionEntry{"report.value", kArea, "report.value(name, x, format)", "puts a number or text into the report",
@@ -112,6 +121,8 @@ constexpr std::array kFunctions = {
                   guarded<report_figure>},
     FunctionEntry{"report.text", kArea, "report.text(name, markdown)", "puts Markdown text into the report",
                   guarded<report_text>},
+    FunctionEntry{"report.language", kArea, "report.language() -> text", "tells the report's language",
+                  guarded<report_language>},
 };
 
 }  // namespace

@@ -12,6 +12,8 @@ struct Lesson {
     std::string slug;  ///< "02_least_squares"
     std::filesystem::path folder;
     std::filesystem::path script() const { return folder / "lesson.lua"; }
+    /// Of lessons that end with a report of its own form: the worked solution's; no such file for others.
+    std::filesystem::path report(const std::string& language) const { return folder / ("report." + language + ".md"); }
 };
 
 std::vector<Lesson> lessons();  ///< all that are installed, sorted by slug

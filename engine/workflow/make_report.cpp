@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "documents/error.h"
+#include "documents/template_file.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
 #include "platform/program_lookup.h"
@@ -66,6 +67,25 @@ ReportRequest report_of_folder(const fs::path& folder, const fs::path& output) {
     request.template_file = folder / "report.md";
     request.output = output.empty() ? fs::path("report.pdf") : output;
     request.seed = seed_of_group(folder, request.script.header.seed);
+    const auto metadata = read_template(request.template_file).metadata;
+    if (const auto language = metadata.find("lang"); language != metadata.end() && !language->second.empty())
+        request.script.header.language = language->second;
+    return request;
+}
+
+/// The report that stands beside a lesson's script, or the lesson itself woven.
+ReportRequest report_of_lesson(const Lesson& lesson, const fs::path& output, const std::string& language) {
+    PercentScript script = read_percent_script(lesson.script());
+    if (!language.empty()) script.header.language = language;
+    ReportRequest request = report_of_script(script, output.empty() ? fs::path(lesson.slug + ".pdf") : output);
+    const fs::path report = lesson.report(script.header.language);
+    if (fs::is_regular_file(report)) {
+        request.template_file = report;
+        request.metadata.clear();
+    } else if (!language.empty()) {
+        throw EnvironmentError("lesson " + lesson.slug + " has no report in the language \"" + language + "\" (" +
+                               report.filename().string() + ")");
+    }
     return request;
 }
 
@@ -84,6 +104,8 @@ ReportRequest report_of_script(const PercentScript& script, const fs::path& outp
         throw DocumentError(script.file.string() + ": there is no template '" + header.template_name + "' in " +
                             request.template_file.parent_path().string());
     }
+    // A template to be written in shows nothing of a script alone.
+    if (!shows_cells(read_template(request.template_file))) request.template_file = template_named("lesson");
     request.metadata = {{"title", header.title.empty() ? script.file.stem().string() : header.title},
                         {"subtitle", header.subtitle},
                         {"lang", header.language}};
@@ -92,11 +114,11 @@ ReportRequest report_of_script(const PercentScript& script, const fs::path& outp
     return request;
 }
 
-ReportRequest report_of(const std::string& lesson_or_folder, const fs::path& output) {
-    if (fs::is_directory(lesson_or_folder)) return report_of_folder(lesson_or_folder, output);
-    const Lesson lesson = find_lesson(lesson_or_folder);
-    return report_of_script(read_percent_script(lesson.script()),
-                            output.empty() ? fs::path(lesson.slug + ".pdf") : output);
+ReportRequest report_of(const std::string& lesson_or_folder, const fs::path& output, const std::string& language) {
+    if (!fs::is_directory(lesson_or_folder)) return report_of_lesson(find_lesson(lesson_or_folder), output, language);
+    if (!language.empty())
+        throw EnvironmentError("the language of " + lesson_or_folder + " stands in its report.md, behind \"lang:\"");
+    return report_of_folder(lesson_or_folder, output);
 }
 
 ReportResult make_report(const ReportRequest& request) {

@@ -31,10 +31,13 @@ struct ReportResult {
 };
 
 /// The report of a lesson (`name`, any unique beginning: its worked solution) or of a student's folder (analysis.lua
-/// and report.md; the group's seed from group.toml). Without `output` it goes to the current folder:
-/// 02_least_squares.pdf or report.pdf. Throws EnvironmentError for a folder without these files.
-ReportRequest report_of(const std::string& lesson_or_folder, const std::filesystem::path& output = {});
-/// The report of any script, with the template its header names.
+/// and report.md; the group's seed from group.toml). A lesson is woven, or fills the report.LANGUAGE.md beside it.
+/// Without `output` it goes to the current folder: 02_least_squares.pdf or report.pdf. `language` is the script's
+/// unless given; a folder's stands in its report.md. Throws EnvironmentError for a folder without these files, a lesson
+/// without a report in the language asked for, a language asked of a folder.
+ReportRequest report_of(const std::string& lesson_or_folder, const std::filesystem::path& output = {},
+                        const std::string& language = {});
+/// The report of any script, with the template its header names, or that of lessons when it has no place for cells.
 ReportRequest report_of_script(const PercentScript& script, const std::filesystem::path& output);
 
 /// Runs the script and makes the document; `output` appears whole or stays as it was. With unchanged inputs (script,

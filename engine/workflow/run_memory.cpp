@@ -114,6 +114,7 @@ RunMemory::RunMemory(const PercentScript& script, std::uint32_t seed, FigureForm
     add(program_identity());
     add(script_.string());
     add(std::to_string(seed));
+    add(script.header.language);
     add(std::to_string(static_cast<int>(format)));
     for (const Cell& cell : script.cells) {
         if (cell.kind != Cell::Kind::kCode) continue;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "scripting/report_language.h"
 #include "scripting/runtime.h"
 
 namespace dynlab {
@@ -39,7 +40,9 @@ RunRecord run_script(const RunRequest& request, GnuplotRenderer& renderer) {
     options.script_folder = folder.empty() ? "." : folder;
     options.out_folder = request.out_folder;
     options.print = request.print;
+    ReportLanguage language{request.script.header.language};
     Runtime runtime(options, renderer);
+    runtime.set_service(&language);
     return runtime.run(request.script);
 }
 

@@ -32,8 +32,9 @@ std::string report_for(const ScriptHeader& header, const fs::path& template_file
 void fill(const fs::path& folder, const Lesson& lesson) {
     const PercentScript script = read_percent_script(lesson.script());
     write_file_atomically(folder / "analysis.lua", without_solutions(script.source, script.file));
+    const std::string form = script.header.template_name == "lesson" ? "exercise_sheet" : script.header.template_name;
     write_file_atomically(folder / "report.md",
-                          report_for(script.header, shared_folder() / "report_templates" / "exercise_sheet.md"));
+                          report_for(script.header, shared_folder() / "report_templates" / (form + ".md")));
     write_file_atomically(folder / "group.toml", fmt::format(kGroupFile, script.header.seed));
     fs::create_directory_symlink(shared_folder() / "data", folder / "data");
 }
