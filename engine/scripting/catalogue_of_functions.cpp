@@ -1,4 +1,5 @@
 #include "scripting/bindings.h"
+#include "scripting/control_bindings.h"
 #include "scripting/study_bindings.h"
 
 namespace dynlab {
@@ -18,7 +19,8 @@ const std::vector<FunctionEntry>& catalogue_of_functions() {
                                      regression_functions(),    validation_functions(),
                                      residual_functions(),      order_functions(),
                                      study_functions(),         figure_functions(),
-                                     report_functions(),        help_functions()})
+                                     control_functions(),       report_functions(),
+                                     help_functions()})
             all.insert(all.end(), area.begin(), area.end());
         return all;
     }();

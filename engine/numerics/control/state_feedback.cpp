@@ -1,0 +1,136 @@
+#include "numerics/control/state_feedback.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "numerics/error.h"
+
+namespace dynlab {
+namespace {
+
+std::string size_text(Index rows, Index columns) {
+    return std::to_string(rows) + " x " + std::to_string(columns);
+}
+
+void require_size(const char* name, const MatrixView& M, Index rows, Index columns) {
+    if (M.rows() == rows && M.cols() == columns && M.allFinite()) return;
+    throw InvalidArgument(std::string(name) + " must be a matrix of " + size_text(rows, columns) +
+                          " finite numbers, not " + size_text(M.rows(), M.cols()));
+}
+
+void require_system(const MatrixView& A, const MatrixView& B) {
+    if (A.rows() == 0) throw InvalidArgument("A must have at least one row");
+    require_size("A", A, A.rows(), A.rows());
+    require_size("B", B, A.rows(), std::max<Index>(B.cols(), 1));
+}
+
+void require_symmetric(const char* name, const MatrixView& M) {
+    if (!M.isApprox(M.transpose(), 1e-10) && M.norm() > 0)
+        throw InvalidArgument(std::string(name) + " must be symmetric");
+}
+
+StateFeedback closed(const MatrixView& A, const MatrixView& B, Matrix K) {
+    StateFeedback result{std::move(K), {}};
+    result.poles = Eigen::EigenSolver<Matrix>(A - B * result.K, false).eigenvalues();
+    return result;
+}
+
+/// Coefficients c_0 ... c_{n-1} of the monic polynomial with these roots.
+Vector monic_coefficients(const ComplexVector& roots) {
+    ComplexVector c = ComplexVector::Zero(roots.size() + 1);
+    c[0] = 1;
+    for (Index k = 0; k < roots.size(); ++k) {
+        for (Index i = k + 1; i > 0; --i) c[i] = c[i - 1] - roots[k] * c[i];
+        c[0] *= -roots[k];
+    }
+    if (c.imag().norm() > 1e-9 * (1 + c.real().norm()))
+        throw InvalidArgument("complex poles must come in conjugate pairs, such as -2 + 3i and -2 - 3i");
+    return c.real().head(roots.size());
+}
+
+/// How far the poles reached are from those asked for, each pole taken once, relative to their size.
+double misplacement(const ComplexVector& asked, ComplexVector reached) {
+    const double size = std::max(asked.cwiseAbs().maxCoeff(), 1e-300);
+    double worst = 0;
+    for (Index k = 0; k < asked.size(); ++k) {
+        Index nearest = k;
+        for (Index i = k; i < reached.size(); ++i)
+            if (std::abs(reached[i] - asked[k]) < std::abs(reached[nearest] - asked[k])) nearest = i;
+        std::swap(reached[k], reached[nearest]);
+        worst = std::max(worst, std::abs(reached[k] - asked[k]) / size);
+    }
+    return worst;
+}
+
+}  // namespace
+
+StateFeedback linear_quadratic_regulator(const MatrixView& A, const MatrixView& B, const MatrixView& Q,
+                                         const MatrixView& R) {
+    require_system(A, B);
+    const Index n = A.rows();
+    require_size("Q", Q, n, n);
+    require_size("R", R, B.cols(), B.cols());
+    require_symmetric("Q", Q);
+    require_symmetric("R", R);
+    const Eigen::LLT<Matrix> factor(R);
+    if (factor.info() != Eigen::Success) throw InvalidArgument("R must be positive: every input must cost something");
+    if (Eigen::SelfAdjointEigenSolver<Matrix>(Q, Eigen::EigenvaluesOnly).eigenvalues().minCoeff() < -1e-10 * Q.norm())
+        throw InvalidArgument("Q must not be negative: no state may be rewarded for being large");
+
+    Matrix hamiltonian(2 * n, 2 * n);
+    hamiltonian << A, -B * factor.solve(B.transpose()), -Q, -A.transpose();
+    const Eigen::EigenSolver<Matrix> modes(hamiltonian);
+    const double size = std::max(modes.eigenvalues().cwiseAbs().maxCoeff(), 1e-300);
+    Eigen::MatrixXcd stable(2 * n, n);
+    Index count = 0;
+    for (Index i = 0; i < 2 * n; ++i)
+        if (modes.eigenvalues()[i].real() < -1e-10 * size && count < n)
+            stable.col(count++) = modes.eigenvectors().col(i);
+    const Eigen::FullPivLU<Eigen::MatrixXcd> upper(stable.topRows(n));
+    if (count < n || !upper.isInvertible())
+        throw InvalidArgument(
+            "no feedback makes the criterion finite: the input does not reach an unstable mode, or Q does not see a "
+            "mode "
+            "that does not die away by itself");
+    const Matrix P = (stable.bottomRows(n) * upper.inverse()).real();
+    return closed(A, B, factor.solve(B.transpose() * (P + P.transpose()) / 2));
+}
+
+StateFeedback pole_placement(const MatrixView& A, const MatrixView& B, const ComplexVector& poles) {
+    require_system(A, B);
+    const Index n = A.rows();
+    if (B.cols() != 1)
+        throw InvalidArgument("pole placement needs a system with one input, B has " + std::to_string(B.cols()) +
+                              " columns");
+    if (poles.size() != n || !poles.allFinite())
+        throw InvalidArgument("there are " + std::to_string(n) + " states, so as many finite poles are needed, not " +
+                              std::to_string(poles.size()));
+    const Vector c = monic_coefficients(poles);
+
+    // K = [0 ... 0 1] [B AB ... A^(n-1)B]^-1 p(A), in time units that make the powers of A alike
+    const double scale = std::max(A.norm(), 1e-300);
+    Matrix reach(n, n);
+    reach.col(0) = B;
+    for (Index k = 1; k < n; ++k) reach.col(k) = A * reach.col(k - 1) / scale;
+    const Eigen::FullPivLU<Matrix> factor(reach.transpose());
+    if (!factor.isInvertible())
+        throw InvalidArgument("the input does not reach every state, so not every pole can move");
+    Eigen::RowVectorXd row = factor.solve(Vector::Unit(n, n - 1)).transpose() / std::pow(scale, n - 1);
+    Eigen::RowVectorXd K = Eigen::RowVectorXd::Zero(n);
+    for (Index k = 0; k < n; ++k, row = row * A) K += c[k] * row;
+    K += row;
+
+    StateFeedback result = closed(A, B, K);
+    if (misplacement(poles, result.poles) > 1e-4)
+        throw InvalidArgument(
+            "rounding errors keep the poles from their places; the states are measured in units that are too "
+            "different, "
+            "or the input hardly reaches one of them");
+    return result;
+}
+
+}  // namespace dynlab
