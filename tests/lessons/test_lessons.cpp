@@ -5,8 +5,15 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numeric>
+#include <regex>
+#include <set>
+#include <sstream>
 
 #include "data_io/csv_file.h"
+#include "documents/document_rules.h"
+#include "documents/text_lines.h"
+#include "numerics/rigs/crane.h"
 #include "support/program.h"
 #include "workflow/lesson_catalogue.h"
 
@@ -42,7 +49,8 @@ TEST_P(lessons, report_is_whole) {
     EXPECT_THAT(text, Not(HasSubstr("??")));
     EXPECT_THAT(text, Not(HasSubstr("SOLUTION")));
     EXPECT_THAT(text, HasSubstr("Figure 1"));
-    EXPECT_THAT(text, HasSubstr("What was learnt"));
+    const bool has_own_report = std::filesystem::exists(DYNLAB_SOURCE_DIR "/lessons/" + GetParam() + "/report.en.md");
+    EXPECT_THAT(text, HasSubstr(has_own_report ? "Conclusion" : "What was learnt"));
 }
 
 TEST_P(lessons, starter_runs_and_shows_no_solution) {
@@ -183,6 +191,78 @@ TEST(lesson_04, studies_agree_with_the_reference_and_own_programs_with_the_libra
     EXPECT_LT(number(record, "agreement"), 1e-10);
     EXPECT_LT(number(record, "iv_agreement"), 1e-10);
     EXPECT_EQ(number(record, "refused"), 200) << "a negative real pole in every run";
+}
+
+// Oracles: the simulator's parameters (crane_truth), the limits of the assignment, the fit that no linear model beats.
+TEST(lesson_03_crane, finds_the_crane_and_says_what_the_model_is_worth) {
+    const Workbench bench;
+    const ChildResult run = bench.dynlab({"run", DYNLAB_SOURCE_DIR "/lessons/03_crane/lesson.lua", "--out", "made"});
+    ASSERT_EQ(run.exit_code, 0) << run.error_output;
+    const auto record = nlohmann::json::parse(bench.read("made/record.json"));
+    const CraneTruth truth = crane_truth({});
+
+    EXPECT_NEAR(number(record, "swing"), truth.natural_frequency, 0.02 * truth.natural_frequency);
+    EXPECT_LT(number(record, "swing_error"), 2) << "percent, the worst of twenty repetitions";
+    EXPECT_LT(number(record, "pendulum_error"), 2);
+    EXPECT_NEAR(number(record, "free_frequency"), truth.natural_frequency, 0.01 * truth.natural_frequency);
+    EXPECT_GT(number(record, "free_damping"), truth.damping_ratio) << "the air damps too";
+    EXPECT_LT(number(record, "free_damping"), 2 * truth.damping_ratio);
+    EXPECT_NEAR(number(record, "free_gain"), 1e3 * truth.speed_gain, 0.03 * 1e3 * truth.speed_gain);
+    EXPECT_NEAR(number(record, "dry_voltage"), truth.dry_voltage, 0.05);
+    const double gravity = CraneParameters{}.gravity;
+    EXPECT_NEAR(number(record, "length"), gravity / std::pow(truth.natural_frequency, 2), 0.01);
+
+    EXPECT_EQ(number(record, "repetitions"), 20);
+    for (const char* gap : {"gap_x", "gap_theta"}) {
+        EXPECT_GT(number(record, gap), 0) << "nothing beats the best linear model on average";
+        EXPECT_LT(number(record, gap), 1);
+    }
+    EXPECT_GT(number(record, "discard_from"), 10);
+    EXPECT_LT(number(record, "settling_lqr"), 3);
+    EXPECT_LT(number(record, "left_lqr"), number(record, "left_p") / 4);
+    EXPECT_LT(number(record, "largest_angle_lqr"), number(record, "largest_angle_p"));
+}
+
+class lesson_03_crane_report : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(languages, lesson_03_crane_report, testing::Values("en", "fr"));
+
+TEST_P(lesson_03_crane_report, keeps_to_six_pages_and_one_of_appendix) {
+    const std::string language = GetParam();
+    const Workbench bench;
+    if (language == "fr" && bench.shell("kpsewhich french.ldf").exit_code != 0)
+        GTEST_SKIP() << "texlive-lang-french is not installed";
+    const ChildResult made = bench.dynlab({"report", "03_crane", "--lang", language});
+    ASSERT_EQ(made.exit_code, 0) << made.error_output;
+    std::vector<std::string> pages;
+    std::istringstream text(text_of_pdf(bench, "03_crane.pdf"));
+    for (std::string page; std::getline(text, page, '\f');) pages.push_back(page);
+    const TemplateFile source = read_template(DYNLAB_SOURCE_DIR "/lessons/03_crane/report." + language + ".md");
+    const DocumentRules rules = document_rules(source);
+    ASSERT_EQ(static_cast<int>(pages.size()), *rules.pages + *rules.appendix_pages);
+    const auto printed = [&](const SectionRule& section) { return replaced(section.title(language), "'", "’"); };
+    EXPECT_THAT(pages.back(), HasSubstr(printed(rules.sections.back())));
+    for (const SectionRule& section : rules.sections)
+        EXPECT_THAT(std::accumulate(pages.begin(), pages.end(), std::string()), HasSubstr(printed(section)));
+}
+
+// Numbers with a decimal point in the text are those of the experiments' plan; all results are slots.
+TEST_P(lesson_03_crane_report, types_no_result_in) {
+    const TemplateFile source =
+        read_template(DYNLAB_SOURCE_DIR "/lessons/03_crane/report." + std::string(GetParam()) + ".md");
+    const std::set<std::string> plan = {"0.24", "0.02", "0.5", "0.2"};
+    const std::regex decimal(R"((\d+)[.,](\d+))");
+    const std::string& text = source.body.text;
+    for (std::sregex_iterator found(text.begin(), text.end(), decimal), end; found != end; ++found)
+        EXPECT_TRUE(plan.count((*found)[1].str() + "." + (*found)[2].str())) << found->str();
+}
+
+TEST(lesson_03_crane_copy, has_the_sections_and_no_text_of_the_solution) {
+    const Workbench bench;
+    ASSERT_EQ(bench.dynlab({"new", "03_crane", "mine"}).exit_code, 0);
+    const std::string report = bench.read("mine/report.md");
+    EXPECT_THAT(report, HasSubstr("# Raw data"));
+    EXPECT_THAT(report, HasSubstr("title: \"Identification of a trolley crane\""));
+    EXPECT_THAT(report, Not(HasSubstr("friction costs")));
 }
 
 }  // namespace
