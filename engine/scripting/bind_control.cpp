@@ -33,9 +33,14 @@ ComplexVector listed_poles(const Call& call, int index) {
             poles.emplace_back(lua_tonumber(L, -1));
             continue;
         }
-        const VectorMap pair = call.vector(lua_gettop(L), "poles");
-        if (pair.size() != 2) throw InvalidArgument("a pair of complex poles is written {re, im}");
-        poles.emplace_back(pair[0], pair[1]);
+        if (lua_type(L, -1) != LUA_TTABLE || lua_rawlen(L, -1) != 2)
+            throw InvalidArgument("place: poles are numbers, and pairs of complex ones {re, im}");
+        lua_rawgeti(L, -1, 1);
+        lua_rawgeti(L, -2, 2);
+        if (lua_type(L, -1) != LUA_TNUMBER || lua_type(L, -2) != LUA_TNUMBER)
+            throw InvalidArgument("place: the two parts of a complex pole {re, im} are numbers");
+        poles.emplace_back(lua_tonumber(L, -2), lua_tonumber(L, -1));
+        lua_pop(L, 2);
         poles.push_back(std::conj(poles.back()));
     }
     lua_pop(L, 1);
