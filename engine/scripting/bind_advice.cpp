@@ -22,7 +22,7 @@ void push_segments(lua_State* L, const std::vector<Segment>& segments) {
     }
 }
 
-void push_finding(const Call& call, const Finding& finding) {
+void push_finding(const Call& call, const RecordFinding& finding) {
     lua_State* L = call.state();
     lua_createtable(L, 0, 7);
     set_text(call, "code", finding.code);
@@ -37,7 +37,7 @@ void push_finding(const Call& call, const Finding& finding) {
 
 std::string text_of(const Advice& advice, std::size_t experiments) {
     std::string text;
-    for (const Finding& finding : advice.findings)
+    for (const RecordFinding& finding : advice.findings)
         text +=
             fmt::format("{} {}{}\n", finding.weight == Weight::kWarning ? "!" : "-",
                         experiments > 1 ? fmt::format("Experiment {}: ", finding.experiment + 1) : "", finding.message);

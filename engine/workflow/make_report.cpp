@@ -148,6 +148,7 @@ ReportResult make_report(const ReportRequest& request) {
         RunRequest run{
             .script = request.script, .seed = request.seed, .out_folder = workplace.path(), .print = request.print};
         record = run_script(run, renderer);
+        if (record.error && request.print) throw DocumentError(record.error->message);
         if (record.error) result.error = record.error->message;
         draw_figures(record, renderer, workplace.path(), figure_format_for(format));
         watch.lap("run the script");

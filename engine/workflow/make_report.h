@@ -21,7 +21,8 @@ struct ReportRequest {
     std::filesystem::path output;  ///< .pdf, .html or .md
     std::uint32_t seed = 1;
     std::function<void(const std::string&)> step;   ///< told of each step as it begins; none when empty
-    std::function<void(const std::string&)> print;  ///< sees what the script prints; such a report is always made anew
+    std::function<void(const std::string&)> print;  ///< sees what the script prints; such a report is always made anew,
+                                                    ///< and not at all where the script fails
 };
 
 struct ReportResult {

@@ -6,11 +6,11 @@ namespace dynlab {
 
 namespace {
 
-bool spoils_a_stretch(const Finding& finding) {
+bool spoils_a_stretch(const RecordFinding& finding) {
     return finding.experiment == 0 && (finding.code == "saturation" || finding.code == "nonlinear");
 }
 
-bool forbids_a_model(const Finding& finding) {
+bool forbids_a_model(const RecordFinding& finding) {
     return finding.code == "constant" || finding.code == "time_column" || finding.code == "same_column";
 }
 
@@ -20,14 +20,15 @@ bool Advice::has(const std::string& code) const {
     return find(code) != nullptr;
 }
 
-const Finding* Advice::find(const std::string& code) const {
-    const auto found = std::find_if(findings.begin(), findings.end(), [&](const Finding& f) { return f.code == code; });
+const RecordFinding* Advice::find(const std::string& code) const {
+    const auto found =
+        std::find_if(findings.begin(), findings.end(), [&](const RecordFinding& f) { return f.code == code; });
     return found == findings.end() ? nullptr : &*found;
 }
 
 bool Advice::clean() const {
     return std::none_of(findings.begin(), findings.end(),
-                        [](const Finding& f) { return f.weight == Weight::kWarning; });
+                        [](const RecordFinding& f) { return f.weight == Weight::kWarning; });
 }
 
 Advice advise(const IdData& data, const std::function<bool()>& cancel) {
@@ -35,11 +36,11 @@ Advice advise(const IdData& data, const std::function<bool()>& cancel) {
     const bool usable = std::none_of(advice.findings.begin(), advice.findings.end(), forbids_a_model);
     if (usable && data.input_count() == 1 && data.regular())
         for (Index output = 1; output <= data.output_count(); ++output)
-            for (Finding& finding : model_findings(data.select({output}, {1}), cancel))
+            for (RecordFinding& finding : model_findings(data.select({output}, {1}), cancel))
                 advice.findings.push_back(std::move(finding));
     std::stable_sort(advice.findings.begin(), advice.findings.end(),
-                     [](const Finding& a, const Finding& b) { return a.weight > b.weight; });
-    for (const Finding& finding : advice.findings)
+                     [](const RecordFinding& a, const RecordFinding& b) { return a.weight > b.weight; });
+    for (const RecordFinding& finding : advice.findings)
         if (spoils_a_stretch(finding))
             advice.discard.insert(advice.discard.end(), finding.sections.begin(), finding.sections.end());
     advice.discard = joined(advice.discard);

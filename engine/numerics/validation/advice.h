@@ -11,7 +11,7 @@ namespace dynlab {
 enum class Weight { kNote, kWarning };
 
 /// One thing that a teacher would say of a record.
-struct Finding {
+struct RecordFinding {
     std::string code;  ///< one word, "saturation", for programs
     Weight weight;
     std::string channel;  ///< its name; empty when the finding is about the whole record
@@ -22,26 +22,26 @@ struct Finding {
 };
 
 struct Advice {
-    std::vector<Finding> findings;  ///< what to mend first
+    std::vector<RecordFinding> findings;  ///< what to mend first
     /// Stretches of the first experiment better left out (data:discard): saturated or not following the linear model.
     std::vector<Segment> discard;
 
     bool has(const std::string& code) const;
-    const Finding* find(const std::string& code) const;  ///< nullptr when there is none
-    bool clean() const;                                  ///< no warnings
+    const RecordFinding* find(const std::string& code) const;  ///< nullptr when there is none
+    bool clean() const;                                        ///< no warnings
 };
 
 /// What the signals alone tell: "constant" channels, a "time_column", the "same_column" twice, "saturation",
 /// "quantisation", "outliers", "degrees" declared as radians, "mixed_sampling" and "gaps" between the instants, and
 /// "excitation": how many parameters each input can determine. Any number of channels and experiments.
-std::vector<Finding> signal_findings(const IdData& data);
+std::vector<RecordFinding> signal_findings(const IdData& data);
 
 /// What a linear model with one to three poles and a free delay (search_delay) tells of a record with one input, one
 /// output and regular sampling: "noise" (signal-to-noise ratio), "dead_time", "offset", "running_start",
 /// "slow_sampling" or "fast_sampling" against the bandwidth, "causality" (the output seems to come first: columns
 /// exchanged, or feedback), "nonlinear" sections that the model does not follow although it follows the rest. Empty
 /// when nothing can be fitted.
-std::vector<Finding> model_findings(const IdData& data, const std::function<bool()>& cancel = {});
+std::vector<RecordFinding> model_findings(const IdData& data, const std::function<bool()>& cancel = {});
 
 /// Both, in the order of weight. A record with several outputs and one input is judged output by output.
 Advice advise(const IdData& data, const std::function<bool()>& cancel = {});

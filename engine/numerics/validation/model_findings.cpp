@@ -66,11 +66,11 @@ std::optional<DelaySearch> fitted(const IdData& data, const std::function<bool()
     return std::nullopt;
 }
 
-Finding about(const Fitted& fit, const char* code, Weight weight, const std::string& message, double value) {
+RecordFinding about(const Fitted& fit, const char* code, Weight weight, const std::string& message, double value) {
     return {code, weight, fit.output(), message, value, 0, {}};
 }
 
-void find_noise(const Fitted& fit, std::vector<Finding>& findings) {
+void find_noise(const Fitted& fit, std::vector<RecordFinding>& findings) {
     const double error = fit.error.squaredNorm() / static_cast<double>(fit.error.size());
     const double total = fit.deviation() * fit.deviation();
     if (error <= 1e-20 * total) return;
@@ -91,7 +91,7 @@ void find_noise(const Fitted& fit, std::vector<Finding>& findings) {
                   decibels));
 }
 
-void find_dead_time(const Fitted& fit, std::vector<Finding>& findings) {
+void find_dead_time(const Fitted& fit, std::vector<RecordFinding>& findings) {
     const double delay = fit.search.delay, Ts = fit.data.Ts;
     if (!(delay > Ts) || !(delay > 4 * fit.search.std)) return;
     findings.push_back(about(fit, "dead_time", Weight::kNote,
@@ -101,7 +101,7 @@ void find_dead_time(const Fitted& fit, std::vector<Finding>& findings) {
                              delay));
 }
 
-void find_offset(const Fitted& fit, std::vector<Finding>& findings) {
+void find_offset(const Fitted& fit, std::vector<RecordFinding>& findings) {
     const double deviation = fit.deviation();
     const double offset = fit.simulation.offset;
     if (!fit.simulation.start.offset || std::abs(offset) < kOffset * deviation) return;
@@ -113,7 +113,7 @@ void find_offset(const Fitted& fit, std::vector<Finding>& findings) {
                              offset));
 }
 
-void find_running_start(const Fitted& fit, std::vector<Finding>& findings) {
+void find_running_start(const Fitted& fit, std::vector<RecordFinding>& findings) {
     if (fit.simulation.start.state != InitialState::kEstimate) return;
     findings.push_back(about(fit, "running_start", Weight::kWarning,
                              "The record begins in the middle of a movement of " + fit.output() +
@@ -122,7 +122,7 @@ void find_running_start(const Fitted& fit, std::vector<Finding>& findings) {
                              fit.simulation.initial_values.size() > 0 ? fit.simulation.initial_values[0] : 0));
 }
 
-void find_sampling_rate(const Fitted& fit, std::vector<Finding>& findings) {
+void find_sampling_rate(const Fitted& fit, std::vector<RecordFinding>& findings) {
     const double band = bandwidth(fit.model());
     if (!std::isfinite(band) || !(band > 0)) return;
     const double ratio = 2 * std::numbers::pi / (fit.data.Ts * band);
@@ -144,7 +144,7 @@ void find_sampling_rate(const Fitted& fit, std::vector<Finding>& findings) {
 }
 
 /// Windows whose error is far beyond that of most windows, where the model follows the rest.
-void find_strange_sections(const Fitted& fit, std::vector<Finding>& findings) {
+void find_strange_sections(const Fitted& fit, std::vector<RecordFinding>& findings) {
     const Index N = fit.error.size(), length = N / kWindows;
     if (length < 5) return;
     Vector levels(kWindows);
@@ -159,7 +159,7 @@ void find_strange_sections(const Fitted& fit, std::vector<Finding>& findings) {
     std::string places;
     for (const Segment& section : sections)
         places += (places.empty() ? "" : ", ") + std::to_string(section.first) + " to " + std::to_string(section.last);
-    Finding finding =
+    RecordFinding finding =
         about(fit, "nonlinear", Weight::kWarning,
               "A linear model follows " + fit.output() + " but not in samples " + places +
                   ", where its error is more than " + number_text(kStrange) +
@@ -178,7 +178,7 @@ bool explained_backwards(const Fitted& fit, const std::function<bool()>& cancel)
     return backwards && backwards->candidate.fit_percent > std::max(kExplains, fit.simulation.fit_percent + 30);
 }
 
-void find_causality(const Fitted& fit, std::vector<Finding>& findings) {
+void find_causality(const Fitted& fit, std::vector<RecordFinding>& findings) {
     findings.push_back(
         about(fit, "causality", Weight::kWarning,
               fit.input() + " can be explained by " + fit.output() + " much better than " + fit.output() + " by " +
@@ -190,8 +190,8 @@ void find_causality(const Fitted& fit, std::vector<Finding>& findings) {
 
 }  // namespace
 
-std::vector<Finding> model_findings(const IdData& data, const std::function<bool()>& cancel) {
-    std::vector<Finding> findings;
+std::vector<RecordFinding> model_findings(const IdData& data, const std::function<bool()>& cancel) {
+    std::vector<RecordFinding> findings;
     if (data.sample_count(0) < kFewest) {
         findings.push_back({"short",
                             Weight::kWarning,

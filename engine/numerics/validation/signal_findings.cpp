@@ -52,7 +52,8 @@ std::vector<Channel> channels_of(const IdData& data) {
     return channels;
 }
 
-Finding about(const Channel& channel, const char* code, Weight weight, const std::string& message, double value = 0) {
+RecordFinding about(const Channel& channel, const char* code, Weight weight, const std::string& message,
+                    double value = 0) {
     return {code, weight, channel.name, message, value, channel.experiment, {}};
 }
 
@@ -61,7 +62,7 @@ double range_of(const Vector& x) {
 }
 
 /// A constant input other than zero may be a step with which the record begins.
-void find_step_at_the_start(const Channel& channel, std::vector<Finding>& findings) {
+void find_step_at_the_start(const Channel& channel, std::vector<RecordFinding>& findings) {
     findings.push_back(about(channel, "step_input", Weight::kNote,
                              subject(channel) + " stays at " + with_unit(channel.x[0], channel.unit) +
                                  " throughout: a step experiment, if it was switched on with the first sample and the "
@@ -69,7 +70,7 @@ void find_step_at_the_start(const Channel& channel, std::vector<Finding>& findin
                              0));
 }
 
-void find_constant(const Channel& channel, std::vector<Finding>& findings) {
+void find_constant(const Channel& channel, std::vector<RecordFinding>& findings) {
     findings.push_back(about(channel, "constant", Weight::kWarning,
                              subject(channel) + " stays at " + with_unit(channel.x[0], channel.unit) +
                                  " throughout, so nothing can be learnt from it. It is at a limit all the time, its "
@@ -77,7 +78,7 @@ void find_constant(const Channel& channel, std::vector<Finding>& findings) {
                              channel.x[0]));
 }
 
-void find_time_column(const Channel& channel, std::vector<Finding>& findings) {
+void find_time_column(const Channel& channel, std::vector<RecordFinding>& findings) {
     const Index N = channel.x.size();
     if (N < 10) return;
     const Vector steps = channel.x.tail(N - 1) - channel.x.head(N - 1);
@@ -129,7 +130,7 @@ bool has_few_levels(const Quantisation& grid) {
     return grid.levels <= 5;
 }
 
-void find_saturation(const Channel& channel, const Quantisation& grid, std::vector<Finding>& findings) {
+void find_saturation(const Channel& channel, const Quantisation& grid, std::vector<RecordFinding>& findings) {
     if (has_few_levels(grid)) return;
     const std::vector<Segment> runs = saturated_runs(channel.x, grid);
     if (runs.empty()) return;
@@ -145,12 +146,12 @@ void find_saturation(const Channel& channel, const Quantisation& grid, std::vect
                      "range of the sensor."
                    : "Leave these stretches out with data:discard, or repeat the experiment with a smaller "
                      "amplitude.";
-    Finding finding = about(channel, "saturation", Weight::kWarning, message, share);
+    RecordFinding finding = about(channel, "saturation", Weight::kWarning, message, share);
     finding.sections = runs;
     findings.push_back(std::move(finding));
 }
 
-void find_quantisation(const Channel& channel, const Quantisation& grid, std::vector<Finding>& findings) {
+void find_quantisation(const Channel& channel, const Quantisation& grid, std::vector<RecordFinding>& findings) {
     const double range = range_of(channel.x);
     if (!channel.output || grid.step == 0 || range / grid.step >= kCoarse) return;
     findings.push_back(about(channel, "quantisation", Weight::kWarning,
@@ -162,22 +163,22 @@ void find_quantisation(const Channel& channel, const Quantisation& grid, std::ve
                              grid.step));
 }
 
-void find_outliers(const Channel& channel, const Quantisation& grid, std::vector<Finding>& findings) {
+void find_outliers(const Channel& channel, const Quantisation& grid, std::vector<RecordFinding>& findings) {
     if (!channel.output || has_few_levels(grid)) return;
     const RepairedSignal repaired = replace_outliers(channel.x);
     const auto count = static_cast<double>(repaired.replaced.size());
     if (count == 0 || count > 0.05 * static_cast<double>(channel.x.size())) return;
-    Finding finding = about(channel, "outliers", Weight::kWarning,
-                            subject(channel) + " has " + number_text(count) +
-                                (count == 1 ? " sample that stands" : " samples that stand") +
-                                " far out from the neighbours (" + listed(repaired.stretches) +
-                                "). Look whether they can be true; if not, filloutliers puts straight lines there.",
-                            count);
+    RecordFinding finding = about(
+        channel, "outliers", Weight::kWarning,
+        subject(channel) + " has " + number_text(count) + (count == 1 ? " sample that stands" : " samples that stand") +
+            " far out from the neighbours (" + listed(repaired.stretches) +
+            "). Look whether they can be true; if not, filloutliers puts straight lines there.",
+        count);
     finding.sections = repaired.stretches;
     findings.push_back(std::move(finding));
 }
 
-void find_degrees(const Channel& channel, std::vector<Finding>& findings) {
+void find_degrees(const Channel& channel, std::vector<RecordFinding>& findings) {
     std::string unit = channel.unit;
     std::transform(unit.begin(), unit.end(), unit.begin(), [](unsigned char c) { return std::tolower(c); });
     const double swing = range_of(channel.x) / 2;
@@ -220,7 +221,7 @@ Index changes_of(const Vector& u) {
     return changes;
 }
 
-void find_excitation(const Channel& channel, const Quantisation& grid, std::vector<Finding>& findings) {
+void find_excitation(const Channel& channel, const Quantisation& grid, std::vector<RecordFinding>& findings) {
     const Index changes = changes_of(channel.x);
     if (has_few_levels(grid) && changes <= 3) {
         findings.push_back(about(channel, "step_input", Weight::kNote,
@@ -246,7 +247,7 @@ void find_excitation(const Channel& channel, const Quantisation& grid, std::vect
               static_cast<double>(order)));
 }
 
-void find_twins(const std::vector<Channel>& channels, std::vector<Finding>& findings) {
+void find_twins(const std::vector<Channel>& channels, std::vector<RecordFinding>& findings) {
     for (std::size_t i = 0; i < channels.size(); ++i)
         for (std::size_t j = i + 1; j < channels.size(); ++j) {
             const Channel &a = channels[i], &b = channels[j];
@@ -258,7 +259,7 @@ void find_twins(const std::vector<Channel>& channels, std::vector<Finding>& find
 }
 
 /// Irregular instants: two clocks, or a regular one with samples missing?
-void find_sampling(const IdData& data, std::vector<Finding>& findings) {
+void find_sampling(const IdData& data, std::vector<RecordFinding>& findings) {
     for (std::size_t k = 0; k < data.experiments.size(); ++k) {
         const Vector& t = data.experiments[k].t;
         if (t.size() < 10) continue;
@@ -273,8 +274,8 @@ void find_sampling(const IdData& data, std::vector<Finding>& findings) {
         const Index alike = alike_to(other);
         const std::string unit = " " + data.time_unit;
         const bool mixed = alike > std::max<Index>(5, steps.size() / 20) && alike > others / 2;
-        Finding finding{mixed ? "mixed_sampling" : "gaps", Weight::kWarning, "", "", other, k,
-                        {{place + 1, place + 2}}};
+        RecordFinding finding{mixed ? "mixed_sampling" : "gaps", Weight::kWarning, "", "", other, k,
+                              {{place + 1, place + 2}}};
         if (mixed)
             finding.message = "The record mixes two sampling times: " + std::to_string(regular) + " steps of " +
                               number_text(usual, 4) + unit + " and " + std::to_string(alike) + " of " +
@@ -293,8 +294,8 @@ void find_sampling(const IdData& data, std::vector<Finding>& findings) {
 
 }  // namespace
 
-std::vector<Finding> signal_findings(const IdData& data) {
-    std::vector<Finding> findings;
+std::vector<RecordFinding> signal_findings(const IdData& data) {
+    std::vector<RecordFinding> findings;
     find_sampling(data, findings);
     const std::vector<Channel> channels = channels_of(data);
     find_twins(channels, findings);

@@ -38,13 +38,13 @@ Record record(std::uint32_t seed = 1, double noise = 0.03, double delay = 0) {
 
 std::string codes(const Advice& advice) {
     std::string all;
-    for (const Finding& finding : advice.findings) all += finding.code + ": " + finding.message + "\n";
+    for (const RecordFinding& finding : advice.findings) all += finding.code + ": " + finding.message + "\n";
     return all;
 }
 
 /// The message of a finding, or all codes when it is not there.
 std::string said(const Advice& advice, const std::string& code) {
-    const Finding* finding = advice.find(code);
+    const RecordFinding* finding = advice.find(code);
     return finding != nullptr ? finding->message : "no " + code + " among:\n" + codes(advice);
 }
 
@@ -72,7 +72,7 @@ TEST(advice, the_signal_to_noise_ratio_is_that_put_in) {  // oracle: known noise
         const double power = (r.x.array() - r.x.mean()).square().mean();
         const double decibels = 10 * std::log10(power / (noise * noise));
         const Advice advice = advise(r.data());
-        const Finding* finding = advice.find(decibels < 10 ? "low_snr" : "noise");
+        const RecordFinding* finding = advice.find(decibels < 10 ? "low_snr" : "noise");
         ASSERT_NE(finding, nullptr) << codes(advice);
         EXPECT_NEAR(finding->value, decibels, 0.7);
     }
