@@ -54,17 +54,22 @@ Vector joint_frequency_grid(const std::vector<NamedModel>& models, Index count) 
     return Vector::LinSpaced(count, std::log(low), std::log(high)).array().exp();
 }
 
+FrequencyPanels frequency_panels() {
+    FrequencyPanels panels;
+    panels.magnitude.log_x = panels.phase.log_x = true;
+    panels.magnitude.y_label = "magnitude (dB)";
+    panels.phase.y_label = "phase (°)";
+    panels.phase.x_label = "frequency (rad/s)";
+    panels.phase.legend = LegendPlace::kNone;
+    return panels;
+}
+
 Figure bode_plot(const std::vector<NamedModel>& models, const Vector& w) {
     if (models.empty()) throw InvalidArgument("there are no models to plot");
     if (w.size() > 0 && !(w.minCoeff() > 0))
         throw InvalidArgument(fmt::format("frequencies must be positive, but the smallest is {}", w.minCoeff()));
     const Vector grid = w.size() > 0 ? w : joint_frequency_grid(models, kCurvePoints);
-    Panel magnitude, phase;
-    magnitude.log_x = phase.log_x = true;
-    magnitude.y_label = "magnitude (dB)";
-    phase.y_label = "phase (°)";
-    phase.x_label = "frequency (rad/s)";
-    phase.legend = LegendPlace::kNone;
+    auto [magnitude, phase] = frequency_panels();
     for (const NamedModel& model : models) {
         Curve curve;
         curve.x = below_nyquist(model.G, grid);

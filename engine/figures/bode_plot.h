@@ -6,6 +6,12 @@
 
 namespace dynlab {
 
+/// The empty panels of a frequency response.
+struct FrequencyPanels {
+    Panel magnitude, phase;
+};
+FrequencyPanels frequency_panels();
+
 /// Magnitude (dB) above unwrapped phase (degrees) over a logarithmic frequency axis (rad/s), at `w` or at frequencies
 /// chosen from poles and zeros of all models. Each discrete model ends at its pi/Ts, where a line marks it; models that
 /// carry their confidence have bands. Throws InvalidArgument for no models or frequencies that are not positive.

@@ -72,12 +72,7 @@ Figure spectral_plot(const SpectralEstimate& estimate, const std::string& name, 
     if (!(estimate.w.size() > 0) || !(estimate.w.maxCoeff() > 0))
         throw InvalidArgument("there is no frequency above zero to draw");
     const double width = normal_half_width(level);
-    Panel magnitude, phase;
-    magnitude.log_x = phase.log_x = true;
-    magnitude.y_label = "magnitude (dB)";
-    phase.y_label = "phase (°)";
-    phase.x_label = "frequency (rad/s)";
-    phase.legend = LegendPlace::kNone;
+    auto [magnitude, phase] = frequency_panels();
     magnitude.curves = {curve_of(estimate, magnitude_db(estimate.response), name)};
     phase.curves = {curve_of(estimate, known_phase(estimate, width), name)};
     Figure figure;
