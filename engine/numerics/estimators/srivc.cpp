@@ -34,7 +34,7 @@ bool outputs_share_a_denominator(const TransferStructure& structure) {
     return structure.poles.size() < static_cast<std::size_t>(structure.outputs);
 }
 
-/// The passes; where outputs share a denominator, repeated with each output weighted by its noise.
+/// The passes; where outputs share a denominator, more of them with each output weighted by its noise.
 RefinedSolution solve(const IdData& data, const TransferStructure& structure, const TransferOptions& options) {
     RefinedOptions refined{options.MaxIter, options.Tol, options.hold_y, options.cancel, {}, false};
     refined.with_gram = structure.outputs == 1 && options.Tol <= kHardlyChanged;
@@ -45,7 +45,9 @@ RefinedSolution solve(const IdData& data, const TransferStructure& structure, co
             refined.weights[output] = 1 / simulation_squares(data, structure, solution.theta, output);
         if (!refined.weights.allFinite()) break;
         refined.weights /= refined.weights.maxCoeff();
-        solution = iterate_refined(data, structure, solution.theta, refined);
+        RefinedSolution next = iterate_refined(data, structure, solution.theta, refined);
+        next.trace.insert(next.trace.begin(), solution.trace.begin(), solution.trace.end());
+        solution = std::move(next);
     }
     return solution;
 }

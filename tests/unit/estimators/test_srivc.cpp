@@ -154,6 +154,7 @@ TEST(srivc, outputs_with_a_common_denominator_share_what_they_know) {
     const TransferEstimate found = srivc(IdData(y, Matrix(u), 0.01), structure, exact());
     EXPECT_LT(relative_difference(found.theta.head(2), truth.head(2)), 1e-6) << found.message;
     EXPECT_LT(std::abs(found.theta[2] - 3), 4 * found.std[2]);
+    EXPECT_GT(found.trace.front().change, 1e-6) << "the trace begins with the first of all passes";
 }
 
 // oracle: two delays and numerators that give the same samples, as n + 1 weights of the sampled response follow from
