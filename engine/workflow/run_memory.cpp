@@ -131,11 +131,22 @@ std::optional<RunRecord> RunMemory::recall() const {
     if (!inputs.is_object() || !unchanged(inputs.get<InputsRead>())) return {};
     const auto folder = cache_.find(key_of_run(key_, inputs));
     if (!folder) return {};
-    return unpacked(read_file(*folder / kRecord), *folder);
+    try {
+        return unpacked(read_file(*folder / kRecord), *folder);
+    } catch (const std::exception&) {  // deleted meanwhile, or spoilt: then the script is run
+        return {};
+    }
 }
 
 void RunMemory::remember(const RunRecord& record) const {
     if (record.error || names_a_line(record)) return;
+    try {
+        keep(record);
+    } catch (const std::exception&) {  // a full disk, say: the next run does without
+    }
+}
+
+void RunMemory::keep(const RunRecord& record) const {
     const InputsRead inputs = inputs_read(record, script_.parent_path());
     const fs::path folder = cache_.prepare();
     for (const auto& [name, figure] : record.figures) fs::copy_file(figure.file, folder / figure.file.filename());

@@ -18,10 +18,12 @@ class RunMemory {
 
     /// The record of an equal run, its figures' files in the cache.
     std::optional<RunRecord> recall() const;
-    /// All figures of the record must have been drawn.
+    /// All figures of the record must have been drawn. Where it cannot be kept, nothing is.
     void remember(const RunRecord& record) const;
 
   private:
+    void keep(const RunRecord& record) const;
+
     Cache cache_;
     std::filesystem::path script_;
     std::string key_;  ///< of everything that is known before the run

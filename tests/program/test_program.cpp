@@ -126,6 +126,10 @@ TEST(program, script_is_run_again_only_when_its_code_or_its_data_change) {
     EXPECT_TRUE(run_again());
     write("Prose.", "print(7)\n");
     EXPECT_TRUE(run_again());
+    // A record that is spoilt does not stop the work.
+    ASSERT_EQ(bench.shell("for f in ../cache/dynlab/runs/*/record; do echo spoilt > \"$f\"; done").exit_code, 0);
+    write("Other prose.", "print(7)\n");
+    EXPECT_TRUE(run_again());
     // What tells a line of the script is never kept: an edit of the prose moves it.
     write("Prose.", "print(select(2, pcall(function() error('told') end)))\n");
     EXPECT_TRUE(run_again());
