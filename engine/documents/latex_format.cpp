@@ -9,6 +9,7 @@
 #include "platform/child_process.h"
 #include "platform/content_hash.h"
 #include "platform/error.h"
+#include "platform/program_identity.h"
 #include "platform/program_lookup.h"
 
 namespace dynlab {
@@ -26,15 +27,7 @@ std::string preamble_text(const fs::path& shared_templates, const std::string& l
 std::string tex_version() {
     const auto pdflatex = find_program("pdflatex");
     if (!pdflatex) throw MissingProgram("pdflatex", "texlive-latex-base");
-    std::string stamp;
-    for (const fs::path& file : {*pdflatex, fs::path("/var/lib/texmf/web2c/pdftex/pdflatex.fmt")}) {
-        std::error_code missing;
-        const auto size = fs::file_size(file, missing);
-        if (missing) continue;
-        const auto date = fs::last_write_time(file, missing).time_since_epoch().count();
-        stamp += fs::canonical(file).string() + " " + std::to_string(size) + " " + std::to_string(date) + "\n";
-    }
-    return stamp;
+    return file_stamp(*pdflatex) + "\n" + file_stamp("/var/lib/texmf/web2c/pdftex/pdflatex.fmt");
 }
 
 void compile_format(const fs::path& folder) {

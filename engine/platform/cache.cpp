@@ -102,7 +102,8 @@ void drop(const fs::path& root, const fs::path& entry) {
 
 }  // namespace
 
-Cache::Cache(const std::string& name, std::uint64_t limit_bytes) : limit_bytes_(limit_bytes) {
+Cache::Cache(const std::string& name, std::uint64_t limit_bytes)
+    : limit_bytes_(limit_bytes), unseen_bytes_(limit_bytes) {
     check_key(name);
     root_ = make_root(name);
 }
@@ -133,8 +134,14 @@ fs::path Cache::commit(const fs::path& prepared, const std::string& key) const {
         throw EnvironmentError("cannot keep " + folder.string() + ": " + error.message());
     }
     mark_as_used(folder);
-    drop_beyond_limit();
+    unseen_bytes_ += bytes_in(folder);
+    if (unseen_bytes_ > limit_bytes_ / 16) drop_beyond_limit();
     return folder;
+}
+
+void Cache::forget(const std::string& key) const {
+    check_key(key);
+    drop(root_, root_ / key);
 }
 
 void Cache::store(const std::string& key, const std::string& text) const {
@@ -156,6 +163,7 @@ void Cache::drop_beyond_limit() const {
         fs::file_time_type used;
         std::uint64_t bytes;
     };
+    unseen_bytes_ = 0;
     const auto now = fs::file_time_type::clock::now();
     std::vector<Entry> entries;
     std::uint64_t total = 0;

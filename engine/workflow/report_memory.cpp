@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "platform/content_hash.h"
+#include "platform/program_identity.h"
 #include "platform/program_lookup.h"
 #include "workflow/inputs_read.h"
-#include "workflow/program_identity.h"
 
 namespace dynlab {
 namespace {

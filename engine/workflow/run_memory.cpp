@@ -4,8 +4,8 @@
 
 #include "platform/atomic_file.h"
 #include "platform/content_hash.h"
+#include "platform/program_identity.h"
 #include "workflow/inputs_read.h"
-#include "workflow/program_identity.h"
 
 namespace dynlab {
 
