@@ -46,8 +46,23 @@ bool is_whole(const std::filesystem::path& file, FigureFormat format) {
     return in.read(tail.data(), static_cast<std::streamsize>(tail.size())) && tail.find(ends.end) != std::string::npos;
 }
 
-void add_fallback_fonts(const std::filesystem::path& svg) {
-    const std::string content = read_file(svg);
+namespace {
+
+/// Nothing is drawn by a group that gnuplot opened and closed at once.
+std::string without_empty_groups(const std::string& content) {
+    constexpr std::string_view kOpen = "<g ", kClose = ">\n</g>\n";
+    std::string changed;
+    std::size_t copied = 0;
+    for (std::size_t at = content.find(kOpen); at != std::string::npos; at = content.find(kOpen, at + 1)) {
+        const std::size_t end = content.find('>', at);
+        if (end == std::string::npos || content.compare(end, kClose.size(), kClose) != 0) continue;
+        changed.append(content, copied, at - copied);
+        copied = end + kClose.size();
+    }
+    return changed.append(content, copied, std::string::npos);
+}
+
+std::string with_fallback_fonts(const std::string& content) {
     const std::string text_font = fmt::format("font-family=\"{}\"", style::kTextFont);
     const std::string math_font = fmt::format("font-family=\"{}\"", style::kMathFont);
     std::string changed;
@@ -63,7 +78,13 @@ void add_fallback_fonts(const std::filesystem::path& svg) {
             copied = at + font->size();
         }
     }
-    changed.append(content, copied, std::string::npos);
+    return changed.append(content, copied, std::string::npos);
+}
+
+}  // namespace
+
+void finish_svg(const std::filesystem::path& svg) {
+    const std::string changed = with_fallback_fonts(without_empty_groups(read_file(svg)));
     std::ofstream out(svg, std::ios::binary | std::ios::trunc);
     if (!(out << changed << std::flush))
         throw EnvironmentError(fmt::format("cannot write \"{}\": {}", svg.string(), system_reason(errno)));

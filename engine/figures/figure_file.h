@@ -8,8 +8,9 @@ namespace dynlab {
 /// Whether a file has the beginning and the end that its format requires; a full disk leaves none.
 bool is_whole(const std::filesystem::path& file, FigureFormat format);
 
-/// Gives the texts of an SVG file fonts to fall back on where the reader's machine lacks the document's own.
-void add_fallback_fonts(const std::filesystem::path& svg);
+/// Gives the texts of an SVG file fonts to fall back on where the reader's machine lacks the document's own, and drops
+/// empty groups: how many there are depends on what gnuplot drew before, and equal figures are to be equal files.
+void finish_svg(const std::filesystem::path& svg);
 
 /// Overwrites the date that cairo stamps on PDF files with blanks, so that equal figures are equal files.
 void blank_creation_date(const std::filesystem::path& pdf);

@@ -5,18 +5,26 @@
 #include <signal.h>
 
 #include <deque>
+#include <fstream>
 #include <optional>
 #include <regex>
 
 #include "figures/figure_file.h"
+#include "figures/figure_text.h"
 #include "figures/gnuplot_process.h"
 #include "figures/gnuplot_script.h"
 #include "numerics/error.h"
+#include "platform/atomic_file.h"
+#include "platform/content_memory.h"
 #include "platform/interrupt.h"
+#include "platform/program_identity.h"
+#include "platform/program_lookup.h"
 #include "platform/system_call.h"
 
 namespace dynlab {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// While one lives, writing to a gnuplot that has ended fails instead of ending this program too.
 class BrokenPipeHeld {
@@ -56,103 +64,153 @@ std::string last_words(const std::string& complaints) {
     return fmt::format("its last words were \"{}\"", complaints.substr(line + 1, end - line));
 }
 
+/// Which gnuplot draws: its file's name, size and date.
+std::string gnuplot_version() {
+    const auto gnuplot = find_program("gnuplot");
+    return gnuplot ? file_stamp(*gnuplot) : std::string();
+}
+
 }  // namespace
 
-struct GnuplotRenderer::Process {
+/// The figures on their way, in the order in which they were asked for: a file drawn twice is the later figure's.
+class GnuplotRenderer::Work {
+  public:
+    explicit Work(ContentMemory* memory) : memory_(memory) {}
+    ~Work() { give_up(); }
+
+    void draw(const Figure& figure, const fs::path& target, FigureFormat format) {
+        const std::string script = gnuplot_script(figure, format);
+        Pending next{0, format, make_temporary_beside(target), target, {}};
+        if (memory_) next.key = memory_->key({gnuplot_version(), std::to_string(static_cast<int>(format)), script});
+        pending_.push_back(next);
+        try {
+            if (!recall(pending_.back())) start_drawing(pending_.back(), script);
+        } catch (...) {
+            give_up();
+            throw;
+        }
+    }
+
+    void finish() {
+        std::optional<std::string> first_complaint;
+        try {
+            for (; !pending_.empty(); pending_.pop_front()) {
+                const auto complaint = complete(pending_.front());
+                if (!first_complaint) first_complaint = complaint;
+            }
+        } catch (...) {
+            give_up();
+            throw;
+        }
+        if (first_complaint) throw FigureError(*first_complaint);
+    }
+
+  private:
     struct Pending {
-        unsigned number;
+        unsigned number;  ///< of gnuplot's report; 0 for a figure that is not drawn but recalled
         FigureFormat format;
-        std::filesystem::path temporary, target;
+        fs::path temporary, target;
+        std::string key;  ///< in the memory
+    };
+    struct Running {
+        GnuplotProcess child;
+        Gnuplot gnuplot{child.take_input()};
     };
 
-    GnuplotProcess child;
-    Gnuplot gnuplot{child.take_input()};
-    std::deque<Pending> pending;
-    unsigned last_number = 0;
-
-    ~Process() {
-        child.end();
-        for (const Pending& figure : pending) remove(figure);
+    void give_up() {
+        if (running_) running_->child.end();
+        running_.reset();
+        for (const Pending& figure : pending_) remove(figure);
+        pending_.clear();
     }
 
     static void remove(const Pending& figure) {
         std::error_code ignored;
-        std::filesystem::remove(figure.temporary, ignored);
+        fs::remove(figure.temporary, ignored);
+    }
+
+    bool recall(const Pending& figure) const {
+        const auto drawn = memory_ ? memory_->recall(figure.key) : std::nullopt;
+        if (!drawn) return false;
+        std::ofstream file(figure.temporary, std::ios::binary);
+        file << *drawn;
+        file.close();
+        return file.good();
+    }
+
+    void start_drawing(Pending& figure, const std::string& script) {
+        if (!running_) running_ = std::make_unique<Running>();
+        figure.number = ++last_number_;
+        send(fmt::format("output_file = {}\n{}{}", gnuplot_quoted(figure.temporary.string()), script,
+                         GnuplotProcess::report_command(figure.number)),
+             figure.target);
     }
 
     /// gnuplot ends at its first error; what it had in hand then is lost.
-    [[noreturn]] void fail_as_ended(const std::filesystem::path& target) const {
-        const std::string complaints = child.complaints();
+    [[noreturn]] void fail_as_ended(const fs::path& target) const {
+        const std::string complaints = running_->child.complaints();
         if (const auto error = first_error(complaints))
             throw FigureError(fmt::format("gnuplot could not draw \"{}\": {}", target.string(), *error));
         throw FigureError(fmt::format("gnuplot ended or no longer answered while it drew \"{}\"; {}", target.string(),
                                       last_words(complaints)));
     }
 
-    void send(const std::string& script, const std::filesystem::path& target) {
+    void send(const std::string& script, const fs::path& target) {
         const BrokenPipeHeld held;
-        gnuplot << script << std::flush;
-        if (gnuplot) return;
+        running_->gnuplot << script << std::flush;
+        if (running_->gnuplot) return;
         throw_if_interrupted();
         fail_as_ended(target);
     }
 
-    /// Waits for one figure and puts it in place; returns what went wrong.
-    std::optional<std::string> complete(const Pending& figure) {
-        const std::optional<std::string> complaints = child.wait_for_report(figure.number);
+    /// Waits until gnuplot has drawn a figure; returns what went wrong.
+    std::optional<std::string> wait_for(const Pending& figure) {
+        const std::optional<std::string> complaints = running_->child.wait_for_report(figure.number);
         if (!complaints) fail_as_ended(figure.target);
-        std::optional<std::string> error = first_error(*complaints);
-        if (!error && !is_whole(figure.temporary, figure.format))
-            error = "the file is not complete (is the disk full?)";
-        if (error) {
-            remove(figure);
-            return fmt::format("gnuplot could not draw \"{}\": {}", figure.target.string(), *error);
-        }
+        if (const auto error = first_error(*complaints)) return error;
+        if (!is_whole(figure.temporary, figure.format)) return "the file is not complete (is the disk full?)";
         if (figure.format == FigureFormat::kPdf) blank_creation_date(figure.temporary);
-        if (figure.format == FigureFormat::kSvg) add_fallback_fonts(figure.temporary);
+        if (figure.format == FigureFormat::kSvg) finish_svg(figure.temporary);
+        if (memory_) memory_->remember(figure.key, read_file(figure.temporary));
+        return {};
+    }
+
+    /// Puts a figure in place, once it is drawn; returns what went wrong.
+    std::optional<std::string> complete(const Pending& figure) {
+        if (figure.number > 0) {
+            if (const auto error = wait_for(figure)) {
+                remove(figure);
+                return fmt::format("gnuplot could not draw \"{}\": {}", figure.target.string(), *error);
+            }
+        }
         std::error_code failure;
-        std::filesystem::rename(figure.temporary, figure.target, failure);
+        fs::rename(figure.temporary, figure.target, failure);
         if (!failure) return {};
         remove(figure);
         return fmt::format("cannot write the figure \"{}\": {}", figure.target.string(),
                            system_reason(failure.value()));
     }
+
+    ContentMemory* memory_;
+    std::unique_ptr<Running> running_;
+    std::deque<Pending> pending_;
+    unsigned last_number_ = 0;
 };
 
-GnuplotRenderer::GnuplotRenderer() = default;
+GnuplotRenderer::GnuplotRenderer(ContentMemory* memory) : work_(std::make_unique<Work>(memory)) {}
 GnuplotRenderer::~GnuplotRenderer() = default;
 
-void GnuplotRenderer::draw(const Figure& figure, const std::filesystem::path& file, FigureFormat format) {
+void GnuplotRenderer::draw(const Figure& figure, const fs::path& file, FigureFormat format) {
     figure.validate();
-    const std::filesystem::path target = std::filesystem::absolute(file);
+    const fs::path target = fs::absolute(file);
     for (const char c : target.native())
         if (static_cast<unsigned char>(c) < 0x20)
             throw InvalidArgument("the name of a figure's file must not contain line breaks or control characters");
-    if (!process_) process_ = std::make_unique<Process>();
-    const unsigned number = ++process_->last_number;
-    process_->pending.push_back({number, format, make_temporary_beside(target), target});
-    const std::filesystem::path& temporary = process_->pending.back().temporary;
-    try {
-        process_->send(gnuplot_script(figure, temporary, format) + GnuplotProcess::report_command(number), target);
-    } catch (...) {
-        process_.reset();
-        throw;
-    }
+    work_->draw(figure, target, format);
 }
 
 void GnuplotRenderer::finish() {
-    if (!process_) return;
-    std::optional<std::string> first_complaint;
-    try {
-        for (; !process_->pending.empty(); process_->pending.pop_front()) {
-            const auto complaint = process_->complete(process_->pending.front());
-            if (!first_complaint) first_complaint = complaint;
-        }
-    } catch (...) {
-        process_.reset();
-        throw;
-    }
-    if (first_complaint) throw FigureError(*first_complaint);
+    work_->finish();
 }
 
 }  // namespace dynlab

@@ -13,12 +13,15 @@ enum class FigureFormat { kPdf, kSvg, kPng };
 FigureFormat figure_format(
     const std::filesystem::path& file);  ///< by extension; throws InvalidArgument naming the three
 
-/// One gnuplot process that draws any number of figures in the house style. Starts with the first figure. All
+class ContentMemory;
+
+/// One gnuplot process that draws any number of figures in the house style. Starts with the first figure that must be
+/// drawn: with a `memory`, which must outlive it, figures drawn before are taken from there. All
 /// data go through the pipe; all text is quoted so that none of it can become gnuplot code or a shell
 /// command. Files appear whole (temporary name, then rename) once finish() or the next finish() returns.
 class GnuplotRenderer {
   public:
-    GnuplotRenderer();
+    explicit GnuplotRenderer(ContentMemory* memory = nullptr);
     ~GnuplotRenderer();  ///< ends the process; files not finished are removed
 
     /// Queues `figure` for `file`; returns at once. Throws MissingProgram when gnuplot is not installed.
@@ -27,8 +30,8 @@ class GnuplotRenderer {
     void finish();
 
   private:
-    struct Process;
-    std::unique_ptr<Process> process_;
+    class Work;
+    std::unique_ptr<Work> work_;
 };
 
 }  // namespace dynlab

@@ -273,11 +273,11 @@ std::string terminal(FigureFormat format, double width_cm, double height_cm) {
 
 }  // namespace
 
-std::string gnuplot_script(const Figure& figure, const std::filesystem::path& file, FigureFormat format) {
+std::string gnuplot_script(const Figure& figure, FigureFormat format) {
     const FigureLayout page = lay_out(figure);
     std::string out = "reset\nset encoding utf8\n";
     out += "set terminal " + terminal(format, page.width, page.height) + "\n";
-    out += "set output " + gnuplot_quoted(file.string()) + "\n";
+    out += "set output output_file\n";
     out += "set multiplot\nunset key\nset clip two\n";
     for (std::size_t i = 0; i < figure.panels.size(); ++i)
         PanelScript(figure.panels[i], page.panels[i], page, out).write(i == 0);

@@ -1,5 +1,4 @@
 #pragma once
-#include <filesystem>
 #include <string>
 
 #include "figures/figure.h"
@@ -7,9 +6,9 @@
 
 namespace dynlab {
 
-/// The gnuplot commands, data included, that draw a valid figure into `file` (an absolute path). Everything is placed
-/// in cm; gnuplot chooses nothing. Data are sent as numbers in text, so that even a command gnuplot refuses
-/// leaves nothing behind that could be read as another command.
-std::string gnuplot_script(const Figure& figure, const std::filesystem::path& file, FigureFormat format);
+/// The gnuplot commands, data included, that draw a valid figure into the file that gnuplot's variable `output_file`
+/// names; equal commands give equal files. Everything is placed in cm; gnuplot chooses nothing. Data are sent as
+/// numbers in text, so that even a command gnuplot refuses leaves nothing behind that could be read as another command.
+std::string gnuplot_script(const Figure& figure, FigureFormat format);
 
 }  // namespace dynlab

@@ -12,6 +12,7 @@
 
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
+#include "platform/content_memory.h"
 #include "platform/interrupt.h"
 #include "platform/temporary_folder.h"
 
@@ -63,8 +64,8 @@ TEST(gnuplot_renderer, writes_whole_files_of_all_formats) {
 TEST(gnuplot_renderer, equal_figures_make_equal_files) {
     const TemporaryFolder folder;
     GnuplotRenderer first, second;
-    second.draw(sine("another"), folder.path() / "other.pdf", FigureFormat::kPdf);
     for (const std::string kind : {".pdf", ".svg", ".png"}) {
+        draw_one(second, sine("another"), folder.path() / ("other" + kind));
         const auto a = draw_one(first, sine("θ̂"), folder.path() / ("a" + kind));
         const auto b = draw_one(second, sine("θ̂"), folder.path() / ("b" + kind));
         EXPECT_TRUE(read_file(a) == read_file(b)) << kind;
@@ -72,6 +73,47 @@ TEST(gnuplot_renderer, equal_figures_make_equal_files) {
     // Dates differ only when the clock ticks between two files, so look for the date itself.
     for (const std::string& trace : {std::string("CreationDate"), folder.path().string()})
         EXPECT_EQ(read_file(folder.path() / "a.pdf").find(trace), std::string::npos) << trace;
+}
+
+// Oracle: the file that gnuplot drew, and that no gnuplot runs for it again.
+TEST(gnuplot_renderer, takes_what_was_drawn_before_from_its_memory) {
+    const TemporaryFolder folder, cache;
+    setenv("XDG_CACHE_HOME", cache.path().c_str(), 1);
+    ContentMemory memory("figures");
+    unsetenv("XDG_CACHE_HOME");
+    for (const std::string kind : {".pdf", ".svg", ".png"}) {
+        GnuplotRenderer first(&memory);
+        draw_one(first, sine(), folder.path() / ("a" + kind));
+    }
+    EXPECT_EQ(memory.recalled(), 0u);
+    EXPECT_EQ(memory.remembered(), 3u);
+    GnuplotRenderer second(&memory);
+    for (const std::string kind : {".pdf", ".svg", ".png"}) {
+        draw_one(second, sine(), folder.path() / ("b" + kind));
+        EXPECT_TRUE(read_file(folder.path() / ("a" + kind)) == read_file(folder.path() / ("b" + kind))) << kind;
+    }
+    EXPECT_EQ(memory.recalled(), 3u);
+    EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "a gnuplot was started";
+    Figure wider = sine();
+    wider.width_cm += 1;
+    draw_one(second, wider, folder.path() / "c.pdf");
+    EXPECT_EQ(memory.recalled(), 3u);
+}
+
+// Oracle: the file of the later figure, drawn alone.
+TEST(gnuplot_renderer, a_file_drawn_twice_is_the_later_figure) {
+    const TemporaryFolder folder, cache;
+    setenv("XDG_CACHE_HOME", cache.path().c_str(), 1);
+    ContentMemory memory("figures");
+    unsetenv("XDG_CACHE_HOME");
+    GnuplotRenderer renderer(&memory);
+    const auto alone = draw_one(renderer, sine("later"), folder.path() / "alone.svg");
+    renderer.draw(sine("earlier"), folder.path() / "a.svg", FigureFormat::kSvg);
+    renderer.draw(sine("later"), folder.path() / "a.svg", FigureFormat::kSvg);
+    renderer.finish();
+    EXPECT_EQ(memory.recalled(), 1u);
+    EXPECT_TRUE(read_file(alone) == read_file(folder.path() / "a.svg"));
+    EXPECT_EQ(file_count(folder.path()), 2u);
 }
 
 // Oracle: no side effect. Each text would create a file if gnuplot or a shell ever executed a part of it.
