@@ -170,6 +170,7 @@ void Call::print(const std::string& text) const {
     if (context.recorder.printed_bytes() + text.size() > context.options.output_limit_bytes)
         raise_stop(state_, StopReason::kOutputLimit);
     context.recorder.print(text);
+    if (context.printed_by_call) *context.printed_by_call += text;
     if (context.options.print) context.options.print(text);
 }
 

@@ -9,6 +9,7 @@
 #include "numerics/kernels/integrated_input.h"
 #include "scripting/bindings.h"
 #include "scripting/estimation.h"
+#include "scripting/memo/long_call.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/model.h"
 #include "scripting/order_vector.h"
@@ -137,15 +138,15 @@ constexpr std::array kFunctions = {
     FunctionEntry{"arx", kArea, "arx(data, {na, nb, nk}) -> G", "A y = B u + e by least squares",
                   guarded<estimate_equation_error<arx>>},
     FunctionEntry{"iv4", kArea, "iv4(data, {na, nb, nk}) -> G", "A y = B u + v by instrumental variables in four steps",
-                  guarded<estimate_equation_error<iv4>>},
+                  guarded<long_call<estimate_equation_error<iv4>>>},
     FunctionEntry{"armax", kArea, "armax(data, {na, nb, nc, nk}, {MaxIter =, Tol =}) -> G",
-                  "A y = B u + C e with the smallest prediction error", guarded<estimate_armax>},
+                  "A y = B u + C e with the smallest prediction error", guarded<long_call<estimate_armax>>},
     FunctionEntry{"oe", kArea, "oe(data, {nb, nf, nk}, {InitialState =, Offset =, Integration =, ...}) -> G",
-                  "y = B/F u + e with the smallest simulation error", guarded<estimate_output_error<oe>>},
+                  "y = B/F u + e with the smallest simulation error", guarded<long_call<estimate_output_error<oe>>>},
     FunctionEntry{"sriv", kArea, "sriv(data, {nb, nf, nk}, {InitialState =, Offset =, Integration =, ...}) -> G",
-                  "y = B/F u + e by refined instrumental variables", guarded<estimate_output_error<sriv>>},
+                  "y = B/F u + e by refined instrumental variables", guarded<long_call<estimate_output_error<sriv>>>},
     FunctionEntry{"bj", kArea, "bj(data, {nb, nc, nd, nf, nk}, {InitialState =, Offset =, Integration =, ...}) -> G",
-                  "y = B/F u + C/D e with the smallest prediction error", guarded<estimate_bj>},
+                  "y = B/F u + C/D e with the smallest prediction error", guarded<long_call<estimate_bj>>},
 };
 
 }  // namespace

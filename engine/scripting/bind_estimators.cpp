@@ -4,6 +4,7 @@
 #include "numerics/estimators/procsrivc.h"
 #include "numerics/estimators/step_test.h"
 #include "scripting/bindings.h"
+#include "scripting/memo/long_call.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/model.h"
@@ -108,7 +109,7 @@ constexpr std::array kFunctions = {
                   "the reading points of a step test on its response", guarded<draw_construction>},
     FunctionEntry{"procsrivc", "continuous time",
                   "procsrivc(data, \"P2DU\", {TdMin =, TdMax =, InitialState =, Offset =, ...}) -> G",
-                  "process model with the smallest simulation error", guarded<estimate_process_model>},
+                  "process model with the smallest simulation error", guarded<long_call<estimate_process_model>>},
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "numerics/estimators/hammerstein.h"
 #include "scripting/bindings.h"
+#include "scripting/memo/long_call.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/transfer_arguments.h"
 
@@ -43,7 +44,7 @@ int estimate_hammerstein(Call& call) {
 constexpr std::array kFunctions = {
     FunctionEntry{"hammerstein", "continuous time",
                   "hammerstein(data, np, nz, {Bins =, Breakpoints =, TdMin =, TdMax =, IODelay =, ...}) -> G",
-                  "a static characteristic by bins, then linear dynamics", guarded<estimate_hammerstein>},
+                  "a static characteristic by bins, then linear dynamics", guarded<long_call<estimate_hammerstein>>},
 };
 
 }  // namespace

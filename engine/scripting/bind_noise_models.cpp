@@ -3,6 +3,7 @@
 #include "numerics/estimators/rivc.h"
 #include "scripting/bindings.h"
 #include "scripting/estimation.h"
+#include "scripting/memo/long_call.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/transfer_arguments.h"
 
@@ -73,9 +74,10 @@ constexpr NamedReader kReaders[] = {{"rivc", read_estimation<read_rivc>}, {"tfri
 constexpr const char* kArea = "continuous time";
 constexpr std::array kFunctions = {
     FunctionEntry{"rivc", kArea, "rivc(data, {nb, nc, nd, nf, nk}, {lambda =, MaxIter =, Tol =, ...}) -> G",
-                  "y = B/F u + C/D e, coloured noise modelled too", guarded<estimate_with_noise<read_rivc>>},
+                  "y = B/F u + C/D e, coloured noise modelled too", guarded<long_call<estimate_with_noise<read_rivc>>>},
     FunctionEntry{"tfrivc", kArea, "tfrivc(data, np, nz, {nc =, nd =, TdMin =, TdMax =, IODelay =, ...}) -> G",
-                  "rivc by numbers of poles and zeros, the delay estimated", guarded<estimate_with_noise<read_tfrivc>>},
+                  "rivc by numbers of poles and zeros, the delay estimated",
+                  guarded<long_call<estimate_with_noise<read_tfrivc>>>},
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "numerics/validation/delay_search.h"
 #include "platform/progress.h"
 #include "scripting/estimation.h"
+#include "scripting/memo/long_call.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/study_objects.h"
@@ -199,15 +200,16 @@ int estimate_delay(Call& call) {
 
 constexpr const char* kArea = "structure";
 constexpr std::array kFunctions = {
-    FunctionEntry{
-        "srivcstruc", kArea, "srivcstruc(data, {poles = {1, 4}, zeros = {0, 2}, delays =, validate =, ...}) -> V",
-        "srivc for many numbers of poles, zeros and samples of delay, with criteria for each", guarded<try_structures>},
+    FunctionEntry{"srivcstruc", kArea,
+                  "srivcstruc(data, {poles = {1, 4}, zeros = {0, 2}, delays =, validate =, ...}) -> V",
+                  "srivc for many numbers of poles, zeros and samples of delay, with criteria for each",
+                  guarded<long_call<try_structures>>},
     FunctionEntry{"selcstruc", kArea, "selcstruc(V, criterion) -> G, fig",
                   "the structure that a criterion chooses, explained in words", guarded<select_structure>},
     FunctionEntry{"delayest", kArea,
                   "delayest(data, {poles = {1, 3}, zeros = {0, 1}, TdMin =, TdMax =, ...}) -> Td, fig, D",
                   "the delay between input and output, with its standard error and the loss over the delay",
-                  guarded<estimate_delay>},
+                  guarded<long_call<estimate_delay>>},
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "numerics/rigs/suspension.h"
 #include "numerics/rigs/thruster.h"
 #include "scripting/bindings.h"
+#include "scripting/memo/long_call.h"
 #include "scripting/objects/boxed.h"
 #include "scripting/objects/model.h"
 #include "scripting/table_fields.h"
@@ -214,7 +215,8 @@ int rig_truth(Call& call) {
 
 constexpr std::array kFunctions = {
     FunctionEntry{"rig", "data", "rig(name, {seed =}) -> table",
-                  "repeats one of the course's simulated experiments, with other noise for another seed", guarded<rig>},
+                  "repeats one of the course's simulated experiments, with other noise for another seed",
+                  guarded<long_call<rig>>},
     FunctionEntry{"rig_truth", "data", "rig_truth(name) -> table",
                   "what theory says of one of the course's simulated experiments", guarded<rig_truth>},
 };

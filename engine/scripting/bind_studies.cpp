@@ -4,6 +4,7 @@
 #include "numerics/validation/monte_carlo.h"
 #include "platform/progress.h"
 #include "scripting/estimation.h"
+#include "scripting/memo/long_call.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/model.h"
 #include "scripting/objects/study_objects.h"
@@ -194,7 +195,7 @@ constexpr std::array kFunctions = {
     FunctionEntry{"montecarlo", "validation",
                   "montecarlo{system =, input =, Ts =, sigma = | snr =, runs =, seed =, estimators = {...}} -> M",
                   "the same experiment many times with fresh noise: bias and scatter of estimators",
-                  guarded<run_study>},
+                  guarded<long_call<run_study>>},
 };
 
 }  // namespace

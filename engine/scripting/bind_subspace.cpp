@@ -2,6 +2,7 @@
 
 #include "numerics/estimators/n4sid.h"
 #include "scripting/bindings.h"
+#include "scripting/memo/long_call.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/model.h"
 
@@ -43,7 +44,8 @@ int estimate_n4sid(Call& call) {
 
 constexpr std::array kFunctions = {
     FunctionEntry{"n4sid", "discrete time", "n4sid(data, order, {BlockRows =, Weighting =, Feedthrough =}) -> G",
-                  "a state-space model by subspace identification, without iterating", guarded<estimate_n4sid>},
+                  "a state-space model by subspace identification, without iterating",
+                  guarded<long_call<estimate_n4sid>>},
 };
 
 }  // namespace

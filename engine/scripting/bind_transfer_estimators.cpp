@@ -9,6 +9,7 @@
 #include "numerics/kernels/transfer_data.h"
 #include "scripting/bindings.h"
 #include "scripting/estimation.h"
+#include "scripting/memo/long_call.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/transfer_arguments.h"
 
@@ -136,15 +137,17 @@ constexpr std::array kFunctions = {
     FunctionEntry{"ivgpmf", kArea, "ivgpmf(data, {na, nb, nk}, lambda, {beta =, hold_y =}) -> G",
                   "instrumental variables on Poisson moment functionals", guarded<estimate_filtered<ivsvf, true>>},
     FunctionEntry{"srivc", kArea, "srivc(data, {nb, nf, nk}, {lambda =, MaxIter =, Tol =, ...}) -> G",
-                  "y = B/F u + e by refined instrumental variables", guarded<estimate_refined<read_refined<srivc>>>},
+                  "y = B/F u + e by refined instrumental variables",
+                  guarded<long_call<estimate_refined<read_refined<srivc>>>>},
     FunctionEntry{"coe", kArea, "coe(data, {nb, nf, nk}, {lambda =, MaxIter =, Tol =, ...}) -> G",
-                  "y = B/F u + e with the smallest simulation error", guarded<estimate_refined<read_refined<coe>>>},
+                  "y = B/F u + e with the smallest simulation error",
+                  guarded<long_call<estimate_refined<read_refined<coe>>>>},
     FunctionEntry{"tfsrivc", kArea, "tfsrivc(data, np, nz, {TdMin =, TdMax =, IODelay =, ...}) -> G",
                   "srivc by numbers of poles and zeros, the delay estimated",
-                  guarded<estimate_refined<read_transfer_function<srivc>>>},
+                  guarded<long_call<estimate_refined<read_transfer_function<srivc>>>>},
     FunctionEntry{"tfcoe", kArea, "tfcoe(data, np, nz, {TdMin =, TdMax =, IODelay =, ...}) -> G",
                   "coe by numbers of poles and zeros, the delay estimated",
-                  guarded<estimate_refined<read_transfer_function<coe>>>},
+                  guarded<long_call<estimate_refined<read_transfer_function<coe>>>>},
 };
 
 }  // namespace

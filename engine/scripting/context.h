@@ -36,7 +36,8 @@ struct RuntimeContext {
     bool running = false;
     StopReason stop = StopReason::kNone;  ///< once set, every protected call passes the stop on
     std::optional<std::chrono::steady_clock::time_point> deadline;
-    int refusal_line = 0;  ///< of the main chunk when memory was last refused
+    std::string* printed_by_call = nullptr;  ///< also gets what is printed, while a call is watched
+    int refusal_line = 0;                    ///< of the main chunk when memory was last refused
 };
 
 RuntimeContext& context_of(lua_State* L);

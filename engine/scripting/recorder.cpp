@@ -4,16 +4,23 @@
 
 namespace dynlab {
 
-void Recorder::start(const PercentScript& script, std::uint32_t seed, LineSource current_line) {
+void Recorder::start(const PercentScript& script, std::uint32_t seed, LineSource current_line,
+                     CellListener enter_cell) {
     *this = Recorder();
     record_.script = script.file.filename().string();
     record_.seed = seed;
     current_line_ = std::move(current_line);
+    enter_cell_ = std::move(enter_cell);
     for (const Cell& cell : script.cells)
         if (cell.kind == Cell::Kind::kCode) cells_.emplace_back(cell.first_line, cell.id);
     if (cells_.empty()) cells_.emplace_back(1, "cell-1");
     timed_cell_ = cells_.front().second;
     timed_since_ = std::chrono::steady_clock::now();
+    tell_of_cell();
+}
+
+void Recorder::tell_of_cell() const {
+    if (enter_cell_) enter_cell_(timed_cell_);
 }
 
 std::string Recorder::current_cell() {
@@ -31,6 +38,7 @@ void Recorder::note_time() {
     record_.timings[timed_cell_] += std::chrono::duration<double>(now - timed_since_).count();
     timed_cell_ = std::move(cell);
     timed_since_ = now;
+    tell_of_cell();
 }
 
 void Recorder::print(const std::string& text) {
@@ -102,6 +110,7 @@ RunRecord Recorder::finish() {
     reported_.clear();
     numbered_.clear();
     current_line_ = nullptr;
+    enter_cell_ = nullptr;
     return std::move(record_);
 }
 

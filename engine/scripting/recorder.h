@@ -27,8 +27,10 @@ using FigurePointer = std::shared_ptr<ScriptFigure>;
 class Recorder {
   public:
     using LineSource = std::function<int()>;  ///< current line of the main chunk, 0 when it is not running
+    using CellListener = std::function<void(const std::string& cell)>;
 
-    void start(const PercentScript& script, std::uint32_t seed, LineSource current_line);
+    /// `enter_cell`, unless empty, is told of each cell as the script gets to it.
+    void start(const PercentScript& script, std::uint32_t seed, LineSource current_line, CellListener enter_cell);
     /// Ends the run: names the figures that were made and dropped, and hands the record over.
     RunRecord finish();
 
@@ -52,6 +54,7 @@ class Recorder {
         FigurePointer figure;
     };
     std::string current_cell();
+    void tell_of_cell() const;
     struct ReportedFigure {
         FigurePointer figure;
         std::string caption;
@@ -60,6 +63,7 @@ class Recorder {
 
     RunRecord record_;
     LineSource current_line_;
+    CellListener enter_cell_;
     std::vector<std::pair<int, std::string>> cells_;  ///< first line and id of the code cells, in order
     std::map<std::string, std::vector<Piece>> pieces_;
     std::map<std::string, ReportedFigure> reported_;

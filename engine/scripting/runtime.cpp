@@ -181,7 +181,8 @@ RunRecord Runtime::run_recorded(const PercentScript& script, const std::function
     call_protected(L, seal_once);
     lua_settop(L, 0);
     context.script_name = script.file.filename().string();
-    context.recorder.start(script, context.options.seed, [&context] { return main_chunk_line(context); });
+    context.recorder.start(
+        script, context.options.seed, [&context] { return main_chunk_line(context); }, context.options.enter_cell);
     context.refusal_line = 0;
     context.main_chunk_known = false;
     if (context.options.time_limit) context.deadline = std::chrono::steady_clock::now() + *context.options.time_limit;

@@ -69,4 +69,15 @@ void refuse_unknown_fields(lua_State* L, const std::string& name) {
     lua_setmetatable(L, -2);
 }
 
+std::optional<std::string> name_of_refusing_table(lua_State* L, int index) {
+    if (luaL_getmetafield(L, index, "__index") == LUA_TNIL) return {};
+    std::optional<std::string> name;
+    if (lua_tocfunction(L, -1) == unknown_field && lua_getupvalue(L, -1, 1) != nullptr) {
+        name = lua_tostring(L, -1);
+        lua_pop(L, 1);
+    }
+    lua_pop(L, 1);
+    return name;
+}
+
 }  // namespace dynlab

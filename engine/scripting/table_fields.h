@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,5 +19,7 @@ void set_matrix(const Call& call, const char* name, const MatrixView& values);
 /// From now on reading a field that the table on top of the stack has not is an error that lists those it has; `name`
 /// is that of the data.
 void refuse_unknown_fields(lua_State* L, const std::string& name);
+/// The name of the data in the table at `index`, when refuse_unknown_fields() was called for it.
+std::optional<std::string> name_of_refusing_table(lua_State* L, int index);
 
 }  // namespace dynlab

@@ -1,0 +1,77 @@
+#include "scripting/memo/long_call.h"
+
+#include <chrono>
+
+#include "platform/content_memory.h"
+#include "scripting/memo/value_archive.h"
+
+namespace dynlab {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+constexpr auto kLong = 10ms;  // far more than it takes to read a result back
+
+/// Nothing when an argument has no lasting content.
+std::optional<std::string> key_of(const Call& call, const ContentMemory& memory) {
+    ArchiveWriter arguments;
+    for (int i = 1; i <= call.count(); ++i)
+        if (!put_value(call.state(), i, arguments)) return {};
+    const auto* name = static_cast<const char*>(lua_touserdata(call.state(), lua_upvalueindex(1)));
+    return memory.key({name, arguments.bytes()});
+}
+
+/// Pushes the values of an archived result and returns their number.
+int give_again(const Call& call, const std::string& bytes) {
+    ArchiveReader archive(bytes);
+    if (const auto printed = archive.get<std::string>(); !printed.empty()) call.print(printed);
+    const int count = archive.get<int>();
+    luaL_checkstack(call.state(), count, "too many results");
+    for (int i = 0; i < count; ++i) push_archived_value(call, archive);
+    return count;
+}
+
+/// What is printed while it lives.
+class PrintedText {
+  public:
+    explicit PrintedText(RuntimeContext& context) : context_(context), before_(context.printed_by_call) {
+        context.printed_by_call = &text_;
+    }
+    ~PrintedText() { context_.printed_by_call = before_; }
+    PrintedText(const PrintedText&) = delete;
+    PrintedText& operator=(const PrintedText&) = delete;
+    const std::string& text() const { return text_; }
+
+  private:
+    RuntimeContext& context_;
+    std::string* before_;
+    std::string text_;
+};
+
+std::optional<std::string> archive_of(const Call& call, const std::string& printed, int count) {
+    ArchiveWriter archive;
+    archive.put(printed);
+    archive.put(count);
+    const int top = lua_gettop(call.state());
+    for (int i = top - count + 1; i <= top; ++i)
+        if (!put_value(call.state(), i, archive)) return {};
+    return archive.bytes();
+}
+
+}  // namespace
+
+int run_long_call(Call& call, Binding body) {
+    ContentMemory* memory = call.context().options.long_calls;
+    const auto key = memory ? key_of(call, *memory) : std::nullopt;
+    if (!key) return body(call);
+    if (const auto known = memory->recall(*key)) return give_again(call, *known);
+    const PrintedText printed(call.context());
+    const auto start = Clock::now();
+    const int count = body(call);
+    if (Clock::now() - start < kLong || call.cancel()()) return count;
+    if (const auto result = archive_of(call, printed.text(), count)) memory->remember(*key, *result);
+    return count;
+}
+
+}  // namespace dynlab
