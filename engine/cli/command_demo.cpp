@@ -10,6 +10,7 @@
 #include "cli/commands.h"
 #include "platform/interrupt.h"
 #include "workflow/demonstration.h"
+#include "workflow/memories.h"
 #include "workflow/run_script.h"
 
 namespace dynlab {
@@ -46,7 +47,9 @@ int show(const Demonstration& demonstration) {
     request.out_folder = folder;
     std::cout << '\n' << demonstration.title << "\n\n" << std::flush;
 
-    GnuplotRenderer renderer;
+    Memories memories;
+    GnuplotRenderer renderer(&memories.figures);
+    request.long_calls = &memories.long_calls;
     RunRecord record = run_script(request, renderer);
     if (!record.figures.empty()) fs::create_directories(folder);
     draw_figures(record, renderer, folder, FigureFormat::kPdf);

@@ -3,7 +3,9 @@
 
 #include "cli/commands.h"
 #include "cli/seed_option.h"
+#include "platform/activity_line.h"
 #include "platform/atomic_file.h"
+#include "workflow/memories.h"
 #include "workflow/run_script.h"
 
 namespace dynlab {
@@ -31,19 +33,27 @@ void save_figures(RunRecord& record, GnuplotRenderer& renderer, const fs::path& 
         std::cout << "figure " << name << ": " << record.figures.at(name).file.string() << '\n';
 }
 
+RunRecord run_showing_activity(RunRequest& request, GnuplotRenderer& renderer) {
+    ActivityLine activity;
+    request.print = [&activity](const std::string& text) { activity.print(text, print_now); };
+    request.enter_cell = [&activity](const std::string& cell) { activity.begin_part(cell); };
+    return run_script(request, renderer);
+}
+
 int run(const RunWords& words) {
     const bool from_file = !words.file.empty();
     RunRequest request;
     request.script = from_file ? read_percent_script(words.file) : parse_percent_script(words.code, "command line");
     request.seed = words.seed.value();
-    request.print = print_now;
     const std::string stem = from_file ? fs::path(words.file).stem().string() : "dynlab";
     const fs::path out = words.out.empty() ? fs::path(stem + "_out") : fs::path(words.out);
     request.out_folder = words.out.empty() ? fs::path(".") : out;
     if (!words.out.empty()) fs::create_directories(out);
 
-    GnuplotRenderer renderer;
-    RunRecord record = run_script(request, renderer);
+    Memories memories;
+    GnuplotRenderer renderer(&memories.figures);
+    request.long_calls = &memories.long_calls;
+    RunRecord record = run_showing_activity(request, renderer);
     save_figures(record, renderer, out);
     if (!words.out.empty()) write_file_atomically(out / "record.json", to_json(record));
     if (!record.error) return kDone;

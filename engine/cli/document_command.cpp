@@ -2,69 +2,63 @@
 
 #include <fmt/format.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <iostream>
 
 #include "cli/commands.h"
+#include "platform/activity_line.h"
 
 namespace dynlab {
 namespace {
 
-/// What is being done, on a line of the terminal that is cleared before anything else is written there.
-class StatusLine {
-  public:
-    void show(const std::string& step) {
-        if (!on_terminal_) return;
-        std::cerr << "\r\033[K" << step << " ..." << std::flush;
-        shown_ = true;
-    }
-    void clear() {
-        if (shown_) std::cerr << "\r\033[K" << std::flush;
-        shown_ = false;
-    }
+constexpr double kWorthTelling = 0.01;  // s
 
-  private:
-    const bool on_terminal_ = isatty(STDERR_FILENO) != 0;
-    bool shown_ = false;
-};
+void show_time(double seconds, const std::string& of, const char* indent = "") {
+    std::cout << fmt::format("{:>8.0f} ms  {}{}\n", 1e3 * seconds, indent, of);
+}
 
-void show(const std::vector<std::pair<std::string, double>>& timings) {
+void show_use(const std::optional<MemoryUse>& use, const char* of, const char* made) {
+    if (use && use->recalled + use->made > 0)
+        std::cout << fmt::format("{:>11}  {} {}, {} recalled\n", use->made, of, made, use->recalled);
+}
+
+void show(const ReportResult& result) {
     double total = 0;
-    for (const auto& [step, seconds] : timings) {
-        std::cout << fmt::format("{:>8.0f} ms  {}\n", 1e3 * seconds, step);
+    for (const auto& [step, seconds] : result.timings) {
+        show_time(seconds, step);
         total += seconds;
+        if (step != kRunStep) continue;
+        for (const auto& [cell, seconds_of_cell] : result.cells)
+            if (seconds_of_cell >= kWorthTelling) show_time(seconds_of_cell, "cell " + cell, "  ");
     }
-    std::cout << fmt::format("{:>8.0f} ms  in total\n", 1e3 * total);
+    show_time(total, "in total");
+    show_use(result.long_calls, "long calls", "computed");
+    show_use(result.figures, "figures", "drawn");
     rusage used{};
     getrusage(RUSAGE_SELF, &used);
     std::cout << fmt::format("{:>8.1f} MB  peak memory of dynlab itself\n", static_cast<double>(used.ru_maxrss) / 1024);
 }
 
+ReportResult make_showing_activity(ReportRequest& request) {
+    ActivityLine activity;
+    request.step = [&activity](const std::string& step) { activity.begin_step(step); };
+    request.enter_cell = [&activity](const std::string& cell) { activity.begin_part(cell); };
+    if (request.print)
+        request.print = [&activity, print = std::move(request.print)](const std::string& text) {
+            activity.print(text, print);
+        };
+    return make_report(request);
+}
+
 }  // namespace
 
 int make_document(ReportRequest request, bool show_timings) {
-    StatusLine status;
-    request.step = [&status](const std::string& step) { status.show(step); };
-    if (request.print) {
-        request.print = [&status, print = std::move(request.print)](const std::string& text) {
-            status.clear();
-            print(text);
-        };
-    }
-    ReportResult result;
-    try {
-        result = make_report(request);
-    } catch (...) {
-        status.clear();
-        throw;
-    }
-    status.clear();
+    const ReportResult result = make_showing_activity(request);
     const std::string file = std::filesystem::absolute(request.output).lexically_normal().string();
     const char* const state = result.up_to_date ? " (up to date)" : result.error ? " (up to the error)" : "";
     if (result.error) std::cerr << "dynlab: " << *result.error << std::endl;
     std::cout << file << state << '\n';
-    if (show_timings) show(result.timings);
+    if (show_timings) show(result);
     return result.error ? kFailed : kDone;
 }
 

@@ -1,14 +1,14 @@
 #include "platform/progress.h"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "platform/system_call.h"
+#include "platform/activity_line.h"
+#include "platform/terminal_line.h"
 
 namespace dynlab {
 namespace {
@@ -20,26 +20,14 @@ constexpr auto kQuietStart = 300ms;
 constexpr auto kBetweenShows = 100ms;
 constexpr std::size_t kBarCells = 20;
 
-std::size_t terminal_width() {
-    winsize size{};
-    return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80u;
-}
-
 std::string time_left(double seconds) {
     const auto whole = static_cast<long>(std::ceil(seconds));
     return whole < 90 ? fmt::format("{} s left", whole) : fmt::format("{} min left", (whole + 59) / 60);
 }
 
-void print(const std::string& text) {
-    write_all(STDERR_FILENO, text.data(), text.size());
-}
-
-constexpr char kClearLine[] = "\r\033[K";
-
 }  // namespace
 
-std::string progress_line(const std::string& what, std::size_t done, std::size_t total, double seconds_so_far,
-                          std::size_t width) {
+std::string progress_line(const std::string& what, std::size_t done, std::size_t total, double seconds_so_far) {
     std::string line = what;
     if (total > 0) {
         done = std::min(done, total);
@@ -50,7 +38,7 @@ std::string progress_line(const std::string& what, std::size_t done, std::size_t
             line += "  " + time_left(seconds_so_far * static_cast<double>(total - done) / static_cast<double>(done));
         }
     }
-    return line.substr(0, width);
+    return line;
 }
 
 ProgressBar::ProgressBar(std::string what, std::size_t total)
@@ -61,7 +49,7 @@ ProgressBar::ProgressBar(std::string what, std::size_t total)
       last_shown_(start_) {}
 
 ProgressBar::~ProgressBar() {
-    if (visible_) print(kClearLine);
+    if (visible_ && !ActivityLine::show_bar({})) clear_terminal_line();
 }
 
 void ProgressBar::advance(std::size_t done) {
@@ -81,7 +69,8 @@ void ProgressBar::show_now_and_then() {
     last_shown_ = now;
     visible_ = true;
     const double seconds = std::chrono::duration<double>(now - start_).count();
-    print(kClearLine + progress_line(what_, done_, total_, seconds, terminal_width() - 1));
+    const std::string bar = progress_line(what_, done_, total_, seconds);
+    if (!ActivityLine::show_bar(bar)) show_terminal_line(bar);
 }
 
 }  // namespace dynlab

@@ -5,12 +5,11 @@
 
 namespace dynlab {
 
-/// "what  [#####-----]  50/100  3 s left", at most `width` characters; with total 0 only "what".
-std::string progress_line(const std::string& what, std::size_t done, std::size_t total, double seconds_so_far,
-                          std::size_t width);
+/// "what  [#####-----]  50/100  3 s left"; with total 0 only "what".
+std::string progress_line(const std::string& what, std::size_t done, std::size_t total, double seconds_so_far);
 
-/// A bar with count and time left on standard error when that is a terminal, silent otherwise. Appears after
-/// 0.3 s.
+/// A bar with count and time left on standard error when that is a terminal, behind what an ActivityLine shows there;
+/// silent otherwise. Appears after 0.3 s.
 class ProgressBar {
   public:
     ProgressBar(std::string what, std::size_t total);

@@ -10,6 +10,7 @@
 #include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
 #include "workflow/lesson_catalogue.h"
+#include "workflow/memories.h"
 #include "workflow/report_memory.h"
 #include "workflow/run_memory.h"
 #include "workflow/run_script.h"
@@ -89,6 +90,18 @@ ReportRequest report_of_lesson(const Lesson& lesson, const fs::path& output, con
     return request;
 }
 
+std::vector<std::pair<std::string, double>> cells_in_order(const PercentScript& script,
+                                                           const std::map<std::string, double>& seconds) {
+    std::vector<std::pair<std::string, double>> cells;
+    for (const Cell& cell : script.cells)
+        if (const auto found = seconds.find(cell.id); found != seconds.end()) cells.push_back(*found);
+    return cells;
+}
+
+MemoryUse use_of(const ContentMemory& memory) {
+    return {memory.recalled(), memory.remembered()};
+}
+
 FigureFormat figure_format_for(DocumentFormat format) {
     return format == DocumentFormat::kPdf ? FigureFormat::kPdf : FigureFormat::kSvg;
 }
@@ -135,7 +148,8 @@ ReportResult make_report(const ReportRequest& request) {
 
     const RunMemory runs(request.script, request.seed, figure_format_for(format));
     const TemporaryFolder workplace;
-    GnuplotRenderer renderer;
+    Memories memories;
+    GnuplotRenderer renderer(&memories.figures);
     std::optional<RunRecord> known;
     if (!request.print) known = runs.recall();
     const bool recalled = known.has_value();
@@ -145,13 +159,19 @@ ReportResult make_report(const ReportRequest& request) {
         watch.lap("recall the run");
     } else {
         begin("running the script");
-        RunRequest run{
-            .script = request.script, .seed = request.seed, .out_folder = workplace.path(), .print = request.print};
+        RunRequest run{.script = request.script,
+                       .seed = request.seed,
+                       .out_folder = workplace.path(),
+                       .print = request.print,
+                       .enter_cell = request.enter_cell,
+                       .long_calls = &memories.long_calls};
         record = run_script(run, renderer);
+        result.cells = cells_in_order(request.script, record.timings);
+        result.long_calls = use_of(memories.long_calls);
         if (record.error && request.print) throw DocumentError(record.error->message);
         if (record.error) result.error = record.error->message;
         draw_figures(record, renderer, workplace.path(), figure_format_for(format));
-        watch.lap("run the script");
+        watch.lap(kRunStep);
     }
 
     begin("making the document");
@@ -163,7 +183,9 @@ ReportResult make_report(const ReportRequest& request) {
     try {
         DocumentMaker({.use_cache = true, .timings = &result.timings}).make(source, request.output, format, [&] {
             renderer.finish();
-            if (!recalled) runs.remember(record);
+            if (recalled) return;
+            result.figures = use_of(memories.figures);
+            runs.remember(record);
         });
     } catch (const DocumentError& complaint) {
         if (!result.error) throw;

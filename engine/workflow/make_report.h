@@ -20,15 +20,26 @@ struct ReportRequest {
         metadata;                  ///< title, subtitle and language of a lesson; empty for a student's report
     std::filesystem::path output;  ///< .pdf, .html or .md
     std::uint32_t seed = 1;
-    std::function<void(const std::string&)> step;   ///< told of each step as it begins; none when empty
+    std::function<void(const std::string&)> step;        ///< told of each step as it begins; none when empty
+    std::function<void(const std::string&)> enter_cell;  ///< told of each cell of the script as it begins
     std::function<void(const std::string&)> print;  ///< sees what the script prints; such a report is always made anew,
                                                     ///< and not at all where the script fails
+};
+
+/// The step of the timings that the cells' own are part of.
+inline constexpr const char* kRunStep = "run the script";
+
+/// What a memory spared, and what was made anew.
+struct MemoryUse {
+    std::size_t recalled = 0, made = 0;
 };
 
 struct ReportResult {
     bool up_to_date = false;                              ///< nothing had changed, nothing was made
     std::optional<std::string> error;                     ///< the script stopped with it; the report says so
     std::vector<std::pair<std::string, double>> timings;  ///< seconds of each step
+    std::vector<std::pair<std::string, double>> cells;    ///< seconds of each code cell, when the script was run
+    std::optional<MemoryUse> long_calls, figures;         ///< of the script, when it was run
 };
 
 /// The report of a lesson (`name`, any unique beginning: its worked solution) or of a student's folder (analysis.lua

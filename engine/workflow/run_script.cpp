@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 
+#include "documents/text_lines.h"
 #include "scripting/report_language.h"
 #include "scripting/runtime.h"
 
@@ -31,6 +33,34 @@ std::string extension(FigureFormat format) {
     return ".pdf";
 }
 
+/// The heading of the text above a cell; empty when there is none.
+std::string last_heading(const std::string& markdown, const std::string& before) {
+    std::string heading = before;
+    for (const std::string& line : lines_of(markdown))
+        if (const std::size_t text = line.find_first_not_of('#'); text > 0 && text != std::string::npos)
+            heading = trimmed(line.substr(text));
+    return heading;
+}
+
+/// What to call each code cell while it runs, by its id.
+std::map<std::string, std::string> cell_titles(const PercentScript& script) {
+    const auto is_code = [](const Cell& cell) { return cell.kind == Cell::Kind::kCode; };
+    const auto total = std::count_if(script.cells.begin(), script.cells.end(), is_code);
+    std::map<std::string, std::string> titles;
+    std::string heading;
+    for (const Cell& cell : script.cells) {
+        if (!is_code(cell)) {
+            heading = last_heading(cell.content, heading);
+            continue;
+        }
+        const std::string name = cell.id.starts_with("cell-") ? heading : cell.id;
+        titles[cell.id] =
+            total == 1 ? "running the script"
+                       : fmt::format("cell {} of {}{}{}", titles.size() + 1, total, name.empty() ? "" : ", ", name);
+    }
+    return titles;
+}
+
 }  // namespace
 
 RunRecord run_script(const RunRequest& request, GnuplotRenderer& renderer) {
@@ -40,6 +70,12 @@ RunRecord run_script(const RunRequest& request, GnuplotRenderer& renderer) {
     options.script_folder = folder.empty() ? "." : folder;
     options.out_folder = request.out_folder;
     options.print = request.print;
+    options.long_calls = request.long_calls;
+    if (request.enter_cell) {
+        options.enter_cell = [titles = cell_titles(request.script), tell = request.enter_cell](const std::string& id) {
+            if (const auto title = titles.find(id); title != titles.end()) tell(title->second);
+        };
+    }
     ReportLanguage language{request.script.header.language};
     Runtime runtime(options, renderer);
     runtime.set_service(&language);

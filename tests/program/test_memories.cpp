@@ -1,0 +1,153 @@
+// What a run leaves for the next one: results of long calls and drawn figures. Oracles: the counts of what was computed
+// and drawn, and equality of the documents' bytes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/program.h"
+#include "support/terminal.h"
+
+namespace dynlab::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+const std::string kHeader = "-- ---\n-- title: A\n-- ---\n";
+const std::string kStudy =
+    "-- %% id=study\nlocal s = tf('s')\n"
+    "local M = montecarlo{system = 2/(s^2 + 4*s + 3), input = prbs(4, 100), Ts = 0.01, sigma = 0.2, runs = 300,\n"
+    "                     estimators = {srivc = {{1, 2, 0}}}}\nprint(M)\nM:histograms()\n";
+const std::string kSearch =
+    "-- %% id=search\nlocal r = load('d.csv')\nlocal data = iddata(r.y, r.u, 0.01)\n"
+    "print(srivcstruc(data, {poles = {1, 4}, zeros = {0, 3}}))\nlocal Td, fig = delayest(data)\n";
+const std::string kLate = "-- %% id=late\nplot({1, 2}, {3, 4})\nprint('late')\n";
+
+class memories : public testing::Test {
+  protected:
+    memories() { make_data(1); }
+    void make_data(int seed) {
+        bench_.write("make.lua", "local s = tf('s') local u = prbs(4, 100) rng(" + std::to_string(seed) +
+                                     ") local y = lsim(2/(s^2 + 4*s + 3), u, 0.01) + 0.2*randn(#u)\n"
+                                     "save_csv('d.csv', {u = u, y = y})\n");
+        const ChildResult made = bench_.dynlab({"run", "make.lua"});
+        ASSERT_EQ(made.exit_code, 0) << made.error_output;
+    }
+    /// Weaves a script of these cells and returns the timings.
+    std::string weave(const std::string& cells, const std::string& output = "a.html") {
+        bench_.write("a.lua", kHeader + cells);
+        const ChildResult made = bench_.dynlab({"weave", "a.lua", "-o", output, "--timings"});
+        EXPECT_EQ(made.exit_code, 0) << made.error_output;
+        return made.output;
+    }
+    Workbench bench_;
+};
+
+std::string calls(int computed, int recalled) {
+    return " " + std::to_string(computed) + "  long calls computed, " + std::to_string(recalled) + " recalled\n";
+}
+std::string figures(int drawn, int recalled) {
+    return " " + std::to_string(drawn) + "  figures drawn, " + std::to_string(recalled) + " recalled\n";
+}
+
+}  // namespace
+
+TEST_F(memories, a_changed_late_cell_computes_and_draws_nothing_else) {
+    EXPECT_THAT(weave(kStudy + kSearch + kLate), AllOf(HasSubstr(calls(3, 0)), HasSubstr(figures(3, 0))));
+    const std::string changed = kStudy + kSearch + "-- %% id=late\nplot({1, 2}, {3, 5})\nprint('later')\n";
+    EXPECT_THAT(weave(changed), AllOf(HasSubstr(calls(0, 3)), HasSubstr(figures(1, 2))));
+    const std::string recalled = bench_.read("a.html");
+    ASSERT_EQ(bench_.shell("rm -r ../cache/dynlab a.html").exit_code, 0);
+    EXPECT_THAT(weave(changed), AllOf(HasSubstr(calls(3, 0)), HasSubstr(figures(3, 0))));
+    EXPECT_TRUE(recalled == bench_.read("a.html")) << "a recalled result is not the computed one";
+}
+
+TEST_F(memories, a_changed_data_file_computes_and_draws_what_depends_on_it) {
+    weave(kStudy + kSearch + kLate);
+    make_data(2);
+    EXPECT_THAT(weave(kStudy + kSearch + kLate), AllOf(HasSubstr(calls(2, 1)), HasSubstr(figures(1, 2))));
+}
+
+TEST_F(memories, edited_prose_runs_nothing) {
+    weave(kStudy + kLate);
+    EXPECT_THAT(weave("-- %% [markdown]\n-- Prose.\n" + kStudy + kLate),
+                AllOf(Not(HasSubstr("run the script")), Not(HasSubstr("long calls"))));
+}
+
+TEST_F(memories, spoilt_entries_are_made_anew) {
+    weave(kStudy + kLate);
+    const std::string whole = bench_.read("a.html");
+    ASSERT_EQ(bench_
+                  .shell("for f in ../cache/dynlab/{calls,figures}/*/content; do truncate -s -1 \"$f\"; done; rm -r "
+                         "../cache/dynlab/{runs,reports}")
+                  .exit_code,
+              0);
+    EXPECT_THAT(weave(kStudy + kLate), AllOf(HasSubstr(calls(1, 0)), HasSubstr(figures(2, 0))));
+    EXPECT_TRUE(whole == bench_.read("a.html"));
+    ASSERT_EQ(bench_.shell("rm -r ../cache/dynlab/{runs,reports}").exit_code, 0);
+    EXPECT_THAT(weave(kStudy + kLate), AllOf(HasSubstr(calls(0, 1)), HasSubstr(figures(0, 2))));
+}
+
+TEST_F(memories, two_runs_at_once_give_the_same_document) {
+    bench_.write("a.lua", kHeader + kStudy + kSearch + kLate);
+    const ChildResult both = bench_.shell(
+        "\"$DYNLAB\" weave a.lua -o 1.html & \"$DYNLAB\" weave a.lua -o 2.html & wait -n && wait -n && cmp 1.html "
+        "2.html");
+    EXPECT_EQ(both.exit_code, 0) << both.output << both.error_output;
+    EXPECT_THAT(weave(kStudy + kSearch + kLate + "print(1)\n"), HasSubstr(calls(0, 3)));
+}
+
+TEST_F(memories, can_be_switched_off_and_need_no_folder) {
+    bench_.write("a.lua", kHeader + kStudy);
+    for (const char* where : {"DYNLAB_NO_CACHE=1", "XDG_CACHE_HOME=/proc/none", "XDG_CACHE_HOME=/dev/full"})
+        for (int i = 0; i < 2; ++i) {
+            const ChildResult made =
+                bench_.shell(std::string("env ") + where + " \"$DYNLAB\" weave a.lua -o a.html --timings");
+            EXPECT_EQ(made.exit_code, 0) << where << made.error_output;
+            EXPECT_THAT(made.output, HasSubstr(calls(1, 0))) << where;
+        }
+}
+
+TEST_F(memories, serve_run_too) {
+    const std::string code = "print(rig('crane', {seed = 7}).estimation.x[100])";
+    const std::string first = bench_.dynlab({"run", "-e", code}).output;
+    EXPECT_EQ(bench_.shell("ls ../cache/dynlab/calls | wc -l").output, "1\n");
+    EXPECT_EQ(bench_.dynlab({"run", "-e", code}).output, first);
+    EXPECT_EQ(bench_.shell("ls ../cache/dynlab/calls | wc -l").output, "1\n");
+}
+
+// ---- where a run is
+
+TEST_F(memories, timings_tell_cells_figures_and_documents_apart) {
+    const std::string told = weave(kStudy + kLate, "a.pdf");
+    for (const char* step : {" ms  run the script\n", " ms    cell study\n", " ms  pandoc\n", " ms  figures\n",
+                             " ms  latex pass 1\n", " ms  in total\n"})
+        EXPECT_THAT(told, HasSubstr(step));
+}
+
+TEST_F(memories, a_terminal_is_told_of_a_cell_that_takes_long_and_of_its_bar) {
+    std::string study = kStudy;
+    study.replace(study.find("300"), 3, "1000000");
+    bench_.write("a.lua", kHeader + "-- %%\nprint(1)\n" + study);
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"weave", "a.lua", "-o", "a.html"}, std::vector<std::string>{"run", "a.lua"}}) {
+        Terminal terminal(bench_, arguments);
+        terminal.until("cell 2 of 2, study  1 s  Monte Carlo  [");
+        terminal.until("cell 2 of 2, study  2 s  Monte Carlo  [");
+        terminal.type(kControlC);
+        EXPECT_THAT(terminal.until("interrupted"), HasSubstr("\r\x1b[Kdynlab: "));
+        EXPECT_EQ(terminal.wait_for_end(), 130);
+    }
+    EXPECT_EQ(bench_.shell("ls ../cache/dynlab/calls | wc -l").output, "0\n") << "half a result was kept";
+}
+
+TEST_F(memories, a_loop_of_the_script_shows_its_cell_too) {
+    bench_.write("a.lua", kHeader + "-- %% [markdown]\n-- # The loop\n-- %%\nwhile true do end\n-- %%\nprint(1)\n");
+    Terminal terminal(bench_, {"weave", "a.lua", "-o", "a.html"});
+    terminal.until("running the script ...");
+    terminal.until("cell 1 of 2, The loop  1 s");
+    terminal.type(kControlC);
+    EXPECT_EQ(terminal.wait_for_end(), 130);
+}
+
+}  // namespace dynlab::test
