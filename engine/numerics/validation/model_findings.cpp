@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "numerics/error.h"
 #include "numerics/number_text.h"
 #include "numerics/signals/resample.h"
 #include "numerics/signals/robust_statistics.h"
+#include "numerics/simulation/frequency_response.h"
 #include "numerics/validation/advice.h"
 #include "numerics/validation/compare.h"
 #include "numerics/validation/delay_search.h"
@@ -19,6 +21,7 @@ constexpr Index kFewest = 60;             // samples below which a model would s
 constexpr double kNoisy = 10;             // dB below which noise is a concern
 constexpr double kExplains = 50;          // per cent of fit from which the model is trusted to tell details
 constexpr double kSlow = 6, kFast = 400;  // sampling frequency over bandwidth
+constexpr double kBandPass = 0.1;         // steady gain over peak
 constexpr double kOffset = 0.1;           // of the output's standard deviation
 constexpr Index kWindows = 24;
 constexpr double kLeastError = 0.05;  // of the output's standard deviation, for an error to be worth a word
@@ -76,7 +79,7 @@ void find_noise(const Fitted& fit, std::vector<RecordFinding>& findings) {
     if (error <= 1e-20 * total) return;
     const double decibels = 10 * std::log10(std::max(total - error, 1e-3 * total) / error);
     const std::string size =
-        number_text(decibels, 2) + " dB (what a model with " + std::to_string(fit.search.candidate.poles) +
+        number_text(std::round(decibels), 3) + " dB (what a model with " + std::to_string(fit.search.candidate.poles) +
         (fit.search.candidate.poles == 1 ? " pole" : " poles") + " leaves unexplained has the standard deviation " +
         number_text(std::sqrt(error), 2) + fit.unit() + ")";
     if (decibels >= kNoisy)
@@ -122,9 +125,24 @@ void find_running_start(const Fitted& fit, std::vector<RecordFinding>& findings)
                              fit.simulation.initial_values.size() > 0 ? fit.simulation.initial_values[0] : 0));
 }
 
+/// rad/s up to which the output answers: where the gain is 3 dB below its steady value, or of a band-pass below its
+/// peak. Not finite where the record tells of no such edge, as with an integrator.
+double band_edge(const Fitted& fit) {
+    const TransferFunction& G = fit.model();
+    const Vector w = natural_frequency_grid(G);
+    const Vector gain = frequency_response(G, w).cwiseAbs();
+    const double peak = gain.maxCoeff();
+    double edge = bandwidth(G);
+    if (std::abs(G.dc_gain()) < kBandPass * peak)
+        for (Index i = 0; i < w.size(); ++i)
+            if (gain[i] > std::numbers::sqrt2 / 2 * peak) edge = w[i];
+    const double duration = static_cast<double>(fit.data.sample_count()) * fit.data.Ts;
+    return edge * duration > 2 * std::numbers::pi ? edge : std::numeric_limits<double>::quiet_NaN();
+}
+
 void find_sampling_rate(const Fitted& fit, std::vector<RecordFinding>& findings) {
-    const double band = bandwidth(fit.model());
-    if (!std::isfinite(band) || !(band > 0)) return;
+    const double band = band_edge(fit);
+    if (!std::isfinite(band)) return;
     const double ratio = 2 * std::numbers::pi / (fit.data.Ts * band);
     const std::string numbers = "The sampling frequency is " + number_text(ratio, 3) +
                                 " times the bandwidth of about " + number_text(band, 3) + " rad/" + fit.data.time_unit +

@@ -157,7 +157,7 @@ void find_quantisation(const Channel& channel, const Quantisation& grid, std::ve
     findings.push_back(about(channel, "quantisation", Weight::kWarning,
                              subject(channel) + " is recorded in steps of " + with_unit(grid.step, channel.unit, 3) +
                                  ", only " + number_text(std::round(range / grid.step)) +
-                                 " steps over its range. That acts like noise of standard deviation " +
+                                 " of them over its range. That acts like noise of standard deviation " +
                                  with_unit(grid.step / std::sqrt(12.0), channel.unit, 2) +
                                  "; use a finer range of the converter or a larger amplitude.",
                              grid.step));
@@ -237,7 +237,8 @@ void find_excitation(const Channel& channel, const Quantisation& grid, std::vect
     findings.push_back(
         about(channel, poor ? "poor_excitation" : "excitation", poor ? Weight::kWarning : Weight::kNote,
               subject(channel) +
-                  (poor ? " can determine no more than " + std::to_string(order) + " parameters: it holds about " +
+                  (poor ? " can determine no more than " + std::to_string(order) +
+                              (order == 1 ? " parameter" : " parameters") + ": it holds about " +
                               std::to_string((order + 1) / 2) + (order > 2 ? " frequencies" : " frequency") +
                               " only. Excite with a prbs, a chirp or a multisine that covers the plant's bandwidth."
                         : " is rich enough for models with " +

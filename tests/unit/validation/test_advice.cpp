@@ -186,6 +186,21 @@ TEST(advice, sampling_against_the_bandwidth_is_told) {  // oracle: bandwidth 1 r
     EXPECT_FALSE(usual.has("slow_sampling") || usual.has("fast_sampling")) << codes(usual);
 }
 
+TEST(advice, band_passes_and_integrators_have_no_false_bandwidth) {  // oracle: a peak at 4 rad/s, and none at all
+    const auto advised = [](const TransferFunction& G) {
+        const Vector u = random_levels(2000, 10, 11);
+        const Vector x = lsim(G, u, 0.05);
+        const double noise = 0.01 * std::sqrt(x.squaredNorm() / 2000);
+        return advise(IdData(Matrix(x + noise * RandomStream(2).normal(2000)), Matrix(u), 0.05));
+    };
+    for (const auto& G : {TransferFunction(Vector{{1.0, 0.4}}, Vector{{1.0, 0.8, 16.0}}),
+                          TransferFunction(Vector{{1.0}}, Vector{{1.0, 2.0, 0.0}})}) {
+        const Advice advice = advised(G);
+        EXPECT_TRUE(advice.has("noise")) << codes(advice);  // it was fitted
+        EXPECT_FALSE(advice.has("slow_sampling") || advice.has("fast_sampling")) << codes(advice);
+    }
+}
+
 TEST(advice, degrees_declared_as_radians_are_told) {  // oracle: the unit put in
     Record r = record(12);
     r.y *= 30;
