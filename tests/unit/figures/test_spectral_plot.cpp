@@ -1,0 +1,110 @@
+// Oracles: decibels and degrees of a first-order lag by hand, the normal distribution's 99 % quantile.
+#include "figures/spectral_plot.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "figures/style.h"
+#include "numerics/error.h"
+
+namespace dynlab {
+namespace {
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr double kQuantile = 2.5758293035489004;  // of 99 %, two-sided
+
+/// 2/(1 + jw) at 0, 0.5, 1, 2.
+SpectralEstimate lag() {
+    SpectralEstimate estimate;
+    estimate.w = Vector{{0, 0.5, 1, 2}};
+    estimate.response.resize(4);
+    for (Index i = 0; i < 4; ++i) estimate.response[i] = 2.0 / Complex(1, estimate.w[i]);
+    return estimate;
+}
+
+const TransferFunction kLag(Vector{{2.0}}, Vector{{1.0, 1.0}});
+
+}  // namespace
+
+TEST(spectral_plot, draws_decibels_over_degrees_from_the_lowest_frequency_above_zero) {
+    const Figure figure = spectral_plot(lag(), "etfe", {});
+    figure.validate();
+    ASSERT_EQ(figure.panels.size(), 2u);
+    EXPECT_EQ(figure.rows, 2);
+    for (Index i = 0; i < 4; ++i) {
+        const double w = lag().w[i];
+        EXPECT_NEAR(figure.panels[0].curves[0].y[i], 20 * std::log10(2 / std::hypot(1, w)), 1e-12);
+        EXPECT_NEAR(figure.panels[1].curves[0].y[i], -std::atan(w) * kDegrees, 1e-12);
+    }
+    for (const Panel& panel : figure.panels) EXPECT_EQ(panel.x_range, std::pair(0.5, 2.0));
+    EXPECT_EQ(figure.panels[0].curves[0].label, "etfe");
+}
+
+TEST(spectral_plot, values_without_errors_are_grey_points_that_are_not_unwrapped) {
+    SpectralEstimate estimate = lag();
+    estimate.response = ComplexVector{{Complex(0, 1), Complex(-1, 1), Complex(-1, -1), Complex(1, 0)}};
+    const Figure figure = spectral_plot(estimate, "etfe", {});
+    for (const Panel& panel : figure.panels) {
+        EXPECT_EQ(panel.curves[0].style, CurveStyle::kPoints);
+        EXPECT_EQ(panel.curves[0].colour, style::kGreyColour);
+        EXPECT_EQ(panel.curves.size(), 1u);
+    }
+    EXPECT_NEAR((figure.panels[1].curves[0].y - Vector{{90, -225, -135, 0}}).norm(), 0, 1e-12);
+}
+
+TEST(spectral_plot, bands_hold_the_errors_of_first_order) {
+    SpectralEstimate estimate = lag();
+    estimate.std = Vector{{0.01, 0.02, 0.03, 0.04}};
+    const Figure figure = spectral_plot(estimate, "spa", {}, 0.99);
+    for (std::size_t panel = 0; panel < 2; ++panel) {
+        ASSERT_EQ(figure.panels[panel].curves.size(), 2u);
+        const Curve &line = figure.panels[panel].curves[0], &band = figure.panels[panel].curves[1];
+        EXPECT_EQ(line.style, CurveStyle::kLine);
+        EXPECT_EQ(band.style, CurveStyle::kBand);
+        EXPECT_EQ(band.label, "99 % confidence");
+        const double unit = panel == 0 ? 20 / std::numbers::ln10 : kDegrees;
+        for (Index i = 0; i < 4; ++i) {
+            const double half = kQuantile * estimate.std[i] / std::abs(estimate.response[i]) * unit;
+            EXPECT_NEAR(band.y_upper[i] - line.y[i], half, 1e-8);
+            EXPECT_NEAR(line.y[i] - band.y[i], half, 1e-8);
+        }
+    }
+}
+
+TEST(spectral_plot, the_phase_has_a_gap_where_nothing_is_known_of_it) {
+    SpectralEstimate estimate = lag();
+    estimate.std = Vector::Constant(4, 0.01);
+    estimate.std[2] = std::abs(estimate.response[2]) / kQuantile * 1.01;
+    const Vector phase = spectral_plot(estimate, "spa", {}).panels[1].curves[0].y;
+    EXPECT_TRUE(std::isnan(phase[2]));
+    EXPECT_NEAR(phase[3], -std::atan(2) * kDegrees, 1e-12);
+    estimate.std[2] = std::abs(estimate.response[2]) / kQuantile * 0.99;
+    EXPECT_FALSE(std::isnan(spectral_plot(estimate, "spa", {}).panels[1].curves[0].y[2]));
+}
+
+TEST(spectral_plot, models_lie_over_the_estimate_in_colours_of_their_own) {
+    SpectralEstimate estimate = lag();
+    estimate.w = Vector{{0.25, 0.5, 1, 2}};
+    for (Index i = 0; i < 4; ++i) estimate.response[i] = 2.0 / Complex(1, estimate.w[i]);
+    estimate.std = Vector::Constant(4, 0.01);
+    const Figure figure = spectral_plot(estimate, "spa", {{"a", kLag}, {"b", kLag}});
+    figure.validate();
+    for (const Panel& panel : figure.panels) {
+        EXPECT_EQ(panel.curves[1].colour, 1);
+        EXPECT_EQ(panel.curves[2].colour, 2);
+        EXPECT_NEAR((panel.curves[1].y - panel.curves[0].y).norm(), 0, 1e-9);
+    }
+}
+
+TEST(spectral_plot, refuses_what_has_no_frequency_to_draw) {
+    SpectralEstimate estimate;
+    EXPECT_THROW(spectral_plot(estimate, "etfe", {}), InvalidArgument);
+    estimate.w = Vector::Zero(1);
+    estimate.response = ComplexVector::Ones(1);
+    EXPECT_THROW(spectral_plot(estimate, "etfe", {}), InvalidArgument);
+}
+
+}  // namespace dynlab
