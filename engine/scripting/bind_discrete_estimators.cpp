@@ -58,13 +58,20 @@ const char* name_of(Call& call) {
     return static_cast<const char*>(lua_touserdata(call.state(), lua_upvalueindex(1)));
 }
 
+/// The data of an estimation with an integrator: the running sum of the input stands for the input.
+IdData data_for(const IdData& data, bool integration) {
+    return integration ? summed_inputs(data) : data;
+}
+
 template <auto kMethod>
 int estimate_equation_error(Call& call) {
-    call.at_most(2);
+    call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const auto orders = order_lists(call, 2, kArxOrders);
-    const PolynomialEstimate result =
-        kMethod(data, PolynomialOrders::arx(only_value(orders[0], kNa), orders[1], orders[2]));
+    const bool integration = Options(call, 3, {"Integration"}).flag("Integration", false);
+    PolynomialEstimate result =
+        kMethod(data_for(data, integration), PolynomialOrders::arx(only_value(orders[0], kNa), orders[1], orders[2]));
+    if (integration) append_integrator(result);
     return give_estimate(call, estimate_of(name_of(call), result), result);
 }
 
@@ -91,16 +98,15 @@ int give_assessed(Call& call, const IdData& data, PolynomialEstimate result, Off
     return give_estimate(call, std::move(estimate), result);
 }
 
-/// oe, sriv and bj; with Integration the running sum of the input stands for the input.
+/// oe, sriv and bj.
 template <auto kMethod>
 int estimate_simulation(Call& call, const PolynomialOrders& orders) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const Options options(call, 3, {"InitialState", "Offset", "MaxIter", "Tol", "Integration"});
     const PolynomialOptions wanted = polynomial_options(options);
-    if (!options.flag("Integration", false))
-        return give_assessed(call, data, kMethod(data, orders, wanted), wanted.offset, false);
-    const IdData summed = summed_inputs(data);
-    return give_assessed(call, summed, kMethod(summed, orders, wanted), wanted.offset, true);
+    const bool integration = options.flag("Integration", false);
+    const IdData seen = data_for(data, integration);
+    return give_assessed(call, seen, kMethod(seen, orders, wanted), wanted.offset, integration);
 }
 
 template <auto kMethod>
@@ -117,10 +123,12 @@ int estimate_armax(Call& call) {
     const auto lists = order_lists(call, 2, kArmaxOrders);
     PolynomialOrders orders = PolynomialOrders::arx(only_value(lists[0], kNa), lists[1], lists[3]);
     orders.nc = only_value(lists[2], kNc);
-    const Options options(call, 3, {"MaxIter", "Tol"});
+    const Options options(call, 3, {"MaxIter", "Tol", "Integration"});
     PolynomialOptions wanted;
     read_search_options(options, wanted);
-    return give_assessed(call, data, armax(data, orders, wanted), Offset::kNone, false);
+    const bool integration = options.flag("Integration", false);
+    const IdData seen = data_for(data, integration);
+    return give_assessed(call, seen, armax(seen, orders, wanted), Offset::kNone, integration);
 }
 
 int estimate_bj(Call& call) {
@@ -135,11 +143,12 @@ int estimate_bj(Call& call) {
 
 constexpr const char* kArea = "discrete time";
 constexpr std::array kFunctions = {
-    FunctionEntry{"arx", kArea, "arx(data, {na, nb, nk}) -> G", "A y = B u + e by least squares",
+    FunctionEntry{"arx", kArea, "arx(data, {na, nb, nk}, {Integration =}) -> G", "A y = B u + e by least squares",
                   guarded<estimate_equation_error<arx>>},
-    FunctionEntry{"iv4", kArea, "iv4(data, {na, nb, nk}) -> G", "A y = B u + v by instrumental variables in four steps",
+    FunctionEntry{"iv4", kArea, "iv4(data, {na, nb, nk}, {Integration =}) -> G",
+                  "A y = B u + v by instrumental variables in four steps",
                   guarded<long_call<estimate_equation_error<iv4>>>},
-    FunctionEntry{"armax", kArea, "armax(data, {na, nb, nc, nk}, {MaxIter =, Tol =}) -> G",
+    FunctionEntry{"armax", kArea, "armax(data, {na, nb, nc, nk}, {MaxIter =, Tol =, Integration =}) -> G",
                   "A y = B u + C e with the smallest prediction error", guarded<long_call<estimate_armax>>},
     FunctionEntry{"oe", kArea, "oe(data, {nb, nf, nk}, {InitialState =, Offset =, Integration =, ...}) -> G",
                   "y = B/F u + e with the smallest simulation error", guarded<long_call<estimate_output_error<oe>>>},

@@ -1,6 +1,7 @@
 #include <array>
 
 #include "numerics/estimators/rivc.h"
+#include "numerics/kernels/integrated_input.h"
 #include "scripting/bindings.h"
 #include "scripting/estimation.h"
 #include "scripting/memo/long_call.h"
@@ -20,53 +21,65 @@ int noise_order(const std::vector<int>& entry, const OrderEntry& what) {
         fmt::format("{} is one number for the noise of the output, but {} were given", what.name, entry.size()));
 }
 
-int give_with_noise(Call& call, const RivcResult& result) {
+/// An estimation with the options it was asked for.
+struct NoisyReading {
+    bool integration;  ///< the models have an integrator besides
+    std::function<RivcResult(const IdData&)> estimation;
+};
+
+int give_with_noise(Call& call, const IdData& data, const NoisyReading& reading) {
+    const RivcResult result = reading.estimation(data);
     Estimate estimate = estimate_of(name_of(call), result);
+    estimate.of_coefficients = !reading.integration;
     estimate.noise = std::make_shared<NoiseModel>(NoiseModel{result.C, result.D, result.C_std, result.D_std});
     estimate.vectors.insert(estimate.vectors.end(), {{"C_std", result.C_std}, {"D_std", result.D_std}});
     estimate.matrices.emplace_back("noise_covariance", result.noise_covariance);
     return give_estimate(call, std::move(estimate), result);
 }
 
-using NoisyEstimation = std::function<RivcResult(const IdData&)>;
-
-NoisyEstimation estimation_of(const StructureMaker& structure, const NoiseOrders& noise,
-                              const TransferOptions& wanted) {
-    return [=](const IdData& data) { return rivc(data, structure(data), noise, wanted); };
+NoisyReading reading_of(const StructureMaker& structure, const NoiseOrders& noise, const Options& options,
+                        const TransferOptions& wanted) {
+    const bool integration = options.flag("Integration", false);
+    return {integration, [=](const IdData& data) {
+                if (!integration) return rivc(data, structure(data), noise, wanted);
+                RivcResult result = rivc(integrated_inputs(data), structure(data), noise, wanted);
+                append_integrator(result);
+                return result;
+            }};
 }
 
-NoisyEstimation read_rivc(const Call& call) {
+NoisyReading read_rivc(const Call& call) {
     call.at_most(3);
     const auto orders = order_lists(call, 2, kOrders);
-    const Options options(call, 3,
-                          {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator"});
+    const Options options(
+        call, 3, {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator", "Integration"});
     TransferOptions wanted;
     read_common_options(options, wanted);
-    return estimation_of(structure_of_orders(kOrders, orders, sharing_of(options)),
-                         {noise_order(orders[1], kNc), noise_order(orders[2], kNd)}, wanted);
+    return reading_of(structure_of_orders(kOrders, orders, sharing_of(options)),
+                      {noise_order(orders[1], kNc), noise_order(orders[2], kNd)}, options, wanted);
 }
 
-NoisyEstimation read_tfrivc(const Call& call) {
+NoisyReading read_tfrivc(const Call& call) {
     call.at_most(4);
     const Options options(call, 4,
                           {"nc", "nd", "lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol",
-                           "CommonDenominator", "TdMin", "TdMax", "NumTd", "IODelay"});
+                           "CommonDenominator", "Integration", "TdMin", "TdMax", "NumTd", "IODelay"});
     TransferOptions wanted;
     read_common_options(options, wanted);
     const StructureMaker structure = structure_of_counts(call, options, wanted);
     const NoiseOrders noise{static_cast<int>(options.size("nc", 0)), static_cast<int>(options.size("nd", 1))};
-    return estimation_of(structure, noise, wanted);
+    return reading_of(structure, noise, options, wanted);
 }
 
 template <auto kRead>
 int estimate_with_noise(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    return give_with_noise(call, kRead(call)(data));
+    return give_with_noise(call, data, kRead(call));
 }
 
 template <auto kRead>
 Estimation read_estimation(const Call& call) {
-    return kRead(call);
+    return kRead(call).estimation;
 }
 
 constexpr NamedReader kReaders[] = {{"rivc", read_estimation<read_rivc>}, {"tfrivc", read_estimation<read_tfrivc>}};

@@ -83,4 +83,17 @@ TEST(script_discrete, integration_adds_an_integrator) {
     EXPECT_THAT(printed(record + "local G = oe(data, {2, 1, 1}, {Integration = true})\n"
                                  "print(norm(G.F - c2d(tf({3}, {1, 2, 0}), 0.05).den) < 1e-6)"),
                 HasSubstr("true"));
+    for (const char* call : {"arx(data, {1, 2, 1}, {Integration = true})", "iv4(data, {1, 2, 1}, {Integration = true})",
+                             "armax(data, {1, 2, 0, 1}, {Integration = true})"})
+        EXPECT_THAT(printed(record + "local G = " + call +
+                            "\nprint(norm(G.den - c2d(tf({3}, {1, 2, 0}), 0.05).den) < 1e-6, #G.F, #G.param, "
+                            "fit(data, G) > 99.9)"),
+                    HasSubstr("true\t2\t3\ttrue"))
+            << call;
+    for (const char* call : {"rivc(data, {1, 0, 0, 1, 0}, {Integration = true})",
+                             "tfrivc(data, 1, 0, {nd = 0, IODelay = 0, Integration = true})"})
+        EXPECT_THAT(printed(record + "local G = " + call +
+                            "\nprint(G.den[3] == 0, norm(G.den - vector{1, 2, 0}) < 1e-4, #G.param)"),
+                    HasSubstr("true\ttrue\t2"))
+            << call;
 }
