@@ -99,6 +99,10 @@ int make_iddata(Call& call) {
     const Options options(call, 4,
                           {"InterSample", "InputName", "OutputName", "InputUnit", "OutputUnit", "TimeUnit", "Tstart",
                            "SamplingInstants"});
+    if (call.holds_vector(3))
+        throw InvalidArgument(
+            "argument 3 (Ts) must be a number of seconds, but instants were given; where they lie at uneven distances "
+            "write iddata(y, u, nil, {SamplingInstants = t})");
     const Matrix y = call.matrix(1, "y"), u = signals(call, 2, "u", y.rows());
     IdData data = options.has("SamplingInstants") ? IdData(y, u, options.vector("SamplingInstants"))
                                                   : IdData(y, u, call.number_or(3, "Ts", 1));

@@ -55,6 +55,38 @@ TEST(bad_input, vectors_of_different_lengths_are_told_with_both_lengths) {
     EXPECT_THAT(result.error_output, HasSubstr("4"));
 }
 
+TEST(bad_input, records_of_no_use_are_told_in_words) {
+    const Workbench bench;
+    bench.write("wrong.csv", "t,in,out\n0,1,2\n0.1,2,3\n0.2,3,4\n");
+    bench.write("uneven.csv", "t,u,y\n0,1,2\n0.1,2,3\n0.3,3,4\n0.31,1,2\n0.5,1,2\n");
+    const std::string crane = "local e = load('crane').estimation ";
+    const std::pair<std::string, std::string> refused[] = {
+        {"local d = load('wrong.csv') iddata(d.y, d.u, 0.1)", "'wrong.csv' have no variable 'y'; they have in, out, t"},
+        {"local d = load('uneven.csv') iddata(d.y, d.u, d.t)", "{SamplingInstants = t}"},
+        {"local d = load('uneven.csv') arx(iddata(d.y, d.u, nil, {SamplingInstants = d.t}), {1, 1, 1})", "regular"},
+        {"local u = prbs(6, 4) merge(iddata(u, u, 0.1), iddata(u, u, 0.2))", "sampling time 0.2 but the first has 0.1"},
+        {"local u = prbs(6, 4) arx(iddata(ones(#u), u, 0.1), {1, 1, 1})", "the output never changes"},
+        {"srivc(iddata({0, 1, 0.5, 0.2, 1}, {1, 0, 0, 1, 0}, 0.1), {2, 2, 0})", "at least 12 samples are needed"},
+        {crane + "iddata(e, 0.02)", "the table holds t, theta, u, x"},
+    };
+    for (const auto& [code, words] : refused) expect_failure(bench.dynlab({"run", "-e", code}), 1, words);
+    expect_failure(bench.dynlab({"identify", "wrong.csv", "--input", "u", "--output", "y", "--poles", "1"}), 1,
+                   "there are in, out, t");
+    const std::pair<std::string, std::string> advised[] = {
+        {crane + "advice(iddata(e.theta*180/math.pi, e.u, 0.02, {OutputUnit = 'rad'}))", "probably in degrees"},
+        {crane + "advice(iddata(e.u, e.theta, 0.02))", "probably exchanged"},
+        {crane + "advice(iddata(ones(#e.u), e.u, 0.02))", "stays at 1 throughout"},
+        {"local u = prbs(6, 8) local y = lsim(tf({100}, {1, 1}), u, 0.05) for k = 1, #y do y[k] = math.max(-1, "
+         "math.min(1, y[k])) end advice(iddata(y, u, 0.05))",
+         "Most of the record is saturated"},
+    };
+    for (const auto& [code, words] : advised) {
+        const ChildResult result = bench.dynlab({"run", "-e", code});
+        EXPECT_EQ(result.exit_code, 0) << result.error_output;
+        EXPECT_THAT(result.output, HasSubstr(words)) << code;
+    }
+}
+
 TEST(bad_input, syntax_and_runtime_errors_have_file_and_line) {
     const Workbench bench;
     bench.write("syntax.lua", "local a = 1\nlocal b = = 2\n");

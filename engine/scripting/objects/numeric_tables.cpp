@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include "numerics/error.h"
 #include "scripting/arguments.h"
 
@@ -27,6 +31,19 @@ Index joined_size(lua_State* L, int index, Index entries, const std::string& lab
         lua_pop(L, 1);
     }
     return total;
+}
+
+/// What a table is that has no entries in places: empty, or a record of variables, say.
+std::string without_entries(lua_State* L, int index) {
+    std::vector<std::string> names;
+    lua_pushnil(L);
+    while (lua_next(L, index)) {
+        lua_pop(L, 1);
+        if (lua_type(L, -1) == LUA_TSTRING) names.emplace_back(lua_tostring(L, -1));
+    }
+    if (names.empty()) return "the table is empty";
+    std::sort(names.begin(), names.end());
+    return fmt::format("the table holds {}: give one of these, such as data.{}", fmt::join(names, ", "), names.front());
 }
 
 /// Checks that entry `i` on top has the length of the first.
@@ -58,7 +75,7 @@ void make_vector_of_table(lua_State* L, int index, const std::string& label) {
 void make_matrix_of_table(lua_State* L, int index, const std::string& label) {
     index = lua_absindex(L, index);
     const auto entries = static_cast<Index>(lua_rawlen(L, index));
-    if (entries == 0) throw InvalidArgument(label + " must have rows or columns, but the table is empty");
+    if (entries == 0) throw InvalidArgument(label + " must have rows or columns, but " + without_entries(L, index));
     const bool by_rows = lua_rawgeti(L, index, 1) == LUA_TTABLE;
     const char* kind = by_rows ? "row" : "column";
     const Index length = by_rows ? static_cast<Index>(lua_rawlen(L, -1)) : entry_size(L);
