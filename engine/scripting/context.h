@@ -2,7 +2,9 @@
 #include <chrono>
 #include <lua.hpp>
 #include <map>
+#include <set>
 #include <string>
+#include <utility>
 
 #include "numerics/signals/random.h"
 #include "scripting/memory_account.h"
@@ -37,7 +39,9 @@ struct RuntimeContext {
     StopReason stop = StopReason::kNone;  ///< once set, every protected call passes the stop on
     std::optional<std::chrono::steady_clock::time_point> deadline;
     std::string* printed_by_call = nullptr;  ///< also gets what is printed, while a call is watched
-    int refusal_line = 0;                    ///< of the main chunk when memory was last refused
+    /// Functions with the bytes of their arguments whose calls are over sooner than they are looked up.
+    std::set<std::pair<std::string, std::size_t>> quick_calls;
+    int refusal_line = 0;  ///< of the main chunk when memory was last refused
 };
 
 RuntimeContext& context_of(lua_State* L);

@@ -12,14 +12,18 @@ using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
 constexpr auto kLong = 10ms;  // far more than it takes to read a result back
+constexpr auto kQuick = 2ms;  // not even worth a look: a loop of estimations on records of one length, say
+
+const char* name_of(const Call& call) {
+    return static_cast<const char*>(lua_touserdata(call.state(), lua_upvalueindex(1)));
+}
 
 /// Nothing when an argument has no lasting content.
-std::optional<std::string> key_of(const Call& call, const ContentMemory& memory) {
+std::optional<std::string> archive_of_arguments(const Call& call) {
     ArchiveWriter arguments;
     for (int i = 1; i <= call.count(); ++i)
         if (!put_value(call.state(), i, arguments)) return {};
-    const auto* name = static_cast<const char*>(lua_touserdata(call.state(), lua_upvalueindex(1)));
-    return memory.key({name, arguments.bytes()});
+    return arguments.bytes();
 }
 
 /// Pushes the values of an archived result and returns their number.
@@ -63,14 +67,20 @@ std::optional<std::string> archive_of(const Call& call, const std::string& print
 
 int run_long_call(Call& call, Binding body) {
     ContentMemory* memory = call.context().options.long_calls;
-    const auto key = memory ? key_of(call, *memory) : std::nullopt;
-    if (!key) return body(call);
-    if (const auto known = memory->recall(*key)) return give_again(call, *known);
+    const auto arguments = memory ? archive_of_arguments(call) : std::nullopt;
+    if (!arguments) return body(call);
+    auto& quick_calls = call.context().quick_calls;
+    const std::pair<std::string, std::size_t> kind{name_of(call), arguments->size()};
+    if (quick_calls.count(kind)) return body(call);
+    const std::string key = memory->key({kind.first, *arguments});
+    if (const auto known = memory->recall(key)) return give_again(call, *known);
     const PrintedText printed(call.context());
     const auto start = Clock::now();
     const int count = body(call);
-    if (Clock::now() - start < kLong || call.cancel()()) return count;
-    if (const auto result = archive_of(call, printed.text(), count)) memory->remember(*key, *result);
+    const auto taken = Clock::now() - start;
+    if (taken < kQuick) quick_calls.insert(kind);
+    if (taken < kLong || call.cancel()()) return count;
+    if (const auto result = archive_of(call, printed.text(), count)) memory->remember(key, *result);
     return count;
 }
 
