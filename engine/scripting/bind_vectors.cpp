@@ -191,10 +191,13 @@ int polyval(Call& call) {
 }
 
 int interp1(Call& call) {
-    call.at_most(3);
+    call.at_most(4);
     const VectorMap x = call.vector(1, "x"), y = call.vector(2, "y");
-    if (call.type(3) != LUA_TNUMBER) return call.give_vector(interpolate_linearly(x, y, call.vector(3, "x_new")));
-    return call.give(interpolate_linearly(x, y, Vector::Constant(1, call.number(3, "x_new")))[0]);
+    const Options options(call, 4, {"outside"});
+    const auto outside = static_cast<Outside>(options.choice("outside", {"refuse", "hold"}, 0));
+    if (call.type(3) != LUA_TNUMBER)
+        return call.give_vector(interpolate_linearly(x, y, call.vector(3, "x_new"), outside));
+    return call.give(interpolate_linearly(x, y, Vector::Constant(1, call.number(3, "x_new")), outside)[0]);
 }
 
 int solve(Call& call) {
@@ -246,7 +249,8 @@ constexpr std::array kFunctions = {
                   guarded<sort>},
     FunctionEntry{"polyval", kArea, "polyval(p, x) -> y", "value of a polynomial, highest power first",
                   guarded<polyval>},
-    FunctionEntry{"interp1", kArea, "interp1(x, y, x_new) -> y_new", "linear interpolation", guarded<interp1>},
+    FunctionEntry{"interp1", kArea, "interp1(x, y, x_new, {outside =}) -> y_new", "linear interpolation",
+                  guarded<interp1>},
     FunctionEntry{"solve", kArea, "solve(A, b) -> x",
                   "A x = b; the least-squares solution when A has more rows than columns (MATLAB's A\\b)",
                   guarded<solve>},

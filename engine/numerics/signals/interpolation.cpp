@@ -25,10 +25,11 @@ void check_points(const VectorView& x, const VectorView& y) {
 
 }  // namespace
 
-Vector interpolate_linearly(const VectorView& x, const VectorView& y, const VectorView& x_new) {
+Vector interpolate_linearly(const VectorView& x, const VectorView& y, const VectorView& x_new, Outside outside) {
     check_points(x, y);
     const Index last = x.size() - 1;
     return x_new.unaryExpr([&](double place) {
+        if (outside == Outside::kHold) place = std::clamp(place, x[0], x[last]);
         if (!(place >= x[0] && place <= x[last]))
             refuse("there is no value at ", place, ": x goes from ", x[0], " to ", x[last]);
         const Index right = std::clamp<Index>(std::upper_bound(x.begin(), x.end(), place) - x.begin(), 1, last);

@@ -1,0 +1,30 @@
+// Oracle: the straight line through two points, by hand.
+#include "numerics/signals/interpolation.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "numerics/error.h"
+
+namespace dynlab {
+namespace {
+
+const Vector kX{{0, 1, 3}}, kY{{5, 10, -10}};
+
+TEST(interpolation, joins_neighbours_by_straight_lines) {
+    const Vector found = interpolate_linearly(kX, kY, Vector{{0, 0.5, 1, 2, 3}});
+    EXPECT_EQ(found, (Vector{{5, 7.5, 10, 0, -10}}));
+}
+
+TEST(interpolation, has_no_values_outside_unless_the_ends_are_held) {
+    EXPECT_THROW(interpolate_linearly(kX, kY, Vector{{-0.5}}), InvalidArgument);
+    EXPECT_THROW(interpolate_linearly(kX, kY, Vector{{3.5}}), InvalidArgument);
+    const Vector found = interpolate_linearly(kX, kY, Vector{{-7, 0, 2, 3.5}}, Outside::kHold);
+    EXPECT_EQ(found, (Vector{{5, 5, 0, -10}}));
+    const Vector no_number = Vector::Constant(1, std::numeric_limits<double>::quiet_NaN());
+    EXPECT_THROW(interpolate_linearly(kX, kY, no_number, Outside::kHold), InvalidArgument);
+}
+
+}  // namespace
+}  // namespace dynlab
