@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <set>
 
 #include "numerics/error.h"
 #include "numerics/kernels/polynomial_estimate.h"
@@ -19,7 +21,20 @@ namespace {
 
 constexpr double kLeastVisits = 3;  // sum of a hat function over the record, for its edge to be kept
 
-/// Edges that the input visits, of those asked for.
+/// The values that the input takes, in order, when they are no more than `most`.
+std::optional<Vector> few_values(const IdData& data, Index most) {
+    std::set<double> values;
+    for (const Experiment& experiment : data.experiments)
+        for (const double u : experiment.u.col(0)) {
+            values.insert(u);
+            if (static_cast<Index>(values.size()) > most) return std::nullopt;
+        }
+    Vector result(static_cast<Index>(values.size()));
+    std::copy(values.begin(), values.end(), result.begin());
+    return result;
+}
+
+/// Edges that the input visits, of those asked for; the input's own values where these are too few for others.
 Vector visited_edges(const IdData& data, const HammersteinOptions& options, std::vector<std::string>& warnings) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const Experiment& experiment : data.experiments) {
@@ -28,6 +43,13 @@ Vector visited_edges(const IdData& data, const HammersteinOptions& options, std:
     }
     Vector edges = options.Breakpoints;
     if (edges.size() == 0) edges = Vector::LinSpaced(options.Bins + 1, low, high);
+    const std::optional<Vector> values = few_values(data, edges.size());
+    if (values && (values->size() != edges.size() || *values != edges)) {
+        edges = *values;
+        warnings.push_back("The input takes only " + std::to_string(edges.size()) +
+                           " values, so these are the edges of the bins: between them the characteristic is not known, "
+                           "and runs on straight lines.");
+    }
     Vector visits = Vector::Zero(edges.size());
     for (const Experiment& experiment : data.experiments)
         visits += hat_functions(edges, experiment.u.col(0)).colwise().sum().transpose();

@@ -40,11 +40,11 @@ struct HammersteinEstimate {
 /// delay minimise sum e^2 together, by damped Gauss-Newton with exact sensitivities. The delay starts where the linear
 /// model has it. Exact for held inputs, of which f(u) is held too. Errors of white measurement noise give the right
 /// covariance; nothing need be known of f, which tells a dead band, a saturation or unequal gains. Edges whose
-/// surroundings the input hardly visits are left out, with a warning.
-/// Data: one input, held, and one output; any number of experiments. Throws InvalidArgument for other data or options
-/// (check_transfer_data), a free delay beyond the record, or fewer than two edges that the input visits.
-/// Non-convergence and doubtful results are told in `warnings`. Reference: Bai (1998), Automatica 34, 333-338; Giri and
-/// Bai (2010), Block-oriented Nonlinear System Identification.
+/// surroundings the input hardly visits are left out, with a warning, and an input of no more values than there are
+/// edges (a square wave) has its values as edges, with another. Data: one input, held, and one output; any number of
+/// experiments. Throws InvalidArgument for other data or options (check_transfer_data), a free delay beyond the record,
+/// or fewer than two edges that the input visits. Non-convergence and doubtful results are told in `warnings`.
+/// Reference: Bai (1998), Automatica 34, 333-338; Giri and Bai (2010), Block-oriented Nonlinear System Identification.
 HammersteinEstimate hammerstein(const IdData& data, const TransferStructure& structure,
                                 const HammersteinOptions& options = {});
 

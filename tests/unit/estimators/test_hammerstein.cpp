@@ -12,6 +12,7 @@
 using namespace dynlab;
 using namespace dynlab::test;
 using testing::HasSubstr;
+using testing::Not;
 
 namespace {
 
@@ -143,6 +144,25 @@ TEST(hammerstein, bins_do_without_edges_that_the_input_does_not_visit) {  // ora
     const auto wide = hammerstein(data, system.structure, at_edges(values({-9, -5, -1, -0.2, 0.2, 1, 4})));
     EXPECT_EQ(wide.breakpoints.size(), 4) << wide.breakpoints.transpose();
     EXPECT_THAT(wide.message, HasSubstr("edges of bins were left out"));
+}
+
+// Oracle: a held input of three values, of which the two edges about zero know only the mean; at these values the
+// simulated characteristic.
+TEST(hammerstein, an_input_of_few_values_has_these_as_edges) {
+    const TransferFunction G = without_zero().G;
+    Vector u(900);
+    for (Index k = 0; k < u.size(); ++k) u[k] = static_cast<double>((k / 30 * 7) % 3) - 1;
+    const Vector f = characteristic(u);
+    const Vector y = lsim(G, f.array() - f[0], 0.05).array() + f[0];
+    const IdData data{Matrix(y), Matrix(u), 0.05};
+    for (const Vector& edges : {kEdges, values({-1, -0.5, 0.5, 1})}) {
+        const auto result = hammerstein(data, without_zero().structure, at_edges(edges));
+        ASSERT_EQ(result.breakpoints, values({-1, 0, 1})) << result.message;
+        EXPECT_LT((result.levels - characteristic(result.breakpoints)).cwiseAbs().maxCoeff(), 1e-6);
+        EXPECT_THAT(result.message, HasSubstr("The input takes only 3 values"));
+    }
+    const auto as_asked = hammerstein(data, without_zero().structure, at_edges(values({-1, 0, 1})));
+    EXPECT_THAT(as_asked.message, Not(HasSubstr("only 3 values")));
 }
 
 TEST(hammerstein, tells_when_a_line_would_do) {  // oracle: the simulated system is linear
