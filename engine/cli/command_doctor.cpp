@@ -37,6 +37,8 @@ struct LatexFile {
 constexpr LatexFile kLatexFiles[] = {
     {"lmodern.sty", "lmodern", "the documents' font", true},
     {"booktabs.sty", "texlive-latex-recommended", "tables", true},
+    {"beamer.cls", "texlive-latex-recommended", "slides", true},
+    {"pgfmath.sty", "texlive-pictures", "slides", true},
     {"amsmath.sty", "texlive-latex-base", "mathematics", true},
     {"frenchb.ldf", "texlive-lang-french", "documents in French only", false},
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <regex>
 
 #include "documents/characters.h"
 #include "documents/complaints.h"
@@ -47,9 +48,11 @@ SourceLine origin_of_refusal(const LatexRefusal& refusal, const MarkdownText& ma
     return {file, 0};
 }
 
-/// " in section "Results"": the last heading above a line of the LaTeX text.
+/// " in section "Results"": the last heading above a line of the LaTeX text; on slides, the title of the slide.
 std::string section_of(const std::string& body, int line) {
+    static const std::regex slide(R"(\\begin\{frame\}(\[[^\]]*\])?\{(.*)\})");
     std::string heading;
+    std::smatch title;
     const std::vector<std::string> lines = lines_of(body);
     for (int i = 0; i < std::min<int>(line, static_cast<int>(lines.size())); ++i) {
         const std::string& text = lines[static_cast<std::size_t>(i)];
@@ -57,6 +60,7 @@ std::string section_of(const std::string& body, int line) {
         const bool is_heading =
             text.find("section{") != std::string::npos && text.starts_with("\\") && open < text.size();
         const std::size_t close = std::min(text.find("}\\label{"), text.rfind('}'));
+        if (std::regex_match(text, title, slide)) heading = title[2];
         if (is_heading) heading = text.substr(open + 1, close - open - 1);
     }
     return heading.empty() ? "" : " in section \"" + heading + "\"";
@@ -185,8 +189,8 @@ class Making {
         const std::string identity = fs::absolute(output_).lexically_normal().string() + "\n" +
                                      fs::absolute(source_.template_file).lexically_normal().string();
         try {
-            return run_latex(
-                {body, language_, work_.path(), shared_templates_, identity, options_.use_cache, options_.timings});
+            const LatexLayout layout{shared_templates_, language_, document_rules(template_).slides};
+            return run_latex({body, layout, work_.path(), identity, options_.use_cache, options_.timings});
         } catch (const LatexRefusal& refusal) {
             const SourceLine where = origin_of_refusal(refusal, markdown_, source_.template_file);
             const std::string line = where.line > 0 ? ":" + std::to_string(where.line) : "";

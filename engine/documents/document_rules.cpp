@@ -8,7 +8,7 @@
 namespace dynlab {
 namespace {
 
-constexpr const char* kKeys[] = {"sections", "pages", "appendix_pages"};
+constexpr const char* kKeys[] = {"sections", "pages", "appendix_pages", "layout"};
 
 SectionRule section_rule(const std::string& line, const std::string& where) {
     std::vector<std::string> parts;
@@ -33,6 +33,12 @@ int page_count(const std::string& key, const std::string& value, const std::stri
     return count;
 }
 
+bool is_slides(const std::string& value, const std::string& where) {
+    if (value != "pages" && value != "slides")
+        throw DocumentError(where + "layout is pages or slides, not \"" + value + "\"");
+    return value == "slides";
+}
+
 }  // namespace
 
 bool is_document_rule(const std::string& key) {
@@ -45,6 +51,7 @@ void read_document_rule(const std::string& key, const std::string& value, const 
                         DocumentRules& rules) {
     if (key == "pages") rules.pages = page_count(key, value, where);
     if (key == "appendix_pages") rules.appendix_pages = page_count(key, value, where);
+    if (key == "layout") rules.slides = is_slides(value, where);
     if (key != "sections") return;
     for (const std::string& line : lines_of(value))
         if (!is_blank(line)) rules.sections.push_back(section_rule(line, where));

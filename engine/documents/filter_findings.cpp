@@ -85,6 +85,10 @@ class Sentences {
         if (code == "attribute") return "the attribute " + quoted(first) + " is not possible on " + second;
         if (code == "width")
             return "the width " + quoted(first) + " must be a percentage, cm or mm, such as 60% or 8cm";
+        if (code == "column-width")
+            return "a column needs its width in percent, as in ::: {.column width=60%}, not " + quoted(first);
+        if (code == "not-a-column")
+            return "a block ::: columns holds nothing but blocks ::: {.column width=50%}, and these stand nowhere else";
         return unknown_class(code, first, second);
     }
 
@@ -112,10 +116,12 @@ class Sentences {
 
     static std::string unknown_class(const std::string& code, const std::string& name, const std::string& text) {
         if (code == "division-class") {
-            if (name.empty()) return "a ::: block needs a class: table, text, note, warning, exercise or pagebreak";
+            if (name.empty())
+                return "a ::: block needs a class: table, text, note, warning, exercise, columns, column or pagebreak";
             return "the block class " + quoted(name) + " is not known" +
-                   suggestion(name, {"table", "text", "note", "warning", "exercise", "pagebreak", "cells"}) +
-                   "; known are table, text, cells, note, warning, exercise, pagebreak";
+                   suggestion(name, {"table", "text", "note", "warning", "exercise", "columns", "column", "pagebreak",
+                                     "cells"}) +
+                   "; known are table, text, cells, note, warning, exercise, columns, column, pagebreak";
         }
         if (code == "code-class")
             return "the slot `" + text + "`{." + name + "} has an unknown class; values are written `" + text +

@@ -2,12 +2,13 @@
 
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <map>
 #include <regex>
 
-#include "documents/latex_format.h"
 #include "documents/text_lines.h"
 #include "documents/work_file.h"
+#include "numerics/number_text.h"
 #include "platform/cache.h"
 #include "platform/child_process.h"
 #include "platform/content_hash.h"
@@ -36,7 +37,8 @@ std::string references(const fs::path& folder, bool has_contents) {
 /// The auxiliary files of a document's last run, kept between runs.
 class KeptAuxiliaryFiles {
   public:
-    explicit KeptAuxiliaryFiles(const LatexJob& job) : job_(job), key_(hash_of(job.identity + "\n" + job.language)) {
+    explicit KeptAuxiliaryFiles(const LatexJob& job)
+        : job_(job), key_(hash_of(job.identity + "\n" + job.layout.language)) {
         if (!job.use_cache) return;
         if (const auto kept = cache().find(key_)) copy(*kept, job.work_folder);
     }
@@ -74,15 +76,16 @@ class KeptAuxiliaryFiles {
 
 /// "./main.tex:12: Undefined control sequence." and the line "l.12 text so far" below it.
 LatexRefusal refusal_in(const std::string& log, int lines_before_body) {
-    static const std::regex placed(R"((?:^|\n)(?:\./)?main\.tex:(\d+): ([^\n]*))");
+    static const std::regex placed(R"((?:^|\n)(?:\./)?main\.(tex|vrb):(\d+): ([^\n]*))");
     static const std::regex unplaced(R"((?:^|\n)! ?([^\n]*))");
     static const std::regex context(R"(\nl\.(\d+) ([^\n]*))");
     std::smatch found, shown;
     int line = 0;
     std::string message = "pdflatex stopped without a message";
     if (std::regex_search(log, found, placed)) {
-        line = std::stoi(found[1]) - lines_before_body;
-        message = found[2];
+        // Code on slides is set from a file of its own, whose lines are not those of the body.
+        line = found[1] == "tex" ? std::stoi(found[2]) - lines_before_body : 0;
+        message = found[3];
     } else if (std::regex_search(log, found, unplaced)) {
         message = found[1];
     } else {
@@ -103,15 +106,35 @@ void check_nothing_dropped(const std::string& log) {
         throw LatexRefusal(trimmed(found[1].str()), found[2].matched ? std::stoi(found[2]) : 0, "");
 }
 
+/// Slides whose content is higher than they are: it would run over their lower edge.
+void check_nothing_overflows(const std::string& log, int lines_before_body) {
+    static const std::regex overfull(R"(\nOverfull \\vbox \(([0-9.]+)pt too high\) detected at line (\d+))");
+    static const std::regex page(R"(\n\[(\d+))");
+    constexpr double kPointsPerMm = 72.27 / 25.4, kUnseen = 0.5;  // mm
+    std::string slides;
+    int line = 0;
+    for (std::sregex_iterator found(log.begin(), log.end(), overfull), end; found != end; ++found) {
+        const double excess = std::stod((*found)[1]) / kPointsPerMm;
+        std::smatch number;
+        if (excess < kUnseen || !std::regex_search((*found)[0].second, log.end(), number, page)) continue;
+        if (slides.empty()) line = std::stoi((*found)[2]) - lines_before_body;
+        slides += (slides.empty() ? "slide " : ", slide ") + number[1].str() + " is too full by " +
+                  number_text(std::ceil(excess)) + " mm";
+    }
+    if (!slides.empty())
+        throw LatexRefusal(slides + "; shorten the text, make a figure less high, or part the slide into two", line,
+                           "");
+}
+
 class LatexRun {
   public:
     explicit LatexRun(const LatexJob& job) : job_(job) {
         if (job.use_cache) {
             const auto start = std::chrono::steady_clock::now();
-            format_folder_ = latex_format_folder(job.shared_templates, job.language);
+            format_folder_ = latex_format_folder(job.layout);
             note("latex format", start);
         } else {
-            write_preamble(job.shared_templates, job.language, job.work_folder);
+            write_preamble(job.layout, job.work_folder);
             lines_before_body_ = 1;
         }
         write_work_file(job.work_folder / "main.tex", (job.use_cache ? "" : "\\input{preamble}\n") + job.body);
@@ -175,7 +198,9 @@ class LatexRun {
             check_missing_packages(log);
             throw refusal_in(log, lines_before_body_);
         }
-        check_nothing_dropped("\n" + read_work_file(job_.work_folder / "main.log"));
+        const std::string messages = "\n" + read_work_file(job_.work_folder / "main.log");
+        check_nothing_dropped(messages);
+        if (job_.layout.slides) check_nothing_overflows(messages, lines_before_body_);
     }
 
     const LatexJob& job_;

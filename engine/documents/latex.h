@@ -5,14 +5,15 @@
 #include <utility>
 #include <vector>
 
+#include "documents/latex_format.h"
+
 namespace dynlab {
 
 struct LatexJob {
     std::string body;  ///< from \begin{document} on
-    std::string language = "en";
-    std::filesystem::path work_folder;       ///< private; holds the pictures the body names
-    std::filesystem::path shared_templates;  ///< the folder report_templates
-    std::string identity;                    ///< of the document: its auxiliary files are kept under this name
+    LatexLayout layout;
+    std::filesystem::path work_folder;  ///< private; holds the pictures the body names
+    std::string identity;               ///< of the document: its auxiliary files are kept under this name
     bool use_cache = true;
     std::vector<std::pair<std::string, double>>* timings = nullptr;
 };
@@ -28,7 +29,7 @@ struct LatexRefusal : std::runtime_error {
 
 /// Runs pdflatex without shell, with reading and writing confined to the working folder, within limits of time and
 /// memory, as often as page counts, contents and bookmarks need (once, when they are as in the run before). Returns
-/// the PDF. Throws LatexRefusal, MissingProgram.
+/// the PDF. A slide that has no room for what stands on it is refused. Throws LatexRefusal, MissingProgram.
 std::filesystem::path run_latex(const LatexJob& job);
 
 }  // namespace dynlab

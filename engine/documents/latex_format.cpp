@@ -18,9 +18,13 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-std::string preamble_text(const fs::path& shared_templates, const std::string& language) {
-    return replaced(read_file(shared_templates / "latex/preamble.tex"), "LANGUAGE",
-                    language == "fr" ? "french" : "english");
+/// The files that make a preamble: the names they are written under, and their texts.
+std::vector<std::pair<std::string, std::string>> preamble_files(const LatexLayout& layout) {
+    const fs::path folder = layout.shared_templates / "latex";
+    const std::string language = layout.language == "fr" ? "french" : "english";
+    return {{"preamble.tex", read_file(folder / (layout.slides ? "slides_preamble.tex" : "preamble.tex"))},
+            {"shared.tex", replaced(read_file(folder / "shared.tex"), "LANGUAGE", language)},
+            {"characters.tex", read_file(folder / "characters.tex")}};
 }
 
 /// Size and date of the installed program and of Debian's LaTeX format, which every update of TeX rewrites.
@@ -48,15 +52,14 @@ void compile_format(const fs::path& folder) {
     check_missing_packages(run.output);
     std::smatch error;
     const bool found = std::regex_search(run.output, error, std::regex("(^|\n)! ([^\n]*)"));
-    throw EnvironmentError("the layout of documents (report_templates/latex/preamble.tex) cannot be prepared: " +
+    throw EnvironmentError("the layout of documents (report_templates/latex) cannot be prepared: " +
                            (found ? error[2].str() : "pdflatex ended with code " + std::to_string(run.exit_code)));
 }
 
 }  // namespace
 
-void write_preamble(const fs::path& shared_templates, const std::string& language, const fs::path& folder) {
-    write_work_file(folder / "preamble.tex", preamble_text(shared_templates, language));
-    write_work_file(folder / "characters.tex", read_file(shared_templates / "latex/characters.tex"));
+void write_preamble(const LatexLayout& layout, const fs::path& folder) {
+    for (const auto& [name, text] : preamble_files(layout)) write_work_file(folder / name, text);
 }
 
 void check_missing_packages(const std::string& log) {
@@ -66,21 +69,19 @@ void check_missing_packages(const std::string& log) {
         throw MissingProgram("the French language of LaTeX (babel's french.ldf)", "texlive-lang-french");
     if (std::regex_search(log, found, std::regex("File [`']([^']+\\.(sty|cls|def|fd))' not found")))
         throw MissingProgram("the LaTeX file " + found[1].str(),
-                             "texlive-latex-recommended texlive-fonts-recommended lmodern");
+                             "texlive-latex-recommended texlive-fonts-recommended texlive-pictures lmodern");
 }
 
-fs::path latex_format_folder(const fs::path& shared_templates, const std::string& language) {
+fs::path latex_format_folder(const LatexLayout& layout) {
     const Cache cache("latex-format");
-    const std::string key = ContentHash()
-                                .add(preamble_text(shared_templates, language))
-                                .add(read_file(shared_templates / "latex/characters.tex"))
-                                .add(tex_version())
-                                .hex();
-    if (const auto folder = cache.find(key)) return *folder;
+    ContentHash key;
+    for (const auto& [name, text] : preamble_files(layout)) key.add(text);
+    key.add(tex_version());
+    if (const auto folder = cache.find(key.hex())) return *folder;
     const fs::path folder = cache.prepare();
-    write_preamble(shared_templates, language, folder);
+    write_preamble(layout, folder);
     compile_format(folder);
-    return cache.commit(folder, key);
+    return cache.commit(folder, key.hex());
 }
 
 }  // namespace dynlab

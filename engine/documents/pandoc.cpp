@@ -84,6 +84,10 @@ std::string format_name(DocumentFormat format) {
     return format == DocumentFormat::kHtml ? "html" : "markdown";
 }
 
+bool sets_slides(const PandocJob& job) {
+    return job.rules.slides && job.format == DocumentFormat::kPdf;
+}
+
 std::string slots_file(const PandocJob& job) {
     std::map<std::string, std::string> shown, switches;
     for (const auto& [key, value] : job.metadata)
@@ -97,7 +101,8 @@ std::string slots_file(const PandocJob& job) {
     return "return {\nformat=" + lua_string(format_name(job.format)) + ",language=" + lua_string(job.language) +
            ",reader=" + lua_string(kReader) + ",numbersections=" + (numbered ? "true" : "false") +
            ",stopped=" + (record.error ? "true" : "false") + ",\npicture_prefix=" + lua_string(job.picture_prefix) +
-           ",figure_extension=" + lua_string(figure_extension(job.format)) + ",\nvariables=" + variables +
+           ",figure_extension=" + lua_string(figure_extension(job.format)) +
+           ",slides=" + (sets_slides(job) ? "true" : "false") + ",\nvariables=" + variables +
            "},\nmetadata=" + lua_map(shown, as_string) +
            ",\nsection_titles=" + lua_map(section_titles(job), as_string) +
            ",\nvalue=" + lua_map(record.values, [](const RecordedValue& v) { return lua_string(one_line(v.text)); }) +
@@ -114,9 +119,12 @@ std::vector<std::string> command_line(const PandocJob& job) {
         command.insert(command.end(), {kMarkdownWriter, "--wrap=preserve"});
     else if (job.format == DocumentFormat::kHtml)
         command.insert(command.end(), {"html5", "--mathml", "--wrap=preserve"});
+    else if (job.rules.slides)
+        command.insert(command.end(), {"beamer", "--slide-level=1", "--wrap=preserve"});
     else
         command.insert(command.end(), {"latex", "--wrap=preserve"});
-    const char* const layout = job.format == DocumentFormat::kPdf    ? "latex/document.latex"
+    const char* const layout = sets_slides(job)                      ? "latex/slides.latex"
+                               : job.format == DocumentFormat::kPdf  ? "latex/document.latex"
                                : job.format == DocumentFormat::kHtml ? "html/document.html"
                                                                      : "markdown/document.md";
     command.insert(command.end(), {"--template", (shared / layout).string(), "--lua-filter",

@@ -15,7 +15,7 @@ namespace dynlab {
 struct PandocJob {
     MarkdownText markdown;                        ///< without YAML header
     std::map<std::string, std::string> metadata;  ///< checked keys
-    DocumentRules rules;                          ///< whose section titles are set in the document's language
+    DocumentRules rules;  ///< section titles are set in the document's language; pages or slides
     std::string language = "en";
     const RunRecord* record = nullptr;
     DocumentFormat format = DocumentFormat::kPdf;

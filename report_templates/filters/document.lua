@@ -6,7 +6,7 @@
 local folder = PANDOC_SCRIPT_FILE:match("^(.*)/") or "."
 local safety = dofile(folder .. "/safety.lua")
 local slots = dofile("slots.lua")
-local layout = dofile(folder .. "/layout.lua").new(slots.format, slots.language)
+local layout = dofile(folder .. "/layout.lua").new(slots.format, slots.language, slots.slides)
 
 local failed = false
 local function clean(text) return (tostring(text):gsub("[%c]", " ")) end
@@ -112,9 +112,12 @@ local function picture(image)
   local found = entry("figure", name, image.src)
   if not found then return nil, nil, name end
   local caption = image.caption
-  if #caption == 0 then caption = checked_inlines(found.caption) end
+  if #caption == 0 and not slots.slides then caption = checked_inlines(found.caption) end
   return picture_file("figure", name), caption, name
 end
+
+-- On slides only what has a label of its own; what stands beside a picture there needs no number to find it.
+local function is_numbered(caption, label) return label or #caption > 0 and not slots.slides end
 
 local function figure(image)
   local file, caption, name = picture(image)
@@ -122,7 +125,7 @@ local function figure(image)
   if not file then return missing_block(name) end
   local alternative = pandoc.utils.stringify(caption)
   if alternative == "" then alternative = name or image.src end
-  if #caption > 0 or label then
+  if is_numbered(caption, label) then
     local shown = number("fig", label)
     caption = layout:numbered_caption("fig", shown, caption)
   end
@@ -150,7 +153,7 @@ local function table_slot(division)
   end
   local found = entry("table", name, "name=" .. name)
   if not found then return missing_block(name) end
-  if #caption > 0 or label then caption = layout:numbered_caption("tbl", number("tbl", label), caption) end
+  if is_numbered(caption, label) then caption = layout:numbered_caption("tbl", number("tbl", label), caption) end
   local element, size, lines = layout:table(found, caption)
   if not element then
     report("table-width", "name=" .. name, name, #found.header)
@@ -165,7 +168,9 @@ local function written_table(element)
   if blocks[1] then
     local caption = blocks[1].content
     label = take_label(caption, "tbl")
-    blocks[1].content = layout:numbered_caption("tbl", number("tbl", label), caption)
+    if is_numbered(caption, label) then
+      blocks[1].content = layout:numbered_caption("tbl", number("tbl", label), caption)
+    end
     element.caption.long = blocks
   end
   return layout:place_table(element, label), false
@@ -243,6 +248,25 @@ local function check_mathematics(element)
   if bad then report("mathematics", bad, bad) end
 end
 
+local division_attributes = { table = { name = true }, text = { name = true }, column = { width = true } }
+
+local function columns(element)
+  local list = {}
+  for _, inner in ipairs(element.content) do
+    local is_column = inner.t == "Div" and inner.classes[1] == "column"
+    local width = is_column and inner.attributes.width or ""
+    local percent = tonumber(width:match("^(%d+%.?%d*)%%$"))
+    if not is_column then
+      report("not-a-column", "columns")
+    elseif not percent or percent <= 0 or percent > 100 then
+      report("column-width", width == "" and "column" or width, width)
+    else
+      list[#list + 1] = { inner.content, percent }
+    end
+  end
+  return layout:columns(list)
+end
+
 local function division(element)
   local class = element.classes[1]
   local bad = safety.unknown_division_class(element.classes)
@@ -250,11 +274,16 @@ local function division(element)
     report("division-class", bad or element.identifier, bad or "")
     return {}, false
   end
-  local allowed = (class == "table" or class == "text") and { name = true } or {}
+  local allowed = division_attributes[class] or {}
   local attribute = safety.unknown_attribute(element.attributes, allowed)
   if attribute then report("attribute", attribute, attribute, "a block of class " .. class) end
   if class == "table" then return table_slot(element) end
   if class == "pagebreak" then return layout:page_break() end
+  if class == "columns" then return columns(element) end
+  if class == "column" then
+    report("not-a-column", "column")
+    return {}
+  end
   return layout:box(element, class)
 end
 
@@ -391,5 +420,6 @@ function Pandoc(document)
   for key, text in pairs(slots.variables) do document.meta[key] = text end
   if document.meta.title then document.meta.pagetitle = pandoc.utils.stringify(document.meta.title) end
   if failed then os.exit(64) end
+  document.blocks = layout:mark_slides_with_code(document.blocks)
   return document
 end

@@ -1,4 +1,4 @@
--- How figures, tables, equations, code and boxes look in LaTeX, HTML and Markdown.
+-- How figures, tables, equations, code and boxes look in LaTeX (pages or slides), HTML and Markdown.
 local layout = {}
 
 local words = {
@@ -13,8 +13,9 @@ local html_escapes = { ["&"] = "&amp;", ["<"] = "&lt;", [">"] = "&gt;", ['"'] = 
 local zero_width_space = "\u{200B}"
 local no_break_space = "\u{A0}"
 
-function layout.new(format, language)
-  return setmetatable({ format = format, words = words[language] }, { __index = layout })
+-- slides: whether LaTeX sets the document as slides
+function layout.new(format, language, slides)
+  return setmetatable({ format = format, words = words[language], slides = slides }, { __index = layout })
 end
 
 local function html(text) return (text:gsub('[&<>"]', html_escapes)) end
@@ -41,7 +42,13 @@ end
 
 -- file: what the engine put the picture under; caption: inlines, number included, or empty
 function layout:figure(file, id, caption, alternative, width)
-  if self.format == "latex" then
+  if self.slides then
+    local content = pandoc.List { raw("latex", "\\begin{dynlabpicture}" .. (id and "\\hypertarget{" .. id .. "}{}" or "") ..
+      "\\includegraphics" .. latex_size(width) .. "{" .. file .. "}") }
+    content:extend(self:slide_caption(caption))
+    content:insert(raw("latex", "\\end{dynlabpicture}"))
+    return { pandoc.Plain(content) }
+  elseif self.format == "latex" then
     local content = pandoc.List { raw("latex", "\\begin{figure}[H]\\centering" ..
       (id and "\\hypertarget{" .. id .. "}{}" or "") .. "\\includegraphics" .. latex_size(width) .. "{" .. file .. "}") }
     if #caption > 0 then
@@ -65,6 +72,11 @@ function layout:figure(file, id, caption, alternative, width)
   local blocks = { pandoc.Para { pandoc.Image({ pandoc.Str(alternative) }, file) } }
   if #caption > 0 then blocks[2] = pandoc.Para(caption) end
   return blocks
+end
+
+function layout:slide_caption(caption)
+  if #caption == 0 then return {} end
+  return pandoc.List { raw("latex", "\\dynlabcaption{") } .. caption .. { raw("latex", "}") }
 end
 
 function layout:html_image(file, alternative, width)
@@ -114,7 +126,10 @@ local function line_count(text) return select(2, text:gsub("\n", "\n")) + 1 end
 local verbatim_environments = { output = "dynlaboutput", error = "dynlaberror" }
 
 -- Begins a new page unless so many lines fit on this one.
-function layout:need(lines) return pandoc.RawBlock("latex", string.format("\\dynlabneed{%d\\baselineskip}", lines)) end
+function layout:need(lines)
+  if self.slides then return pandoc.Null() end
+  return pandoc.RawBlock("latex", string.format("\\dynlabneed{%d\\baselineskip}", lines))
+end
 
 function layout:code_block(block)
   if self.format == "latex" then
@@ -147,13 +162,16 @@ function layout:missing_block(name)
   return pandoc.Para { pandoc.Strong { pandoc.Str("[" .. name .. " " .. self.words.missing .. "]") } }
 end
 
+-- What a filter returns in a list is not filtered again, but what stands in it is: hence the division around the blocks.
+local function within(format, begin, blocks, finish)
+  return pandoc.List { pandoc.RawBlock(format, begin), pandoc.Div(blocks), pandoc.RawBlock(format, finish) }
+end
+
 function layout:box(division, kind)
   local title = self.words[kind]
   if self.format == "latex" then
     local colour = kind == "warning" and "dlerror" or "dlnote"
-    division.content:insert(1, pandoc.RawBlock("latex", "\\begin{dynlabbox}{" .. colour .. "}{" .. title .. "}"))
-    division.content:insert(pandoc.RawBlock("latex", "\\end{dynlabbox}"))
-    return division.content
+    return within("latex", "\\begin{dynlabbox}{" .. colour .. "}{" .. title .. "}", division.content, "\\end{dynlabbox}")
   elseif self.format == "html" then
     division.content:insert(1, pandoc.Para { pandoc.Strong { pandoc.Str(title) } })
     return pandoc.Div(division.content, { class = "box " .. kind })
@@ -168,9 +186,54 @@ function layout:heading_level(level, has_title)
 end
 
 function layout:page_break()
+  if self.slides then return {} end
   if self.format == "latex" then return pandoc.RawBlock("latex", "\\clearpage") end
   if self.format == "html" then return pandoc.RawBlock("html", '<div class="pagebreak"></div>') end
   return {}
+end
+
+-- Columns, a list of {blocks, percent}, stand side by side on slides and in HTML, one after the other elsewhere.
+function layout:columns(list)
+  local blocks = pandoc.List {}
+  local function around(format, begin, finish)
+    blocks:insert(1, pandoc.RawBlock(format, begin))
+    blocks:insert(pandoc.RawBlock(format, finish))
+  end
+  for _, column in ipairs(list) do
+    local content, percent = column[1], column[2]
+    if self.slides then
+      local begin = string.format("\\begin{column}{%.4f\\textwidth}", percent / 100)
+      blocks:extend(within("latex", begin, content, "\\end{column}"))
+    elseif self.format == "html" then
+      blocks:extend(within("html", string.format('<div class="column" style="width:%g%%">', percent), content, "</div>"))
+    else
+      blocks:insert(pandoc.Div(content))
+    end
+  end
+  if self.slides then
+    around("latex", "\\begin{columns}[T,onlytextwidth]", "\\end{columns}")
+  elseif self.format == "html" then
+    around("html", '<div class="columns">', "</div>")
+  end
+  return blocks
+end
+
+-- Beamer must know of the slides on which code stands; Pandoc sees only code it writes itself.
+function layout:mark_slides_with_code(blocks)
+  if not self.slides then return blocks end
+  local title
+  for i, block in ipairs(blocks) do
+    if block.t == "Header" and block.level == 1 then title = block end
+    if block.t == "RawBlock" and block.text:find("\\begin{Shaded}", 1, true) then
+      if not title then
+        title = pandoc.Header(1, {}, { class = "fragile" })
+        blocks:insert(1, title)
+        return self:mark_slides_with_code(blocks)
+      end
+      title.classes = { "fragile" }
+    end
+  end
+  return blocks
 end
 
 -- Tables ---------------------------------------------------------------------------------------------------------
@@ -253,7 +316,7 @@ function layout:table(data, caption)
   end
   local widths, size, characters = fit_columns(least, natural)
   local lines = widths and table_lines(data.rows, widths, characters)
-  if self.format ~= "latex" then
+  if self.format ~= "latex" or self.slides then
     widths = {}
     for c = 1, columns do widths[c] = 0 end
   elseif not widths then
@@ -277,8 +340,33 @@ function layout:table(data, caption)
   return pandoc.utils.from_simple_table(simple), size, lines
 end
 
+local column_letters = { AlignRight = "r", AlignCenter = "c" }
+
+-- Slides have no pages to break, and columns that longtable cannot stand in.
+function layout:slide_table(element, id)
+  local simple = pandoc.utils.to_simple_table(element)
+  local letters = ""
+  for _, alignment in ipairs(simple.aligns) do letters = letters .. (column_letters[tostring(alignment)] or "l") end
+  local content = pandoc.List { raw("latex", (id and "\\hypertarget{" .. id .. "}{}" or "") ..
+    "\\begin{dynlabtable}\\begin{tabular}{@{}" .. letters .. "@{}}\\toprule ") }
+  local function add(row)
+    for c, cell in ipairs(row) do
+      if c > 1 then content:insert(raw("latex", " & ")) end
+      content:extend(pandoc.utils.blocks_to_inlines(cell))
+    end
+    content:insert(raw("latex", " \\\\ "))
+  end
+  add(simple.header)
+  content:insert(raw("latex", "\\midrule "))
+  for _, row in ipairs(simple.rows) do add(row) end
+  content:insert(raw("latex", "\\bottomrule\\end{tabular}\\end{dynlabtable}"))
+  content:extend(self:slide_caption(simple.caption))
+  return { pandoc.Plain(content) }
+end
+
 -- A short table does not begin where it would be broken; four lines are for caption and rules.
 function layout:place_table(element, id, size, lines)
+  if self.slides then return self:slide_table(element, id) end
   if self.format == "latex" then
     local start = "{" .. (size or "\\normalsize") .. (id and "\\hypertarget{" .. id .. "}{}" or "")
     local blocks = pandoc.List { pandoc.RawBlock("latex", start), element, pandoc.RawBlock("latex", "}") }

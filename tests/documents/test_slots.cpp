@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "document_fixture.h"
+#include "documents/pdf_inspection.h"
 
 namespace dynlab {
 namespace {
@@ -113,6 +114,20 @@ TEST_F(slots, comments_never_reach_the_document) {
 TEST_F(slots, mistakes_in_woven_cells_name_the_script) {
     cells_.append("text `nothing`{.value}\n", "lesson.lua", 42);
     EXPECT_THAT(refusal("# T\n\n::: {.cells}\n:::\n"), HasSubstr("lesson.lua:42: the script reported no value"));
+}
+
+// Oracle: the same blocks outside of a box.
+TEST_F(slots, boxes_hold_figures_and_tables) {
+    add_figure("raw", "Raw data", DocumentFormat::kPdf);
+    record_.tables["models"] = {{"model", "fit"}, {{"first", "93"}}};
+    const std::string blocks =
+        "![](figure:raw){#fig:raw}\n\nSee @fig:raw.\n\n::: {.table name=models}\nAll of them.\n:::\n";
+    const std::string plain = inspect_pdf(make(blocks, "plain.pdf")).pages.at(0);
+    const std::string boxed = inspect_pdf(make("::: note\n" + blocks + ":::\n", "boxed.pdf")).pages.at(0);
+    for (const char* shown : {"Figure 1. Raw data", "See Figure 1.", "Table 1. All of them.", "first"}) {
+        EXPECT_THAT(plain, HasSubstr(shown));
+        EXPECT_THAT(boxed, HasSubstr(shown));
+    }
 }
 
 }  // namespace
