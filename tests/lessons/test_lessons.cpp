@@ -14,6 +14,7 @@
 #include "documents/document_rules.h"
 #include "documents/text_lines.h"
 #include "numerics/rigs/crane.h"
+#include "numerics/rigs/thruster.h"
 #include "support/program.h"
 #include "workflow/lesson_catalogue.h"
 
@@ -48,8 +49,10 @@ TEST_P(lessons, report_is_whole) {
     const std::string text = text_of_pdf(bench, GetParam() + ".pdf");
     EXPECT_THAT(text, Not(HasSubstr("??")));
     EXPECT_THAT(text, Not(HasSubstr("SOLUTION")));
-    EXPECT_THAT(text, HasSubstr("Figure 1"));
-    const bool has_own_report = std::filesystem::exists(DYNLAB_SOURCE_DIR "/lessons/" + GetParam() + "/report.en.md");
+    const std::string own_report = DYNLAB_SOURCE_DIR "/lessons/" + GetParam() + "/report.en.md";
+    const bool has_own_report = std::filesystem::exists(own_report);
+    const bool slides = has_own_report && document_rules(read_template(own_report)).slides;
+    EXPECT_TRUE(slides || text.find("Figure 1") != std::string::npos);
     EXPECT_THAT(text, HasSubstr(has_own_report ? "Conclusion" : "What was learnt"));
 }
 
@@ -225,35 +228,71 @@ TEST(lesson_03_crane, finds_the_crane_and_says_what_the_model_is_worth) {
 
 class lesson_03_crane_report : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(languages, lesson_03_crane_report, testing::Values("en", "fr"));
+class lesson_05_slides : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(languages, lesson_05_slides, testing::Values("en", "fr"));
 
-TEST_P(lesson_03_crane_report, keeps_to_six_pages_and_one_of_appendix) {
-    const std::string language = GetParam();
-    const Workbench bench;
-    if (language == "fr" && bench.shell("kpsewhich french.ldf").exit_code != 0)
-        GTEST_SKIP() << "texlive-lang-french is not installed";
-    const ChildResult made = bench.dynlab({"report", "03_crane", "--lang", language});
-    ASSERT_EQ(made.exit_code, 0) << made.error_output;
-    std::vector<std::string> pages;
-    std::istringstream text(text_of_pdf(bench, "03_crane.pdf"));
-    for (std::string page; std::getline(text, page, '\f');) pages.push_back(page);
-    const TemplateFile source = read_template(DYNLAB_SOURCE_DIR "/lessons/03_crane/report." + language + ".md");
-    const DocumentRules rules = document_rules(source);
-    ASSERT_EQ(static_cast<int>(pages.size()), *rules.pages + *rules.appendix_pages);
-    const auto printed = [&](const SectionRule& section) { return replaced(section.title(language), "'", "’"); };
-    EXPECT_THAT(pages.back(), HasSubstr(printed(rules.sections.back())));
-    for (const SectionRule& section : rules.sections)
-        EXPECT_THAT(std::accumulate(pages.begin(), pages.end(), std::string()), HasSubstr(printed(section)));
+TemplateFile report_of(const std::string& lesson, const std::string& language) {
+    return read_template(DYNLAB_SOURCE_DIR "/lessons/" + lesson + "/report." + language + ".md");
 }
 
-// Numbers with a decimal point in the text are those of the experiments' plan; all results are slots.
-TEST_P(lesson_03_crane_report, types_no_result_in) {
-    const TemplateFile source =
-        read_template(DYNLAB_SOURCE_DIR "/lessons/03_crane/report." + std::string(GetParam()) + ".md");
-    const std::set<std::string> plan = {"0.24", "0.02", "0.5", "0.2"};
+/// The pages of a lesson's report; none where LaTeX lacks the language.
+std::vector<std::string> pages_of(const std::string& lesson, const std::string& language) {
+    const Workbench bench;
+    std::vector<std::string> pages;
+    if (language == "fr" && bench.shell("kpsewhich french.ldf").exit_code != 0) return pages;
+    const ChildResult made = bench.dynlab({"report", lesson, "--lang", language});
+    EXPECT_EQ(made.exit_code, 0) << made.error_output;
+    std::istringstream text(text_of_pdf(bench, lesson + ".pdf"));
+    for (std::string page; std::getline(text, page, '\f');) pages.push_back(page);
+    const DocumentRules rules = document_rules(report_of(lesson, language));
+    const std::string all = std::accumulate(pages.begin(), pages.end(), std::string());
+    for (const SectionRule& section : rules.sections)
+        EXPECT_THAT(all, HasSubstr(replaced(section.title(language), "'", "’")));
+    return pages;
+}
+
+/// Numbers with a decimal point in the text are those of the experiments' plan; all results are slots.
+void expect_no_result_typed_in(const TemplateFile& source, const std::set<std::string>& plan) {
     const std::regex decimal(R"((\d+)[.,](\d+))");
     const std::string& text = source.body.text;
     for (std::sregex_iterator found(text.begin(), text.end(), decimal), end; found != end; ++found)
         EXPECT_TRUE(plan.count((*found)[1].str() + "." + (*found)[2].str())) << found->str();
+}
+
+TEST_P(lesson_03_crane_report, keeps_to_six_pages_and_one_of_appendix) {
+    const std::string language = GetParam();
+    const std::vector<std::string> pages = pages_of("03_crane", language);
+    if (pages.empty()) GTEST_SKIP() << "texlive-lang-french is not installed";
+    const DocumentRules rules = document_rules(report_of("03_crane", language));
+    ASSERT_EQ(static_cast<int>(pages.size()), *rules.pages + *rules.appendix_pages);
+    EXPECT_THAT(pages.back(), HasSubstr(replaced(rules.sections.back().title(language), "'", "’")));
+}
+
+TEST_P(lesson_03_crane_report, types_no_result_in) {
+    expect_no_result_typed_in(report_of("03_crane", GetParam()), {"0.24", "0.02", "0.5", "0.2"});
+}
+
+TEST_P(lesson_05_slides, keep_to_twelve_with_the_eight_points) {
+    const std::vector<std::string> pages = pages_of("05_thruster", GetParam());
+    if (pages.empty()) GTEST_SKIP() << "texlive-lang-french is not installed";
+    const DocumentRules rules = document_rules(report_of("05_thruster", GetParam()));
+    EXPECT_EQ(rules.sections.size(), 8u);
+    EXPECT_EQ(*rules.pages, 12);
+    EXPECT_LE(static_cast<int>(pages.size()), 12);
+}
+
+TEST_P(lesson_05_slides, type_no_result_in) {
+    expect_no_result_typed_in(report_of("05_thruster", GetParam()), {});
+}
+
+TEST_P(lesson_05_slides, pass_the_check) {
+    const Workbench bench;
+    if (GetParam() == std::string("fr") && bench.shell("kpsewhich french.ldf").exit_code != 0)
+        GTEST_SKIP() << "texlive-lang-french is not installed";
+    ASSERT_EQ(bench.dynlab({"report", "05_thruster", "--lang", GetParam()}).exit_code, 0);
+    const ChildResult checked = bench.dynlab({"check", "05_thruster.pdf", "--template", "slides", "--json"});
+    EXPECT_EQ(checked.exit_code, 0) << checked.output;
+    EXPECT_TRUE(nlohmann::json::parse(checked.output).at("findings").empty()) << checked.output;
 }
 
 TEST(lesson_03_crane_copy, has_the_sections_and_no_text_of_the_solution) {
@@ -263,6 +302,50 @@ TEST(lesson_03_crane_copy, has_the_sections_and_no_text_of_the_solution) {
     EXPECT_THAT(report, HasSubstr("# Raw data"));
     EXPECT_THAT(report, HasSubstr("title: \"Identification of a trolley crane\""));
     EXPECT_THAT(report, Not(HasSubstr("friction costs")));
+}
+
+// Oracles: the simulator's parameters (thruster_truth, thruster_thrust), the bars of the assignment.
+TEST(lesson_05_thruster, finds_curve_and_delay_and_a_better_model_than_a_linear_one) {
+    const Workbench bench;
+    const ChildResult run = bench.dynlab({"run", DYNLAB_SOURCE_DIR "/lessons/05_thruster/lesson.lua", "--out", "made"});
+    ASSERT_EQ(run.exit_code, 0) << run.error_output;
+    const auto record = nlohmann::json::parse(bench.read("made/record.json"));
+    const ThrusterParameters rig;
+    const ThrusterTruth truth = thruster_truth(rig);
+
+    EXPECT_NEAR(number(record, "rest_noise"), std::hypot(rig.noise_std, rig.resolution / std::sqrt(12.)),
+                4 * rig.noise_std / std::sqrt(2. * 1500));
+    EXPECT_NEAR(number(record, "rest_level"), rig.tare, 4 * rig.noise_std / std::sqrt(1500.));
+    EXPECT_NEAR(number(record, "ring_frequency"), rig.cell_frequency, 0.05 * rig.cell_frequency);
+    EXPECT_NEAR(number(record, "edge_forward"), rig.dead_band, 5);
+    EXPECT_NEAR(number(record, "edge_reverse"), -rig.dead_band, 5);
+    EXPECT_NEAR(number(record, "asymmetry"), -truth.forward_thrust / truth.reverse_thrust, 0.05);
+    EXPECT_GT(number(record, "onset"), 1e3 * truth.delay) << "nothing answers before the delay";
+    EXPECT_LT(number(record, "onset"), 1e3 * truth.delay + 15);
+    EXPECT_NEAR(number(record, "forward_300"), thruster_thrust(rig, rig.neutral + 300), 3);
+    EXPECT_NEAR(number(record, "reverse_300"), thruster_thrust(rig, rig.neutral - 300), 3);
+
+    EXPECT_NEAR(number(record, "delay"), 1e3 * truth.delay, 5);
+    for (const std::string shape : {"sine", "square"}) {
+        EXPECT_NEAR(number(record, "delay_hammerstein_" + shape), 1e3 * truth.delay, 5);
+        EXPECT_LT(number(record, "delay_error_" + shape), 5) << "the worst of the repetitions";
+        for (const std::string way : {"val_", "raw_"})
+            EXPECT_GT(number(record, way + "hammerstein_" + shape), number(record, way + "linear_" + shape) + 5);
+        EXPECT_GT(number(record, "gain_" + shape), 5) << "the least of the repetitions";
+        EXPECT_GT(number(record, "root_gain_" + shape), 0);
+    }
+}
+
+TEST(lesson_05_copy, makes_slides_with_the_points_and_no_guidance) {
+    const Workbench bench;
+    ASSERT_EQ(bench.dynlab({"new", "05", "mine"}).exit_code, 0);
+    EXPECT_THAT(bench.read("mine/report.md"), HasSubstr("title: \"Identification of an underwater thruster\""));
+    const ChildResult made = bench.dynlab({"report", "mine"});
+    ASSERT_EQ(made.exit_code, 0) << made.error_output;
+    const std::string text = text_of_pdf(bench, "report.pdf");
+    EXPECT_THAT(text, HasSubstr("Raw data"));
+    EXPECT_THAT(text, Not(HasSubstr("naked eye")));
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\f'), 9) << "the title and eight points";
 }
 
 }  // namespace

@@ -1,0 +1,502 @@
+-- ---
+-- title: Identification of an underwater thruster
+-- subtitle: Lesson 5 – a static nonlinearity, two chirps, and twelve slides
+-- lesson: 05_thruster
+-- template: slides
+-- language: en
+-- seed: 1
+-- ---
+
+-- %% [markdown]
+-- An underwater thruster is commanded by the width of electrical pulses and pushes or pulls on a load cell. Two kinds of experiments were made with
+-- it, a sine and a square wave of rising frequency. Find a model from one of them, try it on the other, then change their parts; say which model
+-- you recommend and why. You will be asked about it, so know what you tried and why you dropped it.
+--
+-- Work in this script, cell by cell; your text goes to `report.md`, which becomes slides: at most twelve, for ten minutes. It has the eight
+-- points that a presentation must have, and notes on what belongs to each.
+--
+-- # The records
+--
+-- | record | what was done |
+-- |---|---|
+-- | `sine_100`, `sine_200`, `sine_300` | pulses of 1500 ± 100, 200 or 300 µs, a sine from 0.1 Hz to 3 Hz in 20 s, with rests before and after |
+-- | `square_100`, `square_200`, `square_300` | the sign of the same sine, times the same amplitude |
+--
+-- Each has `t` (s), `pwm` (µs) and `force` (N), 0.002 s apart; the width is held between samples, and 1500 µs is neutral.
+
+-- %% id=records
+local thruster = load("thruster")
+local Ts = 0.002
+local signals = {InputName = "pulse width", InputUnit = "µs", OutputName = "thrust", OutputUnit = "N"}
+local function raw(name)
+    local record = thruster[name]
+    return iddata(record.force, record.pwm, Ts, signals)
+end
+print(raw("sine_300"))
+idplot(raw("sine_300")):set{height = 6}
+
+-- %% [markdown]
+-- **Question 1.** Show the raw records of both kinds. What can be seen before anything is computed?
+--
+-- **Question 2.** Measure from neutral and from the level at rest, then ask `advice` about a record of each kind. Compare the standard deviation
+-- that it says a linear model leaves unexplained with the noise at rest. What is the difference made of?
+
+-- %% id=raw
+-- BEGIN SOLUTION
+local function say(english, french) return report.language() == "fr" and french or english end
+local seconds = say("time (s)", "temps (s)")
+local width_axis, thrust_axis = say("width (µs)", "largeur (µs)"), say("thrust (N)", "poussée (N)")
+local neutral, rest = 1500, 250  -- µs; samples before the thruster moves
+local shapes, amplitudes = {"sine", "square"}, {100, 200, 300}
+local other = {sine = "square", square = "sine"}
+local shape_word = {sine = say("sine", "sinus"), square = say("square", "carré")}
+
+local function width(record) return record.pwm - neutral end
+local function thrust(record) return record.force - mean(record.force:range(1, rest)) end
+local function prepared(name)
+    local record = thruster[name]
+    return iddata(thrust(record), width(record), Ts, signals)
+end
+
+local experiments = {{say("records", "enregistrements"), say("shape", "forme"), say("amplitude (µs)", "amplitude (µs)"),
+                      say("frequency (Hz)", "fréquence (Hz)"), say("duration (s)", "durée (s)")}}
+for _, shape in ipairs(shapes) do
+    local record = thruster[shape .. "_300"]
+    experiments[#experiments + 1] = {shape .. "_100, _200, _300", shape_word[shape], "100, 200, 300",
+                                     say("0.1 to 3", "0,1 à 3"), string.format("%.0f", record.t[#record.t])}
+end
+report.table("experiments", experiments)
+
+local raw_panels = {}
+for column, shape in ipairs(shapes) do
+    local record = thruster[shape .. "_300"]
+    raw_panels[column] = {ylabel = column == 1 and width_axis or nil, title = shape .. "_300",
+                          curves = {{x = record.t, y = record.pwm, style = "stairs", colour = 8, line_width = 0.6}}}
+    raw_panels[2 + column] = {ylabel = column == 1 and thrust_axis or nil, xlabel = seconds, y_range = {-32, 32},
+                              curves = {{x = record.t, y = record.force, colour = 0, line_width = 0.6}}}
+end
+report.figure("raw", figure{rows = 2, columns = 2, width = 14.4, height = 4.9, panels = raw_panels},
+              say("The records of the largest amplitude", "Les enregistrements de plus grande amplitude"))
+
+local at_rest = {}
+for _, shape in ipairs(shapes) do
+    for _, amplitude in ipairs(amplitudes) do at_rest[#at_rest + 1] = thruster[shape .. "_" .. amplitude].force:range(1, rest) end
+end
+local rest_readings = vector(at_rest)
+report.value("rest_level", mean(rest_readings), "%.2f")
+report.value("rest_noise", std(rest_readings), "%.2f")
+-- END SOLUTION
+
+-- %% id=advice
+-- BEGIN SOLUTION
+local seen = advice(raw("sine_300"))       -- as measured: pulses of 1500 µs mean rest
+local told = {}
+for _, shape in ipairs(shapes) do
+    for _, finding in ipairs(advice(prepared(shape .. "_300"))) do
+        if finding.code == "noise" or finding.code == "low_snr" then told[shape] = finding.value end
+    end
+end
+-- END SOLUTION
+
+-- %% id=advice_report echo=false
+-- BEGIN SOLUTION
+for _, finding in ipairs(seen) do
+    if finding.code == "offset" then report.value("offset_seen", finding.value, "%.0f") end
+end
+for _, shape in ipairs(shapes) do
+    report.value("snr_" .. shape, told[shape], "%.0f")
+    -- The signal-to-noise ratio that the noise at rest alone would leave.
+    local y = thrust(thruster[shape .. "_300"])
+    report.value("snr_rest_" .. shape, 20*math.log(std(y)/std(rest_readings), 10), "%.0f")
+end
+-- END SOLUTION
+
+-- %% [markdown]
+-- **Question 3.** The square chirp makes something ring. Find its frequency (`etfe` with some smoothing, or an average over many switchings). Is it
+-- the thruster? Choose a low-pass filter for what you want to see of the thruster, and say what the filter must not do.
+--
+-- **Question 4.** Average the answers to many switchings. How long does nothing happen?
+
+-- %% id=switchings
+-- BEGIN SOLUTION
+local before, after, until_time = 50, 175, 12  -- samples around a switching; s, while switchings are far apart
+local quiet = 15                               -- samples before it whose mean is the level
+local record = thruster.square_300
+local sum, switchings = zeros(before + after + 1), 0
+for k = 2, #record.t do
+    local jump = record.pwm[k] - record.pwm[k - 1]
+    if math.abs(jump) > 300 and record.t[k] < until_time then
+        local piece = record.force:range(k - before, k + after)
+        piece = piece - mean(piece:range(before - quiet, before))
+        sum, switchings = sum + (jump > 0 and 1 or -1)*piece, switchings + 1
+    end
+end
+local answer_mean = sum/switchings
+local since = 1e3*Ts*range(-before, 1, after)  -- ms
+local onset  -- the first answer of a hundredth of the whole
+for k = before + 1, #since do
+    if not onset and answer_mean[k] > 0.01*max(answer_mean) then onset = since[k] end
+end
+
+local band = 8  -- Hz
+local function low_pass(v) return idfilt(v, {0, 2*math.pi*band}, {zero_phase = true, Ts = Ts}) end
+local _, response = etfe(prepared("square_300"), {smooth = 8})
+local peak = 0
+for k = 1, #response.w do
+    local hertz = response.w[k]/(2*math.pi)
+    if hertz > band and hertz < 40 and (peak == 0 or response.magnitude[k] > response.magnitude[peak]) then peak = k end
+end
+-- END SOLUTION
+
+-- %% id=switchings_report echo=false
+-- BEGIN SOLUTION
+report.value("switchings", switchings, "%d")
+report.value("onset", onset, "%.0f")
+report.value("ring_frequency", response.w[peak]/(2*math.pi), "%.1f")
+report.value("band", band, "%d")
+report.figure("switching", figure{width = 14.4, height = 4.6, columns = 2, panels = {
+    {xlabel = say("time since the switching (ms)", "temps depuis la commutation (ms)"), ylabel = thrust_axis,
+     references = {{x = 0, dash = 2}, {x = onset, label = say("answer", "réponse")}},
+     curves = {{x = since, y = answer_mean, colour = 0, line_width = 1.1}}},
+    {xlabel = say("frequency (Hz)", "fréquence (Hz)"), ylabel = say("thrust per width (N/µs)", "poussée / largeur (N/µs)"),
+     x_log = true, y_log = true, x_range = {0.5, 60},
+     references = {{x = band, label = say("filter", "filtre")}},
+     curves = {{x = response.w/(2*math.pi), y = response.magnitude, colour = 1, dash = 0, line_width = 0.8}}}}},
+    say("Mean answer to a switching; frequency response of square_300", "Réponse moyenne à une commutation ; réponse fréquentielle de square_300"))
+-- END SOLUTION
+
+-- %% [markdown]
+-- **Question 5.** Thrust over pulse width: filter both signals alike, take the slow part of the sine chirps, and average in bins. Where does the dead
+-- band end? How do forward and reverse differ? Draw the root of the thrust as well: what is its curve like beyond the dead band, and why does physics want it so?
+
+-- %% id=curve
+-- BEGIN SOLUTION
+local slow = 6        -- s: frequencies below 1 Hz
+local bin_width = 10  -- µs
+local sines = {}
+for k, amplitude in ipairs(amplitudes) do
+    local sine = thruster["sine_" .. amplitude]
+    sines[k] = {u = low_pass(width(sine)), F = low_pass(thrust(sine))}
+end
+-- Thrust by bins of the pulse width `late` samples before, and what is left of its variation within them.
+local function by_bins(late)
+    local bins = {}
+    for _, sine in ipairs(sines) do
+        local u, F = sine.u, sine.F
+        for k = rest, math.floor(slow/Ts) do
+            local place = math.floor(u[k - late]/bin_width + 0.5)
+            local bin = bins[place] or {sum = 0, squares = 0, count = 0}
+            bin.sum, bin.squares, bin.count = bin.sum + F[k], bin.squares + F[k]^2, bin.count + 1
+            bins[place] = bin
+        end
+    end
+    local left, curve = 0, {width = {}, thrust = {}}
+    for place = -30, 30 do
+        local bin = bins[place]
+        if bin and bin.count > 50 then
+            table.insert(curve.width, place*bin_width)
+            table.insert(curve.thrust, bin.sum/bin.count)
+            left = left + bin.squares - bin.sum^2/bin.count
+        end
+    end
+    return curve, left
+end
+-- Thrust comes late: the curve of rising and that of falling pulses lie closest at the right lateness.
+local curve, lateness, least
+for late = 0, 100, 5 do
+    local tried, left = by_bins(late)
+    if not least or left < least then curve, lateness, least = tried, late, left end
+end
+
+local function root(F) return F/sqrt(abs(F) + 1e-9) end
+local function squared(s) return s*abs(s) end
+-- Beyond the dead band the width is a parabola of the root of the thrust: voltage drives against a torque that grows with the
+-- speed (of the motor) and with its square (of the water). Where the root is zero, the dead band ends.
+local dead_band_end = {}
+for _, sign in ipairs{1, -1} do
+    local x, y = {}, {}
+    for k, w in ipairs(curve.width) do
+        if sign*curve.thrust[k] > 0.5 then
+            table.insert(x, sign*math.sqrt(math.abs(curve.thrust[k])))
+            table.insert(y, w)
+        end
+    end
+    local parabola = polyfit(vector(x), vector(y), 2)
+    dead_band_end[sign] = parabola[3]
+end
+-- END SOLUTION
+
+-- %% id=curve_report echo=false
+-- BEGIN SOLUTION
+local truth = rig_truth("thruster")
+report.value("edge_forward", dead_band_end[1], "%.0f")
+report.value("edge_reverse", dead_band_end[-1], "%.0f")
+report.value("lateness", 1e3*Ts*lateness, "%.0f")
+local at_width = {}
+for k, w in ipairs(curve.width) do at_width[w] = curve.thrust[k] end
+local forward, reverse = {}, {}
+for _, w in ipairs(curve.width) do
+    if w >= 150 and at_width[-w] then
+        table.insert(forward, at_width[w])
+        table.insert(reverse, at_width[-w])
+    end
+end
+report.value("asymmetry", -mean(vector(forward))/mean(vector(reverse)), "%.2f")
+report.value("true_asymmetry", -truth.forward_thrust/truth.reverse_thrust, "%.2f")
+-- END SOLUTION
+
+-- %% [markdown]
+-- **Question 6.** Which structures do you compare, and by what? A linear model with a delay; a Hammerstein model (`hammerstein`), a static curve and then
+-- linear dynamics; and whatever physics suggests to you. How many poles does each need? What happens to the delay when poles are added? A square
+-- wave of one amplitude has three values: what can it tell of a curve?
+
+-- %% id=structure
+-- BEGIN SOLUTION
+local edges = {-300, -200, -100, -25, 25, 100, 200, 300}  -- ends of the dead band among them
+local delays = {TdMax = 0.08, NumTd = 10}
+
+local function all_of(records, shape, make)
+    local list = {}
+    for k, amplitude in ipairs(amplitudes) do list[k] = make(records[shape .. "_" .. amplitude]) end
+    return list
+end
+local function experiment(records, shape, output)
+    return merge(table.unpack(all_of(records, shape, function(r) return iddata(output(r), width(r), Ts) end)))
+end
+local function characteristic(H)
+    return function(u) return interp1(H.report.breakpoints, H.report.levels, u, {outside = "hold"}) end
+end
+
+-- Each estimates from the three records of a shape and returns the model with a function that simulates thrust.
+local kinds = {}
+function kinds.linear(records, shape, poles)
+    local G = tfsrivc(experiment(records, shape, thrust), poles, 0,
+                      {TdMax = delays.TdMax, NumTd = delays.NumTd, InitialState = "zero", Offset = "none"})
+    return G, function(u) return lsim(G, u, Ts) end
+end
+function kinds.hammerstein(records, shape, poles)
+    local H = hammerstein(experiment(records, shape, thrust), poles, 0,
+                          {Breakpoints = edges, TdMax = delays.TdMax, NumTd = delays.NumTd})
+    local f = characteristic(H)
+    return H, function(u) return lsim(H, f(u), Ts) end
+end
+-- The propeller's speed follows the pulses with a lag, and thrust is its square: so the root of the thrust is modelled.
+local function root_of_thrust(r) return root(low_pass(thrust(r))) end
+function kinds.root(records, shape, poles)
+    local H = hammerstein(experiment(records, shape, root_of_thrust), poles, 0,
+                          {Breakpoints = edges, TdMax = delays.TdMax, NumTd = delays.NumTd})
+    local f = characteristic(H)
+    return H, function(u) return squared(lsim(H, f(u), Ts)) end
+end
+
+-- Fit of simulated thrust over the records of a shape, below 8 Hz unless the whole signal is asked for.
+local function agreement(records, shape, simulate, whole)
+    local errors, variations = {}, {}
+    all_of(records, shape, function(r)
+        local y, model = thrust(r), simulate(width(r))
+        if not whole then y, model = low_pass(y), low_pass(model) end
+        table.insert(errors, y - model)
+        table.insert(variations, y - mean(y))
+    end)
+    return 100*(1 - norm(vector(errors))/norm(vector(variations)))
+end
+-- END SOLUTION
+
+-- %% id=orders echo=false
+-- BEGIN SOLUTION
+local kind_word = {linear = say("linear", "linéaire"), hammerstein = "Hammerstein", root = say("root model", "modèle racine")}
+local order_list = {"linear", "hammerstein", "root"}
+local fitted = {}  -- by kind and shape, with one pole
+local orders = {{say("model", "modèle"), say("poles", "pôles"),
+                 say("from sine", "du sinus"), say("on square", "sur carré"), say("delay", "retard"),
+                 say("from square", "du carré"), say("on sine", "sur sinus"), say("delay", "retard")}}
+for _, kind in ipairs(order_list) do
+    fitted[kind] = {}
+    for poles = 1, kind == "root" and 2 or 3 do
+        local row = {kind_word[kind], poles}
+        for _, shape in ipairs(shapes) do
+            local G, simulate = kinds[kind](thruster, shape, poles)
+            table.insert(row, string.format("%.1f %%", agreement(thruster, shape, simulate)))
+            table.insert(row, string.format("%.1f %%", agreement(thruster, other[shape], simulate)))
+            table.insert(row, string.format("%.1f ms", 1e3*G.IODelay))
+            if poles == 1 then fitted[kind][shape] = {model = G, simulate = simulate} end
+            if poles == 3 and kind == "hammerstein" and shape == "square" then
+                local frequency, damping = damp(G)
+                local swing = damping[1] < 1 and 1 or 3  -- damp sorts by frequency; the third pole is real
+                report.value("cell_frequency", frequency[swing]/(2*math.pi), "%.1f")
+                report.value("cell_damping", damping[swing], "%.2f")
+            end
+        end
+        table.insert(orders, row)
+    end
+end
+report.table("orders", orders)
+-- END SOLUTION
+
+-- %% [markdown]
+-- **Question 7.** Estimate what you decided on from the sine chirps and from the square chirps. Which parameters agree? What do the standard
+-- errors say of the differences?
+
+-- %% id=estimate
+-- BEGIN SOLUTION
+local lin, ham, rooted = fitted.linear.sine.model, fitted.hammerstein.sine.model, fitted.root.sine.model
+present(ham)
+present(rooted)
+-- END SOLUTION
+
+-- %% id=estimate_report echo=false
+-- BEGIN SOLUTION
+local function with_error(x, sigma, format) return string.format(format .. " ± " .. format, x, sigma) end
+local function last_error(G) return G.std[#G.std] end
+local parameters = {{say("parameter", "paramètre"), say("unit", "unité"), say("sine", "sinus"), say("square", "carré")}}
+local function parameter(text, unit, value)
+    table.insert(parameters, {text, unit, value("sine"), value("square")})
+end
+for _, kind in ipairs(order_list) do
+    local function of(shape) return fitted[kind][shape].model end
+    local word = kind_word[kind]
+    if kind == "linear" then
+        parameter(word .. say(": gain", " : gain"), "mN/µs", function(shape) return string.format("%.1f", 1e3*dcgain(of(shape))) end)
+    end
+    parameter(word .. say(": lag", " : constante de temps"), "ms", function(shape)
+        local a = of(shape).den[2]
+        return with_error(1e3/a, 1e3*of(shape).std[1]/a^2, "%.1f")
+    end)
+    parameter(word .. say(": delay", " : retard"), "ms", function(shape)
+        return with_error(1e3*of(shape).IODelay, 1e3*last_error(of(shape)), "%.1f")
+    end)
+    if kind ~= "linear" then
+        for _, u in ipairs{300, -300} do
+            parameter(word .. string.format(say(": thrust at %+d µs", " : poussée à %+d µs"), u):gsub("%-", "−"), "N", function(shape)
+                local level = characteristic(of(shape))(vector{u})
+                if kind == "root" then level = squared(level) end
+                return string.format("%.1f", level[1])
+            end)
+        end
+    end
+end
+report.table("parameters", parameters)
+
+local function static_curve(kind, shape, u)
+    local level = characteristic(fitted[kind][shape].model)(u)
+    return kind == "root" and squared(level) or level
+end
+local fine = linspace(-300, 300, 241)
+local true_curve = interp1(truth.pwm - truth.neutral, truth.thrust, fine)
+report.figure("curve", figure{width = 9, height = 6.4, panels = {{
+    xlabel = say("pulses, from neutral (µs)", "impulsions, depuis le neutre (µs)"), ylabel = thrust_axis, legend = "above",
+    curves = {
+        {x = curve.width, y = curve.thrust, style = "points", colour = 8, marker = 4, label = say("bins", "classes")},
+        {x = fine, y = static_curve("root", "sine", fine), colour = 0, label = say("root model", "modèle racine")},
+        {x = fine, y = static_curve("hammerstein", "square", fine), colour = 1, dash = 1, label = say("Hammerstein, square", "Hammerstein, carré")},
+        {x = fine, y = true_curve, colour = 2, dash = 2, label = say("truth", "vérité")}}}}},
+    say("Thrust over pulse width", "Poussée selon la largeur d'impulsion"))
+
+for _, shape in ipairs(shapes) do
+    for _, kind in ipairs(order_list) do
+        local G = fitted[kind][shape].model
+        report.value("delay_" .. kind .. "_" .. shape, 1e3*G.IODelay, "%.1f")
+        report.value("lag_" .. kind .. "_" .. shape, 1e3/G.den[2], "%.0f")
+    end
+end
+local delay = (fitted.hammerstein.sine.model.IODelay + fitted.hammerstein.square.model.IODelay)/2
+report.value("delay", 1e3*delay, "%.0f")
+report.value("true_delay", 1e3*truth.delay, "%.0f")
+report.value("true_band", truth.dead_band, "%.0f")
+local lags = {fitted.root.sine.model.den[2], fitted.root.square.model.den[2]}
+report.value("lag_difference", 100*math.abs(lags[1] - lags[2])/math.max(lags[1], lags[2]), "%.0f")
+local full = static_curve("root", "sine", vector{300, -300})
+report.value("forward_300", full[1], "%.1f")
+report.value("reverse_300", full[2], "%.1f")
+local true_full = interp1(truth.pwm - truth.neutral, truth.thrust, vector{300, -300})
+report.value("true_forward_300", true_full[1], "%.1f")
+report.value("true_reverse_300", true_full[2], "%.1f")
+-- END SOLUTION
+
+-- %% [markdown]
+-- **Question 8.** Validate both ways: models from the sine chirps on the square chirps, and the other way round. Where, in time and amplitude, does each
+-- model fail?
+
+-- %% id=validation
+-- BEGIN SOLUTION
+local function piece_of(name, shape, from, to, title)
+    local r = thruster[name]
+    local first, last = math.floor(from/Ts) + 1, math.floor(to/Ts) + 1
+    local t = r.t:range(first, last)
+    local panel = {title = title, ylabel = thrust_axis, legend = "none", curves = {
+        {x = t, y = thrust(r):range(first, last), label = say("measured", "mesuré"), colour = 8, line_width = 0.8}}}
+    for k, kind in ipairs{"linear", "hammerstein", "root"} do
+        table.insert(panel.curves, {x = t, y = fitted[kind][shape].simulate(width(r)):range(first, last), label = kind_word[kind],
+                                    colour = ({2, 1, 0})[k], dash = ({2, 1, 0})[k], line_width = 1.1})
+    end
+    return panel
+end
+local upper = piece_of("square_300", "sine", 9, 12, say("models from sine chirps, on square_300", "modèles des sinus, sur square_300"))
+local lower = piece_of("sine_200", "square", 9, 12, say("models from square chirps, on sine_200", "modèles des carrés, sur sine_200"))
+upper.legend, lower.xlabel = "above", seconds
+report.figure("validation", figure{rows = 2, width = 14.4, height = 5.9, panels = {upper, lower}},
+              say("Validation both ways", "Validation dans les deux sens"))
+-- END SOLUTION
+
+-- %% [markdown]
+-- **Question 9.** The thruster of this course can be asked again: `rig("thruster", {seed = 2})` repeats all records with other noise. Repeat your
+-- procedure. Is the order of your models luck? How far does the delay scatter, and is what is wrong with it noise?
+
+-- %% id=repetition
+-- BEGIN SOLUTION
+local repetitions = 5
+local study = {}
+for k = 1, repetitions do
+    local again = rig("thruster", {seed = k + 1})
+    for _, shape in ipairs(shapes) do
+        for _, kind in ipairs(order_list) do
+            local G, simulate = kinds[kind](again, shape, 1)
+            local name = kind .. "_" .. shape
+            study[name] = study[name] or {fit = {}, delay = {}}
+            study[name].fit[k], study[name].delay[k] = agreement(again, other[shape], simulate), 1e3*G.IODelay
+        end
+    end
+end
+-- END SOLUTION
+
+-- %% id=repetition_report echo=false
+-- BEGIN SOLUTION
+report.value("repetitions", repetitions, "%d")
+for _, shape in ipairs(shapes) do
+    local function least_gain(better, than)
+        return min(vector(study[better .. "_" .. shape].fit) - vector(study[than .. "_" .. shape].fit))
+    end
+    report.value("gain_" .. shape, least_gain("hammerstein", "linear"), "%.1f")
+    report.value("root_gain_" .. shape, least_gain("root", "hammerstein"), "%.1f")
+    report.value("delay_error_" .. shape, max(abs(vector(study["hammerstein_" .. shape].delay) - 1e3*truth.delay)), "%.1f")
+end
+-- END SOLUTION
+
+-- %% id=verdict echo=false
+-- BEGIN SOLUTION
+local verdict = {{say("model", "modèle"), say("direction", "sens"), "100 µs", "200 µs", "300 µs",
+                  say("all (%)", "tous (%)"), say("unfiltered (%)", "sans filtre (%)"), say("repeated (%)", "répété (%)")}}
+for _, kind in ipairs(order_list) do
+    for _, shape in ipairs(shapes) do
+        local simulate = fitted[kind][shape].simulate
+        local row = {kind_word[kind], shape_word[shape] .. " → " .. shape_word[other[shape]]}
+        for _, amplitude in ipairs(amplitudes) do
+            local r = thruster[other[shape] .. "_" .. amplitude]
+            local y, model = low_pass(thrust(r)), low_pass(simulate(width(r)))
+            table.insert(row, string.format("%.1f", 100*(1 - norm(y - model)/norm(y - mean(y)))))
+        end
+        local all, unfiltered = agreement(thruster, other[shape], simulate), agreement(thruster, other[shape], simulate, true)
+        table.insert(row, string.format("%.1f", all))
+        table.insert(row, string.format("%.1f", unfiltered))
+        local again = vector(study[kind .. "_" .. shape].fit)
+        table.insert(row, with_error(mean(again), std(again), "%.1f"))
+        table.insert(verdict, row)
+        report.value("val_" .. kind .. "_" .. shape, all, "%.1f")
+        report.value("raw_" .. kind .. "_" .. shape, unfiltered, "%.1f")
+    end
+end
+report.table("verdict", verdict)
+-- END SOLUTION
+
+-- %% [markdown]
+-- **Question 10.** Which model do you recommend, for what, and for what not? What experiment would you make next?
