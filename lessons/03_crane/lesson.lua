@@ -80,7 +80,8 @@ report.figure("raw", figure{rows = 3, height = 7.8, panels = panels(crane.estima
 -- %% [markdown]
 -- **Question 2.** Noise, resolution, levels at rest: what do the first second of a record and the differences between its samples tell?
 --
--- **Question 3.** Which section of `limits` belongs to no linear model, and why? Find its first and last instant in the record.
+-- **Question 3.** Which section of `limits` belongs to no linear model, and why? Find its first and last instant in the record, and
+-- compare with what `advice` says of the record and of its field `discard`.
 
 -- %% id=preparation
 -- BEGIN SOLUTION
@@ -111,6 +112,10 @@ for k = 1, #limits.t do
 end
 report.value("discard_from", limits.t[first], "%.1f")
 report.value("discard_to", limits.t[last], "%.1f")
+
+local told = advice(iddata(matrix{limits.x, limits.theta}, limits.u, Ts, signals)).discard
+report.value("advised_from", limits.t[told[1][1]], "%.1f")
+report.value("advised_to", limits.t[told[#told][2]], "%.1f")
 
 local limit_panels = panels(limits)
 for k, panel in ipairs(limit_panels) do

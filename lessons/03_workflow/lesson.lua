@@ -20,7 +20,7 @@
 report.table("workflow", {
     {"step", "what it must answer", "tools", "go back when"},
     {"experiment", "Does the input move the process at all frequencies of interest?", "prbs, multisine", "a question cannot be answered from the record"},
-    {"data", "Rest, offset, drift, noise, dead time, faults?", "idplot, delayest", "something is seen that nobody ordered"},
+    {"data", "Rest, offset, drift, noise, dead time, faults?", "idplot, advice, delayest", "something is seen that nobody ordered"},
     {"preparation", "What is left when levels and drift are taken off?", "detrend, idfilt, split", "the model spends parameters on a level"},
     {"structure", "How many poles and zeros, what delay?", "srivcstruc, selcstruc", "two structures explain the data alike"},
     {"estimation", "Which parameters, and how sure are they?", "srivc, tfsrivc, arx", "standard errors are as large as the values"},
@@ -47,11 +47,12 @@ local val = iddata(record.y_val, record.u_val, Ts)
 idplot(est):set{height = 6}
 
 -- %% [markdown]
--- **Question 1.** Look before you estimate. Is there an offset or a drift? Over which frequencies does the input excite the system?
--- Is there a dead time (`delayest`)?
+-- **Question 1.** Look before you estimate, and let `advice` look as well. Is there an offset or a drift? Over which frequencies does the
+-- input excite the system? Is there a dead time (`delayest`)?
 
 -- %% id=linear_look
 -- BEGIN SOLUTION
+advice(est)
 local Td, delay_figure, delay = delayest(est)
 report.figure("linear_delay", delay_figure:set{height = 5}, "Error for every delay")
 -- END SOLUTION
@@ -68,7 +69,8 @@ report.value("linear_td_std", delay.std, "%.4f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- The record starts from rest at zero and swings about zero (mean `linear_mean`{.value}): nothing has to be taken off. A binary sequence has
+-- The record starts from rest at zero and swings about zero (mean `linear_mean`{.value}): nothing has to be taken off, and `advice` has no
+-- objection either. A binary sequence has
 -- about the same power from its fundamental, `linear_low`{.value} rad/s, to some `linear_high`{.value} rad/s, where its power has fallen to
 -- one half. The output shows swings of about two seconds, well inside this band, so the experiment excites what it is to show.
 -- The delay is estimated at `linear_td`{.value} s with a standard error of `linear_td_std`{.value} s (@fig:linear_delay): the data do not tell it from none,
@@ -357,14 +359,21 @@ local high = volts(heat.y_high, heat.u_high)
 idplot(low, high, {labels = {"about 4 V", "about 7 V"}}):set{height = 7}
 
 -- %% [markdown]
--- **Question 7.** What do you see? How should the record be prepared?
---
+-- **Question 7.** What do you see, and what does `advice` see? How should the record be prepared?
+
+-- %% id=heat_advice
+-- BEGIN SOLUTION
+advice(low)
+-- END SOLUTION
+
+-- %% [markdown]
 -- BEGIN SOLUTION
 -- A slow process: the temperature never settles within one bit, and its long lag smooths the sequence; so the experiment is rich
 -- enough, and bits much shorter would have been wasted. It rests on an operating point, and a transfer function knows
 -- changes only: the level of the first minute is taken off both signals (`detrend(data, "start")`). The mean would do less well,
--- because the record begins away from it. The temperature reacts some seconds late. It is rounded to 0.1 °C, less than its noise. And
--- the same ±1 V moves the temperature more about 7 V than about 4 V – something that nobody ordered.
+-- because the record begins away from it. The temperature reacts some seconds late. It is rounded to 0.1 °C: `advice` warns of
+-- it, and its own numbers settle the matter, for the noise is far larger than what rounding adds. And the same ±1 V moves the temperature more about 7 V
+-- than about 4 V – something that nobody ordered, and that no look at a single record can tell.
 -- END SOLUTION
 --
 -- ## First round: voltage in, temperature out
@@ -630,6 +639,7 @@ idplot(raw:range(1, 250)):set{height = 6.5}
 
 -- %% id=dryer_prepare
 -- BEGIN SOLUTION
+advice(raw)
 local first, second = raw:split(0.5)
 first, second = first:remove_mean(), second:remove_mean()
 local dryer_td, valley, D = delayest(first)
@@ -647,8 +657,8 @@ report.value("dryer_td_samples", D.samples, "%.2f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- Both signals swing about an operating point (means `dryer_u`{.value} V and `dryer_y`{.value} V) without a rest at the beginning, so the means are what can be
--- taken off. The output answers late: `dryer_td`{.value} ± `dryer_td_std`{.value} s, which is `dryer_td_samples`{.value} samples (@fig:dryer_delay).
+-- Both signals swing about an operating point (means `dryer_u`{.value} V and `dryer_y`{.value} V) without a rest at the beginning, as `advice` says too, so the
+-- means are what can be taken off. The output answers late: `dryer_td`{.value} ± `dryer_td_std`{.value} s, which is `dryer_td_samples`{.value} samples (@fig:dryer_delay).
 --
 -- ![Smallest mean square error of a model for every delay](figure:dryer_delay){#fig:dryer_delay}
 -- END SOLUTION
