@@ -90,6 +90,8 @@ report.value("rest_noise", std(rest_readings), "%.2f")
 -- %% id=advice
 -- BEGIN SOLUTION
 local seen = advice(raw("sine_300"))       -- as measured: pulses of 1500 µs mean rest
+-- Of the square it says as well that it begins in the middle of a movement. The plot shows that it does not: a linear model, fitted
+-- to all of the record, explains the first answer from rest so badly that a start in motion looks likelier.
 local told = {}
 for _, shape in ipairs(shapes) do
     for _, finding in ipairs(advice(prepared(shape .. "_300"))) do
@@ -383,14 +385,20 @@ local function static_curve(kind, shape, u)
 end
 local fine = linspace(-300, 300, 241)
 local true_curve = interp1(truth.pwm - truth.neutral, truth.thrust, fine)
-report.figure("curve", figure{width = 9, height = 6.4, panels = {{
-    xlabel = say("pulses, from neutral (µs)", "impulsions, depuis le neutre (µs)"), ylabel = thrust_axis, legend = "above",
-    curves = {
+local function curve_panel(more)
+    local panel = {ylabel = thrust_axis, curves = {
         {x = curve.width, y = curve.thrust, style = "points", colour = 8, marker = 4, label = say("bins", "classes")},
-        {x = fine, y = static_curve("root", "sine", fine), colour = 0, label = say("root model", "modèle racine")},
+        {x = fine, y = static_curve("root", "sine", fine), colour = 0, label = say("root model, sine", "modèle racine, sinus")},
         {x = fine, y = static_curve("hammerstein", "square", fine), colour = 1, dash = 1, label = say("Hammerstein, square", "Hammerstein, carré")},
-        {x = fine, y = true_curve, colour = 2, dash = 2, label = say("truth", "vérité")}}}}},
-    say("Thrust over pulse width", "Poussée selon la largeur d'impulsion"))
+        {x = fine, y = true_curve, colour = 2, dash = 2, label = say("truth", "vérité")}}}
+    for key, value in pairs(more) do panel[key] = value end
+    return panel
+end
+report.figure("curve", figure{rows = 2, width = 8.8, height = 6.7, panels = {
+    curve_panel{legend = "above", x_range = {-300, 300}},
+    curve_panel{legend = "none", x_range = {-120, 120}, y_range = {-4, 4}, references = {{x = -truth.dead_band}, {x = truth.dead_band}},
+                xlabel = say("width, from neutral (µs)", "largeur, depuis le neutre (µs)")}}},
+    say("Thrust over pulse width, and about neutral", "Poussée selon la largeur d'impulsion, et autour du neutre"))
 
 for _, shape in ipairs(shapes) do
     for _, kind in ipairs(order_list) do
