@@ -1,12 +1,7 @@
 #include <array>
 
 #include "numerics/rigs/crane_experiments.h"
-#include "numerics/rigs/first_order_step.h"
-#include "numerics/rigs/heat_exchanger.h"
-#include "numerics/rigs/heat_transfer.h"
-#include "numerics/rigs/linear_system.h"
-#include "numerics/rigs/suspension.h"
-#include "numerics/rigs/thruster.h"
+#include "numerics/rigs/specimen.h"
 #include "scripting/bindings.h"
 #include "scripting/memo/long_call.h"
 #include "scripting/objects/boxed.h"
@@ -33,8 +28,8 @@ void give_record(const Call& call, const RigRecord& record) {
     give_columns(call, {{"t", &record.t}, {"u", &record.u}, {"y", &record.y}});
 }
 
-void crane_record(const Call& call, std::uint32_t seed) {
-    const std::vector<CraneRecord> records = simulate_crane({}, {}, seed);
+void crane_record(const Call& call, std::uint32_t seed, std::uint32_t specimen) {
+    const std::vector<CraneRecord> records = simulate_crane(crane_specimen(specimen), {}, seed);
     lua_createtable(call.state(), 0, static_cast<int>(records.size()));
     for (const CraneRecord& record : records) {
         give_columns(call, {{"t", &record.t}, {"u", &record.u}, {"x", &record.x}, {"theta", &record.theta}});
@@ -43,8 +38,8 @@ void crane_record(const Call& call, std::uint32_t seed) {
     }
 }
 
-void crane_theory(const Call& call) {
-    const CraneTruth truth = crane_truth({});
+void crane_theory(const Call& call, std::uint32_t specimen) {
+    const CraneTruth truth = crane_truth(crane_specimen(specimen));
     give_numbers(call, {{"natural_frequency", truth.natural_frequency},
                         {"damping_ratio", truth.damping_ratio},
                         {"speed_gain", truth.speed_gain},
@@ -53,12 +48,12 @@ void crane_theory(const Call& call) {
                         {"time_constant", truth.time_constant}});
 }
 
-void heat_exchanger_record(const Call& call, std::uint32_t seed) {
-    give_record(call, simulate_heat_exchanger({}, seed));
+void heat_exchanger_record(const Call& call, std::uint32_t seed, std::uint32_t specimen) {
+    give_record(call, simulate_heat_exchanger(heat_exchanger_specimen(specimen), seed));
 }
 
-void heat_exchanger_theory(const Call& call) {
-    const HeatExchangerTruth truth = heat_exchanger_truth({});
+void heat_exchanger_theory(const Call& call, std::uint32_t specimen) {
+    const HeatExchangerTruth truth = heat_exchanger_truth(heat_exchanger_specimen(specimen));
     give_numbers(call, {{"gain", truth.gain},
                         {"time_constant", truth.time_constant},
                         {"output_at_zero_input", truth.output_at_zero_input},
@@ -66,8 +61,8 @@ void heat_exchanger_theory(const Call& call) {
                         {"final_output", truth.final_output}});
 }
 
-void heat_transfer_record(const Call& call, std::uint32_t seed) {
-    const auto [estimation, validation, high] = simulate_heat_transfer({}, {}, seed);
+void heat_transfer_record(const Call& call, std::uint32_t seed, std::uint32_t specimen) {
+    const auto [estimation, validation, high] = simulate_heat_transfer(heat_transfer_specimen(specimen), {}, seed);
     give_columns(call, {{"t", &estimation.t},
                         {"u", &estimation.u},
                         {"y", &estimation.y},
@@ -79,8 +74,8 @@ void heat_transfer_record(const Call& call, std::uint32_t seed) {
                         {"y_high", &high.y}});
 }
 
-void heat_transfer_theory(const Call& call) {
-    const HeatTransferParameters rig;
+void heat_transfer_theory(const Call& call, std::uint32_t specimen) {
+    const HeatTransferParameters rig = heat_transfer_specimen(specimen);
     const HeatTransferExperiments plan;
     give_numbers(call, {{"dead_time", rig.dead_time}, {"sensor_time", rig.sensor_time}});
     for (const auto& [name, voltage] : {std::pair("low", plan.low), std::pair("high", plan.high)}) {
@@ -94,8 +89,8 @@ void heat_transfer_theory(const Call& call) {
     }
 }
 
-void linear_system_record(const Call& call, std::uint32_t seed) {
-    const auto [estimation, validation] = simulate_linear_system({}, seed);
+void linear_system_record(const Call& call, std::uint32_t seed, std::uint32_t specimen) {
+    const auto [estimation, validation] = simulate_linear_system(linear_system_specimen(specimen), seed);
     give_columns(call, {{"t", &estimation.t},
                         {"u", &estimation.u},
                         {"y", &estimation.y},
@@ -104,15 +99,15 @@ void linear_system_record(const Call& call, std::uint32_t seed) {
                         {"y_val", &validation.y}});
 }
 
-void linear_system_theory(const Call& call) {
-    const LinearSystemParameters p;
+void linear_system_theory(const Call& call, std::uint32_t specimen) {
+    const LinearSystemParameters p = linear_system_specimen(specimen);
     give_numbers(call, {{"noise_std", p.noise_std}});
     give_model(call, linear_system_truth(p));
     lua_setfield(call.state(), -2, "G");
 }
 
-void step_response_record(const Call& call, std::uint32_t seed) {
-    const FirstOrderStepRecord record = simulate_first_order_step({}, seed);
+void step_response_record(const Call& call, std::uint32_t seed, std::uint32_t specimen) {
+    const FirstOrderStepRecord record = simulate_first_order_step(step_response_specimen(specimen), seed);
     give_columns(call, {{"t", &record.t},
                         {"u", &record.u},
                         {"y", &record.y},
@@ -121,17 +116,17 @@ void step_response_record(const Call& call, std::uint32_t seed) {
                         {"ydot_noisy", &record.ydot_noisy}});
 }
 
-void step_response_theory(const Call& call) {
-    const FirstOrderStepTruth truth = first_order_step_truth({});
+void step_response_theory(const Call& call, std::uint32_t specimen) {
+    const FirstOrderStepTruth truth = first_order_step_truth(step_response_specimen(specimen));
     give_numbers(call, {{"a", truth.a}, {"b", truth.b}, {"f", truth.f}, {"g", truth.g}});
 }
 
-void suspension_record(const Call& call, std::uint32_t seed) {
-    give_record(call, simulate_suspension({}, seed));
+void suspension_record(const Call& call, std::uint32_t seed, std::uint32_t specimen) {
+    give_record(call, simulate_suspension(suspension_specimen(specimen), seed));
 }
 
-void suspension_theory(const Call& call) {
-    const SuspensionTruth truth = suspension_truth({});
+void suspension_theory(const Call& call, std::uint32_t specimen) {
+    const SuspensionTruth truth = suspension_truth(suspension_specimen(specimen));
     give_numbers(call, {{"gain", truth.gain},
                         {"natural_frequency", truth.natural_frequency},
                         {"damping_ratio", truth.damping_ratio},
@@ -139,8 +134,8 @@ void suspension_theory(const Call& call) {
                         {"overshoot_time", truth.overshoot_time}});
 }
 
-void thruster_record(const Call& call, std::uint32_t seed) {
-    const std::vector<ThrusterRecord> records = simulate_thruster({}, {}, seed);
+void thruster_record(const Call& call, std::uint32_t seed, std::uint32_t specimen) {
+    const std::vector<ThrusterRecord> records = simulate_thruster(thruster_specimen(specimen), {}, seed);
     lua_createtable(call.state(), 0, static_cast<int>(records.size()));
     for (const ThrusterRecord& record : records) {
         give_columns(call, {{"t", &record.t}, {"pwm", &record.pwm}, {"force", &record.force}});
@@ -149,8 +144,8 @@ void thruster_record(const Call& call, std::uint32_t seed) {
     }
 }
 
-void thruster_theory(const Call& call) {
-    const ThrusterParameters p;
+void thruster_theory(const Call& call, std::uint32_t specimen) {
+    const ThrusterParameters p = thruster_specimen(specimen);
     const ThrusterTruth truth = thruster_truth(p);
     const Vector pwm = Vector::LinSpaced(81, p.neutral - p.full_width, p.neutral + p.full_width);
     const Vector thrust = pwm.unaryExpr([&p](double width) { return thruster_thrust(p, width); });
@@ -170,8 +165,8 @@ void thruster_theory(const Call& call) {
 /// An experiment: both functions push one table.
 struct Rig {
     std::string_view name;
-    void (*record)(const Call& call, std::uint32_t seed);
-    void (*theory)(const Call& call);
+    void (*record)(const Call& call, std::uint32_t seed, std::uint32_t specimen);
+    void (*theory)(const Call& call, std::uint32_t specimen);
 };
 
 constexpr std::array kRigs = {
@@ -193,31 +188,39 @@ const Rig& rig_of(const Call& call) {
     throw InvalidArgument(fmt::format("there is no experiment '{}'; there are {}", name, fmt::join(names, ", ")));
 }
 
-/// rig(name, {seed =}): the course's experiments, with the parameters their headers state.
+std::uint32_t small_number(const Options& options, const char* name, Index fallback) {
+    const Index number = options.size(name, fallback);
+    if (number > 0xFFFFFFFF)
+        throw InvalidArgument(fmt::format("option '{}' must be a whole number from 0 to 4294967295", name));
+    return static_cast<std::uint32_t>(number);
+}
+
+/// rig(name, {seed =, specimen =}): the course's experiments, with the parameters their headers state or another
+/// specimen's.
 int rig(Call& call) {
     call.at_most(2);
-    const Options options(call, 2, {"seed"});
-    const Index seed = options.size("seed", 1);
-    if (seed > 0xFFFFFFFF) throw InvalidArgument("option 'seed' must be a whole number from 0 to 4294967295");
+    const Options options(call, 2, {"seed", "specimen"});
+    const std::uint32_t seed = small_number(options, "seed", 1), specimen = small_number(options, "specimen", 0);
     const Rig& rig = rig_of(call);
-    rig.record(call, static_cast<std::uint32_t>(seed));
+    rig.record(call, seed, specimen);
     refuse_unknown_fields(call.state(), std::string(rig.name));
     return 1;
 }
 
 int rig_truth(Call& call) {
-    call.at_most(1);
+    call.at_most(2);
+    const Options options(call, 2, {"specimen"});
     const Rig& rig = rig_of(call);
-    rig.theory(call);
+    rig.theory(call, small_number(options, "specimen", 0));
     refuse_unknown_fields(call.state(), fmt::format("the truth of {}", rig.name));
     return 1;
 }
 
 constexpr std::array kFunctions = {
-    FunctionEntry{"rig", "data", "rig(name, {seed =}) -> table",
+    FunctionEntry{"rig", "data", "rig(name, {seed =, specimen =}) -> table",
                   "repeats one of the course's simulated experiments, with other noise for another seed",
                   guarded<long_call<rig>>},
-    FunctionEntry{"rig_truth", "data", "rig_truth(name) -> table",
+    FunctionEntry{"rig_truth", "data", "rig_truth(name, {specimen =}) -> table",
                   "what theory says of one of the course's simulated experiments", guarded<rig_truth>},
 };
 
