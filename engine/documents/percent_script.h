@@ -12,6 +12,9 @@ struct ExpectedAnswer {
     std::string name, kind;
 };
 
+/// number, text, truth, vector, matrix, data, model, table.
+const std::vector<std::string>& answer_kinds();
+
 /// The comment header of a literate script: lines `-- key: value` between two `-- ---` lines.
 struct ScriptHeader {
     std::string title, lesson, subtitle;

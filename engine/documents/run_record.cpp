@@ -37,6 +37,10 @@ json json_of(const RecordedText& text) {
     return text.markdown;
 }
 
+json json_of(const RecordedAnswer& answer) {
+    return json::parse(answer.json);
+}
+
 template <typename Entry>
 json json_of_entries(const std::map<std::string, Entry>& entries) {
     json result = json::object();
@@ -57,6 +61,7 @@ std::string to_json(const RunRecord& record) {
                    {"tables", json_of_entries(record.tables)},
                    {"figures", json_of_entries(record.figures)},
                    {"texts", json_of_entries(record.texts)},
+                   {"answers", json_of_entries(record.answers)},
                    {"outputs", json_of_entries(record.outputs)},
                    {"files_read", json::array()}};
     for (const std::filesystem::path& file : record.files_read)

@@ -49,6 +49,12 @@ struct RecordedError {
     int line = 0;         ///< of the script; 0 when unknown
 };
 
+/// `answer`: what a script hands in under a name.
+struct RecordedAnswer {
+    std::string kind;  ///< one of answer_kinds()
+    std::string json;  ///< as push_answer_value reads it again
+};
+
 /// Everything a run of a script produced: the one thing documents are made from.
 struct RunRecord {
     std::string script;  ///< file name without folders
@@ -57,6 +63,7 @@ struct RunRecord {
     std::map<std::string, RecordedTable> tables;
     std::map<std::string, RecordedFigure> figures;
     std::map<std::string, RecordedText> texts;
+    std::map<std::string, RecordedAnswer> answers;
     std::map<std::string, std::vector<CellOutput>> outputs;  ///< by cell id, in the order produced
     std::optional<RecordedError> error;                      ///< the run stopped here
     std::vector<std::filesystem::path> files_read;           ///< data files, in the order first read

@@ -1,5 +1,8 @@
 #include "documents/script_header.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <charconv>
 
 #include "documents/error.h"
@@ -44,6 +47,9 @@ class HeaderReader {
         if (!in_answers_) fail("\"" + name + "\" is indented, but only names below \"answers:\" are");
         if (!is_name(name)) fail("\"" + name + "\" cannot be the name of an answer");
         if (kind.empty()) fail("answer \"" + name + "\" needs a kind, such as \"" + name + ": number\"");
+        if (std::find(answer_kinds().begin(), answer_kinds().end(), kind) == answer_kinds().end())
+            fail("answer \"" + name + "\" is of the unknown kind \"" + kind + "\"; known are " +
+                 fmt::format("{}", fmt::join(answer_kinds(), ", ")));
         for (const ExpectedAnswer& answer : header_.answers)
             if (answer.name == name) fail("answer \"" + name + "\" is declared twice");
         header_.answers.push_back({name, kind});
@@ -108,6 +114,12 @@ bool is_fence(const std::string& line) {
 }
 
 }  // namespace
+
+const std::vector<std::string>& answer_kinds() {
+    static const std::vector<std::string> kinds = {"number", "text", "truth", "vector",
+                                                   "matrix", "data", "model", "table"};
+    return kinds;
+}
 
 std::size_t read_script_header(const std::vector<std::string>& lines, const std::filesystem::path& file,
                                ScriptHeader& header) {

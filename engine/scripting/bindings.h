@@ -29,6 +29,7 @@ FunctionEntries rig_functions();
 FunctionEntries simulation_functions();
 FunctionEntries figure_functions();
 FunctionEntries report_functions();
+FunctionEntries answer_functions();
 FunctionEntries help_functions();
 
 }  // namespace dynlab

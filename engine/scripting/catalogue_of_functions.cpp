@@ -20,7 +20,7 @@ const std::vector<FunctionEntry>& catalogue_of_functions() {
                                      residual_functions(),      order_functions(),
                                      study_functions(),         figure_functions(),
                                      control_functions(),       report_functions(),
-                                     help_functions()})
+                                     answer_functions(),        help_functions()})
             all.insert(all.end(), area.begin(), area.end());
         return all;
     }();

@@ -9,6 +9,7 @@ void Recorder::start(const PercentScript& script, std::uint32_t seed, LineSource
     *this = Recorder();
     record_.script = script.file.filename().string();
     record_.seed = seed;
+    expected_ = script.header.answers;
     current_line_ = std::move(current_line);
     enter_cell_ = std::move(enter_cell);
     for (const Cell& cell : script.cells)

@@ -45,6 +45,8 @@ class Recorder {
     void note_time();  ///< charges the time since the last call to the cell that was running
     void note_file_read(const std::filesystem::path& file);
 
+    const std::vector<ExpectedAnswer>& expected_answers() const { return expected_; }
+
     RunRecord& record() { return record_; }
     std::size_t printed_bytes() const { return printed_bytes_; }
 
@@ -62,6 +64,7 @@ class Recorder {
     void capture_figures(const std::string& cell, const std::vector<Piece>& pieces);
 
     RunRecord record_;
+    std::vector<ExpectedAnswer> expected_;
     LineSource current_line_;
     CellListener enter_cell_;
     std::vector<std::pair<int, std::string>> cells_;  ///< first line and id of the code cells, in order

@@ -45,6 +45,13 @@ static void from_json(const json& j, RecordedText& text) {
     text.markdown = j;
 }
 
+static void to_json(json& j, const RecordedAnswer& answer) {
+    j = {{"kind", answer.kind}, {"json", answer.json}};
+}
+static void from_json(const json& j, RecordedAnswer& answer) {
+    answer = {j.at("kind"), j.at("json")};
+}
+
 static void to_json(json& j, const CellOutput& output) {
     j = {{"printed", output.printed}};
     if (output.figure) j["figure"] = *output.figure;
@@ -61,7 +68,8 @@ constexpr char kRecord[] = "record";
 std::string packed(const RunRecord& record) {
     json j = {{"script", record.script},   {"seed", record.seed},       {"values", record.values},
               {"tables", record.tables},   {"figures", record.figures}, {"texts", record.texts},
-              {"outputs", record.outputs}, {"timings", record.timings}, {"files", json::array()}};
+              {"answers", record.answers}, {"outputs", record.outputs}, {"timings", record.timings},
+              {"files", json::array()}};
     for (const fs::path& file : record.files_read) j["files"].push_back(file.string());
     const std::vector<std::uint8_t> bytes = json::to_cbor(j);
     return {bytes.begin(), bytes.end()};
@@ -76,6 +84,7 @@ RunRecord unpacked(const std::string& bytes, const fs::path& folder) {
     record.tables = j.at("tables");
     record.figures = j.at("figures");
     record.texts = j.at("texts");
+    record.answers = j.at("answers");
     record.outputs = j.at("outputs");
     record.timings = j.at("timings");
     for (const std::string file : j.at("files")) record.files_read.emplace_back(file);
