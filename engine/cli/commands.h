@@ -21,6 +21,8 @@ void add_demo(CLI::App& app, Action& action);
 void add_lessons(CLI::App& app, Action& action);
 void add_help(CLI::App& app, Action& action);
 void add_doctor(CLI::App& app, Action& action);
+void add_grade(CLI::App& app, Action& action);
+void add_boxed(CLI::App& app, Action& action);
 
 /// What `dynlab` without a command does: the prompt on a terminal, statements from a pipe or file otherwise.
 int open_prompt();

@@ -146,8 +146,15 @@ std::optional<fs::path> file_beside(const fs::path& script_folder, const std::st
         fmt::format("{}; files of your own are looked for in {}", message, fs::absolute(script_folder).string()));
 }
 
-Source find_source(const std::string& name_or_path, const fs::path& script_folder) {
+/// A data set of the installed data, by its name, a course file's, or a path that ends in one of its files.
+std::optional<Source> installed_source(const fs::path& path) {
+    return source_in_data_folder(shared_folder() / "data", path.filename().string());
+}
+
+Source find_source(const std::string& name_or_path, const fs::path& script_folder, bool installed_first) {
     const fs::path path = name_or_path;
+    if (installed_first)
+        if (const auto source = installed_source(path)) return *source;
     if (path.has_parent_path()) {
         const fs::path file = script_folder / path;
         if (!is_file(file)) throw EnvironmentError(fmt::format("there is no file {}", fs::absolute(file).string()));
@@ -186,8 +193,8 @@ LoadedData from_csv(CsvTable table) {
 
 }  // namespace
 
-LoadedData load_data(const std::string& name_or_path, const fs::path& script_folder) {
-    const auto [file, record] = find_source(name_or_path, script_folder);
+LoadedData load_data(const std::string& name_or_path, const fs::path& script_folder, bool installed_first) {
+    const auto [file, record] = find_source(name_or_path, script_folder, installed_first);
     LoadedData data;
     if (record) {
         data.variables = read_packaged_record(*record);

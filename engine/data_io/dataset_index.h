@@ -24,9 +24,11 @@ struct LoadedData {
 /// for in `script_folder` (NAME.mat, NAME.csv, data/NAME), then in data/NAME of the current folder, then in the
 /// installed data. Within a data set's folder a course's original file is preferred, then NAME.csv (which states
 /// units), then NAME.mat, then what a Debian package brings (packaged_record.h) according to a line
-/// `Package: NAME FILE SAMPLES samples TS s` of SOURCE.md. Files of the installed data are read without guard. Throws
-/// EnvironmentError that lists the names that exist and suggests the nearest one.
-LoadedData load_data(const std::string& name_or_path, const std::filesystem::path& script_folder);
+/// `Package: NAME FILE SAMPLES samples TS s` of SOURCE.md. `installed_first`: data sets of the installed data win over
+/// files beside the script, also when they are named by a path below data/. Files of the installed data are read
+/// without guard. Throws EnvironmentError that lists the names that exist and suggests the nearest one.
+LoadedData load_data(const std::string& name_or_path, const std::filesystem::path& script_folder,
+                     bool installed_first = false);
 
 /// Names of the data sets in the installed data/, sorted.
 std::vector<std::string> dataset_names();

@@ -18,7 +18,8 @@ struct GuardLimits {
 /// input harms nobody: its string comes back as `output` with exit code 0, the message of an exception it throws
 /// as `error_output` with exit code 1, a crash as 128 + signal. The copy has no other open files than its own,
 /// its printing goes nowhere, and no destructors or exit handlers run. `work` must not wait for other threads,
-/// as they do not exist in the copy. Costs a fork (about 1 ms). Throws EnvironmentError and Interrupted like
+/// as they do not exist in the copy. Costs a fork (about 1 ms). A process that is
+/// confined (platform/confinement.h) does the work itself. Throws EnvironmentError and Interrupted like
 /// run_child.
 ChildResult run_guarded(const std::function<std::string()>& work, const GuardLimits& limits);
 

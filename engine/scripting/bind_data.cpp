@@ -63,7 +63,7 @@ void push_variable(const Call& call, const Variable& variable, const std::string
 int load(Call& call) {
     call.at_most(1);
     const std::string name = call.text(1, "name or path");
-    const LoadedData loaded = load_data(name, call.context().options.script_folder);
+    const LoadedData loaded = load_data(name, call.context().options.script_folder, call.context().options.graded);
     call.context().recorder.note_file_read(loaded.file);
     push_variables(call, loaded.variables, name);
     return 1;

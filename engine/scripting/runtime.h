@@ -29,6 +29,7 @@ struct RunOptions {
     std::size_t memory_limit_bytes = std::size_t{2} << 30;
     std::size_t output_limit_bytes = std::size_t{16} << 20;  ///< of printed text
     std::optional<std::chrono::milliseconds> time_limit = {};
+    bool graded = false;  ///< the course's data win over files of the same name, and saved figures are not drawn
 };
 
 /// One Lua state with dynlab's functions. Scripts get safe libraries only: no files, processes, chunk loading or debug

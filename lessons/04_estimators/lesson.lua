@@ -5,6 +5,14 @@
 -- template: lesson
 -- language: en
 -- seed: 1
+-- answers:
+--   own_without_noise: vector
+--   own: vector
+--   record: data
+--   G_lssvf: model
+--   G_ivsvf: model
+--   G_final: model
+--   scatter: vector
 -- ---
 
 -- %% [markdown]
@@ -661,6 +669,25 @@ report.table("orders", order_rows)
 -- second record when there is one.
 -- END SOLUTION
 --
+-- # What you hand in
+--
+-- Where this lesson is graded, `answer(name, value)` hands your results in, and `dynlab check .` tells what is missing: `own_without_noise` and
+-- `own`, what your own LSSVF finds in the record without and with noise, $a_1$, $a_2$, $b_0$ each; `record`, the data with noise; `G_lssvf` and
+-- `G_ivsvf`, the library's models of it for $\lambda = 3$; `G_final`, the model you would recommend; and `scatter`, the standard deviations of
+-- $a_1$, $a_2$ and $b_0$ that your Monte Carlo study found for the recommended method.
+
+-- %% id=hand_in
+-- BEGIN SOLUTION
+answer("own_without_noise", own0)
+answer("own", own)
+answer("record", data)
+answer("G_lssvf", Glssvf)
+answer("G_ivsvf", Givsvf)
+answer("G_final", Gtf)
+answer("scatter", low.tfsrivc.std)
+-- END SOLUTION
+
+-- %% [markdown]
 -- # What was learnt
 --
 -- BEGIN SOLUTION

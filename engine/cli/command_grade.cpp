@@ -1,0 +1,106 @@
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <iostream>
+#include <memory>
+#include <thread>
+
+#include "cli/commands.h"
+#include "course/grading.h"
+#include "platform/atomic_file.h"
+#include "platform/error.h"
+
+namespace dynlab {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct GradeWords {
+    std::string submissions, lesson, out, checks, secret, roster, deadlines, isolation = "full";
+    std::vector<std::string> only;
+    int jobs = 0, timeout = 60;
+    bool regrade = false, no_pdf = false;
+};
+
+std::optional<fs::path> given(const std::string& path) {
+    return path.empty() ? std::nullopt : std::optional<fs::path>(path);
+}
+
+int grade(const GradeWords& words) {
+    GradingRequest request;
+    request.submissions = words.submissions;
+    request.out = words.out;
+    request.setup.lesson = find_lesson(words.lesson);
+    request.setup.more_checks = given(words.checks);
+    request.setup.isolation = words.isolation == "full" ? Isolation::kFull : Isolation::kProcess;
+    request.setup.timeout = std::chrono::seconds(words.timeout);
+    request.setup.program = fs::read_symlink("/proc/self/exe");
+    if (!words.secret.empty()) request.setup.secret = read_file(words.secret);
+    request.roster = given(words.roster);
+    request.deadlines = given(words.deadlines);
+    request.only = words.only;
+    request.jobs = words.jobs > 0 ? words.jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    request.regrade = words.regrade;
+    request.pdf = !words.no_pdf;
+    if (words.secret.empty())
+        std::cerr << "dynlab: no --secret FILE: anybody who reads the project can compute the hidden records\n";
+    const GradingOutcome outcome = grade_class(request);
+    for (const std::string& complaint : outcome.complaints) std::cerr << "dynlab: " << complaint << '\n';
+    std::cout << fmt::format("{} submissions: {} graded now, {} unchanged{}; isolation {}\n", outcome.submissions,
+                             outcome.made, outcome.kept,
+                             outcome.not_whole > 0 ? fmt::format(", {} with ungraded checks", outcome.not_whole) : "",
+                             name_of(request.setup.isolation))
+              << (request.out / "gradebook.csv").string() << '\n'
+              << (request.out / (request.pdf ? "summary.pdf" : "summary.md")).string() << '\n';
+    return outcome.not_whole == 0 && outcome.complaints.empty() ? kDone : kFailed;
+}
+
+}  // namespace
+
+void add_grade(CLI::App& app, Action& action) {
+    auto words = std::make_shared<GradeWords>();
+    CLI::App* command = app.add_subcommand("grade", "Grade the submissions of a class: marks, feedback, summary");
+    command
+        ->add_option("FOLDER", words->submissions,
+                     "Submissions: folders, packs, zips, or what Moodle or Canvas exports")
+        ->required();
+    command->add_option("--lesson", words->lesson, "The lesson whose checks hold")->type_name("NN")->required();
+    command->add_option("--out", words->out, "Folder for the results; kept and added to")->type_name("OUT")->required();
+    command->add_option("--checks", words->checks, "Folder with your own checks (*.lua), which students never see")
+        ->type_name("FOLDER");
+    command->add_option("--secret", words->secret, "File whose content the hidden records are drawn from")
+        ->type_name("FILE")
+        ->check(CLI::ExistingFile);
+    command->add_option("--roster", words->roster, "CSV with the columns id, name, group: one row of marks a student")
+        ->type_name("CSV")
+        ->check(CLI::ExistingFile);
+    command
+        ->add_option("--deadlines", words->deadlines, "CSV with the columns submission (or *), deadline, received, ...")
+        ->type_name("CSV")
+        ->check(CLI::ExistingFile);
+    command->add_option("--only", words->only, "Grade this submission only; may be repeated")->type_name("NAME");
+    command->add_flag("--regrade", words->regrade, "Grade those again that have a result; your own marks stay");
+    command->add_option("--jobs", words->jobs, "So many at once; as many as there are cores unless given")
+        ->type_name("N")
+        ->check(CLI::Range(1, 256));
+    command->add_option("--timeout", words->timeout, "Seconds for each run of a script")
+        ->type_name("S")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 3600));
+    command->add_option("--isolation", words->isolation, "full: file system, network and processes of its own")
+        ->type_name("full|process")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"full", "process"}));
+    command->add_flag("--no-pdf", words->no_pdf, "Feedback and summary as Markdown only");
+    command->footer(
+        "Every submission is run and checked alone in a box; what it breaks is its own. A run that was ended goes on\n"
+        "where it was. Your own marks go into OUT/manual.csv (submission,check,points,reason) and survive every "
+        "regrade.\n"
+        "In OUT: gradebook.csv, summary.pdf, and for each submission results/NAME/results.json (Gradescope),\n"
+        "feedback.md and feedback.pdf.\n"
+        "Example:  dynlab grade handed-in --lesson 04 --out marks --secret secret.txt --roster roster.csv\n"
+        "Exit codes: 0 all is graded, 1 something is left ungraded or failed, 2 wrong usage.");
+    command->callback([words, &action] { action = [words] { return grade(*words); }; });
+}
+
+}  // namespace dynlab

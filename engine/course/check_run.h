@@ -1,0 +1,16 @@
+#pragma once
+#include <nlohmann/json.hpp>
+
+namespace dynlab {
+
+/// Reads check files and tries them on a submission, in this process, which should be in a box and is confined here.
+/// `job`:
+///   {"files": [{"name", "source", "visible"}, ...], "hidden_folder": place, "specimens": {name: number},
+///    "time_ms": most milliseconds for each check,
+///    "submission": {"runs": {"main": ..., rerun: ...}, "findings": [...]} or null to list the checks only}
+/// Returns {"checks": [{"id", "about", "hint", "points", "visible", "rerun", "document", "share", "message"}, ...]}, or
+/// {"error": sentence} when a file cannot be read; share and message are absent when the checks are only listed, and
+/// share is null for a check that could not be tried.
+nlohmann::json try_checks(const nlohmann::json& job);
+
+}  // namespace dynlab

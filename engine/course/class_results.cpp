@@ -1,0 +1,166 @@
+#include "course/class_results.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "course/feedback.h"
+#include "data_io/text_table.h"
+#include "documents/document.h"
+#include "figures/gnuplot_renderer.h"
+#include "figures/histogram.h"
+#include "platform/atomic_file.h"
+#include "platform/program_lookup.h"
+#include "platform/temporary_folder.h"
+#include "workflow/run_script.h"
+
+namespace dynlab {
+namespace {
+
+using Entry = ClassResults::Entry;
+
+std::string state_of(const Entry& entry) {
+    if (!entry.grade) return "not graded yet";
+    return entry.grade->whole() ? "graded" : "partly ungraded";
+}
+
+/// The ids of all checks, in their order.
+std::vector<std::string> check_ids(const ClassResults& results) {
+    std::vector<std::string> ids;
+    for (const Entry& entry : results.entries) {
+        if (!entry.grade) continue;
+        for (const CheckGrade& check : entry.grade->checks) ids.push_back(check.id);
+        break;
+    }
+    return ids;
+}
+
+std::vector<std::string> row_of(const std::string& id, const std::string& name, const Entry* entry,
+                                const std::vector<std::string>& ids) {
+    std::vector<std::string> row = {id, name};
+    if (!entry) {
+        row.insert(row.end(), {"", "nothing handed in"});
+        row.resize(8 + ids.size());
+        return row;
+    }
+    row.insert(row.end(), {entry->submission.name, state_of(*entry)});
+    const Grade empty;
+    const Grade& grade = entry->grade ? *entry->grade : empty;
+    const bool whole = entry->grade && grade.whole();
+    row.push_back(whole ? points_text(grade.earned()) : "");
+    row.push_back(entry->grade ? points_text(grade.possible()) : "");
+    row.push_back(points_text(grade.penalty));
+    row.push_back(points_text(grade.late_hours));
+    for (const std::string& check_id : ids) {
+        const auto found = std::find_if(grade.checks.begin(), grade.checks.end(),
+                                        [&](const CheckGrade& check) { return check.id == check_id; });
+        row.push_back(found == grade.checks.end() || !found->graded ? "" : points_text(found->earned));
+    }
+    return row;
+}
+
+TextTable gradebook_of(const ClassResults& results, std::vector<std::string>& not_in_roster) {
+    const std::vector<std::string> ids = check_ids(results);
+    TextTable table;
+    table.names = {"id", "name", "submission", "state", "points", "possible", "penalty", "late_hours"};
+    table.names.insert(table.names.end(), ids.begin(), ids.end());
+    if (!results.roster) {
+        for (const Entry& entry : results.entries)
+            table.rows.push_back(row_of(entry.submission.lms_id, entry.submission.person, &entry, ids));
+        return table;
+    }
+    const auto& students = results.roster->students();
+    std::vector<const Entry*> work(students.size(), nullptr);
+    for (const Entry& entry : results.entries) {
+        const auto owners = results.roster->owners(entry.submission);
+        if (owners.empty()) not_in_roster.push_back(entry.submission.name);
+        for (const std::size_t owner : owners) work[owner] = &entry;
+    }
+    for (std::size_t i = 0; i < students.size(); ++i)
+        table.rows.push_back(row_of(students[i].id, students[i].name, work[i], ids));
+    return table;
+}
+
+/// How each check went: passed by how many, mean share.
+RecordedTable success_of(const ClassResults& results) {
+    RecordedTable table{{"check", "points", "passed", "mean share (%)"}, {}};
+    const std::vector<std::string> ids = check_ids(results);
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+        int graded = 0, passed = 0;
+        double shares = 0, points = 0;
+        std::string about;
+        for (const Entry& entry : results.entries) {
+            if (!entry.grade || k >= entry.grade->checks.size()) continue;
+            const CheckGrade& check = entry.grade->checks[k];
+            points = check.points;
+            about = check.about;
+            if (!check.graded) continue;
+            ++graded;
+            passed += check.earned >= check.points;
+            shares += check.earned / check.points;
+        }
+        table.rows.push_back({about, points_text(points), fmt::format("{} of {}", passed, graded),
+                              graded > 0 ? fmt::format("{:.0f}", 100 * shares / graded) : "ungraded"});
+    }
+    return table;
+}
+
+}  // namespace
+
+void write_class_results(const ClassResults& results) {
+    std::vector<std::string> not_in_roster;
+    write_file_atomically(results.out / "gradebook.csv", csv_text(gradebook_of(results, not_in_roster)));
+    RunRecord record;
+    record.script = "summary";
+    std::vector<double> points;
+    double possible = 0;
+    int not_whole = 0;
+    for (const Entry& entry : results.entries) {
+        if (!entry.grade) continue;
+        possible = std::max(possible, entry.grade->possible());
+        if (entry.grade->whole())
+            points.push_back(entry.grade->earned());
+        else
+            ++not_whole;
+    }
+    std::sort(points.begin(), points.end());
+    const auto value = [&record](const char* name, const std::string& text) { record.values[name] = {{}, text}; };
+    const Eigen::Map<const Vector> all(points.data(), static_cast<Index>(points.size()));
+    value("lesson", results.setup->lesson.slug);
+    value("isolation", name_of(results.setup->isolation));
+    value("submissions", std::to_string(results.entries.size()));
+    value("graded", std::to_string(points.size()));
+    value("not_whole", std::to_string(not_whole));
+    value("possible", points_text(possible));
+    value("mean", points.empty() ? "–" : points_text(all.mean()));
+    value("median",
+          points.empty() ? "–" : points_text(0.5 * (points[(points.size() - 1) / 2] + points[points.size() / 2])));
+    record.tables["success"] = success_of(results);
+    std::string attention;
+    for (const std::string& complaint : results.complaints) attention += "- " + escaped_markdown(complaint) + "\n";
+    for (const std::string& name : not_in_roster)
+        attention +=
+            "- " + escaped_markdown(fmt::format("the submission \"{}\" belongs to nobody in the roster", name)) + "\n";
+    for (const Entry& entry : results.entries)
+        if (entry.grade && !entry.grade->whole())
+            attention +=
+                "- " + escaped_markdown(fmt::format("\"{}\" is not graded whole", entry.submission.name)) + "\n";
+    record.texts["attention"] = {attention.empty() ? "Nothing.\n" : attention};
+    HistogramOptions options;
+    options.x_label = fmt::format("points of {}", points_text(possible));
+    options.label = "submissions";
+    RecordedFigure& figure = record.figures["points"];
+    figure.figure = histogram(points.empty() ? Vector(Vector::Zero(1)) : Vector(all), options);
+    figure.caption = "Points";
+    GnuplotRenderer renderer;
+    const TemporaryFolder drawn;
+    draw_figures(record, renderer, drawn.path(), results.pdf ? FigureFormat::kPdf : FigureFormat::kSvg);
+    DocumentSource source;
+    source.template_file = shared_folder() / "report_templates" / "class_summary.md";
+    source.record = &record;
+    DocumentMaker({}).make(source, results.out / (results.pdf ? "summary.pdf" : "summary.md"),
+                           results.pdf ? DocumentFormat::kPdf : DocumentFormat::kMarkdown, [&] { renderer.finish(); });
+}
+
+}  // namespace dynlab

@@ -1,0 +1,31 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "course/grading_rules.h"
+#include "course/roster.h"
+#include "course/submission.h"
+
+namespace dynlab {
+
+/// A class and its marks, after one run of grade.
+struct ClassResults {
+    struct Entry {
+        Submission submission;
+        std::optional<Grade> grade;  ///< nothing: not graded yet
+    };
+    std::vector<Entry> entries;
+    const Roster* roster = nullptr;
+    std::filesystem::path out;
+    const GradingSetup* setup = nullptr;
+    bool pdf = true;
+    std::vector<std::string> complaints;
+};
+
+/// Writes gradebook.csv (a row for each student of the roster, or each submission where there is none) and the summary
+/// (report_templates/class_summary.md): numbers, histogram, success of each check, what needs the instructor's eye.
+void write_class_results(const ClassResults& results);
+
+}  // namespace dynlab

@@ -1,0 +1,16 @@
+#pragma once
+#include <nlohmann/json.hpp>
+
+namespace dynlab {
+
+/// Runs a student's script for grading, in this process, which should be in a box and is confined here. `job`:
+///   {"script": place, "seed": whole number, "answers": [[name, kind], ...] as the lesson declares them,
+///    "time_ms": most milliseconds, "memory_bytes": most bytes of the script}
+/// Returns what the checks may see:
+///   {"answers": {name: value}, "figures": {name: caption}, "values": {name: {...}}, "tables": [names], "texts":
+///   [names],
+///    "printed": the end of what it printed, "error": message or absent}
+/// A script that cannot be read at all has an "error" and nothing else.
+nlohmann::json run_for_grading(const nlohmann::json& job);
+
+}  // namespace dynlab

@@ -1,0 +1,201 @@
+#include "course/grading.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "course/class_results.h"
+#include "course/deadlines.h"
+#include "course/feedback.h"
+#include "course/manual_marks.h"
+#include "course/roster.h"
+#include "course/submission.h"
+#include "platform/atomic_file.h"
+#include "platform/content_hash.h"
+#include "platform/error.h"
+#include "platform/interrupt.h"
+#include "platform/progress.h"
+
+namespace dynlab {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string hash_of_content(const Submission& submission) {
+    if (submission.archive) return hash_of_file(submission.path);
+    ContentHash hash;
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::recursive_directory_iterator(submission.path))
+        if (entry.symlink_status().type() == fs::file_type::regular) files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    for (const fs::path& file : files) {
+        const std::string name = file.lexically_relative(submission.path).string();
+        hash.add(fmt::format("{}:{}:{}:", name.size(), name, fs::file_size(file))).add_file(file);
+    }
+    return hash.hex();
+}
+
+/// The grading of one class, by several threads.
+class ClassGrading {
+  public:
+    ClassGrading(const GradingRequest& request, GradingOutcome& outcome)
+        : request_(request),
+          outcome_(outcome),
+          submissions_(submissions_in(request.submissions)),
+          rules_(request.setup),
+          manual_(prepared(request.out) / "manual.csv") {
+        if (request.deadlines) deadlines_ = Deadlines(*request.deadlines);
+        if (request.roster) roster_.emplace(*request.roster);
+        outcome_.complaints = rules_.try_solution();
+        grades_.resize(submissions_.size());
+        chosen_ = chosen();
+    }
+
+    void run() {
+        outcome_.submissions = static_cast<int>(submissions_.size());
+        ProgressBar bar("grading", chosen_.size());
+        std::vector<std::thread> threads;
+        for (int i = 0; i < std::max(1, request_.jobs); ++i) threads.emplace_back([&] { work(bar); });
+        for (std::thread& thread : threads) thread.join();
+        if (failure_) std::rethrow_exception(failure_);
+        take_the_others();
+        write_class_results(results());
+    }
+
+  private:
+    static const fs::path& prepared(const fs::path& out) {
+        fs::create_directories(out / "results");
+        return out;
+    }
+
+    std::vector<std::size_t> chosen() const {
+        std::vector<std::size_t> places;
+        for (const std::string& name : request_.only) {
+            const bool known = std::any_of(submissions_.begin(), submissions_.end(),
+                                           [&](const Submission& s) { return s.name == name; });
+            if (!known) throw EnvironmentError(fmt::format("there is no submission \"{}\"", name));
+        }
+        for (std::size_t i = 0; i < submissions_.size(); ++i) {
+            const bool wanted = request_.only.empty() || std::find(request_.only.begin(), request_.only.end(),
+                                                                   submissions_[i].name) != request_.only.end();
+            if (wanted) places.push_back(i);
+        }
+        return places;
+    }
+
+    fs::path folder_of(const Submission& submission) const { return request_.out / "results" / submission.name; }
+
+    void work(ProgressBar& bar) {
+        try {
+            for (std::size_t k = next_++; k < chosen_.size() && !stopped_; k = next_++) {
+                throw_if_interrupted();
+                one(chosen_[k]);
+                const std::lock_guard lock(mutex_);
+                bar.advance(++done_);
+            }
+        } catch (...) {
+            stopped_ = true;
+            const std::lock_guard lock(mutex_);
+            if (!failure_) failure_ = std::current_exception();
+        }
+    }
+
+    void one(std::size_t place) {
+        const Submission& submission = submissions_[place];
+        const std::string fingerprint = rules_.fingerprint(hash_of_content(submission));
+        std::optional<Grade> grade = request_.regrade ? std::nullopt : earlier(submission);
+        const bool keep = grade && grade->fingerprint == fingerprint;
+        if (!keep) {
+            grade = graded(submission);
+            grade->fingerprint = fingerprint;
+        }
+        const Deadlines::Lateness late = deadlines_.of(submission);
+        grade->late_hours = late.hours;
+        finish(submission, *std::move(grade), late.percent, place);
+        const std::lock_guard lock(mutex_);
+        ++(keep ? outcome_.kept : outcome_.made);
+    }
+
+    Grade graded(const Submission& submission) const {
+        const TemporaryFolder work;
+        try {
+            const fs::path folder =
+                stage_submission(submission, work.path(), request_.setup.isolation, request_.setup.program);
+            return rules_.grade(submission.name, folder);
+        } catch (const SubmissionError& error) {
+            return rules_.without_checks(submission.name, error.what());
+        }
+    }
+
+    std::optional<Grade> earlier(const Submission& submission) const {
+        const fs::path file = folder_of(submission) / "results.json";
+        if (!fs::exists(file)) return {};
+        try {
+            return from_results_json(read_file(file));
+        } catch (const EnvironmentError&) {
+            return {};
+        }
+    }
+
+    /// Marks, penalty and files; the file of results last, as it tells that the work is done.
+    void finish(const Submission& submission, Grade grade, double late_percent, std::size_t place) {
+        grade.penalty = 0;
+        Grade marked = manual_.applied(grade);
+        grade.penalty = marked.penalty = marked.earned() * late_percent / 100;
+        const fs::path folder = folder_of(submission);
+        fs::create_directories(folder);
+        write_feedback(marked, folder, request_.pdf, request_.setup);
+        write_file_atomically(folder / "results.json", to_results_json(grade, marked));
+        grades_[place] = std::move(marked);
+    }
+
+    /// Results of an earlier run for those that are not wanted now.
+    void take_the_others() {
+        for (std::size_t i = 0; i < submissions_.size(); ++i)
+            if (!grades_[i])
+                if (auto grade = earlier(submissions_[i])) grades_[i] = manual_.applied(*std::move(grade));
+        for (const auto& grade : grades_)
+            if (grade && !grade->whole()) ++outcome_.not_whole;
+    }
+
+    ClassResults results() const {
+        ClassResults results;
+        results.out = request_.out;
+        results.setup = &request_.setup;
+        results.pdf = request_.pdf;
+        results.roster = roster_ ? &*roster_ : nullptr;
+        for (std::size_t i = 0; i < submissions_.size(); ++i) results.entries.push_back({submissions_[i], grades_[i]});
+        results.complaints = outcome_.complaints;
+        return results;
+    }
+
+    const GradingRequest& request_;
+    GradingOutcome& outcome_;
+    std::vector<Submission> submissions_;
+    GradingRules rules_;
+    ManualMarks manual_;
+    Deadlines deadlines_;
+    std::optional<Roster> roster_;
+    std::vector<std::optional<Grade>> grades_;
+    std::vector<std::size_t> chosen_;
+    std::atomic<std::size_t> next_{0};
+    std::atomic<bool> stopped_{false};
+    std::size_t done_ = 0;
+    std::mutex mutex_;
+    std::exception_ptr failure_;
+};
+
+}  // namespace
+
+GradingOutcome grade_class(const GradingRequest& request) {
+    if (const auto obstacle = obstacle_to(request.setup.isolation)) throw EnvironmentError(*obstacle);
+    GradingOutcome outcome;
+    ClassGrading(request, outcome).run();
+    return outcome;
+}
+
+}  // namespace dynlab

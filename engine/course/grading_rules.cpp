@@ -1,0 +1,237 @@
+#include "course/grading_rules.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "data_io/dataset_index.h"
+#include "figures/gnuplot_renderer.h"
+#include "platform/atomic_file.h"
+#include "platform/content_hash.h"
+#include "platform/error.h"
+#include "platform/program_lookup.h"
+#include "scripting/runtime.h"
+#include "workflow/program_identity.h"
+
+namespace dynlab {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr char kSeedOnly[] = "seed";
+constexpr char kMain[] = "main";
+constexpr auto kCheckTime = std::chrono::milliseconds(10000);   // of one check
+constexpr auto kChecksTime = std::chrono::milliseconds(60000);  // of all
+constexpr auto kDocumentTime = std::chrono::seconds(120);
+constexpr auto kMargin = std::chrono::milliseconds(300);  // the script's own limit comes first: its answers are kept
+constexpr std::uint64_t kScriptMemory = 1ull << 30;
+const std::vector<std::string> kSimulated = {"crane",         "heat_exchanger", "heat_transfer", "linear_system",
+                                             "step_response", "suspension",     "thruster"};
+
+bool is_simulated(const std::string& data_set) {
+    return std::find(kSimulated.begin(), kSimulated.end(), data_set) != kSimulated.end();
+}
+
+}  // namespace
+
+GradingRules::GradingRules(GradingSetup setup) : setup_(std::move(setup)) {
+    const PercentScript lesson = read_percent_script(setup_.lesson.script());
+    seed_ = lesson.header.seed;
+    for (const ExpectedAnswer& answer : lesson.header.answers) answers_.push_back({answer.name, answer.kind});
+    read_checks();
+    make_records();
+}
+
+void GradingRules::read_checks() {
+    const fs::path own = setup_.lesson.folder / "checks.lua";
+    if (!fs::is_regular_file(own))
+        throw EnvironmentError(fmt::format("lesson {} has no checks.lua", setup_.lesson.slug));
+    files_.push_back({{"name", "checks.lua"}, {"source", read_file(own)}, {"visible", true}});
+    if (setup_.more_checks) {
+        std::vector<fs::path> more;
+        if (!fs::is_directory(*setup_.more_checks))
+            throw EnvironmentError(fmt::format("there is no folder '{}'", setup_.more_checks->string()));
+        for (const auto& entry : fs::directory_iterator(*setup_.more_checks))
+            if (entry.path().extension() == ".lua") more.push_back(entry.path());
+        std::sort(more.begin(), more.end());
+        for (const fs::path& file : more)
+            files_.push_back({{"name", file.filename().string()}, {"source", read_file(file)}, {"visible", false}});
+    }
+    const BoxedResult listed = checked(nullptr);
+    if (!listed.output) throw EnvironmentError("the checks cannot be read: " + listed.reason);
+    if (listed.output->contains("error")) throw EnvironmentError(listed.output->at("error").get<std::string>());
+    checks_ = listed.output->at("checks");
+    if (checks_.empty()) throw EnvironmentError(fmt::format("lesson {} declares no check", setup_.lesson.slug));
+    for (const json& check : checks_) {
+        const std::string rerun = check.at("rerun");
+        document_ = document_ || check.at("document").get<bool>();
+        if (rerun.empty()) continue;
+        if (rerun != kSeedOnly && !is_simulated(rerun))
+            throw EnvironmentError(
+                fmt::format("the check \"{}\" wants a rerun on \"{}\", but records are made of {}, or "
+                            "the seed changed with \"seed\"",
+                            check.at("id").get<std::string>(), rerun, fmt::join(kSimulated, ", ")));
+        reruns_.insert(rerun);
+    }
+}
+
+std::uint32_t GradingRules::drawn(const std::string& what) const {
+    const std::string hash = hash_of(setup_.secret + "\n" + setup_.lesson.slug + "\n" + what);
+    return static_cast<std::uint32_t>(std::stoul(hash.substr(0, 8), nullptr, 16)) | 1u;
+}
+
+void GradingRules::make_records() {
+    std::string sources;
+    for (const json& file : files_) sources += file.at("source").get<std::string>();
+    fs::create_directories(records_.path() / "hidden");
+    for (const std::string& name : kSimulated)
+        if (sources.find('"' + name + '"') != std::string::npos) make_record(name, name, records_.path() / "hidden");
+    const auto own = fs::copy_options::recursive;
+    for (const std::string& rerun : reruns_) {
+        if (rerun == kSeedOnly) continue;
+        const fs::path data = records_.path() / rerun / "data";
+        fs::create_directories(data.parent_path());
+        fs::copy(shared_folder() / "data", data, own);
+        for (const auto& entry : fs::directory_iterator(data / rerun))
+            if (entry.path().extension() == ".csv" || entry.path().extension() == ".mat") fs::remove(entry.path());
+        make_record(rerun, "rerun:" + rerun, data / rerun);
+    }
+}
+
+void GradingRules::make_record(const std::string& data_set, const std::string& key, const fs::path& folder) {
+    specimens_[key] = drawn(key);
+    GnuplotRenderer renderer;
+    RunOptions options;
+    options.out_folder = folder;
+    Runtime runtime(options, renderer);
+    const RunRecord record = runtime.run_code(
+        fmt::format("save_mat(\"{0}.mat\", rig(\"{0}\", {{seed = {1}, specimen = {2}}}), {{digits = 7}})", data_set,
+                    drawn("noise:" + key), specimens_[key]),
+        "hidden record");
+    if (record.error) throw EnvironmentError("a hidden record cannot be made: " + record.error->message);
+}
+
+void GradingRules::set_home(Box& box, const std::string& rerun) const {
+    const bool own = rerun != kMain && rerun != kSeedOnly;
+    const fs::path data = own ? records_.path() / rerun / "data" : shared_folder() / "data";
+    box.set_environment("DYNLAB_HOME", box.add(data, "/box/home/data").parent_path().string());
+}
+
+json GradingRules::run(const fs::path& folder, const std::string& rerun, double& seconds) const {
+    Box box(setup_.isolation);
+    set_home(box, rerun);
+    const fs::path inside = box.add(folder, "/box/submission");
+    const json job = {{"work", "run"},
+                      {"script", (inside / "analysis.lua").string()},
+                      {"seed", rerun == kSeedOnly ? drawn("seed") : seed_},
+                      {"answers", answers_},
+                      {"memory_bytes", kScriptMemory},
+                      {"time_ms", (setup_.timeout - std::min(kMargin, setup_.timeout / 2)).count()}};
+    const BoxedResult result = run_boxed(box, setup_.program, job, setup_.timeout);
+    seconds += result.seconds;
+    if (result.output && result.output->is_object()) return *result.output;
+    return {{"error", fmt::format("The script was ended: {}.", result.reason)}};
+}
+
+json GradingRules::findings(const fs::path& folder) const {
+    Box box(setup_.isolation);
+    box.add_document_programs();
+    const fs::path home = box.add(shared_folder() / "data", "/box/home/data").parent_path();
+    box.add(shared_folder() / "report_templates", "/box/home/report_templates");
+    box.set_environment("DYNLAB_HOME", home.string());
+    const fs::path inside = box.add(folder, "/box/submission"), program = box.add(setup_.program, "/box/dynlab");
+    Box::Limits limits;
+    limits.timeout = kDocumentTime;
+    const ChildResult child = box.run({program.string(), "check", "--json", inside.string()}, {}, "", limits);
+    const json found = json::parse(child.output, nullptr, false);
+    if (!found.is_discarded() && found.contains("findings")) return found.at("findings");
+    return json::array({{{"id", "document-fails"},
+                         {"severity", "rule"},
+                         {"what", child.timed_out ? "The report takes too long." : "The report cannot be made."}}});
+}
+
+BoxedResult GradingRules::checked(json submission) const {
+    Box box(setup_.isolation);
+    set_home(box, kMain);
+    const bool tries = !submission.is_null();
+    const json job = {{"work", "checks"},
+                      {"files", files_},
+                      {"hidden_folder", tries ? box.add(records_.path() / "hidden", "/box/hidden").string() : ""},
+                      {"specimens", specimens_},
+                      {"time_ms", kCheckTime.count()},
+                      {"submission", std::move(submission)}};
+    return run_boxed(box, setup_.program, job, kChecksTime);
+}
+
+Grade GradingRules::without_checks(const std::string& name, const std::string& trouble) const {
+    Grade grade;
+    grade.submission = name;
+    grade.lesson = setup_.lesson.slug;
+    grade.isolation = name_of(setup_.isolation);
+    grade.trouble = trouble;
+    for (const json& check : checks_) {
+        CheckGrade one;
+        one.id = check.at("id");
+        one.about = check.at("about");
+        one.hint = check.at("hint");
+        one.points = check.at("points");
+        one.visible = check.at("visible");
+        one.graded = !broken_.contains(one.id);
+        grade.checks.push_back(std::move(one));
+    }
+    return grade;
+}
+
+Grade GradingRules::grade(const std::string& name, const fs::path& folder) const {
+    Grade grade = without_checks(name, "");
+    json runs = {{kMain, run(folder, kMain, grade.seconds)}};
+    for (const std::string& rerun : reruns_) runs[rerun] = run(folder, rerun, grade.seconds);
+    const json& main = runs.at(kMain);
+    if (main.contains("error")) grade.trouble = main.at("error");
+    if (main.contains("printed")) grade.printed = main.at("printed");
+    const BoxedResult result = checked({{"runs", runs}, {"findings", document_ ? findings(folder) : json::array()}});
+    grade.seconds += result.seconds;
+    const bool usable =
+        result.output && result.output->contains("checks") && result.output->at("checks").size() == grade.checks.size();
+    for (std::size_t k = 0; k < grade.checks.size(); ++k) {
+        CheckGrade& check = grade.checks[k];
+        if (!usable) {
+            check.graded = false;
+            check.message = fmt::format("The check could not be run: {}.", result.reason);
+            continue;
+        }
+        const json& verdict = result.output->at("checks").at(k);
+        if (verdict.at("share").is_number()) check.earned = check.points * verdict.at("share").get<double>();
+        check.message = verdict.at("message");
+    }
+    return grade;
+}
+
+std::vector<std::string> GradingRules::try_solution() {
+    const TemporaryFolder work;
+    fs::copy_file(setup_.lesson.script(), work.path() / "analysis.lua");
+    if (const fs::path report = setup_.lesson.report("en"); fs::exists(report))
+        fs::copy_file(report, work.path() / "report.md");
+    std::vector<std::string> complaints;
+    for (const CheckGrade& check : grade("solution", work.path()).checks) {
+        if (check.graded && check.earned == check.points) continue;
+        broken_.insert(check.id);
+        complaints.push_back(
+            fmt::format("the worked solution does not pass the check \"{}\", which is left ungraded: {}", check.id,
+                        check.message.empty() ? "it returned false" : check.message));
+    }
+    return complaints;
+}
+
+std::string GradingRules::fingerprint(const std::string& content_hash) const {
+    ContentHash hash;
+    for (const std::string& part :
+         {content_hash, program_identity(), setup_.lesson.slug, hash_of_file(setup_.lesson.script()), setup_.secret,
+          files_.dump(), std::to_string(setup_.timeout.count()), name_of(setup_.isolation),
+          fmt::format("{}", fmt::join(broken_, " "))})
+        hash.add(std::to_string(part.size()) + ":").add(part);
+    return hash.hex();
+}
+
+}  // namespace dynlab

@@ -1,0 +1,66 @@
+#pragma once
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "course/boxed_work.h"
+#include "course/grade.h"
+#include "platform/temporary_folder.h"
+#include "workflow/lesson_catalogue.h"
+
+namespace dynlab {
+
+struct GradingSetup {
+    Lesson lesson;
+    std::optional<std::filesystem::path> more_checks;  ///< the instructor's own folder of *.lua
+    std::string secret;                                ///< of the course: what the hidden records are drawn from
+    Isolation isolation = Isolation::kFull;
+    std::chrono::milliseconds timeout{60000};  ///< of each run of a student's script
+    std::filesystem::path program;             ///< dynlab
+};
+
+/// What all submissions of a lesson are held against: the checks, the hidden records, and the check of the checks
+/// themselves, which are tried on the lesson's worked solution first.
+class GradingRules {
+  public:
+    /// Makes the records. Throws EnvironmentError for a lesson without checks.lua, check files that cannot be read, a
+    /// rerun of a data set that no simulator makes.
+    explicit GradingRules(GradingSetup setup);
+
+    /// Runs and checks the submission whose script stands in `folder`; `trouble` when it could not be staged.
+    Grade grade(const std::string& name, const std::filesystem::path& folder) const;
+    Grade without_checks(const std::string& name, const std::string& trouble) const;  ///< no points at all
+
+    /// Tries the worked solution. Checks that it does not pass are broken: from now on they are left ungraded. Returns
+    /// a sentence for each.
+    std::vector<std::string> try_solution();
+
+    std::string fingerprint(const std::string& content_hash) const;
+    const GradingSetup& setup() const { return setup_; }
+    const nlohmann::json& checks() const { return checks_; }
+
+  private:
+    void read_checks();
+    void make_records();
+    void make_record(const std::string& data_set, const std::string& key, const std::filesystem::path& folder);
+    nlohmann::json run(const std::filesystem::path& folder, const std::string& rerun, double& seconds) const;
+    nlohmann::json findings(const std::filesystem::path& folder) const;
+    BoxedResult checked(nlohmann::json submission) const;
+    void set_home(Box& box, const std::string& rerun) const;
+    std::uint32_t drawn(const std::string& what) const;
+
+    GradingSetup setup_;
+    nlohmann::json files_ = nlohmann::json::array(), answers_ = nlohmann::json::array(), checks_;
+    std::uint32_t seed_ = 1;
+    std::map<std::string, std::uint32_t> specimens_;
+    std::set<std::string> reruns_, broken_;
+    bool document_ = false;
+    TemporaryFolder records_;
+};
+
+}  // namespace dynlab

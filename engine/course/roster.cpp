@@ -1,0 +1,65 @@
+#include "course/roster.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "data_io/text_table.h"
+#include "platform/error.h"
+
+namespace dynlab {
+namespace {
+
+/// Letters and digits in lower case: Canvas joins names, Moodle does not.
+std::string bare(const std::string& text) {
+    std::string result;
+    for (const unsigned char c : text)
+        if (std::isalnum(c) || c > 127) result += static_cast<char>(std::tolower(c));
+    return result;
+}
+
+/// "Ada Lovelace" as "lovelaceada", as Canvas writes it.
+std::string last_name_first(const std::string& name) {
+    const auto blank = name.rfind(' ');
+    return blank == std::string::npos ? bare(name) : bare(name.substr(blank + 1) + name.substr(0, blank));
+}
+
+}  // namespace
+
+Roster::Roster(const std::filesystem::path& file) {
+    const TextTable table = read_text_table(file);
+    const auto id = table.column("id"), name = table.column("name"), group = table.column("group");
+    if (!id)
+        throw EnvironmentError(
+            fmt::format("{}: the column id is missing; there are {}", file.string(), fmt::join(table.names, ", ")));
+    std::set<std::string> seen;
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+        const auto& row = table.rows[i];
+        const auto fail = [&](const std::string& what) {
+            throw EnvironmentError(fmt::format("{}, line {}: {}", file.string(), table.lines[i], what));
+        };
+        if (row[*id].empty()) fail("the id is empty");
+        if (!seen.insert(row[*id]).second) fail(fmt::format("the id \"{}\" stands there twice", row[*id]));
+        students_.push_back({row[*id], name ? row[*name] : "", group ? row[*group] : ""});
+    }
+}
+
+std::vector<std::size_t> Roster::owners(const Submission& submission) const {
+    const auto those = [&](const auto& fits) {
+        std::vector<std::size_t> found;
+        for (std::size_t i = 0; i < students_.size(); ++i)
+            if (fits(students_[i])) found.push_back(i);
+        return found;
+    };
+    const std::string own = submission.person.empty() ? submission.name : submission.person;
+    std::vector<std::size_t> found = those([&](const Student& s) { return !s.group.empty() && s.group == own; });
+    if (found.empty()) found = those([&](const Student& s) { return s.id == own || s.id == submission.lms_id; });
+    if (found.empty() && !bare(own).empty())
+        found =
+            those([&](const Student& s) { return bare(s.name) == bare(own) || last_name_first(s.name) == bare(own); });
+    // Two students of the same name cannot be told apart.
+    return found.size() > 1 && students_[found.front()].group.empty() ? std::vector<std::size_t>{} : found;
+}
+
+}  // namespace dynlab

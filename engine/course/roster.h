@@ -1,0 +1,30 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "course/submission.h"
+
+namespace dynlab {
+
+struct Student {
+    std::string id, name, group;
+};
+
+/// The students of a course. The file has a column `id`, and optionally `name` and `group`.
+class Roster {
+  public:
+    /// Throws EnvironmentError with file and line: no column id, an id that is empty or stands there twice.
+    explicit Roster(const std::filesystem::path& file);
+
+    const std::vector<Student>& students() const { return students_; }
+    /// Whose work it is, by the submission's own name (a group's, a student's id or name) or what an LMS wrote into it;
+    /// never by what stands in the submission. Places in students(); empty when nobody fits.
+    std::vector<std::size_t> owners(const Submission& submission) const;
+
+  private:
+    std::vector<Student> students_;
+};
+
+}  // namespace dynlab

@@ -1,0 +1,43 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "platform/box.h"
+
+namespace dynlab {
+
+/// One entry of the folder that is graded.
+struct Submission {
+    std::string name;            ///< the entry's name, without an archive's ending: how marks find it again
+    std::filesystem::path path;  ///< a folder, or an archive
+    bool archive = false;
+    std::string person;  ///< from the name an LMS gave: Moodle's full name, Canvas's joined name; else empty
+    std::string lms_id;  ///< the number in that name
+    bool late = false;   ///< Canvas wrote LATE into it
+};
+
+/// What stands in `folder`: folders and archives (.zip, .tar, .tar.gz, .tgz, .tar.xz), sorted by name. Links, hidden
+/// entries and other files are left out. Moodle's "Name_ID_assignsubmission_file_..." and Canvas's
+/// "nameLATE_ID_ID_file.zip" are recognised. Throws EnvironmentError where there is none.
+std::vector<Submission> submissions_in(const std::filesystem::path& folder);
+
+/// What a submission may take when it is copied or unpacked.
+struct SubmissionLimits {
+    std::uint64_t bytes = 200ull << 20;
+    int files = 2000;
+};
+
+/// Brings a submission's files into `to`, an empty folder, and returns where analysis.lua stands: `to` itself, or the
+/// only folder below that has one. Archives are unpacked in a box by `program`, one archive inside a folder as well.
+/// Throws SubmissionError with a sentence for the student.
+std::filesystem::path stage_submission(const Submission& submission, const std::filesystem::path& to, Isolation level,
+                                       const std::filesystem::path& program, const SubmissionLimits& limits = {});
+
+/// A submission that cannot be graded as it is, through its sender's doing.
+class SubmissionError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+}  // namespace dynlab

@@ -1,0 +1,162 @@
+#include "data_io/text_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "platform/atomic_file.h"
+#include "platform/error.h"
+
+namespace dynlab {
+namespace {
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+constexpr std::string_view kBlanks = " \t\r";
+
+std::string trimmed_cell(std::string_view text) {
+    const auto begin = text.find_first_not_of(kBlanks);
+    if (begin == std::string_view::npos) return {};
+    return std::string(text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1));
+}
+
+/// The separator that the first line has most of.
+char separator_of(std::string_view text) {
+    const std::string_view header = text.substr(0, text.find('\n'));
+    char best = ',';
+    for (const char c : {';', '\t'})
+        if (std::count(header.begin(), header.end(), c) > std::count(header.begin(), header.end(), best)) best = c;
+    return best;
+}
+
+class Reader {
+  public:
+    Reader(const std::filesystem::path& file, std::string_view text) : file_(file), text_(text) {
+        if (text_.starts_with(kByteOrderMark)) text_.remove_prefix(kByteOrderMark.size());
+        separator_ = separator_of(text_);
+    }
+
+    TextTable read() {
+        TextTable table;
+        std::vector<std::string> row;
+        for (int line = line_; read_row(row); line = line_) {
+            if (row.size() == 1 && row.front().empty()) continue;
+            if (table.names.empty()) {
+                take_header(table, row, line);
+                continue;
+            }
+            if (row.size() > table.names.size())
+                fail(line, fmt::format("{} cells, but the header has {} columns", row.size(), table.names.size()));
+            row.resize(table.names.size());
+            table.rows.push_back(row);
+            table.lines.push_back(line);
+        }
+        if (table.names.empty()) fail(1, "the file is empty; its first line must name the columns");
+        return table;
+    }
+
+  private:
+    [[noreturn]] void fail(int line, const std::string& what) const {
+        throw EnvironmentError(fmt::format("{}, line {}: {}", file_.string(), line, what));
+    }
+
+    void take_header(TextTable& table, const std::vector<std::string>& row, int line) const {
+        for (std::string name : row) {
+            std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+            if (table.column(name)) fail(line, fmt::format("there are two columns \"{}\"", name));
+            table.names.push_back(std::move(name));
+        }
+    }
+
+    bool read_row(std::vector<std::string>& row) {
+        row.clear();
+        if (at_ >= text_.size()) return false;
+        for (bool more = true; more;) row.push_back(read_cell(more));
+        return true;
+    }
+
+    /// One cell with what ends it; `more` tells whether another follows on the line.
+    std::string read_cell(bool& more) {
+        std::string cell;
+        const int line = line_;
+        const std::size_t begin = text_.find_first_not_of(" ", at_);
+        const bool quoted = begin != std::string_view::npos && text_[begin] == '"';
+        if (quoted) {
+            at_ = begin + 1;
+            while (true) {
+                if (at_ >= text_.size()) fail(line, "a quotation mark is not closed");
+                const char c = text_[at_++];
+                if (c == '\n') ++line_;
+                if (c != '"') {
+                    cell += c;
+                } else if (at_ < text_.size() && text_[at_] == '"') {
+                    cell += text_[at_++];
+                } else {
+                    break;
+                }
+            }
+        }
+        const std::size_t end = std::min(text_.find_first_of(std::string{separator_, '\n'}, at_), text_.size());
+        cell += text_.substr(at_, end - at_);
+        more = end < text_.size() && text_[end] == separator_;
+        if (end < text_.size() && text_[end] == '\n') ++line_;
+        at_ = end + 1;
+        return trimmed_cell(cell);
+    }
+
+    const std::filesystem::path& file_;
+    std::string_view text_;
+    char separator_;
+    std::size_t at_ = 0;
+    int line_ = 1;
+};
+
+bool is_number(const std::string& cell) {
+    double number = 0;
+    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
+    return error == std::errc() && end == cell.data() + cell.size();
+}
+
+void append_cell(std::string& text, std::string cell) {
+    constexpr std::string_view kFormula = "=+-@\t\r";
+    if (!cell.empty() && kFormula.find(cell[0]) != std::string_view::npos && !is_number(cell)) cell.insert(0, "'");
+    if (cell.find_first_of(",;\"\r\n\t") == std::string::npos) {
+        text += cell;
+        return;
+    }
+    text += '"';
+    for (const char c : cell) text += c == '"' ? std::string("\"\"") : std::string(1, c);
+    text += '"';
+}
+
+void append_row(std::string& text, const std::vector<std::string>& row) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+        if (i > 0) text += ',';
+        append_cell(text, row[i]);
+    }
+    text += "\r\n";
+}
+
+}  // namespace
+
+std::optional<std::size_t> TextTable::column(std::string_view name) const {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) return {};
+    return static_cast<std::size_t>(found - names.begin());
+}
+
+TextTable read_text_table(const std::filesystem::path& file) {
+    const std::string text = read_file(file);
+    if (text.find('\0') != std::string::npos)
+        throw EnvironmentError(fmt::format("{}: this is not UTF-8 text; save it as CSV in UTF-8", file.string()));
+    return Reader(file, text).read();
+}
+
+std::string csv_text(const TextTable& table) {
+    std::string text;
+    append_row(text, table.names);
+    for (const auto& row : table.rows) append_row(text, row);
+    return text;
+}
+
+}  // namespace dynlab

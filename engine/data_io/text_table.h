@@ -1,0 +1,28 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dynlab {
+
+/// A table of texts: rosters, deadlines, mark lists. Nothing is taken for a number, so that "007" stays what it is.
+struct TextTable {
+    std::vector<std::string> names;              ///< of the columns, lower case, as the first line has them
+    std::vector<std::vector<std::string>> rows;  ///< as long as `names` each
+    std::vector<int> lines;                      ///< of the file, on which each row begins
+
+    std::optional<std::size_t> column(std::string_view name) const;
+};
+
+/// Reads comma, semicolon or tab separated text (RFC 4180 quoting, UTF-8 with or without byte order mark, CR LF).
+/// Blanks around cells are taken off; short rows are filled with empty cells. Throws EnvironmentError with file and
+/// line: no header, a column name twice, a row that is too long, quotes that do not close, no UTF-8.
+TextTable read_text_table(const std::filesystem::path& file);
+
+/// RFC 4180 text with commas and CR LF. A cell that a spreadsheet would take for a formula (= + - @, tab or CR first)
+/// gets an apostrophe in front, plain numbers excepted.
+std::string csv_text(const TextTable& table);
+
+}  // namespace dynlab

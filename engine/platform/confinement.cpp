@@ -1,0 +1,109 @@
+#include "platform/confinement.h"
+
+#include <sched.h>
+#include <seccomp.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <memory>
+
+#include "platform/error.h"
+#include "platform/system_call.h"
+
+namespace dynlab {
+namespace {
+
+bool confined = false;
+
+void limit(int resource, rlim_t most) {
+    const rlimit both{most, most};
+    if (::setrlimit(static_cast<__rlimit_resource>(resource), &both) != 0)
+        throw EnvironmentError("cannot limit what a script may take: " + system_reason(errno));
+}
+
+void check(int result) {
+    if (result < 0) throw EnvironmentError("cannot filter the system calls of a script: " + system_reason(-result));
+}
+
+void refuse(scmp_filter_ctx filter, std::initializer_list<int> calls) {
+    for (const int call : calls) check(::seccomp_rule_add(filter, SCMP_ACT_ERRNO(EPERM), call, 0));
+}
+
+void filter_system_calls() {
+    const std::unique_ptr<void, void (*)(scmp_filter_ctx)> filter(::seccomp_init(SCMP_ACT_ALLOW), ::seccomp_release);
+    if (!filter) throw EnvironmentError("cannot filter the system calls of a script");
+    refuse(filter.get(), {SCMP_SYS(execve), SCMP_SYS(execveat), SCMP_SYS(fork), SCMP_SYS(vfork)});
+    // clone makes threads or processes; clone3 hides which in memory, and the C library then falls back on clone.
+    check(::seccomp_rule_add(filter.get(), SCMP_ACT_ERRNO(EPERM), SCMP_SYS(clone), 1,
+                             SCMP_A0(SCMP_CMP_MASKED_EQ, CLONE_THREAD, 0)));
+    check(::seccomp_rule_add(filter.get(), SCMP_ACT_ERRNO(ENOSYS), SCMP_SYS(clone3), 0));
+    refuse(filter.get(), {SCMP_SYS(socket), SCMP_SYS(socketpair), SCMP_SYS(connect), SCMP_SYS(bind), SCMP_SYS(listen),
+                          SCMP_SYS(accept), SCMP_SYS(accept4), SCMP_SYS(sendto), SCMP_SYS(sendmsg)});
+    refuse(filter.get(),
+           {SCMP_SYS(kill), SCMP_SYS(tkill), SCMP_SYS(pidfd_send_signal), SCMP_SYS(pidfd_open),
+            SCMP_SYS(rt_sigqueueinfo), SCMP_SYS(rt_tgsigqueueinfo), SCMP_SYS(ptrace), SCMP_SYS(process_vm_readv),
+            SCMP_SYS(process_vm_writev), SCMP_SYS(setpriority), SCMP_SYS(setrlimit)});
+    // Reading limits is harmless, and the C library does.
+    check(::seccomp_rule_add(filter.get(), SCMP_ACT_ERRNO(EPERM), SCMP_SYS(prlimit64), 1,
+                             SCMP_A2(SCMP_CMP_NE, static_cast<scmp_datum_t>(0))));
+    // abort() signals the own process.
+    check(::seccomp_rule_add(filter.get(), SCMP_ACT_ERRNO(EPERM), SCMP_SYS(tgkill), 1,
+                             SCMP_A0(SCMP_CMP_NE, static_cast<scmp_datum_t>(::getpid()))));
+    refuse(filter.get(), {SCMP_SYS(mount),
+                          SCMP_SYS(umount2),
+                          SCMP_SYS(pivot_root),
+                          SCMP_SYS(chroot),
+                          SCMP_SYS(unshare),
+                          SCMP_SYS(setns),
+                          SCMP_SYS(open_by_handle_at),
+                          SCMP_SYS(bpf),
+                          SCMP_SYS(perf_event_open),
+                          SCMP_SYS(userfaultfd),
+                          SCMP_SYS(io_uring_setup),
+                          SCMP_SYS(keyctl),
+                          SCMP_SYS(add_key),
+                          SCMP_SYS(request_key),
+                          SCMP_SYS(kexec_load),
+                          SCMP_SYS(init_module),
+                          SCMP_SYS(finit_module),
+                          SCMP_SYS(delete_module),
+                          SCMP_SYS(reboot),
+                          SCMP_SYS(swapon),
+                          SCMP_SYS(swapoff),
+                          SCMP_SYS(sethostname),
+                          SCMP_SYS(settimeofday),
+                          SCMP_SYS(clock_settime),
+                          SCMP_SYS(setuid),
+                          SCMP_SYS(setgid),
+                          SCMP_SYS(setreuid),
+                          SCMP_SYS(setresuid),
+                          SCMP_SYS(symlink),
+                          SCMP_SYS(symlinkat),
+                          SCMP_SYS(link),
+                          SCMP_SYS(linkat),
+                          SCMP_SYS(mknod),
+                          SCMP_SYS(mknodat)});
+    check(::seccomp_load(filter.get()));
+}
+
+}  // namespace
+
+void confine_process(const ProcessLimits& limits) {
+    limit(RLIMIT_CORE, 0);
+    limit(RLIMIT_CPU, static_cast<rlim_t>(limits.cpu_seconds));
+    limit(RLIMIT_FSIZE, limits.file_bytes);
+    limit(RLIMIT_NOFILE, static_cast<rlim_t>(limits.open_files));
+    limit(RLIMIT_AS, limits.memory_bytes);
+    if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0)
+        throw EnvironmentError("cannot give up privileges: " + system_reason(errno));
+    filter_system_calls();
+    confined = true;
+}
+
+bool is_confined() {
+    return confined;
+}
+
+}  // namespace dynlab

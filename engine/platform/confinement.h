@@ -1,0 +1,23 @@
+#pragma once
+#include <cstdint>
+
+namespace dynlab {
+
+/// What a process may still take once it is confined.
+struct ProcessLimits {
+    std::uint64_t memory_bytes = 3ull << 30;  ///< address space
+    std::uint64_t file_bytes = 64ull << 20;   ///< of the largest file it writes
+    int cpu_seconds = 60;
+    int open_files = 128;
+};
+
+/// Gives up, for good, what untrusted scripts, archives and answers could abuse: starting processes (threads remain),
+/// the network, signals to others, tracing, mounting, kernel interfaces; and sets the limits. Uses seccomp and
+/// setrlimit; seccomp answers EPERM. Call it when all programs that are needed are running. Throws EnvironmentError
+/// where the kernel refuses.
+void confine_process(const ProcessLimits& limits);
+
+/// Whether this process gave up starting others.
+bool is_confined();
+
+}  // namespace dynlab

@@ -1,0 +1,93 @@
+-- The checks of lesson 4. `a` holds the answers, `b` those of a run with other noise.
+
+local truth = vector{4, 3, 2}  -- a1, a2, b0 of the lesson's system
+local input = prbs(4, 100)
+local clean = iddata(lsim(tf({2}, {1, 4, 3}), input, 0.01), input, 0.01)
+
+-- The Cramér-Rao bound for this experiment; an efficient method's scatter over 200 runs lies within a fifth of it.
+local bound = montecarlo{system = tf({2}, {1, 4, 3}), input = input, Ts = 0.01, sigma = 0.2, runs = 2, seed = 1,
+                         estimators = {tfsrivc = {2, 0, {TdMax = 0}}}}.tfsrivc.cramer_rao_std
+
+-- What LSSVF finds when every signal is taken as held between its samples.
+local function all_held(data) return lssvf(data, {2, 1, 0}, 3, {hold_y = "zoh"}).param end
+
+check { id = "own_without_noise", points = 2, about = "Your own LSSVF, record without noise",
+    test = function(a) return near(a.own_without_noise, lssvf(clean, {2, 1, 0}, 3).param, {rel = 1e-6, half = 1e-2}) end,
+    mistakes = {
+        {when = function(a) return near(a.own_without_noise, all_held(clean), {rel = 1e-6}) end,
+         say = "You let the filter hold the output between the samples; a measured output runs in straight lines (hold = \"foh\")."},
+        {when = function(a) return near(a.own_without_noise, truth*vector{-1, -1, 1}, {rel = 1e-2}) end,
+         say = "The signs of a1 and a2 are turned round: the regressors of the output have a minus."},
+        {when = function(a) return near(a.own_without_noise, vector{2, 3, 4}, {rel = 1e-2}) end,
+         say = "The order is a1, a2, b0."},
+    },
+    hint = "The columns of Phi are -p y_f, -y_f and u_f; svf gives the highest derivative first." }
+
+check { id = "own_is_lssvf", points = 2, about = "Your own LSSVF agrees with the library's",
+    test = function(a) return near(a.own, lssvf(a.record, {2, 1, 0}, 3).param, {rel = 1e-6, half = 1e-2}) end,
+    hint = "Both solve the same regression: apply them to the same record, with the same lambda." }
+
+check { id = "record", points = 1, about = "The noisy record is the one asked for",
+    test = function(a)
+        if #a.record.y ~= #clean.y or max(abs(a.record.u - clean.u)) > 0 then
+            return false, "The input must be prbs(4, 100), 1500 samples."
+        end
+        if math.abs(a.record.Ts - 0.01) > 1e-12 then return false, "The sampling time must be 0.01 s." end
+        local noise = std(a.record.y - clean.y)
+        return near(noise, 0.2, {rel = 0.1}), noise < 1e-9 and "This is the record without noise." or nil
+    end,
+    hint = "y = x + sigma*randn(N) with sigma = 0.2." }
+
+check { id = "lssvf", points = 1, about = "LSSVF of the library",
+    test = function(a) return near(a.G_lssvf.param, lssvf(a.record, {2, 1, 0}, 3).param, {rel = 1e-6}) end,
+    mistakes = {
+        {when = function(a) return near(a.G_lssvf.param, ivsvf(a.record, {2, 1, 0}, 3).param, {rel = 1e-6}) end,
+         say = "This is what ivsvf gives."},
+        {when = function(a) return near(a.G_lssvf.param, lssvf(a.record, {2, 1, 0}, 30).param, {rel = 1e-6}) or
+                                   near(a.G_lssvf.param, lssvf(a.record, {2, 1, 0}, 0.3).param, {rel = 1e-6}) end,
+         say = "The model was made with another lambda than 3."},
+    },
+    hint = "lssvf(data, {2, 1, 0}, 3)" }
+
+check { id = "ivsvf", points = 2, about = "IVSVF",
+    test = function(a) return near(a.G_ivsvf.param, ivsvf(a.record, {2, 1, 0}, 3).param, {rel = 1e-6}) end,
+    mistakes = {
+        {when = function(a) return near(a.G_ivsvf.param, lssvf(a.record, {2, 1, 0}, 3).param, {rel = 1e-6}) end,
+         say = "This is the least-squares model: the instruments are missing."},
+    },
+    hint = "ivsvf(data, {2, 1, 0}, 3)" }
+
+check { id = "final_model", points = 3, about = "The recommended model is right",
+    test = function(a)
+        local G = a.G_final
+        return all_of(near(dcgain(G), 2/3, {rel = 0.05, half = 0.15}),
+                      near(fit(clean, G), 100, {abs = 4, half = 10}))
+    end,
+    mistakes = {
+        {when = function(a) return dcgain(a.G_final) < 0 end, say = "The gain has the wrong sign."},
+        {when = function(a) return near(a.G_final.param, a.G_lssvf.param, {rel = 1e-9}) end,
+         say = "The LSSVF model is biased by the noise; it cannot be the final one."},
+        {when = function(a) return a.G_final.Ts > 0 end,
+         say = "A continuous-time model is wanted, but this one is in discrete time."},
+    },
+    hint = "Which of the methods is unbiased and does not depend on a filter you have to choose?" }
+
+check { id = "final_is_estimated", points = 1, about = "The recommended model carries its uncertainty",
+    test = function(a)
+        local G = a.G_final
+        if not G.std then return false, "The model has no standard errors: it was not estimated." end
+        return near(G.param, truth, {abs = 4*max(G.std)})
+    end,
+    hint = "Hand in the model that the method returned, not one you typed in." }
+
+check { id = "scatter", points = 2, about = "Monte Carlo: the scatter of the recommended method",
+    test = function(a) return near(a.scatter/bound, ones(3), {abs = 0.3, half = 0.5}) end,
+    hint = "montecarlo{...} gives the standard deviations of a1, a2 and b0 over its runs." }
+
+check { id = "follows_data", points = 3, rerun = "seed", about = "The results follow the data",
+    test = function(a, b)
+        return all_of(differs(a.own, b.own), differs(a.G_final.param, b.G_final.param),
+                      near(b.own, lssvf(b.record, {2, 1, 0}, 3).param, {rel = 1e-6}),
+                      near(dcgain(b.G_final), 2/3, {rel = 0.1}))
+    end,
+    hint = "Compute every answer from the record; type none in." }
