@@ -21,6 +21,8 @@ void add_demo(CLI::App& app, Action& action);
 void add_lessons(CLI::App& app, Action& action);
 void add_help(CLI::App& app, Action& action);
 void add_doctor(CLI::App& app, Action& action);
+void add_pack(CLI::App& app, Action& action);
+void add_bundle(CLI::App& app, Action& action);
 void add_grade(CLI::App& app, Action& action);
 void add_boxed(CLI::App& app, Action& action);
 

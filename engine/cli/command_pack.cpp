@@ -1,0 +1,63 @@
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+
+#include "cli/commands.h"
+#include "course/hand_in.h"
+
+namespace dynlab {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct PackWords {
+    std::string subject, output;
+};
+
+int pack(const PackWords& words) {
+    fs::path folder = fs::absolute(words.subject).lexically_normal();
+    if (!folder.has_filename()) folder = folder.parent_path();
+    const fs::path file = words.output.empty() ? fs::path(folder.filename().string() + ".zip") : fs::path(words.output);
+    const Pack pack = pack_folder(folder, file);
+    for (const std::string& name : pack.files) std::cout << name << '\n';
+    for (const std::string& name : pack.left_out)
+        std::cerr << "dynlab: left out, as it is no ordinary file: " << name << '\n';
+    std::cout << fmt::format("{}: {} files, SHA-256 {}\n", file.string(), pack.files.size(), pack.hash);
+    return kDone;
+}
+
+int bundle(const PackWords& words) {
+    const Lesson lesson = find_lesson(words.subject);
+    const fs::path file = words.output.empty() ? fs::path(lesson.slug + ".zip") : fs::path(words.output);
+    for (const std::string& name : bundle_lesson(lesson, file)) std::cout << name << '\n';
+    std::cout << file.string() << '\n';
+    return kDone;
+}
+
+}  // namespace
+
+void add_pack(CLI::App& app, Action& action) {
+    auto words = std::make_shared<PackWords>();
+    CLI::App* command = app.add_subcommand("pack", "Make one file of your folder, to hand in");
+    command->add_option("DIR", words->subject, "The folder that dynlab new made")
+        ->required()
+        ->check(CLI::ExistingDirectory);
+    command->add_option("-o,--output", words->output, "The zip to make; DIR.zip here unless given")
+        ->type_name("FILE.zip");
+    command->footer(
+        "The data link is left out. Equal folders give equal files, byte by byte.\nExample:  dynlab pack my-work");
+    command->callback([words, &action] { action = [words] { return pack(*words); }; });
+}
+
+void add_bundle(CLI::App& app, Action& action) {
+    auto words = std::make_shared<PackWords>();
+    CLI::App* command = app.add_subcommand("bundle", "Make the students' zip of a lesson, without solutions");
+    command->add_option("LESSON", words->subject, "The lesson's number or name")->required();
+    command->add_option("-o,--output", words->output, "The zip to make; NN_name.zip here unless given")
+        ->type_name("FILE.zip");
+    command->footer("Example:  dynlab bundle 04 -o lesson-4.zip");
+    command->callback([words, &action] { action = [words] { return bundle(*words); }; });
+}
+
+}  // namespace dynlab
