@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 struct CheckWords {
     std::string subject, template_name;
     int pages = 0;
-    bool as_json = false;
+    bool as_json = false, document_only = false;
 };
 
 bool in_colour() {
@@ -28,6 +28,7 @@ int check(const CheckWords& words) {
     CheckWishes wishes;
     CheckResult result;
     if (words.pages > 0) wishes.pages = words.pages;
+    wishes.lesson_checks = !words.document_only;
     const auto misuse = [](const std::string& sentence) {
         std::cerr << "dynlab: " << sentence << '\n';
         return kUsage;
@@ -60,6 +61,7 @@ void add_check(CLI::App& app, Action& action) {
     command->add_option("--pages", words->pages, "At most so many pages, whatever the template allows")
         ->type_name("N")
         ->check(CLI::Range(1, 1000));
+    command->add_flag("--document-only", words->document_only, "Leave out the lesson's checks of the answers");
     command->add_flag("--json", words->as_json, "Print the findings as JSON, for programs");
     command->footer(
         "A folder is copied and its analysis run in the clean copy; nothing is written into it.\n"

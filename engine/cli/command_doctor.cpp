@@ -5,6 +5,7 @@
 
 #include "cli/commands.h"
 #include "data_io/dataset_index.h"
+#include "platform/box.h"
 #include "platform/cache.h"
 #include "platform/child_process.h"
 #include "platform/program_lookup.h"
@@ -62,6 +63,12 @@ std::set<std::string> check_latex() {
     return missing;
 }
 
+/// How far grading can keep what students hand in apart.
+void check_isolation() {
+    const auto obstacle = obstacle_to(Isolation::kFull);
+    show("isolation", obstacle ? "process only; " + *obstacle : "full (bubblewrap, seccomp), for grading", !obstacle);
+}
+
 /// Looks for the data sets; returns the packages whose records are missing.
 std::set<std::string> check_data() {
     std::set<std::string> missing;
@@ -82,6 +89,7 @@ int examine() {
     show("data and templates", shared_folder().string(), true);
     show("lessons", std::to_string(lessons().size()), !lessons().empty());
     missing.merge(check_data());
+    check_isolation();
     show("caches", Cache("reports").root().parent_path().string() + " (safe to delete)", true);
     if (missing.empty()) {
         std::cout << "\nEverything is in place.\n";

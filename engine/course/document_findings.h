@@ -25,7 +25,8 @@ DocumentStandard standard_of(const std::string& template_name_or_file);
 /// What is asked for instead of what the document's kind demands.
 struct CheckWishes {
     std::optional<DocumentStandard> standard;
-    std::optional<int> pages;  ///< at most so many altogether
+    std::optional<int> pages;   ///< at most so many altogether
+    bool lesson_checks = true;  ///< of a folder: try the lesson's checks on its answers too
 };
 
 /// The outcome of a check.

@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "course/feedback.h"
 #include "course/folder_copy.h"
+#include "course/grading_rules.h"
 #include "course/leftover_findings.h"
 #include "documents/error.h"
 #include "documents/percent_script.h"
@@ -42,6 +44,7 @@ class FolderCheck {
         if (script) {
             check_blanks(*script);
             if (made) check_answers(*script);
+            if (wishes.lesson_checks) try_lesson_checks(script->header.lesson);
         }
         if (!wishes.standard) wishes.standard = own_standard(script);
         const std::optional<fs::path> handed_in = pdf_in_folder();
@@ -162,6 +165,28 @@ class FolderCheck {
             add("answer-missing", Severity::kRule, "analysis.lua",
                 fmt::format("The answer \"{}\" ({}) is not given.", answer.name, answer.kind),
                 fmt::format("Give it: answer(\"{}\", ...).", answer.name));
+        }
+    }
+
+    /// The checks of the lesson that students may read; what falls short is a hint, as marks are given elsewhere.
+    void try_lesson_checks(const std::string& slug) {
+        const std::vector<Lesson> all = lessons();
+        const auto lesson = std::find_if(all.begin(), all.end(), [&](const Lesson& l) { return l.slug == slug; });
+        if (lesson == all.end() || !fs::exists(lesson->folder / "checks.lua")) return;
+        GradingSetup setup;
+        setup.lesson = *lesson;
+        setup.isolation = obstacle_to(Isolation::kFull) ? Isolation::kProcess : Isolation::kFull;
+        setup.timeout = limits_.time;
+        setup.program = program_;
+        const Grade grade = GradingRules(setup).grade(folder_.filename().string(), copy());
+        result_.checked.push_back(fmt::format("checks of lesson {}: {} of {} points", slug, points_text(grade.earned()),
+                                              points_text(grade.possible())));
+        for (const CheckGrade& check : grade.checks) {
+            if (check.earned >= check.points) continue;
+            add("check-failed", Severity::kHint, "",
+                fmt::format("{}: {} of {} points. {}", check.about, points_text(check.earned),
+                            points_text(check.points), check.message),
+                check.hint.empty() ? "See checks.lua of the lesson." : check.hint);
         }
     }
 
