@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
+#include <string_view>
+
 #include "documents/document.h"
 #include "documents/error.h"
+#include "documents/text_lines.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
@@ -89,15 +93,20 @@ std::string points_text(double points) {
 }
 
 std::string escaped_markdown(const std::string& text) {
+    constexpr std::string_view kHarmless = ",.:;%?!'\"()/";
     std::string result;
-    for (const char c : text) {
+    // Documents refuse a word {=latex} wherever it stands, as it marks raw output.
+    for (const char c : replaced(text, "{=", "{ =")) {
         const auto byte = static_cast<unsigned char>(c);
         if (byte < 0x20 || byte == 0x7F) {
             result += ' ';
             continue;
         }
-        if (byte < 0x80 && std::ispunct(byte)) result += '\\';
-        result += c;
+        // Character references: a backslash before = and others would be taken for TeX.
+        if (byte < 0x80 && std::ispunct(byte) && kHarmless.find(c) == std::string_view::npos)
+            result += fmt::format("&#{};", byte);
+        else
+            result += c;
     }
     return result;
 }

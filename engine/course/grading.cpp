@@ -147,10 +147,19 @@ class ClassGrading {
         Grade marked = manual_.applied(grade);
         grade.penalty = marked.penalty = marked.earned() * late_percent / 100;
         const fs::path folder = folder_of(submission);
+        const std::string results = to_results_json(grade, marked);
+        grades_[place] = marked;
+        const bool written = fs::exists(folder / (request_.pdf ? "feedback.pdf" : "feedback.md")) &&
+                             fs::exists(folder / "results.json") && read_file(folder / "results.json") == results;
+        if (written && !request_.regrade) return;
         fs::create_directories(folder);
-        write_feedback(marked, folder, request_.pdf, request_.setup);
-        write_file_atomically(folder / "results.json", to_results_json(grade, marked));
-        grades_[place] = std::move(marked);
+        try {
+            write_feedback(marked, folder, request_.pdf, request_.setup);
+        } catch (const EnvironmentError& error) {  // one that cannot be set stops no other, and no mark
+            const std::lock_guard lock(mutex_);
+            outcome_.complaints.push_back(fmt::format("\"{}\": {}", submission.name, error.what()));
+        }
+        write_file_atomically(folder / "results.json", results);
     }
 
     /// Results of an earlier run for those that are not wanted now.

@@ -9,9 +9,9 @@
 #include "platform/atomic_file.h"
 #include "platform/content_hash.h"
 #include "platform/error.h"
+#include "platform/program_identity.h"
 #include "platform/program_lookup.h"
 #include "scripting/runtime.h"
-#include "workflow/program_identity.h"
 
 namespace dynlab {
 namespace {
@@ -143,7 +143,8 @@ json GradingRules::findings(const fs::path& folder) const {
     const fs::path inside = box.add(folder, "/box/submission"), program = box.add(setup_.program, "/box/dynlab");
     Box::Limits limits;
     limits.timeout = kDocumentTime;
-    const ChildResult child = box.run({program.string(), "check", "--json", inside.string()}, {}, "", limits);
+    const ChildResult child =
+        box.run({program.string(), "check", "--json", "--document-only", inside.string()}, {}, "", limits);
     const json found = json::parse(child.output, nullptr, false);
     if (!found.is_discarded() && found.contains("findings")) return found.at("findings");
     return json::array({{{"id", "document-fails"},
