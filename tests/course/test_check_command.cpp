@@ -102,11 +102,11 @@ TEST(check_command, a_program_that_is_missing_here_is_no_fault_of_the_folder) {
 TEST(check_command, open_questions_and_missing_answers_are_found_by_line_and_name) {
     const Workbench bench;
     make_folder(bench, std::string("-- ---\n-- title: A\n-- answers:\n--   sum: number\n--   gain: number\n-- ---\n") +
-                           kAnalysis + "-- YOUR CODE HERE\n");
+                           kAnalysis + "answer('sum', 3)\n-- YOUR CODE HERE\n");
     const auto json = nlohmann::json::parse(bench.dynlab({"check", "mine", "--json"}).output);
     ASSERT_EQ(json.at("findings").size(), 2u) << json.dump(1);
     EXPECT_EQ(json.at("findings").at(0).at("id"), "answer-open");
-    EXPECT_EQ(json.at("findings").at(0).at("place"), "analysis.lua:8");
+    EXPECT_EQ(json.at("findings").at(0).at("place"), "analysis.lua:9");
     EXPECT_EQ(json.at("findings").at(1).at("id"), "answer-missing");
     EXPECT_THAT(json.at("findings").at(1).at("what").get<std::string>(), HasSubstr("\"gain\" (number)"));
 }
@@ -166,7 +166,7 @@ TEST(check_command, misuse_ends_with_two) {
     bench.write("a.pdf", "x");
     const ChildResult unknown = bench.dynlab({"check", "a.pdf", "--template", "novel"});
     EXPECT_EQ(unknown.exit_code, 2);
-    EXPECT_THAT(unknown.error_output, HasSubstr("the templates are exercise_sheet"));
+    EXPECT_THAT(unknown.error_output, HasSubstr("the templates are class_summary, exercise_sheet"));
     EXPECT_EQ(bench.dynlab({"check", "a.pdf", "--pages", "0"}).exit_code, 2);
     EXPECT_EQ(bench.dynlab({"check"}).exit_code, 2);
     EXPECT_EQ(bench.dynlab({"check", "a.pdf"}).exit_code, 1);

@@ -49,7 +49,7 @@ ChildResult Workbench::run(std::vector<std::string> command) const {
     options.folder = path();
     options.environment = {{"PATH", path_variable_},
                            {"DYNLAB", DYNLAB_PROGRAM},
-                           {"DYNLAB_HOME", DYNLAB_SOURCE_DIR},
+                           {"DYNLAB_HOME", home_.empty() ? DYNLAB_SOURCE_DIR : home_},
                            {"XDG_CACHE_HOME", (folder_.path() / "cache").string()}};
     options.timeout = std::chrono::seconds(DYNLAB_SECONDS_OF_A_PROGRAM);
     return run_child(options, "dynlab");

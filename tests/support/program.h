@@ -20,13 +20,16 @@ class Workbench {
     ChildResult shell(const std::string& command) const;  ///< bash; $DYNLAB is the program
     void hide_program(const std::string& name);           ///< from now on PATH has every usual program except this one
 
+    /// The folder with lessons, data and templates from now on, instead of the source tree.
+    void set_home(const std::filesystem::path& home) { home_ = home.string(); }
+
     Workbench();
 
   private:
     ChildResult run(std::vector<std::string> command) const;
 
     TemporaryFolder folder_;
-    std::string path_variable_;
+    std::string path_variable_, home_;
 };
 
 }  // namespace dynlab::test

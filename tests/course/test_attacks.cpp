@@ -1,0 +1,219 @@
+#include <gmock/gmock.h>
+
+#include <chrono>
+
+#include "course/grading_bench.h"
+
+namespace dynlab::test {
+namespace {
+
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
+
+constexpr const char* kAnswers = "--   x: number\n";
+constexpr const char* kSolution = "answer('x', 42)\n";
+constexpr const char* kChecks = "check{id = 'x', test = function(a) return near(a.x, 42, {rel = 0.01}) end}\n";
+constexpr int kTimeout = 3;
+
+struct Attack {
+    const char *name, *script;
+    double score;
+    const char* told;  ///< part of what the student or the instructor reads of it; "" where nothing need be said
+};
+
+// Every one hands in the right answer where it can, so that a verdict of zero is the attack's own doing.
+const Attack kAttacks[] = {
+    {"endless", "while true do end", 0, "longer than the time"},
+    {"endless_pcall", "local function f() while true do end end\nwhile true do pcall(f) end", 0,
+     "longer than the time"},
+    {"endless_coroutine", "while true do coroutine.wrap(function() while true do end end)() end", 0,
+     "longer than the time"},
+    {"endless_coroutine_pcall",
+     "while true do coroutine.resume(coroutine.create(function() while true do end end)) end", 0,
+     "longer than the time"},
+    {"endless_xpcall", "local function h() while true do end end\nwhile true do xpcall(error, h) end", 0,
+     "longer than the time"},
+    {"endless_close", "local x <close> = setmetatable({}, {__close = function() while true do end end})\nerror('out')",
+     0, ""},
+    {"endless_gc", "setmetatable({}, {__gc = function() while true do end end})\nanswer('x', 42)", 0, "__gc"},
+    {"endless_tostring", "error(setmetatable({}, {__tostring = function() while true do end end}))", 0, ""},
+    {"endless_index", "local t = setmetatable({}, {__index = function() while true do end end})\nanswer('x', t.y)", 0,
+     "longer than the time"},
+    {"endless_sort",
+     "local t = {}\nfor i = 1, 1e5 do t[i] = i end\nwhile true do table.sort(t, function() return math.random() < 0.5 "
+     "end) end",
+     0, ""},
+    {"empty_repeated", "local s = string.rep('', 1e18)\nanswer('x', 42)", 1, ""},
+    {"long_text", "local s = string.rep('x', 1e12)\nanswer('x', 42)", 0, ""},
+    {"huge_move", "table.move({}, 1, 1e18, 2)\nanswer('x', 42)", 0, ""},
+    {"huge_insert", "table.insert(setmetatable({}, {__len = function() return 1e15 end}), 1, 2)\nanswer('x', 42)", 0,
+     ""},
+    {"huge_remove", "table.remove(setmetatable({}, {__len = function() return 1e15 end}), 1)\nanswer('x', 42)", 0, ""},
+    {"huge_concat", "table.concat({}, 'x', 1, 1e15)\nanswer('x', 42)", 0, ""},
+    {"slow_pattern", "string.find(string.rep('a', 40), string.rep('a?', 40) .. string.rep('a', 40))\nanswer('x', 42)",
+     0, ""},
+    {"slow_gsub", "string.gsub(string.rep('a', 1e5), '.-.-.-.-b', '')\nanswer('x', 42)", 0, ""},
+    {"memory_bomb", "local t = {}\nwhile true do t[#t + 1] = string.rep('x', 1e6) .. #t end", 0, ""},
+    {"table_bomb", "local t = {}\nwhile true do t = {t, t, {t}} t[#t + 1] = {} end", 0, ""},
+    {"vector_bomb", "local v = {}\nwhile true do v[#v + 1] = zeros(1e7) end", 0, "1.07 GB in all"},
+    {"huge_vector", "answer('x', #zeros(1e15))", 0, ""},
+    {"huge_matrix", "eye(1e9)", 0, ""},
+    {"deep_recursion", "local function f() return 1 + f() end\nf()", 0, ""},
+    {"binary_chunk", "local f = load('\\27Lua')\nanswer('x', 42)", 0, ""},
+    {"dump", "string.dump(print)\nanswer('x', 42)", 0, "dump"},
+    {"poison", "getmetatable('').__index = function() return 1 end\nanswer('x', 42)", 0, ""},
+    {"poison_answer", "dynlab.answer = nil", 0, ""},
+    {"no_io", "io.open('/etc/passwd')", 0, "io"},
+    {"no_os", "os.execute('touch pwned')", 0, "os"},
+    {"no_require", "require('os')", 0, "require"},
+    {"no_debug", "debug.sethook()", 0, "debug"},
+    {"no_dofile", "dofile('/etc/passwd')", 0, "dofile"},
+    {"read_system", "load('/etc/passwd')", 0, ""},
+    {"read_up", "load('../../secret.csv')", 0, "no file"},
+    {"read_solution", "load('../home/lessons/99_small/lesson.csv')", 0, "no file"},
+    {"write_up", "save_csv('../../../pwned.csv', {y = vector{1, 2}})\nanswer('x', 42)", 0, ""},
+    {"write_results", "save_csv('results.csv', {score = vector{1, 1}})\nanswer('x', 42)", 1, ""},
+    {"forged_output",
+     "print('{\"checks\":[{\"id\":\"x\",\"share\":1}],\"answers\":{\"x\":{\"kind\":\"number\",\"value\":42}}}')", 0,
+     ""},
+    {"forged_text", "answer('x', '42\"}},\"checks\":[{\"share\":1}]')", 0, "number"},
+    {"flood", "while true do print(string.rep('x', 1e5)) end", 0, ""},
+    {"not_a_number", "answer('x', 0/0)", 0, ""},
+    {"infinite", "answer('x', 1/0)", 0, ""},
+    {"cyclic", "local t = {}\nt.t = t\nanswer('x', t)", 0, "contains itself"},
+    {"shared", "local t = {}\nfor i = 1, 7 do local n = {}\nfor k = 1, 100 do n[k] = t end\nt = n end\nanswer('x', t)",
+     0, "at most"},
+    {"functions", "answer('x', print)", 0, "cannot be an answer"},
+    {"twice", "answer('x', 42)\nanswer('x', 41)", 1, "given already"},
+    {"undeclared", "answer('y', 42)", 0, "declares no answer"},
+    {"long_name", "answer(string.rep('x', 1e6), 42)", 0, ""},
+    {"other_header", "-- ---\n-- title: Mine\n-- answers:\n--   x: text\n-- ---\nanswer('x', 'forty-two')\n", 0,
+     "number"},
+    {"shell_label", "save(plot(vector{1, 2}, {title = '`touch pwned`'}), 'a.pdf')\nanswer('x', 42)", 1, ""},
+    {"shell_file", "save(plot(vector{1, 2}), 'a.pdf|touch pwned')\nanswer('x', 42)", 1, ""},
+    {"absurd_order", "local d = iddata(randn(500), randn(500), 0.1)\nfor i = 1, 1e6 do pcall(arx, d, {400, 90, 1}) end",
+     0, "longer than the time"},
+    {"long_native",
+     "montecarlo{system = tf({2}, {1, 4, 3}), input = prbs(9, 100), Ts = 0.01, sigma = 1, runs = 1e7, seed = 1, "
+     "estimators = {srivc = {{1, 2, 0}}}}",
+     0, ""},
+    {"syntax", "answer('x' 42)", 0, "analysis.lua:1"},
+    {"nothing", "", 0, ""},
+};
+
+void write_odd_submissions(const Workbench& work) {
+    const std::string right = kSolution;
+    work.write("in/it's \"quoted\"/analysis.lua", right);
+    work.write("in/=1+1 🎉/analysis.lua", right);
+    work.write("in/-rf/analysis.lua", right);
+    work.write("in/new\nline/analysis.lua", right);
+    work.write("in/in a folder/mine/analysis.lua", right);
+    work.write("in/two of them/a/analysis.lua", right);
+    work.write("in/two of them/b/analysis.lua", right);
+    work.write("in/no script/readme.txt", "hello");
+    work.write("in/bytecode/analysis.lua", std::string("\x1bLuaT\0\x19\x93", 8));
+    work.write("in/not text/analysis.lua", std::string("answer('x', 42) -- \xff\xfe\n"));
+    work.write("in/damaged.zip", "PK\x03\x04 this is no archive");
+    work.write("in/empty.zip", "");
+    work.write("secret.csv", "y\n42\n");
+    work.shell("mkdir 'in/script is a folder' && mkdir 'in/script is a folder/analysis.lua'");
+    work.shell(
+        "mkdir in/linked && ln -s \"$PWD/secret.csv\" in/linked/secret.csv && "
+        "echo \"answer('x', load('secret').y[1])\" > in/linked/analysis.lua");
+    work.shell(
+        "mkdir in/linked_script && ln -s \"$PWD/home/lessons/99_small/lesson.lua\" in/linked_script/analysis.lua");
+    work.shell("mkdir in/a_pipe && echo \"answer('x', 42)\" > in/a_pipe/analysis.lua && mkfifo in/a_pipe/pipe.csv");
+    // Archives: upwards, absolute, a link that is written through, a bomb, devices.
+    work.shell(
+        "mkdir z && cd z && echo \"answer('x', 42)\" > analysis.lua && echo pwned > ../pwned_up && "
+        "zip -q ../in/upwards.zip analysis.lua ../pwned_up && rm ../pwned_up");
+    work.shell("cd z && tar --absolute-names -czf ../in/absolute.tar.gz analysis.lua /etc/hostname");
+    work.shell(
+        "cd z && ln -s .. out && tar -cf ../in/through_link.tar analysis.lua out && rm out && mkdir out && echo pwned "
+        "> out/pwned_link && "
+        "tar -rf ../in/through_link.tar out/pwned_link && rm -r out");
+    work.shell(
+        "cd z && head -c 400M /dev/zero > data.csv && zip -q ../in/bomb.zip analysis.lua data.csv && rm data.csv");
+    work.shell("cd z && tar -cf ../in/devices.tar analysis.lua -C / dev/null");
+    work.shell("cd z && for i in $(seq 1 3000); do echo > f$i; done && zip -q ../in/many_files.zip *; rm f*");
+    work.shell("cd z && zip -q ../in/good.zip analysis.lua");
+    work.shell(
+        "mkdir in/'Zoe Zip_5_assignsubmission_file_' && cp in/good.zip in/'Zoe Zip_5_assignsubmission_file_'/work.zip");
+}
+
+// oracle: nothing outside the box changes, everything ends, every verdict is the one that was expected
+TEST(attacks, none_leaves_its_box_stops_the_batch_or_changes_a_mark) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    const Workbench& work = bench.bench();
+    for (const Attack& attack : kAttacks) bench.hand_in(attack.name, attack.script);
+    bench.hand_in("honest", kSolution);
+    write_odd_submissions(work);
+    const std::string before =
+        work.shell("find home in secret.csv -exec ls -ld --time-style=full-iso {} + | sort; ls -A").output;
+    const auto start = std::chrono::steady_clock::now();
+    const ChildResult graded = bench.grade({"--timeout", std::to_string(kTimeout)});
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
+    EXPECT_EQ(
+        work.shell("find home in secret.csv -exec ls -ld --time-style=full-iso {} + | sort; ls -A | grep -v '^out$'")
+            .output,
+        before);
+    EXPECT_EQ(work.shell("find / -xdev -name 'pwned*' -newer secret.csv 2>/dev/null").output, "");
+    for (const Attack& attack : kAttacks) {
+        const auto result = bench.result(attack.name);
+        EXPECT_EQ(GradingBench::score(result), attack.score) << attack.name << ": " << result.dump(1);
+        const std::string told =
+            GradingBench::trouble(result) + " " + result.at("tests").at(0).at("output").get<std::string>();
+        EXPECT_THAT(told, HasSubstr(attack.told)) << attack.name;
+    }
+    for (const char* name :
+         {"honest", "it's \"quoted\"", "=1+1 🎉", "-rf", "new\nline", "in a folder", "a_pipe", "upwards", "absolute",
+          "through_link", "devices", "good", "Zoe Zip_5_assignsubmission_file_"})
+        EXPECT_EQ(GradingBench::score(bench.result(name)), 1) << name << bench.result(name).dump(1);
+    for (const auto& [name, told] :
+         {std::pair("two of them", "several folders"), std::pair("no script", "no analysis.lua"),
+          std::pair("bytecode", ""), std::pair("damaged", "cannot be unpacked"), std::pair("empty", ""),
+          std::pair("script is a folder", "no analysis.lua"), std::pair("linked", "secret"),
+          std::pair("linked_script", "no analysis.lua"), std::pair("bomb", "too large"),
+          std::pair("many_files", "too many files")}) {
+        EXPECT_EQ(GradingBench::score(bench.result(name)), 0) << name << bench.result(name).dump(1);
+        EXPECT_THAT(GradingBench::trouble(bench.result(name)), HasSubstr(told)) << name;
+    }
+    EXPECT_LT(taken.count(), (kTimeout + 1.0) * (std::size(kAttacks) + 24));
+}
+
+// oracle: a file whose words must appear nowhere
+TEST(attacks, reports_read_no_files_and_run_no_commands) {
+    GradingBench bench(kAnswers, "check{id = 'report', document = true, test = function() return no_finding() end}\n",
+                       "answer('x', 42)\nreport.value('x', 42)\n");
+    const Workbench& work = bench.bench();
+    work.write("home/lessons/99_small/report.en.md", "---\ntitle: Mine\n---\n\nIt is `x`{.value}.\n");
+    work.write("canary.tex", "thecanarysings");
+    const std::string canary = work.path("canary.tex").string();
+    const std::pair<const char*, std::string> reports[] = {
+        {"sound", "It is `x`{.value}.\n"},
+        {"input", "\\input{" + canary + "}\n"},
+        {"input_in_mathematics", "$$ \\input{" + canary + "} $$\n"},
+        {"raw_attribute", "`\\input{" + canary + "}`{=latex}\n"},
+        {"raw_block", "```{=latex}\n\\input{" + canary + "}\n```\n"},
+        {"write18", "\\immediate\\write18{touch " + work.path("pwned").string() + "}\n"},
+        {"write18_in_mathematics", "$$ \\immediate\\write18{touch " + work.path("pwned").string() + "} $$\n"},
+        {"picture", "![A](" + canary + ")\n"},
+        {"endless_macro", "$$ \\def\\x{\\x}\\x $$\n"},
+    };
+    for (const auto& [name, text] : reports) {
+        bench.hand_in(name, "answer('x', 42)\nreport.value('x', 42)\n");
+        work.write("in/" + std::string(name) + "/report.md", "---\ntitle: Mine\n---\n\n" + text);
+    }
+    bench.hand_in("includes", "answer('x', 42)\n");
+    work.write("in/includes/report.md", "---\ntitle: Mine\nheader-includes: \\input{" + canary + "}\n---\n\nText.\n");
+    const ChildResult graded = bench.grade();
+    ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
+    EXPECT_EQ(GradingBench::score(bench.result("sound")), 1) << bench.result("sound").dump(1);
+    EXPECT_EQ(work.shell("grep -rl thecanarysings out; ls pwned").output, "");
+    for (const char* name : {"input_in_mathematics", "write18_in_mathematics", "picture", "endless_macro", "includes"})
+        EXPECT_EQ(GradingBench::score(bench.result(name)), 0) << name;
+}
+
+}  // namespace
+}  // namespace dynlab::test

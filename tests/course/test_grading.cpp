@@ -1,0 +1,225 @@
+#include <gmock/gmock.h>
+
+#include "course/grading_bench.h"
+
+namespace dynlab::test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr const char* kAnswers = "--   x: number\n--   G: model\n";
+constexpr const char* kSolution = "answer('x', 42 + 0*randn(1)[1])\nanswer('G', tf({2}, {1, 3}))\n";
+constexpr const char* kChecks =
+    "check{id = 'x', points = 2, about = 'The number', hint = 'Six times seven.',\n"
+    "  test = function(a) return near(a.x, 42, {rel = 0.05, half = 0.2}) end,\n"
+    "  mistakes = {{when = function(a) return a.x == -42 end, say = 'The sign is wrong.'}}}\n"
+    "check{id = 'gain', points = 3, test = function(a) return near(dcgain(a.G), 2/3, {rel = 0.01}) end}\n";
+
+/// What the points of one submission's checks come to.
+std::vector<double> points(const nlohmann::json& result) {
+    std::vector<double> all;
+    for (const auto& test : result.at("tests")) all.push_back(test.value("score", -1.0));
+    return all;
+}
+
+std::string message(const nlohmann::json& result, std::size_t check) {
+    return result.at("tests").at(check).at("output").get<std::string>();
+}
+
+// oracle: the checks' definition
+TEST(grading, gives_points_partial_credit_and_messages) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    bench.hand_in("right", kSolution);
+    bench.hand_in("near", "answer('x', 48)\nanswer('G', tf({4}, {1, 6}))\n");
+    bench.hand_in("sign", "answer('x', -42)\nanswer('G', tf({2}, {1, 4}))\n");
+    bench.hand_in("starter", "-- YOUR CODE HERE\n");
+    bench.hand_in("stops", "answer('x', 42)\nerror('no more')\n");
+    const ChildResult graded = bench.grade();
+    ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
+    EXPECT_THAT(graded.output,
+                HasSubstr("5 submissions: 5 graded now, 0 unchanged; isolation " + GradingBench::level()));
+    EXPECT_EQ(points(bench.result("right")), (std::vector<double>{2, 3}));
+    EXPECT_EQ(points(bench.result("near")), (std::vector<double>{1, 3}));
+    EXPECT_EQ(points(bench.result("sign")), (std::vector<double>{0, 0}));
+    EXPECT_EQ(message(bench.result("sign"), 0), "The sign is wrong.");
+    EXPECT_THAT(message(bench.result("sign"), 1), HasSubstr("25 % away"));
+    EXPECT_EQ(points(bench.result("starter")), (std::vector<double>{0, 0}));
+    EXPECT_EQ(message(bench.result("starter"), 1), "The answer \"G\" was not handed in.");
+    EXPECT_EQ(points(bench.result("stops")), (std::vector<double>{2, 0}));
+    EXPECT_THAT(GradingBench::trouble(bench.result("stops")), HasSubstr("analysis.lua:2: no more"));
+    EXPECT_EQ(bench.result("right").at("score"), 5);
+    EXPECT_THAT(bench.bench().read("out/gradebook.csv"), HasSubstr(",near,graded,4,5,0,0,1,3\r\n"));
+    EXPECT_THAT(bench.bench().read("out/results/near/feedback.md"), HasSubstr("*Six times seven.*"));
+}
+
+// oracle: the fingerprint's purpose
+TEST(grading, goes_on_where_it_was_and_keeps_manual_marks) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    bench.hand_in("a", kSolution);
+    bench.hand_in("b", "answer('x', 1)\n");
+    ASSERT_EQ(bench.grade().exit_code, 0);
+    EXPECT_THAT(bench.grade().output, HasSubstr("0 graded now, 2 unchanged"));
+    bench.bench().write("out/manual.csv", "submission,check,points,reason\nb,x,1.5,\"good idea, wrong number\"\n");
+    EXPECT_THAT(bench.grade().output, HasSubstr("0 graded now, 2 unchanged"));
+    EXPECT_EQ(points(bench.result("b")), (std::vector<double>{1.5, 0}));
+    EXPECT_EQ(message(bench.result("b"), 0), "good idea, wrong number");
+    EXPECT_THAT(bench.grade({"--regrade"}).output, HasSubstr("2 graded now, 0 unchanged"));
+    EXPECT_EQ(points(bench.result("b")), (std::vector<double>{1.5, 0}));
+    bench.bench().write("out/manual.csv", "submission,check,points,reason\n");
+    bench.grade();
+    EXPECT_EQ(points(bench.result("b")), (std::vector<double>{0, 0}));
+    bench.hand_in("b", kSolution);
+    EXPECT_THAT(bench.grade().output, HasSubstr("1 graded now, 1 unchanged"));
+    EXPECT_THAT(bench.grade({"--only", "a", "--regrade"}).output, HasSubstr("1 graded now, 0 unchanged"));
+    const ChildResult unknown = bench.grade({"--only", "c"});
+    EXPECT_EQ(unknown.exit_code, 1);
+    EXPECT_THAT(unknown.error_output, HasSubstr("there is no submission \"c\""));
+}
+
+// oracle: the rule that a broken check costs nobody points
+TEST(grading, leaves_ungraded_what_the_worked_solution_does_not_pass) {
+    GradingBench bench(kAnswers, std::string(kChecks) + "check{id = 'broken', test = function(a) return a.x.y.z end}\n",
+                       kSolution);
+    bench.hand_in("a", kSolution);
+    const ChildResult graded = bench.grade();
+    EXPECT_EQ(graded.exit_code, 1);
+    EXPECT_THAT(graded.error_output, HasSubstr("the worked solution does not pass the check \"broken\""));
+    const auto result = bench.result("a");
+    EXPECT_EQ(points(result), (std::vector<double>{2, 3, -1}));
+    EXPECT_FALSE(result.contains("score"));
+    EXPECT_THAT(bench.bench().read("out/gradebook.csv"), HasSubstr(",a,partly ungraded,,5,"));
+}
+
+TEST(grading, checks_that_cannot_be_read_stop_before_anything_is_written) {
+    for (const auto& [checks, fragment] :
+         {std::pair("check{id = 'x' test = 1}", "checks.lua:1"), std::pair("local a = 1", "declares no check"),
+          std::pair("check{id = 'x', test = function() end, pionts = 3}", "points"),
+          std::pair("check{id = 'x', test = function() end}\ncheck{id = 'x', test = function() end}",
+                    "two checks \"x\""),
+          std::pair("check{id = 'x', rerun = 'hairdryer', test = function() end}", "hairdryer"),
+          std::pair("check{id = 'x', points = 0, test = function() end}", "above 0")}) {
+        GradingBench bench(kAnswers, checks, kSolution);
+        bench.hand_in("a", kSolution);
+        const ChildResult graded = bench.grade();
+        EXPECT_EQ(graded.exit_code, 1);
+        EXPECT_THAT(graded.error_output, HasSubstr(fragment));
+    }
+}
+
+// oracle: a record of another specimen, whose truth the answers must follow
+TEST(grading, typed_in_answers_do_not_follow_other_records) {
+    const char* checks =
+        "check{id = 'K', rerun = 'suspension', test = function(a, b)\n"
+        "  return all_of(near(b.K, truth(b).gain, {rel = 0.05}), differs(a.K, b.K)) end}\n"
+        "check{id = 'fits', test = function(a)\n"
+        "  local h = hidden(\"suspension\")\n"
+        "  return #h.y == 401 and truth('suspension').gain > 0 end}\n"
+        "check{id = 'noise', rerun = 'seed', test = function(a, b) return differs(a.r, b.r) end}\n";
+    const std::string computes =
+        "local d = load('suspension')\nanswer('K', mean(d.y:range(300, #d.y)))\nanswer('r', randn(1)[1])\n";
+    GradingBench bench("--   K: number\n--   r: number\n", checks, computes);
+    bench.hand_in("computes", computes);
+    bench.hand_in("typed", "answer('K', 10)\nanswer('r', -1)\n");
+    // A file that stands in for the official data is not read.
+    bench.hand_in("own_data", computes);
+    bench.bench().write("in/own_data/suspension.csv", "t,u,y\n0,1,10\n1,1,10\n");
+    const ChildResult graded = bench.grade();
+    ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
+    EXPECT_EQ(points(bench.result("computes")), (std::vector<double>{1, 1, 1}));
+    EXPECT_EQ(points(bench.result("own_data")), (std::vector<double>{1, 1, 1}));
+    EXPECT_EQ(points(bench.result("typed")), (std::vector<double>{0, 1, 0}));
+}
+
+TEST(grading, hidden_checks_show_points_and_hint_only) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    bench.bench().write(
+        "more/extra.lua",
+        "check{id = 'secret', hint = 'Think of poles.', test = function(a) return near(a.x, 42) end}\n");
+    bench.hand_in("a", "answer('x', 84)\n");
+    ASSERT_EQ(bench.grade({"--checks", "more"}).exit_code, 0);
+    EXPECT_EQ(message(bench.result("a"), 2), "Think of poles.");
+    EXPECT_THAT(bench.bench().read("out/results/a/feedback.md"), HasSubstr("Think of poles"));
+    EXPECT_THAT(message(bench.result("a"), 0), HasSubstr("100 % away"));
+}
+
+TEST(grading, a_row_for_each_student_lateness_and_neutral_formulas) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    bench.hand_in("group-1", kSolution);
+    bench.hand_in("Ada Lovelace_77_assignsubmission_file_", kSolution);
+    bench.hand_in("hoppergrace_LATE_99_1234_work", kSolution);
+    bench.hand_in("=cmd()", kSolution);
+    bench.bench().write("roster.csv",
+                        "ID;Name;Group\r\n001;A. Kalman;group-1\r\n002;R. Kalman;group-1\r\n003;Ada Lovelace;\r\n"
+                        "99;Grace Hopper;\r\n005;Nobody;\r\n006;=1+1;=cmd()\r\n");
+    bench.bench().write("deadlines.csv",
+                        "submission,deadline,received,percent_per_day,most_percent\n"
+                        "*,2026-01-10 12:00,2026-01-10 11:00,10,100\nhoppergrace_LATE_99_1234_work,2026-01-10 12:00,"
+                        "2026-01-11 13:00,10,100\n");
+    const ChildResult graded = bench.grade({"--roster", "roster.csv", "--deadlines", "deadlines.csv"});
+    ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
+    const std::string book = bench.bench().read("out/gradebook.csv");
+    EXPECT_THAT(book, HasSubstr("001,A. Kalman,group-1,graded,5,5,0,0,2,3\r\n002,R. Kalman,group-1,graded,5,"));
+    EXPECT_THAT(book, HasSubstr("003,Ada Lovelace,Ada Lovelace_77_assignsubmission_file_,graded,5,"));
+    EXPECT_THAT(book, HasSubstr("99,Grace Hopper,hoppergrace_LATE_99_1234_work,graded,4,5,1,25,"));
+    EXPECT_THAT(book, HasSubstr("005,Nobody,,nothing handed in,"));
+    EXPECT_THAT(book, HasSubstr("006,'=1+1,'=cmd(),graded,5,"));
+}
+
+// oracle: the same class graded one by one, and in another order
+TEST(grading, marks_depend_on_neither_threads_nor_order) {
+    const auto book_with = [](const char* jobs) {
+        GradingBench bench(kAnswers, kChecks, kSolution);
+        for (int i = 0; i < 12; ++i)
+            bench.hand_in("s" + std::to_string(i),
+                          i % 3 == 0 ? "error('broken')\n" : "answer('x', " + std::to_string(35 + i) + ")\n");
+        EXPECT_EQ(bench.grade({"--jobs", jobs}).exit_code, 0);
+        return bench.bench().read("out/gradebook.csv") + bench.bench().read("out/results/s4/results.json");
+    };
+    EXPECT_EQ(book_with("1"), book_with("4"));
+}
+
+// oracle: the run that nobody disturbed
+TEST(grading, killed_at_any_moment_it_ends_with_the_same_gradebook) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    for (int i = 0; i < 10; ++i)
+        bench.hand_in("s" + std::to_string(i), "answer('x', " + std::to_string(38 + i) + ")\n");
+    ASSERT_EQ(bench.grade().exit_code, 0);
+    const std::string whole = bench.bench().read("out/gradebook.csv");
+    bench.bench().shell("rm -r out");
+    for (int i = 1; i <= 10; ++i)
+        bench.bench().shell("$DYNLAB grade in --lesson 99 --out out --no-pdf --isolation " + GradingBench::level() +
+                            " >/dev/null 2>&1 & sleep 0." + std::to_string(i * 7 % 10) + "3; kill -9 $!; wait");
+    ASSERT_EQ(bench.grade().exit_code, 0);
+    EXPECT_EQ(bench.bench().read("out/gradebook.csv"), whole);
+}
+
+// oracle: unzip and sha256sum, other programs; the same bytes twice
+TEST(grading, packs_are_whole_repeatable_and_can_be_graded) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    const Workbench& work = bench.bench();
+    ASSERT_EQ(work.dynlab({"new", "99", "mine"}).exit_code, 0);
+    work.write("mine/analysis.lua", kSolution);
+    work.write("mine/notes/ü.txt", "u");
+    work.shell("ln -s /etc/passwd mine/link");
+    const ChildResult packed = work.dynlab({"pack", "mine", "-o", "in/mine.zip"});
+    ASSERT_EQ(packed.exit_code, 0) << packed.error_output;
+    EXPECT_THAT(packed.error_output, HasSubstr("link"));
+    EXPECT_THAT(packed.output, Not(HasSubstr("data/")));
+    work.shell("sleep 1; touch mine/analysis.lua");
+    ASSERT_EQ(work.dynlab({"pack", "mine", "-o", "again.zip"}).exit_code, 0);
+    EXPECT_EQ(work.read("in/mine.zip"), work.read("again.zip"));
+    const std::string listed =
+        work.shell("unzip -Z1 again.zip; unzip -tq again.zip; unzip -p again.zip MANIFEST.json").output;
+    EXPECT_THAT(listed, HasSubstr("MANIFEST.json\nanalysis.lua\ngroup.toml\n"));
+    EXPECT_THAT(listed, HasSubstr("No errors detected"));
+    EXPECT_THAT(listed, HasSubstr("0bfe935e70c321c7ca3afc75ce0d0ca2f98b5422e008bb31c00c6d7f1f1c0ad6"));
+    ASSERT_EQ(bench.grade().exit_code, 0);
+    EXPECT_EQ(points(bench.result("mine")), (std::vector<double>{2, 3}));
+    ASSERT_EQ(work.dynlab({"bundle", "99", "-o", "lesson.zip"}).exit_code, 0);
+    const std::string starter = work.shell("unzip -Z1 lesson.zip; unzip -p lesson.zip 99_small/analysis.lua").output;
+    EXPECT_THAT(starter, HasSubstr("99_small/checks.lua"));
+}
+
+}  // namespace
+}  // namespace dynlab::test

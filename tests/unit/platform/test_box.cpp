@@ -1,0 +1,76 @@
+#include "platform/box.h"
+
+#include <gmock/gmock.h>
+
+#include "platform/atomic_file.h"
+#include "platform/temporary_folder.h"
+
+namespace dynlab::test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+ChildResult shell(Box& box, const std::string& command, Box::Limits limits = {}) {
+    return box.run({"/bin/sh", "-c", command}, {}, "", limits);
+}
+
+class full_box : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        if (const auto obstacle = obstacle_to(Isolation::kFull)) GTEST_SKIP() << *obstacle;
+    }
+    TemporaryFolder folder_;
+    Box box_{Isolation::kFull};
+};
+
+// oracle: what the programs inside see
+TEST_F(full_box, holds_nothing_but_what_was_put_in) {
+    write_file_atomically(folder_.path() / "a.txt", "inside\n");
+    EXPECT_EQ(box_.add(folder_.path(), "/box/work"), "/box/work");
+    EXPECT_EQ(shell(box_, "cat /box/work/a.txt").output, "inside\n");
+    EXPECT_NE(shell(box_, "echo x > /box/work/b.txt").exit_code, 0);
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "b.txt"));
+    EXPECT_EQ(shell(box_, "ls -d /etc /home /root /var 2>/dev/null").output, "");
+    EXPECT_NE(shell(box_, "echo x > /usr/never").exit_code, 0);
+    EXPECT_EQ(shell(box_, "ls -A /tmp; pwd").output, "/tmp\n");
+    EXPECT_EQ(shell(box_, "env | grep -c HOME=").output, "1\n");
+}
+
+TEST_F(full_box, has_a_writable_place_of_limited_size) {
+    const auto inside = box_.add_writable(folder_.path(), "/box/out");
+    EXPECT_EQ(shell(box_, "echo y > " + inside.string() + "/y.txt").exit_code, 0);
+    EXPECT_EQ(read_file(folder_.path() / "y.txt"), "y\n");
+    Box::Limits limits;
+    limits.scratch_bytes = 1 << 20;
+    EXPECT_NE(shell(box_, "head -c 3M /dev/zero > /tmp/big", limits).exit_code, 0);
+}
+
+TEST_F(full_box, sees_no_other_processes_and_no_network) {
+    EXPECT_EQ(shell(box_, "ls /proc | grep -c '^[0-9]'").output.size(), 2u);
+    EXPECT_THAT(shell(box_, "cat /proc/net/dev").output, Not(HasSubstr("eth")));
+}
+
+TEST_F(full_box, ends_with_all_it_started) {
+    Box::Limits limits;
+    limits.timeout = std::chrono::milliseconds(500);
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_TRUE(shell(box_, "setsid sleep 1234 & sleep 1234", limits).timed_out);
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+    EXPECT_EQ(shell(box_, "(setsid sleep 1235 >/dev/null 2>&1 &) ; echo done").output, "done\n");
+    ChildOptions look;
+    look.command = {"pgrep", "-fx", "sleep 123[45]"};
+    EXPECT_EQ(run_child(look, "procps").output, "");
+}
+
+TEST(process_box, keeps_the_places_and_empties_the_environment) {
+    const TemporaryFolder folder;
+    Box box(Isolation::kProcess);
+    EXPECT_EQ(box.add(folder.path(), "/box/work"), folder.path());
+    box.set_environment("DYNLAB_HOME", "/somewhere");
+    EXPECT_EQ(shell(box, "echo $DYNLAB_HOME $USER").output, "/somewhere\n");
+    EXPECT_EQ(obstacle_to(Isolation::kProcess), std::nullopt);
+}
+
+}  // namespace
+}  // namespace dynlab::test
