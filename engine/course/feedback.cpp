@@ -27,21 +27,45 @@ std::string plain_ascii(std::string text) {
     return text;
 }
 
-std::string item_of(const json& check) {
+/// A list item, its texts made harmless by `escape`.
+std::string item_of(const json& check, std::string (*escape)(const std::string&)) {
     const bool graded = check.at("graded");
     const double points = check.at("points"), earned = check.at("earned");
     const std::string message = check.at("visible").get<bool>() ? check.at("message") : json("");
     const std::string hint = check.at("hint");
     std::string item =
-        fmt::format("- **{}** – {}", escaped_markdown(check.at("about")),
+        fmt::format("- **{}** – {}", escape(check.at("about")),
                     graded ? fmt::format("{} of {}", points_text(earned), points_text(points)) : "not graded yet");
-    if (earned < points && graded) {
-        if (!message.empty()) item += "\\\n  " + escaped_markdown(message);
-        if (!hint.empty()) item += "\\\n  *" + escaped_markdown(hint) + "*";
-    } else if (!message.empty()) {
-        item += "\\\n  " + escaped_markdown(message);
-    }
+    if (!message.empty()) item += "\\\n  " + escape(message);
+    if (earned < points && graded && !hint.empty()) item += "\\\n  *" + escape(hint) + "*";
     return item + "\n";
+}
+
+std::string trouble_of(const json& grade, std::string (*escape)(const std::string&)) {
+    const std::string trouble = grade.at("trouble");
+    if (trouble.empty()) return "Your script ran to its end.";
+    return "**Your script did not run to its end:** " + escape(trouble);
+}
+
+/// For readers of the Markdown itself: only what would change its meaning is escaped.
+std::string readable_markdown(const std::string& text) {
+    constexpr std::string_view kMeaningful = "\\`*_{}[]<>#|$~^";
+    std::string result;
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (kMeaningful.find(c) != std::string_view::npos) result += '\\';
+        result += byte < 0x20 || byte == 0x7F ? ' ' : c;
+    }
+    return result;
+}
+
+std::string markdown_of(const json& grade) {
+    std::string text = fmt::format("# Feedback\n\n**{}**, lesson {}: **{} of {} points.** {}\n\n{}\n\n## Checks\n\n",
+                                   readable_markdown(grade.at("submission")), readable_markdown(grade.at("lesson")),
+                                   grade.at("points").get<std::string>(), grade.at("possible").get<std::string>(),
+                                   grade.at("lateness").get<std::string>(), trouble_of(grade, readable_markdown));
+    for (const json& check : grade.at("checks")) text += item_of(check, readable_markdown);
+    return text;
 }
 
 RunRecord record_of(const json& grade, bool ascii) {
@@ -53,12 +77,10 @@ RunRecord record_of(const json& grade, bool ascii) {
     for (const char* name : {"submission", "lesson", "points", "possible", "lateness"})
         record.values[name] = {{}, text(grade.at(name))};
     std::string items;
-    for (const json& check : grade.at("checks")) items += item_of(check);
+    for (const json& check : grade.at("checks")) items += item_of(check, escaped_markdown);
     record.texts["checks"] = {ascii ? plain_ascii(items) : items};
-    const std::string trouble = text(grade.at("trouble"));
-    record.texts["trouble"] = {trouble.empty()
-                                   ? "Your script ran to its end."
-                                   : "**Your script did not run to its end:** " + escaped_markdown(trouble)};
+    const std::string trouble = trouble_of(grade, escaped_markdown);
+    record.texts["trouble"] = {ascii ? plain_ascii(trouble) : trouble};
     return record;
 }
 
@@ -118,24 +140,23 @@ json make_feedback(const json& job) {
     DocumentMaker::Options options;
     options.use_cache = false;
     const DocumentMaker maker(options);
-    for (const bool pdf : {false, true}) {
-        if (pdf && !job.at("pdf").get<bool>()) continue;
-        const fs::path file = to / (pdf ? "feedback.pdf" : "feedback.md");
-        const auto make = [&](bool ascii) {
-            const RunRecord record = record_of(job.at("grade"), ascii);
-            source.record = &record;
-            maker.make(source, file, pdf ? DocumentFormat::kPdf : DocumentFormat::kMarkdown, [] {});
-        };
-        try {
-            make(false);
-        } catch (const DocumentError&) {
-            make(true);  // letters that LaTeX does not have
-        }
+    const auto make = [&](bool ascii) {
+        const RunRecord record = record_of(job.at("grade"), ascii);
+        source.record = &record;
+        maker.make(source, to / "feedback.pdf", DocumentFormat::kPdf, [] {});
+    };
+    try {
+        make(false);
+    } catch (const DocumentError&) {
+        make(true);  // letters that LaTeX does not have
     }
     return json::object();
 }
 
 void write_feedback(const Grade& grade, const fs::path& folder, bool pdf, const GradingSetup& setup) {
+    const json text = json_of(grade);
+    write_file_atomically(folder / "feedback.md", markdown_of(text));
+    if (!pdf) return;
     const TemporaryFolder made;
     Box box(setup.isolation);
     box.add_document_programs();
@@ -144,11 +165,9 @@ void write_feedback(const Grade& grade, const fs::path& folder, bool pdf, const 
     box.set_environment("DYNLAB_HOME", templates.parent_path().string());
     const fs::path to = box.add_writable(made.path(), "/box/feedback");
     const BoxedResult result =
-        run_boxed(box, setup.program,
-                  {{"work", "feedback"}, {"grade", json_of(grade)}, {"to", to.string()}, {"pdf", pdf}}, kTime);
+        run_boxed(box, setup.program, {{"work", "feedback"}, {"grade", text}, {"to", to.string()}}, kTime);
     if (!result.output) throw EnvironmentError("the feedback cannot be written: " + result.reason);
-    for (const char* name : {"feedback.md", "feedback.pdf"})
-        if (fs::exists(made.path() / name)) place_file_atomically(made.path() / name, folder / name);
+    place_file_atomically(made.path() / "feedback.pdf", folder / "feedback.pdf");
 }
 
 }  // namespace dynlab

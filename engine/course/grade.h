@@ -22,7 +22,7 @@ struct Grade {
     std::string printed;      ///< end of what the script printed
     std::vector<CheckGrade> checks;
     double late_hours = 0, penalty = 0;  ///< penalty in points
-    double seconds = 0;                  ///< wall clock; not part of what is compared
+    std::string log;                     ///< what was run and how long it took; not part of the result
 
     double earned() const;    ///< of graded checks, less the penalty, not below 0
     double possible() const;  ///< of graded checks

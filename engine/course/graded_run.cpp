@@ -72,7 +72,10 @@ json run_for_grading(const json& job) {
         ReportLanguage language{script.header.language};
         Runtime runtime(options_of(job, script), renderer);
         runtime.set_service(&language);
-        return json_of(runtime.run(script), script);
+        const auto start = std::chrono::steady_clock::now();
+        json result = json_of(runtime.run(script), script);
+        result["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        return result;
     } catch (const DocumentError& error) {
         return {{"error", error.what()}};
     }

@@ -9,7 +9,8 @@ namespace dynlab {
 /// Returns what the checks may see:
 ///   {"answers": {name: value}, "figures": {name: caption}, "values": {name: {...}}, "tables": [names], "texts":
 ///   [names],
-///    "printed": the end of what it printed, "error": message or absent}
+///    "printed": the end of what it printed, "error": message or absent,
+///    "seconds": that the script took}
 /// A script that cannot be read at all has an "error" and nothing else.
 nlohmann::json run_for_grading(const nlohmann::json& job);
 

@@ -159,6 +159,7 @@ class ClassGrading {
             const std::lock_guard lock(mutex_);
             outcome_.complaints.push_back(fmt::format("\"{}\": {}", submission.name, error.what()));
         }
+        if (!grade.log.empty()) write_file_atomically(folder / "log.txt", grade.log);
         write_file_atomically(folder / "results.json", results);
     }
 

@@ -118,7 +118,7 @@ void GradingRules::set_home(Box& box, const std::string& rerun) const {
     box.set_environment("DYNLAB_HOME", box.add(data, "/box/home/data").parent_path().string());
 }
 
-json GradingRules::run(const fs::path& folder, const std::string& rerun, double& seconds) const {
+json GradingRules::run(const fs::path& folder, const std::string& rerun, std::string& log) const {
     Box box(setup_.isolation);
     set_home(box, rerun);
     const fs::path inside = box.add(folder, "/box/submission");
@@ -129,9 +129,12 @@ json GradingRules::run(const fs::path& folder, const std::string& rerun, double&
                       {"memory_bytes", kScriptMemory},
                       {"time_ms", (setup_.timeout - std::min(kMargin, setup_.timeout / 2)).count()}};
     const BoxedResult result = run_boxed(box, setup_.program, job, setup_.timeout);
-    seconds += result.seconds;
-    if (result.output && result.output->is_object()) return *result.output;
-    return {{"error", fmt::format("The script was ended: {}.", result.reason)}};
+    const bool ended = result.output && result.output->is_object();
+    const json run = ended ? *result.output : json{{"error", fmt::format("The script was ended: {}.", result.reason)}};
+    log += fmt::format("run {}: {:.3f} s in its box, {:.3f} s of them the script\n", rerun, result.seconds,
+                       run.value("seconds", 0.0));
+    if (run.contains("error")) log += "  " + run.at("error").get<std::string>() + "\n";
+    return run;
 }
 
 json GradingRules::findings(const fs::path& folder) const {
@@ -186,13 +189,15 @@ Grade GradingRules::without_checks(const std::string& name, const std::string& t
 
 Grade GradingRules::grade(const std::string& name, const fs::path& folder) const {
     Grade grade = without_checks(name, "");
-    json runs = {{kMain, run(folder, kMain, grade.seconds)}};
-    for (const std::string& rerun : reruns_) runs[rerun] = run(folder, rerun, grade.seconds);
+    json runs = {{kMain, run(folder, kMain, grade.log)}};
+    for (const std::string& rerun : reruns_) runs[rerun] = run(folder, rerun, grade.log);
     const json& main = runs.at(kMain);
     if (main.contains("error")) grade.trouble = main.at("error");
     if (main.contains("printed")) grade.printed = main.at("printed");
     const BoxedResult result = checked({{"runs", runs}, {"findings", document_ ? findings(folder) : json::array()}});
-    grade.seconds += result.seconds;
+    grade.log +=
+        fmt::format("checks: {:.3f} s in their box{}\n", result.seconds, result.output ? "" : "; " + result.reason);
+    if (!grade.printed.empty()) grade.log += "\nprinted by the script, at its end:\n" + grade.printed;
     const bool usable =
         result.output && result.output->contains("checks") && result.output->at("checks").size() == grade.checks.size();
     for (std::size_t k = 0; k < grade.checks.size(); ++k) {

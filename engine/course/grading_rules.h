@@ -48,7 +48,7 @@ class GradingRules {
     void read_checks();
     void make_records();
     void make_record(const std::string& data_set, const std::string& key, const std::filesystem::path& folder);
-    nlohmann::json run(const std::filesystem::path& folder, const std::string& rerun, double& seconds) const;
+    nlohmann::json run(const std::filesystem::path& folder, const std::string& rerun, std::string& log) const;
     nlohmann::json findings(const std::filesystem::path& folder) const;
     BoxedResult checked(nlohmann::json submission) const;
     void set_home(Box& box, const std::string& rerun) const;

@@ -1,0 +1,63 @@
+#include <sys/resource.h>
+
+#include <chrono>
+#include <fstream>
+#include <regex>
+#include <stdexcept>
+
+#include "bench/bench.h"
+#include "support/program.h"
+
+namespace dynlab::bench {
+
+namespace {
+
+using test::Workbench;
+
+constexpr int kSubmissions = 200;
+constexpr int kCores = 2;
+constexpr double kMostSeconds = 0.060, kGoalSeconds = 0.030;
+
+// All of lesson 4's answers but the Monte Carlo study's.
+constexpr const char* kSubmission =
+    "local u = prbs(4, 100)\nlocal x = lsim(tf({2}, {1, 4, 3}), u, 0.01)\n"
+    "local data = iddata(x + 0.2*randn(#u), u, 0.01)\n"
+    "answer('own_without_noise', lssvf(iddata(x, u, 0.01), {2, 1, 0}, 3).param)\n"
+    "answer('own', lssvf(data, {2, 1, 0}, 3).param)\nanswer('record', data)\n"
+    "answer('G_lssvf', lssvf(data, {2, 1, 0}, 3))\nanswer('G_ivsvf', ivsvf(data, {2, 1, 0}, 3))\n"
+    "answer('G_final', tfsrivc(data, 2, 0, {TdMax = 0}))\n";
+
+/// Seconds of one run of `dynlab grade`, and of the scripts within.
+std::pair<double, double> grading_seconds(const Workbench& bench) {
+    const auto start = std::chrono::steady_clock::now();
+    const ChildResult graded = bench.dynlab(
+        {"grade", "in", "--lesson", "04", "--out", "out", "--no-pdf", "--regrade", "--jobs", std::to_string(kCores)});
+    const std::chrono::duration<double> whole = std::chrono::steady_clock::now() - start;
+    if (graded.exit_code != 0) throw std::runtime_error(graded.output + graded.error_output);
+    const std::string logs = bench.shell("cat out/results/*/log.txt").output;
+    const std::regex line(R"(box, ([0-9.]+) s of them the script)");
+    double scripts = 0;
+    for (std::sregex_iterator i(logs.begin(), logs.end(), line), end; i != end; ++i) scripts += std::stod((*i)[1]);
+    return {whole.count(), scripts};
+}
+
+}  // namespace
+
+/// The time that a submission costs beyond its script's own runs. What a class costs however small it is, such as the
+/// trial of the worked solution, is measured with one submission and taken off.
+void measure_grading(Report& report) {
+    const Workbench bench;
+    bench.write("in/s1/analysis.lua", kSubmission);
+    const double alone = grading_seconds(bench).first;
+    for (int i = 2; i <= kSubmissions; ++i) bench.write("in/s" + std::to_string(i) + "/analysis.lua", kSubmission);
+    const auto [whole, scripts] = grading_seconds(bench);
+    rusage used{};
+    ::getrusage(RUSAGE_CHILDREN, &used);
+    report.results.push_back({"grading, overhead of a submission (s)", "60 ms",
+                              (whole - alone - scripts / kCores) / (kSubmissions - 1), kMostSeconds, 1,
+                              kGoalSeconds / kMostSeconds});
+    report.results.push_back({"grading, memory of the largest process (MB)", "200 MB",
+                              static_cast<double>(used.ru_maxrss) / 1024, 200, 1, 0});
+}
+
+}  // namespace dynlab::bench
