@@ -275,24 +275,29 @@ constexpr std::array kFunctions = {
 // ---------------------------------------------------------------------------------------------------------------------
 // Trying a check
 
-/// An answer that is not there fails the check, in words for the student.
-int missing_answer(Call& call) {
-    throw InvalidArgument(fmt::format("The answer \"{}\" was not handed in.", call.text(2, "name")));
+/// Reads an answer when it is first asked for; upvalue 2 is the name of the run. One that is not there fails the check,
+/// in words for the student.
+int answer_of(Call& call) {
+    lua_State* L = call.state();
+    const std::string name = call.text(2, "name"), run = lua_tostring(L, lua_upvalueindex(2));
+    const nlohmann::json& runs = session_of(call).runs;
+    if (!runs.contains(run) || !runs.at(run).contains("answers") || !runs.at(run).at("answers").contains(name))
+        throw InvalidArgument(fmt::format("The answer \"{}\" was not handed in.", name));
+    push_answer_value(L, runs.at(run).at("answers").at(name).dump());
+    lua_pushvalue(L, 2);
+    lua_pushvalue(L, -2);
+    lua_rawset(L, 1);
+    return 1;
 }
 
 /// The answers of a run as a table.
 void push_answers(const Call& call, const std::string& run) {
     lua_State* L = call.state();
-    const CheckSession& session = session_of(call);
     lua_newtable(L);
-    if (session.runs.contains(run) && session.runs.at(run).contains("answers"))
-        for (const auto& [name, value] : session.runs.at(run).at("answers").items()) {
-            push_answer_value(L, value.dump());
-            lua_setfield(L, -2, name.c_str());
-        }
     lua_createtable(L, 0, 1);
     lua_pushlightuserdata(L, const_cast<char*>("_"));
-    lua_pushcclosure(L, guarded<missing_answer>, 1);
+    call.give(run);
+    lua_pushcclosure(L, guarded<answer_of>, 2);
     lua_setfield(L, -2, "__index");
     lua_setmetatable(L, -2);
 }

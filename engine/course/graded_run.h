@@ -14,4 +14,9 @@ namespace dynlab {
 /// A script that cannot be read at all has an "error" and nothing else.
 nlohmann::json run_for_grading(const nlohmann::json& job);
 
+/// Runs a student's script several times, each in a confined copy of this process that is ended after its time. `job`:
+/// {"runs": [{"name": text, "home": folder with data/, ...run_for_grading's job}, ...]}. Returns {name: result}; a copy
+/// that came to no end has {"error": sentence}.
+nlohmann::json run_all_for_grading(const nlohmann::json& job);
+
 }  // namespace dynlab

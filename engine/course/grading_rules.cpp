@@ -24,7 +24,8 @@ constexpr char kMain[] = "main";
 constexpr auto kCheckTime = std::chrono::milliseconds(10000);   // of one check
 constexpr auto kChecksTime = std::chrono::milliseconds(60000);  // of all
 constexpr auto kDocumentTime = std::chrono::seconds(120);
-constexpr auto kMargin = std::chrono::milliseconds(300);  // the script's own limit comes first: its answers are kept
+constexpr auto kMargin = std::chrono::milliseconds(300);  // the script's copy is ended before its box
+constexpr auto kStartTime = std::chrono::milliseconds(500);
 constexpr std::uint64_t kScriptMemory = 1ull << 30;
 const std::vector<std::string> kSimulated = {"crane",         "heat_exchanger", "heat_transfer", "linear_system",
                                              "step_response", "suspension",     "thruster"};
@@ -112,29 +113,36 @@ void GradingRules::make_record(const std::string& data_set, const std::string& k
     if (record.error) throw EnvironmentError("a hidden record cannot be made: " + record.error->message);
 }
 
-void GradingRules::set_home(Box& box, const std::string& rerun) const {
-    const bool own = rerun != kMain && rerun != kSeedOnly;
-    const fs::path data = own ? records_.path() / rerun / "data" : shared_folder() / "data";
-    box.set_environment("DYNLAB_HOME", box.add(data, "/box/home/data").parent_path().string());
+fs::path GradingRules::add_home(Box& box, const std::string& run) const {
+    const bool own = run != kMain && run != kSeedOnly;
+    const fs::path data = own ? records_.path() / run / "data" : shared_folder() / "data";
+    return box.add(data, own ? "/box/" + run + "/data" : "/box/home/data").parent_path();
 }
 
-json GradingRules::run(const fs::path& folder, const std::string& rerun, std::string& log) const {
+json GradingRules::run(const fs::path& folder, std::string& log) const {
     Box box(setup_.isolation);
-    set_home(box, rerun);
-    const fs::path inside = box.add(folder, "/box/submission");
-    const json job = {{"work", "run"},
-                      {"script", (inside / "analysis.lua").string()},
-                      {"seed", rerun == kSeedOnly ? drawn("seed") : seed_},
-                      {"answers", answers_},
-                      {"memory_bytes", kScriptMemory},
-                      {"time_ms", (setup_.timeout - std::min(kMargin, setup_.timeout / 2)).count()}};
-    const BoxedResult result = run_boxed(box, setup_.program, job, setup_.timeout);
-    const bool ended = result.output && result.output->is_object();
-    const json run = ended ? *result.output : json{{"error", fmt::format("The script was ended: {}.", result.reason)}};
-    log += fmt::format("run {}: {:.3f} s in its box, {:.3f} s of them the script\n", rerun, result.seconds,
-                       run.value("seconds", 0.0));
-    if (run.contains("error")) log += "  " + run.at("error").get<std::string>() + "\n";
-    return run;
+    const fs::path script = box.add(folder, "/box/submission") / "analysis.lua";
+    json job = {{"work", "run"}, {"runs", json::array()}};
+    const auto add = [&](const std::string& name) {
+        job["runs"].push_back({{"name", name},
+                               {"home", add_home(box, name).string()},
+                               {"script", script.string()},
+                               {"seed", name == kSeedOnly ? drawn("seed") : seed_},
+                               {"answers", answers_},
+                               {"memory_bytes", kScriptMemory},
+                               {"time_ms", (setup_.timeout - kMargin).count()}});
+    };
+    add(kMain);
+    for (const std::string& rerun : reruns_) add(rerun);
+    const BoxedResult result = run_boxed(box, setup_.program, job, (reruns_.size() + 1) * setup_.timeout + kStartTime);
+    log += fmt::format("runs: {:.3f} s in their box\n", result.seconds);
+    const bool ended = result.output && result.output->contains(kMain);
+    const json runs =
+        ended ? *result.output : json{{kMain, {{"error", fmt::format("The script was ended: {}.", result.reason)}}}};
+    for (const auto& [name, run] : runs.items())
+        log += fmt::format("run {}: {:.3f} s of the script\n{}", name, run.value("seconds", 0.0),
+                           run.contains("error") ? "  " + run.at("error").get<std::string>() + "\n" : "");
+    return runs;
 }
 
 json GradingRules::findings(const fs::path& folder) const {
@@ -157,7 +165,7 @@ json GradingRules::findings(const fs::path& folder) const {
 
 BoxedResult GradingRules::checked(json submission) const {
     Box box(setup_.isolation);
-    set_home(box, kMain);
+    box.set_environment("DYNLAB_HOME", add_home(box, kMain).string());
     const bool tries = !submission.is_null();
     const json job = {{"work", "checks"},
                       {"files", files_},
@@ -189,8 +197,7 @@ Grade GradingRules::without_checks(const std::string& name, const std::string& t
 
 Grade GradingRules::grade(const std::string& name, const fs::path& folder) const {
     Grade grade = without_checks(name, "");
-    json runs = {{kMain, run(folder, kMain, grade.log)}};
-    for (const std::string& rerun : reruns_) runs[rerun] = run(folder, rerun, grade.log);
+    const json runs = run(folder, grade.log);
     const json& main = runs.at(kMain);
     if (main.contains("error")) grade.trouble = main.at("error");
     if (main.contains("printed")) grade.printed = main.at("printed");

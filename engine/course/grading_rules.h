@@ -48,10 +48,10 @@ class GradingRules {
     void read_checks();
     void make_records();
     void make_record(const std::string& data_set, const std::string& key, const std::filesystem::path& folder);
-    nlohmann::json run(const std::filesystem::path& folder, const std::string& rerun, std::string& log) const;
+    nlohmann::json run(const std::filesystem::path& folder, std::string& log) const;
     nlohmann::json findings(const std::filesystem::path& folder) const;
     BoxedResult checked(nlohmann::json submission) const;
-    void set_home(Box& box, const std::string& rerun) const;
+    std::filesystem::path add_home(Box& box, const std::string& run) const;
     std::uint32_t drawn(const std::string& what) const;
 
     GradingSetup setup_;

@@ -35,7 +35,7 @@ std::pair<double, double> grading_seconds(const Workbench& bench) {
     const std::chrono::duration<double> whole = std::chrono::steady_clock::now() - start;
     if (graded.exit_code != 0) throw std::runtime_error(graded.output + graded.error_output);
     const std::string logs = bench.shell("cat out/results/*/log.txt").output;
-    const std::regex line(R"(box, ([0-9.]+) s of them the script)");
+    const std::regex line(R"(([0-9.]+) s of the script)");
     double scripts = 0;
     for (std::sregex_iterator i(logs.begin(), logs.end(), line), end; i != end; ++i) scripts += std::stod((*i)[1]);
     return {whole.count(), scripts};
