@@ -56,8 +56,10 @@ int run(const RunWords& words) {
     RunRecord record = run_showing_activity(request, renderer);
     save_figures(record, renderer, out);
     if (!words.out.empty()) write_file_atomically(out / "record.json", to_json(record));
-    if (!record.error) return kDone;
     std::cout.flush();
+    if (const std::string missing = missing_answers(request.script, record); !missing.empty())
+        std::cerr << "dynlab: answers that are not given yet: " << missing << '\n';
+    if (!record.error) return kDone;
     std::cerr << "dynlab: " << record.error->message << '\n';
     return kFailed;
 }

@@ -82,6 +82,14 @@ RunRecord run_script(const RunRequest& request, GnuplotRenderer& renderer) {
     return runtime.run(request.script);
 }
 
+std::string missing_answers(const PercentScript& script, const RunRecord& record) {
+    std::string missing;
+    for (const ExpectedAnswer& answer : script.header.answers)
+        if (!record.answers.contains(answer.name))
+            missing += fmt::format("{}{} ({})", missing.empty() ? "" : ", ", answer.name, answer.kind);
+    return missing;
+}
+
 std::vector<std::string> figures_in_order(const RunRecord& record) {
     std::vector<std::string> names;
     for (const auto& [name, figure] : record.figures) names.push_back(name);

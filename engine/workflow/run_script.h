@@ -25,6 +25,10 @@ struct RunRequest {
 /// Runs a script from top to bottom. An error of the script stands in the record; Ctrl-C throws Interrupted.
 RunRecord run_script(const RunRequest& request, GnuplotRenderer& renderer);
 
+/// The answers that the script's header declares and the run did not give, "G1 (model), gain (number)"; empty where
+/// there are none.
+std::string missing_answers(const PercentScript& script, const RunRecord& record);
+
 /// Names of the record's figures, in the order in which the script made them.
 std::vector<std::string> figures_in_order(const RunRecord& record);
 
