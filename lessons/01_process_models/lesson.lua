@@ -5,6 +5,13 @@
 -- template: lesson
 -- language: en
 -- seed: 1
+-- answers:
+--   settling_time: number
+--   exchanger_reading: vector
+--   G_exchanger: model
+--   overshoot: number
+--   suspension_reading: vector
+--   G_suspension: model
 -- ---
 
 -- %% [markdown]
@@ -230,6 +237,25 @@ report.table("suspension", {
 -- instant hard to see; the estimate uses every swing.
 -- END SOLUTION
 --
+-- # What you hand in
+--
+-- Where this lesson is graded, `answer(name, value)` hands your results in; `dynlab check .` tells what is missing. What you read off the figures may
+-- be typed in as you read it: `settling_time`, $T_r$ in seconds after the step; `exchanger_reading`, the vector $K$, $T$; `overshoot`, $D_1$ as a
+-- ratio; `suspension_reading`, the vector $K$, $z$, $\omega_0$. The two estimated models, `G_exchanger` and `G_suspension`, are to be computed from the
+-- record, because your script will be run on records of other exchangers and suspensions as well. Call the figures that hold your
+-- readings against the measurements `exchanger_test` and `suspension_test`, as in `report.figure("exchanger_test", fig, "caption")`.
+
+-- %% id=hand_in
+-- BEGIN SOLUTION
+answer("settling_time", 3*reading.T)
+answer("exchanger_reading", vector{reading.K, reading.T})
+answer("G_exchanger", G1)
+answer("overshoot", math.exp(-math.pi*reading2.z/math.sqrt(1 - reading2.z^2)))
+answer("suspension_reading", vector{reading2.K, reading2.z, reading2.w0})
+answer("G_suspension", G2)
+-- END SOLUTION
+
+-- %% [markdown]
 -- # What was learnt
 --
 -- BEGIN SOLUTION

@@ -1,0 +1,182 @@
+-- The checks of lesson 1. `a` holds the answers, `b` those of a run on another exchanger or suspension.
+--
+-- What is wanted of the official records is what output error finds in them. It is far more exact than a ruler, so the
+-- tolerances of the readings are those of the eye: noise of 1 % of the exchanger's step moves the instant at which the 5 % band
+-- is entered by a fifth of T, 7 % of T_r; the top of the overshoot is flat, one sample there is 4 % of its instant.
+
+local function record(name)
+    local r = load(name)
+    return r, iddata(r.y, r.u, r.t[2] - r.t[1])
+end
+local heat, heat_data = record("heat_exchanger")
+local _, suspension_data = record("suspension")
+local heat_Ts, suspension_Ts = heat_data.Ts, suspension_data.Ts
+
+local exchanger = procsrivc(heat_data, "P1", {InitialState = "estimate", Offset = "estimate"})
+local K, T = exchanger.Kp, exchanger.Tp1
+local suspension = procsrivc(suspension_data, "P2U")
+local K2, z2, w2 = suspension.Kp, suspension.Zeta, 1/suspension.Tw
+local overshoot = math.exp(-math.pi*z2/math.sqrt(1 - z2^2))
+
+local level = heat.y[#heat.y]/heat.u[#heat.u]  -- the ratio of levels instead of changes
+local step_instant = 0
+for k = 2, #heat.u do
+    if heat.u[k] ~= heat.u[1] and step_instant == 0 then step_instant = heat.t[k - 1] - heat.t[1] end
+end
+
+local function judge(message) return {share = 0, message = message} end
+
+-- Of each number its own relative distance; tolerances one by one, twice as far earns half.
+local function each(x, wanted, tolerances, names)
+    if #x ~= #wanted then return judge(string.format("Wanted are %d numbers: %s.", #wanted, names)) end
+    local all = {}
+    for i = 1, #wanted do all[i] = near(x[i], wanted[i], {rel = tolerances[i], half = 2*tolerances[i]}) end
+    return all_of(table.unpack(all))
+end
+local function alike(x, wanted, tolerance)
+    return #x == #wanted and max(abs(x/wanted - 1)) <= tolerance
+end
+
+-- Gain and time constant of a first-order model.
+local function first_order(G)
+    if #pole(G) ~= 1 then return nil end
+    return vector{dcgain(G), -1/pole(G).re[1]}
+end
+-- Gain, damping ratio and natural frequency of a pair of poles.
+local function second_order(G)
+    if #pole(G) ~= 2 then return nil end
+    local frequency, damping = damp(G)
+    return vector{dcgain(G), damping[1], frequency[1]}
+end
+
+local discrete = {when = function(a) return a.Ts > 0 end,
+                  say = "A continuous-time model is wanted, but this one is in discrete time."}
+local function of_model(name, mistakes)
+    local list = {}
+    for i, mistake in ipairs{discrete, table.unpack(mistakes)} do
+        list[i] = {when = function(a) return mistake.when(a[name]) end, say = mistake.say}
+    end
+    return list
+end
+
+check { id = "settling_time", points = 1, about = "Heat exchanger: the 5 % settling time",
+    test = function(a) return near(a.settling_time, 3*T, {rel = 0.12, half = 0.2}) end,
+    mistakes = {
+        {when = function(a) return near(a.settling_time, 3*T + step_instant, {rel = 0.06}) end,
+         say = "This is the time from the beginning of the record; the valve was opened later, and the clock starts there."},
+        {when = function(a) return near(a.settling_time, 3*T/heat_Ts, {rel = 0.12}) end,
+         say = "This is counted in samples; seconds are wanted."},
+        {when = function(a) return near(a.settling_time, T, {rel = 0.12}) end,
+         say = "This is the time constant; the settling time is three times as long."},
+    },
+    hint = "After which instant does the response stay within 5 % of its whole change around its final value?" }
+
+check { id = "exchanger_reading", points = 2, about = "Heat exchanger: gain and time constant read off the figure",
+    test = function(a) return each(a.exchanger_reading, vector{K, T}, {0.03, 0.12}, "K and T") end,
+    mistakes = {
+        {when = function(a) return alike(a.exchanger_reading, vector{T, K}, 0.2) end,
+         say = "The order is K, T."},
+        {when = function(a) return alike(a.exchanger_reading, vector{K, 3*T}, 0.2) end,
+         say = "T is the settling time itself; the time constant is a third of it."},
+        {when = function(a) return alike(a.exchanger_reading, vector{K, T/heat_Ts}, 0.15) end,
+         say = "T is counted in samples; seconds are wanted."},
+        {when = function(a) return near(a.exchanger_reading[1], level, {rel = 0.02}) end,
+         say = "K is the ratio of two levels; it must be that of the two changes, which begin at the working point."},
+        {when = function(a) return a.exchanger_reading[1] < 0 end,
+         say = "The gain has the wrong sign: the temperature rises when the valve is opened."},
+        {when = function(a) return near(a.exchanger_reading[1], 1/K, {rel = 0.05}) end,
+         say = "K is turned round: output over input."},
+    },
+    hint = "K is the ratio of the two changes, T a third of the 5 % settling time." }
+
+check { id = "exchanger_model", points = 2, about = "Heat exchanger: the estimated model",
+    -- The standard errors are below 0.5 %; 2 % leaves room for other ways of taking the working point off.
+    test = function(a)
+        local found = first_order(a.G_exchanger)
+        if not found then return judge("The shape of the response is that of a model with one pole and no more.") end
+        return each(found, vector{K, T}, {0.02, 0.03}, "K and T")
+    end,
+    mistakes = of_model("G_exchanger", {
+        {when = function(G) return near(dcgain(G), level, {rel = 0.05}) end,
+         say = "The model takes the working point for a part of the response: take both levels off, or let them be estimated."},
+        {when = function(G) return dcgain(G) < 0 end, say = "The gain has the wrong sign."},
+        {when = function(G) return near(dcgain(G), 1/K, {rel = 0.1}) end,
+         say = "Input and output are interchanged."},
+        {when = function(G) return near(first_order(G)[2], T/heat_Ts, {rel = 0.05}) end,
+         say = "The time constant is counted in samples: give the data their sampling time."},
+    }),
+    hint = "procsrivc(data, \"P1\", {InitialState = \"estimate\", Offset = \"estimate\"})" }
+
+check { id = "overshoot", points = 1, about = "Suspension: the first overshoot",
+    test = function(a) return near(a.overshoot, overshoot, {rel = 0.06, half = 0.12}) end,
+    mistakes = {
+        {when = function(a) return near(a.overshoot, 100*overshoot, {rel = 0.1}) end,
+         say = "This is in percent; a ratio is wanted, below 1."},
+        {when = function(a) return near(a.overshoot, 1 + overshoot, {rel = 0.05}) end,
+         say = "This is the height of the peak over the starting level; the overshoot begins at the final value."},
+        {when = function(a) return near(a.overshoot, K2*overshoot, {rel = 0.1}) end,
+         say = "This is in the unit of the output; it must be divided by the change from start to end."},
+    },
+    hint = "How far is the first peak above the final value, in parts of the whole change?" }
+
+check { id = "suspension_reading", points = 2, about = "Suspension: gain, damping and frequency read off the figure",
+    test = function(a) return each(a.suspension_reading, vector{K2, z2, w2}, {0.03, 0.12, 0.06}, "K, z and omega_0") end,
+    mistakes = {
+        {when = function(a) return alike(a.suspension_reading, vector{K2, w2, z2}, 0.2) end,
+         say = "The order is K, z, omega_0."},
+        {when = function(a) return near(a.suspension_reading[3], w2/(2*math.pi), {rel = 0.05}) end,
+         say = "The frequency is in Hz; rad/s is wanted."},
+        {when = function(a) return near(a.suspension_reading[3], w2*suspension_Ts, {rel = 0.06}) end,
+         say = "The instant of the overshoot is counted in samples; seconds are wanted."},
+        {when = function(a)
+             local log = math.log(100*overshoot)
+             return near(a.suspension_reading[2], log/math.sqrt(log^2 + math.pi^2), {rel = 0.05})
+         end,
+         say = "D1 went into the formula in percent; it must be a ratio."},
+    },
+    hint = "The formulas of question 6 take D1 as a ratio and the instant of the overshoot in seconds." }
+
+check { id = "suspension_model", points = 2, about = "Suspension: the estimated model",
+    test = function(a)
+        local found = second_order(a.G_suspension)
+        if not found then return judge("An overshoot wants two poles, and these are enough.") end
+        return each(found, vector{K2, z2, w2}, {0.01, 0.04, 0.01}, "K, z and omega_0")
+    end,
+    mistakes = of_model("G_suspension", {
+        {when = function(G) return dcgain(G) < 0 end, say = "The gain has the wrong sign."},
+        {when = function(G) return near(second_order(G)[3], w2*suspension_Ts, {rel = 0.05}) end,
+         say = "The time is counted in samples: give the data their sampling time."},
+    }),
+    hint = "procsrivc(data, \"P2U\"): a pair of complex poles and no zero." }
+
+check { id = "figures", points = 1, about = "Both readings are held against the measurement",
+    test = function() return all_of(has_figure("exchanger_test"), has_figure("suspension_test")) end,
+    hint = "report.figure(\"exchanger_test\", test_your_model(G, data), \"...\"), and the same for the suspension." }
+
+-- Other specimens differ in gain and time constant by up to a quarter; on sixty of them output error stayed within 1.5 %.
+check { id = "exchanger_follows", points = 4, rerun = "heat_exchanger", about = "Another heat exchanger: your script finds its model",
+    test = function(a, b)
+        local other, fact = first_order(b.G_exchanger), truth(b)
+        if not other then return judge("The model of the other exchanger has not one pole.") end
+        return all_of(differs(dcgain(a.G_exchanger), dcgain(b.G_exchanger)),
+                      each(other, vector{fact.gain, fact.time_constant}, {0.03, 0.04}, "K and T"))
+    end,
+    mistakes = {
+        {when = function(a, b) return near(dcgain(a.G_exchanger), dcgain(b.G_exchanger), {rel = 1e-9}) end,
+         say = "The model does not change with the record: it must be estimated, not typed in."},
+    },
+    hint = "Compute everything that the model needs from what load gives, its sampling time too." }
+
+check { id = "suspension_follows", points = 4, rerun = "suspension", about = "Another suspension: your script finds its model",
+    test = function(a, b)
+        local other, fact = second_order(b.G_suspension), truth(b)
+        if not other then return judge("The model of the other suspension has not two poles.") end
+        return all_of(differs(dcgain(a.G_suspension), dcgain(b.G_suspension)),
+                      each(other, vector{fact.gain, fact.damping_ratio, fact.natural_frequency}, {0.02, 0.05, 0.02},
+                           "K, z and omega_0"))
+    end,
+    mistakes = {
+        {when = function(a, b) return near(dcgain(a.G_suspension), dcgain(b.G_suspension), {rel = 1e-9}) end,
+         say = "The model does not change with the record: it must be estimated, not typed in."},
+    },
+    hint = "Compute everything that the model needs from what load gives." }

@@ -1,0 +1,18 @@
+-- expects: exchanger_reading: turned round
+-- expects: exchanger_model: Input and output are interchanged
+-- expects: exchanger_follows: away from what was expected
+-- expects: suspension_model: wrong sign
+-- expects: suspension_follows: away from what was expected
+-- iddata takes the output first; here the input stands there. The suspension's output is turned upside down.
+local h, s = load("heat_exchanger"), load("suspension")
+local heat, spring = iddata(h.y, h.u, h.t[2] - h.t[1]), iddata(s.y, s.u, s.t[2] - s.t[1])
+local by_eye, swing = step_first_order(heat), step_second_order(spring)
+local good = procsrivc(heat, "P1", {InitialState = "estimate", Offset = "estimate"})
+answer("settling_time", 3*by_eye.T)
+answer("exchanger_reading", vector{(h.u[#h.u] - h.u[1])/(mean(h.y:range(250, #h.y)) - mean(h.y:range(1, 30))), by_eye.T})
+answer("G_exchanger", tf({1/good.Kp}, {good.Tp1, 1}))
+answer("overshoot", math.exp(-math.pi*swing.z/math.sqrt(1 - swing.z^2)))
+answer("suspension_reading", vector{swing.K, swing.z, swing.w0})
+answer("G_suspension", procsrivc(iddata(-s.y, s.u, s.t[2] - s.t[1]), "P2U"))
+report.figure("exchanger_test", test_your_model(by_eye, heat), "Heat exchanger")
+report.figure("suspension_test", test_your_model(swing, spring), "Suspension")
