@@ -31,9 +31,10 @@ struct CheckSession {
     std::vector<DeclaredCheck> checks;
     nlohmann::json runs = nlohmann::json::object();     ///< run_for_grading's results: "main", and one for each rerun
     nlohmann::json findings = nlohmann::json::array();  ///< of `dynlab check --json`
-    std::map<std::string, std::uint32_t> specimens;  ///< of the hidden records by data set, of the reruns "rerun:NAME"
-    std::filesystem::path hidden_folder;             ///< holds NAME.mat
-    bool visible_file = true;                        ///< of the file that is being read
+    std::map<std::string, std::uint32_t>
+        specimens;                        ///< of the hidden records by data set, the same of reruns, "rerun:NAME"
+    std::filesystem::path hidden_folder;  ///< holds NAME.mat
+    bool visible_file = true;             ///< of the file that is being read
     const DeclaredCheck* current = nullptr;
     std::optional<Verdict> verdict;
 };
