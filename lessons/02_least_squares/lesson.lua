@@ -5,6 +5,15 @@
 -- template: lesson
 -- language: en
 -- seed: 1
+-- answers:
+--   line: vector
+--   rmse: number
+--   paris: vector
+--   ct: vector
+--   dt: vector
+--   ct_noisy: vector
+--   dt_noisy: vector
+--   monte_carlo: vector
 -- ---
 
 -- %% [markdown]
@@ -311,8 +320,8 @@ report.table("noisy", {
 -- END SOLUTION
 --
 -- **Question 8.** One noisy record cannot tell bad luck from a method that is wrong on average. Make many: simulate a longer record
--- of the same system, add white noise of standard deviation 0.3 to the output, and repeat the discrete-time fit a thousand times. Where
--- is the mean of the estimates of $a_1$, compared with the truth and with the scatter of the single estimates?
+-- of the same system, 400 samples with the input `prbs(7, 4)`, add white noise of standard deviation 0.3 to the output, and repeat the
+-- discrete-time fit a thousand times. Where is the mean of the estimates of $a_1$, compared with the truth and with the scatter of the single estimates?
 
 -- %% id=monte_carlo
 -- BEGIN SOLUTION
@@ -347,6 +356,26 @@ report.value("samples", samples, "%d")
 -- stands in the regression itself: the noisy output appears in $\Phi$ as well, so $\Phi$ and the equation error are correlated.
 -- END SOLUTION
 --
+-- # What you hand in
+--
+-- Where this lesson is graded, hand in with `answer(name, value)`: `line`, the slope and the time at the mean year; `rmse` of its residuals; `paris`,
+-- the forecast for 2024 and the lower and upper end of its 95 % prediction interval; `ct` ($a$, $b$) and `dt` ($a_1$, $b_1$) from the exact samples,
+-- `ct_noisy` and `dt_noisy` from the noisy ones; `monte_carlo`, mean and standard deviation of your thousand estimates of $a_1$. Your script will
+-- be run on four samples of another system, too. The figures that are looked for are `residuals`, `forecast` and `monte_carlo`.
+
+-- %% id=hand_in
+-- BEGIN SOLUTION
+answer("line", fit.theta)
+answer("rmse", rmse)
+answer("paris", vector{paris.value, paris.low, paris.high})
+answer("ct", ct.theta)
+answer("dt", dt)
+answer("ct_noisy", noisy_ct)
+answer("dt_noisy", noisy_dt)
+answer("monte_carlo", vector{mean(estimates), std(estimates)})
+-- END SOLUTION
+
+-- %% [markdown]
 -- # What was learnt
 --
 -- BEGIN SOLUTION

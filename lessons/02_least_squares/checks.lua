@@ -1,0 +1,180 @@
+-- The checks of lesson 2. `a` holds the answers, `b` those of a run on four samples of another first-order system.
+--
+-- A least-squares solution is one point, so tolerances are small; 0.1 % lets a gradient descent stop a little early.
+
+local games = load("winning_times")
+local N = #games.year - 1
+local years, times = games.year:range(1, N), games.time:range(1, N)
+local centre = mean(years)
+local line = lsq(matrix{years - centre, ones(N)}, times)
+local residuals = times - matrix{years - centre, ones(N)}*line.theta
+local rmse = sqrt(mean(residuals^2))
+local slope, middle = line.theta[1], line.theta[2]
+local whole = lsq(matrix{games.year - mean(games.year), ones(N + 1)}, games.time).theta
+local paris = forecast(polyfit_report(years, times, 1), 2024, 0.95)
+local half_width = (paris.high - paris.low)/2
+
+local samples = load("step_response")
+local function continuous(y, ydot) return lsq(matrix{-y, samples.u}, ydot).theta end
+local function discrete(y, u)
+    local n = #y
+    return lsq(matrix{-y:range(1, n - 1), u:range(1, n - 1)}, y:range(2, n)).theta
+end
+local ct, dt = continuous(samples.y, samples.ydot), discrete(samples.y, samples.u)
+local ct_noisy = continuous(samples.y_noisy, samples.ydot_noisy)
+local dt_noisy = discrete(samples.y_noisy, samples.u)
+
+-- Where least squares goes with noise on 400 samples of prbs(7, 4): the noise adds its energy to one diagonal element of Phi'Phi.
+local u_long, sigma = prbs(7, 4):range(1, 400), 0.3
+local function biased(a1, b1)
+    local x = lsim(tf({b1}, {1, a1}, {Ts = 1}), u_long, 1)
+    local Phi = matrix{-x:range(1, 399), u_long:range(1, 399)}
+    local noise = matrix{{399*sigma^2, 0}, {0, 0}}
+    return solve(Phi:t()*Phi + noise, Phi:t()*x:range(2, 400))[1]
+end
+local scatter
+do
+    local x, found = lsim(tf({dt[2]}, {1, dt[1]}, {Ts = 1}), u_long, 1), zeros(200)
+    for run = 1, 200 do found[run] = discrete(x + sigma*randn(400), u_long)[1] end
+    scatter = std(found)
+end
+
+local function judge(message) return {share = 0, message = message} end
+local function numbers(x, count, names)
+    if #x ~= count then return judge(string.format("Wanted are %d numbers: %s.", count, names)) end
+    return {share = 1}
+end
+local function each(x, wanted, tolerance, names)
+    if #x ~= #wanted then return numbers(x, #wanted, names) end
+    return near(x/wanted, ones(#wanted), {rel = tolerance, half = 5*tolerance})
+end
+local function alike(x, wanted, tolerance)
+    return #x == #wanted and max(abs(x - wanted)) <= tolerance*max(abs(wanted))
+end
+
+check { id = "line", points = 2, about = "The straight line up to 2020",
+    test = function(a) return each(a.line, line.theta, 1e-3, "the slope and the time at the mean year") end,
+    mistakes = {
+        {when = function(a) return alike(a.line, whole, 1e-5) end,
+         say = "2024 is in the fit; it was to be kept aside for the test."},
+        {when = function(a) return alike(a.line, vector{middle, slope}, 1e-3) end,
+         say = "The order is slope, time at the mean year."},
+        {when = function(a) return alike(a.line, vector{slope, middle - slope*centre}, 1e-3) end,
+         say = "The second number is the time in the year 0; that at the mean year is wanted."},
+        {when = function(a) return near(a.line[1], 10*slope, {rel = 1e-2}) end,
+         say = "The slope is per decade; seconds per year are wanted."},
+        {when = function(a) return alike(a.line, vector{-slope, middle}, 1e-3) end,
+         say = "The slope has the wrong sign: the times fall."},
+    },
+    hint = "Least squares on the Games from 1896 to 2020, the years measured from their mean." }
+
+check { id = "rmse", points = 1, about = "The root mean square of the residuals",
+    test = function(a) return near(a.rmse, rmse, {rel = 1e-3}) end,
+    mistakes = {
+        {when = function(a) return near(a.rmse, rmse*math.sqrt(N/(N - 2)), {rel = 1e-3}) end,
+         say = "You divide by N - 2, which estimates the noise; the RMSE divides by N."},
+        {when = function(a) return near(a.rmse, rmse^2, {rel = 1e-3}) end,
+         say = "This is the mean square: the root is missing."},
+        {when = function(a) return near(a.rmse, rmse*math.sqrt(N), {rel = 1e-3}) end,
+         say = "This is the norm of the residuals: the mean is missing."},
+        {when = function(a) return near(a.rmse, mean(abs(residuals)), {rel = 1e-3}) end,
+         say = "This is the mean of the residuals' sizes, not the root of their mean square."},
+    },
+    hint = "The square root of the mean of the squared residuals of the line up to 2020." }
+
+check { id = "paris", points = 2, about = "The forecast for 2024 and its interval",
+    -- Half the points when the interval is within a tenth, as with 1.96 instead of Student's factor.
+    test = function(a)
+        if #a.paris ~= 3 then return numbers(a.paris, 3, "the forecast, the lower and the upper end") end
+        return all_of(near(a.paris[1], paris.value, {abs = 0.002, half = 0.01}),
+                      near(a.paris[3] - a.paris[2], 2*half_width, {rel = 0.01, half = 0.1}),
+                      near((a.paris[3] + a.paris[2])/2, paris.value, {abs = 0.005, half = 0.01}))
+    end,
+    mistakes = {
+        {when = function(a) return a.paris[2] > a.paris[3] end,
+         say = "The order is forecast, lower end, upper end."},
+        {when = function(a) return (a.paris[3] - a.paris[2])/2 < 0.7*half_width end,
+         say = "The interval is too narrow: it must allow for one new race, not only for the uncertainty of the line."},
+        {when = function(a) return near(a.paris[1], games.time[N + 1], {abs = 1e-6}) end,
+         say = "This is what was run in Paris, not what the line foretells."},
+    },
+    hint = "forecast(line, 2024, 0.95) with the line that polyfit_report fits to the Games up to 2020." }
+
+check { id = "continuous", points = 2, about = "The continuous-time model from the exact samples",
+    test = function(a) return each(a.ct, ct, 1e-3, "a and b") end,
+    mistakes = {
+        {when = function(a) return alike(a.ct, vector{-ct[1], ct[2]}, 1e-3) end,
+         say = "The sign of a is turned round: the regressor of the output has a minus."},
+        {when = function(a) return alike(a.ct, vector{ct[2], ct[1]}, 1e-3) end, say = "The order is a, b."},
+        {when = function(a) return alike(a.ct, ct_noisy, 1e-3) end,
+         say = "These are the estimates from the noisy samples."},
+        {when = function(a) return alike(a.ct, vector{1/ct[1], ct[2]/ct[1]}, 1e-3) end,
+         say = "These are time constant and gain; a and b of b/(s + a) are wanted."},
+    },
+    hint = "The columns of Phi are -y and u; the derivative stands on the left." }
+
+check { id = "discrete", points = 2, about = "The discrete-time model from the exact samples",
+    test = function(a) return each(a.dt, dt, 1e-3, "a1 and b1") end,
+    mistakes = {
+        {when = function(a) return alike(a.dt, vector{-dt[1], dt[2]}, 1e-3) end,
+         say = "The sign of a1 is turned round: the regressor of the output has a minus."},
+        {when = function(a) return alike(a.dt, vector{dt[2], dt[1]}, 1e-3) end, say = "The order is a1, b1."},
+        {when = function(a) return alike(a.dt, dt_noisy, 1e-3) end,
+         say = "These are the estimates from the noisy samples."},
+        {when = function(a) return alike(a.dt, ct, 1e-3) end,
+         say = "These are the parameters of the continuous-time model."},
+    },
+    hint = "Each sample is regressed on the sample and the input before it: three equations." }
+
+check { id = "noisy", points = 2, about = "Both models from the noisy samples",
+    test = function(a)
+        return all_of(each(a.ct_noisy, ct_noisy, 1e-3, "a and b"), each(a.dt_noisy, dt_noisy, 1e-3, "a1 and b1"))
+    end,
+    mistakes = {
+        {when = function(a) return alike(a.ct_noisy, continuous(samples.y_noisy, samples.ydot), 1e-3) end,
+         say = "The derivative is the exact one; the noisy one belongs to the noisy output."},
+        {when = function(a) return alike(a.ct_noisy, ct, 1e-3) or alike(a.dt_noisy, dt, 1e-3) end,
+         say = "These are the estimates from the exact samples."},
+    },
+    hint = "The same regressions with y_noisy and ydot_noisy." }
+
+-- The mean of a thousand estimates scatters by a thirtieth of their standard deviation; half of it leaves room for fewer runs.
+check { id = "monte_carlo", points = 2, about = "A thousand estimates: least squares is biased",
+    test = function(a)
+        if #a.monte_carlo ~= 2 then return numbers(a.monte_carlo, 2, "mean and standard deviation") end
+        return all_of(near(a.monte_carlo[1], biased(dt[1], dt[2]), {abs = 0.5*scatter, half = scatter}),
+                      near(a.monte_carlo[2], scatter, {rel = 0.25, half = 0.5}))
+    end,
+    mistakes = {
+        {when = function(a) return near(a.monte_carlo[1], dt[1], {abs = scatter}) end,
+         say = "The mean is the truth: either the noise is missing, or it is the same on both sides of the regression."},
+        {when = function(a) return near(a.monte_carlo[2], scatter/math.sqrt(1000), {rel = 0.4}) end,
+         say = "This is the standard error of the mean; the scatter of single estimates is wanted."},
+    },
+    hint = "Simulate, add noise to the output, estimate as in question 6, a thousand times; then mean and std." }
+
+check { id = "figures", points = 1, about = "Residuals, forecast and histogram are drawn",
+    test = function() return all_of(has_figure("residuals"), has_figure("forecast"), has_figure("monte_carlo")) end,
+    hint = "report.figure(\"residuals\", fig, \"...\") and the same for forecast and monte_carlo." }
+
+local typed = {
+    {when = function(a, b) return near(a.ct, b.ct, {rel = 1e-9}) end,
+     say = "The parameters do not change with the samples: they must be computed, not typed in."},
+}
+
+check { id = "follows_samples", points = 4, rerun = "step_response", about = "Another system: both models follow its samples",
+    test = function(a, b)
+        local fact = truth(b)
+        return all_of(differs(a.ct, b.ct), differs(a.dt, b.dt), each(b.ct, vector{-fact.a, fact.b}, 1e-3, "a and b"),
+                      each(b.dt, vector{-fact.f, fact.g}, 1e-3, "a1 and b1"))
+    end,
+    mistakes = typed,
+    hint = "Compute ct and dt from what load(\"step_response\") gives, the sampling time included." }
+
+check { id = "follows_study", points = 2, rerun = "step_response", about = "Another system: the study repeats its experiment",
+    test = function(a, b)
+        local fact = truth(b)
+        return all_of(differs(a.monte_carlo, b.monte_carlo),
+                      near(b.monte_carlo[1], biased(-fact.f, fact.g), {abs = 0.5*scatter, half = scatter}))
+    end,
+    hint = "Simulate the study's records with the discrete-time model that you have just estimated." }
