@@ -5,6 +5,13 @@
 -- template: lesson
 -- language: en
 -- seed: 1
+-- answers:
+--   linear_orders: vector
+--   G_linear: model
+--   linear_fit: number
+--   G_heat: model
+--   G_dryer: model
+--   dryer_fit: number
 -- ---
 
 -- %% [markdown]
@@ -818,6 +825,25 @@ report.value("dryer_robust", max(H2.robust_std/H2.std), "%.1f")
 -- would be the hypothesis, and the next step an experiment with faster switching and sampling. A fit alone would have hidden the question.
 -- END SOLUTION
 --
+-- # What you hand in
+--
+-- Where this lesson is graded, a model and what it is worth are handed in for each round of the loop, with `answer(name, value)`: `linear_orders`, the numbers
+-- of poles and zeros that you chose; `G_linear`, estimated on the first record, and `linear_fit`, the fit in percent of its simulated output to the second one;
+-- `G_heat`, your final model of the rig, from the heater's power in W to °C; `G_dryer`, estimated on the first half, and `dryer_fit`, the fit
+-- of its simulated output to the second. Your script will be run on records of another system and of another rig. Three figures are looked
+-- for: `linear_resid`, `heat_high` and `dryer_compare`.
+
+-- %% id=hand_in
+-- BEGIN SOLUTION
+answer("linear_orders", vector{V.best.poles, V.best.zeros})
+answer("G_linear", G)
+answer("linear_fit", fit(val, G))
+answer("G_heat", G3)
+answer("G_dryer", H2)
+answer("dryer_fit", fit(second, H2))
+-- END SOLUTION
+
+-- %% [markdown]
 -- # What was learnt
 --
 -- BEGIN SOLUTION

@@ -1,0 +1,25 @@
+-- expects: linear_model: arx gives a difference equation
+-- expects: linear_fit: how well the next sample is predicted
+-- expects: linear_follows: predicts well and simulates badly
+-- expects: dryer_fit: the fit of predicting one step
+-- Difference equations, praised for predicting one step ahead.
+local L = load("linear_system")
+local one, two = iddata(L.y, L.u, 0.05), iddata(L.y_val, L.u_val, 0.05)
+local G = arx(one, {3, 3, 1})
+answer("linear_orders", vector{3, 1})
+answer("G_linear", G)
+answer("linear_fit", G.report.prediction_fit_percent)
+report.figure("linear_resid", resid(two, G), "Residuals")
+
+local H = load("heat_transfer")
+local function prepared(y, u) return idfilt(detrend(iddata(y, 100*(u/10)^2, 1), "start"), {0.015, math.huge}, {order = 2}) end
+local rig = procsrivc(prepared(H.y, H.u), "P2D", {TdMax = 20, InitialState = "zero", Offset = "none"})
+answer("G_heat", rig)
+report.figure("heat_high", test_your_model(rig, prepared(H.y_high, H.u_high)), "About 7 V")
+
+local d = load("hairdryer")
+local learn, check = iddata(d.y, d.u, d.Ts):split(0.5)
+local dryer = arx(learn:remove_mean(), {2, 2, 3})
+answer("G_dryer", dryer)
+answer("dryer_fit", dryer.report.prediction_fit_percent)
+report.figure("dryer_compare", compare(check:remove_mean(), dryer), "Second half")

@@ -1,0 +1,24 @@
+-- expects: linear_model: estimated on the second record
+-- expects: dryer_model: estimated on the second half
+-- The models are estimated on the very records that were to validate them.
+local L = load("linear_system")
+local learn = iddata(L.y_val, L.u_val, L.t[2])
+local G = srivc(learn, {2, 3, 0})
+answer("linear_orders", vector{3, 1})
+answer("G_linear", G)
+answer("linear_fit", fit(learn, G))
+report.figure("linear_resid", resid(learn, G), "Residuals")
+
+local H = load("heat_transfer")
+local function prepared(y, u) return idfilt(detrend(iddata(y, u^2, 1), "start"), {0.015, math.huge}, {order = 2}) end
+local rig = procsrivc(prepared(H.y, H.u), "P2D", {TdMax = 20, InitialState = "zero", Offset = "none"})
+answer("G_heat", rig)
+report.figure("heat_high", test_your_model(rig, prepared(H.y_high, H.u_high)), "About 7 V")
+
+local d = load("hairdryer")
+local _, half = iddata(d.y, d.u, d.Ts):split(0.5)
+half = half:remove_mean()
+local dryer = srivc(half, {1, 2, 2})
+answer("G_dryer", dryer)
+answer("dryer_fit", fit(half, dryer))
+report.figure("dryer_compare", compare(half, dryer), "The half it knows")
