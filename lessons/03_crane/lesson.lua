@@ -5,6 +5,13 @@
 -- template: lab_report
 -- language: en
 -- seed: 1
+-- answers:
+--   discarded: vector
+--   rest_angle: number
+--   G_position: model
+--   G_angle: model
+--   fits: vector
+--   free_swing: number
 -- ---
 
 -- %% [markdown]
@@ -507,4 +514,24 @@ report.figure("closed_loop", figure{rows = 3, height = 8.4, panels = {
     compared(metres, "x", {references = {{y = goal}}}), compared(radians, "theta", {legend = "none"}),
     compared(volts, "u", {legend = "none", xlabel = seconds})}},
     say("The nonlinear crane under both controllers", "La grue non linéaire sous les deux régulateurs"))
+-- END SOLUTION
+
+-- %% [markdown]
+-- # What you hand in besides the report
+--
+-- The report is read by people. Where the script is graded too, it hands in with `answer(name, value)`: `discarded`, first and last instant (s) of the section
+-- of `limits` that belongs to no linear model; `rest_angle`, what the potentiometer reads (rad) while the load hangs still; your recommended models from
+-- voltage to position, `G_position`, integrator included, and from voltage to angle, `G_angle`; `fits`, how well (%) they simulate position and angle of the
+-- validation record; and `free_swing`, the frequency (rad/s) with which the load swings while the motor rests. It will be run on the records
+-- of another crane, and the models that it finds there are held against experiments that nobody has seen. The figures that are
+-- looked for are `raw` and `validation`.
+
+-- %% id=hand_in
+-- BEGIN SOLUTION
+answer("discarded", vector{limits.t[first], limits.t[last]})
+answer("rest_angle", mean(crane.estimation.theta:range(1, rest)))
+answer("G_position", tf({b0, b1, b2}, {1, a1, a2, a3, 0}))
+answer("G_angle", model.theta)
+answer("fits", vector{fit_of.x, fit_of.theta})
+answer("free_swing", swing_frequency)
 -- END SOLUTION
