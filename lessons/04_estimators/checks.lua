@@ -43,8 +43,10 @@ check { id = "lssvf", points = 1, about = "LSSVF of the library",
     mistakes = {
         {when = function(a) return near(a.G_lssvf.param, ivsvf(a.record, {2, 1, 0}, 3).param, {rel = 1e-6}) end,
          say = "This is what ivsvf gives."},
-        {when = function(a) return near(a.G_lssvf.param, lssvf(a.record, {2, 1, 0}, 30).param, {rel = 1e-6}) or
-                                   near(a.G_lssvf.param, lssvf(a.record, {2, 1, 0}, 0.3).param, {rel = 1e-6}) end,
+        {when = function(a)
+             local function with(lambda) return near(a.G_lssvf.param, lssvf(a.record, {2, 1, 0}, lambda).param, {rel = 1e-6}) end
+             return any_of(with(0.3), with(30))
+         end,
          say = "The model was made with another lambda than 3."},
     },
     hint = "lssvf(data, {2, 1, 0}, 3)" }
@@ -60,22 +62,21 @@ check { id = "ivsvf", points = 2, about = "IVSVF",
 check { id = "final_model", points = 3, about = "The recommended model is right",
     test = function(a)
         local G = a.G_final
+        if G.Ts > 0 then return false, "A continuous-time model is wanted, but this one is in discrete time." end
+        if differs(G.num, a.G_lssvf.num).share + differs(G.den, a.G_lssvf.den).share == 0 then
+            return false, "The LSSVF model is biased by the noise; it cannot be the final one."
+        end
         return all_of(near(dcgain(G), 2/3, {rel = 0.05, half = 0.15}),
                       near(fit(clean, G), 100, {abs = 4, half = 10}))
     end,
     mistakes = {
         {when = function(a) return dcgain(a.G_final) < 0 end, say = "The gain has the wrong sign."},
-        {when = function(a) return near(a.G_final.param, a.G_lssvf.param, {rel = 1e-9}) end,
-         say = "The LSSVF model is biased by the noise; it cannot be the final one."},
-        {when = function(a) return a.G_final.Ts > 0 end,
-         say = "A continuous-time model is wanted, but this one is in discrete time."},
     },
     hint = "Which of the methods is unbiased and does not depend on a filter you have to choose?" }
 
 check { id = "final_is_estimated", points = 1, about = "The recommended model carries its uncertainty",
     test = function(a)
         local G = a.G_final
-        if not G.std then return false, "The model has no standard errors: it was not estimated." end
         return near(G.param, truth, {abs = 4*max(G.std)})
     end,
     hint = "Hand in the model that the method returned, not one you typed in." }

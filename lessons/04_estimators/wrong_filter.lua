@@ -1,0 +1,23 @@
+-- expects: own_without_noise: the filter hold the output between the samples
+-- expects: own_is_lssvf: away from what was expected
+-- expects: lssvf: another lambda than 3
+-- expects: ivsvf: away from what was expected
+-- expects: follows_data: away from what was expected
+-- The filter holds the measured output like the input, and the library gets another cut-off frequency.
+local u, Ts = prbs(4, 100), 0.01
+local Go = tf({2}, {1, 4, 3})
+local x = lsim(Go, u, Ts)
+local y = x + 0.2*randn(#u)
+local function estimate(signal)
+    local out, inp = svf(signal, 2, 3, {Ts = Ts, hold = "zoh"}), svf(u, 2, 3, {Ts = Ts, hold = "zoh"})
+    return solve(matrix{-out:col(2), -out:col(3), inp:col(3)}, out:col(1))
+end
+local data = iddata(y, u, Ts)
+answer("own_without_noise", estimate(x))
+answer("own", estimate(y))
+answer("record", data)
+answer("G_lssvf", lssvf(data, {2, 1, 0}, 30))
+answer("G_ivsvf", ivsvf(data, {2, 1, 0}, 30))
+answer("G_final", srivc(data, {1, 2, 0}))
+local many = montecarlo{system = Go, input = u, Ts = Ts, sigma = 0.2, runs = 200, estimators = {srivc = {{1, 2, 0}}}}
+answer("scatter", many.srivc.std)
