@@ -5,6 +5,13 @@
 -- template: slides
 -- language: en
 -- seed: 1
+-- answers:
+--   ring_frequency: number
+--   dead_band: vector
+--   delay: number
+--   thrust_300: vector
+--   model: table
+--   fit: number
 -- ---
 
 -- %% [markdown]
@@ -508,3 +515,22 @@ report.table("verdict", verdict)
 
 -- %% [markdown]
 -- **Question 10.** Which model do you recommend, for what, and for what not? What experiment would you make next?
+--
+-- # What you hand in besides the slides
+--
+-- Where the script is graded too, it hands in with `answer(name, value)`: `ring_frequency` (Hz) of question 3; `dead_band`, its forward and its
+-- reverse end (µs from neutral, the second one negative); `delay` (s) of the thruster; `thrust_300`, the steady thrust (N) at +300 µs and at −300 µs; your
+-- recommended `model`, estimated from the sine chirps; and `fit` (%), how well it simulates the thrust of all square chirps together, both
+-- signals below 8 Hz. The model is a table of four: vectors `width` (µs from neutral, rising) and `level` for the static curve, straight between its points, the
+-- dynamics `G` behind it, and `root`, true if what comes out is the root of the thrust, to be squared with its sign. Your script will be run
+-- on the records of another thruster, whose square chirps nobody has seen. The figures that are looked for are `curve` and `validation`.
+
+-- %% id=hand_in
+-- BEGIN SOLUTION
+answer("ring_frequency", response.w[peak]/(2*math.pi))
+answer("dead_band", vector{dead_band_end[1], dead_band_end[-1]})
+answer("delay", ham.IODelay)
+answer("thrust_300", characteristic(ham)(vector{300, -300}))
+answer("model", {width = rooted.report.breakpoints, level = rooted.report.levels, G = rooted, root = true})
+answer("fit", agreement(thruster, "square", fitted.root.sine.simulate))
+-- END SOLUTION

@@ -1,0 +1,144 @@
+-- The checks of lesson 5. `a` holds the answers, `b` those of a run on the records of another thruster.
+
+local Ts, neutral, rest, amplitudes = 0.002, 1500, 250, {100, 200, 300}
+local fact = rig_truth("thruster")
+
+local function judge(message) return {share = 0, message = message} end
+local function low_pass(v) return idfilt(v, {0, 2*math.pi*8}, {zero_phase = true, Ts = Ts}) end
+
+-- Thrust as the handed-in model simulates it; outside its points the static curve stays where it ends.
+local function simulated(model, pwm)
+    local y = lsim(model.G, interp1(model.width, model.level, pwm - neutral, {outside = "hold"}), Ts)
+    return model.root and y*abs(y) or y
+end
+-- The fit below 8 Hz over the three records of a shape.
+local function fit_on(records, shape, model)
+    local errors, swings = {}, {}
+    for k, amplitude in ipairs(amplitudes) do
+        local r = records[shape .. "_" .. amplitude]
+        local y = low_pass(r.force - mean(r.force:range(1, rest)))
+        errors[k], swings[k] = y - low_pass(simulated(model, r.pwm)), y - mean(y)
+    end
+    return 100*(1 - norm(vector(errors))/norm(vector(swings)))
+end
+local function static_at_300(facts) return interp1(facts.pwm - facts.neutral, facts.thrust, vector{300, -300}) end
+
+local official = load("thruster")
+local known = {}  -- fits of the model on the official records; a run of the checks is about one submission
+local function own_fit(model, shape)
+    known[shape] = known[shape] or fit_on(official, shape, model)
+    return known[shape]
+end
+local function with(model, changes)
+    local other = {width = model.width, level = model.level, G = model.G, root = model.root}
+    for name, value in pairs(changes) do other[name] = value end
+    return other
+end
+
+check { id = "ring_frequency", points = 1, about = "What the square chirp makes ring",
+    -- A smoothed spectrum has lines 0.1 Hz apart; the beam's resonance is 2 Hz wide.
+    test = function(a) return near(a.ring_frequency, fact.cell_frequency, {rel = 0.05, half = 0.1}) end,
+    mistakes = {
+        {when = function(a) return near(a.ring_frequency, 2*math.pi*fact.cell_frequency, {rel = 0.06}) end,
+         say = "This is in rad/s; Hz is wanted."},
+    },
+    hint = "etfe of a square chirp with some smoothing: the peak above the thruster's own frequencies." }
+
+check { id = "dead_band", points = 2, about = "The ends of the dead band",
+    -- A parabola through noisy bins of 10 µs is right within some 3 µs, reading off a figure within a bin.
+    test = function(a)
+        if #a.dead_band ~= 2 then return judge("Wanted are two numbers: the forward and the reverse end.") end
+        return near(a.dead_band, vector{fact.dead_band, -fact.dead_band}, {abs = 8, half = 15})
+    end,
+    mistakes = {
+        {when = function(a) return min(a.dead_band) > 1000 end, say = "Neutral is not taken off: widths count from 1500 µs."},
+        {when = function(a) return a.dead_band[1] < a.dead_band[2] end, say = "The order is forward end, reverse end."},
+        {when = function(a) return min(a.dead_band) > 0 end, say = "The reverse end lies below neutral: it is negative."},
+        {when = function(a) return a.dead_band[1] - a.dead_band[2] < 20 end,
+         say = "Next to nothing: the curve of a linear model has no dead band, but the thruster's has."},
+    },
+    hint = "Where does the root of the thrust, drawn over the pulse width, reach zero?" }
+
+check { id = "delay", points = 2, about = "The thruster's delay",
+    -- Static curve and one lag, estimated from the sine chirps, found it within 4 ms on six thrusters.
+    test = function(a) return near(a.delay, fact.delay, {abs = 0.006, half = 0.01}) end,
+    mistakes = {
+        {when = function(a) return near(a.delay, 1000*fact.delay, {rel = 0.35}) end, say = "This is in ms; seconds are wanted."},
+        {when = function(a) return near(a.delay, fact.delay/Ts, {rel = 0.35}) end,
+         say = "This is counted in samples; seconds are wanted."},
+        {when = function(a) return a.delay < 0.024 end,
+         say = "Too short: a linear model of the sine chirps starts early because it has no dead band to wait for."},
+    },
+    hint = "Estimate it together with the static curve, or look at the mean answer to a switching." }
+
+check { id = "thrust_300", points = 2, about = "Steady thrust forwards and in reverse",
+    test = function(a)
+        if #a.thrust_300 ~= 2 then return judge("Wanted are two numbers: the thrust at +300 µs and that at -300 µs.") end
+        return near(a.thrust_300/static_at_300(fact), ones(2), {rel = 0.08, half = 0.16})
+    end,
+    mistakes = {
+        {when = function(a) return a.thrust_300[2] > 0 and a.thrust_300[1] > 0 end, say = "Reverse thrust is negative."},
+        {when = function(a) return near(a.thrust_300[1], -a.thrust_300[2], {rel = 0.02}) end,
+         say = "Forward and reverse are the same: the propeller is better forwards."},
+        {when = function(a) return near(a.thrust_300*abs(a.thrust_300)/static_at_300(fact), ones(2), {rel = 0.2}) end,
+         say = "These are the roots of the thrust: square them."},
+    },
+    hint = "What the load cell reads once a switching has died away, or the ends of the static curve." }
+
+check { id = "model", points = 4, about = "The recommended model on the square chirps",
+    -- From the sine chirps a linear model reaches 70 %, a static curve with one lag 87 %, the root model 90 %.
+    test = function(a) return points_between(own_fit(a.model, "square"), 62, 85) end,
+    mistakes = {
+        {when = function(a) return min(a.model.width) > 500 end, say = "Neutral is not taken off: widths count from 1500 µs."},
+        {when = function(a) return a.model.G.IODelay >= 1 end, say = "The delay of G is not in seconds."},
+        {when = function(a) return fit_on(official, "square", with(a.model, {root = not a.model.root})) > 80 end,
+         say = "The field root says the contrary of what this model gives out."},
+        {when = function(a) return fit_on(official, "square", with(a.model, {level = -a.model.level})) > 50 end,
+         say = "The sign is wrong: wider pulses push forwards."},
+        {when = function(a) return max(abs(diff(a.model.level)/diff(a.model.width)*diff(a.model.width)[1]/diff(a.model.level)[1] - 1)) < 1e-6 end,
+         say = "This model is linear: it knows neither the dead band nor the difference between forwards and reverse."},
+        {when = function(a) return a.model.G.IODelay < 0.01 end, say = "The model answers without a delay."},
+    },
+    hint = "A static curve with its dead band, then a lag and a delay; and what does thrust depend on?" }
+
+check { id = "fit", points = 1, about = "What the model is worth on the square chirps",
+    test = function(a) return near(a.fit, own_fit(a.model, "square"), {abs = 1.5, half = 3}) end,
+    mistakes = {
+        {when = function(a) return near(a.fit, own_fit(a.model, "sine"), {abs = 0.5}) end,
+         say = "This is the fit to the sine chirps, from which the model was estimated."},
+        {when = function(a) return a.fit <= 1 end, say = "Percent are wanted."},
+    },
+    hint = "100 (1 - |error|/|y - mean|) over the three square chirps together, both signals below 8 Hz." }
+
+check { id = "figures", points = 1, about = "Static curve and validation are drawn",
+    test = function() return all_of(has_figure("curve"), has_figure("validation")) end,
+    hint = "report.figure(\"curve\", fig, \"...\") and report.figure(\"validation\", fig, \"...\")." }
+
+-- What the static curve gives out in the end: models of one behaviour may share a gain between curve and dynamics.
+local function gains(model) return model.level*dcgain(model.G) end
+
+local typed = {
+    {when = function(a, b) return near(a.thrust_300, b.thrust_300, {rel = 1e-9}) end,
+     say = "The results do not change with the records: they must be computed, not typed in."},
+}
+
+check { id = "statics_follow", points = 3, rerun = "thruster", about = "Another thruster: its thrust and its delay",
+    test = function(a, b)
+        local other = truth(b)
+        return all_of(differs(a.thrust_300, b.thrust_300), differs(a.delay, b.delay),
+                      near(b.thrust_300/static_at_300(other), ones(2), {rel = 0.1, half = 0.18}),
+                      near(b.delay, other.delay, {abs = 0.006, half = 0.01}))
+    end,
+    mistakes = typed,
+    hint = "Read nothing off a figure that the script has to find." }
+
+check { id = "model_follows", points = 5, rerun = "thruster",
+    about = "Another thruster: your model simulates square chirps that nobody has seen",
+    test = function(a, b)
+        return all_of(differs(gains(a.model), gains(b.model)), points_between(fit_on(hidden("thruster"), "square", b.model), 62, 84))
+    end,
+    mistakes = {
+        {when = function(a, b) return near(gains(a.model), gains(b.model), {rel = 1e-9}) end,
+         say = "The model does not change with the records: it must be estimated, not typed in."},
+    },
+    hint = "Estimate curve and dynamics from what load(\"thruster\") gives." }
