@@ -59,6 +59,7 @@ check { id = "ivsvf", points = 2, about = "IVSVF",
     },
     hint = "ivsvf(data, {2, 1, 0}, 3)" }
 
+-- Of a thousand records TFSRIVC and IVSVF stay within these limits on all but ten; LSSVF does not on half of them.
 check { id = "final_model", points = 3, about = "The recommended model is right",
     test = function(a)
         local G = a.G_final
@@ -66,8 +67,8 @@ check { id = "final_model", points = 3, about = "The recommended model is right"
         if differs(G.num, a.G_lssvf.num).share + differs(G.den, a.G_lssvf.den).share == 0 then
             return false, "The LSSVF model is biased by the noise; it cannot be the final one."
         end
-        return all_of(near(dcgain(G), 2/3, {rel = 0.05, half = 0.15}),
-                      near(fit(clean, G), 100, {abs = 4, half = 10}))
+        return all_of(near(dcgain(G), 2/3, {rel = 0.065, half = 0.15}),
+                      near(fit(clean, G), 100, {abs = 5, half = 9}))
     end,
     mistakes = {
         {when = function(a) return dcgain(a.G_final) < 0 end, say = "The gain has the wrong sign."},
