@@ -213,7 +213,7 @@ class FolderCheck {
         result_.template_name = found.template_name;
         result_.language = found.language;
         result_.pages = found.pages;
-        result_.checked = found.checked;
+        result_.checked.insert(result_.checked.begin(), found.checked.begin(), found.checked.end());
         result_.checked.insert(result_.checked.begin(),
                                file == report() ? "run from a clean copy" : file.filename().string());
         result_.findings.insert(result_.findings.end(), found.findings.begin(), found.findings.end());

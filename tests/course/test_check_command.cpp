@@ -111,6 +111,22 @@ TEST(check_command, open_questions_and_missing_answers_are_found_by_line_and_nam
     EXPECT_THAT(json.at("findings").at(1).at("what").get<std::string>(), HasSubstr("\"gain\" (number)"));
 }
 
+// oracle: the worked solution has all points, and percent instead of a ratio lose those of their check
+TEST(check_command, tells_what_the_checks_of_the_lesson_say) {
+    const Workbench bench;
+    ASSERT_EQ(bench.dynlab({"new", "01", "mine"}).exit_code, 0);
+    bench.shell("cp " DYNLAB_SOURCE_DIR "/lessons/01_process_models/lesson.lua mine/analysis.lua");
+    const ChildResult solved = bench.dynlab({"check", "mine"});
+    EXPECT_EQ(solved.exit_code, 0) << solved.output;
+    EXPECT_THAT(solved.output, HasSubstr("checks of lesson 01_process_models: 19 of 19 points"));
+    bench.shell("sed -i 's/answer(\"overshoot\", /answer(\"overshoot\", 100*/' mine/analysis.lua");
+    const ChildResult percent = bench.dynlab({"check", "mine"});
+    EXPECT_EQ(percent.exit_code, 0) << percent.output;
+    EXPECT_THAT(percent.output, HasSubstr("checks of lesson 01_process_models: 18 of 19 points"));
+    EXPECT_THAT(percent.output, HasSubstr("check-failed"));
+    EXPECT_THAT(percent.output, HasSubstr("This is in percent; a ratio is wanted, below 1."));
+}
+
 TEST(check_command, tells_whether_the_pdf_in_the_folder_is_that_of_the_analysis) {
     const Workbench bench;
     make_folder(bench);
