@@ -46,8 +46,8 @@ int grade(const GradeWords& words) {
         std::cerr << "dynlab: no --secret FILE: anybody who reads the project can compute the hidden records\n";
     const GradingOutcome outcome = grade_class(request);
     for (const std::string& complaint : outcome.complaints) std::cerr << "dynlab: " << complaint << '\n';
-    std::cout << fmt::format("{} submissions: {} graded now, {} unchanged{}; isolation {}\n", outcome.submissions,
-                             outcome.made, outcome.kept,
+    std::cout << fmt::format("{} submission{}: {} graded now, {} unchanged{}; isolation {}\n", outcome.submissions,
+                             outcome.submissions == 1 ? "" : "s", outcome.made, outcome.kept,
                              outcome.not_whole > 0 ? fmt::format(", {} with ungraded checks", outcome.not_whole) : "",
                              name_of(request.setup.isolation))
               << (request.out / "gradebook.csv").string() << '\n'

@@ -19,6 +19,7 @@
 #include "platform/error.h"
 #include "platform/interrupt.h"
 #include "platform/progress.h"
+#include "platform/temporary_folder.h"
 
 namespace dynlab {
 namespace {
@@ -45,7 +46,7 @@ class ClassGrading {
     ClassGrading(const GradingRequest& request, GradingOutcome& outcome)
         : request_(request),
           outcome_(outcome),
-          submissions_(submissions_in(request.submissions)),
+          submissions_(submissions_in(opened(request))),
           rules_(request.setup),
           manual_(prepared(request.out) / "manual.csv") {
         if (request.deadlines) deadlines_ = Deadlines(*request.deadlines);
@@ -67,6 +68,13 @@ class ClassGrading {
     }
 
   private:
+    /// The folder itself, or what an LMS put into one zip.
+    fs::path opened(const GradingRequest& request) const {
+        if (!fs::is_regular_file(request.submissions)) return request.submissions;
+        unpack_export(request.submissions, export_.path() / "all", request.setup.isolation, request.setup.program);
+        return export_.path() / "all";
+    }
+
     static const fs::path& prepared(const fs::path& out) {
         fs::create_directories(out / "results");
         return out;
@@ -185,6 +193,7 @@ class ClassGrading {
 
     const GradingRequest& request_;
     GradingOutcome& outcome_;
+    TemporaryFolder export_;
     std::vector<Submission> submissions_;
     GradingRules rules_;
     ManualMarks manual_;

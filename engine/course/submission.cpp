@@ -108,7 +108,7 @@ void unpack(const fs::path& archive, const fs::path& to, Isolation level, const 
     nlohmann::json job = {{"work", "unpack"}, {"bytes", limits.bytes}, {"files", limits.files}};
     job["archive"] = box.add(archive, "/box/archive").string();
     job["to"] = box.add_writable(to, "/box/unpacked").string();
-    const BoxedResult result = run_boxed(box, program, job, std::chrono::seconds(20));
+    const BoxedResult result = run_boxed(box, program, job, std::chrono::seconds(60));
     if (!result.output) throw SubmissionError("The archive cannot be unpacked: " + result.reason + ".");
     if (result.output->contains("error"))
         throw SubmissionError(
@@ -116,6 +116,15 @@ void unpack(const fs::path& archive, const fs::path& to, Isolation level, const 
 }
 
 }  // namespace
+
+void unpack_export(const fs::path& archive, const fs::path& to, Isolation level, const fs::path& program) {
+    constexpr SubmissionLimits kOfAClass{4ull << 30, 200'000};
+    try {
+        unpack(archive, to, level, program, kOfAClass);
+    } catch (const SubmissionError& error) {
+        throw EnvironmentError(fmt::format("{}: {}", archive.string(), error.what()));
+    }
+}
 
 fs::path stage_submission(const Submission& submission, const fs::path& to, Isolation level, const fs::path& program,
                           const SubmissionLimits& limits) {

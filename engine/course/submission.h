@@ -22,6 +22,11 @@ struct Submission {
 /// "nameLATE_ID_ID_file.zip" are recognised. Throws EnvironmentError where there is none.
 std::vector<Submission> submissions_in(const std::filesystem::path& folder);
 
+/// Unpacks the one zip in which an LMS exports all submissions into `to`, an empty folder, in a box. Throws
+/// EnvironmentError.
+void unpack_export(const std::filesystem::path& archive, const std::filesystem::path& to, Isolation level,
+                   const std::filesystem::path& program);
+
 /// What a submission may take when it is copied or unpacked.
 struct SubmissionLimits {
     std::uint64_t bytes = 200ull << 20;

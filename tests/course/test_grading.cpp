@@ -234,6 +234,11 @@ TEST(grading, packs_are_whole_repeatable_and_can_be_graded) {
     EXPECT_THAT(listed, HasSubstr("0bfe935e70c321c7ca3afc75ce0d0ca2f98b5422e008bb31c00c6d7f1f1c0ad6"));
     ASSERT_EQ(bench.grade().exit_code, 0);
     EXPECT_EQ(points(bench.result("mine")), (std::vector<double>{2, 3}));
+    // All of a class in one zip, as an LMS exports it.
+    work.shell(
+        "cd in && zip -q ../export.zip mine.zip && cd .. && rm in/mine.zip && mv export.zip in.zip && rmdir in && mv "
+        "in.zip in");
+    EXPECT_THAT(bench.grade().output, HasSubstr("1 submission: 0 graded now, 1 unchanged"));
     ASSERT_EQ(work.dynlab({"bundle", "99", "-o", "lesson.zip"}).exit_code, 0);
     const std::string starter = work.shell("unzip -Z1 lesson.zip; unzip -p lesson.zip 99_small/analysis.lua").output;
     EXPECT_THAT(starter, HasSubstr("99_small/checks.lua"));
