@@ -114,7 +114,7 @@ class ClassGrading {
 
     void one(std::size_t place) {
         const Submission& submission = submissions_[place];
-        const std::string fingerprint = rules_.fingerprint(hash_of_content(submission));
+        const std::string fingerprint = rules_.fingerprint(hash_of_content(submission), seed_of(submission));
         std::optional<Grade> grade = request_.regrade ? std::nullopt : earlier(submission);
         const bool keep = grade && grade->fingerprint == fingerprint;
         if (!keep) {
@@ -128,12 +128,17 @@ class ClassGrading {
         ++(keep ? outcome_.kept : outcome_.made);
     }
 
+    GradingRules::GroupSeed seed_of(const Submission& submission) const {
+        const auto owners = roster_ ? roster_->owners(submission) : std::vector<std::size_t>{};
+        return owners.empty() ? std::nullopt : roster_->students()[owners.front()].seed;
+    }
+
     Grade graded(const Submission& submission) const {
         const TemporaryFolder work;
         try {
             const fs::path folder =
                 stage_submission(submission, work.path(), request_.setup.isolation, request_.setup.program);
-            return rules_.grade(submission.name, folder);
+            return rules_.grade(submission.name, folder, seed_of(submission));
         } catch (const SubmissionError& error) {
             return rules_.without_checks(submission.name, error.what());
         }

@@ -5,13 +5,12 @@
 #include <algorithm>
 
 #include "data_io/dataset_index.h"
-#include "figures/gnuplot_renderer.h"
 #include "platform/atomic_file.h"
 #include "platform/content_hash.h"
 #include "platform/error.h"
 #include "platform/program_identity.h"
 #include "platform/program_lookup.h"
-#include "scripting/runtime.h"
+#include "workflow/specimen_record.h"
 
 namespace dynlab {
 namespace {
@@ -27,13 +26,6 @@ constexpr auto kDocumentTime = std::chrono::seconds(120);
 constexpr auto kMargin = std::chrono::milliseconds(300);  // the script's copy is ended before its box
 constexpr auto kStartTime = std::chrono::milliseconds(500);
 constexpr std::uint64_t kScriptMemory = 1ull << 30;
-const std::vector<std::string> kSimulated = {"crane",         "heat_exchanger", "heat_transfer", "linear_system",
-                                             "step_response", "suspension",     "thruster"};
-
-bool is_simulated(const std::string& data_set) {
-    return std::find(kSimulated.begin(), kSimulated.end(), data_set) != kSimulated.end();
-}
-
 }  // namespace
 
 GradingRules::GradingRules(GradingSetup setup) : setup_(std::move(setup)) {
@@ -59,7 +51,7 @@ void GradingRules::read_checks() {
         for (const fs::path& file : more)
             files_.push_back({{"name", file.filename().string()}, {"source", read_file(file)}, {"visible", false}});
     }
-    const BoxedResult listed = checked(nullptr);
+    const BoxedResult listed = checked(nullptr, {});
     if (!listed.output) throw EnvironmentError("the checks cannot be read: " + listed.reason);
     if (listed.output->contains("error")) throw EnvironmentError(listed.output->at("error").get<std::string>());
     checks_ = listed.output->at("checks");
@@ -72,7 +64,7 @@ void GradingRules::read_checks() {
             throw EnvironmentError(
                 fmt::format("the check \"{}\" wants a rerun on \"{}\", but records are made of {}, or "
                             "the seed changed with \"seed\"",
-                            check.at("id").get<std::string>(), rerun, fmt::join(kSimulated, ", ")));
+                            check.at("id").get<std::string>(), rerun, fmt::join(simulated_data_sets(), ", ")));
         reruns_.insert(rerun);
     }
 }
@@ -86,7 +78,7 @@ void GradingRules::make_records() {
     std::string sources;
     for (const json& file : files_) sources += file.at("source").get<std::string>();
     fs::create_directories(records_.path() / "hidden");
-    for (const std::string& name : kSimulated)
+    for (const std::string& name : simulated_data_sets())
         if (sources.find('"' + name + '"') != std::string::npos) make_record(name, name, records_.path() / "hidden");
     const auto own = fs::copy_options::recursive;
     for (const std::string& rerun : reruns_) {
@@ -102,30 +94,38 @@ void GradingRules::make_records() {
 
 void GradingRules::make_record(const std::string& data_set, const std::string& key, const fs::path& folder) {
     specimens_[key] = drawn(data_set);  // hidden records are further experiments with the apparatus of the rerun
-    GnuplotRenderer renderer;
-    RunOptions options;
-    options.out_folder = folder;
-    Runtime runtime(options, renderer);
-    const RunRecord record = runtime.run_code(
-        fmt::format("save_mat(\"{0}.mat\", rig(\"{0}\", {{seed = {1}, specimen = {2}}}), {{digits = 7}})", data_set,
-                    drawn("noise:" + key), specimens_[key]),
-        "hidden record");
-    if (record.error) throw EnvironmentError("a hidden record cannot be made: " + record.error->message);
+    write_specimen_record(data_set, specimens_[key], drawn("noise:" + key), folder);
 }
 
-fs::path GradingRules::add_home(Box& box, const std::string& run) const {
+/// The official data, a group's own records among them, as groups have them.
+fs::path GradingRules::data_of(const GroupSeed& group_seed) const {
+    if (!group_seed) return shared_folder() / "data";
+    const std::lock_guard lock(*making_);
+    const fs::path data = records_.path() / fmt::format("group-{}", *group_seed) / "data";
+    if (fs::exists(data)) return data;
+    const fs::path growing = data.parent_path() / "growing";
+    fs::create_directories(growing.parent_path());
+    fs::copy(shared_folder() / "data", growing, fs::copy_options::recursive);
+    const std::vector<std::string> own = simulated_data_of(read_file(setup_.lesson.script()));
+    for (const std::string& name : own) fs::remove_all(growing / name);
+    write_group_data(own, *group_seed, growing);
+    fs::rename(growing, data);
+    return data;
+}
+
+fs::path GradingRules::add_home(Box& box, const std::string& run, const GroupSeed& group_seed) const {
     const bool own = run != kMain && run != kSeedOnly;
-    const fs::path data = own ? records_.path() / run / "data" : shared_folder() / "data";
+    const fs::path data = own ? records_.path() / run / "data" : data_of(group_seed);
     return box.add(data, own ? "/box/" + run + "/data" : "/box/home/data").parent_path();
 }
 
-json GradingRules::run(const fs::path& folder, std::string& log) const {
+json GradingRules::run(const fs::path& folder, const GroupSeed& group_seed, std::string& log) const {
     Box box(setup_.isolation);
     const fs::path script = box.add(folder, "/box/submission") / "analysis.lua";
     json job = {{"work", "run"}, {"runs", json::array()}};
     const auto add = [&](const std::string& name) {
         job["runs"].push_back({{"name", name},
-                               {"home", add_home(box, name).string()},
+                               {"home", add_home(box, name, group_seed).string()},
                                {"script", script.string()},
                                {"seed", name == kSeedOnly ? drawn("seed") : seed_},
                                {"answers", answers_},
@@ -145,10 +145,10 @@ json GradingRules::run(const fs::path& folder, std::string& log) const {
     return runs;
 }
 
-json GradingRules::findings(const fs::path& folder) const {
+json GradingRules::findings(const fs::path& folder, const GroupSeed& group_seed) const {
     Box box(setup_.isolation);
     box.add_document_programs();
-    const fs::path home = box.add(shared_folder() / "data", "/box/home/data").parent_path();
+    const fs::path home = box.add(data_of(group_seed), "/box/home/data").parent_path();
     box.add(shared_folder() / "report_templates", "/box/home/report_templates");
     box.set_environment("DYNLAB_HOME", home.string());
     const fs::path inside = box.add(folder, "/box/submission"), program = box.add(setup_.program, "/box/dynlab");
@@ -163,9 +163,9 @@ json GradingRules::findings(const fs::path& folder) const {
                          {"what", child.timed_out ? "The report takes too long." : "The report cannot be made."}}});
 }
 
-BoxedResult GradingRules::checked(json submission) const {
+BoxedResult GradingRules::checked(json submission, const GroupSeed& group_seed) const {
     Box box(setup_.isolation);
-    box.set_environment("DYNLAB_HOME", add_home(box, kMain).string());
+    box.set_environment("DYNLAB_HOME", add_home(box, kMain, group_seed).string());
     const bool tries = !submission.is_null();
     const json job = {{"work", "checks"},
                       {"files", files_},
@@ -195,13 +195,14 @@ Grade GradingRules::without_checks(const std::string& name, const std::string& t
     return grade;
 }
 
-Grade GradingRules::grade(const std::string& name, const fs::path& folder) const {
+Grade GradingRules::grade(const std::string& name, const fs::path& folder, const GroupSeed& group_seed) const {
     Grade grade = without_checks(name, "");
-    const json runs = run(folder, grade.log);
+    const json runs = run(folder, group_seed, grade.log);
     const json& main = runs.at(kMain);
     if (main.contains("error")) grade.trouble = main.at("error");
     if (main.contains("printed")) grade.printed = main.at("printed");
-    const BoxedResult result = checked({{"runs", runs}, {"findings", document_ ? findings(folder) : json::array()}});
+    const BoxedResult result =
+        checked({{"runs", runs}, {"findings", document_ ? findings(folder, group_seed) : json::array()}}, group_seed);
     grade.log +=
         fmt::format("checks: {:.3f} s in their box{}\n", result.seconds, result.output ? "" : "; " + result.reason);
     if (!grade.printed.empty()) grade.log += "\nprinted by the script, at its end:\n" + grade.printed;
@@ -237,12 +238,12 @@ std::vector<std::string> GradingRules::try_solution() {
     return complaints;
 }
 
-std::string GradingRules::fingerprint(const std::string& content_hash) const {
+std::string GradingRules::fingerprint(const std::string& content_hash, const GroupSeed& group_seed) const {
     ContentHash hash;
     for (const std::string& part :
          {content_hash, program_identity(), setup_.lesson.slug, hash_of_file(setup_.lesson.script()), setup_.secret,
           files_.dump(), std::to_string(setup_.timeout.count()), name_of(setup_.isolation),
-          fmt::format("{}", fmt::join(broken_, " "))})
+          fmt::format("{}", fmt::join(broken_, " ")), group_seed ? std::to_string(*group_seed) : ""})
         hash.add(std::to_string(part.size()) + ":").add(part);
     return hash.hex();
 }

@@ -2,6 +2,8 @@
 #include <chrono>
 #include <filesystem>
 #include <map>
+#include <memory>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -32,15 +34,18 @@ class GradingRules {
     /// rerun of a data set that no simulator makes.
     explicit GradingRules(GradingSetup setup);
 
-    /// Runs and checks the submission whose script stands in `folder`; `trouble` when it could not be staged.
-    Grade grade(const std::string& name, const std::filesystem::path& folder) const;
+    /// Of a group that has records of its own (dynlab new --group-seed); nothing for the data of all.
+    using GroupSeed = std::optional<std::uint32_t>;
+
+    /// Runs and checks the submission whose script stands in `folder`.
+    Grade grade(const std::string& name, const std::filesystem::path& folder, const GroupSeed& group_seed = {}) const;
     Grade without_checks(const std::string& name, const std::string& trouble) const;  ///< no points at all
 
     /// Tries the worked solution. Checks that it does not pass are broken: from now on they are left ungraded. Returns
     /// a sentence for each.
     std::vector<std::string> try_solution();
 
-    std::string fingerprint(const std::string& content_hash) const;
+    std::string fingerprint(const std::string& content_hash, const GroupSeed& group_seed) const;
     const GradingSetup& setup() const { return setup_; }
     const nlohmann::json& checks() const { return checks_; }
 
@@ -48,10 +53,11 @@ class GradingRules {
     void read_checks();
     void make_records();
     void make_record(const std::string& data_set, const std::string& key, const std::filesystem::path& folder);
-    nlohmann::json run(const std::filesystem::path& folder, std::string& log) const;
-    nlohmann::json findings(const std::filesystem::path& folder) const;
-    BoxedResult checked(nlohmann::json submission) const;
-    std::filesystem::path add_home(Box& box, const std::string& run) const;
+    nlohmann::json run(const std::filesystem::path& folder, const GroupSeed& group_seed, std::string& log) const;
+    nlohmann::json findings(const std::filesystem::path& folder, const GroupSeed& group_seed) const;
+    BoxedResult checked(nlohmann::json submission, const GroupSeed& group_seed) const;
+    std::filesystem::path data_of(const GroupSeed& group_seed) const;
+    std::filesystem::path add_home(Box& box, const std::string& run, const GroupSeed& group_seed) const;
     std::uint32_t drawn(const std::string& what) const;
 
     GradingSetup setup_;
@@ -61,6 +67,7 @@ class GradingRules {
     std::set<std::string> reruns_, broken_;
     bool document_ = false;
     TemporaryFolder records_;
+    std::unique_ptr<std::mutex> making_ = std::make_unique<std::mutex>();  ///< of groups' records
 };
 
 }  // namespace dynlab

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <set>
 
 #include "data_io/text_table.h"
@@ -29,7 +30,8 @@ std::string last_name_first(const std::string& name) {
 
 Roster::Roster(const std::filesystem::path& file) {
     const TextTable table = read_text_table(file);
-    const auto id = table.column("id"), name = table.column("name"), group = table.column("group");
+    const auto id = table.column("id"), name = table.column("name"), group = table.column("group"),
+               seed = table.column("seed");
     if (!id)
         throw EnvironmentError(
             fmt::format("{}: the column id is missing; there are {}", file.string(), fmt::join(table.names, ", ")));
@@ -41,7 +43,16 @@ Roster::Roster(const std::filesystem::path& file) {
         };
         if (row[*id].empty()) fail("the id is empty");
         if (!seen.insert(row[*id]).second) fail(fmt::format("the id \"{}\" stands there twice", row[*id]));
-        students_.push_back({row[*id], name ? row[*name] : "", group ? row[*group] : ""});
+        Student student{row[*id], name ? row[*name] : "", group ? row[*group] : "", {}};
+        if (seed && !row[*seed].empty()) {
+            const std::string& text = row[*seed];
+            std::uint32_t number = 0;
+            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+            if (error != std::errc() || end != text.data() + text.size() || number == 0)
+                fail(fmt::format("the seed must be a whole number from 1 to 4294967295, but \"{}\" was given", text));
+            student.seed = number;
+        }
+        students_.push_back(std::move(student));
     }
 }
 

@@ -10,12 +10,14 @@ namespace dynlab {
 
 struct Student {
     std::string id, name, group;
+    std::optional<std::uint32_t> seed;  ///< the group's, where groups have records of their own
 };
 
-/// The students of a course. The file has a column `id`, and optionally `name` and `group`.
+/// The students of a course. The file has a column `id`, and optionally `name`, `group` and `seed`.
 class Roster {
   public:
-    /// Throws EnvironmentError with file and line: no column id, an id that is empty or stands there twice.
+    /// Throws EnvironmentError with file and line: no column id, an id that is empty or stands there twice,
+    /// a seed that is no whole number.
     explicit Roster(const std::filesystem::path& file);
 
     const std::vector<Student>& students() const { return students_; }

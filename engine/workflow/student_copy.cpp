@@ -6,6 +6,7 @@
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
+#include "workflow/specimen_record.h"
 
 namespace dynlab {
 namespace {
@@ -29,19 +30,23 @@ std::string report_for(const ScriptHeader& header, const fs::path& template_file
     return text;
 }
 
-void fill(const fs::path& folder, const Lesson& lesson) {
+void fill(const fs::path& folder, const Lesson& lesson, const std::optional<std::uint32_t>& group_seed) {
     const PercentScript script = read_percent_script(lesson.script());
     write_file_atomically(folder / "analysis.lua", without_solutions(script.source, script.file));
     const std::string form = script.header.template_name == "lesson" ? "exercise_sheet" : script.header.template_name;
     write_file_atomically(folder / "report.md",
                           report_for(script.header, shared_folder() / "report_templates" / (form + ".md")));
-    write_file_atomically(folder / "group.toml", fmt::format(kGroupFile, script.header.seed));
-    fs::create_directory_symlink(shared_folder() / "data", folder / "data");
+    write_file_atomically(folder / "group.toml", fmt::format(kGroupFile, group_seed.value_or(script.header.seed)));
+    const std::vector<std::string> own = simulated_data_of(script.source);
+    if (group_seed && !own.empty())
+        write_group_data(own, *group_seed, folder / "data");
+    else
+        fs::create_directory_symlink(shared_folder() / "data", folder / "data");
 }
 
 }  // namespace
 
-void make_student_copy(const Lesson& lesson, const fs::path& folder) {
+void make_student_copy(const Lesson& lesson, const fs::path& folder, std::optional<std::uint32_t> group_seed) {
     if (fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder))) {
         throw EnvironmentError(folder.string() + " exists already; choose another name, nothing was changed");
     }
@@ -55,7 +60,7 @@ void make_student_copy(const Lesson& lesson, const fs::path& folder) {
         throw EnvironmentError("cannot make the folder " + folder.string() + ": " + error.message());
     }
     try {
-        fill(growing, lesson);
+        fill(growing, lesson, group_seed);
         fs::rename(growing, clean);
     } catch (...) {
         fs::remove_all(growing, error);

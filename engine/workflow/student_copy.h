@@ -1,13 +1,17 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 
 #include "workflow/lesson_catalogue.h"
 
 namespace dynlab {
 
 /// Makes a student's folder for a lesson: analysis.lua (the script without its solutions), report.md, group.toml and a
-/// link to the data. The folder appears whole or not at all. Throws EnvironmentError when `folder` exists and is not
-/// empty, or cannot be made.
-void make_student_copy(const Lesson& lesson, const std::filesystem::path& folder);
+/// link to the data; with a group's seed a folder `data` with records of the group's own (specimen_record.h). The
+/// folder appears whole or not at all. Throws EnvironmentError when `folder` exists and is not empty, or cannot be
+/// made.
+void make_student_copy(const Lesson& lesson, const std::filesystem::path& folder,
+                       std::optional<std::uint32_t> group_seed = {});
 
 }  // namespace dynlab

@@ -132,6 +132,34 @@ TEST(grading, typed_in_answers_do_not_follow_other_records) {
     EXPECT_EQ(points(bench.result("typed")), (std::vector<double>{0, 1, 0}));
 }
 
+// oracle: the truth of the specimen that the group's seed draws
+TEST(grading, groups_are_held_against_their_own_records) {
+    const char* checks =
+        "check{id = 'K', test = function(a) return near(a.K, mean(load('suspension').y:range(300, 401)), {rel = 1e-9}) "
+        "end}\n";
+    const std::string computes = "local d = load(\"suspension\")\nanswer('K', mean(d.y:range(300, #d.y)))\n";
+    GradingBench bench("--   K: number\n", checks, computes);
+    const Workbench& work = bench.bench();
+    ASSERT_EQ(work.dynlab({"new", "99", "own", "--group-seed", "7"}).exit_code, 0);
+    work.write("own/analysis.lua", computes);
+    work.shell(
+        "$DYNLAB run own/analysis.lua --out o1; $DYNLAB run -e \"local d = load('suspension') "
+        "answer('K', mean(d.y:range(300, #d.y)))\" --out o2");
+    const auto value = [&](const char* file) {
+        return nlohmann::json::parse(work.read(file)).at("answers").at("K").at("value").get<double>();
+    };
+    const double own = value("o1/record.json"), common = value("o2/record.json");
+    EXPECT_NE(own, common);
+    bench.hand_in("group-7", "answer('K', " + fmt::format("{:.17g}", own) + ")\n");
+    bench.hand_in("group-8", "answer('K', " + fmt::format("{:.17g}", own) + ")\n");
+    bench.hand_in("others", "answer('K', " + fmt::format("{:.17g}", common) + ")\n");
+    work.write("roster.csv", "id,group,seed\n1,group-7,7\n2,group-8,8\n3,others,\n");
+    ASSERT_EQ(bench.grade({"--roster", "roster.csv"}).exit_code, 0);
+    EXPECT_EQ(bench.result("group-7").at("score"), 1);
+    EXPECT_EQ(bench.result("group-8").at("score"), 0);
+    EXPECT_EQ(bench.result("others").at("score"), 1);
+}
+
 TEST(grading, hidden_checks_show_points_and_hint_only) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     bench.bench().write(
