@@ -24,6 +24,7 @@ void add_doctor(CLI::App& app, Action& action);
 void add_pack(CLI::App& app, Action& action);
 void add_bundle(CLI::App& app, Action& action);
 void add_grade(CLI::App& app, Action& action);
+void add_course(CLI::App& app, Action& action);
 void add_boxed(CLI::App& app, Action& action);
 
 /// What `dynlab` without a command does: the prompt on a terminal, statements from a pipe or file otherwise.

@@ -24,6 +24,7 @@ constexpr const char* kFooter =
     "  dynlab report my-work          your report, as a PDF\n"
     "  dynlab check my-work           what an instructor would ask you to mend\n"
     "  dynlab grade handed-in --lesson 04 --out marks          the marks of a class\n"
+    "  dynlab course init signals-2026                         hand-ins, peer review and marks of a course\n"
     "  dynlab identify d.csv --input u --output y --poles 2    a model and a report from a file\n"
     "  dynlab run -e 'print(1 + 1)'   a line of Lua\n"
     "  dynlab help tf                 what a function does, with an example\n"
@@ -62,7 +63,7 @@ int main(int argc, char** argv) {
 
     Action action;
     for (const auto add : {add_run, add_identify, add_report, add_weave, add_new, add_check, add_lessons, add_demo,
-                           add_help, add_doctor, add_pack, add_bundle, add_grade, add_boxed})
+                           add_help, add_doctor, add_pack, add_bundle, add_grade, add_course, add_boxed})
         add(app, action);
     try {
         app.parse(argc, argv);

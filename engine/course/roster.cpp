@@ -30,8 +30,7 @@ std::string last_name_first(const std::string& name) {
 
 Roster::Roster(const std::filesystem::path& file) {
     const TextTable table = read_text_table(file);
-    const auto id = table.column("id"), name = table.column("name"), group = table.column("group"),
-               seed = table.column("seed");
+    const auto id = table.column("id"), seed = table.column("seed");
     if (!id)
         throw EnvironmentError(
             fmt::format("{}: the column id is missing; there are {}", file.string(), fmt::join(table.names, ", ")));
@@ -43,7 +42,11 @@ Roster::Roster(const std::filesystem::path& file) {
         };
         if (row[*id].empty()) fail("the id is empty");
         if (!seen.insert(row[*id]).second) fail(fmt::format("the id \"{}\" stands there twice", row[*id]));
-        Student student{row[*id], name ? row[*name] : "", group ? row[*group] : "", {}};
+        const auto cell = [&](const char* column) {
+            const auto place = table.column(column);
+            return place ? row[*place] : std::string();
+        };
+        Student student{row[*id], cell("name"), cell("group"), {}, cell("mail"), cell("moodle"), cell("canvas")};
         if (seed && !row[*seed].empty()) {
             const std::string& text = row[*seed];
             std::uint32_t number = 0;
@@ -65,7 +68,11 @@ std::vector<std::size_t> Roster::owners(const Submission& submission) const {
     };
     const std::string own = submission.person.empty() ? submission.name : submission.person;
     std::vector<std::size_t> found = those([&](const Student& s) { return !s.group.empty() && s.group == own; });
-    if (found.empty()) found = those([&](const Student& s) { return s.id == own || s.id == submission.lms_id; });
+    if (found.empty())
+        found = those([&](const Student& s) {
+            const std::string& number = submission.lms_id;
+            return s.id == own || (!number.empty() && (s.id == number || s.moodle == number || s.canvas == number));
+        });
     if (found.empty() && !bare(own).empty())
         found =
             those([&](const Student& s) { return bare(s.name) == bare(own) || last_name_first(s.name) == bare(own); });

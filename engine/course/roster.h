@@ -11,14 +11,17 @@ namespace dynlab {
 struct Student {
     std::string id, name, group;
     std::optional<std::uint32_t> seed;  ///< the group's, where groups have records of their own
+    std::string mail, moodle, canvas;   ///< address; numbers by which the learning platforms know the student
 };
 
-/// The students of a course. The file has a column `id`, and optionally `name`, `group` and `seed`.
+/// The students of a course. The file has a column `id`, and optionally `name`, `group`, `seed`, `mail`, `moodle` and
+/// `canvas`.
 class Roster {
   public:
     /// Throws EnvironmentError with file and line: no column id, an id that is empty or stands there twice,
     /// a seed that is no whole number.
     explicit Roster(const std::filesystem::path& file);
+    explicit Roster(std::vector<Student> students) : students_(std::move(students)) {}
 
     const std::vector<Student>& students() const { return students_; }
     /// Whose work it is, by the submission's own name (a group's, a student's id or name) or what an LMS wrote into it;

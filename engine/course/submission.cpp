@@ -17,29 +17,6 @@ namespace fs = std::filesystem;
 
 constexpr char kScript[] = "analysis.lua";
 
-/// The name without an archive's ending; nothing for other files.
-std::optional<std::string> archive_stem(const std::string& name) {
-    std::string lower = name;
-    std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
-    for (const std::string ending : {".tar.gz", ".tar.xz", ".tar.bz2", ".tgz", ".tar", ".zip"})
-        if (lower.ends_with(ending) && lower.size() > ending.size()) return name.substr(0, name.size() - ending.size());
-    return {};
-}
-
-void read_lms_name(Submission& submission) {
-    static const std::regex moodle(R"(^(.+)_(\d+)_assignsubmission_(?:file|onlinetext)_?.*$)");
-    static const std::regex canvas(R"(^([^_]+)(_LATE)?_(\d+)_(\d+)_.*$)");
-    std::smatch parts;
-    if (std::regex_match(submission.name, parts, moodle)) {
-        submission.person = parts[1];
-        submission.lms_id = parts[2];
-    } else if (std::regex_match(submission.name, parts, canvas)) {
-        submission.person = parts[1];
-        submission.late = parts[2].matched;
-        submission.lms_id = parts[3];
-    }
-}
-
 std::vector<fs::path> entries_of(const fs::path& folder) {
     std::vector<fs::path> entries;
     for (const auto& entry : fs::directory_iterator(folder))
@@ -72,6 +49,28 @@ std::optional<fs::path> folder_with_script(const fs::path& folder, int depth = 0
 
 }  // namespace
 
+std::optional<std::string> archive_stem(const std::string& name) {
+    std::string lower = name;
+    std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+    for (const std::string ending : {".tar.gz", ".tar.xz", ".tar.bz2", ".tgz", ".tar", ".zip"})
+        if (lower.ends_with(ending) && lower.size() > ending.size()) return name.substr(0, name.size() - ending.size());
+    return {};
+}
+
+void read_lms_name(Submission& submission) {
+    static const std::regex moodle(R"(^(.+)_(\d+)_assignsubmission_(?:file|onlinetext)_?.*$)");
+    static const std::regex canvas(R"(^([^_]+)(_LATE)?_(\d+)_(\d+)_.*$)");
+    std::smatch parts;
+    if (std::regex_match(submission.name, parts, moodle)) {
+        submission.person = parts[1];
+        submission.lms_id = parts[2];
+    } else if (std::regex_match(submission.name, parts, canvas)) {
+        submission.person = parts[1];
+        submission.late = parts[2].matched;
+        submission.lms_id = parts[3];
+    }
+}
+
 std::vector<Submission> submissions_in(const fs::path& folder) {
     std::vector<Submission> all;
     if (!fs::is_directory(folder)) throw EnvironmentError(fmt::format("there is no folder '{}'", folder.string()));
@@ -101,8 +100,9 @@ std::vector<Submission> submissions_in(const fs::path& folder) {
 
 namespace {
 
-void unpack(const fs::path& archive, const fs::path& to, Isolation level, const fs::path& program,
-            const SubmissionLimits& limits) {
+/// Returns the names of what was left out.
+std::vector<std::string> unpack(const fs::path& archive, const fs::path& to, Isolation level, const fs::path& program,
+                                const SubmissionLimits& limits) {
     fs::create_directories(to);
     Box box(level);
     nlohmann::json job = {{"work", "unpack"}, {"bytes", limits.bytes}, {"files", limits.files}};
@@ -113,14 +113,16 @@ void unpack(const fs::path& archive, const fs::path& to, Isolation level, const 
     if (result.output->contains("error"))
         throw SubmissionError(
             fmt::format("The file cannot be unpacked: {}.", result.output->at("error").get<std::string>()));
+    return result.output->at("left_out").get<std::vector<std::string>>();
 }
 
 }  // namespace
 
-void unpack_export(const fs::path& archive, const fs::path& to, Isolation level, const fs::path& program) {
+std::vector<std::string> unpack_export(const fs::path& archive, const fs::path& to, Isolation level,
+                                       const fs::path& program) {
     constexpr SubmissionLimits kOfAClass{4ull << 30, 200'000};
     try {
-        unpack(archive, to, level, program, kOfAClass);
+        return unpack(archive, to, level, program, kOfAClass);
     } catch (const SubmissionError& error) {
         throw EnvironmentError(fmt::format("{}: {}", archive.string(), error.what()));
     }

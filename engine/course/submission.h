@@ -1,5 +1,7 @@
 #pragma once
 #include <filesystem>
+#include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -22,16 +24,22 @@ struct Submission {
 /// "nameLATE_ID_ID_file.zip" are recognised. Throws EnvironmentError where there is none.
 std::vector<Submission> submissions_in(const std::filesystem::path& folder);
 
-/// Unpacks the one zip in which an LMS exports all submissions into `to`, an empty folder, in a box. Throws
-/// EnvironmentError.
-void unpack_export(const std::filesystem::path& archive, const std::filesystem::path& to, Isolation level,
-                   const std::filesystem::path& program);
+/// Unpacks the one zip in which an LMS exports all submissions into `to`, an empty folder, in a box.
+/// Returns the names of what was left out: links, and what is absolute or would lead outside. Throws EnvironmentError.
+std::vector<std::string> unpack_export(const std::filesystem::path& archive, const std::filesystem::path& to,
+                                       Isolation level, const std::filesystem::path& program);
 
 /// What a submission may take when it is copied or unpacked.
 struct SubmissionLimits {
     std::uint64_t bytes = 200ull << 20;
     int files = 2000;
 };
+
+/// The name without an archive's ending (.zip, .tar, .tar.gz, .tgz, .tar.xz, .tar.bz2); nothing for other files.
+std::optional<std::string> archive_stem(const std::string& name);
+
+/// What Moodle or Canvas wrote into the submission's name: person, lms_id and late are set from it.
+void read_lms_name(Submission& submission);
 
 /// Brings a submission's files into `to`, an empty folder, and returns where analysis.lua stands: `to` itself, or the
 /// only folder below that has one. Archives are unpacked in a box by `program`, one archive inside a folder as well.

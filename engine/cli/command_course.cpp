@@ -1,0 +1,200 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+
+#include "cli/commands.h"
+#include "cli/course_commands.h"
+#include "course/store/assignments.h"
+#include "course/store/course_status.h"
+#include "course/store/groups.h"
+#include "numerics/error.h"
+
+namespace dynlab {
+namespace {
+
+namespace fs = std::filesystem;
+
+void add_init(CLI::App& course, Action& action) {
+    struct Words {
+        std::string folder, name, zone = "UTC";
+    };
+    auto words = std::make_shared<Words>();
+    CLI::App* command = course.add_subcommand("init", "Make a course: a folder with its store and its key");
+    command->add_option("DIR", words->folder, "The course's folder; it may exist")->required();
+    command->add_option("--name", words->name, "The course's name, for receipts; the folder's unless given");
+    command->add_option("--timezone", words->zone, "Times are read and shown in it")
+        ->type_name("ZONE")
+        ->capture_default_str();
+    command->footer("Example:  dynlab course init signals-2026 --name \"Signals 2026\" --timezone Europe/Paris");
+    command->callback([words, &action] {
+        action = [words] {
+            const fs::path folder = fs::absolute(words->folder).lexically_normal();
+            const std::string own = (folder.has_filename() ? folder : folder.parent_path()).filename();
+            Course::create(folder, words->name.empty() ? own : words->name, words->zone);
+            std::cout << fmt::format(
+                "Course made in {}, times in {}.\n"
+                "course.key signs the receipts: keep a copy of the whole folder, and give the key to nobody.\n"
+                "Next: cd {} and dynlab course roster import roster.csv\n",
+                folder.string(), words->zone, words->folder);
+            return kDone;
+        };
+    });
+}
+
+void add_roster(CLI::App& course, CourseWords& where, Action& action) {
+    CLI::App* roster = course.add_subcommand("roster", "Students and groups: import, drop, return");
+    roster->require_subcommand(1);
+    auto file = std::make_shared<std::string>();
+    CLI::App* import = roster->add_subcommand("import", "Read students and groups from a CSV; may be repeated");
+    import->add_option("CSV", *file, "Columns id, and optionally name, group, mail, moodle, canvas")->required();
+    import->footer(
+        "A student without a group is one alone; in several, they are joined by |. Who is not in the file stays.\n"
+        "Example:  dynlab course roster import roster.csv");
+    import->callback([&where, file, &action] {
+        action = [&where, file] {
+            Course opened(where.folder);
+    const RosterChange change = import_roster(opened, *file);
+    std::cout << fmt::format("{} students: {} new, {} changed, {} moved to another group; {} new groups.\n",
+                             change.students, change.new_students, change.changed, change.moved, change.new_groups);
+    if (!change.absent.empty())
+        std::cout << fmt::format(
+            "Not in this file, but in the course (they stay; roster drop GROUP takes a group out): {}\n",
+            fmt::join(change.absent, ", "));
+    return kDone;
+};
+}  // namespace
+);
+const auto add_move = [&](const char* name, const char* about, bool left) {
+    auto group = std::make_shared<std::string>(), reason = std::make_shared<std::string>();
+    CLI::App* command = roster->add_subcommand(name, about);
+    command->add_option("GROUP", *group)->required();
+    command->add_option("--reason", *reason, "For the journal");
+    command->callback([&where, group, reason, left, &action] {
+        action = [&where, group, reason, left] {
+            Course opened(where.folder);
+            set_group_left(opened, *group, left, *reason);
+            std::cout << fmt::format(
+                "{} {}; repeat dynlab course peer assign where reviews are under way.\n", *group,
+                left ? "has dropped out: its work and the reviews it wrote stay" : "is in the course again");
+            return kDone;
+        };
+    });
+};
+add_move("drop", "A group has dropped out", true);
+add_move("return", "A group that had dropped out is back", false);
+}  // namespace dynlab
+
+struct AssignmentWords {
+    std::string name, kind = "report", lesson, first, review, final, grace = "0",
+                      criteria = "data:5,workflow:5,conclusions:5,strength:5,suggestions:5";
+    int reviews = 2;
+    std::uint32_t seed = 0;
+};
+
+int add_one(const CourseWords& where, const AssignmentWords& words) {
+    Course course(where.folder);
+    Assignment a;
+    a.name = words.name, a.kind = words.kind, a.lesson = words.lesson, a.reviews = words.reviews, a.seed = words.seed;
+    a.first_due = course.clock().parse(words.first, "--first");
+    if (!words.review.empty()) a.review_due = course.clock().parse(words.review, "--review");
+    if (!words.final.empty()) a.final_due = course.clock().parse(words.final, "--final");
+    const auto grace = duration_of(words.grace);
+    if (!grace)
+        throw InvalidArgument("--grace must be a duration such as 15min, 2h or 1d, but \"" + words.grace +
+                              "\" was given");
+    a.grace = *grace;
+    a.criteria = criteria_of(words.criteria);
+    std::cout << (add_assignment(course, a) ? "" : "Nothing new. ") << course_summary(course, CourseClock::now());
+    return kDone;
+}
+
+void add_assignment_commands(CLI::App& course, CourseWords& where, Action& action) {
+    CLI::App* assignment = course.add_subcommand("assignment", "What is to be handed in, and when");
+    assignment->require_subcommand(1);
+    auto words = std::make_shared<AssignmentWords>();
+    CLI::App* add = assignment->add_subcommand("add", "Add an assignment, or give more time for one");
+    add->add_option("NAME", words->name, "A short word, such as crane")->required();
+    add->add_option("--kind", words->kind, "report: reviewed and improved; presentation: slides and script")
+        ->check(CLI::IsMember({"report", "presentation"}))
+        ->capture_default_str();
+    add->add_option("--lesson", words->lesson, "The lesson it belongs to")->type_name("NN");
+    add->add_option("--first", words->first, "Deadline of the first version (or the slides): \"2026-03-01 18:00\"")
+        ->type_name("TIME")
+        ->required();
+    add->add_option("--review", words->review, "Deadline of the reviews")->type_name("TIME");
+    add->add_option("--final", words->final, "Deadline of the final version")->type_name("TIME");
+    add->add_option("--grace", words->grace, "So much later counts as in time: 15min, 2h, 1d")->capture_default_str();
+    add->add_option("--reviews", words->reviews, "Reviews that each group writes and gets")
+        ->check(CLI::Range(1, 20))
+        ->capture_default_str();
+    add->add_option("--criteria", words->criteria, "What reviewers (or you, at the oral) score: name:points,...")
+        ->capture_default_str();
+    add->add_option("--seed", words->seed, "Of allocation and pseudonyms; drawn unless given")->type_name("N");
+    add->footer(
+        "Times are in the course's time zone. The same words again change nothing; once work came in, deadlines can\n"
+        "only move to later.\n"
+        "Example:  dynlab course assignment add crane --lesson 03_crane --first \"2026-02-28 13:00\" \\\n"
+        "            --review \"2026-03-04 13:00\" --final \"2026-03-07 14:00\" --grace 15min --reviews 2");
+    add->callback([&where, words, &action] { action = [&where, words] { return add_one(where, *words); }; });
+}
+
+void add_status(CLI::App& course, CourseWords& where, Action& action) {
+    struct Words {
+        std::string assignment, at;
+    };
+    auto words = std::make_shared<Words>();
+    CLI::App* command = course.add_subcommand("status", "What came, what is late, and what to do about it");
+    command->add_option("ASSIGNMENT", words->assignment, "All unless given");
+    add_time_option(*command, words->at);
+    command->callback([&where, words, &action] {
+        action = [&where, words] {
+            Course opened(where.folder);
+            const Instant now = time_of(opened, words->at);
+            std::vector<Assignment> shown;
+            if (words->assignment.empty()) {
+                std::cout << course_summary(opened, now);
+                shown = assignments_of(opened);
+            } else {
+                shown = {assignment_named(opened, words->assignment)};
+            }
+            for (const Assignment& a : shown)
+                std::cout << (words->assignment.empty() ? "\n" : "") << assignment_status(opened, a, now);
+            return kDone;
+        };
+    });
+}
+
+}  // namespace
+
+void add_time_option(CLI::App& command, std::string& text) {
+    command.add_option("--at", text, "As if it were this time, in the course's zone; now unless given")
+        ->type_name("TIME");
+}
+
+Instant time_of(const Course& course, const std::string& text) {
+    return text.empty() ? CourseClock::now() : course.clock().parse(text, "--at");
+}
+
+void add_course(CLI::App& app, Action& action) {
+    static CourseWords where;
+    CLI::App* course = app.add_subcommand("course", "A course from roster to marks: hand-ins, peer review, export");
+    course->require_subcommand(1);
+    course->add_option("--course", where.folder, "The course's folder; this one, or one above it, unless given")
+        ->type_name("DIR");
+    add_init(*course, action);
+    add_roster(*course, where, action);
+    add_assignment_commands(*course, where, action);
+    add_receive_commands(*course, where, action);
+    add_status(*course, where, action);
+    course->footer(
+        "Every command is all or nothing and may be repeated; nothing is ever deleted.\n"
+        "  dynlab course init signals-2026 --timezone Europe/Paris    then, in that folder:\n"
+        "  dynlab course roster import roster.csv\n"
+        "  dynlab course assignment add crane --first \"2026-02-28 13:00\" --review ... --final ...\n"
+        "  dynlab course receive crane.zip --assignment crane         what Moodle or Canvas exports, or files\n"
+        "  dynlab course status crane                                 who is late, and what to do\n"
+        "Exit codes: 0 done, 1 something failed or was not taken, 2 wrong usage.");
+}
+
+}  // namespace dynlab

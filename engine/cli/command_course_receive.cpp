@@ -1,0 +1,148 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+
+#include "cli/course_commands.h"
+#include "course/store/aligned_table.h"
+#include "course/store/hand_ins.h"
+#include "course/store/receipts.h"
+#include "course/store/store_check.h"
+#include "platform/atomic_file.h"
+#include "platform/error.h"
+#include "platform/progress.h"
+
+namespace dynlab {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ReceiveWords {
+    std::vector<std::string> files;
+    std::string assignment, from, of, at, isolation = "full";
+    bool no_checks = false;
+};
+
+std::string remark(const Received& r) {
+    if (!r.trouble.empty()) return fmt::format("{}: ask for a readable file", r.trouble);
+    if (r.known) return "known already, nothing changed";
+    return r.rules_broken > 0 ? fmt::format("{} rule{} broken", r.rules_broken, r.rules_broken == 1 ? "" : "s") : "";
+}
+
+void show(const ReceiveOutcome& outcome, const std::string& stage) {
+    std::vector<std::vector<std::string>> rows;
+    int fresh = 0, late = 0;
+    for (const Received& r : outcome.received) {
+        rows.push_back({r.group, r.about.empty() ? r.part : r.about, fmt::format("v{}", r.version),
+                        r.late > 0 ? "late by " + duration_text(r.late) : "in time", remark(r)});
+        fresh += !r.known;
+        late += !r.known && r.late > 0;
+    }
+    std::cout << fmt::format("{}, {}: {} file{} taken, {} late{}\n", outcome.assignment.name,
+                             stage == "first"    ? "first version"
+                             : stage == "review" ? "reviews"
+                                                 : "final version",
+                             fresh, fresh == 1 ? "" : "s", late,
+                             rows.size() > static_cast<std::size_t>(fresh)
+                                 ? fmt::format(", {} known already", rows.size() - static_cast<std::size_t>(fresh))
+                                 : "");
+    if (!rows.empty())
+        std::cout << aligned_table({"group", stage == "review" ? "review of" : "part", "version", "when", "remark"},
+                                   rows)
+                  << "Receipts: " << outcome.receipts.string() << '\n';
+    for (const std::string& refused : outcome.refused) std::cerr << "dynlab: " << refused << '\n';
+}
+
+int receive_files(const CourseWords& where, const ReceiveWords& words, const std::string& stage) {
+    Course course(where.folder);
+    ReceiveRequest request;
+    for (const std::string& file : words.files) request.files.emplace_back(file);
+    request.assignment = words.assignment, request.from = words.from, request.of = words.of, request.stage = stage;
+    request.at = time_of(course, words.at);
+    request.level = words.isolation == "full" ? Isolation::kFull : Isolation::kProcess;
+    request.program = fs::read_symlink("/proc/self/exe");
+    request.checks = !words.no_checks;
+    std::unique_ptr<ProgressBar> bar;
+    request.progress = [&](std::size_t done, std::size_t total) {
+        if (!bar) bar = std::make_unique<ProgressBar>("looking at the files", total);
+        bar->advance(done);
+    };
+    const ReceiveOutcome outcome = receive(course, request);
+    bar.reset();
+    show(outcome, stage);
+    return outcome.refused.empty() ? kDone : kFailed;
+}
+
+void add_receive(CLI::App& parent, const char* name, const char* about, const std::string& stage,
+                 const std::string& example, CourseWords& where, Action& action) {
+    auto words = std::make_shared<ReceiveWords>();
+    CLI::App* command = parent.add_subcommand(name, about);
+    command->add_option("FILE", words->files, "PDFs, packs, folders, or the zip that Moodle or Canvas exports")
+        ->required();
+    command->add_option("--assignment", words->assignment, "Which; needed when there are several")->type_name("NAME");
+    command->add_option("--from", words->from, "Whose; by the names of files and folders unless given")
+        ->type_name("GROUP");
+    if (stage == "review")
+        command->add_option("--of", words->of, "Which report it reviews; by the file's name unless given")
+            ->type_name("report-NN");
+    add_time_option(*command, words->at);
+    command->add_option("--isolation", words->isolation, "How far archives are kept apart while they are unpacked")
+        ->type_name("full|process")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"full", "process"}));
+    command->add_flag("--no-checks", words->no_checks, "Do not look into the PDFs");
+    command->footer(
+        "Whose a file is, is told by its name or its folder's: a group, a student's name or id, or what the platform\n"
+        "wrote; never by what stands in it. Every version is kept and gets a signed receipt; a file that cannot be\n"
+        "read is kept and flagged. Example:\n  " +
+        example);
+    command->callback([&where, words, stage, &action] {
+        action = [&where, words, stage] { return receive_files(where, *words, stage); };
+    });
+}
+
+int verify(const CourseWords& where, const std::vector<std::string>& receipts) {
+    Course course(where.folder);
+    bool well = true;
+    for (const std::string& file : receipts) {
+        const bool genuine = receipt_is_genuine(read_file(file), course.key());
+        std::cout << fmt::format("{}: {}\n", file,
+                                 genuine ? "genuine" : "NOT genuine: altered, or signed by another course");
+        well = well && genuine;
+    }
+    if (receipts.empty()) {
+        const StoreCheck check = check_store(course);
+        for (const std::string& trouble : check.troubles) std::cerr << "dynlab: " << trouble << '\n';
+        std::cout << fmt::format("{} files, {} versions: {}\n", check.files, check.versions,
+                                 check.troubles.empty() ? "all there and unaltered" : "see above");
+        well = check.troubles.empty();
+    }
+    return well ? kDone : kFailed;
+}
+
+void add_verify(CLI::App& course, CourseWords& where, Action& action) {
+    auto receipts = std::make_shared<std::vector<std::string>>();
+    CLI::App* command = course.add_subcommand("verify", "Whether receipts are genuine; without one, the whole store");
+    command->add_option("RECEIPT", *receipts, "Receipts that students show");
+    command->footer("Example:  dynlab course verify 00012-group-07-first-report.txt");
+    command->callback(
+        [&where, receipts, &action] { action = [&where, receipts] { return verify(where, *receipts); }; });
+}
+
+}  // namespace
+
+void add_receive_commands(CLI::App& course, CourseWords& where, Action& action) {
+    add_receive(course, "receive", "Take what groups handed in: first versions, slides, scripts", "first",
+                "dynlab course receive \"Crane-12345.zip\" --assignment crane", where, action);
+    CLI::App* review = course.add_subcommand("review", "Reviews that came back");
+    review->require_subcommand(1);
+    add_receive(*review, "receive", "Take reviews", "review",
+                "dynlab course review receive review-report-07.pdf --from group-02", where, action);
+    CLI::App* final = course.add_subcommand("final", "Final versions");
+    final->require_subcommand(1);
+    add_receive(*final, "receive", "Take final versions", "final",
+                "dynlab course final receive final.zip --assignment crane", where, action);
+    add_verify(course, where, action);
+}
+
+}  // namespace dynlab

@@ -1,0 +1,18 @@
+#pragma once
+#include "cli/commands.h"
+#include "course/store/course_store.h"
+
+namespace dynlab {
+
+/// What all commands of `dynlab course` share.
+struct CourseWords {
+    std::string folder = ".";
+};
+
+void add_time_option(CLI::App& command, std::string& text);      ///< --at TIME
+Instant time_of(const Course& course, const std::string& text);  ///< of --at; now when that is empty
+
+/// receive, review receive, final receive, verify.
+void add_receive_commands(CLI::App& course, CourseWords& where, Action& action);
+
+}  // namespace dynlab

@@ -1,0 +1,171 @@
+#include "course/store/assignments.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <random>
+#include <set>
+
+#include "numerics/error.h"
+#include "platform/spelling.h"
+
+namespace dynlab {
+namespace {
+
+void refuse_odd_name(const std::string& what, const std::string& name) {
+    const bool odd = name.empty() || name.size() > 60 || name.front() == '.' || name.front() == '-' ||
+                     name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.") !=
+                         std::string::npos;
+    if (odd)
+        throw InvalidArgument(fmt::format(
+            "{} \"{}\" must be a short word of letters, digits, - _ and . such as crane-report", what, name));
+}
+
+void refuse_bad_deadlines(const Assignment& a, const CourseClock& clock) {
+    if (!a.is_report()) {
+        if (a.review_due || a.final_due)
+            throw InvalidArgument("a presentation has one deadline: leave --review and --final out");
+        return;
+    }
+    if (!a.review_due || !a.final_due)
+        throw InvalidArgument("a report needs three deadlines: --first, --review and --final");
+    const auto in_order = [&](Instant before, Instant after, const char* first, const char* second) {
+        if (before < after) return;
+        throw InvalidArgument(fmt::format("the deadline of the {} ({}) must come after that of the {} ({})", second,
+                                          clock.show(after), first, clock.show(before)));
+    };
+    in_order(a.first_due, *a.review_due, "first version", "reviews");
+    in_order(*a.review_due, *a.final_due, "reviews", "final version");
+    if (a.reviews < 1) throw InvalidArgument("each group must write at least one review: --reviews 1");
+}
+
+bool same(const Assignment& a, const Assignment& b) {
+    const auto words = [](const Assignment& x) {
+        std::string all = fmt::format("{}|{}|{}|{}|{}|{}|{}", x.kind, x.lesson, x.first_due, x.review_due.value_or(0),
+                                      x.final_due.value_or(0), x.grace, x.reviews);
+        for (const Criterion& c : x.criteria) all += fmt::format("|{}:{}", c.name, c.most);
+        return all;
+    };
+    return words(a) == words(b);
+}
+
+/// Whether `b` only gives more time than `a`.
+bool only_later(Assignment a, const Assignment& b) {
+    const bool later = b.first_due >= a.first_due && b.review_due.value_or(0) >= a.review_due.value_or(0) &&
+                       b.final_due.value_or(0) >= a.final_due.value_or(0) && b.grace >= a.grace;
+    a.first_due = b.first_due, a.review_due = b.review_due, a.final_due = b.final_due, a.grace = b.grace;
+    return later && same(a, b);
+}
+
+void write_criteria(Database& db, const Assignment& assignment) {
+    int place = 0;
+    for (const Criterion& c : assignment.criteria)
+        db.run(
+            "INSERT INTO criteria VALUES (?, ?, ?, ?) ON CONFLICT DO UPDATE SET name = excluded.name, most = "
+            "excluded.most",
+            assignment.id, place++, c.name, c.most);
+    db.run("DELETE FROM criteria WHERE assignment = ? AND place >= ?", assignment.id, place);
+}
+
+}  // namespace
+
+bool add_assignment(Course& course, Assignment wanted) {
+    refuse_odd_name("the assignment's name", wanted.name);
+    refuse_bad_deadlines(wanted, course.clock());
+    Database& db = course.database();
+    Transaction transaction(db);
+    for (const Assignment& known : assignments_of(course)) {
+        if (::strcasecmp(known.name.c_str(), wanted.name.c_str()) != 0) continue;
+        if (same(known, wanted)) return false;
+        const bool used = db.query("SELECT 1 FROM versions WHERE assignment = ?", known.id).next();
+        if (used && !only_later(known, wanted))
+            throw InvalidArgument(fmt::format(
+                "work was handed in for {} already: only deadlines may move, to later ones, and the grace grow",
+                known.name));
+        db.run(
+            "UPDATE assignments SET kind = ?, lesson = ?, first_due = ?, review_due = ?, final_due = ?, grace = ?, "
+            "reviews = ? WHERE id = ?",
+            wanted.kind, wanted.lesson, wanted.first_due, wanted.review_due, wanted.final_due, wanted.grace,
+            wanted.reviews, known.id);
+        wanted.id = known.id;
+        write_criteria(db, wanted);
+        course.note(fmt::format("assignment {} changed", known.name));
+        transaction.commit();
+        return true;
+    }
+    if (wanted.seed == 0) wanted.seed = std::random_device{}() | 1u;
+    db.run(
+        "INSERT INTO assignments (name, kind, lesson, first_due, review_due, final_due, grace, reviews, seed, made_at) "
+        "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+        wanted.name, wanted.kind, wanted.lesson, wanted.first_due, wanted.review_due, wanted.final_due, wanted.grace,
+        wanted.is_report() ? wanted.reviews : 0, std::int64_t{wanted.seed}, CourseClock::now());
+    wanted.id = db.last_id();
+    write_criteria(db, wanted);
+    course.note(fmt::format("assignment {} added", wanted.name));
+    transaction.commit();
+    return true;
+}
+
+std::vector<Assignment> assignments_of(Course& course) {
+    std::vector<Assignment> all;
+    for (Rows rows = course.database().query(
+             "SELECT id, name, kind, lesson, first_due, review_due, final_due, grace, reviews, seed FROM assignments "
+             "ORDER BY first_due, name");
+         rows.next();) {
+        Assignment a;
+        a.id = rows.integer(0), a.name = rows.text(1), a.kind = rows.text(2), a.lesson = rows.text(3);
+        a.first_due = rows.integer(4), a.review_due = rows.optional_integer(5), a.final_due = rows.optional_integer(6);
+        a.grace = rows.integer(7), a.reviews = static_cast<int>(rows.integer(8));
+        a.seed = static_cast<std::uint32_t>(rows.integer(9));
+        for (Rows criteria =
+                 course.database().query("SELECT name, most FROM criteria WHERE assignment = ? ORDER BY place", a.id);
+             criteria.next();)
+            a.criteria.push_back({criteria.text(0), criteria.number(1)});
+        all.push_back(std::move(a));
+    }
+    return all;
+}
+
+Assignment assignment_named(Course& course, const std::string& name) {
+    const std::vector<Assignment> all = assignments_of(course);
+    if (all.empty())
+        throw InvalidArgument("the course has no assignments yet; add one with dynlab course assignment add");
+    if (name.empty() && all.size() == 1) return all.front();
+    std::vector<std::string> names;
+    for (const Assignment& assignment : all) {
+        if (::strcasecmp(assignment.name.c_str(), name.c_str()) == 0) return assignment;
+        names.push_back(assignment.name);
+    }
+    if (name.empty()) throw InvalidArgument(fmt::format("say which assignment: {}", fmt::join(names, ", ")));
+    const auto near = nearest_word(name, names);
+    throw InvalidArgument(fmt::format("there is no assignment \"{}\"; there {} {}{}", name,
+                                      names.size() == 1 ? "is" : "are", fmt::join(names, ", "),
+                                      near ? fmt::format("; did you mean {}?", *near) : ""));
+}
+
+std::vector<Criterion> criteria_of(const std::string& text) {
+    std::vector<Criterion> criteria;
+    std::set<std::string> seen;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find(',', at), text.size());
+        std::string item = text.substr(at, end - at);
+        std::erase(item, ' ');
+        at = end + 1;
+        const auto colon = item.find(':');
+        const std::string name = item.substr(0, colon),
+                          points = colon == std::string::npos ? "5" : item.substr(colon + 1);
+        refuse_odd_name("the criterion", name);
+        double most = 0;
+        const auto [stop, error] = std::from_chars(points.data(), points.data() + points.size(), most);
+        if (error != std::errc() || stop != points.data() + points.size() || !(most > 0 && most <= 1000))
+            throw InvalidArgument(fmt::format(
+                "the points of criterion {} must be a number from 0 to 1000, but \"{}\" was given", name, points));
+        if (!seen.insert(name).second) throw InvalidArgument(fmt::format("the criterion {} stands there twice", name));
+        criteria.push_back({name, most});
+    }
+    if (criteria.empty()) throw InvalidArgument("give at least one criterion, such as clarity:5,methods:10");
+    return criteria;
+}
+
+}  // namespace dynlab

@@ -1,0 +1,43 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "course/store/course_store.h"
+
+namespace dynlab {
+
+struct Criterion {
+    std::string name;
+    double most = 5;  ///< points
+};
+
+/// A piece of work with its deadlines. A report has a first version, reviews and a final version; a presentation has
+/// slides and script with one deadline, and a marking sheet for the oral.
+struct Assignment {
+    std::int64_t id = 0;
+    std::string name, kind = "report", lesson;
+    Instant first_due = 0;
+    std::optional<Instant> review_due, final_due;
+    std::int64_t grace = 0;  ///< seconds after a deadline that count as in time
+    int reviews = 2;         ///< that each group writes
+    std::uint32_t seed = 0;  ///< of allocation and pseudonyms
+    std::vector<Criterion> criteria;
+
+    bool is_report() const { return kind == "report"; }
+};
+
+/// Adds it. The same words again change nothing; other words for an assignment that nobody handed anything in for
+/// change it. Returns whether something changed. Throws InvalidArgument: deadlines out of order, a report without them,
+/// a presentation with those of a review, a name that is no file name, a change after the first hand-in other than
+/// later deadlines or more grace.
+bool add_assignment(Course& course, Assignment assignment);
+
+std::vector<Assignment> assignments_of(Course& course);  ///< in the order of their deadlines
+/// By name; with an empty name the only one. Throws InvalidArgument.
+Assignment assignment_named(Course& course, const std::string& name);
+
+/// "clarity:5, methods:10" as criteria. Throws InvalidArgument.
+std::vector<Criterion> criteria_of(const std::string& text);
+
+}  // namespace dynlab

@@ -1,0 +1,36 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace dynlab {
+
+/// Seconds since 1970, UTC.
+using Instant = std::int64_t;
+
+/// The course's time zone, such as "Europe/Paris". One zone a process: the system's zone is set to it.
+class CourseClock {
+  public:
+    /// Throws InvalidArgument for a zone this machine does not know.
+    explicit CourseClock(const std::string& zone);
+
+    static Instant now();
+    const std::string& zone() const { return zone_; }
+    /// "2026-03-01 18:00" with optional seconds and optional T, in the zone; with a Z at the end, UTC. Throws
+    /// InvalidArgument that names `what` for anything else, days that do not exist among them, and times that the
+    /// change to summer time leaves out.
+    Instant parse(const std::string& text, const std::string& what) const;
+    std::string show(Instant instant) const;          ///< "Sun 2026-03-01 18:00"
+    std::string show_exactly(Instant instant) const;  ///< "2026-03-01 18:00:05 CET"
+
+  private:
+    std::string zone_;
+};
+
+std::string utc_text(Instant instant);  ///< "2026-03-01T17:00:05Z"
+/// "3 d 4 h", "2 h 5 min", "40 s": the two largest units.
+std::string duration_text(std::int64_t seconds);
+/// Seconds in "90 s", "15 min" or "15m", "2 h", "1 d", "0"; nothing for anything else.
+std::optional<std::int64_t> duration_of(const std::string& text);
+
+}  // namespace dynlab

@@ -1,0 +1,97 @@
+#include "course/store/course_schema.h"
+
+#include <fmt/format.h>
+
+#include "platform/error.h"
+
+namespace dynlab {
+namespace {
+
+constexpr std::int64_t kApplicationId = 0x64796E6C;  // "dynl"
+
+/// What each version adds to the one before; never changed once published. Times are seconds since 1970, UTC.
+const std::vector<const char*> kSteps = {
+    R"(
+CREATE TABLE course (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
+CREATE TABLE groups (id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE COLLATE NOCASE, joined_at INTEGER NOT NULL,
+  left_at INTEGER, left_reason TEXT);
+CREATE TABLE students (id TEXT PRIMARY KEY, name TEXT NOT NULL, mail TEXT NOT NULL, moodle TEXT NOT NULL,
+  canvas TEXT NOT NULL) WITHOUT ROWID;
+CREATE TABLE memberships (student TEXT NOT NULL REFERENCES students, group_id INTEGER NOT NULL REFERENCES groups,
+  since INTEGER NOT NULL, until INTEGER, PRIMARY KEY (student, group_id, since)) WITHOUT ROWID;
+CREATE TABLE assignments (id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE COLLATE NOCASE,
+  kind TEXT NOT NULL CHECK (kind IN ('report', 'presentation')), lesson TEXT NOT NULL, first_due INTEGER NOT NULL,
+  review_due INTEGER, final_due INTEGER, grace INTEGER NOT NULL CHECK (grace >= 0),
+  reviews INTEGER NOT NULL CHECK (reviews >= 0), seed INTEGER NOT NULL, made_at INTEGER NOT NULL);
+CREATE TABLE criteria (assignment INTEGER NOT NULL REFERENCES assignments, place INTEGER NOT NULL, name TEXT NOT NULL,
+  most REAL NOT NULL CHECK (most > 0), PRIMARY KEY (assignment, place), UNIQUE (assignment, name)) WITHOUT ROWID;
+CREATE TABLE files (hash TEXT PRIMARY KEY, bytes INTEGER NOT NULL, stored_at INTEGER NOT NULL) WITHOUT ROWID;
+CREATE TABLE pseudonyms (assignment INTEGER NOT NULL REFERENCES assignments, group_id INTEGER NOT NULL REFERENCES groups,
+  role TEXT NOT NULL CHECK (role IN ('author', 'reviewer')), number INTEGER NOT NULL,
+  PRIMARY KEY (assignment, group_id, role), UNIQUE (assignment, role, number)) WITHOUT ROWID;
+CREATE TABLE allocations (id INTEGER PRIMARY KEY, assignment INTEGER NOT NULL REFERENCES assignments,
+  seed INTEGER NOT NULL, made_at INTEGER NOT NULL, explanation TEXT NOT NULL);
+CREATE TABLE pairs (id INTEGER PRIMARY KEY, allocation INTEGER NOT NULL REFERENCES allocations,
+  assignment INTEGER NOT NULL REFERENCES assignments, reviewer INTEGER NOT NULL REFERENCES groups,
+  author INTEGER NOT NULL REFERENCES groups, ended_at INTEGER, ended_reason TEXT, CHECK (reviewer <> author));
+CREATE UNIQUE INDEX pairs_once ON pairs (assignment, reviewer, author) WHERE ended_at IS NULL;
+CREATE TABLE versions (id INTEGER PRIMARY KEY, assignment INTEGER NOT NULL REFERENCES assignments,
+  group_id INTEGER NOT NULL REFERENCES groups, stage TEXT NOT NULL CHECK (stage IN ('first', 'review', 'final')),
+  pair INTEGER REFERENCES pairs, part TEXT NOT NULL, number INTEGER NOT NULL CHECK (number > 0),
+  hash TEXT NOT NULL REFERENCES files, name TEXT NOT NULL, received_at INTEGER NOT NULL, due_at INTEGER NOT NULL,
+  late INTEGER NOT NULL CHECK (late >= 0), findings TEXT NOT NULL, signature TEXT NOT NULL,
+  CHECK ((stage = 'review') = (pair IS NOT NULL)));
+CREATE UNIQUE INDEX versions_once ON versions (assignment, group_id, stage, ifnull(pair, 0), part, number);
+CREATE TABLE sendings (id INTEGER PRIMARY KEY, pair INTEGER NOT NULL REFERENCES pairs,
+  way TEXT NOT NULL CHECK (way IN ('to reviewer', 'to author')), version INTEGER NOT NULL REFERENCES versions,
+  hash TEXT NOT NULL REFERENCES files, made_at INTEGER NOT NULL);
+CREATE TABLE scores (pair INTEGER NOT NULL REFERENCES pairs, criterion INTEGER NOT NULL, given_at INTEGER NOT NULL,
+  points REAL NOT NULL CHECK (points >= 0), PRIMARY KEY (pair, criterion, given_at)) WITHOUT ROWID;
+CREATE TABLE oral_scores (assignment INTEGER NOT NULL REFERENCES assignments,
+  group_id INTEGER NOT NULL REFERENCES groups, criterion INTEGER NOT NULL, given_at INTEGER NOT NULL,
+  points REAL NOT NULL CHECK (points >= 0), PRIMARY KEY (assignment, group_id, criterion, given_at)) WITHOUT ROWID;
+CREATE TABLE overrides (id INTEGER PRIMARY KEY, assignment INTEGER NOT NULL REFERENCES assignments,
+  group_id INTEGER NOT NULL REFERENCES groups, what TEXT NOT NULL CHECK (what IN ('work', 'reviews')),
+  percent REAL NOT NULL CHECK (percent BETWEEN 0 AND 100), reason TEXT NOT NULL, made_at INTEGER NOT NULL);
+CREATE TABLE journal (id INTEGER PRIMARY KEY, at INTEGER NOT NULL, what TEXT NOT NULL);
+)"};
+
+std::int64_t pragma(Database& database, const char* name) {
+    Rows rows = database.query(fmt::format("PRAGMA {}", name));
+    rows.next();
+    return rows.integer(0);
+}
+
+}  // namespace
+
+const std::vector<std::string>& course_tables() {
+    static const std::vector<std::string> tables = {
+        "course",      "groups", "students", "memberships", "assignments", "criteria",    "files",     "pseudonyms",
+        "allocations", "pairs",  "versions", "sendings",    "scores",      "oral_scores", "overrides", "journal"};
+    return tables;
+}
+
+void migrate_course(Database& database, Database::Opening opening, const std::string& place) {
+    const auto newest = static_cast<std::int64_t>(kSteps.size());
+    const auto version_of = [&] {
+        const std::int64_t version = pragma(database, "user_version"), id = pragma(database, "application_id");
+        const bool fresh = opening == Database::Opening::kNew && version == 0;
+        if (!fresh && id != kApplicationId)
+            throw EnvironmentError(fmt::format("{}: this is no course; make one with dynlab course init", place));
+        if (version > newest)
+            throw EnvironmentError(fmt::format(
+                "{}: this course was made by a newer dynlab (its tables have version {}, this program knows {}); "
+                "use that program",
+                place, version, newest));
+        return version;
+    };
+    if (version_of() == newest) return;
+    if (opening == Database::Opening::kNew) database.execute("PRAGMA journal_mode = WAL");
+    Transaction transaction(database);
+    for (std::int64_t version = version_of(); version < newest; ++version)  // another may have done it meanwhile
+        database.execute(kSteps[static_cast<std::size_t>(version)]);
+    database.execute(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", kApplicationId, newest));
+    transaction.commit();
+}
+
+}  // namespace dynlab

@@ -1,0 +1,248 @@
+#include "course/store/course_status.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "course/store/aligned_table.h"
+#include "course/store/groups.h"
+#include "course/store/inspection.h"
+#include "course/store/review_pairs.h"
+
+namespace dynlab {
+namespace {
+
+/// The newest version of each part that a group handed in for a stage.
+struct HandedIn {
+    std::int64_t version = 0, late = 0;
+    int rules_broken = 0;
+    std::string trouble;
+};
+using Parts = std::map<std::string, HandedIn>;
+
+std::map<std::int64_t, std::map<std::string, Parts>> newest_versions(Course& course, const Assignment& assignment) {
+    std::map<std::int64_t, std::map<std::string, Parts>> all;
+    for (Rows rows = course.database().query(
+             "SELECT group_id, stage, part, number, late, findings FROM versions WHERE assignment = ? AND stage <> "
+             "'review' ORDER BY number",
+             assignment.id);
+         rows.next();) {
+        const Inspection seen = inspection_from(rows.text(5));
+        all[rows.integer(0)][rows.text(1)][rows.text(2)] = {rows.integer(3), rows.integer(4), seen.rules_broken,
+                                                            seen.trouble};
+    }
+    return all;
+}
+
+std::string plural(std::int64_t count, const std::string& word) {
+    return fmt::format("{} {}{}", count, word, count == 1 ? "" : "s");
+}
+
+std::string when(const CourseClock& clock, Instant due, Instant now) {
+    const std::string distance = duration_text(std::abs(due - now));
+    return fmt::format("{} ({})", clock.show(due), due >= now ? "in " + distance : distance + " ago");
+}
+
+/// "v2", "v1 late 2 h 5 min", "v1, 3 rules broken", "v1 damaged", "-".
+std::string cell_of(const Parts& parts, const std::string& main) {
+    const auto found = parts.find(main);
+    if (found == parts.end()) return parts.empty() ? "-" : fmt::format("only the {}", parts.begin()->first);
+    const HandedIn& h = found->second;
+    std::string cell = fmt::format("v{}", h.version);
+    if (h.late > 0) cell += " late " + duration_text(h.late);
+    if (!h.trouble.empty())
+        cell += " " + h.trouble;
+    else if (h.rules_broken > 0)
+        cell += ", " + plural(h.rules_broken, "rule") + " broken";
+    return cell;
+}
+
+class Status {
+  public:
+    Status(Course& course, const Assignment& assignment, Instant now)
+        : course_(course),
+          assignment_(assignment),
+          now_(now),
+          main_(assignment.is_report() ? "report" : "slides"),
+          versions_(newest_versions(course, assignment)),
+          pairs_(review_pairs(course, assignment)) {}
+
+    std::string text() {
+        for (const Group& group : groups_of(course_)) add(group);
+        std::string text = heading() + '\n' + aligned_table(header(), rows_) + '\n' + sums();
+        const std::string next = next_step();
+        return text + (next.empty() ? "" : "Next: " + next + '\n');
+    }
+
+  private:
+    std::vector<std::string> header() const {
+        if (!assignment_.is_report()) return {"group", "members", "slides", "script", "to do"};
+        return {"group", "members", "first version", "reviews written", "reviews received", "final version", "to do"};
+    }
+
+    std::string heading() const {
+        const auto& clock = course_.clock();
+        std::string text = fmt::format(
+            "{}: {}{}, {}\n", assignment_.name, assignment_.kind,
+            assignment_.lesson.empty() ? "" : " of lesson " + assignment_.lesson,
+            assignment_.grace > 0 ? duration_text(assignment_.grace) + " of grace" : std::string("no grace"));
+        const auto line = [&](const char* what, Instant due) {
+            text += fmt::format("  {:<14} {}\n", what, when(clock, due, now_));
+        };
+        line(assignment_.is_report() ? "first version" : "slides, script", assignment_.first_due);
+        if (assignment_.review_due) line("reviews", *assignment_.review_due);
+        if (assignment_.final_due) line("final version", *assignment_.final_due);
+        return text + fmt::format("  times in {}\n", clock.zone());
+    }
+
+    void add(const Group& group) {
+        const auto& stages = versions_[group.id];
+        const auto parts = [&](const char* stage) {
+            const auto found = stages.find(stage);
+            return found == stages.end() ? Parts() : found->second;
+        };
+        const Parts first = parts("first"), last = parts("final");
+        if (group.left && first.empty() && last.empty()) return;
+        ++groups_;
+        const std::string members = fmt::format("{}", group.members.size());
+        if (!assignment_.is_report()) {
+            const std::string script =
+                first.contains("pack") ? cell_of(first, "pack") + " (pack)" : cell_of(first, "script");
+            rows_.push_back({group.name, members, first.contains("slides") ? cell_of(first, "slides") : "-",
+                             first.contains("script") || first.contains("pack") ? script : "-",
+                             to_do(group, first, last)});
+            count(group, first, last);
+            return;
+        }
+        int to_write = 0, written = 0, to_get = 0, got = 0;
+        for (const ReviewPair& pair : pairs_) {
+            if (pair.ended) continue;
+            if (pair.reviewer == group.id) ++to_write, written += pair.written;
+            if (pair.author == group.id) ++to_get, got += pair.written;
+        }
+        const auto share = [](int part, int whole) {
+            return whole == 0 ? std::string("-") : fmt::format("{} of {}", part, whole);
+        };
+        open_reviews_ += group.left ? 0 : to_write - written;
+        rows_.push_back({group.name, members, cell_of(first, main_), share(written, to_write), share(got, to_get),
+                         cell_of(last, main_), to_do(group, first, last)});
+        count(group, first, last);
+    }
+
+    void count(const Group& group, const Parts& first, const Parts& last) {
+        if (group.left) return;
+        const auto found = first.find(main_);
+        if (found == first.end()) {
+            ++missing_;
+        } else {
+            ++present_;
+            if (found->second.late > 0) ++late_;
+            if (!found->second.trouble.empty()) ++unreadable_;
+            unassigned_ += !in_allocation(group.id);
+        }
+        finals_ += last.contains(main_);
+    }
+
+    bool in_allocation(std::int64_t group) const {
+        return std::any_of(pairs_.begin(), pairs_.end(),
+                           [&](const ReviewPair& p) { return !p.ended && (p.reviewer == group || p.author == group); });
+    }
+
+    /// What the instructor may want to do about this group.
+    std::string to_do(const Group& group, const Parts& first, const Parts& last) const {
+        if (group.left) return "dropped out";
+        std::vector<std::string> things;
+        const auto due_over = [&](std::optional<Instant> due) { return due && now_ > *due + assignment_.grace; };
+        const auto found = first.find(main_);
+        if (found == first.end()) {
+            if (due_over(assignment_.first_due))
+                things.push_back(assignment_.is_report() ? "ask for the first version, or roster drop"
+                                                         : "ask for the slides, or roster drop");
+            return join(things);
+        }
+        if (!assignment_.is_report()) {
+            if (!first.contains("script") && !first.contains("pack") && due_over(assignment_.first_due))
+                things.push_back("ask for the script");
+        }
+        const auto readable = [&](const Parts& parts, const char* what) {
+            const auto there = parts.find(main_);
+            if (there != parts.end() && !there->second.trouble.empty())
+                things.push_back(fmt::format("ask for a readable {} ({})", what, there->second.trouble));
+        };
+        readable(first, assignment_.is_report() ? "first version" : "file");
+        readable(last, "final version");
+        if (!pairs_.empty() && !in_allocation(group.id)) things.push_back("came after the allocation: peer assign");
+        int open = 0;
+        for (const ReviewPair& pair : pairs_)
+            if (pair.reviewer == group.id && !pair.ended && !pair.written) ++open;
+        if (open > 0 && due_over(assignment_.review_due)) things.push_back("remind of " + plural(open, "review"));
+        if (!last.contains(main_) && due_over(assignment_.final_due)) things.push_back("ask for the final version");
+        return join(things);
+    }
+
+    static std::string join(const std::vector<std::string>& things) {
+        return fmt::format("{}", fmt::join(things, "; "));
+    }
+
+    std::string sums() const {
+        std::string text = fmt::format("{}: {} handed in", plural(groups_, "group"), present_);
+        if (late_ > 0) text += fmt::format(", {} late", late_);
+        if (unreadable_ > 0) text += fmt::format(", {} unreadable", unreadable_);
+        if (missing_ > 0) text += fmt::format(", {} missing", missing_);
+        if (assignment_.is_report() && !pairs_.empty())
+            text += fmt::format("; {} to come; {}", plural(open_reviews_, "review"), plural(finals_, "final version"));
+        text += ".\n";
+        return text;
+    }
+
+    std::string next_step() const {
+        const auto command = [&](const char* words) {
+            return fmt::format("dynlab course {} {}", words, assignment_.name);
+        };
+        if (present_ == 0) return fmt::format("dynlab course receive FILE... --assignment {}", assignment_.name);
+        if (!assignment_.is_report()) return command("oral sheet");
+        if (now_ <= assignment_.first_due + assignment_.grace) return {};
+        if (pairs_.empty() || unassigned_ > 0) return command("peer assign");
+        const auto any = [&](const auto& fits) {
+            return std::any_of(pairs_.begin(), pairs_.end(), [&](const ReviewPair& p) { return !p.ended && fits(p); });
+        };
+        if (any([](const ReviewPair& p) { return !p.sent && !p.written; })) return command("peer send");
+        if (any([](const ReviewPair& p) { return p.written && !p.released; }) && now_ > *assignment_.review_due)
+            return command("release");
+        if (now_ > *assignment_.final_due) return command("export");
+        return {};
+    }
+
+    Course& course_;
+    const Assignment& assignment_;
+    Instant now_;
+    std::string main_;
+    std::map<std::int64_t, std::map<std::string, Parts>> versions_;
+    std::vector<ReviewPair> pairs_;
+    std::vector<std::vector<std::string>> rows_;
+    int groups_ = 0, present_ = 0, late_ = 0, unreadable_ = 0, missing_ = 0, unassigned_ = 0, open_reviews_ = 0,
+        finals_ = 0;
+};
+
+}  // namespace
+
+std::string assignment_status(Course& course, const Assignment& assignment, Instant now) {
+    return Status(course, assignment, now).text();
+}
+
+std::string course_summary(Course& course, Instant now) {
+    int active = 0, left = 0;
+    for (const Group& group : groups_of(course)) ++(group.left ? left : active);
+    std::string text = fmt::format("{}: {}{}\n", course.name(), plural(active, "group"),
+                                   left > 0 ? fmt::format(", {} dropped out", left) : "");
+    std::vector<std::vector<std::string>> rows;
+    for (const Assignment& a : assignments_of(course)) {
+        const auto shown = [&](std::optional<Instant> due) { return due ? when(course.clock(), *due, now) : "-"; };
+        rows.push_back({a.name, a.kind, shown(a.first_due), shown(a.review_due), shown(a.final_due)});
+    }
+    if (rows.empty()) return text + "No assignments yet: dynlab course assignment add NAME --first TIME ...\n";
+    return text + aligned_table({"assignment", "kind", "first version", "reviews", "final version"}, rows);
+}
+
+}  // namespace dynlab

@@ -1,0 +1,144 @@
+#include "course/store/course_store.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/random.h>
+#include <unistd.h>
+
+#include "course/store/course_schema.h"
+#include "platform/atomic_file.h"
+#include "platform/content_hash.h"
+#include "platform/error.h"
+#include "platform/system_call.h"
+
+namespace dynlab {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kDatabase[] = "course.db", kKey[] = "course.key";
+
+[[noreturn]] void fail_on(const fs::path& file, const char* verb) {
+    throw EnvironmentError(fmt::format("cannot {} {}: {}", verb, file.string(), system_reason(errno)));
+}
+
+/// 32 random bytes in hexadecimal digits, readable by their owner only.
+void make_key(const fs::path& file) {
+    if (fs::exists(file)) return;
+    unsigned char bytes[32];
+    if (::getrandom(bytes, sizeof bytes, 0) != static_cast<ssize_t>(sizeof bytes)) fail_on(file, "draw");
+    std::string text;
+    for (const unsigned char byte : bytes) text += fmt::format("{:02x}", byte);
+    const fs::path unfinished = file.string() + ".new";
+    std::error_code ignored;
+    fs::remove(unfinished, ignored);
+    const FileDescriptor fd(::open(unfinished.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
+    if (!fd || !write_all(fd.get(), text.data(), text.size()) || ::fsync(fd.get()) != 0) fail_on(file, "write");
+    if (::rename(unfinished.c_str(), file.c_str()) != 0) fail_on(file, "write");
+}
+
+void sync_folder(const fs::path& folder) {
+    const FileDescriptor fd(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (!fd || ::fsync(fd.get()) != 0) fail_on(folder, "write into");
+}
+
+void make_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error)
+        throw EnvironmentError(
+            fmt::format("cannot make the folder {}: {}", folder.string(), system_reason(error.value())));
+}
+
+/// The folder itself or the nearest above it that holds a course.
+fs::path course_folder(const fs::path& start) {
+    std::error_code ignored;
+    const fs::path from = fs::weakly_canonical(start, ignored);
+    for (fs::path folder = from; !folder.empty(); folder = folder.parent_path()) {
+        if (fs::exists(folder / kDatabase, ignored)) return folder;
+        if (folder == folder.root_path()) break;
+    }
+    throw EnvironmentError(fmt::format(
+        "there is no course in {} or above it; go into its folder, name it with --course DIR, or make one with "
+        "dynlab course init DIR",
+        from.string()));
+}
+
+std::string read_key(const fs::path& file) {
+    if (!fs::exists(file))
+        throw EnvironmentError(fmt::format(
+            "{} is missing; without it receipts can neither be signed nor verified; put it back from a backup",
+            file.string()));
+    std::string key = read_file(file);
+    while (!key.empty() && (key.back() == '\n' || key.back() == ' ')) key.pop_back();
+    if (key.size() < 32) throw EnvironmentError(fmt::format("{} is damaged; put it back from a backup", file.string()));
+    return key;
+}
+
+Database open_database(const fs::path& file) {
+    Database database(file, Database::Opening::kExisting);
+    migrate_course(database, Database::Opening::kExisting, file.string());
+    return database;
+}
+
+}  // namespace
+
+void Course::create(const fs::path& folder, const std::string& name, const std::string& zone) {
+    const CourseClock clock(zone);
+    make_folder(folder / "files");
+    Database database(folder / kDatabase, Database::Opening::kNew);
+    migrate_course(database, Database::Opening::kNew, (folder / kDatabase).string());
+    Transaction transaction(database);
+    if (database.query("SELECT 1 FROM course").next())
+        throw EnvironmentError(
+            fmt::format("there is a course in {} already; nothing was changed", fs::absolute(folder).string()));
+    make_key(folder / kKey);
+    const auto set = [&](const char* key, const std::string& value) {
+        database.run("INSERT INTO course VALUES (?, ?)", key, value);
+    };
+    set("name", name);
+    set("zone", zone);
+    database.run("INSERT INTO journal (at, what) VALUES (?, ?)", CourseClock::now(),
+                 fmt::format("course \"{}\" made, times in {}", name, zone));
+    transaction.commit();
+}
+
+Course::Course(const fs::path& folder)
+    : folder_(course_folder(folder)),
+      database_(open_database(folder_ / kDatabase)),
+      name_(setting("name")),
+      clock_(setting("zone")),
+      key_(read_key(folder_ / kKey)) {}
+
+std::string Course::setting(const char* key) {
+    Rows rows = database_.query("SELECT value FROM course WHERE key = ?", key);
+    if (!rows.next())
+        throw EnvironmentError(
+            fmt::format("{}: the course was not finished; repeat dynlab course init", (folder_ / kDatabase).string()));
+    return rows.text(0);
+}
+
+fs::path Course::file(const std::string& hash) const {
+    return folder_ / "files" / hash.substr(0, 2) / hash;
+}
+
+std::string Course::keep(std::string_view content) const {
+    const std::string hash = hash_of(content);
+    const fs::path place = file(hash);
+    if (fs::exists(place) && hash_of_file(place) == hash) return hash;
+    make_folder(place.parent_path());
+    write_file_atomically(place, content);
+    sync_folder(place.parent_path());
+    sync_folder(folder_ / "files");
+    return hash;
+}
+
+void Course::record_file(const std::string& hash, std::int64_t bytes, Instant at) {
+    database_.run("INSERT OR IGNORE INTO files VALUES (?, ?, ?)", hash, bytes, at);
+}
+
+void Course::note(const std::string& what, Instant at) {
+    database_.run("INSERT INTO journal (at, what) VALUES (?, ?)", at, what);
+}
+
+}  // namespace dynlab

@@ -1,0 +1,47 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "course/store/course_clock.h"
+#include "course/store/sqlite.h"
+
+namespace dynlab {
+
+/// A course on disk: course.db, the handed-in files under their hashes below files/, and course.key, which signs
+/// receipts. Nothing is ever deleted. A file is on disk before the transaction that speaks of it commits, so that a
+/// crash leaves at worst a file that nobody speaks of.
+class Course {
+  public:
+    /// Makes a course in `folder`, which may exist. Finishes what an interrupted one began. Throws EnvironmentError
+    /// where there is a course already, InvalidArgument for an unknown zone.
+    static void create(const std::filesystem::path& folder, const std::string& name, const std::string& zone);
+
+    /// Opens the course in `folder`, or in a folder above it.
+    explicit Course(const std::filesystem::path& folder);
+
+    Database& database() { return database_; }
+    const CourseClock& clock() const { return clock_; }
+    const std::string& name() const { return name_; }
+    const std::string& key() const { return key_; }
+    const std::filesystem::path& folder() const { return folder_; }
+
+    /// Stores the content of a file, before a transaction; returns its hash.
+    std::string keep(std::string_view content) const;
+    /// Within a transaction: the store speaks of this content from now on.
+    void record_file(const std::string& hash, std::int64_t bytes, Instant at);
+    std::filesystem::path file(const std::string& hash) const;
+    /// Within a transaction: a line in the journal.
+    void note(const std::string& what, Instant at = CourseClock::now());
+
+  private:
+    std::string setting(const char* key);
+
+    std::filesystem::path folder_;
+    Database database_;
+    std::string name_;
+    CourseClock clock_;
+    std::string key_;
+};
+
+}  // namespace dynlab

@@ -1,0 +1,172 @@
+#include "course/store/groups.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "numerics/error.h"
+#include "platform/error.h"
+#include "platform/spelling.h"
+
+namespace dynlab {
+namespace {
+
+std::set<std::string> names_in(const std::string& cell) {
+    std::set<std::string> names;
+    for (std::size_t at = 0; at <= cell.size();) {
+        const std::size_t end = std::min(cell.find('|', at), cell.size());
+        std::string name = cell.substr(at, end - at);
+        name.erase(0, name.find_first_not_of(' '));
+        name.erase(name.find_last_not_of(' ') + 1);
+        if (!name.empty()) names.insert(name);
+        at = end + 1;
+    }
+    return names;
+}
+
+class Import {
+  public:
+    Import(Course& course, const Roster& roster) : course_(course), db_(course.database()), roster_(roster) {}
+
+    RosterChange run() {
+        Transaction transaction(db_);
+        std::set<std::string> present;
+        for (const Student& student : roster_.students()) {
+            present.insert(student.id);
+            take(student);
+            move(student);
+        }
+        for (const Student& known : students_of(course_))
+            if (!present.contains(known.id)) change_.absent.push_back(known.id);
+        change_.students = static_cast<int>(roster_.students().size());
+        if (change_.new_students + change_.changed + change_.moved > 0)
+            course_.note(fmt::format("roster imported: {} students, {} new, {} changed, {} moved", change_.students,
+                                     change_.new_students, change_.changed, change_.moved),
+                         now_);
+        transaction.commit();
+        return change_;
+    }
+
+  private:
+    void take(const Student& s) {
+        Rows rows = db_.query("SELECT name, mail, moodle, canvas FROM students WHERE id = ?", s.id);
+        if (!rows.next()) {
+            ++change_.new_students;
+            db_.run("INSERT INTO students VALUES (?, ?, ?, ?, ?)", s.id, s.name, s.mail, s.moodle, s.canvas);
+        } else if (rows.text(0) != s.name || rows.text(1) != s.mail || rows.text(2) != s.moodle ||
+                   rows.text(3) != s.canvas) {
+            ++change_.changed;
+            db_.run("UPDATE students SET name = ?, mail = ?, moodle = ?, canvas = ? WHERE id = ?", s.name, s.mail,
+                    s.moodle, s.canvas, s.id);
+        }
+    }
+
+    std::int64_t group(const std::string& name) {
+        Rows rows = db_.query("SELECT id FROM groups WHERE name = ?", name);
+        if (rows.next()) return rows.integer(0);
+        ++change_.new_groups;
+        db_.run("INSERT INTO groups (name, joined_at) VALUES (?, ?)", name, now_);
+        return db_.last_id();
+    }
+
+    void move(const Student& student) {
+        std::set<std::int64_t> wanted, present;
+        for (const std::string& name : names_in(student.group.empty() ? student.id : student.group))
+            wanted.insert(group(name));
+        for (Rows rows = db_.query("SELECT group_id FROM memberships WHERE student = ? AND until IS NULL", student.id);
+             rows.next();)
+            present.insert(rows.integer(0));
+        if (wanted == present) return;
+        if (!present.empty()) ++change_.moved;
+        for (const std::int64_t id : present)
+            if (!wanted.contains(id))
+                db_.run("UPDATE memberships SET until = ? WHERE student = ? AND group_id = ? AND until IS NULL", now_,
+                        student.id, id);
+        for (const std::int64_t id : wanted)
+            if (!present.contains(id))
+                // Back within the second of having left: the same membership.
+                db_.run("INSERT INTO memberships VALUES (?, ?, ?, NULL) ON CONFLICT DO UPDATE SET until = NULL",
+                        student.id, id, now_);
+    }
+
+    Course& course_;
+    Database& db_;
+    const Roster& roster_;
+    const Instant now_ = CourseClock::now();
+    RosterChange change_;
+};
+
+}  // namespace
+
+std::vector<Group> groups_of(Course& course) {
+    std::vector<Group> groups;
+    std::map<std::int64_t, std::size_t> place;
+    for (Rows rows = course.database().query("SELECT id, name, left_at FROM groups ORDER BY name"); rows.next();) {
+        place[rows.integer(0)] = groups.size();
+        groups.push_back({rows.integer(0), rows.text(1), !rows.null(2), {}});
+    }
+    for (Rows rows =
+             course.database().query("SELECT group_id, student FROM memberships WHERE until IS NULL ORDER BY student");
+         rows.next();)
+        groups[place.at(rows.integer(0))].members.push_back(rows.text(1));
+    return groups;
+}
+
+Group group_named(Course& course, const std::string& name) {
+    std::vector<std::string> names;
+    for (const Group& group : groups_of(course)) {
+        if (::strcasecmp(group.name.c_str(), name.c_str()) == 0) return group;
+        names.push_back(group.name);
+    }
+    const auto near = nearest_word(name, names);
+    throw InvalidArgument(fmt::format(
+        "there is no group \"{}\" in this course{}", name,
+        near ? fmt::format("; did you mean {}?", *near) : "; see dynlab course status for those there are"));
+}
+
+std::vector<Student> students_of(Course& course) {
+    std::vector<Student> students;
+    for (Rows rows = course.database().query(
+             "SELECT s.id, s.name, coalesce(min(g.name), ''), s.mail, s.moodle, s.canvas FROM students s "
+             "LEFT JOIN memberships m ON m.student = s.id AND m.until IS NULL LEFT JOIN groups g ON g.id = m.group_id "
+             "GROUP BY s.id ORDER BY s.id");
+         rows.next();)
+        students.push_back({rows.text(0), rows.text(1), rows.text(2), {}, rows.text(3), rows.text(4), rows.text(5)});
+    return students;
+}
+
+RosterChange import_roster(Course& course, const std::filesystem::path& file) {
+    const Roster roster(file);
+    if (roster.students().empty())
+        throw EnvironmentError(fmt::format("{}: there are no students below the header", file.string()));
+    return Import(course, roster).run();
+}
+
+void set_group_left(Course& course, const std::string& name, bool left, const std::string& reason) {
+    Transaction transaction(course.database());
+    const Group group = group_named(course, name);
+    if (group.left == left)
+        throw InvalidArgument(fmt::format("{} {} already", group.name, left ? "has dropped out" : "is in the course"));
+    const Instant now = CourseClock::now();
+    course.database().run("UPDATE groups SET left_at = ?, left_reason = ? WHERE id = ?",
+                          left ? std::optional(now) : std::nullopt, left ? std::optional(reason) : std::nullopt,
+                          group.id);
+    course.note(
+        fmt::format("{} {}{}", group.name, left ? "dropped out" : "came back", reason.empty() ? "" : ": " + reason),
+        now);
+    transaction.commit();
+}
+
+std::vector<std::pair<std::int64_t, std::int64_t>> kindred_groups(Course& course) {
+    std::vector<std::pair<std::int64_t, std::int64_t>> pairs;
+    for (Rows rows = course.database().query(
+             "SELECT DISTINCT a.group_id, b.group_id FROM memberships a JOIN memberships b ON a.student = b.student "
+             "AND a.group_id < b.group_id ORDER BY 1, 2");
+         rows.next();)
+        pairs.emplace_back(rows.integer(0), rows.integer(1));
+    return pairs;
+}
+
+}  // namespace dynlab

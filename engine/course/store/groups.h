@@ -1,0 +1,41 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "course/roster.h"
+#include "course/store/course_store.h"
+
+namespace dynlab {
+
+/// Those who hand in together: one student or several.
+struct Group {
+    std::int64_t id = 0;
+    std::string name;
+    bool left = false;                 ///< dropped out
+    std::vector<std::string> members;  ///< ids of the students who belong to it now
+};
+
+std::vector<Group> groups_of(Course& course);  ///< all that ever were, by name
+/// By its name. Throws InvalidArgument with the nearest name.
+Group group_named(Course& course, const std::string& name);
+
+/// All who ever were in the course; `group` is the one each belongs to now (the first by name where there are several).
+std::vector<Student> students_of(Course& course);
+
+struct RosterChange {
+    int students = 0, new_students = 0, changed = 0, moved = 0, new_groups = 0;
+    std::vector<std::string> absent;  ///< ids of students who are not in the file; they stay
+};
+/// Reads a roster (columns id, and optionally name, group, mail, moodle, canvas) into the course, whole or not at all.
+/// A student without a group is a group alone; one in several has them joined by "|". Who is in another group than
+/// before leaves that one; both stay known, so that nobody reviews work of their own.
+RosterChange import_roster(Course& course, const std::filesystem::path& file);
+
+/// The group has dropped out, or is back. Its work stays. Throws InvalidArgument where that was so before.
+void set_group_left(Course& course, const std::string& name, bool left, const std::string& reason);
+
+/// Pairs of groups who share a member, or did at any time.
+std::vector<std::pair<std::int64_t, std::int64_t>> kindred_groups(Course& course);
+
+}  // namespace dynlab

@@ -1,0 +1,53 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "course/store/assignments.h"
+#include "course/store/groups.h"
+#include "course/store/incoming.h"
+
+namespace dynlab {
+
+/// What kind of file it is, by its first bytes and its name's ending: "pdf", "pack" (zip or tar), "script" (.lua), or
+/// empty for anything else.
+std::string kind_of_file(const std::string& name, std::string_view content);
+
+/// What receive is asked to do.
+struct ReceiveRequest {
+    std::vector<std::filesystem::path> files;
+    std::string assignment, stage = "first";  ///< "first", "review", "final"
+    std::string from;                         ///< a group; empty: by the files' names
+    std::string of;                           ///< of a review: the pseudonym of the report; empty: by the file's name
+    Instant at = 0;                           ///< time of receipt
+    Isolation level = Isolation::kFull;
+    std::filesystem::path program;
+    bool checks = true;  ///< look at PDFs as dynlab check does
+    std::function<void(std::size_t done, std::size_t total)> progress;
+};
+
+/// One file that was taken.
+struct Received {
+    std::string group, part, about;  ///< about: of a review, the pseudonym of the report
+    std::int64_t version = 0, late = 0, id = 0;
+    bool known = false;  ///< the same content as the version before: nothing was changed
+    int rules_broken = 0;
+    std::string trouble;  ///< when the PDF cannot be read: "damaged"
+};
+
+struct ReceiveOutcome {
+    Assignment assignment;
+    std::vector<Received> received;
+    std::vector<std::string> refused;  ///< sentences, one a file that was not taken
+    std::filesystem::path receipts;    ///< folder with a receipt for each
+};
+
+/// Takes hand-ins into the course: in one transaction all that can be taken. A group's wrong file never stops
+/// others'; of a single file the trouble is thrown instead. Files are stored before the transaction and receipts are
+/// written after it, so that a crash loses nothing and the same command completes it.
+ReceiveOutcome receive(Course& course, const ReceiveRequest& request);
+
+/// Writes a version's receipt into receipts/ASSIGNMENT/; returns the file.
+std::filesystem::path write_receipt(Course& course, std::int64_t version);
+
+}  // namespace dynlab

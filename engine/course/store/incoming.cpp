@@ -1,0 +1,109 @@
+#include "course/store/incoming.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "platform/error.h"
+
+namespace dynlab {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_folder(const fs::path& path) {
+    return fs::symlink_status(path).type() == fs::file_type::directory;
+}
+
+/// Entries that a person put there, sorted; not what macOS or the platform adds.
+std::vector<fs::path> entries_of(const fs::path& folder) {
+    std::vector<fs::path> entries;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const std::string name = entry.path().filename();
+        if (!name.starts_with('.') && name != "__MACOSX" && name != "onlinetext.html") entries.push_back(entry.path());
+    }
+    std::sort(entries.begin(), entries.end());
+    return entries;
+}
+
+}  // namespace
+
+Submission sender_of(const std::string& name) {
+    Submission sender;
+    sender.name = archive_stem(name).value_or(fs::path(name).stem().string());
+    if (sender.name.empty()) sender.name = name;
+    read_lms_name(sender);
+    return sender;
+}
+
+void Incoming::add(const fs::path& given) {
+    const std::string source = given.string();
+    if (!fs::exists(given)) throw EnvironmentError(fmt::format("there is no file or folder '{}'", source));
+    if (!files_.empty()) batch_ = true;
+    if (fs::is_directory(given)) {
+        if (way_.one_sender)
+            throw EnvironmentError(
+                fmt::format("{} is a folder; with --from give the files themselves, or a pack", source));
+        add_batch(given, source);
+        return;
+    }
+    if (!fs::is_regular_file(given)) throw EnvironmentError(fmt::format("{} is no ordinary file", source));
+    const std::string name = given.filename();
+    if (!archive_stem(name) || way_.one_sender || way_.knows(sender_of(name))) {
+        add_file(given, source);
+        return;
+    }
+    const fs::path to = scratch_.path() / std::to_string(++unpacked_);
+    fs::create_directories(to);
+    for (const std::string& outside : unpack_export(given, to, way_.level, way_.program))
+        left_out_.push_back(
+            fmt::format("{}: \"{}\" is a link or leads outside of the archive; it was left out", source, outside));
+    add_batch(to, source);
+}
+
+void Incoming::add_file(const fs::path& file, const std::string& source) {
+    if (fs::symlink_status(file).type() == fs::file_type::symlink && source != file.string()) {
+        left_out_.push_back(fmt::format("{}: a link; it was left out", source));
+        return;
+    }
+    const std::string name = file.filename();
+    files_.push_back({file, name, source, sender_of(name)});
+}
+
+void Incoming::add_batch(const fs::path& folder, const std::string& source) {
+    batch_ = true;
+    const std::vector<fs::path> entries = entries_of(folder);
+    const bool wrapped = entries.size() == 1 && is_folder(entries.front()) &&
+                         !way_.knows(sender_of(entries.front().filename())) &&
+                         sender_of(entries.front().filename()).lms_id.empty();
+    if (wrapped) {
+        add_batch(entries.front(), source);
+        return;
+    }
+    for (const fs::path& entry : entries) {
+        const std::string name = entry.filename(), place = source + "/" + name;
+        if (is_folder(entry)) {
+            Submission sender;
+            sender.name = name;
+            read_lms_name(sender);
+            add_folder_of(sender, entry, place);
+        } else {
+            add_file(entry, place);
+        }
+    }
+}
+
+void Incoming::add_folder_of(const Submission& sender, const fs::path& folder, const std::string& source) {
+    for (const fs::path& entry : entries_of(folder)) {
+        const std::string place = source + "/" + entry.filename().string();
+        if (is_folder(entry)) {
+            add_folder_of(sender, entry, place);
+            continue;
+        }
+        const std::size_t before = files_.size();
+        add_file(entry, place);
+        if (files_.size() > before) files_.back().sender = sender;
+    }
+}
+
+}  // namespace dynlab

@@ -1,0 +1,55 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "course/submission.h"
+#include "platform/temporary_folder.h"
+
+namespace dynlab {
+
+/// A file as it came.
+struct IncomingFile {
+    std::filesystem::path file;  ///< where it can be read
+    std::string name;            ///< its own name
+    std::string source;          ///< for messages: the file that was given, and the place in it
+    Submission sender;           ///< name, person and lms_id as the folder's or the file's name tells them
+};
+
+/// Everything that was given to receive: files, folders, and what Moodle or Canvas exports as one zip. Archives are
+/// unpacked in a box, but for packs, which stay whole.
+class Incoming {
+  public:
+    struct Way {
+        Isolation level = Isolation::kFull;
+        std::filesystem::path program;
+        bool one_sender = false;  ///< the instructor names the sender: an archive is that group's pack
+        std::function<bool(const Submission&)> knows;  ///< whether a name is a group's or student's of the course
+    };
+    explicit Incoming(Way way) : way_(std::move(way)) {}
+
+    /// Throws EnvironmentError where there is no such file, SubmissionError for an archive that cannot be unpacked.
+    void add(const std::filesystem::path& given);
+
+    const std::vector<IncomingFile>& files() const { return files_; }
+    const std::vector<std::string>& left_out() const { return left_out_; }  ///< sentences
+    bool batch() const { return batch_; }  ///< more than one file, so that one bad file need not stop the others
+
+  private:
+    void add_file(const std::filesystem::path& file, const std::string& source);
+    void add_batch(const std::filesystem::path& folder, const std::string& source);
+    void add_folder_of(const Submission& sender, const std::filesystem::path& folder, const std::string& source);
+
+    Way way_;
+    TemporaryFolder scratch_;
+    int unpacked_ = 0;
+    bool batch_ = false;
+    std::vector<IncomingFile> files_;
+    std::vector<std::string> left_out_;
+};
+
+/// What a name tells of its sender: an LMS's pattern, or the name without its ending.
+Submission sender_of(const std::string& name);
+
+}  // namespace dynlab

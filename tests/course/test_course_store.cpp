@@ -1,0 +1,162 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "course/course_bench.h"
+#include "course/store/receipts.h"
+#include "numerics/error.h"
+
+namespace dynlab::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+// oracle: RFC 4231, test cases 1, 2 and 6
+TEST(course_store, signs_as_the_standard_says) {
+    EXPECT_EQ(hmac_sha256(std::string(20, '\x0b'), "Hi There"),
+              "b0344c61d8db38535ca8afceaf0bf12b881dc200c9833da726e9376c2e32cff7");
+    EXPECT_EQ(hmac_sha256("Jefe", "what do ya want for nothing?"),
+              "5bdcc146bf60754e6a042426089575c75a003f089d2739839dec58b964ec3843");
+    EXPECT_EQ(hmac_sha256(std::string(131, '\xaa'), "Test Using Larger Than Block-Size Key - Hash Key First"),
+              "60e431591ee0b67f0d8a26aacbf5b77f8e0bc6213728c5140546040f0ee37f54");
+}
+
+// oracle: definition; every letter counts
+TEST(course_store, knows_genuine_receipts) {
+    const Receipt receipt{"c", "crane", "group-01", "first", "report", "a\nb.pdf", std::string(64, 'a'),
+                          1,   10,      0,          5,       6};
+    const std::string text = signed_receipt(receipt, "key");
+    EXPECT_TRUE(receipt_is_genuine(text, "key"));
+    EXPECT_FALSE(receipt_is_genuine(text, "other"));
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '\n') continue;
+        std::string altered = text;
+        altered[i] ^= 1;
+        EXPECT_FALSE(receipt_is_genuine(altered, "key")) << i;
+    }
+    EXPECT_FALSE(receipt_is_genuine(text + "late: no\n", "key"));
+}
+
+// oracle: calendars: Paris leaves summer time at 2026-10-25 03:00, and enters it at 2026-03-29 02:00
+TEST(course_store, reads_times_in_the_zone) {
+    const CourseClock paris("Europe/Paris");
+    EXPECT_EQ(utc_text(paris.parse("2026-02-28 13:00", "t")), "2026-02-28T12:00:00Z");
+    EXPECT_EQ(utc_text(paris.parse("2026-07-01T13:00", "t")), "2026-07-01T11:00:00Z");
+    EXPECT_EQ(utc_text(paris.parse("2026-07-01 13:00Z", "t")), "2026-07-01T13:00:00Z");
+    EXPECT_EQ(paris.show_exactly(paris.parse("2026-07-01 13:00:07", "t")), "2026-07-01 13:00:07 CEST");
+    for (const char* wrong : {"2026-02-30 12:00", "2026-03-29 02:30", "tomorrow", "2026-03-01", "", "12:00 2026-03-01"})
+        EXPECT_THROW(paris.parse(wrong, "t"), InvalidArgument) << wrong;
+    EXPECT_THROW(CourseClock("Europe/Atlantis"), InvalidArgument);
+    EXPECT_THROW(CourseClock("../../etc/passwd"), InvalidArgument);
+    EXPECT_EQ(duration_text(*duration_of("90 min")), "1 h 30 min");
+    EXPECT_EQ(duration_of("1 week"), std::nullopt);
+}
+
+// oracle: the rules of deadlines and versions
+TEST(course_store, keeps_versions_and_tells_lateness) {
+    const CourseBench bench(3);
+    EXPECT_THAT(bench.hand_in("group-01.pdf", small_pdf("one"), "2026-03-01 12:10").output,
+                HasSubstr("v1       in time"));
+    EXPECT_THAT(bench.hand_in("group-01.pdf", small_pdf("one"), "2026-03-02 12:10").output, HasSubstr("known already"));
+    EXPECT_THAT(bench.hand_in("group-01.pdf", small_pdf("two"), "2026-03-01 12:10:01").output,
+                HasSubstr("v2       late by 10 min 1 s"));
+    EXPECT_THAT(bench.hand_in("Student 2.pdf", "%PDF-1.4\nnothing", "2026-03-01 10:00").output,
+                AllOf(HasSubstr("group-02"), HasSubstr("damaged: ask for a readable file")));
+    const std::string status = bench.course({"status", "crane", "--at", "2026-03-01 14:00"}).output;
+    EXPECT_THAT(status, HasSubstr("v2 late 10 min 1 s"));
+    EXPECT_THAT(status, HasSubstr("v1 damaged"));
+    EXPECT_THAT(status, HasSubstr("ask for the first version, or roster drop"));
+    EXPECT_THAT(status, HasSubstr("3 groups: 2 handed in, 1 late, 1 unreadable, 1 missing."));
+}
+
+// oracle: the store before; each kind of bad input
+TEST(course_store, refuses_bad_input_and_stays_untouched) {
+    CourseBench bench(3);
+    bench.hand_in("group-01.pdf", small_pdf("one"), "2026-03-01 10:00");
+    const std::string before = bench.dump();
+    const auto refused = [&](const std::vector<std::string>& words, const std::string& message) {
+        const ChildResult result = bench.course(words);
+        EXPECT_EQ(result.exit_code, 1) << words[0];
+        EXPECT_THAT(result.error_output, HasSubstr(message));
+        EXPECT_EQ(bench.dump(), before) << message;
+    };
+    bench.bench().write("columns.csv", "number,name\n1,Ada\n");
+    refused({"roster", "import", "columns.csv"}, "the column id is missing; there are number, name");
+    bench.bench().write("twice.csv", "id,name\ns8,Ada\ns9,Bo\ns8,Eve\n");
+    refused({"roster", "import", "twice.csv"}, "twice.csv, line 4: the id \"s8\" stands there twice");
+    bench.bench().write("empty.csv", "id,name\n");
+    refused({"roster", "import", "empty.csv"}, "there are no students");
+    refused({"receive", "nowhere.pdf"}, "there is no file or folder 'nowhere.pdf'");
+    bench.bench().write("gruop-02.pdf", small_pdf("x"));
+    refused({"receive", "gruop-02.pdf"},
+            "no group and no student of the course is called \"gruop-02\" (the nearest is group-02)");
+    refused({"receive", "gruop-02.pdf", "--from", "group-9"}, "there is no group \"group-9\"");
+    bench.bench().write("group-02.docx", "PK\x03\x04 words");
+    refused({"receive", "group-02.docx"}, "this is no PDF and no pack");
+    bench.bench().write("group-02.pdf", "not a document");
+    refused({"receive", "group-02.pdf"}, "this is no PDF and no pack");
+    bench.bench().write("group-03.pdf", "");
+    refused({"receive", "group-03.pdf"}, "the file is empty");
+    refused({"receive", "gruop-02.pdf", "--assignment", "crame"}, "did you mean crane?");
+    refused({"assignment", "add", "b", "--first", "2026-03-09 12:00", "--review", "2026-03-08 12:00", "--final",
+             "2026-03-15 12:00"},
+            "the deadline of the reviews (Sun 2026-03-08 12:00) must come after that of the first version");
+    refused({"assignment", "add", "b", "--first", "2026-03-09"}, "--first must be a time such as");
+    refused({"assignment", "add", "../b", "--first", "2026-03-09 12:00"}, "must be a short word");
+    refused({"assignment", "add", "talk", "--kind", "presentation", "--first", "2026-03-09 12:00", "--final",
+             "2026-03-12 12:00"},
+            "a presentation has one deadline");
+    refused({"assignment", "add", "crane", "--first", "2026-02-01 12:00", "--review", "2026-03-08 12:00", "--final",
+             "2026-03-15 12:00"},
+            "only deadlines may move, to later ones");
+    refused({"roster", "drop", "group-77"}, "there is no group");
+}
+
+// oracle: what each platform documents of its export, and the zip's own names
+TEST(course_store, takes_a_platform_s_zip_and_leaves_out_what_leads_outside) {
+    CourseBench bench(4);
+    bench.bench().write("one.pdf", small_pdf("one"));
+    bench.bench().write("two.pdf", small_pdf("two"));
+    bench.bench().write("notes.txt", "notes");
+    const ChildResult made = bench.bench().shell(
+        "python3 - <<'END'\nimport zipfile\n"
+        "z = zipfile.ZipFile('class.zip', 'w')\n"
+        "z.write('one.pdf', 'Student 1_4711_assignsubmission_file_/my report.pdf')\n"
+        "z.write('two.pdf', 'elsenobody_LATE_42_77_report.pdf')\n"
+        "z.write('two.pdf', 'group-03_final2.pdf')\n"
+        "z.write('notes.txt', 'group-04/notes.txt')\n"
+        "z.write('one.pdf', '../../escaped.pdf')\n"
+        "z.write('one.pdf', '/tmp/escaped.pdf')\n"
+        "z.close()\nEND");
+    ASSERT_EQ(made.exit_code, 0) << made.error_output;
+    const ChildResult taken =
+        bench.course({"receive", "class.zip", "--at", "2026-03-01 10:00", "--isolation", CourseBench::level()});
+    EXPECT_EQ(taken.exit_code, 1);
+    EXPECT_THAT(taken.output, AllOf(HasSubstr("2 files taken, 0 late"), HasSubstr("group-01"), HasSubstr("group-03")));
+    EXPECT_THAT(taken.error_output,
+                AllOf(HasSubstr("\"../../escaped.pdf\" is a link or leads outside"), HasSubstr("called \"elsenobody\""),
+                      HasSubstr("group-04/notes.txt: this is no PDF")));
+    EXPECT_FALSE(std::filesystem::exists(bench.bench().path("escaped.pdf")));
+    EXPECT_FALSE(std::filesystem::exists("/tmp/escaped.pdf"));
+    EXPECT_THAT(bench.course({"verify"}).output, HasSubstr("2 files, 2 versions: all there and unaltered"));
+}
+
+// oracle: the versions of the tables
+TEST(course_store, refuses_other_versions_of_the_store) {
+    CourseBench bench(2);
+    bench.bench().shell("sqlite3 k/course.db 'PRAGMA user_version = 99'");
+    const ChildResult newer = bench.course({"status"});
+    EXPECT_EQ(newer.exit_code, 1);
+    EXPECT_THAT(newer.error_output, HasSubstr("made by a newer dynlab (its tables have version 99"));
+    bench.bench().shell("mkdir x && sqlite3 x/course.db 'CREATE TABLE other (a)'");
+    EXPECT_THAT(bench.bench().dynlab({"course", "--course", "x", "status"}).error_output,
+                HasSubstr("this is no course"));
+    bench.bench().shell("mkdir y && echo 'no database at all, but long enough to be read' > y/course.db");
+    EXPECT_THAT(bench.bench().dynlab({"course", "--course", "y", "status"}).error_output, HasSubstr("not a database"));
+    EXPECT_THAT(bench.bench().dynlab({"course", "init", "k"}).error_output, HasSubstr("newer dynlab"));
+    EXPECT_THAT(bench.bench().dynlab({"course", "status"}).error_output, HasSubstr("there is no course in"));
+}
+
+}  // namespace
+}  // namespace dynlab::test
