@@ -64,7 +64,8 @@ TEST_P(reference_pages, example_runs_and_shows_something) {
     renderer.finish();
     ASSERT_FALSE(record.error) << record.error->message;
     const bool shows = !record.outputs.empty() || !record.figures.empty() || !record.values.empty() ||
-                       !record.tables.empty() || !record.texts.empty() || !std::filesystem::is_empty(folder.path());
+                       !record.tables.empty() || !record.texts.empty() || !record.answers.empty() ||
+                       !std::filesystem::is_empty(folder.path());
     EXPECT_TRUE(shows);
 }
 
