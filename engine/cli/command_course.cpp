@@ -186,6 +186,8 @@ void add_course(CLI::App& app, Action& action) {
     add_roster(*course, where, action);
     add_assignment_commands(*course, where, action);
     add_receive_commands(*course, where, action);
+    add_peer_commands(*course, where, action);
+    add_mark_commands(*course, where, action);
     add_status(*course, where, action);
     course->footer(
         "Every command is all or nothing and may be repeated; nothing is ever deleted.\n"
@@ -194,6 +196,9 @@ void add_course(CLI::App& app, Action& action) {
         "  dynlab course assignment add crane --first \"2026-02-28 13:00\" --review ... --final ...\n"
         "  dynlab course receive crane.zip --assignment crane         what Moodle or Canvas exports, or files\n"
         "  dynlab course status crane                                 who is late, and what to do\n"
+        "  dynlab course peer assign crane                            who reviews whom\n"
+        "  dynlab course marks crane                                  from the reviewers' scores and your own word\n"
+        "  dynlab course export crane --out marks.csv                 for Moodle and Canvas\n"
         "Exit codes: 0 done, 1 something failed or was not taken, 2 wrong usage.");
 }
 

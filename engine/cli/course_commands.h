@@ -15,4 +15,10 @@ Instant time_of(const Course& course, const std::string& text);  ///< of --at; n
 /// receive, review receive, final receive, verify.
 void add_receive_commands(CLI::App& course, CourseWords& where, Action& action);
 
+/// peer assign, peer send, peer show, release.
+void add_peer_commands(CLI::App& course, CourseWords& where, Action& action);
+
+/// scores, oral, marks, override, export, import.
+void add_mark_commands(CLI::App& course, CourseWords& where, Action& action);
+
 }  // namespace dynlab

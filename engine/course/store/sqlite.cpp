@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <nlohmann/json.hpp>
+
 #include "platform/error.h"
 
 namespace dynlab {
@@ -103,6 +105,19 @@ std::string Rows::name(int column) const {
     return sqlite3_column_name(statement_.get(), column);
 }
 
+nlohmann::json Rows::value(int column) const {
+    switch (sqlite3_column_type(statement_.get(), column)) {
+        case SQLITE_INTEGER:
+            return integer(column);
+        case SQLITE_FLOAT:
+            return number(column);
+        case SQLITE_NULL:
+            return nullptr;
+        default:
+            return text(column);
+    }
+}
+
 void Database::Close::operator()(sqlite3* database) const {
     sqlite3_close_v2(database);
 }
@@ -121,6 +136,26 @@ Database::Database(const std::filesystem::path& file, Opening opening) : place_(
 void Database::execute(const std::string& statements) {
     const int code = sqlite3_exec(database_.get(), statements.c_str(), nullptr, nullptr, nullptr);
     if (code != SQLITE_OK) fail(database_.get(), code, place_);
+}
+
+void Database::insert(const std::string& table, const nlohmann::json& row) {
+    std::string names, marks;
+    for (const auto& [name, value] : row.items()) {
+        names += (names.empty() ? "\"" : ", \"") + name + '"';
+        marks += marks.empty() ? "?" : ", ?";
+    }
+    Rows statement = query(fmt::format("INSERT INTO {} ({}) VALUES ({})", table, names, marks));
+    int place = 0;
+    for (const auto& [name, value] : row.items()) {
+        ++place;
+        if (value.is_number_integer())
+            statement.bind(place, value.get<std::int64_t>());
+        else if (value.is_number())
+            statement.bind(place, value.get<double>());
+        else if (value.is_string())
+            statement.bind(place, value.get<std::string>());
+    }
+    statement.next();
 }
 
 std::int64_t Database::last_id() const {

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,6 +23,7 @@ class Rows {
     std::optional<std::int64_t> optional_integer(int column) const;
     int columns() const;
     std::string name(int column) const;
+    nlohmann::json value(int column) const;  ///< a whole number, a number, a text or null
 
   private:
     friend class Database;
@@ -63,6 +65,8 @@ class Database {
         Rows rows = query(sql, values...);
         while (rows.next()) continue;
     }
+    /// Inserts a row of column names and values.
+    void insert(const std::string& table, const nlohmann::json& row);
     std::int64_t last_id() const;  ///< of the row that was inserted last
 
   private:

@@ -1,0 +1,156 @@
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "cli/course_commands.h"
+#include "course/store/aligned_table.h"
+#include "course/store/course_export.h"
+#include "course/store/groups.h"
+#include "course/store/review_marks.h"
+#include "platform/atomic_file.h"
+
+namespace dynlab {
+namespace {
+
+struct MarkWords {
+    std::string assignment, file, group, what, reason, at, out, from = ".";
+    double percent = 0;
+    bool json = false;
+};
+using Run = int (*)(const CourseWords&, const MarkWords&);
+
+int give_out(const std::string& text, const std::string& file) {
+    if (file.empty()) {
+        std::cout << text;
+    } else {
+        write_file_atomically(file, text);
+        std::cout << file << '\n';
+    }
+    return kDone;
+}
+
+int scores(const CourseWords& where, const MarkWords& words) {
+    Course course(where.folder);
+    const Assignment a = assignment_named(course, words.assignment);
+    const Instant now = time_of(course, words.at);
+    const int fresh = a.is_report() ? import_review_scores(course, a, words.file, now)
+                                    : import_oral_scores(course, a, words.file, now);
+    std::cout << fmt::format("{}: {} new scores.\n", a.name, fresh);
+    return kDone;
+}
+
+int sheet(const CourseWords& where, const MarkWords& words) {
+    Course course(where.folder);
+    return give_out(oral_sheet(course, assignment_named(course, words.assignment)), words.out);
+}
+
+std::string percent(const std::optional<double>& mark, bool overridden) {
+    return mark ? fmt::format("{:.1f}{}", *mark, overridden ? " (yours)" : "") : "-";
+}
+
+int marks(const CourseWords& where, const MarkWords& words) {
+    Course course(where.folder);
+    const Assignment a = assignment_named(course, words.assignment);
+    const Marks all = course_marks(course, a);
+    std::vector<std::string> header = {"group"};
+    for (const Criterion& c : a.criteria) header.push_back(fmt::format("{} /{}", c.name, c.most));
+    header.insert(header.end(), {"work %", "reviews %"});
+    std::vector<std::vector<std::string>> rows;
+    for (const Group& group : groups_of(course))
+        for (const GroupMark& mark : all.groups) {
+            if (mark.group != group.id) continue;
+            std::vector<std::string> row = {group.name};
+            for (const auto& median : mark.medians) row.push_back(median ? fmt::format("{}", *median) : "-");
+            row.push_back(percent(mark.work_mark(), mark.work_override.has_value()));
+            row.push_back(percent(mark.reviews_mark(), mark.reviews_override.has_value()));
+            rows.push_back(row);
+        }
+    std::cout << aligned_table(header, rows);
+    for (const ReviewPair& pair : review_pairs(course, a))
+        for (const ReviewMark& mark : all.reviews)
+            if (mark.pair == pair.id && mark.outlier)
+                std::cout << fmt::format(
+                    "Look at the review of {} by {}: far below the others{}.\n", pair.author_name, pair.reviewer_name,
+                    mark.retaliation ? fmt::format("; {} had given {} few points", pair.author_name, pair.reviewer_name)
+                                     : "");
+    return kDone;
+}
+
+int set_mark(const CourseWords& where, const MarkWords& words) {
+    Course course(where.folder);
+    const Assignment a = assignment_named(course, words.assignment);
+    override_mark(course, a, words.group, words.what, words.percent, words.reason, time_of(course, words.at));
+    std::cout << fmt::format("{}: the mark of {} for its {} is {} percent.\n", a.name, words.group, words.what,
+                             words.percent);
+    return kDone;
+}
+
+int export_course(const CourseWords& where, const MarkWords& words) {
+    Course course(where.folder);
+    return give_out(words.json ? course_json(course) : marks_csv(course, assignment_named(course, words.assignment)),
+                    words.out);
+}
+
+int import(const CourseWords&, const MarkWords& words) {
+    import_course(words.file, words.from, words.out);
+    std::cout << fmt::format("Course made in {} from {}.\n", words.out, words.file);
+    return kDone;
+}
+
+struct MarkCommand {
+    CLI::App* app;
+    std::shared_ptr<MarkWords> words;
+};
+
+MarkCommand add_one(CLI::App& course, const char* name, const char* about, CourseWords& where, Action& action,
+                    Run run) {
+    auto words = std::make_shared<MarkWords>();
+    CLI::App* command = course.add_subcommand(name, about);
+    command->callback([&where, words, run, &action] { action = [&where, words, run] { return run(where, *words); }; });
+    return {command, words};
+}
+
+}  // namespace
+
+void add_mark_commands(CLI::App& course, CourseWords& where, Action& action) {
+    const auto scored = add_one(course, "scores", "Read scores: of reviewers, or of the oral", where, action, scores);
+    scored.app->add_option("ASSIGNMENT", scored.words->assignment)->required();
+    scored.app->add_option("CSV", scored.words->file, "Columns reviewer, report (or group, at the oral), criteria")
+        ->required();
+    add_time_option(*scored.app, scored.words->at);
+
+    CLI::App* oral = course.add_subcommand("oral", "The oral presentation");
+    oral->require_subcommand(1);
+    const auto marking = add_one(*oral, "sheet", "A marking sheet to be filled in, for scores", where, action, sheet);
+    marking.app->add_option("ASSIGNMENT", marking.words->assignment)->required();
+    marking.app->add_option("-o,--out", marking.words->out, "Printed unless given")->type_name("CSV");
+
+    const auto shown =
+        add_one(course, "marks", "Medians, marks of reports and reviewers, odd reviews", where, action, marks);
+    shown.app->add_option("ASSIGNMENT", shown.words->assignment, "Needed when there are several");
+    shown.app->footer(
+        "A report's mark: 100 times the sum of the medians over that of the most points. A reviewer's: 100 (1 - 2 d),\n"
+        "never below 0, averaged over the reviews; d is the mean of |points - median of the others| / most. Far below\n"
+        "the others: more than 0.35 of the scale on average.");
+
+    const auto set = add_one(course, "override", "Set a mark yourself; it always wins", where, action, set_mark);
+    set.app->add_option("ASSIGNMENT", set.words->assignment)->required();
+    set.app->add_option("GROUP", set.words->group)->required();
+    set.app->add_option("WHAT", set.words->what)->required()->check(CLI::IsMember({"work", "reviews"}));
+    set.app->add_option("PERCENT", set.words->percent)->required();
+    set.app->add_option("--reason", set.words->reason, "Stands in the export")->required();
+
+    const auto given =
+        add_one(course, "export", "A row a student as CSV, or the whole store as JSON", where, action, export_course);
+    given.app->add_option("ASSIGNMENT", given.words->assignment, "Needed when there are several");
+    given.app->add_option("-o,--out", given.words->out, "Printed unless given")->type_name("FILE");
+    given.app->add_flag("--json", given.words->json, "The whole store, for import");
+
+    const auto taken = add_one(course, "import", "Make a course from a JSON export", where, action, import);
+    taken.app->add_option("JSON", taken.words->file)->required();
+    taken.app->add_option("DIR", taken.words->out, "Folder of the new course")->required();
+    taken.app->add_option("--from", taken.words->from, "Course folder with the handed-in files and the key")
+        ->capture_default_str();
+}
+
+}  // namespace dynlab

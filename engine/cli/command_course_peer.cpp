@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "cli/course_commands.h"
+#include "course/store/aligned_table.h"
+#include "course/store/peer_review.h"
+
+namespace dynlab {
+namespace {
+
+struct PeerWords {
+    std::string assignment, at;
+    bool early = false;
+};
+
+int assign(const CourseWords& where, const PeerWords& words) {
+    Course course(where.folder);
+    const Assignment assignment = assignment_named(course, words.assignment);
+    const AssignOutcome done = assign_reviews(course, assignment, time_of(course, words.at), words.early);
+    std::cout << fmt::format("{}: {} groups, {} reviews (seed {}): {} new, {} taken back.\n", assignment.name,
+                             done.groups, done.pairs, assignment.seed, done.fresh, done.ended);
+    for (const std::string& remark : done.remarks) std::cout << remark << '\n';
+    if (done.remarks.empty())
+        std::cout << "Nobody reviews their own report, one twice, one of a common member, or each other.\n";
+    return kDone;
+}
+
+int show_pairs(const CourseWords& where, const PeerWords& words) {
+    Course course(where.folder);
+    std::vector<std::vector<std::string>> rows;
+    for (const ReviewPair& pair : review_pairs(course, assignment_named(course, words.assignment))) {
+        const char* const state = pair.released  ? "released"
+                                  : pair.written ? "written"
+                                  : pair.ended   ? "taken back"
+                                  : pair.sent    ? "sent"
+                                                 : "allotted";
+        rows.push_back(
+            {pair.reviewer_name, pair.report_pseudonym(), pair.author_name, pair.reviewer_pseudonym(), state});
+    }
+    std::cout << aligned_table({"reviewer", "reads", "written by", "who knows them as", "state"}, rows);
+    return kDone;
+}
+
+/// Copies are made by what takes names out of documents; without it nothing may be sent.
+AnonymousCopier anonymous_copier() {
+    return [](const CopyRequest& request) {
+        return CopyOutcome{
+            false,
+            {fmt::format("this dynlab has no search for names, so {} cannot be shown to hide its authors",
+                         request.pseudonym)}};
+    };
+}
+
+int send(const CourseWords& where, const PeerWords& words, Way way) {
+    Course course(where.folder);
+    const Assignment assignment = assignment_named(course, words.assignment);
+    const SendOutcome done = send_copies(course, assignment, way, time_of(course, words.at), anonymous_copier());
+    for (const std::string& stopped : done.stopped) std::cerr << "dynlab: " << stopped << '\n';
+    std::cout << fmt::format("{}: {} sent now, {} before, {} stopped, {} not come yet; in {}\n", assignment.name,
+                             done.sent, done.before, done.stopped.size(), done.waiting, done.folder.string());
+    return done.stopped.empty() ? kDone : kFailed;
+}
+
+int send_reports(const CourseWords& where, const PeerWords& words) {
+    return send(where, words, Way::kToReviewers);
+}
+int release(const CourseWords& where, const PeerWords& words) {
+    return send(where, words, Way::kToAuthors);
+}
+
+CLI::App* add_one(CLI::App& parent, const char* name, const char* about, CourseWords& where, Action& action,
+                  int (*run)(const CourseWords&, const PeerWords&)) {
+    auto words = std::make_shared<PeerWords>();
+    CLI::App* command = parent.add_subcommand(name, about);
+    command->add_option("ASSIGNMENT", words->assignment, "Needed when there are several");
+    add_time_option(*command, words->at);
+    if (run == assign) command->add_flag("--early", words->early, "Although first versions may still come");
+    command->callback([&where, words, run, &action] { action = [&where, words, run] { return run(where, *words); }; });
+    return command;
+}
+
+}  // namespace
+
+void add_peer_commands(CLI::App& course, CourseWords& where, Action& action) {
+    CLI::App* peer = course.add_subcommand("peer", "Who reviews whom");
+    peer->require_subcommand(1);
+    add_one(*peer, "assign", "Allot the reviews at random, or mend that after late-comers and drop-outs", where, action,
+            assign)
+        ->footer(
+            "Each group writes, and gets, the same number of reviews; what is written or sent stays. May be repeated.\n"
+            "Example:  dynlab course peer assign crane");
+    add_one(*peer, "send", "Make anonymous copies of the reports for their reviewers", where, action, send_reports)
+        ->footer("A name found in a copy stops that copy, and you are told where it stands.");
+    add_one(course, "release", "Make anonymous copies of the reviews for the authors", where, action, release);
+    add_one(*peer, "show", "The pairs with their pseudonyms; for your eyes only", where, action, show_pairs);
+}
+
+}  // namespace dynlab

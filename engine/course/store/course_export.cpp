@@ -1,0 +1,147 @@
+#include "course/store/course_export.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "course/store/course_schema.h"
+#include "course/store/groups.h"
+#include "course/store/review_marks.h"
+#include "data_io/text_table.h"
+#include "platform/atomic_file.h"
+#include "platform/error.h"
+
+namespace dynlab {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+std::string percent_text(const std::optional<double>& value) {
+    return value ? fmt::format("{:.4g}", *value) : "";
+}
+
+/// When the newest version of a stage came, and how late.
+std::pair<std::string, std::string> arrival(Course& course, const Assignment& a, std::int64_t group,
+                                            const char* stage) {
+    Rows rows = course.database().query(
+        "SELECT received_at, late FROM versions WHERE assignment = ? AND group_id = ? AND stage = ? AND part IN "
+        "('report', 'slides') ORDER BY number DESC LIMIT 1",
+        a.id, group, stage);
+    if (!rows.next()) return {"missing", ""};
+    return {course.clock().show_exactly(rows.integer(0)), rows.integer(1) > 0 ? duration_text(rows.integer(1)) : ""};
+}
+
+std::map<std::int64_t, std::string> remarks_by_reviewer(Course& course, const Assignment& a, const Marks& marks) {
+    std::map<std::int64_t, std::string> remarks;
+    for (const ReviewPair& pair : review_pairs(course, a))
+        for (const ReviewMark& mark : marks.reviews) {
+            if (mark.pair != pair.id || !mark.outlier) continue;
+            std::string& text = remarks[pair.reviewer];
+            text += fmt::format("{}review of {} far below the others{}", text.empty() ? "" : "; ", pair.author_name,
+                                mark.retaliation ? ", perhaps in return for a bad one" : "");
+        }
+    return remarks;
+}
+
+}  // namespace
+
+std::string marks_csv(Course& course, const Assignment& a) {
+    TextTable table;
+    table.names = {"id",
+                   "name",
+                   "mail",
+                   "moodle",
+                   "canvas",
+                   "group",
+                   "first version",
+                   "late",
+                   "final",
+                   "final late",
+                   "work percent",
+                   "work reason",
+                   "reviews written",
+                   "reviews percent",
+                   "reviews reason",
+                   "remarks"};
+    const Marks marks = course_marks(course, a);
+    const auto remarks = remarks_by_reviewer(course, a, marks);
+    const std::vector<ReviewPair> pairs = review_pairs(course, a);
+    std::map<std::string, Group> by_name;
+    for (const Group& group : groups_of(course)) by_name[group.name] = group;
+    for (const Student& s : students_of(course)) {
+        std::vector<std::string> row = {s.id, s.name, s.mail, s.moodle, s.canvas, s.group};
+        const auto group = by_name.find(s.group);
+        if (group != by_name.end()) {
+            const std::int64_t id = group->second.id;
+            const auto first = arrival(course, a, id, "first"), last = arrival(course, a, id, "final");
+            row.insert(row.end(), {first.first, first.second, a.is_report() ? last.first : "", last.second});
+            int written = 0, all = 0;
+            for (const ReviewPair& pair : pairs)
+                if (pair.reviewer == id && !pair.ended) ++all, written += pair.written;
+            for (const GroupMark& mark : marks.groups)
+                if (mark.group == id)
+                    row.insert(row.end(), {percent_text(mark.work_mark()), mark.work_reason,
+                                           all > 0 ? fmt::format("{} of {}", written, all) : "",
+                                           percent_text(mark.reviews_mark()), mark.reviews_reason});
+            std::string remark = group->second.left ? "dropped out" : "";
+            if (const auto own = remarks.find(id); own != remarks.end())
+                remark += (remark.empty() ? "" : "; ") + own->second;
+            row.push_back(remark);
+        }
+        row.resize(table.names.size());
+        table.rows.push_back(std::move(row));
+    }
+    return csv_text(table);
+}
+
+std::string course_json(Course& course) {
+    Database& db = course.database();
+    json all = {{"dynlab course", 1}};
+    Rows version = db.query("PRAGMA user_version");
+    version.next();
+    all["tables version"] = version.integer(0);
+    for (const std::string& table : course_tables()) {
+        json& rows = all["tables"][table] = json::array();
+        for (Rows row = db.query("SELECT * FROM " + table + " ORDER BY 1, 2"); row.next();) {
+            json fields = json::object();
+            for (int c = 0; c < row.columns(); ++c) fields[row.name(c)] = row.value(c);
+            rows.push_back(std::move(fields));
+        }
+    }
+    return all.dump(1, ' ', false, json::error_handler_t::replace) + '\n';
+}
+
+void import_course(const fs::path& file, const fs::path& from, const fs::path& folder) {
+    const json all = json::parse(read_file(file), nullptr, false);
+    if (all.is_discarded() || !all.is_object() || !all.contains("dynlab course") || !all.contains("tables"))
+        throw EnvironmentError(fmt::format("{}: this is no export of dynlab course", file.string()));
+    const auto setting = [&](const std::string& key) {
+        for (const json& row : all["tables"].at("course"))
+            if (row.at("key") == key) return row.at("value").get<std::string>();
+        throw EnvironmentError(fmt::format("{}: the course's {} is missing", file.string(), key));
+    };
+    for (const json& row : all["tables"].at("files")) {
+        const std::string hash = row.at("hash");
+        if (!fs::exists(from / "files" / hash.substr(0, 2) / hash))
+            throw EnvironmentError(fmt::format("{} has no file {}; nothing was made", from.string(), hash));
+    }
+    fs::create_directories(folder);
+    if (!fs::exists(folder / "course.key") && fs::exists(from / "course.key"))
+        fs::copy_file(from / "course.key", folder / "course.key");
+    Course::create(folder, setting("name"), setting("zone"));
+    Course course(folder);
+    for (const json& row : all["tables"].at("files")) {
+        const std::string hash = row.at("hash");
+        course.keep(read_file(from / "files" / hash.substr(0, 2) / hash));
+    }
+    Database& db = course.database();
+    Transaction transaction(db);
+    db.execute("DELETE FROM course; DELETE FROM journal");  // what create wrote
+    for (const std::string& table : course_tables())
+        for (const json& row : all["tables"].at(table)) db.insert(table, row);
+    transaction.commit();
+}
+
+}  // namespace dynlab

@@ -1,0 +1,22 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "course/store/assignments.h"
+
+namespace dynlab {
+
+/// A row a student: identifiers (id, name, mail, Moodle's and Canvas's), group, when the versions came and how late,
+/// reviews written, marks in percent with the reasons of overrides, remarks on reviews that need the instructor's eye.
+/// CSV with formulas neutralised.
+std::string marks_csv(Course& course, const Assignment& assignment);
+
+/// All of the store but the handed-in files, as JSON: tables with their rows.
+std::string course_json(Course& course);
+
+/// Makes a course from course_json in `folder`, which must not hold one, with the handed-in files and the key from
+/// `from`, the folder of the course that was exported. Throws EnvironmentError: no such export, a file missing.
+void import_course(const std::filesystem::path& json, const std::filesystem::path& from,
+                   const std::filesystem::path& folder);
+
+}  // namespace dynlab

@@ -1,0 +1,51 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "course/store/assignments.h"
+#include "course/store/groups.h"
+#include "course/store/review_pairs.h"
+
+namespace dynlab {
+
+struct AssignOutcome {
+    int pairs = 0, fresh = 0, ended = 0, groups = 0;
+    std::vector<std::string> remarks;
+};
+/// Allots the reviews of an assignment, or mends the allotment after late-comers and drop-outs: what is written stays,
+/// and what is sent as long as both are in the course. Repeating it changes nothing. Throws InvalidArgument before the
+/// deadline of the first version (unless `early`), for a presentation, and where there are too few groups.
+AssignOutcome assign_reviews(Course& course, const Assignment& assignment, Instant now, bool early);
+
+/// A copy that must not tell whose it is.
+struct CopyRequest {
+    std::filesystem::path pdf;    ///< as it was handed in
+    std::filesystem::path pack;   ///< its source, where the group handed one in; else empty
+    std::filesystem::path copy;   ///< where the clean copy is to be written
+    std::string pseudonym;        ///< "report-17", "reviewer-05"
+    std::vector<Student> people;  ///< all of the course, with group, name, id and mail address
+};
+struct CopyOutcome {
+    bool made = false;
+    std::vector<std::string> hits;  ///< why there is no copy: sentences with page and remedy
+};
+/// Makes a clean copy and searches it for names; never gives one in which it found any.
+using AnonymousCopier = std::function<CopyOutcome(const CopyRequest&)>;
+
+enum class Way {
+    kToReviewers,
+    kToAuthors
+};  ///< reports to those who review them, reviews to those who wrote the report
+
+struct SendOutcome {
+    int sent = 0, before = 0, waiting = 0;  ///< now; already earlier; reviews that have not come
+    std::vector<std::string> stopped;       ///< copies with hits, sentences
+    std::filesystem::path folder;           ///< FOR/NAME.pdf for each receiver
+};
+/// Makes the copies that have not been made yet and puts them into outbox/ASSIGNMENT/WAY/GROUP/. A hit stops that copy
+/// only. Copies are kept in the store like all that is handed in.
+SendOutcome send_copies(Course& course, const Assignment& assignment, Way way, Instant now,
+                        const AnonymousCopier& copier);
+
+}  // namespace dynlab

@@ -1,0 +1,208 @@
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <map>
+
+#include "course/store/groups.h"
+#include "course/store/review_marks.h"
+#include "data_io/text_table.h"
+#include "numerics/error.h"
+#include "platform/error.h"
+
+namespace dynlab {
+namespace {
+
+using Points = std::vector<std::optional<double>>;
+
+/// The newest points by owner (a pair, or a group at the oral).
+std::map<std::int64_t, Points> newest_points(Rows rows, std::size_t criteria) {
+    std::map<std::int64_t, Points> points;
+    while (rows.next()) {
+        Points& own = points.try_emplace(rows.integer(0), criteria).first->second;
+        const auto c = static_cast<std::size_t>(rows.integer(1));
+        if (c < criteria) own[c] = rows.number(2);
+    }
+    return points;
+}
+
+std::map<std::int64_t, Points> review_points(Course& course, const Assignment& a) {
+    return newest_points(
+        course.database().query("SELECT s.pair, s.criterion, s.points FROM scores s JOIN pairs p ON p.id = s.pair "
+                                "WHERE p.assignment = ? ORDER BY s.given_at",
+                                a.id),
+        a.criteria.size());
+}
+
+std::map<std::int64_t, Points> oral_points(Course& course, const Assignment& a) {
+    return newest_points(course.database().query("SELECT group_id, criterion, points FROM oral_scores WHERE assignment "
+                                                 "= ? ORDER BY given_at",
+                                                 a.id),
+                         a.criteria.size());
+}
+
+/// A sheet of scores: each row has an owner and points.
+class ScoreSheet {
+  public:
+    ScoreSheet(const Assignment& assignment, const std::filesystem::path& file, const char* owner)
+        : assignment_(assignment), file_(file), table_(read_text_table(file)), owner_(owner) {
+        if (!table_.column(owner)) fail(1, fmt::format("the column {} is missing", owner));
+        bool any = false;
+        for (const Criterion& c : assignment.criteria) any = any || column(c.name);
+        if (!any) fail(1, fmt::format("there is no column of a criterion of {}", assignment.name));
+    }
+
+    std::size_t rows() const { return table_.rows.size(); }
+    std::string cell(std::size_t row, const char* name) const {
+        const auto place = table_.column(name);
+        return place ? table_.rows[row][*place] : "";
+    }
+    std::string owner(std::size_t row) const { return cell(row, owner_); }
+    std::optional<double> points(std::size_t row, std::size_t criterion) const {
+        const Criterion& c = assignment_.criteria[criterion];
+        const auto place = column(c.name);
+        if (!place || table_.rows[row][*place].empty()) return {};
+        const std::string& text = table_.rows[row][*place];
+        double value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error != std::errc() || end != text.data() + text.size() || !(value >= 0 && value <= c.most))
+            fail(table_.lines[row],
+                 fmt::format("{} must be a number from 0 to {}, but \"{}\" was given", c.name, c.most, text));
+        return value;
+    }
+    /// What `work` throws about a row gets its place.
+    template <class Work>
+    auto at(std::size_t row, const Work& work) const {
+        try {
+            return work();
+        } catch (const std::runtime_error& error) {
+            fail(table_.lines[row], error.what());
+        } catch (const std::logic_error& error) {
+            fail(table_.lines[row], error.what());
+        }
+    }
+
+  private:
+    [[noreturn]] void fail(int line, const std::string& what) const {
+        throw EnvironmentError(fmt::format("{}, line {}: {}", file_.string(), line, what));
+    }
+    std::optional<std::size_t> column(std::string name) const {
+        for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        return table_.column(name);
+    }
+
+    const Assignment& assignment_;
+    std::filesystem::path file_;
+    TextTable table_;
+    const char* owner_;
+};
+
+/// Writes what differs from what is known; `owner_of` gives the row's owner, `insert` writes one score.
+template <class Owner, class Insert>
+int import_scores(Course& course, const Assignment& a, const ScoreSheet& sheet, std::map<std::int64_t, Points> known,
+                  const Owner& owner_of, const Insert& insert) {
+    Transaction transaction(course.database());
+    int fresh = 0;
+    for (std::size_t row = 0; row < sheet.rows(); ++row) {
+        const std::int64_t owner = sheet.at(row, [&] { return owner_of(row); });
+        Points& own = known.try_emplace(owner, a.criteria.size()).first->second;
+        for (std::size_t c = 0; c < a.criteria.size(); ++c) {
+            const auto points = sheet.points(row, c);
+            if (!points || own[c] == points) continue;
+            insert(owner, static_cast<std::int64_t>(c), *points);
+            own[c] = points;
+            ++fresh;
+        }
+    }
+    if (fresh > 0) course.note(fmt::format("{}: {} scores read", a.name, fresh));
+    transaction.commit();
+    return fresh;
+}
+
+}  // namespace
+
+int import_review_scores(Course& course, const Assignment& a, const std::filesystem::path& file, Instant now) {
+    const ScoreSheet sheet(a, file, "reviewer");
+    const std::vector<ReviewPair> pairs = review_pairs(course, a);
+    return import_scores(
+        course, a, sheet, review_points(course, a),
+        [&](std::size_t row) {
+            return reviewed_pair(pairs, group_named(course, sheet.owner(row)), sheet.cell(row, "report")).id;
+        },
+        [&](std::int64_t pair, std::int64_t c, double points) {
+            course.database().run(
+                "INSERT INTO scores VALUES (?, ?, ?, ?) ON CONFLICT DO UPDATE SET points = "
+                "excluded.points",
+                pair, c, now, points);
+        });
+}
+
+int import_oral_scores(Course& course, const Assignment& a, const std::filesystem::path& file, Instant now) {
+    const ScoreSheet sheet(a, file, "group");
+    return import_scores(
+        course, a, sheet, oral_points(course, a),
+        [&](std::size_t row) { return group_named(course, sheet.owner(row)).id; },
+        [&](std::int64_t group, std::int64_t c, double points) {
+            course.database().run(
+                "INSERT INTO oral_scores VALUES (?, ?, ?, ?, ?) ON CONFLICT DO UPDATE SET points = "
+                "excluded.points",
+                a.id, group, c, now, points);
+        });
+}
+
+std::string oral_sheet(Course& course, const Assignment& a) {
+    TextTable table;
+    table.names = {"group"};
+    for (const Criterion& c : a.criteria) table.names.push_back(c.name);
+    const auto points = oral_points(course, a);
+    for (const Group& group : groups_of(course)) {
+        if (group.left) continue;
+        std::vector<std::string> row = {group.name};
+        const auto own = points.find(group.id);
+        for (std::size_t c = 0; c < a.criteria.size(); ++c)
+            row.push_back(own != points.end() && own->second[c] ? fmt::format("{}", *own->second[c]) : "");
+        table.rows.push_back(row);
+    }
+    return csv_text(table);
+}
+
+void override_mark(Course& course, const Assignment& a, const std::string& group, const std::string& what,
+                   double percent, const std::string& reason, Instant now) {
+    if (reason.empty()) throw InvalidArgument("say why: --reason \"...\"; it stands in the export");
+    if (!(percent >= 0 && percent <= 100))
+        throw InvalidArgument(fmt::format("a mark is a number from 0 to 100 percent, but {} was given", percent));
+    Transaction transaction(course.database());
+    const Group whose = group_named(course, group);
+    course.database().run(
+        "INSERT INTO overrides (assignment, group_id, what, percent, reason, made_at) VALUES (?, ?, ?, ?, ?, ?)", a.id,
+        whose.id, what, percent, reason, now);
+    course.note(fmt::format("{}: {} of {} set to {} percent: {}", a.name, what, whose.name, percent, reason), now);
+    transaction.commit();
+}
+
+Marks course_marks(Course& course, const Assignment& a) {
+    std::vector<ScoredReview> reviews;
+    if (a.is_report()) {
+        const auto points = review_points(course, a);
+        for (const ReviewPair& pair : review_pairs(course, a))
+            if (const auto own = points.find(pair.id); own != points.end())
+                reviews.push_back({pair.id, pair.reviewer, pair.author, own->second});
+    } else {
+        for (const auto& [group, own] : oral_points(course, a)) reviews.push_back({0, 0, group, own});
+    }
+    std::vector<std::int64_t> ids;
+    for (const Group& group : groups_of(course)) ids.push_back(group.id);
+    Marks marks = marks_of(a.criteria, reviews, ids);
+    for (Rows rows = course.database().query(
+             "SELECT group_id, what, percent, reason FROM overrides WHERE assignment = ? ORDER BY id", a.id);
+         rows.next();)
+        for (GroupMark& mark : marks.groups) {
+            if (mark.group != rows.integer(0)) continue;
+            const bool work = rows.text(1) == "work";
+            (work ? mark.work_override : mark.reviews_override) = rows.number(2);
+            (work ? mark.work_reason : mark.reviews_reason) = rows.text(3);
+        }
+    return marks;
+}
+
+}  // namespace dynlab

@@ -1,0 +1,140 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "course/course_bench.h"
+#include "course/store/review_marks.h"
+
+namespace dynlab::test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+void hand_in_all(CourseBench& bench, int groups) {
+    for (int i = 1; i <= groups; ++i)
+        bench.bench().write("in/" + CourseBench::group(i) + ".pdf", small_pdf("report " + std::to_string(i)));
+    CourseBench::expect_done(bench.course({"receive", "in", "--at", "2026-03-01 10:00", "--no-checks"}));
+}
+
+// oracle: medians and distances by hand
+TEST(peer_review, marks_by_median_and_distance) {
+    const std::vector<Criterion> criteria = {{"a", 5}, {"b", 10}};
+    const std::vector<ScoredReview> reviews = {
+        {1, 10, 1, {4, 8}}, {2, 11, 1, {5, 6}}, {3, 12, 1, {0, 1}}, {4, 1, 12, {1, 2}}};
+    const Marks marks = marks_of(criteria, reviews, {1, 12, 10});
+    EXPECT_EQ(marks.groups[0].medians, (std::vector<std::optional<double>>{4, 6}));
+    EXPECT_DOUBLE_EQ(*marks.groups[0].work, 100.0 * 10 / 15);
+    EXPECT_EQ(marks.groups[0].reviews, std::nullopt);  // nobody else scored that report
+    EXPECT_DOUBLE_EQ(*marks.reviews[2].distance, (4.5 / 5 + 6.0 / 10) / 2);
+    EXPECT_TRUE(marks.reviews[2].outlier);
+    EXPECT_TRUE(marks.reviews[2].retaliation);  // group 1 had given 3 of 15 points to group 12
+    EXPECT_DOUBLE_EQ(*marks.groups[1].reviews, 0);
+    // Group 10: others' medians are 2.5 and 3.5.
+    EXPECT_DOUBLE_EQ(*marks.groups[2].reviews, 100 * (1 - 2 * (1.5 / 5 + 4.5 / 10) / 2));
+    EXPECT_FALSE(marks.reviews[0].outlier);
+}
+
+// oracle: the rules; nothing is sent while names cannot be searched for
+TEST(peer_review, allots_mends_and_takes_reviews) {
+    CourseBench bench(6);
+    hand_in_all(bench, 6);
+    EXPECT_THAT(bench.course({"peer", "assign", "--at", "2026-03-01 11:00"}).error_output, HasSubstr("--early"));
+    const ChildResult assigned = bench.course({"peer", "assign", "--at", "2026-03-01 13:00"});
+    EXPECT_THAT(assigned.output, HasSubstr("6 groups, 12 reviews (seed 7): 12 new, 0 taken back."));
+    const std::string before = bench.dump();
+    EXPECT_THAT(bench.course({"peer", "assign", "--at", "2026-03-01 14:00"}).output, HasSubstr("0 new, 0 taken back"));
+    EXPECT_EQ(bench.dump(), before);
+    const ChildResult stray = bench.hand_in("stray.pdf", small_pdf("x"), "2026-03-02 10:00", {"--from", "group-01"});
+    CourseBench::expect_done(stray);
+    bench.bench().write("r.pdf", small_pdf("a review"));
+    const std::string report =
+        bench.bench().shell("$DYNLAB course --course k peer show | awk '$1 == \"group-02\" {print $2; exit}'").output;
+    const std::string name = report.substr(0, report.find('\n'));
+    EXPECT_THAT(bench.course({"review", "receive", "r.pdf", "--from", "group-02"}).error_output,
+                HasSubstr("it does not tell which report it reviews; group-02 was given report-"));
+    CourseBench::expect_done(
+        bench.course({"review", "receive", "r.pdf", "--from", "group-02", "--of", name, "--at", "2026-03-05 10:00"}));
+    CourseBench::expect_done(bench.course({"roster", "drop", "group-02", "--reason", "ill"}));
+    const ChildResult mended = bench.course({"peer", "assign", "--at", "2026-03-06 13:00"});
+    CourseBench::expect_done(mended);
+    const std::string pairs = bench.course({"peer", "show"}).output;
+    EXPECT_THAT(pairs, ::testing::ContainsRegex("group-02 +" + name + ".* written"));
+    EXPECT_THAT(bench.course({"status", "--at", "2026-03-06 14:00"}).output, HasSubstr("dropped out"));
+}
+
+// oracle: equality of stores
+TEST(peer_review, exports_and_imports_an_equal_store) {
+    CourseBench bench(4, 1);
+    hand_in_all(bench, 4);
+    bench.course({"peer", "assign", "--at", "2026-03-01 13:00"});
+    bench.bench().write("s.csv", "reviewer,data,workflow,conclusions,strength,suggestions\ngroup-01,5,4,3,4.5,2\n");
+    CourseBench::expect_done(bench.course({"scores", "crane", "s.csv"}));
+    EXPECT_THAT(bench.course({"scores", "crane", "s.csv"}).output, HasSubstr("0 new scores"));
+    bench.bench().write("bad.csv", "reviewer,data\ngroup-02,4\ngroup-03,9\n");
+    EXPECT_THAT(bench.course({"scores", "crane", "bad.csv"}).error_output,
+                HasSubstr("bad.csv, line 3: data must be a number from 0 to 5, but \"9\" was given"));
+    CourseBench::expect_done(
+        bench.course({"override", "crane", "group-02", "work", "80", "--reason", "=cmd|' /C calc'!A0"}));
+    const std::string csv = bench.course({"export", "crane"}).output;
+    EXPECT_THAT(csv, HasSubstr("s2,Student 2,,,,group-02"));
+    EXPECT_THAT(csv, HasSubstr(",80,'=cmd|"));
+    CourseBench::expect_done(bench.course({"export", "--json", "--out", "all.json"}));
+    CourseBench::expect_done(bench.bench().dynlab({"course", "import", "all.json", "copy", "--from", "k"}));
+    EXPECT_EQ(bench.bench().shell("sqlite3 copy/course.db .dump").output, bench.dump());
+    EXPECT_THAT(bench.bench().dynlab({"course", "--course", "copy", "verify"}).output,
+                HasSubstr("4 files, 4 versions: all there and unaltered"));
+    EXPECT_THAT(bench.bench().dynlab({"course", "import", "s.csv", "other", "--from", "k"}).error_output,
+                HasSubstr("this is no export of dynlab course"));
+}
+
+// oracle: the story: every group that stayed writes two reviews and gets two
+TEST(peer_review, tells_a_whole_course) {
+    const Workbench bench;
+    const ChildResult told =
+        bench.shell("DYNLAB=$DYNLAB " + std::string(DYNLAB_SOURCE_DIR) + "/scripts/course_demo story");
+    EXPECT_EQ(told.exit_code, 0) << told.output << told.error_output;
+    EXPECT_THAT(told.output, HasSubstr("12 groups: 10 handed in, 1 late, 1 unreadable, 2 missing."));
+    EXPECT_THAT(told.output, HasSubstr("11 groups: 10 handed in, 3 late; 0 reviews to come; 7 final versions."));
+    EXPECT_THAT(told.output, HasSubstr("all there and unaltered"));
+}
+
+// oracle: the store's own check, after kill -9 at random moments; the repeated command completes
+TEST(peer_review, survives_being_killed_at_any_moment) {
+    CourseBench bench(8);
+    for (int i = 1; i <= 8; ++i)
+        bench.bench().write("in/" + CourseBench::group(i) + ".pdf", small_pdf("report " + std::to_string(i)));
+    const ChildResult killed = bench.bench().shell(
+        "set -e; killed=0; mkdir rounds\n"
+        "for round in $(seq 60); do\n"
+        "  cp -r k rounds/k\n"
+        "  $DYNLAB course --course rounds/k receive in --no-checks --at '2026-03-01 10:00' >/dev/null 2>&1 &\n"
+        "  sleep 0.0$(( (RANDOM % 90) + 10 )); kill -9 $! 2>/dev/null && killed=$((killed + 1)); wait $! 2>/dev/null "
+        "|| true\n"
+        "  $DYNLAB course --course rounds/k receive in --no-checks --at '2026-03-01 10:00' >/dev/null\n"
+        "  $DYNLAB course --course rounds/k verify | grep -q '8 files, 8 versions: all there' || { echo round $round; "
+        "exit 1; }\n"
+        "  rm -r rounds/k\n"
+        "done; echo killed $killed");
+    EXPECT_EQ(killed.exit_code, 0) << killed.output << killed.error_output;
+    EXPECT_THAT(killed.output, ::testing::ContainsRegex("killed [1-9][0-9]"));  // ten at least came in time
+}
+
+// oracle: both writers' versions are there; a writer that waits too long is told why
+TEST(peer_review, keeps_two_writers_apart) {
+    CourseBench bench(8);
+    for (int i = 1; i <= 8; ++i)
+        bench.bench().write((i % 2 == 0 ? "even/" : "odd/") + CourseBench::group(i) + ".pdf", small_pdf("r"));
+    const ChildResult both = bench.bench().shell(
+        "$DYNLAB course --course k receive even --at '2026-03-01 10:00' & "
+        "$DYNLAB course --course k receive odd --at '2026-03-01 10:00'; a=$?; wait $!; echo $a $?");
+    EXPECT_THAT(both.output, HasSubstr("\n0 0\n"));
+    EXPECT_THAT(bench.course({"verify"}).output, HasSubstr("1 files, 8 versions: all there"));
+    const ChildResult blocked = bench.bench().shell(
+        "(echo 'BEGIN IMMEDIATE;'; sleep 8) | sqlite3 k/course.db & sleep 0.5; "
+        "$DYNLAB course --course k roster drop group-01; code=$?; kill $!; exit $code");
+    EXPECT_EQ(blocked.exit_code, 1);
+    EXPECT_THAT(blocked.error_output, HasSubstr("another dynlab is writing to this course; nothing was changed"));
+}
+
+}  // namespace
+}  // namespace dynlab::test
