@@ -8,12 +8,18 @@ namespace dynlab {
 namespace {
 
 struct NewWords {
-    std::string lesson, folder;
+    std::string lesson, folder, language;
     std::optional<std::uint32_t> group_seed;
 };
 
 int make_new(const NewWords& words) {
-    make_student_copy(find_lesson(words.lesson), words.folder, words.group_seed);
+    if (words.lesson == "review") {
+        make_review_folder(words.folder, words.language);
+        std::cout << words.folder << ": report.md has the five questions, analysis.lua takes scores.\n"
+                  << "Then:  dynlab report " << words.folder << "    and    dynlab check " << words.folder << '\n';
+        return kDone;
+    }
+    make_student_copy(find_lesson(words.lesson), words.folder, words.group_seed, words.language);
     std::cout << words.folder << ": analysis.lua is yours to edit, report.md is your report's text.\n"
               << "Try:  dynlab run " << words.folder << "/analysis.lua    then    dynlab report " << words.folder
               << '\n';
@@ -24,15 +30,18 @@ int make_new(const NewWords& words) {
 
 void add_new(CLI::App& app, Action& action) {
     auto words = std::make_shared<NewWords>();
-    CLI::App* command = app.add_subcommand("new", "Make your own copy of a lesson, without its solutions");
-    command->add_option("LESSON", words->lesson, "The lesson's number or name")->required();
+    CLI::App* command =
+        app.add_subcommand("new", "Make your own copy of a lesson, without its solutions, or a folder for a review");
+    command->add_option("LESSON", words->lesson, "The lesson's number or name, or review")->required();
     command->add_option("DIR", words->folder, "The folder to make")->required();
     command
         ->add_option("--group-seed", words->group_seed,
                      "Records of the group's own: another specimen of each simulated apparatus, other noise")
         ->type_name("N")
         ->check(CLI::Range(1u, 4294967295u));
-    command->footer("Example:  dynlab new 02 my-work");
+    command->add_option("--lang", words->language, "Language of the report, where it is not the lesson's")
+        ->check(CLI::IsMember({"en", "fr"}));
+    command->footer("Examples:  dynlab new 02 my-work     dynlab new review my-review --lang fr");
     command->callback([words, &action] { action = [words] { return make_new(*words); }; });
 }
 

@@ -18,24 +18,29 @@ members = []        # for example ["Ada Lovelace", "Rudolf Kalman"]
 seed = {}            # of the random numbers your group works with
 )";
 
+void put(std::string& text, const std::string& slot, const std::string& value) {
+    const auto at = text.find(slot);
+    if (at != std::string::npos) text.replace(at, slot.size(), value);
+}
+
+fs::path template_file(const std::string& name) {
+    return shared_folder() / "report_templates" / name;
+}
+
 /// The template's text with the lesson's title and language in its header.
-std::string report_for(const ScriptHeader& header, const fs::path& template_file) {
-    std::string text = read_file(template_file);
-    const auto put = [&text](const std::string& slot, const std::string& value) {
-        const auto at = text.find(slot);
-        if (at != std::string::npos) text.replace(at, slot.size(), value);
-    };
-    put("title: My work", "title: \"" + header.title + "\"");
-    put("lang: en", "lang: " + header.language);
+std::string report_for(const ScriptHeader& header, const fs::path& file, const std::string& language) {
+    std::string text = read_file(file);
+    put(text, "title: My work", "title: \"" + header.title + "\"");
+    put(text, "lang: en", "lang: " + (language.empty() ? header.language : language));
     return text;
 }
 
-void fill(const fs::path& folder, const Lesson& lesson, const std::optional<std::uint32_t>& group_seed) {
+void fill_lesson(const fs::path& folder, const Lesson& lesson, const std::optional<std::uint32_t>& group_seed,
+                 const std::string& language) {
     const PercentScript script = read_percent_script(lesson.script());
     write_file_atomically(folder / "analysis.lua", without_solutions(script.source, script.file));
     const std::string form = script.header.template_name == "lesson" ? "exercise_sheet" : script.header.template_name;
-    write_file_atomically(folder / "report.md",
-                          report_for(script.header, shared_folder() / "report_templates" / (form + ".md")));
+    write_file_atomically(folder / "report.md", report_for(script.header, template_file(form + ".md"), language));
     write_file_atomically(folder / "group.toml", fmt::format(kGroupFile, group_seed.value_or(script.header.seed)));
     const std::vector<std::string> own = simulated_data_of(script.source);
     if (group_seed && !own.empty())
@@ -44,13 +49,23 @@ void fill(const fs::path& folder, const Lesson& lesson, const std::optional<std:
         fs::create_directory_symlink(shared_folder() / "data", folder / "data");
 }
 
-}  // namespace
+void fill_review(const fs::path& folder, const std::string& language) {
+    std::string text = read_file(template_file("peer_review.md"));
+    if (language == "fr") {
+        put(text, "title: Review of a report", "title: Relecture d'un rapport");
+        put(text, "lang: en", "lang: fr");
+    }
+    write_file_atomically(folder / "report.md", text);
+    write_file_atomically(folder / "analysis.lua", read_file(template_file("peer_review.lua")));
+    write_file_atomically(folder / "group.toml", fmt::format(kGroupFile, 1));
+}
 
-void make_student_copy(const Lesson& lesson, const fs::path& folder, std::optional<std::uint32_t> group_seed) {
+/// Built under another name beside it, then renamed: an interrupted copy leaves no half folder that looks finished.
+template <class Fill>
+void make_folder(const fs::path& folder, const Fill& fill) {
     if (fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder))) {
         throw EnvironmentError(folder.string() + " exists already; choose another name, nothing was changed");
     }
-    // Built under another name beside it, then renamed: an interrupted copy leaves no half folder that looks finished.
     const fs::path target = fs::absolute(folder).lexically_normal();
     const fs::path clean = target.has_filename() ? target : target.parent_path();
     const fs::path growing = clean.parent_path() / ("." + clean.filename().string() + ".new");
@@ -60,12 +75,23 @@ void make_student_copy(const Lesson& lesson, const fs::path& folder, std::option
         throw EnvironmentError("cannot make the folder " + folder.string() + ": " + error.message());
     }
     try {
-        fill(growing, lesson, group_seed);
+        fill(growing);
         fs::rename(growing, clean);
     } catch (...) {
         fs::remove_all(growing, error);
         throw;
     }
+}
+
+}  // namespace
+
+void make_student_copy(const Lesson& lesson, const fs::path& folder, std::optional<std::uint32_t> group_seed,
+                       const std::string& language) {
+    make_folder(folder, [&](const fs::path& growing) { fill_lesson(growing, lesson, group_seed, language); });
+}
+
+void make_review_folder(const fs::path& folder, const std::string& language) {
+    make_folder(folder, [&](const fs::path& growing) { fill_review(growing, language); });
 }
 
 }  // namespace dynlab

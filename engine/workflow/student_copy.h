@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "workflow/lesson_catalogue.h"
 
@@ -9,9 +10,13 @@ namespace dynlab {
 
 /// Makes a student's folder for a lesson: analysis.lua (the script without its solutions), report.md, group.toml and a
 /// link to the data; with a group's seed a folder `data` with records of the group's own (specimen_record.h). The
-/// folder appears whole or not at all. Throws EnvironmentError when `folder` exists and is not empty, or cannot be
-/// made.
+/// report is in `language` ("en", "fr"), the lesson's when empty. The folder appears whole or not at all. Throws
+/// EnvironmentError when `folder` exists and is not empty, or cannot be made.
 void make_student_copy(const Lesson& lesson, const std::filesystem::path& folder,
-                       std::optional<std::uint32_t> group_seed = {});
+                       std::optional<std::uint32_t> group_seed = {}, const std::string& language = {});
+
+/// Makes a folder for the review of a classmate's report: report.md with the five questions, analysis.lua for scores,
+/// group.toml. Otherwise as make_student_copy.
+void make_review_folder(const std::filesystem::path& folder, const std::string& language = {});
 
 }  // namespace dynlab
