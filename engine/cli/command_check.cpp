@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct CheckWords {
-    std::string subject, template_name;
+    std::string subject, template_name, roster;
     int pages = 0;
     bool as_json = false, document_only = false;
 };
@@ -22,6 +22,14 @@ struct CheckWords {
 bool in_colour() {
     const char* no_colour = std::getenv("NO_COLOR");
     return ::isatty(STDOUT_FILENO) != 0 && (no_colour == nullptr || *no_colour == '\0');
+}
+
+/// The people of the roster, and whoever's account this is.
+std::shared_ptr<const SoughtNames> sought_by(const CheckWords& words) {
+    auto names = std::make_shared<SoughtNames>();
+    if (!words.roster.empty()) *names = SoughtNames(Roster(words.roster));
+    if (const char* home = std::getenv("HOME")) names->add_account(home);
+    return names;
 }
 
 int check(const CheckWords& words) {
@@ -34,6 +42,7 @@ int check(const CheckWords& words) {
         return kUsage;
     };
     try {
+        wishes.names = sought_by(words);
         if (!words.template_name.empty()) wishes.standard = standard_of(words.template_name);
     } catch (const std::runtime_error& error) {
         return misuse(error.what());
@@ -58,6 +67,8 @@ void add_check(CLI::App& app, Action& action) {
     command
         ->add_option("--template", words->template_name, "Hold it against this template, such as lab_report or slides")
         ->type_name("NAME|FILE.md");
+    command->add_option("--roster", words->roster, "Look for these people too: columns id, name, email, group")
+        ->type_name("CSV");
     command->add_option("--pages", words->pages, "At most so many pages, whatever the template allows")
         ->type_name("N")
         ->check(CLI::Range(1, 1000));
@@ -68,7 +79,9 @@ void add_check(CLI::App& app, Action& action) {
         "What is demanded comes from the template that analysis.lua names; of a PDF alone, wide pages are slides, "
         "others a\n"
         "lab_report. Pages, sections, figures that the text never mentions, unfilled slots, languages, text size and\n"
-        "margins are looked at.\n"
+        "margins are looked at. The members in group.toml and the people of a roster are looked for in text, "
+        "metadata,\n"
+        "pictures, links, comments, embedded files and everything else inside, home folders too.\n"
         "Examples:  dynlab check my-crane     dynlab check report.pdf     dynlab check talk.pdf --template slides "
         "--json\n"
         "Exit codes: 0 no rule is broken (there may be hints), 1 a rule is broken, 2 wrong usage.\n"

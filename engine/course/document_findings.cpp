@@ -11,6 +11,7 @@
 #include "course/language_findings.h"
 #include "course/layout_findings.h"
 #include "course/leftover_findings.h"
+#include "course/name_findings.h"
 #include "course/section_findings.h"
 #include "documents/template_file.h"
 #include "platform/atomic_file.h"
@@ -98,6 +99,15 @@ void check_text(const PdfLayout& layout, const DocumentText& text, const Documen
     result.checked.push_back(text.is_slides() ? "text size" : "text size and margins");
 }
 
+void check_names(const fs::path& file, const PdfLayout& layout, const SoughtNames& names, const PdfLimits& limits,
+                 CheckResult& result) {
+    NameSearchLimits search;
+    search.pdf = limits;
+    result.findings = name_findings(file, layout, names, search);
+    if (names.empty()) return;
+    result.checked.push_back(fmt::format("names of {} {}", names.people(), names.people() == 1 ? "person" : "people"));
+}
+
 }  // namespace
 
 bool CheckResult::passed() const {
@@ -129,10 +139,13 @@ CheckResult check_pdf(const fs::path& file, const CheckWishes& wishes, const Pdf
         const DocumentStandard standard = standard_for(text, wishes);
         result.template_name = standard.template_name;
         result.pages = static_cast<int>(layout.pages.size());
+        if (wishes.names) check_names(file, layout, *wishes.names, limits, result);
         if (text.words.empty()) {
-            result.findings = {{"scanned", Severity::kRule, 0, "",
-                                "The document has no text: its pages are pictures, such as a scan or photographs.",
-                                "Hand in the PDF that dynlab report writes, not a scan of its print."}};
+            result.findings.push_back(
+                {"scanned", Severity::kRule, 0, "",
+                 "The document has no text: its pages are pictures, such as a scan or photographs.",
+                 "Hand in the PDF that dynlab report writes, not a scan of its print."});
+            sort_findings(result.findings);
             return result;
         }
         check_text(layout, text, standard, result);

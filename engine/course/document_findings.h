@@ -1,10 +1,12 @@
 #pragma once
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "course/finding.h"
+#include "course/sought_names.h"
 #include "documents/document_rules.h"
 #include "documents/pdf_layout.h"
 
@@ -27,6 +29,8 @@ struct CheckWishes {
     std::optional<DocumentStandard> standard;
     std::optional<int> pages;   ///< at most so many altogether
     bool lesson_checks = true;  ///< of a folder: try the lesson's checks on its answers too
+    /// Who must not be named; of a folder its members are added. Nobody: of a PDF, names are not looked for.
+    std::shared_ptr<const SoughtNames> names = nullptr;
 };
 
 /// The outcome of a check.
@@ -41,9 +45,10 @@ struct CheckResult {
 };
 
 /// Checks a PDF from anybody. Findings about the file itself: not-pdf, encrypted, damaged, too-large, scanned (rules),
-/// protected (hint); further ones in section_findings.h, figure_findings.h, language_findings.h, layout_findings.h and
-/// leftover_findings.h. Without a standard, slides (landscape) are held against the template "slides" and other
-/// documents against "lab_report". Throws PdfRefusal when there is no such file or it may not be read.
+/// protected (hint); further ones in section_findings.h, name_findings.h, figure_findings.h, language_findings.h,
+/// layout_findings.h and leftover_findings.h. Without a standard, slides (landscape) are held against the template
+/// "slides" and other documents against "lab_report". Throws PdfRefusal when there is no such file or it may not be
+/// read.
 CheckResult check_pdf(const std::filesystem::path& file, const CheckWishes& wishes = {}, const PdfLimits& limits = {});
 
 void sort_findings(Findings& findings);  ///< rules first, then by page

@@ -47,6 +47,7 @@ class FolderCheck {
             if (wishes.lesson_checks) try_lesson_checks(script->header.lesson);
         }
         if (!wishes.standard) wishes.standard = own_standard(script);
+        add_members(wishes);
         const std::optional<fs::path> handed_in = pdf_in_folder();
         if (made || fs::exists(report()))
             check_report(report(), wishes);
@@ -175,7 +176,7 @@ class FolderCheck {
         if (lesson == all.end() || !fs::exists(lesson->folder / "checks.lua")) return;
         GradingSetup setup;
         setup.lesson = *lesson;
-        setup.isolation = obstacle_to(Isolation::kFull) ? Isolation::kProcess : Isolation::kFull;
+        setup.isolation = strongest_isolation();
         setup.timeout = limits_.time;
         setup.program = program_;
         const Grade grade = GradingRules(setup).grade(folder_.filename().string(), copy());
@@ -206,6 +207,13 @@ class FolderCheck {
             // A template or header that cannot be read is a finding of its own: the report was not made.
         }
         return standard;
+    }
+
+    /// The authors themselves are looked for, whoever else is.
+    void add_members(CheckWishes& wishes) const {
+        SoughtNames names = wishes.names ? *wishes.names : SoughtNames();
+        for (const Student& member : members_of(copy() / "group.toml")) names.add(member, true);
+        wishes.names = std::make_shared<const SoughtNames>(std::move(names));
     }
 
     void check_report(const fs::path& file, const CheckWishes& wishes) {

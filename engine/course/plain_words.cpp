@@ -2,44 +2,18 @@
 
 #include <cctype>
 
+#include "course/letters.h"
+
 namespace dynlab {
 namespace {
 
-/// U+00C0 to U+00FF without accents.
-constexpr std::string_view kLatin = "aaaaaaaceeeeiiiidnooooo ouuuuypsaaaaaaaceeeeiiiidnooooo ouuuuypy";
-
-static_assert(kLatin.size() == 64);
-
-/// Takes the first character off `text`; U+FFFD for broken UTF-8.
-char32_t next_character(std::string_view& text) {
-    const auto byte = [&text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    const unsigned char first = byte(0);
-    const std::size_t length = first < 0x80   ? 1
-                               : first < 0xC2 ? 0
-                               : first < 0xE0 ? 2
-                               : first < 0xF0 ? 3
-                               : first < 0xF5 ? 4
-                                              : 0;
-    char32_t character = length == 1 ? first : length == 0 ? 0xFFFD : first & (0x7F >> length);
-    bool whole = length > 0 && length <= text.size();
-    for (std::size_t i = 1; whole && i < length; ++i) {
-        whole = (byte(i) & 0xC0) == 0x80;
-        character = character << 6 | (byte(i) & 0x3F);
-    }
-    text.remove_prefix(whole ? length : 1);
-    return whole ? character : 0xFFFD;
-}
-
 std::string folded_character(char32_t c) {
     if (c < 0x80) return {static_cast<char>(std::isalpha(static_cast<int>(c)) ? std::tolower(static_cast<int>(c)) : c)};
-    if (c == 0xC6 || c == 0xE6) return "ae";
-    if (c >= 0xC0 && c <= 0xFF) return {kLatin[c - 0xC0]};
-    if (c == 0x152 || c == 0x153) return "oe";
     if (c == 0x2018 || c == 0x2019) return "'";
     if (c >= 0x2010 && c <= 0x2015) return "-";
     if (c == 0xAD || (c >= 0x300 && c < 0x370)) return "";  // soft hyphen, combining accents
-    constexpr const char* kLigatures[] = {"ff", "fi", "fl", "ffi", "ffl"};
-    if (c >= 0xFB00 && c <= 0xFB04) return kLigatures[c - 0xFB00];
+    const std::string letters = folded_letter(c);
+    if (!letters.empty() && static_cast<unsigned char>(letters.front()) < 0x80) return letters;
     return " ";
 }
 

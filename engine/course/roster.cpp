@@ -46,7 +46,9 @@ Roster::Roster(const std::filesystem::path& file) {
             const auto place = table.column(column);
             return place ? row[*place] : std::string();
         };
-        Student student{row[*id], cell("name"), cell("group"), {}, cell("mail"), cell("moodle"), cell("canvas")};
+        Student student{
+            row[*id],       cell("name"),  cell("group"), {}, cell(table.column("email") ? "email" : "mail"),
+            cell("moodle"), cell("canvas")};
         if (seed && !row[*seed].empty()) {
             const std::string& text = row[*seed];
             std::uint32_t number = 0;

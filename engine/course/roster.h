@@ -14,8 +14,8 @@ struct Student {
     std::string mail, moodle, canvas;   ///< address; numbers by which the learning platforms know the student
 };
 
-/// The students of a course. The file has a column `id`, and optionally `name`, `group`, `seed`, `mail`, `moodle` and
-/// `canvas`.
+/// The students of a course. The file has a column `id`, and optionally `name`, `group`, `seed`, `email` (or `mail`),
+/// `moodle` and `canvas`.
 class Roster {
   public:
     /// Throws EnvironmentError with file and line: no column id, an id that is empty or stands there twice,

@@ -62,6 +62,11 @@ std::optional<std::string> obstacle_to(Isolation level) {
         reason);
 }
 
+Isolation strongest_isolation() {
+    static const Isolation strongest = obstacle_to(Isolation::kFull) ? Isolation::kProcess : Isolation::kFull;
+    return strongest;
+}
+
 fs::path Box::mount(const fs::path& outside, const std::string& inside, bool writable) {
     const fs::path whole = fs::absolute(outside);
     mounts_.push_back({whole, inside, writable});

@@ -21,6 +21,8 @@ std::string name_of(Isolation level);  ///< "full", "process"
 
 /// Why this machine cannot have the level, and what to do about it, in one line; nothing where it can.
 std::optional<std::string> obstacle_to(Isolation level);
+/// The strongest level that this machine can have; found out once.
+Isolation strongest_isolation();
 
 /// One process in a box.
 class Box {

@@ -11,7 +11,7 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 
 TEST(plain_words, accents_ligatures_and_case_do_not_count) {
-    EXPECT_THAT(plain_words("Procédé À Cœur: ÇÜß"), ElementsAre("procede", "a", "coeur", "cus"));
+    EXPECT_THAT(plain_words("Procédé À Cœur: ÇÜß"), ElementsAre("procede", "a", "coeur", "cuss"));
     EXPECT_THAT(plain_words("e\u0301tude \uFB01gure \uFB03x"), ElementsAre("etude", "figure", "ffix"));
 }
 

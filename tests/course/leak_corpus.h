@@ -1,0 +1,98 @@
+#pragma once
+#include <functional>
+
+#include "check_fixture.h"
+#include "course/sought_names.h"
+
+namespace dynlab {
+
+/// Documents that name somebody on purpose, made with pdflatex, qpdf and bytes put into the file.
+class LeakCorpus : public CheckTest {
+  protected:
+    LeakCorpus() {
+        standard_ = DocumentStandard();
+        names_ = std::make_shared<SoughtNames>();
+        const auto know = [this](const char* id, const char* name, const char* group, const char* mail) {
+            Student student;
+            student.id = id;
+            student.name = name;
+            student.group = group;
+            student.mail = mail;
+            names_->add(student);
+        };
+        know("20214711", "Zoé Brandtner", "group-07", "zoe.brandtner@uni.example");
+        know("e45678", "Jürgen Müllhauser", "group-08", "jm4567@uni.example");
+        know("1007", "Anna Griffistone", "group-09", "");
+        know("20215555", "Li Wu", "group-10", "");
+        know("20216666", "May Park", "group-11", "");
+        know("20217777", "Jean-Pierre O'Marrec", "group-12", "");
+        know("20218888", "Ольга Петровская", "group-13", "");
+        know("20219999", "Mark Young", "group-14", "young@uni.example");
+    }
+
+    std::filesystem::path latex(const std::string& preamble, const std::string& body, const std::string& name = "own",
+                                const std::string& fonts = "\\usepackage[T1]{fontenc}\\usepackage{lmodern}") {
+        write(name + ".tex", "\\documentclass[11pt,a4paper]{article}" + fonts + "\n" + preamble +
+                                 "\\begin{document}\n" + body + "\\end{document}\n");
+        run({"pdflatex", "-interaction=batchmode", "-no-shell-escape", name + ".tex"});
+        return file(name + ".pdf");
+    }
+    /// One page of prose, and what `code` puts into the file.
+    std::filesystem::path prose_with(const std::string& code, const std::string& name = "own") {
+        return latex("\\pdfcompresslevel=0\\pdfobjcompresslevel=0\n", kProse + code, name);
+    }
+
+    void run(const std::vector<std::string>& command) {
+        ChildOptions child;
+        child.command = command;
+        child.folder = folder_.path();
+        const ChildResult result = run_child(child, command.front());
+        EXPECT_EQ(result.exit_code, 0) << command.front() << ": " << result.error_output << result.output;
+    }
+
+    std::string text_of(const std::string& pdf) {
+        run({"pdftotext", pdf, "text.txt"});
+        return read(file("text.txt"));
+    }
+
+    /// What is found about names, as "id page"; hints in brackets.
+    std::vector<std::string> found(const std::filesystem::path& pdf) const {
+        CheckWishes wishes;
+        wishes.standard = standard_;
+        wishes.names = names_;
+        std::vector<std::string> result;
+        for (const Finding& finding : check_pdf(pdf, wishes).findings) {
+            const bool of_names = finding.id.starts_with("name-") || finding.id == "author-named" ||
+                                  finding.id == "not-searched" || finding.id == "damaged";
+            if (!of_names) continue;
+            EXPECT_TRUE(finding.what.ends_with('.')) << finding.what;
+            EXPECT_TRUE(finding.remedy.ends_with('.')) << finding.remedy;
+            const std::string words = finding.id + " " + std::to_string(finding.page);
+            result.push_back(finding.severity == Severity::kRule ? words : "(" + words + ")");
+        }
+        return result;
+    }
+
+    /// An update appended to a file, in which object `number` is `object`; the old one stays in the file.
+    static std::string updated(const std::string& pdf, int number, const std::string& object) {
+        const std::string start = pdf.substr(pdf.rfind("startxref") + 10);
+        const std::string root = reference(pdf, "/Root");
+        std::string result = pdf;
+        const std::size_t at = result.size();
+        result += std::to_string(number) + " 0 obj\n" + object + "\nendobj\n";
+        const std::size_t table = result.size();
+        char line[32];
+        std::snprintf(line, sizeof line, "%010zu 00000 n \n", at);
+        return result + "xref\n" + std::to_string(number) + " 1\n" + line + "trailer\n<</Size 1000/Root " + root +
+               "/Prev " + std::to_string(std::stoul(start)) + ">>\nstartxref\n" + std::to_string(table) + "\n%%EOF\n";
+    }
+    /// "12 0 R" behind the last `key`.
+    static std::string reference(const std::string& pdf, const std::string& key) {
+        const std::size_t begin = pdf.find_first_of("0123456789", pdf.rfind(key + " "));
+        return pdf.substr(begin, pdf.find('R', begin) + 1 - begin);
+    }
+
+    std::shared_ptr<SoughtNames> names_;
+};
+
+}  // namespace dynlab
