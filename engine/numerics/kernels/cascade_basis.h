@@ -35,4 +35,9 @@ struct CascadeBasis {
 /// see both samples.
 std::optional<CascadeBasis> cascade_basis(const TappedSystem& system);
 
+/// One basis for two systems that the same samples drive, `longer` being another system in series with a filter that
+/// has the poles of `shorter`: its first pair are these, the second the other system's. Outputs are those of `shorter`,
+/// then those of `longer`; the state is that of `longer`. Nothing where it is not so, or orders are not two and four.
+std::optional<CascadeBasis> joint_basis(const TappedSystem& shorter, const TappedSystem& longer);
+
 }  // namespace dynlab

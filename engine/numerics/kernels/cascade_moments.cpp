@@ -273,20 +273,36 @@ Summation summation_for(const std::array<Source, 2>& sources, const Outputs& out
     }
 }
 
+/// The two sources, the second alone for one signal; false where there are none.
+bool find_bases(const std::vector<FilteredSignal>& signals, std::array<Source, 2>& sources) {
+    const auto take = [](std::optional<CascadeBasis> basis, Source& source) {
+        if (basis) source.basis = *std::move(basis);
+        return basis.has_value();
+    };
+    const bool joint = signals.size() == 3;
+    if (joint && signals[1].signal.data() != signals[2].signal.data()) return false;
+    if (signals.size() > 1 && !take(cascade_basis(signals[0].system), sources[0])) return false;
+    return take(joint ? joint_basis(signals[1].system, signals[2].system) : cascade_basis(signals.back().system),
+                sources[1]);
+}
+
+/// Whether the state of the shorter of two systems with a joint basis is what the longer's says of it: the very first
+/// samples are not everywhere filtered alike.
+bool agree_on_state(const Vector& joint_state, const FilteredSignal& shorter, const Vector& x, double v) {
+    constexpr double kRounding = 1e-9;
+    const Vector own = cascade_basis(shorter.system)->from_state(x, v);
+    return (joint_state.head(2) - own).cwiseAbs().maxCoeff() <= kRounding * own.cwiseAbs().maxCoeff();
+}
+
 }  // namespace
 
 std::optional<Matrix> cascade_moments(const std::vector<FilteredSignal>& signals, const std::vector<Index>& left,
                                       const std::vector<Index>& right) {
-    if (signals.size() > 2) return {};
-    const std::size_t missing = 2 - signals.size();  // a signal alone is the second
+    if (signals.size() > 3) return {};
     std::array<Source, 2> sources;
+    if (!find_bases(signals, sources)) return {};
     Index latest = 0;
-    for (std::size_t i = 0; i < signals.size(); ++i) {
-        std::optional<CascadeBasis> basis = cascade_basis(signals[i].system);
-        if (!basis) return {};
-        sources[i + missing].basis = *std::move(basis);
-        latest = std::max(latest, signals[i].system.delay);
-    }
+    for (const FilteredSignal& signal : signals) latest = std::max(latest, signal.system.delay);
     const Index N = signals.front().signal.size(), segment = std::max<Index>(0, N - latest - 1) / kLanes;
     if (segment < kShortestSegment) return {};
     const Index first = N - kLanes * segment;
@@ -295,22 +311,27 @@ std::optional<Matrix> cascade_moments(const std::vector<FilteredSignal>& signals
     const bool tap = last.sees_tap();
     const bool fed = !tap && last.order == 2 && last.outputs.rows() == 1 && last.outputs(0, 1) != 0;
     if (fed) sources[1].feed = last.outputs(0, 0) / last.outputs(0, 1);
-    const Outputs outputs = outputs_of(sources, missing == 0, fed, tap);
+    const bool two = signals.size() > 1;
+    const Outputs outputs = outputs_of(sources, two, fed, tap);
     const Summation sum = summation_for(sources, outputs, fed, tap, left, right);
     if (!sum) return {};
 
     const std::vector<OutputSum> no_sums;
     SampleMoments samples(signals, left, right, no_sums);
     samples.run(0, first);
-    for (std::size_t i = 0; i < signals.size(); ++i) {
-        Source& source = sources[i + missing];
-        source.v = signals[i].signal.data() + (first - source.basis.delay);
-        source.state = source.basis.from_state(samples.recursion(i).state(), *source.v);
+    // Each source begins where the last signal that it stands for is.
+    const auto begin_at = [&](Source& source, std::size_t signal) {
+        source.v = signals[signal].signal.data() + (first - source.basis.delay);
+        source.state = source.basis.from_state(samples.recursion(signal).state(), *source.v);
         // With the feed, p stands for p + feed square q, and q for q + feed p.
         if (source.feed != 0)
             source.state +=
                 source.feed * Eigen::Vector2d(source.basis.pairs[0].square * source.state[1], source.state[0]);
-    }
+    };
+    if (two) begin_at(sources[0], 0);
+    begin_at(sources[1], signals.size() - 1);
+    if (signals.size() == 3 && !agree_on_state(sources[1].state, signals[1], samples.recursion(1).state(), *sources[1].v))
+        return {};
     const Matrix with_outputs = sum(sources, segment).lazyProduct(outputs.weights.transpose());
     Matrix moments = samples.total();
     for (Index j = 0; j < moments.cols(); ++j)

@@ -6,7 +6,8 @@
 
 namespace dynlab {
 
-/// The matrix of filter_moments for one signal, or an output's and an input's signal, in few multiplications per
+/// The matrix of filter_moments for one signal, an output's and an input's, or, after these, the same input through
+/// another system in series with the filter (joint_basis), in few multiplications per
 /// sample: the moments of states in the basis of CascadeBasis are summed, in registers, segments of the record side by
 /// side; those of the outputs are linear in them. Nothing where a system has no such basis, or the record is short.
 std::optional<Matrix> cascade_moments(const std::vector<FilteredSignal>& signals, const std::vector<Index>& left,
