@@ -330,7 +330,8 @@ std::optional<Matrix> cascade_moments(const std::vector<FilteredSignal>& signals
     };
     if (two) begin_at(sources[0], 0);
     begin_at(sources[1], signals.size() - 1);
-    if (signals.size() == 3 && !agree_on_state(sources[1].state, signals[1], samples.recursion(1).state(), *sources[1].v))
+    if (signals.size() == 3 &&
+        !agree_on_state(sources[1].state, signals[1], samples.recursion(1).state(), *sources[1].v))
         return {};
     const Matrix with_outputs = sum(sources, segment).lazyProduct(outputs.weights.transpose());
     Matrix moments = samples.total();
