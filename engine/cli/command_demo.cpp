@@ -27,11 +27,14 @@ bool on_terminal() {
     return ::isatty(STDIN_FILENO) != 0 && ::isatty(STDOUT_FILENO) != 0;
 }
 
-/// A line from the terminal; nothing after Ctrl-D. Ctrl-C throws Interrupted: it ends poll, but would not end getline.
+constexpr int kMillisecondsBetweenLooks = 100;
+
+/// A line from the terminal; nothing after Ctrl-D. Ctrl-C throws Interrupted: it would not end getline, and one that
+/// comes just before poll does not end that either, so poll looks up now and then.
 std::optional<std::string> ask(const std::string& question) {
     std::cout << question << std::flush;
     pollfd keyboard{STDIN_FILENO, POLLIN, 0};
-    while (::poll(&keyboard, 1, -1) < 0) throw_if_interrupted();
+    while (::poll(&keyboard, 1, kMillisecondsBetweenLooks) <= 0) throw_if_interrupted();
     std::string answer;
     const bool given = static_cast<bool>(std::getline(std::cin, answer));
     if (!given) std::cout << '\n';

@@ -29,9 +29,9 @@ class full_box : public ::testing::Test {
 // oracle: what the programs inside see
 TEST_F(full_box, holds_nothing_but_what_was_put_in) {
     write_file_atomically(folder_.path() / "a.txt", "inside\n");
-    EXPECT_EQ(box_.add(folder_.path(), "/box/work"), "/box/work");
-    EXPECT_EQ(shell(box_, "cat /box/work/a.txt").output, "inside\n");
-    EXPECT_NE(shell(box_, "echo x > /box/work/b.txt").exit_code, 0);
+    EXPECT_EQ(box_.add(folder_.path(), "/box/files"), "/box/files");
+    EXPECT_EQ(shell(box_, "cat /box/files/a.txt").output, "inside\n");
+    EXPECT_NE(shell(box_, "echo x > /box/files/b.txt").exit_code, 0);
     EXPECT_FALSE(std::filesystem::exists(folder_.path() / "b.txt"));
     EXPECT_EQ(shell(box_, "ls -d /etc /home /root /var 2>/dev/null").output, "");
     EXPECT_NE(shell(box_, "echo x > /usr/never").exit_code, 0);
@@ -72,7 +72,7 @@ TEST_F(full_box, ends_with_all_it_started) {
 TEST(process_box, keeps_the_places_and_empties_the_environment) {
     const TemporaryFolder folder;
     Box box(Isolation::kProcess);
-    EXPECT_EQ(box.add(folder.path(), "/box/work"), folder.path());
+    EXPECT_EQ(box.add(folder.path(), "/box/files"), folder.path());
     box.set_environment("DYNLAB_HOME", "/somewhere");
     EXPECT_EQ(shell(box, "echo $DYNLAB_HOME $USER").output, "/somewhere\n");
     EXPECT_EQ(obstacle_to(Isolation::kProcess), std::nullopt);
