@@ -64,6 +64,7 @@ class ClassGrading {
         for (std::thread& thread : threads) thread.join();
         if (failure_) std::rethrow_exception(failure_);
         take_the_others();
+        std::sort(outcome_.complaints.begin(), outcome_.complaints.end());  // threads end in any order
         write_class_results(results());
     }
 
@@ -101,7 +102,13 @@ class ClassGrading {
         try {
             for (std::size_t k = next_++; k < chosen_.size() && !stopped_; k = next_++) {
                 throw_if_interrupted();
-                one(chosen_[k]);
+                try {
+                    one(chosen_[k]);
+                } catch (const Interrupted&) {
+                    throw;
+                } catch (const std::exception& error) {
+                    leave_ungraded(chosen_[k], error.what());
+                }
                 const std::lock_guard lock(mutex_);
                 bar.advance(++done_);
             }
@@ -126,6 +133,17 @@ class ClassGrading {
         finish(submission, *std::move(grade), late.percent, place);
         const std::lock_guard lock(mutex_);
         ++(keep ? outcome_.kept : outcome_.made);
+    }
+
+    /// What the grader itself cannot do costs nobody points and stops nobody else; nothing is written, so that the next
+    /// run tries again.
+    void leave_ungraded(std::size_t place, const std::string& reason) {
+        const std::string& name = submissions_[place].name;
+        Grade grade = rules_.without_checks(name, "");
+        for (CheckGrade& check : grade.checks) check.graded = false;
+        const std::lock_guard lock(mutex_);
+        grades_[place] = std::move(grade);
+        outcome_.complaints.push_back(fmt::format("\"{}\" could not be graded: {}", name, reason));
     }
 
     GradingRules::GroupSeed seed_of(const Submission& submission) const {

@@ -182,6 +182,22 @@ TEST(attacks, none_leaves_its_box_stops_the_batch_or_changes_a_mark) {
     EXPECT_LT(taken.count(), (kTimeout + 1.0) * (std::size(kAttacks) + 24));
 }
 
+// oracle: the kernel refuses paths of more than 4096 letters; the others' marks
+TEST(attacks, a_folder_that_cannot_even_be_read_stops_nobody_else) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    bench.hand_in("bottomless", kSolution);
+    bench.hand_in("honest", kSolution);
+    const Workbench& work = bench.bench();
+    work.shell(
+        "cd in/bottomless; n=$(printf 'd%.0s' $(seq 250)); for i in $(seq 24); do mkdir $n && cd $n; done; echo x > y");
+    const ChildResult graded = bench.grade();
+    EXPECT_EQ(graded.exit_code, 1);
+    EXPECT_THAT(graded.error_output, HasSubstr("\"bottomless\" could not be graded"));
+    EXPECT_EQ(GradingBench::score(bench.result("honest")), 1);
+    EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr(",bottomless,partly ungraded,,"));
+    work.shell("cd in && mv bottomless/d* . && rm -rf d*");
+}
+
 // oracle: a file whose words must appear nowhere
 TEST(attacks, reports_read_no_files_and_run_no_commands) {
     GradingBench bench(kAnswers, "check{id = 'report', document = true, test = function() return no_finding() end}\n",
