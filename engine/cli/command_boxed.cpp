@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "course/boxed_document.h"
 #include "course/check_run.h"
-#include "course/feedback.h"
 #include "course/graded_run.h"
 #include "course/unpack.h"
 
@@ -23,8 +23,8 @@ int boxed() {
         result = try_checks(job);
     else if (work == "unpack")
         result = unpack_archive(job);
-    else if (work == "feedback")
-        result = make_feedback(job);
+    else if (work == "document")
+        result = make_boxed_document(job);
     else
         return kUsage;
     std::cout << result.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << std::flush;

@@ -3,15 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "course/feedback.h"
 #include "data_io/text_table.h"
-#include "documents/document.h"
 #include "figures/gnuplot_renderer.h"
 #include "figures/histogram.h"
 #include "platform/atomic_file.h"
-#include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
 #include "workflow/run_script.h"
 
@@ -106,61 +103,70 @@ RecordedTable success_of(const ClassResults& results) {
     return table;
 }
 
+std::string attention_of(const ClassResults& results, const std::vector<std::string>& not_in_roster) {
+    std::string attention;
+    const auto add = [&](const std::string& sentence) { attention += "- " + escaped_markdown(sentence) + "\n"; };
+    for (const std::string& complaint : results.complaints) add(complaint);
+    for (const std::string& name : not_in_roster)
+        add(fmt::format("the submission \"{}\" belongs to nobody in the roster", name));
+    for (const Entry& entry : results.entries)
+        if (entry.grade && !entry.grade->whole()) add(fmt::format("\"{}\" is not graded whole", entry.submission.name));
+    return attention.empty() ? "Nothing.\n" : attention;
+}
+
+/// The points of those graded whole, sorted.
+Vector points_of(const ClassResults& results) {
+    std::vector<double> points;
+    for (const Entry& entry : results.entries)
+        if (entry.grade && entry.grade->whole()) points.push_back(entry.grade->earned());
+    std::sort(points.begin(), points.end());
+    return Eigen::Map<const Vector>(points.data(), static_cast<Index>(points.size()));
+}
+
+void add_numbers(const ClassResults& results, const Vector& points, double possible, RunRecord& record) {
+    const auto value = [&record](const char* name, const std::string& text) { record.values[name] = {{}, text}; };
+    const auto not_whole = std::count_if(results.entries.begin(), results.entries.end(),
+                                         [](const Entry& entry) { return entry.grade && !entry.grade->whole(); });
+    const Index n = points.size();
+    value("lesson", results.setup->lesson.slug);
+    value("isolation", name_of(results.setup->isolation));
+    value("submissions", std::to_string(results.entries.size()));
+    value("graded", std::to_string(n));
+    value("not_whole", std::to_string(not_whole));
+    value("possible", points_text(possible));
+    value("mean", n == 0 ? "–" : points_text(points.mean()));
+    value("median", n == 0 ? "–" : points_text(0.5 * (points((n - 1) / 2) + points(n / 2))));
+}
+
+RecordedFigure histogram_of(const Vector& points, double possible) {
+    HistogramOptions options;
+    options.x_label = fmt::format("points of {}", points_text(possible));
+    options.label = "submissions";
+    RecordedFigure figure;
+    figure.figure = histogram(points.size() == 0 ? Vector(Vector::Zero(1)) : points, options);
+    figure.caption = "Points";
+    return figure;
+}
+
 }  // namespace
 
 void write_class_results(const ClassResults& results) {
     std::vector<std::string> not_in_roster;
     write_file_atomically(results.out / "gradebook.csv", csv_text(gradebook_of(results, not_in_roster)));
-    RunRecord record;
-    record.script = "summary";
-    std::vector<double> points;
     double possible = 0;
-    int not_whole = 0;
-    for (const Entry& entry : results.entries) {
-        if (!entry.grade) continue;
-        possible = std::max(possible, entry.grade->possible());
-        if (entry.grade->whole())
-            points.push_back(entry.grade->earned());
-        else
-            ++not_whole;
-    }
-    std::sort(points.begin(), points.end());
-    const auto value = [&record](const char* name, const std::string& text) { record.values[name] = {{}, text}; };
-    const Eigen::Map<const Vector> all(points.data(), static_cast<Index>(points.size()));
-    value("lesson", results.setup->lesson.slug);
-    value("isolation", name_of(results.setup->isolation));
-    value("submissions", std::to_string(results.entries.size()));
-    value("graded", std::to_string(points.size()));
-    value("not_whole", std::to_string(not_whole));
-    value("possible", points_text(possible));
-    value("mean", points.empty() ? "–" : points_text(all.mean()));
-    value("median",
-          points.empty() ? "–" : points_text(0.5 * (points[(points.size() - 1) / 2] + points[points.size() / 2])));
-    record.tables["success"] = success_of(results);
-    std::string attention;
-    for (const std::string& complaint : results.complaints) attention += "- " + escaped_markdown(complaint) + "\n";
-    for (const std::string& name : not_in_roster)
-        attention +=
-            "- " + escaped_markdown(fmt::format("the submission \"{}\" belongs to nobody in the roster", name)) + "\n";
     for (const Entry& entry : results.entries)
-        if (entry.grade && !entry.grade->whole())
-            attention +=
-                "- " + escaped_markdown(fmt::format("\"{}\" is not graded whole", entry.submission.name)) + "\n";
-    record.texts["attention"] = {attention.empty() ? "Nothing.\n" : attention};
-    HistogramOptions options;
-    options.x_label = fmt::format("points of {}", points_text(possible));
-    options.label = "submissions";
-    RecordedFigure& figure = record.figures["points"];
-    figure.figure = histogram(points.empty() ? Vector(Vector::Zero(1)) : Vector(all), options);
-    figure.caption = "Points";
+        if (entry.grade) possible = std::max(possible, entry.grade->possible());
+    const Vector points = points_of(results);
+    RunRecord record;
+    add_numbers(results, points, possible, record);
+    record.tables["success"] = success_of(results);
+    record.texts["attention"] = {attention_of(results, not_in_roster)};
+    record.figures["points"] = histogram_of(points, possible);
     GnuplotRenderer renderer;
     const TemporaryFolder drawn;
     draw_figures(record, renderer, drawn.path(), results.pdf ? FigureFormat::kPdf : FigureFormat::kSvg);
-    DocumentSource source;
-    source.template_file = shared_folder() / "report_templates" / "class_summary.md";
-    source.record = &record;
-    DocumentMaker({}).make(source, results.out / (results.pdf ? "summary.pdf" : "summary.md"),
-                           results.pdf ? DocumentFormat::kPdf : DocumentFormat::kMarkdown, [&] { renderer.finish(); });
+    renderer.finish();
+    results.documents->make("class_summary.md", record, results.out / (results.pdf ? "summary.pdf" : "summary.md"));
 }
 
 }  // namespace dynlab

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "course/boxed_document.h"
 #include "course/grading_rules.h"
 #include "course/roster.h"
 #include "course/submission.h"
@@ -21,11 +22,13 @@ struct ClassResults {
     std::filesystem::path out;
     const GradingSetup* setup = nullptr;
     bool pdf = true;
+    const BoxedDocuments* documents = nullptr;
     std::vector<std::string> complaints;
 };
 
 /// Writes gradebook.csv (a row for each student of the roster, or each submission where there is none) and the summary
-/// (report_templates/class_summary.md): numbers, histogram, success of each check, what needs the instructor's eye.
+/// (report_templates/class_summary.md, set in a box): numbers, histogram, success of each check, what needs the
+/// instructor's eye.
 void write_class_results(const ClassResults& results);
 
 }  // namespace dynlab

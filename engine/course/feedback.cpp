@@ -3,29 +3,18 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "documents/document.h"
-#include "documents/error.h"
+#include "documents/run_record.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
-#include "platform/error.h"
-#include "platform/program_lookup.h"
-#include "platform/temporary_folder.h"
 
 namespace dynlab {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-constexpr auto kTime = std::chrono::seconds(30);
-
-std::string plain_ascii(std::string text) {
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) > 126) c = '?';
-    return text;
-}
 
 /// A list item, its texts made harmless by `escape`.
 std::string item_of(const json& check, std::string (*escape)(const std::string&)) {
@@ -68,19 +57,15 @@ std::string markdown_of(const json& grade) {
     return text;
 }
 
-RunRecord record_of(const json& grade, bool ascii) {
-    const auto text = [ascii](const json& j) {
-        return ascii ? plain_ascii(j.get<std::string>()) : j.get<std::string>();
-    };
+RunRecord record_of(const json& grade) {
     RunRecord record;
     record.script = "feedback";
     for (const char* name : {"submission", "lesson", "points", "possible", "lateness"})
-        record.values[name] = {{}, text(grade.at(name))};
+        record.values[name] = {{}, grade.at(name)};
     std::string items;
     for (const json& check : grade.at("checks")) items += item_of(check, escaped_markdown);
-    record.texts["checks"] = {ascii ? plain_ascii(items) : items};
-    const std::string trouble = trouble_of(grade, escaped_markdown);
-    record.texts["trouble"] = {ascii ? plain_ascii(trouble) : trouble};
+    record.texts["checks"] = {items};
+    record.texts["trouble"] = {trouble_of(grade, escaped_markdown)};
     return record;
 }
 
@@ -133,41 +118,10 @@ std::string escaped_markdown(const std::string& text) {
     return result;
 }
 
-json make_feedback(const json& job) {
-    const fs::path to = job.at("to").get<std::string>();
-    DocumentSource source;
-    source.template_file = shared_folder() / "report_templates" / "feedback.md";
-    DocumentMaker::Options options;
-    options.use_cache = false;
-    const DocumentMaker maker(options);
-    const auto make = [&](bool ascii) {
-        const RunRecord record = record_of(job.at("grade"), ascii);
-        source.record = &record;
-        maker.make(source, to / "feedback.pdf", DocumentFormat::kPdf, [] {});
-    };
-    try {
-        make(false);
-    } catch (const DocumentError&) {
-        make(true);  // letters that LaTeX does not have
-    }
-    return json::object();
-}
-
-void write_feedback(const Grade& grade, const fs::path& folder, bool pdf, const GradingSetup& setup) {
+void write_feedback(const Grade& grade, const fs::path& folder, const BoxedDocuments* documents) {
     const json text = json_of(grade);
     write_file_atomically(folder / "feedback.md", markdown_of(text));
-    if (!pdf) return;
-    const TemporaryFolder made;
-    Box box(setup.isolation);
-    box.add_document_programs();
-    const fs::path templates = box.add(shared_folder() / "report_templates", "/box/home/report_templates");
-    box.add(shared_folder() / "data", "/box/home/data");
-    box.set_environment("DYNLAB_HOME", templates.parent_path().string());
-    const fs::path to = box.add_writable(made.path(), "/box/feedback");
-    const BoxedResult result =
-        run_boxed(box, setup.program, {{"work", "feedback"}, {"grade", text}, {"to", to.string()}}, kTime);
-    if (!result.output) throw EnvironmentError("the feedback cannot be written: " + result.reason);
-    place_file_atomically(made.path() / "feedback.pdf", folder / "feedback.pdf");
+    if (documents) documents->make("feedback.md", record_of(text), folder / "feedback.pdf");
 }
 
 }  // namespace dynlab

@@ -2,7 +2,8 @@
 #include <filesystem>
 #include <string>
 
-#include "course/grading_rules.h"
+#include "course/boxed_document.h"
+#include "course/grade.h"
 
 namespace dynlab {
 
@@ -11,11 +12,8 @@ std::string points_text(double points);  ///< "3", "2.5", "0.33"
 /// Text of anybody's as Markdown that means nothing but itself.
 std::string escaped_markdown(const std::string& text);
 
-/// Writes what the student gets into `folder`: feedback.md, and when wanted feedback.pdf, set in a box from
+/// Writes what the student gets into `folder`: feedback.md, and with `documents` feedback.pdf, set from
 /// report_templates/feedback.md. Of hidden checks it has points and hint only.
-void write_feedback(const Grade& grade, const std::filesystem::path& folder, bool pdf, const GradingSetup& setup);
-
-/// The part of it inside the box. `job`: {"grade": {...}, "to": place of a folder}. Returns {}.
-nlohmann::json make_feedback(const nlohmann::json& job);
+void write_feedback(const Grade& grade, const std::filesystem::path& folder, const BoxedDocuments* documents);
 
 }  // namespace dynlab

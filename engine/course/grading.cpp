@@ -48,7 +48,8 @@ class ClassGrading {
           outcome_(outcome),
           submissions_(submissions_in(opened(request))),
           rules_(request.setup),
-          manual_(prepared(request.out) / "manual.csv") {
+          manual_(prepared(request.out) / "manual.csv"),
+          documents_(request.setup.isolation, request.setup.program) {
         if (request.deadlines) deadlines_ = Deadlines(*request.deadlines);
         if (request.roster) roster_.emplace(*request.roster);
         outcome_.complaints = rules_.try_solution();
@@ -185,7 +186,7 @@ class ClassGrading {
         if (written && !request_.regrade) return;
         fs::create_directories(folder);
         try {
-            write_feedback(marked, folder, request_.pdf, request_.setup);
+            write_feedback(marked, folder, request_.pdf ? &documents_ : nullptr);
         } catch (const EnvironmentError& error) {  // one that cannot be set stops no other, and no mark
             const std::lock_guard lock(mutex_);
             outcome_.complaints.push_back(fmt::format("\"{}\": {}", submission.name, error.what()));
@@ -207,7 +208,7 @@ class ClassGrading {
         ClassResults results;
         results.out = request_.out;
         results.setup = &request_.setup;
-        results.pdf = request_.pdf;
+        results.pdf = request_.pdf, results.documents = &documents_;
         results.roster = roster_ ? &*roster_ : nullptr;
         for (std::size_t i = 0; i < submissions_.size(); ++i) results.entries.push_back({submissions_[i], grades_[i]});
         results.complaints = outcome_.complaints;
@@ -220,6 +221,7 @@ class ClassGrading {
     std::vector<Submission> submissions_;
     GradingRules rules_;
     ManualMarks manual_;
+    BoxedDocuments documents_;
     Deadlines deadlines_;
     std::optional<Roster> roster_;
     std::vector<std::optional<Grade>> grades_;

@@ -190,7 +190,8 @@ class Making {
                                      fs::absolute(source_.template_file).lexically_normal().string();
         try {
             const LatexLayout layout{shared_templates_, language_, document_rules(template_).slides};
-            return run_latex({body, layout, work_.path(), identity, options_.use_cache, options_.timings});
+            return run_latex(
+                {body, layout, work_.path(), identity, options_.use_cache, options_.latex_format, options_.timings});
         } catch (const LatexRefusal& refusal) {
             const SourceLine where = origin_of_refusal(refusal, markdown_, source_.template_file);
             const std::string line = where.line > 0 ? ":" + std::to_string(where.line) : "";

@@ -129,15 +129,17 @@ void check_nothing_overflows(const std::string& log, int lines_before_body) {
 class LatexRun {
   public:
     explicit LatexRun(const LatexJob& job) : job_(job) {
-        if (job.use_cache) {
+        format_folder_ = job.format_folder;
+        if (format_folder_.empty() && job.use_cache) {
             const auto start = std::chrono::steady_clock::now();
             format_folder_ = latex_format_folder(job.layout);
             note("latex format", start);
-        } else {
+        }
+        if (format_folder_.empty()) {
             write_preamble(job.layout, job.work_folder);
             lines_before_body_ = 1;
         }
-        write_work_file(job.work_folder / "main.tex", (job.use_cache ? "" : "\\input{preamble}\n") + job.body);
+        write_work_file(job.work_folder / "main.tex", (format_folder_.empty() ? "\\input{preamble}\n" : "") + job.body);
     }
 
     fs::path pdf() {
@@ -165,7 +167,7 @@ class LatexRun {
         ChildOptions child;
         child.command = {"pdflatex", "-no-shell-escape", "-interaction=nonstopmode", "-halt-on-error",
                          "-file-line-error"};
-        if (job_.use_cache) child.command.push_back(std::string("-fmt=") + kLatexFormatName);
+        if (!format_folder_.empty()) child.command.push_back(std::string("-fmt=") + kLatexFormatName);
         child.command.push_back("main.tex");
         child.folder = job_.work_folder;
         child.environment = {{"SOURCE_DATE_EPOCH", "0"},
@@ -181,7 +183,7 @@ class LatexRun {
                              {"TEXMFHOME", "/nonexistent"},
                              {"TEXMFOUTPUT", ""},
                              {"LC_ALL", "C.UTF-8"}};
-        if (job_.use_cache) child.environment.emplace_back("TEXFORMATS", format_folder_.string() + ":");
+        if (!format_folder_.empty()) child.environment.emplace_back("TEXFORMATS", format_folder_.string() + ":");
         child.timeout = 120s;
         child.memory_bytes = kMemoryLimit;
         return child;

@@ -15,6 +15,7 @@ struct LatexJob {
     std::filesystem::path work_folder;  ///< private; holds the pictures the body names
     std::string identity;               ///< of the document: its auxiliary files are kept under this name
     bool use_cache = true;
+    std::filesystem::path format_folder;  ///< made by make_latex_format for this layout; empty: the cache's, or none
     std::vector<std::pair<std::string, double>>* timings = nullptr;
 };
 

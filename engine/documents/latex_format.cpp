@@ -79,9 +79,13 @@ fs::path latex_format_folder(const LatexLayout& layout) {
     key.add(tex_version());
     if (const auto folder = cache.find(key.hex())) return *folder;
     const fs::path folder = cache.prepare();
+    make_latex_format(layout, folder);
+    return cache.commit(folder, key.hex());
+}
+
+void make_latex_format(const LatexLayout& layout, const fs::path& folder) {
     write_preamble(layout, folder);
     compile_format(folder);
-    return cache.commit(folder, key.hex());
 }
 
 }  // namespace dynlab

@@ -21,6 +21,9 @@ void write_preamble(const LatexLayout& layout, const std::filesystem::path& fold
 /// when it is not there (about a second). Throws MissingProgram when pdflatex or a LaTeX package is missing.
 std::filesystem::path latex_format_folder(const LatexLayout& layout);
 
+/// Makes dynlab.fmt in `folder` itself, beside no cache.
+void make_latex_format(const LatexLayout& layout, const std::filesystem::path& folder);
+
 /// Throws MissingProgram when a log says that a LaTeX package or the babel language is not installed.
 void check_missing_packages(const std::string& log);
 

@@ -14,9 +14,9 @@ namespace {
 
 using test::Workbench;
 
-constexpr int kSubmissions = 200;
+constexpr int kSubmissions = 200, kWithFeedback = 20;
 constexpr int kCores = 2;
-constexpr double kMostSeconds = 0.060, kGoalSeconds = 0.030;
+constexpr double kMostSeconds = 0.060, kGoalSeconds = 0.030, kMostSecondsOfFeedback = 0.5;
 
 // All of lesson 4's answers but the Monte Carlo study's.
 constexpr const char* kSubmission =
@@ -27,35 +27,52 @@ constexpr const char* kSubmission =
     "answer('G_lssvf', lssvf(data, {2, 1, 0}, 3))\nanswer('G_ivsvf', ivsvf(data, {2, 1, 0}, 3))\n"
     "answer('G_final', tfsrivc(data, 2, 0, {TdMax = 0}))\n";
 
-/// Seconds of one run of `dynlab grade`, and of the scripts within.
-std::pair<double, double> grading_seconds(const Workbench& bench) {
+struct Seconds {
+    double whole = 0, scripts = 0;
+};
+
+/// Of one run of `dynlab grade`, and of the scripts within.
+Seconds grading_seconds(const Workbench& bench, int jobs, bool pdf) {
+    std::vector<std::string> words = {"grade",     "in",     "--lesson",          "04", "--out", "out",
+                                      "--regrade", "--jobs", std::to_string(jobs)};
+    if (!pdf) words.push_back("--no-pdf");
     const auto start = std::chrono::steady_clock::now();
-    const ChildResult graded = bench.dynlab(
-        {"grade", "in", "--lesson", "04", "--out", "out", "--no-pdf", "--regrade", "--jobs", std::to_string(kCores)});
+    const ChildResult graded = bench.dynlab(words);
     const std::chrono::duration<double> whole = std::chrono::steady_clock::now() - start;
     if (graded.exit_code != 0) throw std::runtime_error(graded.output + graded.error_output);
     const std::string logs = bench.shell("cat out/results/*/log.txt").output;
     const std::regex line(R"(([0-9.]+) s of the script)");
-    double scripts = 0;
-    for (std::sregex_iterator i(logs.begin(), logs.end(), line), end; i != end; ++i) scripts += std::stod((*i)[1]);
-    return {whole.count(), scripts};
+    Seconds seconds{whole.count(), 0};
+    for (std::sregex_iterator i(logs.begin(), logs.end(), line), end; i != end; ++i)
+        seconds.scripts += std::stod((*i)[1]);
+    return seconds;
+}
+
+void add_submissions(const Workbench& bench, int from, int to) {
+    for (int i = from; i <= to; ++i) bench.write("in/s" + std::to_string(i) + "/analysis.lua", kSubmission);
 }
 
 }  // namespace
 
-/// The time that a submission costs beyond its script's own runs. What a class costs however small it is, such as the
-/// trial of the worked solution, is measured with one submission and taken off.
+/// The time that a submission costs beyond its script's own runs, and a feedback PDF. What a class costs however small
+/// it is, such as the trial of the worked solution and the layout of documents, is measured with one submission and
+/// taken off.
 void measure_grading(Report& report) {
     const Workbench bench;
-    bench.write("in/s1/analysis.lua", kSubmission);
-    const double alone = grading_seconds(bench).first;
-    for (int i = 2; i <= kSubmissions; ++i) bench.write("in/s" + std::to_string(i) + "/analysis.lua", kSubmission);
-    const auto [whole, scripts] = grading_seconds(bench);
+    add_submissions(bench, 1, 1);
+    const double alone = grading_seconds(bench, kCores, false).whole;
+    const double first = grading_seconds(bench, 1, true).whole - grading_seconds(bench, 1, false).whole;
+    add_submissions(bench, 2, kWithFeedback);
+    const double all = grading_seconds(bench, 1, true).whole - grading_seconds(bench, 1, false).whole;
+    add_submissions(bench, kWithFeedback + 1, kSubmissions);
+    const auto [whole, scripts] = grading_seconds(bench, kCores, false);
     rusage used{};
     ::getrusage(RUSAGE_CHILDREN, &used);
     report.results.push_back({"grading, overhead of a submission (s)", "60 ms",
                               (whole - alone - scripts / kCores) / (kSubmissions - 1), kMostSeconds, 1,
                               kGoalSeconds / kMostSeconds});
+    report.results.push_back({"grading, a feedback PDF on one core (s)", "0.5 s", (all - first) / (kWithFeedback - 1),
+                              kMostSecondsOfFeedback, 1, 0});
     report.results.push_back({"grading, memory of the largest process (MB)", "200 MB",
                               static_cast<double>(used.ru_maxrss) / 1024, 200, 1, 0});
 }
