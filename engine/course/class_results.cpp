@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "course/feedback.h"
 #include "data_io/text_table.h"
@@ -130,7 +131,8 @@ void add_numbers(const ClassResults& results, const Vector& points, double possi
     const Index n = points.size();
     value("lesson", results.setup->lesson.slug);
     value("isolation", name_of(results.setup->isolation));
-    value("submissions", std::to_string(results.entries.size()));
+    value("submissions",
+          fmt::format("{} submission{}", results.entries.size(), results.entries.size() == 1 ? "" : "s"));
     value("graded", std::to_string(n));
     value("not_whole", std::to_string(not_whole));
     value("possible", points_text(possible));
@@ -138,12 +140,16 @@ void add_numbers(const ClassResults& results, const Vector& points, double possi
     value("median", n == 0 ? "–" : points_text(0.5 * (points((n - 1) / 2) + points(n / 2))));
 }
 
+/// A bar for each point, around it; for each several where there are many.
 RecordedFigure histogram_of(const Vector& points, double possible) {
+    constexpr double kMostBars = 40;
+    const double width = std::max(1.0, std::ceil(possible / kMostBars)), bars = std::ceil(possible / width) + 1;
     HistogramOptions options;
+    options.edges = Vector::LinSpaced(static_cast<Index>(bars) + 1, -0.5 * width, (bars - 0.5) * width);
     options.x_label = fmt::format("points of {}", points_text(possible));
-    options.label = "submissions";
+    options.y_label = "submissions";
     RecordedFigure figure;
-    figure.figure = histogram(points.size() == 0 ? Vector(Vector::Zero(1)) : points, options);
+    figure.figure = histogram(points, options);
     figure.caption = "Points";
     return figure;
 }

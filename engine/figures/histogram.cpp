@@ -12,11 +12,15 @@ namespace {
 
 constexpr Index kMostBins = 200;
 
-void check(const VectorView& values) {
-    if (values.size() == 0) throw InvalidArgument("a histogram needs at least one value, but there are none");
+void check_finite(const VectorView& values) {
     for (Index i = 0; i < values.size(); ++i)
         if (!std::isfinite(values[i]))
             throw InvalidArgument(fmt::format("a histogram needs finite values, but value {} is {}", i + 1, values[i]));
+}
+
+void check(const VectorView& values) {
+    if (values.size() == 0) throw InvalidArgument("a histogram needs at least one value, but there are none");
+    check_finite(values);
 }
 
 /// Linear interpolation between the order statistics that enclose the quantile.
@@ -47,7 +51,15 @@ HistogramBins histogram_bins(const VectorView& values, Index bins) {
         const double room = low == 0 ? 0.5 : 0.05 * std::abs(low);
         low -= room, high += room;
     }
-    HistogramBins result{Vector::LinSpaced(bins + 1, low, high), Vector::Zero(bins)};
+    return histogram_bins(values, Vector::LinSpaced(bins + 1, low, high));
+}
+
+HistogramBins histogram_bins(const VectorView& values, const Vector& edges) {
+    check_finite(values);
+    if (edges.size() < 2)
+        throw InvalidArgument(fmt::format("a histogram needs two edges or more, not {}", edges.size()));
+    const Index bins = edges.size() - 1;
+    HistogramBins result{edges, Vector::Zero(bins)};
     for (const double value : values) {
         const auto right = std::upper_bound(result.edges.begin(), result.edges.end(), value);
         result.counts[std::clamp(static_cast<Index>(right - result.edges.begin()) - 1, Index{0}, bins - 1)] += 1;
@@ -56,7 +68,9 @@ HistogramBins histogram_bins(const VectorView& values, Index bins) {
 }
 
 Figure histogram(const VectorView& values, const HistogramOptions& options) {
-    const HistogramBins bins = histogram_bins(values, options.bins > 0 ? options.bins : freedman_diaconis_bins(values));
+    const HistogramBins bins =
+        options.edges ? histogram_bins(values, *options.edges)
+                      : histogram_bins(values, options.bins > 0 ? options.bins : freedman_diaconis_bins(values));
     const Index count = bins.counts.size();
     Curve bars;
     bars.style = CurveStyle::kBars;
@@ -65,10 +79,11 @@ Figure histogram(const VectorView& values, const HistogramOptions& options) {
     bars.label = options.label;
     Panel panel;
     panel.x_label = options.x_label;
-    panel.y_label = "count";
+    panel.y_label = options.y_label;
     const double width = bins.edges[1] - bins.edges[0];
     panel.x_range = {std::min(bins.edges[0], options.truth.value_or(bins.edges[0])) - 0.5 * width,
                      std::max(bins.edges[count], options.truth.value_or(bins.edges[count])) + 0.5 * width};
+    if (bins.counts.maxCoeff() == 0) panel.y_range = {0, 1};
     panel.curves = {std::move(bars)};
     if (options.truth) panel.references = {{false, *options.truth, options.truth_label, 1}};
     return Figure(std::move(panel));

@@ -16,14 +16,18 @@ struct HistogramBins {
 /// statistics; the square root of N where the quartiles coincide. Between 1 and 200. Needs finite values.
 Index freedman_diaconis_bins(const VectorView& values);
 HistogramBins histogram_bins(const VectorView& values, Index bins);
+/// Bins between given edges (two or more, of equal width); a value beyond them belongs to the first or the last. There
+/// may be no values.
+HistogramBins histogram_bins(const VectorView& values, const Vector& edges);
 
 struct HistogramOptions {
     Index bins = 0;               ///< after Freedman and Diaconis when 0
+    std::optional<Vector> edges;  ///< of the bins, of equal width; bins is of no account then
     std::optional<double> truth;  ///< marked by a line
-    std::string label, x_label, truth_label = "true value";
+    std::string label, x_label, y_label = "count", truth_label = "true value";
 };
 
-/// Throws InvalidArgument for no values or values that are not finite.
+/// Throws InvalidArgument for no values without edges, and for values that are not finite.
 Figure histogram(const VectorView& values, const HistogramOptions& options = {});
 
 }  // namespace dynlab

@@ -41,6 +41,14 @@ TEST(histogram, counts_agree_with_the_definition) {
     }
 }
 
+// Oracle: counted by hand; 1.5 stands on an edge, -1 and 9 beyond them.
+TEST(histogram, between_given_edges) {
+    const HistogramBins bins = histogram_bins(Vector{{-1, 0, 0.4, 1.5, 2, 9}}, Vector{{-0.5, 0.5, 1.5, 2.5}});
+    EXPECT_EQ(bins.counts, (Vector{{3, 0, 3}}));
+    EXPECT_EQ(histogram_bins(Vector(), Vector{{0, 1, 2}}).counts, (Vector{{0, 0}}));
+    EXPECT_THROW(histogram_bins(Vector{{1, 2}}, Vector{{1}}), InvalidArgument);
+}
+
 TEST(histogram, refuses_nothing_and_not_a_number) {
     EXPECT_THROW(histogram(Vector()), InvalidArgument);
     EXPECT_THROW(histogram(Vector{{1, std::nan("")}}), InvalidArgument);
