@@ -4,12 +4,10 @@
 #include <archive_entry.h>
 
 #include <algorithm>
-#include <boost/iostreams/device/array.hpp>
-#include <boost/iostreams/filter/zlib.hpp>
-#include <boost/iostreams/filtering_stream.hpp>
 #include <memory>
 
 #include "course/letters.h"
+#include "documents/inflate.h"
 
 namespace dynlab {
 namespace {
@@ -137,23 +135,6 @@ std::string without_references(const std::string& xml) {
     return text;
 }
 
-std::string inflated(std::string_view bytes, std::size_t most) {
-    namespace io = boost::iostreams;
-    std::string result;
-    try {
-        io::filtering_istream in;
-        in.push(io::zlib_decompressor());
-        in.push(io::array_source(bytes.data(), bytes.size()));
-        in.exceptions(std::ios::badbit);
-        char block[1 << 15];
-        while (result.size() < most && in.read(block, sizeof block).gcount() > 0)
-            result.append(block, static_cast<std::size_t>(in.gcount()));
-    } catch (const std::exception&) {
-        // What was read before the damage counts.
-    }
-    return result;
-}
-
 std::string metadata_of_jpeg(std::string_view bytes) {
     std::string metadata;
     std::size_t at = 2;
@@ -197,7 +178,7 @@ std::vector<std::string> compressed_inside(std::string_view bytes) {
     std::vector<std::string> pieces;
     for (std::size_t i = 0; i + 2 < bytes.size() && pieces.size() < kMostPieces; ++i) {
         if (bytes[i] != 'x' || (byte_at(bytes, i) * 256u + byte_at(bytes, i + 1)) % 31 != 0) continue;
-        std::string piece = inflated(bytes.substr(i), kMostInside);
+        std::string piece = inflate(bytes.substr(i), kMostInside).bytes;
         if (piece.size() >= kShortestRun) pieces.push_back(std::move(piece));
     }
     return pieces;

@@ -15,8 +15,6 @@ std::string text_in(std::string_view bytes);
 /// Character references of XML and HTML (&#xE9; &amp;) as the characters.
 std::string without_references(const std::string& xml);
 
-std::string inflated(std::string_view bytes, std::size_t most);  ///< as far as zlib can read them
-
 /// Comments and metadata of a JPEG: all segments before the picture, and what stands behind its end.
 std::string metadata_of_jpeg(std::string_view bytes);
 

@@ -6,6 +6,7 @@
 
 #include "course/byte_text.h"
 #include "course/content_text.h"
+#include "documents/inflate.h"
 #include "documents/pdf_objects.h"
 
 namespace dynlab {
@@ -257,7 +258,7 @@ class Places {
     }
 
     void visit_piece(std::string_view stored) {
-        std::string data = inflated(stored, kMostInflated);
+        std::string data = inflate(stored, kMostInflated).bytes;
         if (data.empty()) data = std::string(stored);
         if (!seen_.insert(std::hash<std::string>()(data)).second) return;
         if (data.size() <= kMostContent && shows_text(data))

@@ -13,6 +13,8 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
+#include "documents/plain_streams.h"
+#include "documents/work_file.h"
 #include "platform/guarded_call.h"
 
 namespace dynlab {
@@ -85,7 +87,9 @@ void ignore_message(const std::string&, void*) {}
 /// Runs in the guarded copy.
 json read_all(const fs::path& file, const PdfLimits& limits) {
     poppler::set_debug_error_function(ignore_message, nullptr);
-    const std::unique_ptr<poppler::document> document(poppler::document::load_from_file(file.string()));
+    const std::string pdf = with_plain_streams(read_work_file(file));
+    const std::unique_ptr<poppler::document> document(
+        poppler::document::load_from_raw_data(pdf.data(), static_cast<int>(pdf.size())));
     if (!document) return fault(PdfFault::kDamaged, "The file is damaged: no page can be found in it.");
     if (document->is_locked())
         return fault(PdfFault::kEncrypted, "The file is encrypted: it opens only with a password.");

@@ -29,5 +29,6 @@ void measure_numerics(Report& report);
 void measure_estimators(Report& report);
 void measure_program(Report& report);
 void measure_grading(Report& report);
+void measure_course(Report& report);
 
 }  // namespace dynlab::bench

@@ -132,10 +132,12 @@ void import_course(const fs::path& file, const fs::path& from, const fs::path& f
         fs::copy_file(from / "course.key", folder / "course.key");
     Course::create(folder, setting("name"), setting("zone"));
     Course course(folder);
+    std::vector<std::string> hashes;
     for (const json& row : all["tables"].at("files")) {
         const std::string hash = row.at("hash");
-        course.keep(read_file(from / "files" / hash.substr(0, 2) / hash));
+        hashes.push_back(course.keep(read_file(from / "files" / hash.substr(0, 2) / hash)));
     }
+    course.settle(hashes);
     Database& db = course.database();
     Transaction transaction(db);
     db.execute("DELETE FROM course; DELETE FROM journal");  // what create wrote

@@ -5,6 +5,8 @@
 #include <sys/random.h>
 #include <unistd.h>
 
+#include <set>
+
 #include "course/store/course_schema.h"
 #include "platform/atomic_file.h"
 #include "platform/content_hash.h"
@@ -128,9 +130,13 @@ std::string Course::keep(std::string_view content) const {
     if (fs::exists(place) && hash_of_file(place) == hash) return hash;
     make_folder(place.parent_path());
     write_file_atomically(place, content);
-    sync_folder(place.parent_path());
-    sync_folder(folder_ / "files");
     return hash;
+}
+
+void Course::settle(const std::vector<std::string>& hashes) const {
+    std::set<fs::path> folders = {folder_ / "files"};
+    for (const std::string& hash : hashes) folders.insert(file(hash).parent_path());
+    for (const fs::path& folder : folders) sync_folder(folder);
 }
 
 void Course::record_file(const std::string& hash, std::int64_t bytes, Instant at) {

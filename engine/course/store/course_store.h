@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "course/store/course_clock.h"
 #include "course/store/sqlite.h"
@@ -26,8 +27,10 @@ class Course {
     const std::string& key() const { return key_; }
     const std::filesystem::path& folder() const { return folder_; }
 
-    /// Stores the content of a file, before a transaction; returns its hash.
+    /// Stores the content of a file, before a transaction; returns its hash. Several threads may do so at once.
     std::string keep(std::string_view content) const;
+    /// Once all are kept, before the transaction: they are there after a power cut too.
+    void settle(const std::vector<std::string>& hashes) const;
     /// Within a transaction: the store speaks of this content from now on.
     void record_file(const std::string& hash, std::int64_t bytes, Instant at);
     std::filesystem::path file(const std::string& hash) const;

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
 #include <map>
 
 #include "course/store/inspection.h"
 #include "course/store/receipts.h"
 #include "course/store/review_pairs.h"
 #include "course/store/senders.h"
+#include "course/store/side_by_side.h"
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
 #include "platform/content_hash.h"
@@ -20,6 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kMostBytes = 200u << 20;
+constexpr std::size_t kStart = 1024;
 
 Instant due_of(const Assignment& assignment, const std::string& stage) {
     if (stage == "first") return assignment.first_due;
@@ -35,6 +38,17 @@ std::string part_of(const Assignment& assignment, const std::string& stage, cons
     if (kind != "pdf") return kind;
     if (stage == "review") return "review";
     return assignment.is_report() ? "report" : "slides";
+}
+
+/// As much as its kind can be told from: all of a script.
+std::string start_of(const IncomingFile& file) {
+    if (file.name.ends_with(".lua")) return read_file(file.file);
+    std::string start(kStart, '\0');
+    std::ifstream in(file.file, std::ios::binary);
+    in.read(start.data(), static_cast<std::streamsize>(kStart));
+    if (in.bad() || !in.is_open()) throw EnvironmentError("the file cannot be read");
+    start.resize(static_cast<std::size_t>(in.gcount()));
+    return start;
 }
 
 /// A file on its way into the store.
@@ -62,8 +76,7 @@ class Receiving {
         outcome_.refused = incoming_.left_out();
         for (const IncomingFile& file : incoming_.files()) attempt(file, [&] { identify(file); });
         refuse_doubles();
-        for (Candidate& candidate : candidates_) keep(candidate);
-        inspect();
+        keep_all();
         write();
         outcome_.receipts = course_.folder() / "receipts" / outcome_.assignment.name;
         for (const Received& received : outcome_.received) write_receipt(course_, received.id);
@@ -96,7 +109,7 @@ class Receiving {
         if (candidate.bytes == 0) throw EnvironmentError("the file is empty");
         if (static_cast<std::uintmax_t>(candidate.bytes) > kMostBytes)
             throw EnvironmentError(fmt::format("the file has more than {} MB", kMostBytes >> 20));
-        const std::string kind = kind_of_file(file.name, read_file(file.file));
+        const std::string kind = kind_of_file(file.name, start_of(file));
         const bool script = kind == "script" && !outcome_.assignment.is_report();
         if (kind.empty() || (kind == "script" && !script))
             throw EnvironmentError(outcome_.assignment.is_report()
@@ -128,23 +141,21 @@ class Receiving {
         candidates_ = std::move(single);
     }
 
-    void keep(Candidate& candidate) {
+    void keep_all() {
+        side_by_side(
+            candidates_.size(), [&](std::size_t i) { keep(candidates_[i]); }, request_.progress);
+        std::vector<std::string> hashes;
+        for (const Candidate& candidate : candidates_) hashes.push_back(candidate.hash);
+        course_.settle(hashes);
+    }
+
+    void keep(Candidate& candidate) const {
         const std::string content = read_file(candidate.file->file);
         candidate.bytes = static_cast<std::int64_t>(content.size());
         candidate.hash = course_.keep(content);
-    }
-
-    void inspect() {
-        std::vector<InspectionJob> jobs;
-        std::vector<std::size_t> places;
-        for (std::size_t i = 0; i < candidates_.size(); ++i) {
-            const Candidate& c = candidates_[i];
-            if (!request_.checks || (c.part != "report" && c.part != "slides" && c.part != "review")) continue;
-            jobs.push_back({course_.file(c.hash), c.part});
-            places.push_back(i);
-        }
-        std::vector<Inspection> found = inspect_all(jobs, request_.progress);
-        for (std::size_t i = 0; i < found.size(); ++i) candidates_[places[i]].inspection = std::move(found[i]);
+        const std::string& part = candidate.part;
+        if (request_.checks && (part == "report" || part == "slides" || part == "review"))
+            candidate.inspection = inspect(course_.file(candidate.hash), part);
     }
 
     void write() {

@@ -1,10 +1,7 @@
 #include "course/store/inspection.h"
 
-#include <algorithm>
-#include <atomic>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <thread>
 
 #include "course/findings_report.h"
 
@@ -13,20 +10,20 @@ namespace {
 
 constexpr int kPagesOfReview = 2;
 
-Inspection inspect(const InspectionJob& job) {
+}  // namespace
+
+Inspection inspect(const std::filesystem::path& pdf, const std::string& part) {
     CheckWishes wishes;
-    if (job.part == "review") {
+    if (part == "review") {
         wishes.standard.emplace();
         wishes.pages = kPagesOfReview;
     } else {
-        wishes.standard = standard_of(job.part == "slides" ? "slides" : "lab_report");
+        wishes.standard = standard_of(part == "slides" ? "slides" : "lab_report");
     }
-    CheckResult result = check_pdf(job.file, wishes);
-    result.subject = job.part + ".pdf";
+    CheckResult result = check_pdf(pdf, wishes);
+    result.subject = part + ".pdf";
     return inspection_from(findings_as_json(result));
 }
-
-}  // namespace
 
 Inspection inspection_from(const std::string& json) {
     static const std::set<std::string> unreadable = {"not-pdf", "encrypted", "damaged", "too-large", "scanned"};
@@ -41,34 +38,6 @@ Inspection inspection_from(const std::string& json) {
         if (unreadable.contains(finding.at("id"))) inspection.trouble = finding.at("id");
     }
     return inspection;
-}
-
-std::vector<Inspection> inspect_all(const std::vector<InspectionJob>& jobs,
-                                    const std::function<void(std::size_t, std::size_t)>& progress) {
-    std::vector<Inspection> found(jobs.size());
-    std::vector<std::exception_ptr> failures(jobs.size());
-    std::atomic<std::size_t> next = 0, done = 0;
-    const auto work = [&](bool shows) {
-        for (std::size_t i = next++; i < jobs.size(); i = next++) {
-            try {
-                found[i] = inspect(jobs[i]);
-            } catch (...) {
-                failures[i] = std::current_exception();
-            }
-            ++done;
-            if (shows && progress) progress(done, jobs.size());
-        }
-    };
-    {
-        std::vector<std::jthread> others;
-        const std::size_t workers =
-            std::min<std::size_t>(jobs.size(), std::max(1u, std::thread::hardware_concurrency()));
-        for (std::size_t i = 1; i < workers; ++i) others.emplace_back(work, false);
-        work(true);
-    }
-    for (const std::exception_ptr& failure : failures)
-        if (failure) std::rethrow_exception(failure);
-    return found;
 }
 
 }  // namespace dynlab

@@ -1,16 +1,8 @@
 #pragma once
 #include <filesystem>
-#include <functional>
 #include <string>
-#include <vector>
 
 namespace dynlab {
-
-/// A PDF to be looked at, and what it should be: "report", "slides" or "review".
-struct InspectionJob {
-    std::filesystem::path file;
-    std::string part;
-};
 
 struct Inspection {
     int rules_broken = 0, pages = 0;
@@ -19,10 +11,9 @@ struct Inspection {
     std::string json;  ///< findings_as_json; empty when nothing was looked at
 };
 
-/// Looks at PDFs as dynlab check does, several at once. Reviews may have two pages. A PDF that cannot be read is no
-/// failure: it is told in the result.
-std::vector<Inspection> inspect_all(const std::vector<InspectionJob>& jobs,
-                                    const std::function<void(std::size_t done, std::size_t total)>& progress);
+/// Looks at a PDF as dynlab check does; `part` is what it should be: "report", "slides" or "review". Reviews may have
+/// two pages. A PDF that cannot be read is no failure: it is told in the result.
+Inspection inspect(const std::filesystem::path& pdf, const std::string& part);
 
 /// The same from the JSON that the store holds.
 Inspection inspection_from(const std::string& json);

@@ -1,0 +1,116 @@
+// PDFs with their streams written out. Oracle: what poppler and qpdf read in the file as it was.
+#include "documents/plain_streams.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "leak_corpus.h"
+
+namespace dynlab {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+class plain_streams : public LeakCorpus {
+  protected:
+    std::string made(const std::string& preamble = "") {
+        return read(
+            latex(preamble, std::string("\\section{Process}") + kProse + "\\newpage $\\omega^2 = k/m$ " + kProse));
+    }
+    std::string by_qpdf(const std::string& pdf, std::vector<std::string> how) {
+        write("in.pdf", pdf);
+        how.insert(how.begin(), "qpdf");
+        how.insert(how.end(), {"in.pdf", "out.pdf"});
+        run(how);
+        return read(file("out.pdf"));
+    }
+    std::string boxes_of(const std::string& pdf) {
+        write("boxes.pdf", pdf);
+        run({"pdftotext", "-bbox-layout", "boxes.pdf", "boxes.html"});
+        return read(file("boxes.html"));
+    }
+    void expect_plain_and_equal(const std::string& pdf) {
+        const std::string plain = with_plain_streams(pdf);
+        EXPECT_THAT(plain, StartsWith(pdf));
+        EXPECT_THAT(pdf, Not(HasSubstr(" Tf")));
+        EXPECT_THAT(plain, HasSubstr(" Tf"));          // a page's content
+        EXPECT_THAT(plain, HasSubstr("/FontName /"));  // a font
+        EXPECT_EQ(boxes_of(plain), boxes_of(pdf));
+        write("checked.pdf", plain);
+        run({"qpdf", "--check", "checked.pdf"});
+    }
+};
+
+TEST_F(plain_streams, packed_objects_and_plain_tables_read_the_same) {
+    const std::string packed = made();
+    ASSERT_THAT(packed, HasSubstr("/ObjStm"));
+    expect_plain_and_equal(packed);
+    expect_plain_and_equal(made("\\pdfobjcompresslevel=0\n"));
+    expect_plain_and_equal(by_qpdf(packed, {"--object-streams=generate"}));  // whose table holds differences
+    expect_plain_and_equal(by_qpdf(packed, {"--object-streams=disable"}));
+}
+
+TEST_F(plain_streams, unusual_files_stay_as_they_are) {
+    const std::string sound = made();
+    const std::string updated = sound + "\nstartxref\n" + std::to_string(sound.rfind("startxref")) + "\n%%EOF\n";
+    for (const std::string& unusual :
+         {by_qpdf(sound, {"--linearize"}), by_qpdf(sound, {"--encrypt", "", "owner", "256", "--"}), updated,
+          sound.substr(0, sound.size() / 2), sound.substr(5), std::string(), std::string("%PDF-1.4\nstartxref\n9\n")})
+        EXPECT_EQ(with_plain_streams(unusual), unusual);
+}
+
+/// A PDF of one page whose content is `stream`, without a right table of offsets but for that stream.
+std::string page_of(const std::string& dictionary, const std::string& data) {
+    std::string pdf = "%PDF-1.4\n", table = "xref\n0 5\n0000000000 65535 f \n";
+    const std::vector<std::string> objects = {"<</Type/Catalog/Pages 2 0 R>>", "<</Type/Pages/Kids[3 0 R]/Count 1>>",
+                                              "<</Type/Page/Parent 2 0 R/MediaBox[0 0 9 9]/Contents 4 0 R>>",
+                                              "<<" + dictionary + ">>\nstream\n" + data + "\nendstream"};
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        const std::string offset = std::to_string(pdf.size());
+        table += std::string(10 - offset.size(), '0') + offset + " 00000 n \n";
+        pdf += std::to_string(i + 1) + " 0 obj\n" + objects[i] + "\nendobj\n";
+    }
+    return pdf + table + "trailer<</Size 5/Root 1 0 R>>\nstartxref\n" + std::to_string(pdf.size()) + "\n%%EOF\n";
+}
+
+// oracle: RFC 1950 for the eleven bytes, ISO 32000-1 7.3.8 for the dictionary
+TEST_F(plain_streams, streams_of_unusual_form_stay_compressed) {
+    const std::string data("\x78\x9c\x4b\x4c\x4a\x06\x00\x02\x4d\x01\x27", 11);  // "abc"
+    const std::string usual = "/Length 11/Filter/FlateDecode";
+    const auto inflates = [&](const std::string& dictionary, const std::string& bytes) {
+        return with_plain_streams(page_of(dictionary, bytes)).find("stream\nabc\nendstream") != std::string::npos;
+    };
+    EXPECT_TRUE(inflates(usual, data));
+    EXPECT_TRUE(inflates("/Length 11/Filter[/FlateDecode]/A(a\\)b)/B<</C[1 0 R<41>]>>", data));
+    std::string damaged = data;
+    damaged.back() ^= 1;
+    EXPECT_FALSE(inflates(usual, damaged));
+    EXPECT_FALSE(inflates("/Length 10/Filter/FlateDecode", data));
+    for (const char* unusual : {"/DecodeParms<</Predictor 12>>", "/Decode#50arms<</Predictor 12>>", "/F(other.bin)",
+                                "/Filter/FlateDecode", "/Subtype/Image", "/Type/EmbeddedFile", "/DP null"})
+        EXPECT_FALSE(inflates(usual + unusual, data)) << unusual;
+    EXPECT_FALSE(inflates("/Length 11/Filter[/FlateDecode/FlateDecode]", data));
+    EXPECT_FALSE(inflates("/Length 4 0 R/Filter/FlateDecode", data));
+}
+
+// oracle: the promise that nothing is taken away, for three thousand damaged files
+TEST_F(plain_streams, damage_harms_nobody) {
+    const std::string sound = by_qpdf(made(), {"--object-streams=disable"});
+    const std::size_t table = sound.rfind("xref", sound.rfind("startxref") - 1);
+    std::mt19937 random(5);
+    for (int round = 0; round < 3000; ++round) {
+        std::string pdf = sound;
+        for (int i = 0; i < 3; ++i) {
+            const std::size_t from = random() % 2 == 0 ? 0 : table;
+            pdf[from + random() % (pdf.size() - from)] = "0123456789<>[]()/% Rn\xff"[random() % 22];
+        }
+        EXPECT_TRUE(with_plain_streams(pdf).starts_with(pdf));
+    }
+}
+
+}  // namespace
+}  // namespace dynlab
