@@ -5,6 +5,7 @@
 #include "cli/commands.h"
 #include "course/boxed_document.h"
 #include "course/check_run.h"
+#include "course/final/version_reading.h"
 #include "course/graded_run.h"
 #include "course/unpack.h"
 
@@ -25,6 +26,8 @@ int boxed() {
         result = unpack_archive(job);
     else if (work == "document")
         result = make_boxed_document(job);
+    else if (work == "version")
+        result = make_version(job);
     else
         return kUsage;
     std::cout << result.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << std::flush;

@@ -138,10 +138,11 @@ void add_receive_commands(CLI::App& course, CourseWords& where, Action& action) 
     review->require_subcommand(1);
     add_receive(*review, "receive", "Take reviews", "review",
                 "dynlab course review receive review-report-07.pdf --from group-02", where, action);
-    CLI::App* final = course.add_subcommand("final", "Final versions");
+    CLI::App* final = course.add_subcommand("final", "Final versions, and what changed in them");
     final->require_subcommand(1);
     add_receive(*final, "receive", "Take final versions", "final",
                 "dynlab course final receive final.zip --assignment crane", where, action);
+    add_final_changes(*final, where, action);
     add_verify(course, where, action);
 }
 

@@ -12,6 +12,9 @@ struct CourseWords {
 void add_time_option(CLI::App& command, std::string& text);      ///< --at TIME
 Instant time_of(const Course& course, const std::string& text);  ///< of --at; now when that is empty
 
+/// final changes: below the command final.
+void add_final_changes(CLI::App& final, CourseWords& where, Action& action);
+
 /// receive, review receive, final receive, verify.
 void add_receive_commands(CLI::App& course, CourseWords& where, Action& action);
 

@@ -1,0 +1,82 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+
+#include "cli/course_commands.h"
+#include "course/store/final_changes.h"
+#include "course/store/final_changes_document.h"
+#include "platform/error.h"
+#include "platform/progress.h"
+
+namespace dynlab {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ChangesWords {
+    std::vector<std::string> groups;
+    std::string assignment, out, isolation = "full";
+};
+
+void write_documents(const std::vector<GroupChanges>& all, Course& course, const Assignment& assignment,
+                     const fs::path& folder, const FinalChangesRequest& request) {
+    const BoxedDocuments documents(request.level, request.program);
+    std::size_t written = 0;
+    for (const GroupChanges& changes : all) {
+        if (!changes.has_final) continue;
+        write_change_document(changes, course, assignment, folder, documents);
+        ++written;
+    }
+    std::cout << fmt::format("{} document{}, each as PDF and Markdown, in {}\n", written, written == 1 ? "" : "s",
+                             folder.string());
+}
+
+int changes(const CourseWords& where, const ChangesWords& words) {
+    const Isolation level = words.isolation == "full" ? Isolation::kFull : Isolation::kProcess;
+    if (const auto obstacle = obstacle_to(level)) throw EnvironmentError(*obstacle);
+    Course course(where.folder);
+    const Assignment assignment = assignment_named(course, words.assignment);
+    FinalChangesRequest request;
+    request.groups = words.groups;
+    request.level = level;
+    request.program = fs::read_symlink("/proc/self/exe");
+    std::unique_ptr<ProgressBar> bar;
+    request.progress = [&](std::size_t done, std::size_t total) {
+        if (!bar) bar = std::make_unique<ProgressBar>("comparing the versions", total);
+        bar->advance(done);
+    };
+    const std::vector<GroupChanges> all = final_changes(course, assignment, request);
+    bar.reset();
+    std::cout << final_changes_table(assignment, all);
+    if (!words.out.empty()) write_documents(all, course, assignment, words.out, request);
+    return kDone;
+}
+
+}  // namespace
+
+void add_final_changes(CLI::App& final, CourseWords& where, Action& action) {
+    auto words = std::make_shared<ChangesWords>();
+    CLI::App* command =
+        final.add_subcommand("changes", "What groups changed after their reviews, and what became of each remark");
+    command->add_option("GROUP", words->groups, "All unless given");
+    command->add_option("--assignment", words->assignment, "Which; needed when there are several")->type_name("NAME");
+    command->add_option("--out", words->out, "Write GROUP.pdf and GROUP.md for each final version into this folder")
+        ->type_name("DIR");
+    command->add_option("--isolation", words->isolation, "How far the work on the groups' files is kept apart")
+        ->type_name("full|process")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"full", "process"}));
+    command->footer(
+        "Each final version is compared with the version that the reviewers read: pages, sections, sentences and, "
+        "where\n"
+        "both came as packs, the values that the analysis reports. Changes that share uncommon words with a remark of "
+        "a\n"
+        "released review, or are at a place that it names, are its traces. They are found by words; you decide.\n"
+        "Examples:\n"
+        "  dynlab course final changes --assignment crane\n"
+        "  dynlab course final changes group-03 group-07 --assignment crane --out changes");
+    command->callback([&where, words, &action] { action = [&where, words] { return changes(where, *words); }; });
+}
+
+}  // namespace dynlab
