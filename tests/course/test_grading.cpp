@@ -6,7 +6,9 @@
 namespace dynlab::test {
 namespace {
 
+using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Key;
 using ::testing::Not;
 
 constexpr const char* kAnswers = "--   x: number\n--   G: model\n";
@@ -208,6 +210,16 @@ TEST(grading, marks_depend_on_neither_threads_nor_order) {
     EXPECT_EQ(book_with("1"), book_with("4"));
 }
 
+/// All that a run of grade wrote, but the logs, in which stands how long it took.
+std::map<std::string, std::string> files_of(GradingBench& bench) {
+    std::map<std::string, std::string> files;
+    const std::filesystem::path out = bench.bench().path("out");
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(out))
+        if (entry.is_regular_file() && entry.path().filename() != "log.txt")
+            files[entry.path().lexically_relative(out)] = read_file(entry.path());
+    return files;
+}
+
 // oracle: what each of two hundred must get, and the same class graded serially
 TEST(grading, a_class_of_two_hundred_with_one_in_ten_broken) {
     const auto graded = [](const char* jobs) {
@@ -220,9 +232,25 @@ TEST(grading, a_class_of_two_hundred_with_one_in_ten_broken) {
         EXPECT_EQ(bench.grade({"--jobs", jobs}).exit_code, 0);
         for (int i = 0; i < 200; ++i)
             EXPECT_EQ(bench.result(fmt::format("s{:03}", i)).at("score"), i % 10 == 3 ? 2 : i % 2 == 0 ? 5 : 4) << i;
-        return bench.bench().read("out/gradebook.csv");
+        return files_of(bench);
     };
     EXPECT_EQ(graded("1"), graded("3"));
+}
+
+// oracle: the same class once more
+TEST(grading, the_same_class_gives_the_same_documents) {
+    const auto graded = [] {
+        GradingBench bench(kAnswers, kChecks, kSolution);
+        for (const char* name : {"first", "second"}) bench.hand_in(name, "answer('x', 42)\n");
+        const ChildResult run = bench.bench().dynlab(
+            {"grade", "in", "--lesson", "99", "--out", "out", "--isolation", GradingBench::level()});
+        EXPECT_EQ(run.exit_code, 0) << run.error_output;
+        return files_of(bench);
+    };
+    const auto files = graded();
+    EXPECT_THAT(files, Contains(Key("summary.pdf")));
+    EXPECT_THAT(files, Contains(Key("results/second/feedback.pdf")));
+    EXPECT_EQ(files, graded());
 }
 
 // oracle: the run that nobody disturbed
