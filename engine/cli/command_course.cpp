@@ -197,6 +197,8 @@ void add_course(CLI::App& app, Action& action) {
         "  dynlab course receive crane.zip --assignment crane         what Moodle or Canvas exports, or files\n"
         "  dynlab course status crane                                 who is late, and what to do\n"
         "  dynlab course peer assign crane                            who reviews whom\n"
+        "  dynlab course final changes --assignment crane             what changed after the reviews, remark by "
+        "remark\n"
         "  dynlab course marks crane                                  from the reviewers' scores and your own word\n"
         "  dynlab course export crane --out marks.csv                 for Moodle and Canvas\n"
         "Exit codes: 0 done, 1 something failed or was not taken, 2 wrong usage.");

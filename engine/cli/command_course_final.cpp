@@ -28,7 +28,7 @@ void write_documents(const std::vector<GroupChanges>& all, Course& course, const
         write_change_document(changes, course, assignment, folder, documents);
         ++written;
     }
-    std::cout << fmt::format("{} document{}, each as PDF and Markdown, in {}\n", written, written == 1 ? "" : "s",
+    std::cout << fmt::format("{} document{} as PDF and Markdown in {}\n", written, written == 1 ? "" : "s",
                              folder.string());
 }
 

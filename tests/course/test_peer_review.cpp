@@ -99,6 +99,10 @@ TEST(peer_review, tells_a_whole_course) {
     EXPECT_THAT(told.output, HasSubstr("18 sent now, 0 before, 2 stopped, 0 not come yet"));
     EXPECT_THAT(told.output, HasSubstr("2 sent now, 18 before, 0 stopped, 0 not come yet"));
     EXPECT_THAT(told.output, HasSubstr("20 sent now, 0 before, 0 stopped, 0 not come yet"));
+    EXPECT_THAT(told.output, ::testing::ContainsRegex("group-01 +1 +same +1 of 1 +25 % +2 / 4 +2 remarks left"));
+    EXPECT_THAT(told.output, ::testing::ContainsRegex("group-04 +1 +same +- +0 % +0 / 4 +no change in the text"));
+    EXPECT_THAT(told.output,
+                HasSubstr("7 of 11 groups have a final version; 4 of 28 remarks have a trace in the text."));
     EXPECT_EQ(bench.shell("grep -rlaE 's[0-9]{3}@|Student' story/signals/outbox").output, "");
     EXPECT_THAT(told.output, HasSubstr("all there and unaltered"));
 }

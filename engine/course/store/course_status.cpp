@@ -210,7 +210,8 @@ class Status {
         if (any([](const ReviewPair& p) { return !p.sent && !p.written; })) return command("peer send");
         if (any([](const ReviewPair& p) { return p.written && !p.released; }) && now_ > *assignment_.review_due)
             return command("release");
-        if (now_ > *assignment_.final_due) return command("export");
+        if (now_ > *assignment_.final_due)
+            return (finals_ > 0 ? command("final changes --assignment") + ", then " : "") + command("export");
         return {};
     }
 

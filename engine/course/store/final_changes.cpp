@@ -35,6 +35,7 @@ class TaskMaker {
         Task task;
         GroupChanges& changes = task.changes;
         changes.group = group.name;
+        changes.left = group.left;
         read_versions(group, changes.came);
         if (changes.came.empty()) return {};
         const std::string first_pdf = choose(changes.came, "first", "report", version_that_was_read(group)),

@@ -37,6 +37,7 @@ struct AnsweredReview {
 /// What a group made of its report between the first and the final version.
 struct GroupChanges {
     std::string group;
+    bool left = false;  ///< dropped out
     std::vector<CameFile> came;
     bool has_first = false, has_final = false, same_files = false;
     std::optional<int> pages_before, pages_after;
