@@ -35,6 +35,12 @@ Words texts_of(const ReportText& text) {
     return texts;
 }
 
+std::string replaced_once(std::string text, const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos);
+    return text.replace(at, from.size(), to);
+}
+
 /// The length of the longest common subsequence, by its definition.
 std::size_t longest_common(const Words& a, const Words& b) {
     std::vector<std::vector<std::size_t>> length(a.size() + 1, std::vector<std::size_t>(b.size() + 1, 0));
@@ -118,7 +124,7 @@ TEST(text_changes, finds_known_differences) {
     EXPECT_THAT(edited.numbers_before, ElementsAre("1"));
     EXPECT_EQ(edited.lead_in, "The input is a PRBS of 2 V.");
     EXPECT_EQ(changes.passages[1].text_of('+'), "and residuals");
-    EXPECT_THAT(changes.passages[2].captions_before, ElementsAre("Table 1. Fits."));
+    EXPECT_EQ(changes.passages[2].text_before, "| SRIVC | 93 | Table 1. Fits.");
     EXPECT_THAT(changes.passages[3].numbers_before, ElementsAre("2", "3"));
     ASSERT_EQ(changes.sections.size(), 5u);
     EXPECT_FALSE(changes.sections[1].renamed());
@@ -132,6 +138,28 @@ TEST(text_changes, finds_known_differences) {
     EXPECT_FALSE(changes.sections[3].before);
     EXPECT_EQ(*changes.sections[4].before, "3 Old things");
     EXPECT_FALSE(changes.sections[4].after);
+}
+
+// oracle: only the new figure and the new sentence are new
+TEST(text_changes, another_number_or_place_is_no_change) {
+    const std::string head = "# R\n\n## A\n\n", rest = " shows the data very well. See (Figure 2), too.\n\n";
+    const std::string first = head + "**Figure 1.** The data\n\nFigure 1" + rest +
+                              "**Figure 2.** The fit\n\nThis sentence wanders about. So.\n";
+    const std::string final =
+        head + "This sentence wanders about.\n\n**Figure 1.** All new\n\n**Figure 2.** The data\n\nFigure 2" +
+        " shows the data very well. See (Figure 3), too.\n\n" + "**Figure 3.** The fit\n\nSo. Quite new.\n";
+    const TextChanges changes = text_changes(report_text_of_markdown(first), report_text_of_markdown(final));
+    Words added;
+    for (const Passage& passage : changes.passages) {
+        added.push_back(passage.text_of('+'));
+        EXPECT_EQ(passage.text_of('-'), "");
+    }
+    EXPECT_THAT(added, ElementsAre("Figure 1. All new", "Quite new."));
+    EXPECT_EQ(changes.moved, 1);
+    EXPECT_THAT(changes.renumbered, ElementsAre(std::pair<std::string, std::string>("Figure 1", "Figure 2"),
+                                                std::pair<std::string, std::string>("Figure 2", "Figure 3")));
+    const std::string wrong = replaced_once(final, "See (Figure 3)", "See (Figure 1)");
+    EXPECT_EQ(text_changes(report_text_of_markdown(first), report_text_of_markdown(wrong)).passages.size(), 3u);
 }
 
 // oracle: the definition

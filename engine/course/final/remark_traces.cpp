@@ -116,9 +116,8 @@ std::vector<Trace> TraceFinder::traces(const Remark& remark, std::size_t most) c
     for (std::size_t i = 0; i < changes_.passages.size(); ++i) {
         const Passage& passage = changes_.passages[i];
         Trace trace{i, {}, {}, 0};
-        const std::string was = passage.text_of('-') + " " + passage.text_of('='), came = passage.text_of('+');
-        std::set<Place> there = places_in(was);
-        for (const std::string& caption : passage.captions_before) there.merge(places_in(caption));
+        const std::string &was = passage.text_before, came = passage.text_of('+');
+        const std::set<Place> there = places_in(was);
         for (const Place& place : named) {
             const bool here = place.kind == 's'   ? touches_section(passage, place.number)
                               : place.kind == 'p' ? std::to_string(passage.page_before) == place.number

@@ -112,7 +112,7 @@ std::string without_marks(const std::string& markdown) {
         }
         if (in_formula || (c != '*' && c != '`')) text += c;
     }
-    return text;
+    return replaced(text, "\u00A0", " ");
 }
 
 /// Reads the Markdown that our own writer makes, line by line.
@@ -210,15 +210,14 @@ class MarkdownReader {
     std::size_t first_row_ = 0;
 };
 
-/// Scales of figures and other scraps: no word of three letters, and no equation.
+/// Scales of figures and other scraps: hardly a word among numbers and signs, and no equation.
 bool is_scrap(const std::string& text) {
-    int run = 0;
-    for (const char c : text) {
-        if (c == '=') return false;
-        run = std::isalpha(static_cast<unsigned char>(c)) || static_cast<unsigned char>(c) >= 0x80 ? run + 1 : 0;
-        if (run == 3) return false;
-    }
-    return true;
+    if (text.find('=') != std::string::npos) return false;
+    const std::vector<std::string> words = plain_words(text);
+    const auto real = std::count_if(words.begin(), words.end(), [](const std::string& word) {
+        return word.size() >= 3 && std::none_of(word.begin(), word.end(), is_digit);
+    });
+    return 4 * real < static_cast<long>(words_between_spaces(text).size());
 }
 
 bool is_abbreviation(const std::string& word) {

@@ -28,6 +28,14 @@ bool is_item_number(const std::string& word) {
     return digits || (inner.size() == 1 && std::islower(static_cast<unsigned char>(inner.front())));
 }
 
+/// "Figure 3." and its like: what begins a caption.
+bool begins_caption(const TextLine& line) {
+    static const std::set<std::string> labels = {"Figure", "Fig.", "Table", "Tableau"};
+    if (line.words.size() < 2 || !labels.contains(line.words[0])) return false;
+    const std::string& number = line.words[1];
+    return std::isdigit(static_cast<unsigned char>(number.front())) && (number.back() == '.' || number.back() == ':');
+}
+
 bool ends_sentence(const std::string& text) {
     return text.ends_with('.') || text.ends_with('!') || text.ends_with('?') || text.ends_with(':') ||
            text.ends_with("…");
@@ -94,6 +102,7 @@ class BlockMaker {
 
     bool begins_block(const TextLine& line) const {
         if (blocks_.empty() || blocks_.back().heading || line.fixed_width || last_->fixed_width) return true;
+        if (begins_caption(line)) return true;
         const bool whole = ends_sentence(blocks_.back().text);
         if (line.page != last_->page) {
             const unsigned char first = static_cast<unsigned char>(line.words.front().front());

@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <map>
 
+#include "course/final/caption_numbers.h"
 #include "course/final/edit_script.h"
 
 namespace dynlab {
 namespace {
 
-constexpr double kEdited = 0.5;           ///< of the shorter side's words: so many kept, and a passage is an edited one
-constexpr std::size_t kShortestKept = 2;  ///< words: fewer between two changes are read as changed
+constexpr double kEdited = 0.5;  ///< of the shorter side's words: so many kept, and a passage is an edited one
+constexpr std::size_t kShortestMoved = 4;  ///< words of a sentence that is known again elsewhere
+constexpr std::size_t kShortestKept = 2;   ///< words: fewer between two changes are read as changed
 
 using Words = std::vector<std::string>;
 
@@ -80,15 +82,24 @@ std::vector<MarkedWords> readable(const std::vector<Run>& runs) {
 
 class Comparison {
   public:
-    Comparison(const ReportText& before, const ReportText& after) : before_(before), after_(after) {}
+    Comparison(const ReportText& before, const ReportText& after)
+        : before_(before), after_(after), numbers_(before, after) {
+        changes_.renumbered = numbers_.changed();
+    }
 
     TextChanges run() {
-        const std::string script = edit_script(keys_of(before_), keys_of(after_));
+        std::vector<std::string> old_keys = keys_of(before_), new_keys = keys_of(after_);
+        for (std::string& key : old_keys) key = numbers_.renumbered(key);
+        const std::string script = with_moves(edit_script(old_keys, new_keys), old_keys, new_keys);
         changed_before_.resize(before_.sections.size());
         changed_after_.resize(after_.sections.size());
         for (std::size_t i = 0; i < script.size();) {
-            if (script[i] != '=') {
+            if (script[i] == '-' || script[i] == '+') {
                 i = add_passage(script, i);
+                continue;
+            }
+            if (script[i] != '=') {  // moved
+                ++(script[i] == '<' ? b_ : a_), ++i;
                 continue;
             }
             shared_[{before_.sentences[b_].section, after_.sentences[a_].section}] +=
@@ -113,10 +124,31 @@ class Comparison {
         return keys;
     }
 
+    /// The script with '<' and '>' in place of '-' and '+' where a sentence of some length only stands elsewhere now.
+    std::string with_moves(std::string script, const std::vector<std::string>& old_keys,
+                           const std::vector<std::string>& new_keys) {
+        std::map<std::string, std::vector<std::size_t>> gone;  ///< places in the script, by what went
+        std::size_t b = 0, a = 0;
+        for (std::size_t i = 0; i < script.size(); ++i) {
+            if (script[i] == '-') gone[comparison_key(old_keys[b])].push_back(i);
+            b += script[i] != '+';
+        }
+        for (std::size_t i = 0; i < script.size(); ++i) {
+            const bool came = script[i] == '+' && words_between_spaces(new_keys[a]).size() >= kShortestMoved;
+            const auto found = came ? gone.find(comparison_key(new_keys[a])) : gone.end();
+            a += script[i] != '-' && script[i] != '<';
+            if (found == gone.end() || found->second.empty()) continue;
+            script[found->second.front()] = '<', script[i] = '>';
+            found->second.erase(found->second.begin());
+            ++changes_.moved;
+        }
+        return script;
+    }
+
     /// Takes the changed sentences from `i` on; returns where the next unchanged one stands.
     std::size_t add_passage(const std::string& script, std::size_t i) {
         const std::size_t b = b_, a = a_;
-        for (; i < script.size() && script[i] != '='; ++i) ++(script[i] == '-' ? b_ : a_);
+        for (; i < script.size() && (script[i] == '-' || script[i] == '+'); ++i) ++(script[i] == '-' ? b_ : a_);
         Passage passage;
         const bool begins_section = (b < b_ && before_.sentences[b].heading) || (a < a_ && after_.sentences[a].heading);
         if (b > 0 && !before_.sentences[b - 1].heading && !begins_section)
@@ -125,7 +157,8 @@ class Comparison {
         const Words old_words = words_of(before_, b, b_), new_words = words_of(after_, a, a_);
         std::vector<Run> runs;
         if (!old_words.empty() && !new_words.empty()) {
-            runs = runs_of(edit_script(old_words, new_words), old_words, new_words);
+            runs = runs_of(edit_script(words_between_spaces(numbers_.renumbered(joined(old_words))), new_words),
+                           old_words, new_words);
             const auto shorter = static_cast<double>(std::min(old_words.size(), new_words.size()));
             if (static_cast<double>(kept_words(runs)) < kEdited * shorter) runs.clear();
         }
@@ -145,11 +178,14 @@ class Comparison {
             passage.section = title_of(before_.sections[before_.sentences[b].section]);
         }
         if (b < b_) passage.page_before = before_.sentences[b].page;
+        std::vector<std::string> captions;
         for (std::size_t i = b; i < b_; ++i) {
             const ReportSentence& sentence = before_.sentences[i];
             add_once(passage.numbers_before, before_.sections[sentence.section].number);
-            add_once(passage.captions_before, sentence.part_of);
+            passage.text_before += (passage.text_before.empty() ? "" : " ") + sentence.text;
+            add_once(captions, sentence.part_of);
         }
+        for (const std::string& caption : captions) passage.text_before += " " + caption;
         if (b == b_) add_once(passage.numbers_before, number_around(b, a));
     }
 
@@ -245,6 +281,7 @@ class Comparison {
 
     static constexpr std::size_t kTitle = static_cast<std::size_t>(-1);
     const ReportText &before_, &after_;
+    CaptionNumbers numbers_;
     std::size_t b_ = 0, a_ = 0;
     std::vector<int> changed_before_, changed_after_;
     std::map<std::pair<std::size_t, std::size_t>, int> shared_;  ///< words that two sections share

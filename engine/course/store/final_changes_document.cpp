@@ -77,7 +77,18 @@ class Composition {
         if (g_.same_files) line("The final version is the first one, byte for byte.");
         if (!g_.compared.empty()) line(g_.compared);
         for (const std::string& trouble : g_.troubles) line(trouble);
+        if (g_.text && g_.text->moved > 0)
+            line(fmt::format(
+                "{} elsewhere than before, otherwise unchanged; this counts as no change.",
+                g_.text->moved == 1 ? "One sentence stands" : fmt::format("{} sentences stand", g_.text->moved)));
+        if (g_.text && !g_.text->renumbered.empty()) line(renumbering());
         return text.empty() ? "\n" : text;
+    }
+
+    std::string renumbering() const {
+        std::vector<std::string> parts;
+        for (const auto& [was, now] : g_.text->renumbered) parts.push_back(fmt::format("{} is now {}", was, now));
+        return fmt::format("{}; another number alone counts as no change.", fmt::join(parts, ", "));
     }
 
     std::string sections() {
