@@ -19,18 +19,22 @@ struct ChangesWords {
     std::string assignment, out, isolation = "full";
 };
 
-void write_documents(const std::vector<GroupChanges>& all, Course& course, const Assignment& assignment,
-                     const fs::path& folder, const FinalChangesRequest& request) {
-    const BoxedDocuments documents(request.level, request.program);
-    std::size_t written = 0;
-    for (const GroupChanges& changes : all) {
-        if (!changes.has_final) continue;
-        write_change_document(changes, course, assignment, folder, documents);
-        ++written;
+/// Shows on a terminal how far `what` is.
+class Bar {
+  public:
+    explicit Bar(std::string what) : what_(std::move(what)) {}
+    std::function<void(std::size_t, std::size_t)> progress() {
+        return [this](std::size_t done, std::size_t total) {
+            if (!bar_) bar_ = std::make_unique<ProgressBar>(what_, total);
+            bar_->advance(done);
+        };
     }
-    std::cout << fmt::format("{} document{} as PDF and Markdown in {}\n", written, written == 1 ? "" : "s",
-                             folder.string());
-}
+    void finish() { bar_.reset(); }
+
+  private:
+    std::string what_;
+    std::unique_ptr<ProgressBar> bar_;
+};
 
 int changes(const CourseWords& where, const ChangesWords& words) {
     const Isolation level = words.isolation == "full" ? Isolation::kFull : Isolation::kProcess;
@@ -41,15 +45,17 @@ int changes(const CourseWords& where, const ChangesWords& words) {
     request.groups = words.groups;
     request.level = level;
     request.program = fs::read_symlink("/proc/self/exe");
-    std::unique_ptr<ProgressBar> bar;
-    request.progress = [&](std::size_t done, std::size_t total) {
-        if (!bar) bar = std::make_unique<ProgressBar>("comparing the versions", total);
-        bar->advance(done);
-    };
+    Bar comparing("comparing the versions"), writing("writing the documents");
+    request.progress = comparing.progress();
     const std::vector<GroupChanges> all = final_changes(course, assignment, request);
-    bar.reset();
+    comparing.finish();
     std::cout << final_changes_table(assignment, all);
-    if (!words.out.empty()) write_documents(all, course, assignment, words.out, request);
+    if (words.out.empty()) return kDone;
+    const BoxedDocuments documents(request.level, request.program);
+    const std::size_t written =
+        write_change_documents(all, course, assignment, words.out, documents, writing.progress());
+    writing.finish();
+    std::cout << fmt::format("{} document{} as PDF and Markdown in {}\n", written, written == 1 ? "" : "s", words.out);
     return kDone;
 }
 

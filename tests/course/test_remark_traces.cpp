@@ -127,6 +127,18 @@ TEST(remark_traces, splits_reviews_into_remarks) {
     EXPECT_THAT(remarks_in(DocumentText(), review_form()), IsEmpty());
 }
 
+// oracle: the page, read by a person
+TEST(remark_traces, leaves_the_scales_of_figures_out) {
+    const ReportText text =
+        report_text_of_pdf(page_of({"# 2 Raw data", "0 5 10 15 20 25 30 time (s)", "Figure 3. What was measured", "",
+                                    "It moves. G = 2/3", "", "SRIVC 93.2 3", "", "\u22127.4 \u22128.8"}));
+    Texts sentences;
+    for (const ReportSentence& sentence : text.sentences) sentences.push_back(sentence.text);
+    EXPECT_THAT(sentences,
+                ElementsAre("Raw data", "Figure 3. What was measured", "It moves.", "G = 2/3", "SRIVC 93.2 3"));
+    EXPECT_EQ(text.sections.back().number, "2");
+}
+
 // oracle: the form that students get
 TEST(remark_traces, knows_the_headings_of_the_form) {
     const DocumentRules rules =

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
-#include <thread>
 
 #include "course/final/version_reading.h"
 #include "course/store/review_pairs.h"
+#include "course/store/side_by_side.h"
 #include "numerics/error.h"
 
 namespace dynlab {
@@ -154,31 +153,6 @@ void compare(Task& task, Isolation level, const fs::path& program) {
             if (answered.remark.wants_answer) answered.traces = finder.traces(answered.remark);
 }
 
-void compare_all(std::vector<Task>& tasks, const FinalChangesRequest& request) {
-    std::vector<std::exception_ptr> failures(tasks.size());
-    std::atomic<std::size_t> next = 0, done = 0;
-    const auto work = [&](bool shows) {
-        for (std::size_t i = next++; i < tasks.size(); i = next++) {
-            try {
-                compare(tasks[i], request.level, request.program);
-            } catch (...) {
-                failures[i] = std::current_exception();
-            }
-            ++done;
-            if (shows && request.progress) request.progress(done, tasks.size());
-        }
-    };
-    {
-        std::vector<std::jthread> others;
-        const std::size_t workers =
-            std::min<std::size_t>(tasks.size(), std::max(1u, std::thread::hardware_concurrency()));
-        for (std::size_t i = 1; i < workers; ++i) others.emplace_back(work, false);
-        work(true);
-    }
-    for (const std::exception_ptr& failure : failures)
-        if (failure) std::rethrow_exception(failure);
-}
-
 }  // namespace
 
 std::vector<GroupChanges> final_changes(Course& course, const Assignment& assignment,
@@ -192,7 +166,8 @@ std::vector<GroupChanges> final_changes(Course& course, const Assignment& assign
     std::vector<Task> tasks;
     for (const Group& group : groups)
         if (auto task = maker.make(group)) tasks.push_back(*std::move(task));
-    compare_all(tasks, request);
+    side_by_side(
+        tasks.size(), [&](std::size_t i) { compare(tasks[i], request.level, request.program); }, request.progress);
     std::vector<GroupChanges> all;
     for (Task& task : tasks) all.push_back(std::move(task.changes));
     return all;

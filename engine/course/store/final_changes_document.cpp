@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "course/final/marked_text.h"
+#include "course/store/side_by_side.h"
 
 namespace dynlab {
 namespace {
@@ -123,7 +124,7 @@ class Composition {
             const auto shown = [&](const std::string& text) {
                 return text.empty() ? std::string("–") : text_.cell(text, 40, 18);
             };
-            table.rows.push_back({text_.cell(change.name, 60, 28), shown(change.before), shown(change.after),
+            table.rows.push_back({text_.cell(change.name, 60, 24), shown(change.before), shown(change.after),
                                   with_minus(change.change)});
         }
         return fmt::format(
@@ -206,12 +207,22 @@ class Composition {
 
 }  // namespace
 
-void write_change_document(const GroupChanges& changes, Course& course, const Assignment& assignment,
-                           const fs::path& folder, const BoxedDocuments& documents) {
-    const RunRecord record = Composition(changes, course, assignment).record();
+std::size_t write_change_documents(const std::vector<GroupChanges>& groups, Course& course,
+                                   const Assignment& assignment, const fs::path& folder,
+                                   const BoxedDocuments& documents,
+                                   const std::function<void(std::size_t, std::size_t)>& progress) {
+    std::vector<std::pair<std::string, RunRecord>> records;
+    for (const GroupChanges& changes : groups)
+        if (changes.has_final) records.emplace_back(changes.group, Composition(changes, course, assignment).record());
     fs::create_directories(folder);
-    for (const char* const ending : {".md", ".pdf"})
-        documents.make("final_changes.md", record, folder / (changes.group + ending));
+    side_by_side(
+        records.size(),
+        [&](std::size_t i) {
+            for (const char* const ending : {".md", ".pdf"})
+                documents.make("final_changes.md", records[i].second, folder / (records[i].first + ending));
+        },
+        progress);
+    return records.size();
 }
 
 }  // namespace dynlab
