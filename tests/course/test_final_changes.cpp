@@ -164,9 +164,14 @@ TEST_F(final_changes, knows_when_nothing_can_be_compared) {
     EXPECT_THAT(changes().output, ContainsRegex("group-01 +1 +same +0 of 2 +0 %"));
     bench_.bench().write("bad/analysis.lua", "error('no')");
     bench_.bench().write("bad/report.md", kReport);
+    bench_.bench().write("bad/record.json",
+                         R"({"values": {"fit": {"text": "99.0", "number": 99}, "kept": {"text": "2"}}})");
     CourseBench::expect_done(bench_.bench().dynlab({"pack", "bad", "-o", "bad.zip"}));
     take("bad.zip", "group-01", true);
-    EXPECT_THAT(changes().output, HasSubstr("Final version: The pack's report could not be made again"));
+    const ChildResult told = changes({"--out", "out"});
+    EXPECT_THAT(told.output, ContainsRegex("group-01 .* 1 of 2 "));
+    EXPECT_THAT(document("group-01"), HasSubstr("Final version: The pack’s report could not be made again"));
+    EXPECT_THAT(document("group-01"), HasSubstr("the values are those of the pack’s own record.json"));
     CourseBench::expect_done(
         bench_.course({"assignment", "add", "talk", "--kind", "presentation", "--first", "2026-04-01 12:00"}));
     EXPECT_THAT(changes({"--assignment", "talk"}).error_output,
