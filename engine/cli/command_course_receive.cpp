@@ -26,7 +26,9 @@ struct ReceiveWords {
 std::string remark(const Received& r) {
     if (!r.trouble.empty()) return fmt::format("{}: ask for a readable file", r.trouble);
     if (r.known) return "known already, nothing changed";
-    return r.rules_broken > 0 ? fmt::format("{} rule{} broken", r.rules_broken, r.rules_broken == 1 ? "" : "s") : "";
+    if (r.rules_broken == 0) return "";
+    return fmt::format("{} rule{} broken{}", r.rules_broken, r.rules_broken == 1 ? "" : "s",
+                       r.names ? ": it names somebody" : "");
 }
 
 void show(const ReceiveOutcome& outcome, const std::string& stage) {

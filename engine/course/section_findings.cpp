@@ -12,6 +12,7 @@ namespace dynlab {
 namespace {
 
 constexpr std::size_t kEmpty = 5, kShort = 25, kShortOnSlides = 8;  ///< words below a heading
+constexpr double kMarginOfPage = 0.25;                              ///< what a page may stay short of
 
 bool is_filler(const std::string& word) {
     static const std::set<std::string> fillers = {"the", "of", "and", "a",   "an", "in", "on", "for", "de",  "du",
@@ -95,6 +96,22 @@ std::string counted(int count, const std::string& one, const std::string& many) 
     return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
+/// Pages that the text fills, the last one up to its lowest line.
+double filled_pages(const DocumentText& text, int pages) {
+    double lowest = 0;
+    for (const TextLine& line : text.lines)
+        if (line.page == pages) lowest = std::max(lowest, line.bottom);
+    return pages - 1 + (text.height > 0 ? lowest / text.height : 1);
+}
+
+Findings too_few_pages(const DocumentText& text, int pages, const DocumentRules& rules) {
+    if (!rules.least_pages || filled_pages(text, pages) > *rules.least_pages - kMarginOfPage) return {};
+    return {{"pages-few", Severity::kHint, pages, "",
+             fmt::format("The text fills {:.1f} pages; at least {} {} asked for.", filled_pages(text, pages),
+                         counted(*rules.least_pages, "page", "pages"), *rules.least_pages == 1 ? "is" : "are"),
+             "Give reasons, places in the report, and for each weakness a way to mend it."}};
+}
+
 }  // namespace
 
 Findings section_findings(const DocumentText& text, const DocumentRules& rules, const std::string& language) {
@@ -134,7 +151,7 @@ Findings page_findings(const DocumentText& text, int pages, const DocumentRules&
         if (appendix == 0 && in_appendix > 0 && opens_appendix(heading, rules)) appendix = heading.page;
     }
     const int most = allowed + (appendix > 0 ? in_appendix : 0);
-    if (pages <= most) return {};
+    if (pages <= most) return too_few_pages(text, pages, rules);
     const char *one = text.is_slides() ? "slide" : "page", *many = text.is_slides() ? "slides" : "pages";
     std::string limit = counted(allowed, one, many);
     std::string remedy = "Shorten the text, or drop figures that show nothing of their own.";

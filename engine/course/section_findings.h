@@ -10,7 +10,7 @@ namespace dynlab {
 Findings section_findings(const DocumentText& text, const DocumentRules& rules, const std::string& language);
 
 /// pages (rule): more pages than the rules allow; the appendix begins with a heading that says so, or that is an
-/// optional section's.
+/// optional section's. pages-few (hint): the text ends well before as many pages are filled as are asked for.
 Findings page_findings(const DocumentText& text, int pages, const DocumentRules& rules);
 
 }  // namespace dynlab

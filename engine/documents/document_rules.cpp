@@ -8,7 +8,7 @@
 namespace dynlab {
 namespace {
 
-constexpr const char* kKeys[] = {"sections", "pages", "appendix_pages", "layout"};
+constexpr const char* kKeys[] = {"sections", "pages", "appendix_pages", "least_pages", "layout"};
 
 SectionRule section_rule(const std::string& line, const std::string& where) {
     std::vector<std::string> parts;
@@ -51,6 +51,7 @@ void read_document_rule(const std::string& key, const std::string& value, const 
                         DocumentRules& rules) {
     if (key == "pages") rules.pages = page_count(key, value, where);
     if (key == "appendix_pages") rules.appendix_pages = page_count(key, value, where);
+    if (key == "least_pages") rules.least_pages = page_count(key, value, where);
     if (key == "layout") rules.slides = is_slides(value, where);
     if (key != "sections") return;
     for (const std::string& line : lines_of(value))

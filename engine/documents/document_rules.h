@@ -22,18 +22,21 @@ struct SectionRule {
 ///       Appendix | Annexe | optional
 ///     pages: 6
 ///     appendix_pages: 1
+///     least_pages: 1
 ///     layout: slides
 ///
 /// A heading that is one of these titles, in either language, is set in the document's language. `pages` counts what
-/// stands before the first optional section, `appendix_pages` what begins with it. With the layout `slides`, instead of
+/// stands before the first optional section, `appendix_pages` what begins with it; less than `least_pages`
+/// is worth a hint. With the layout `slides`, instead of
 /// `pages`, every heading of the first level begins a slide of 160 mm by 90 mm.
 struct DocumentRules {
     std::vector<SectionRule> sections;
     std::optional<int> pages, appendix_pages;
+    std::optional<int> least_pages = std::nullopt;
     bool slides = false;
 };
 
-bool is_document_rule(const std::string& key);  ///< sections, pages, appendix_pages, layout
+bool is_document_rule(const std::string& key);  ///< sections, pages, ..., layout
 
 /// Throws DocumentError, its message begun with `where`, for a line of `sections` without both titles, or a number of
 /// pages that is not whole and positive, or another layout.

@@ -13,9 +13,9 @@
 namespace dynlab {
 namespace {
 
-const std::vector<std::string> kAllowedKeys = {"title", "subtitle",       "date",     "lang",  "abstract",
-                                               "toc",   "numbersections", "sections", "pages", "appendix_pages",
-                                               "layout"};
+const std::vector<std::string> kAllowedKeys = {"title",       "subtitle",       "date",     "lang",  "abstract",
+                                               "toc",         "numbersections", "sections", "pages", "appendix_pages",
+                                               "least_pages", "layout"};
 
 std::string place(const std::filesystem::path& file, std::size_t index) {
     return file.string() + ":" + std::to_string(index + 1) + ": ";
@@ -104,7 +104,7 @@ void check_metadata(const std::string& key, const std::string& value, const std:
             throw DocumentError(message + "did you mean \"" + *near + "\"?");
         throw DocumentError(message +
                             "allowed are title, subtitle, date, lang, abstract, toc, numbersections, sections, "
-                            "pages, appendix_pages, layout");
+                            "pages, appendix_pages, least_pages, layout");
     }
     if (key == "lang" && value != "en" && value != "fr")
         throw DocumentError(where + "lang \"" + value + "\" is not known; write en or fr");

@@ -142,20 +142,25 @@ class Receiving {
     }
 
     void keep_all() {
-        side_by_side(
-            candidates_.size(), [&](std::size_t i) { keep(candidates_[i]); }, request_.progress);
+        std::optional<Inspector> inspector;
+        if (request_.checks) inspector.emplace(request_.stage == "review" ? everybody() : nullptr);
+        const auto work = [&](std::size_t i) { keep(candidates_[i], inspector); };
+        side_by_side(candidates_.size(), work, request_.progress);
         std::vector<std::string> hashes;
         for (const Candidate& candidate : candidates_) hashes.push_back(candidate.hash);
         course_.settle(hashes);
     }
 
-    void keep(Candidate& candidate) const {
+    std::shared_ptr<const SoughtNames> everybody() const {
+        return std::make_shared<const SoughtNames>(Roster(students_of(course_)));
+    }
+
+    void keep(Candidate& candidate, const std::optional<Inspector>& inspector) const {
         const std::string content = read_file(candidate.file->file);
         candidate.bytes = static_cast<std::int64_t>(content.size());
         candidate.hash = course_.keep(content);
-        const std::string& part = candidate.part;
-        if (request_.checks && (part == "report" || part == "slides" || part == "review"))
-            candidate.inspection = inspect(course_.file(candidate.hash), part);
+        if (inspector && inspector->looks_at(candidate.part))
+            candidate.inspection = inspector->inspect(course_.file(candidate.hash), candidate.part);
     }
 
     void write() {
@@ -180,6 +185,7 @@ class Receiving {
         Received received;
         received.group = c.group.name, received.part = c.part;
         received.rules_broken = c.inspection.rules_broken, received.trouble = c.inspection.trouble;
+        received.names = c.inspection.names;
         if (c.pair) received.about = c.pair->report_pseudonym();
         Rows before = db.query(
             "SELECT id, number, hash, late FROM versions WHERE assignment = ? AND group_id = ? AND stage = ? AND "

@@ -32,6 +32,7 @@ struct Received {
     std::int64_t version = 0, late = 0, id = 0;
     bool known = false;  ///< the same content as the version before: nothing was changed
     int rules_broken = 0;
+    bool names = false;   ///< of a review: it names somebody of the course
     std::string trouble;  ///< when the PDF cannot be read: "damaged"
 };
 

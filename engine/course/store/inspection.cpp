@@ -6,21 +6,19 @@
 #include "course/findings_report.h"
 
 namespace dynlab {
-namespace {
 
-constexpr int kPagesOfReview = 2;
+Inspector::Inspector(std::shared_ptr<const SoughtNames> names) {
+    const auto hold_against = [this](const char* part, const char* template_name) {
+        wishes_[part].standard = standard_of(template_name);
+    };
+    hold_against("report", "lab_report");
+    hold_against("slides", "slides");
+    hold_against("review", "peer_review");
+    wishes_["review"].names = std::move(names);
+}
 
-}  // namespace
-
-Inspection inspect(const std::filesystem::path& pdf, const std::string& part) {
-    CheckWishes wishes;
-    if (part == "review") {
-        wishes.standard.emplace();
-        wishes.pages = kPagesOfReview;
-    } else {
-        wishes.standard = standard_of(part == "slides" ? "slides" : "lab_report");
-    }
-    CheckResult result = check_pdf(pdf, wishes);
+Inspection Inspector::inspect(const std::filesystem::path& pdf, const std::string& part) const {
+    CheckResult result = check_pdf(pdf, wishes_.at(part));
     result.subject = part + ".pdf";
     return inspection_from(findings_as_json(result));
 }
@@ -35,7 +33,9 @@ Inspection inspection_from(const std::string& json) {
     for (const auto& finding : report.at("findings")) {
         if (finding.at("severity") != "rule") continue;
         ++inspection.rules_broken;
-        if (unreadable.contains(finding.at("id"))) inspection.trouble = finding.at("id");
+        const std::string id = finding.at("id");
+        if (unreadable.contains(id)) inspection.trouble = id;
+        inspection.names = inspection.names || id.starts_with("name-");
     }
     return inspection;
 }

@@ -1,19 +1,34 @@
 #pragma once
 #include <filesystem>
+#include <map>
 #include <string>
+
+#include "course/document_findings.h"
 
 namespace dynlab {
 
 struct Inspection {
     int rules_broken = 0, pages = 0;
-    std::string
-        trouble;       ///< id of the finding that keeps the file from being read: damaged, encrypted, ...; else empty
-    std::string json;  ///< findings_as_json; empty when nothing was looked at
+    bool names = false;   ///< somebody of the course is named
+    std::string trouble;  ///< id of the finding that keeps the file from being read: damaged, ...; else empty
+    std::string json;     ///< findings_as_json; empty when nothing was looked at
 };
 
-/// Looks at a PDF as dynlab check does; `part` is what it should be: "report", "slides" or "review". Reviews may have
-/// two pages. A PDF that cannot be read is no failure: it is told in the result.
-Inspection inspect(const std::filesystem::path& pdf, const std::string& part);
+/// Looks at PDFs as dynlab check does. Several threads may use one at once.
+class Inspector {
+  public:
+    /// Reviews are searched for `names`, as they go to others without change; other first versions may be signed, and
+    /// are searched when copies of them are made.
+    explicit Inspector(std::shared_ptr<const SoughtNames> names);
+
+    /// Whether PDFs under this part are looked at: "report", "slides", "review".
+    bool looks_at(const std::string& part) const { return wishes_.contains(part); }
+    /// A PDF that cannot be read is no failure: it is told in the result.
+    Inspection inspect(const std::filesystem::path& pdf, const std::string& part) const;
+
+  private:
+    std::map<std::string, CheckWishes> wishes_;  ///< by part
+};
 
 /// The same from the JSON that the store holds.
 Inspection inspection_from(const std::string& json);

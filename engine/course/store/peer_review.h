@@ -18,7 +18,8 @@ struct AssignOutcome {
 /// deadline of the first version (unless `early`), for a presentation, and where there are too few groups.
 AssignOutcome assign_reviews(Course& course, const Assignment& assignment, Instant now, bool early);
 
-/// A copy that must not tell whose it is.
+/// A copy that must not tell whose it is. Only `copy`, one PDF, leaves the course: a pack's text and script stay, so
+/// that names in their comments reach nobody and are not looked for; what the PDF made from them holds is searched.
 struct CopyRequest {
     std::filesystem::path pdf;    ///< as it was handed in
     std::filesystem::path pack;   ///< its source, where the group handed one in; else empty

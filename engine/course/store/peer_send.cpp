@@ -99,6 +99,7 @@ class Sending {
 
     void record(const ReviewPair& pair, const Version& version, const std::string& content) {
         const std::string hash = course_.keep(content);
+        course_.settle({hash});
         Transaction transaction(course_.database());
         course_.record_file(hash, static_cast<std::int64_t>(content.size()), now_);
         course_.database().run("INSERT INTO sendings (pair, way, version, hash, made_at) VALUES (?, ?, ?, ?, ?)",
