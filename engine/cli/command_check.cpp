@@ -1,9 +1,8 @@
-#include <unistd.h>
-
 #include <cstdlib>
 #include <iostream>
 
 #include "cli/commands.h"
+#include "cli/terminal_colour.h"
 #include "course/findings_report.h"
 #include "course/folder_check.h"
 #include "platform/error.h"
@@ -18,11 +17,6 @@ struct CheckWords {
     int pages = 0;
     bool as_json = false, document_only = false;
 };
-
-bool in_colour() {
-    const char* no_colour = std::getenv("NO_COLOR");
-    return ::isatty(STDOUT_FILENO) != 0 && (no_colour == nullptr || *no_colour == '\0');
-}
 
 /// The people of the roster, and whoever's account this is.
 std::shared_ptr<const SoughtNames> sought_by(const CheckWords& words) {

@@ -186,6 +186,7 @@ void add_course(CLI::App& app, Action& action) {
     add_roster(*course, where, action);
     add_assignment_commands(*course, where, action);
     add_receive_commands(*course, where, action);
+    add_findings_command(*course, where, action);
     add_peer_commands(*course, where, action);
     add_mark_commands(*course, where, action);
     add_status(*course, where, action);
@@ -196,6 +197,7 @@ void add_course(CLI::App& app, Action& action) {
         "  dynlab course assignment add crane --first \"2026-02-28 13:00\" --review ... --final ...\n"
         "  dynlab course receive crane.zip --assignment crane         what Moodle or Canvas exports, or files\n"
         "  dynlab course status crane                                 who is late, and what to do\n"
+        "  dynlab course findings group-07                            what was found in a group's report\n"
         "  dynlab course peer assign crane                            who reviews whom\n"
         "  dynlab course final changes --assignment crane             what changed after the reviews, remark by "
         "remark\n"

@@ -21,6 +21,9 @@ void add_receive_commands(CLI::App& course, CourseWords& where, Action& action);
 /// peer assign, peer send, peer show, release.
 void add_peer_commands(CLI::App& course, CourseWords& where, Action& action);
 
+/// findings.
+void add_findings_command(CLI::App& course, CourseWords& where, Action& action);
+
 /// scores, oral, marks, override, export, import.
 void add_mark_commands(CLI::App& course, CourseWords& where, Action& action);
 

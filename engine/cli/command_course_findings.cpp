@@ -1,0 +1,61 @@
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "cli/course_commands.h"
+#include "cli/terminal_colour.h"
+#include "course/findings_report.h"
+#include "course/store/stored_findings.h"
+#include "numerics/error.h"
+
+namespace dynlab {
+namespace {
+
+struct FindingsWords {
+    std::string group, assignment, stage = "first";
+    std::optional<std::int64_t> version;
+};
+
+std::string stage_in_words(const std::string& stage) {
+    return stage == "first" ? "first version" : stage == "review" ? "reviews" : "final version";
+}
+
+int show_findings(const CourseWords& where, const FindingsWords& words) {
+    Course course(where.folder);
+    const Assignment assignment = assignment_named(course, words.assignment);
+    const Group group = group_named(course, words.group);
+    const auto found = stored_findings(course, assignment, group, words.stage, words.version);
+    if (found.empty())
+        throw InvalidArgument(fmt::format("{} has handed in no {} for {}{}", group.name, stage_in_words(words.stage),
+                                          assignment.name,
+                                          words.version ? fmt::format(" numbered {}", *words.version) : ""));
+    bool passed = true;
+    for (const StoredFindings& one : found) {
+        std::cout << fmt::format("{}, {}: {}{} v{}, received {}\n", group.name, stage_in_words(words.stage), one.part,
+                                 one.about.empty() ? "" : " of " + one.about, one.version,
+                                 course.clock().show(one.received_at));
+        std::cout << (one.result ? findings_in_words(*one.result, in_colour()) : "not looked at\n") << '\n';
+        passed = passed && (!one.result || one.result->passed());
+    }
+    return passed ? kDone : kFailed;
+}
+
+}  // namespace
+
+void add_findings_command(CLI::App& course, CourseWords& where, Action& action) {
+    auto words = std::make_shared<FindingsWords>();
+    CLI::App* command = course.add_subcommand("findings", "What was found in a group's files when they came");
+    command->add_option("GROUP", words->group)->required();
+    command->add_option("--assignment", words->assignment, "Which; needed when there are several")->type_name("NAME");
+    command->add_option("--stage", words->stage, "Of which version")
+        ->type_name("first|review|final")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"first", "review", "final"}));
+    command->add_option("--version", words->version, "An earlier one; the newest unless given")->type_name("N");
+    command->footer(
+        "Printed as dynlab check does. Exit codes: 0 no rule is broken, 1 a rule is broken, or nothing came.\n"
+        "Example:  dynlab course findings group-07 --stage review");
+    command->callback([&where, words, &action] { action = [&where, words] { return show_findings(where, *words); }; });
+}
+
+}  // namespace dynlab

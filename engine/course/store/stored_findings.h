@@ -1,0 +1,26 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "course/document_findings.h"
+#include "course/store/assignments.h"
+#include "course/store/groups.h"
+
+namespace dynlab {
+
+/// What was found in a version when it was received.
+struct StoredFindings {
+    std::string part;   ///< report, slides, script, pack, review
+    std::string about;  ///< of a review: the pseudonym of the report
+    std::int64_t version = 0;
+    Instant received_at = 0;
+    std::optional<CheckResult> result;  ///< nothing when it was not looked at
+};
+
+/// Of a group's files for a stage ("first", "review", "final"): the newest version of each, or version `number` where
+/// that is given.
+std::vector<StoredFindings> stored_findings(Course& course, const Assignment& assignment, const Group& group,
+                                            const std::string& stage, std::optional<std::int64_t> number = {});
+
+}  // namespace dynlab
