@@ -71,8 +71,13 @@ const std::vector<std::string>& course_tables() {
     return tables;
 }
 
-void migrate_course(Database& database, Database::Opening opening, const std::string& place) {
-    const auto newest = static_cast<std::int64_t>(kSteps.size());
+const std::vector<const char*>& course_steps() {
+    return kSteps;
+}
+
+void migrate_course(Database& database, Database::Opening opening, const std::string& place,
+                    const std::vector<const char*>& steps) {
+    const auto newest = static_cast<std::int64_t>(steps.size());
     const auto version_of = [&] {
         const std::int64_t version = pragma(database, "user_version"), id = pragma(database, "application_id");
         const bool fresh = opening == Database::Opening::kNew && version == 0;
@@ -89,7 +94,7 @@ void migrate_course(Database& database, Database::Opening opening, const std::st
     if (opening == Database::Opening::kNew) database.execute("PRAGMA journal_mode = WAL");
     Transaction transaction(database);
     for (std::int64_t version = version_of(); version < newest; ++version)  // another may have done it meanwhile
-        database.execute(kSteps[static_cast<std::size_t>(version)]);
+        database.execute(steps[static_cast<std::size_t>(version)]);
     database.execute(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", kApplicationId, newest));
     transaction.commit();
 }

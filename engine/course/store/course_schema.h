@@ -9,8 +9,12 @@ namespace dynlab {
 /// The tables, in an order in which each refers only to earlier ones.
 const std::vector<std::string>& course_tables();
 
-/// Brings an opened course to the version of tables that this program knows, in one transaction. Throws
+/// SQL that makes each version of the tables out of the one before, the first one out of nothing.
+const std::vector<const char*>& course_steps();
+
+/// Brings an opened course to the version of tables that `steps` end with, in one transaction. Throws
 /// EnvironmentError for a course made by a newer dynlab, or for a database that is no course; it stays untouched.
-void migrate_course(Database& database, Database::Opening opening, const std::string& place);
+void migrate_course(Database& database, Database::Opening opening, const std::string& place,
+                    const std::vector<const char*>& steps = course_steps());
 
 }  // namespace dynlab

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <cerrno>
+
 #include <nlohmann/json.hpp>
 
 #include "platform/error.h"
@@ -13,8 +15,9 @@ namespace {
 constexpr int kMillisecondsToWait = 5000;
 
 [[noreturn]] void fail(sqlite3* database, int code, const std::string& place) {
+    const bool full = database && (code & 0xFF) == SQLITE_IOERR && sqlite3_system_errno(database) == ENOSPC;
     std::string reason;
-    switch (code & 0xFF) {
+    switch (full ? SQLITE_FULL : code & 0xFF) {
         case SQLITE_BUSY:
         case SQLITE_LOCKED:
             reason = "another dynlab is writing to this course; nothing was changed, try again when it is done";

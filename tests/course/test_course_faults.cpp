@@ -1,0 +1,180 @@
+// What a course is like after the machine failed a command at any place.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "course/course_bench.h"
+#include "course/store/course_schema.h"
+#include "platform/error.h"
+#include "platform/temporary_folder.h"
+
+namespace dynlab::test {
+namespace {
+
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+
+// Runs $1 in a copy of the course k, with the machine failing it as $2 says (kill, full) at the first, second ...
+// change of a file until it comes to its end; each time $3 is asked whether all is well, the command is repeated
+// without failure, and $4 is asked. `course` is dynlab course for the copy. Threads are left out: one core, so that the
+// order of the changes is the same each time.
+constexpr const char* kTryAll = R"(
+course() { taskset -c 0 $DYNLAB course --course try "$@"; }
+command=$1 fault=$2 between=$3 after=$4
+for place in $(seq 400); do
+  rm -rf try; cp -r k try; rm -f count
+  FAULT="$fault $place" FAULT_COUNT=$PWD/count LD_PRELOAD=$FAULTS taskset -c 0 $DYNLAB course --course try $command \
+    >said 2>&1; code=$?
+  [ -e count ] && [ $(cat count) -lt $place ] && { echo "failed at $((place - 1)) places"; exit 0; }
+  eval "$between" || { echo "place $place, code $code, at once"; cat said; exit 1; }
+  course $command >said2 2>&1 || { echo "place $place, repeated"; cat said said2; exit 1; }
+  eval "$after" || { echo "place $place, after all"; cat said said2; exit 1; }
+done
+echo "no end"; exit 1
+)";
+
+class course_faults : public ::testing::Test {
+  protected:
+    course_faults() : bench_(4, 1) {
+        for (int i = 1; i <= 4; ++i)
+            bench_.bench().write("in/" + CourseBench::group(i) + ".pdf", small_pdf("report " + std::to_string(i)));
+        bench_.bench().write("try_all", kTryAll);
+        bench_.bench().write("receive", "receive in --no-checks --at 2026-03-01T10:00");
+        bench_.bench().write("assign", "peer assign --at 2026-03-02T10:00");
+    }
+    ChildResult try_all(const std::string& command, const std::string& fault, const std::string& between,
+                        const std::string& after) {
+        return bench_.bench().shell("FAULTS=" DYNLAB_FAULTS " DYNLAB=$DYNLAB bash try_all \"$(cat " + command + ")\" " +
+                                    fault + " '" + between + "' '" + after + "'");
+    }
+    void receive_all() {
+        CourseBench::expect_done(bench_.course({"receive", "in", "--no-checks", "--at", "2026-03-01 10:00"}));
+    }
+
+    CourseBench bench_;
+};
+
+constexpr const char* kAllThere =
+    "course verify | grep -q \"4 files, 4 versions: all there\" && "
+    "[ $(ls try/receipts/crane | wc -l) = 4 ]";
+// Whatever the store speaks of is there and unaltered.
+constexpr const char* kSound =
+    "course verify >verified 2>&1 && grep -q \"all there and unaltered\" verified && "
+    "[ \"$(sqlite3 try/course.db \"PRAGMA integrity_check\")\" = ok ]";
+
+// oracle: the store's own check and SQLite's, after a kill before every single change of a file
+TEST_F(course_faults, a_kill_anywhere_while_receiving_loses_nothing) {
+    const ChildResult tried = try_all("receive", "kill", kSound, kAllThere);
+    EXPECT_EQ(tried.exit_code, 0) << tried.output << tried.error_output;
+    EXPECT_THAT(tried.output, ContainsRegex("failed at [5-9][0-9] places|failed at [1-9][0-9][0-9] places"));
+}
+
+// oracle: the allotment of a course that was never disturbed
+TEST_F(course_faults, a_kill_anywhere_while_allotting_loses_nothing) {
+    receive_all();
+    bench_.bench().shell(
+        "cp -r k calm && $DYNLAB course --course calm $(cat assign) && "
+        "$DYNLAB course --course calm peer show >pairs");
+    const ChildResult tried = try_all("assign", "kill", kSound, "course peer show | cmp -s - pairs");
+    EXPECT_EQ(tried.exit_code, 0) << tried.output << tried.error_output;
+    EXPECT_THAT(tried.output, ContainsRegex("failed at [1-9][0-9]* places"));
+}
+
+// oracle: what the same commands write where nothing disturbs them
+TEST_F(course_faults, a_kill_anywhere_in_other_commands_loses_nothing) {
+    receive_all();
+    bench_.bench().write("more.csv", "id,name,group\ns1,Student One,group-02\ns9,Student 9,group-09\n");
+    const std::vector<std::pair<std::string, std::string>> commands = {
+        {"roster import more.csv",
+         "SELECT id, name FROM students; SELECT student, group_id, until IS NULL FROM memberships"},
+        {"assignment add second --first 2026-04-01T12:00 --review 2026-04-08T12:00 --final 2026-04-15T12:00 --seed 3",
+         "SELECT name, first_due, seed FROM assignments; SELECT * FROM criteria"},
+        {"override crane group-02 work 80 --reason late",
+         "SELECT DISTINCT group_id, what, percent, reason FROM overrides"}};
+    for (const auto& [command, query] : commands) {
+        bench_.bench().write("command", command);
+        bench_.bench().shell("rm -rf calm && cp -r k calm && $DYNLAB course --course calm " + command +
+                             " && sqlite3 calm/course.db '" + query + "' >expected");
+        const ChildResult tried =
+            try_all("command", "kill", kSound, "sqlite3 try/course.db \"" + query + "\" | cmp -s - expected");
+        EXPECT_EQ(tried.exit_code, 0) << tried.output << tried.error_output;
+        EXPECT_THAT(tried.output, ContainsRegex("failed at [1-9][0-9] places")) << command;
+    }
+}
+
+// oracle: the store before, or all of it once the transaction is done; the sentence
+TEST_F(course_faults, a_full_disk_changes_nothing_and_is_named) {
+    bench_.bench().shell("sqlite3 k/course.db .dump >before");
+    const char* const all_or_nothing =
+        "[ $code = 0 ] || { grep -qi \"no space left\" said && { sqlite3 try/course.db .dump | cmp -s - before || "
+        "[ $(sqlite3 try/course.db \"SELECT count(*) FROM versions\") = 4 ]; }; }";
+    const ChildResult tried = try_all("receive", "full", all_or_nothing, kAllThere);
+    EXPECT_EQ(tried.exit_code, 0) << tried.output << tried.error_output;
+    EXPECT_THAT(tried.output, ContainsRegex("failed at [2-9][0-9] places|failed at [1-9][0-9][0-9] places"));
+}
+
+// oracle: the store before; nobody, root neither, can write into a folder that is mounted read-only
+TEST_F(course_faults, a_folder_that_may_not_be_written_to_is_named) {
+    if (obstacle_to(Isolation::kFull)) GTEST_SKIP() << "no bubblewrap here";
+    receive_all();
+    const std::string before = bench_.dump();
+    bench_.bench().shell("mkdir more && cp in/group-01.pdf more/group-02.pdf");
+    for (const char* command : {"receive more --no-checks --at 2026-03-01T11:00", "roster drop group-01",
+                                "peer assign --at 2026-03-02T10:00"}) {
+        const ChildResult refused = bench_.bench().shell(
+            std::string("bwrap --dev-bind / / --ro-bind $PWD/k $PWD/k $DYNLAB course --course $PWD/k ") + command);
+        EXPECT_EQ(refused.exit_code, 1) << command;
+        EXPECT_THAT(refused.error_output, ::testing::AnyOf(HasSubstr("may not be written to"),
+                                                           HasSubstr("may be written "
+                                                                     "to"),
+                                                           HasSubstr("Read-only file system")))
+            << command;
+        EXPECT_EQ(bench_.dump(), before) << command;
+    }
+}
+
+// oracle: the tables' own contents before and after each step
+TEST(course_migration, goes_step_by_step_or_not_at_all) {
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "course.db";
+    {
+        Database database(file, Database::Opening::kNew);
+        migrate_course(database, Database::Opening::kNew, "k");
+        database.run("INSERT INTO course VALUES ('name', 'Signals')");
+    }
+    std::vector<const char*> steps = course_steps();
+    const auto version = [&] {
+        Database database(file, Database::Opening::kExisting);
+        Rows rows = database.query("PRAGMA user_version");
+        rows.next();
+        return rows.integer(0);
+    };
+    const auto migrate = [&] {
+        Database database(file, Database::Opening::kExisting);
+        migrate_course(database, Database::Opening::kExisting, "k", steps);
+    };
+    const auto known = static_cast<std::int64_t>(steps.size());
+    EXPECT_EQ(version(), known);
+    steps.push_back("ALTER TABLE course ADD COLUMN since INTEGER; UPDATE course SET since = 7;");
+    steps.push_back("CREATE TABLE half (a); INSERT INTO nowhere VALUES (1);");
+    EXPECT_THROW(migrate(), EnvironmentError);
+    EXPECT_EQ(version(), known);  // the sound step before the broken one was taken back too
+    {
+        Database database(file, Database::Opening::kExisting);
+        EXPECT_FALSE(database.query("SELECT 1 FROM sqlite_master WHERE name = 'half'").next());
+        EXPECT_THROW(database.query("SELECT since FROM course"), EnvironmentError);
+    }
+    steps.back() = "CREATE TABLE whole (a);";
+    migrate();
+    EXPECT_EQ(version(), known + 2);
+    Database database(file, Database::Opening::kExisting);
+    Rows rows = database.query("SELECT value, since FROM course");
+    ASSERT_TRUE(rows.next());
+    EXPECT_EQ(rows.text(0), "Signals");
+    EXPECT_EQ(rows.integer(1), 7);
+    EXPECT_THROW(migrate_course(database, Database::Opening::kExisting, "k"), EnvironmentError);  // made by a newer one
+    migrate();
+    EXPECT_EQ(version(), known + 2);
+}
+
+}  // namespace
+}  // namespace dynlab::test

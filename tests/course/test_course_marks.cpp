@@ -1,0 +1,138 @@
+// Scores, marks and presentations as they are typed in.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "course/course_bench.h"
+
+namespace dynlab::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// Four groups who all review each other; `scores` gives what each (row) gives to each report (column), in all
+/// criteria.
+class ScoredCourse {
+  public:
+    explicit ScoredCourse(const std::vector<std::string>& scores) : bench_(4, 3) {
+        for (int i = 1; i <= 4; ++i)
+            bench_.bench().write("in/" + CourseBench::group(i) + ".pdf", small_pdf("report " + std::to_string(i)));
+        CourseBench::expect_done(bench_.course({"receive", "in", "--at", "2026-03-01 10:00", "--no-checks"}));
+        CourseBench::expect_done(bench_.course({"peer", "assign", "--at", "2026-03-02 10:00"}));
+        std::string table;
+        for (std::size_t i = 0; i < scores.size(); ++i) table += scores[i] + "\n";
+        bench_.bench().write("table", table);
+        const ChildResult made = bench_.bench().shell(
+            "echo reviewer,report,data,workflow,conclusions,strength,suggestions >s.csv\n"
+            "$DYNLAB course --course k peer show | awk 'NR == FNR {for (i = 1; i <= 4; i++) s[FNR, i] = $i; next} "
+            "/^group/ {r = substr($1, 7) + 0; a = substr($3, 7) + 0; p = s[r, a]; "
+            "print $1 \",\" $2 \",\" p \",\" p \",\" p \",\" p \",\" p}' table - >>s.csv");
+        EXPECT_EQ(made.exit_code, 0) << made.error_output;
+    }
+    CourseBench& bench() { return bench_; }
+    ChildResult read() { return bench_.course({"scores", "crane", "s.csv"}); }
+    std::string marks() { return bench_.course({"marks", "crane"}).output; }
+
+  private:
+    CourseBench bench_;
+};
+
+// oracle: medians, distances and means by hand; group 4's zero for report 3 is 0.4 of the scale below the median 2, and
+// group 3's one for report 4 is 0.8 below the median 5
+TEST(course_marks, follow_the_scores_and_flag_revenge) {
+    ScoredCourse course({"- 3 2 5", "4 - 2 5", "4 3 - 1", "5 3 0 -"});
+    EXPECT_THAT(course.read().output, HasSubstr("crane: 60 new scores."));
+    const std::string marks = course.marks();
+    EXPECT_THAT(marks, ContainsRegex("group-01 +4 +4 +4 +4 +4 +80\\.0 +60\\.0"));
+    EXPECT_THAT(marks, ContainsRegex("group-02 +3 +3 +3 +3 +3 +60\\.0 +53\\.3"));
+    EXPECT_THAT(marks, ContainsRegex("group-03 +2 +2 +2 +2 +2 +40\\.0 +60\\.0"));
+    EXPECT_THAT(marks, ContainsRegex("group-04 +5 +5 +5 +5 +5 +100\\.0 +60\\.0"));
+    EXPECT_THAT(marks, HasSubstr("Look at the review of group-03 by group-04: far below the others; group-03 had given "
+                                 "group-04 few points."));
+    EXPECT_THAT(marks, HasSubstr("Look at the review of group-04 by group-03: far below the others; group-04 had given "
+                                 "group-03 few points."));
+    EXPECT_THAT(marks, Not(HasSubstr("by group-01")));
+    EXPECT_THAT(marks, Not(HasSubstr("by group-02")));
+}
+
+// oracle: the instructor's word, in table and export; the store where it is refused
+TEST(course_marks, the_instructor_has_the_last_word_and_gives_a_reason) {
+    ScoredCourse course({"- 3 2 5", "4 - 2 5", "4 3 - 5", "5 3 2 -"});
+    course.read();
+    CourseBench& bench = course.bench();
+    const std::string before = bench.dump();
+    EXPECT_EQ(bench.course({"override", "crane", "group-04", "reviews", "75"}).exit_code, 2);
+    EXPECT_THAT(bench.course({"override", "crane", "group-04", "reviews", "75", "--reason", ""}).error_output,
+                HasSubstr("say why"));
+    EXPECT_THAT(bench.course({"override", "crane", "group-04", "reviews", "101", "--reason", "x"}).error_output,
+                HasSubstr("from 0 to 100 percent, but 101 was given"));
+    EXPECT_EQ(bench.course({"override", "crane", "group-04", "voice", "75", "--reason", "x"}).exit_code, 2);
+    EXPECT_EQ(bench.dump(), before);
+    CourseBench::expect_done(bench.course({"override", "crane", "group-04", "reviews", "70", "--reason", "too hard"}));
+    CourseBench::expect_done(
+        bench.course({"override", "crane", "group-04", "reviews", "75", "--reason", "hard, but with reasons"}));
+    EXPECT_THAT(course.marks(), ContainsRegex("group-04 .* 75\\.0 \\(yours\\)"));
+    EXPECT_THAT(bench.course({"export", "crane"}).output,
+                AllOf(HasSubstr("\"hard, but with reasons\""), Not(HasSubstr("too hard"))));
+}
+
+// oracle: the store before
+TEST(course_marks, wrong_scores_are_refused_with_their_line) {
+    ScoredCourse course({"- 3 2 5", "4 - 2 5", "4 3 - 5", "5 3 2 -"});
+    CourseBench& bench = course.bench();
+    const std::string before = bench.dump(), good = bench.bench().read("s.csv");
+    const auto refused = [&](const std::string& csv, const std::string& message) {
+        bench.bench().write("s.csv", csv);
+        const ChildResult result = course.read();
+        EXPECT_EQ(result.exit_code, 1) << csv;
+        EXPECT_THAT(result.error_output, HasSubstr(message));
+        EXPECT_EQ(bench.dump(), before) << csv;
+    };
+    refused("group,data\ngroup-01,3\n", "s.csv, line 1: the column reviewer is missing");
+    refused("reviewer,report,beauty\ngroup-01,report-1,3\n", "there is no column of a criterion of crane");
+    refused(good + "group-01,report-1000,3,3,3,3,3\n", "s.csv, line 14: ");
+    refused(good + "gruop-01,,3,3,3,3,3\n", "group-01");
+    refused("reviewer,data\ngroup-01,3\n", "s.csv, line 2: ");  // which of its three?
+}
+
+// oracle: what a presentation is: slides and script, one deadline, a sheet for the oral
+TEST(course_marks, of_a_presentation_come_from_the_sheet_of_the_oral) {
+    CourseBench bench(3);
+    CourseBench::expect_done(bench.course({"assignment", "add", "talk", "--kind", "presentation", "--first",
+                                           "2026-04-01 12:00", "--criteria", "content:10,figures:5,answers:5"}));
+    for (int i = 1; i <= 2; ++i) {
+        bench.bench().write("in/" + CourseBench::group(i) + "/slides.pdf", small_pdf("slide"));
+        bench.bench().write("in/" + CourseBench::group(i) + "/talk.lua", "print(1)\n");
+    }
+    bench.bench().write("in/group-03/talk.lua", "print(2)\n");
+    const ChildResult taken = bench.course({"receive", "in", "--assignment", "talk", "--at", "2026-04-01 11:00"});
+    EXPECT_THAT(taken.output, AllOf(HasSubstr("5 files taken, 0 late"), ContainsRegex("group-01 +slides +v1"),
+                                    ContainsRegex("group-01 +script +v1")));
+    bench.bench().write("group-03.pdf", small_pdf("late slide"));
+    EXPECT_THAT(bench.course({"receive", "group-03.pdf", "--assignment", "talk", "--at", "2026-04-01 13:30"}).output,
+                ContainsRegex("group-03 +slides +v1 +late by 1 h 30 min"));
+    EXPECT_THAT(bench.course({"status", "talk", "--at", "2026-04-02 10:00"}).output,
+                AllOf(HasSubstr("script"), Not(HasSubstr("final version"))));
+    for (const char* stage : {"review", "final"})
+        EXPECT_THAT(bench.course({stage, "receive", "group-03.pdf", "--assignment", "talk"}).error_output,
+                    HasSubstr("talk is a presentation: it has no "));
+    EXPECT_THAT(bench.course({"peer", "assign", "talk", "--at", "2026-04-02 10:00"}).error_output,
+                HasSubstr("presentation"));
+    EXPECT_EQ(bench.course({"oral", "sheet", "talk"}).output,
+              "group,content,figures,answers\r\ngroup-01,,,\r\ngroup-02,,,\r\ngroup-03,,,\r\n");
+    bench.bench().write("oral.csv", "group,content,figures,answers\ngroup-01,8,5,3\ngroup-02,10,,\n");
+    EXPECT_THAT(bench.course({"scores", "talk", "oral.csv"}).output, HasSubstr("talk: 4 new scores."));
+    const std::string marks = bench.course({"marks", "talk"}).output;
+    EXPECT_THAT(marks, ContainsRegex("group-01 +8 +5 +3 +80\\.0"));
+    EXPECT_THAT(marks, ContainsRegex("group-02 +10 +- +- +100\\.0"));  // of what was scored
+    EXPECT_THAT(marks, ContainsRegex("group-03 +- +- +- +- "));
+    EXPECT_THAT(bench.course({"oral", "sheet", "talk"}).output, HasSubstr("group-01,8,5,3\r\n"));
+    bench.bench().write("oral.csv", "group,content\ngroup-01,11\n");
+    EXPECT_THAT(bench.course({"scores", "talk", "oral.csv"}).error_output,
+                HasSubstr("content must be a number from 0 to 10, but \"11\" was given"));
+}
+
+}  // namespace
+}  // namespace dynlab::test

@@ -1,0 +1,112 @@
+// Loaded before the C library (LD_PRELOAD), to try what a program leaves behind when the machine fails it. The calls
+// that change files, folders aside from pipes and terminals, are counted; FAULT says what happens at which:
+//
+//   kill 7    the process is killed before the seventh
+//   full 7    from the seventh on the disk is full
+//
+// What was counted is written into the file that FAULT_COUNT names, when the process ends by itself.
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+
+namespace {
+
+struct Fault {
+    bool kills = false, fills = false;
+    int at = 0, count = 0;
+    Fault() {
+        const char* text = std::getenv("FAULT");
+        char word[8] = {};
+        if (text && std::sscanf(text, "%7s %d", word, &at) == 2) kills = word[0] == 'k', fills = word[0] == 'f';
+    }
+    ~Fault() {
+        const char* file = std::getenv("FAULT_COUNT");
+        if (std::FILE* out = file ? std::fopen(file, "w") : nullptr) {
+            const int counted = count;
+            std::fprintf(out, "%d\n", counted);
+            std::fclose(out);
+        }
+    }
+};
+Fault fault;
+
+bool changes_file(int descriptor) {
+    struct stat status {};
+    return fstat(descriptor, &status) == 0 && (S_ISREG(status.st_mode) || S_ISDIR(status.st_mode));
+}
+
+/// Whether the disk is full now.
+bool step() {
+    ++fault.count;
+    if (fault.kills && fault.count == fault.at) std::raise(SIGKILL);
+    return fault.fills && fault.count >= fault.at;
+}
+
+template <class Call>
+Call* real(const char* name) {
+    return reinterpret_cast<Call*>(dlsym(RTLD_NEXT, name));
+}
+
+template <class Result>
+Result full() {
+    errno = ENOSPC;
+    return -1;
+}
+
+}  // namespace
+
+extern "C" {
+
+ssize_t write(int fd, const void* data, size_t size) {
+    static auto* const call = real<ssize_t(int, const void*, size_t)>("write");
+    if (changes_file(fd) && step()) return full<ssize_t>();
+    return call(fd, data, size);
+}
+ssize_t pwrite64(int fd, const void* data, size_t size, off64_t at) {
+    static auto* const call = real<ssize_t(int, const void*, size_t, off64_t)>("pwrite64");
+    if (step()) return full<ssize_t>();
+    return call(fd, data, size, at);
+}
+ssize_t pwrite(int fd, const void* data, size_t size, off_t at) {
+    return pwrite64(fd, data, size, at);
+}
+int ftruncate64(int fd, off64_t size) {
+    static auto* const call = real<int(int, off64_t)>("ftruncate64");
+    if (step()) return full<int>();
+    return call(fd, size);
+}
+int ftruncate(int fd, off_t size) {
+    return ftruncate64(fd, size);
+}
+int fsync(int fd) {
+    static auto* const call = real<int(int)>("fsync");
+    step();
+    return call(fd);
+}
+int fdatasync(int fd) {
+    static auto* const call = real<int(int)>("fdatasync");
+    step();
+    return call(fd);
+}
+int rename(const char* from, const char* to) noexcept {
+    static auto* const call = real<int(const char*, const char*)>("rename");
+    step();
+    return call(from, to);
+}
+int unlink(const char* file) noexcept {
+    static auto* const call = real<int(const char*)>("unlink");
+    step();
+    return call(file);
+}
+int mkdir(const char* folder, mode_t mode) noexcept {
+    static auto* const call = real<int(const char*, mode_t)>("mkdir");
+    if (step()) return full<int>();
+    return call(folder, mode);
+}
+}
