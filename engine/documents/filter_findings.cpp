@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <map>
+#include <set>
 
 #include "documents/text_lines.h"
 #include "platform/spelling.h"
@@ -9,10 +10,10 @@
 namespace dynlab {
 namespace {
 
-std::vector<std::string> split_at_tabs(const std::string& line) {
+std::vector<std::string> split_at(const std::string& line, char separator) {
     std::vector<std::string> fields(1);
     for (char c : line) {
-        if (c == '\t')
+        if (c == separator)
             fields.emplace_back();
         else
             fields.back() += c;
@@ -73,10 +74,7 @@ class Sentences {
         if (code == "nested-text")
             return "the text " + quoted(first) +
                    " contains a text slot; a text written by a script cannot show another";
-        if (code == "mathematics")
-            return "the command " + first +
-                   " is not allowed in formulas: documents reach no files, macros or labels; " +
-                   "number a formula with {#eq:name} after it";
+        if (code == "mathematics") return refused_in_formula(first, second, third);
         if (code == "raw") return "HTML such as " + first + " is not possible in documents; use Markdown instead";
         if (code == "raw-attribute")
             return "raw output marked " + first + " is not possible in documents; use Markdown instead";
@@ -101,6 +99,24 @@ class Sentences {
         sentence += "; it reported";
         for (const std::string& known : names) sentence += (known == names.front() ? " " : ", ") + known;
         return sentence;
+    }
+
+    /// `known`: the names of all commands that are allowed, with spaces between them.
+    static std::string refused_in_formula(const std::string& kind, const std::string& written,
+                                          const std::string& known) {
+        if (kind == "comment")
+            return "a percent sign in a formula is written \\%, as % would hide the rest of the line";
+        if (kind == "environment")
+            return "the environment " + written +
+                   " is not allowed in formulas; there are matrix (with b, p, v, V), array, cases, aligned, gathered, "
+                   "split and the others of amsmath";
+        static const std::set<std::string> numbering = {"\\label", "\\ref",   "\\eqref",   "\\pageref",
+                                                        "\\tag",   "\\notag", "\\nonumber"};
+        const std::string refusal = "the command " + written + " is not allowed in formulas";
+        if (numbering.contains(written)) return refusal + ": number a formula with {#eq:name} after it";
+        const auto near = nearest_word(written.substr(1), split_at(known, ' '));
+        return refusal + ", which reach no files and make no macros: only commands that set mathematics are" +
+               (near ? "; did you mean \\" + *near + "?" : "");
     }
 
     std::string dangling(const std::string& label) const {
@@ -158,7 +174,7 @@ FilterFindings read_filter_findings(const std::string& error_output, const Markd
     FilterFindings findings;
     const Sentences sentences(markdown, record);
     for (const std::string& line : lines_of(error_output)) {
-        const std::vector<std::string> fields = split_at_tabs(line);
+        const std::vector<std::string> fields = split_at(line, '\t');
         if (fields[0] == "dynlab:use" && fields.size() == 4) {
             findings.pictures.push_back({std::stoi(fields[1]), fields[2] == "figure", fields[3]});
         } else if (fields[0] == "dynlab:error" && fields.size() >= 3) {

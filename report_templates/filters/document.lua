@@ -5,6 +5,7 @@
 --   dynlab:error <TAB> code <TAB> text to look for <TAB> details...
 local folder = PANDOC_SCRIPT_FILE:match("^(.*)/") or "."
 local safety = dofile(folder .. "/safety.lua")
+local mathematics = dofile(folder .. "/mathematics.lua")
 local slots = dofile("slots.lua")
 local layout = dofile(folder .. "/layout.lua").new(slots.format, slots.language, slots.slides)
 
@@ -244,8 +245,10 @@ local function header(element)
 end
 
 local function check_mathematics(element)
-  local bad = safety.forbidden_in_mathematics(element.text)
-  if bad then report("mathematics", bad, bad) end
+  for _, refused in ipairs(mathematics.refused_in(element.text)) do
+    local kind, written, needle = table.unpack(refused)
+    report("mathematics", needle, kind, written, kind == "command" and mathematics.known() or "")
+  end
 end
 
 local division_attributes = { table = { name = true }, text = { name = true }, column = { width = true } }

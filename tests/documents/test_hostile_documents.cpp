@@ -1,5 +1,8 @@
 #include <gmock/gmock.h>
 
+#include <iterator>
+#include <set>
+
 #include "document_fixture.h"
 #include "documents/pdf_inspection.h"
 
@@ -38,6 +41,84 @@ TEST_F(hostile_documents, commands_that_reach_files_or_macros_are_refused_in_for
     EXPECT_THAT(refusal("$$ \\begin{filecontents}{x}y\\end{filecontents} $$\n", "out.pdf"), HasSubstr("filecontents"));
     EXPECT_THAT(refusal("$$ a \\] text \\[ b $$\n", "out.pdf"), HasSubstr("\\]"));
     EXPECT_THAT(refusal("$$ a \\end{document} $$\n", "out.pdf"), HasSubstr("\\end{document}"));
+}
+
+// Oracle: TeX runs \NAME at \begin{NAME}; a category code makes ! begin commands that no list of words sees.
+TEST_F(hostile_documents, environments_that_are_none_are_refused) {
+    write("canary.tex", "SECRETWORD");
+    const std::string stream =
+        "!immediate!pdfobj stream file{" + file("canary.tex").string() + "}!pdfrefobj!pdflastobj";
+    for (const std::string name : {"catcode", "input", "def", "let", "csname", "immediate", "pdfobj", "verbatim",
+                                   "tabular", "minipage", "lrbox", "align**", " array", "array ", "\\input"}) {
+        const std::string text = "A $$\\begin{" + name + "}`\\!=0 " + stream + "!relax\\end{" + name + "}$$\n";
+        EXPECT_THAT(refusal(text, "out.pdf"), HasSubstr("the environment \\begin{" + name + "} is not allowed"));
+        EXPECT_THAT(refusal("A $a\\end{" + name + "}$\n"), HasSubstr("the environment \\end{" + name + "} is not"));
+    }
+    EXPECT_THAT(refusal("$$ \\begin x $$\n", "out.pdf"), HasSubstr("the environment \\begin is not allowed"));
+    EXPECT_THAT(refusal("$$ \\begin\\frac{catcode} $$\n", "out.pdf"), HasSubstr("the environment \\begin is not"));
+}
+
+TEST_F(hostile_documents, only_commands_that_set_mathematics_are_allowed) {
+    for (const std::string command : {"\\string",
+                                      "\\romannumeral",
+                                      "\\expandafter",
+                                      "\\number",
+                                      "\\pdfximage",
+                                      "\\typeout",
+                                      "\\verb",
+                                      "\\mathpalette",
+                                      "\\color",
+                                      "\\active",
+                                      "\\endlinechar",
+                                      "\\everymath",
+                                      "\\char",
+                                      "\\undefined",
+                                      "\\mathcode",
+                                      "\\ifeof",
+                                      "\\@firstofone",
+                                      "\\makeatletter",
+                                      "\\dynlabneed",
+                                      "\\(",
+                                      "\\]"}) {
+        EXPECT_THAT(refusal("A\n\n$$ a \\\\ \\text{if \\textbf{" + command + "12}} $$\n", "out.pdf"),
+                    HasSubstr("report.md:3: the command " + command + " is not allowed in formulas"))
+            << command;
+    }
+    EXPECT_THAT(refusal("$\\alhpa$\n"), HasSubstr("did you mean \\alpha?"));
+    EXPECT_THAT(refusal("A\n\n$a\n+ b % c$ d\n"), HasSubstr("report.md:4: a percent sign"));
+    const std::string both = refusal("$\\write$\n\n$$\\begin{input}x\\end{input} \\jobname$$\n");
+    for (const char* part : {"report.md:1: the command \\write", "report.md:3: the environment \\begin{input}",
+                             "report.md:3: the command \\jobname"})
+        EXPECT_THAT(both, HasSubstr(part));
+}
+
+/// The words of a list of the filter, "mathematics.NAME = [[...]]".
+std::vector<std::string> listed(const std::string& filter, const std::string& name) {
+    const std::string begin = "mathematics." + name + " = [[";
+    const std::size_t at = filter.find(begin) + begin.size();
+    std::istringstream words(filter.substr(at, filter.find("]]", at) - at));
+    return {std::istream_iterator<std::string>(words), {}};
+}
+
+// Oracle: LaTeX sets each of them, alone.
+TEST_F(hostile_documents, all_symbols_environments_and_control_characters_that_are_allowed_can_be_set) {
+    const std::string filter =
+        read(std::filesystem::path(DYNLAB_SOURCE_DIR) / "report_templates/filters/mathematics.lua");
+    std::string text;
+    for (const char* list : {"symbols", "operators"})
+        for (const std::string& word : listed(filter, list))
+            text += "$\\" + word + (word == "mod" || word == "pmod" || word == "pod" ? " 2" : "") + "{}$\n";
+    const std::set<std::string> beside_others = {"align",   "align*",   "alignat", "alignat*", "equation", "equation*",
+                                                 "flalign", "flalign*", "gather",  "gather*",  "multline", "multline*"};
+    for (const std::string& name : listed(filter, "environments")) {
+        if (beside_others.contains(name)) continue;
+        const bool takes = name == "array" || name == "subarray" || name == "alignedat";
+        const std::string argument = !takes ? "" : name == "alignedat" ? "{1}" : "{l}";
+        text += "\n$$\\begin{" + name + "}" + argument + "a\\\\b\\end{" + name + "}$$\n";
+    }
+    text += "\n$\\,\\;\\:\\!\\ \\{\\}\\|\\_\\%\\&\\#\\$\\>\\/\\-\\text{\\'e\\`e\\^e\\~n\\=o\\.z\\\"u}$\n";
+    EXPECT_GT(text.size(), 5000u);
+    EXPECT_EQ(refusal(text, "out.pdf"), "");
 }
 
 TEST_F(hostile_documents, formulas_of_the_course_are_not_refused) {

@@ -154,9 +154,9 @@ TEST(bad_input, characters_latex_cannot_print_are_named) {
 
 TEST(bad_input, latex_failure_tells_the_first_real_error) {
     const Workbench bench;
-    write_folder(bench, "print(1)\n", "# Results\n\n$$ \\undefinedcommand $$\n");
+    write_folder(bench, "print(1)\n", "# Results\n\n$$ x^1^2 $$\n");
     const ChildResult result = bench.dynlab({"report", "mine"});
-    expect_failure(result, 1, "undefinedcommand");
+    expect_failure(result, 1, "Double superscript");
     EXPECT_THAT(bench.files(), ElementsAre("mine"));
 }
 
