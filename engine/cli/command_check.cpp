@@ -75,7 +75,7 @@ void add_check(CLI::App& app, Action& action) {
         "lab_report. Pages, sections, figures that the text never mentions, unfilled slots, languages, text size and\n"
         "margins are looked at. The members in group.toml and the people of a roster are looked for in text, "
         "metadata,\n"
-        "pictures, links, comments, embedded files and everything else inside, home folders too.\n"
+        "pictures, links, comments, embedded files and everything else inside, home folders too: dynlab help names.\n"
         "Examples:  dynlab check my-crane     dynlab check report.pdf     dynlab check talk.pdf --template slides "
         "--json\n"
         "Exit codes: 0 no rule is broken (there may be hints), 1 a rule is broken, 2 wrong usage.\n"

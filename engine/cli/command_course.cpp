@@ -203,6 +203,7 @@ void add_course(CLI::App& app, Action& action) {
         "remark\n"
         "  dynlab course marks crane                                  from the reviewers' scores and your own word\n"
         "  dynlab course export crane --out marks.csv                 for Moodle and Canvas\n"
+        "More: dynlab help review_marks (how marks come out of scores), dynlab help names (what is searched for)\n"
         "Exit codes: 0 done, 1 something failed or was not taken, 2 wrong usage.");
 }
 

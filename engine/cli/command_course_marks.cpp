@@ -131,7 +131,7 @@ void add_mark_commands(CLI::App& course, CourseWords& where, Action& action) {
     shown.app->footer(
         "A report's mark: 100 times the sum of the medians over that of the most points. A reviewer's: 100 (1 - 2 d),\n"
         "never below 0, averaged over the reviews; d is the mean of |points - median of the others| / most. Far below\n"
-        "the others: more than 0.35 of the scale on average.");
+        "the others: more than 0.35 of the scale on average. An example: dynlab help review_marks");
 
     const auto set = add_one(course, "override", "Set a mark yourself; it always wins", where, action, set_mark);
     set.app->add_option("ASSIGNMENT", set.words->assignment)->required();

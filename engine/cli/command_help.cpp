@@ -8,7 +8,9 @@ namespace dynlab {
 void add_help(CLI::App& app, Action& action) {
     auto name = std::make_shared<std::string>();
     CLI::App* command = app.add_subcommand("help", "What a function of the scripts does, with an example");
-    command->add_option("NAME", *name, "A function (tf, lsim, ...) or 'matlab'; without it the list of all");
+    command->add_option(
+        "NAME", *name,
+        "A function (tf, lsim, ...) or a subject: matlab, checks, names, review_marks; without it the list of all");
     command->footer("Examples:  dynlab help     dynlab help procsrivc     dynlab help matlab");
     command->callback([name, &action] {
         action = [name]() -> int {

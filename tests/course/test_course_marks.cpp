@@ -49,6 +49,10 @@ TEST(course_marks, follow_the_scores_and_flag_revenge) {
     EXPECT_THAT(marks, ContainsRegex("group-02 +3 +3 +3 +3 +3 +60\\.0 +53\\.3"));
     EXPECT_THAT(marks, ContainsRegex("group-03 +2 +2 +2 +2 +2 +40\\.0 +60\\.0"));
     EXPECT_THAT(marks, ContainsRegex("group-04 +5 +5 +5 +5 +5 +100\\.0 +60\\.0"));
+    const std::string page = read_file(DYNLAB_SOURCE_DIR "/engine/scripting/reference/review_marks.md");
+    for (const char* row : {"| group-01 | 80.0 | 60.0 |", "| group-02 | 60.0 | 53.3 |", "| group-03 | 40.0 | 60.0 |",
+                            "| group-04 | 100.0 | 60.0 |", "| group-04 | 5 | 3 | 0 | - |"})
+        EXPECT_THAT(page, HasSubstr(row));  // the help's example is this one
     EXPECT_THAT(marks, HasSubstr("Look at the review of group-03 by group-04: far below the others; group-03 had given "
                                  "group-04 few points."));
     EXPECT_THAT(marks, HasSubstr("Look at the review of group-04 by group-03: far below the others; group-04 had given "
