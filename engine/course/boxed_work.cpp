@@ -10,7 +10,8 @@ BoxedResult run_boxed(Box& box, const std::filesystem::path& program, const nloh
     Box::Limits limits;
     limits.timeout = timeout;
     const auto start = std::chrono::steady_clock::now();
-    const ChildResult child = box.run({inside.string(), "boxed"}, {}, job.dump(), limits);
+    const ChildResult child = box.run({inside.string(), "boxed"}, {},
+                                      job.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), limits);
     BoxedResult result;
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     result.timed_out = child.timed_out;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 #include "course/check_session.h"
 #include "data_io/mat_file.h"
@@ -86,11 +87,21 @@ double distance(const Call& call, bool absolute) {
         given = call.vector(1, "x");
         wanted = call.vector(2, "wanted");
         if (given.size() != wanted.size()) return std::numeric_limits<double>::infinity();
+        if (wanted.size() == 0) return 0;
     }
     const double apart = (given - wanted).cwiseAbs().maxCoeff(), size = wanted.cwiseAbs().maxCoeff();
     if (!given.allFinite()) return std::numeric_limits<double>::infinity();
     if (absolute) return apart;
     return apart == 0 ? 0 : apart / size;
+}
+
+/// Whether this check looks at records that students must not learn anything about: how far away an answer is would
+/// tell the truth to whoever hands in twice.
+bool on_secret_record(const Call& call) {
+    const CheckSession& session = session_of(call);
+    if (!session.current) return false;
+    const std::string& rerun = session.current->rerun;
+    return session.took_hidden || (!rerun.empty() && rerun != "seed");
 }
 
 int near(Call& call) {
@@ -105,6 +116,8 @@ int near(Call& call) {
     const auto measured = [&](double x) { return absolute ? number_text(x, 3) : percent(x); };
     if (apart <= most) return give_judgement(call, 1, "");
     if (!std::isfinite(apart)) return give_judgement(call, 0, "It is not a finite number, or not as many as wanted.");
+    if (on_secret_record(call))
+        return give_judgement(call, apart <= half ? 0.5 : 0, "On a record that you have not seen, it is too far away.");
     return give_judgement(
         call, apart <= half ? 0.5 : 0,
         fmt::format("It is {} away from what was expected; at most {} was wanted.", measured(apart), measured(most)));
@@ -116,6 +129,8 @@ int points_between(Call& call) {
     if (!(low != high)) throw InvalidArgument("low and high must differ");
     const double share = std::isfinite(x) ? std::clamp((x - low) / (high - low), 0.0, 1.0) : 0;
     if (share == 1) return give_judgement(call, 1, "");
+    if (on_secret_record(call))
+        return give_judgement(call, share, "On a record that you have not seen, it falls short of full points.");
     return give_judgement(call, share,
                           fmt::format("It comes to {}; full points are from {} on, none at {}.", number_text(x, 3),
                                       number_text(high, 3), number_text(low, 3)));
@@ -156,7 +171,9 @@ int all_of(Call& call) {
     Verdict all{1, ""};
     for (int i = 1; i <= call.count(); ++i) {
         const Verdict one = verdict_at(call, i);
-        if (one.share < 1 && !one.message.empty()) all.message += (all.message.empty() ? "" : " ") + one.message;
+        const bool new_words =
+            one.share < 1 && !one.message.empty() && all.message.find(one.message) == std::string::npos;
+        if (new_words) all.message += (all.message.empty() ? "" : " ") + one.message;
         all.share = std::min(all.share, one.share);
     }
     return give_judgement(call, all.share, all.message);
@@ -194,9 +211,10 @@ void call_library(const Call& call, const char* name, int arguments) {
 int hidden(Call& call) {
     call.at_most(1);
     const std::string name = call.text(1, "name");
-    const CheckSession& session = session_of(call);
+    CheckSession& session = session_of(call);
     if (!session.specimens.contains(name))
         throw InvalidArgument(fmt::format("there is no hidden record \"{}\": name a simulated experiment", name));
+    session.took_hidden = true;
     call.give((session.hidden_folder / (name + ".mat")).string());
     call_library(call, "load", 1);
     return 1;
@@ -205,7 +223,8 @@ int hidden(Call& call) {
 /// truth(name): of the hidden record; truth(b): of the record of the rerun.
 int truth(Call& call) {
     call.at_most(1);
-    const CheckSession& session = session_of(call);
+    CheckSession& session = session_of(call);
+    session.took_hidden = true;
     std::string name, key;
     if (call.type(1) == LUA_TSTRING) {
         name = key = call.text(1, "name");
@@ -245,9 +264,12 @@ int has_value(Call& call) {
 int no_finding(Call& call) {
     std::vector<std::string> ids;
     for (int i = 1; i <= call.count(); ++i) ids.push_back(call.text(i, "id"));
+    static const std::set<std::string> no_document = {"document-fails", "analysis-fails", "analysis-missing",
+                                                      "folder-too-large"};
     for (const nlohmann::json& finding : session_of(call).findings) {
-        const bool concerned = ids.empty() ? finding.at("severity") == "rule"
-                                           : std::find(ids.begin(), ids.end(), finding.at("id")) != ids.end();
+        const bool concerned = no_document.contains(finding.at("id")) || ids.empty()
+                                   ? finding.at("severity") == "rule"
+                                   : std::find(ids.begin(), ids.end(), finding.at("id")) != ids.end();
         if (concerned) return give_judgement(call, 0, finding.at("what"));
     }
     return give_judgement(call, 1, "");
@@ -276,6 +298,12 @@ constexpr std::array kFunctions = {
 // ---------------------------------------------------------------------------------------------------------------------
 // Trying a check
 
+/// Whether NaN or an infinite number stands in an answer (see json_of_number).
+bool holds_no_numbers(const nlohmann::json& answer) {
+    if (answer.is_string()) return answer == "NaN" || answer == "Infinity" || answer == "-Infinity";
+    return answer.is_structured() && std::any_of(answer.begin(), answer.end(), holds_no_numbers);
+}
+
 /// Reads an answer when it is first asked for; upvalue 2 is the name of the run. One that is not there fails the check,
 /// in words for the student.
 int answer_of(Call& call) {
@@ -284,7 +312,10 @@ int answer_of(Call& call) {
     const nlohmann::json& runs = session_of(call).runs;
     if (!runs.contains(run) || !runs.at(run).contains("answers") || !runs.at(run).at("answers").contains(name))
         throw InvalidArgument(fmt::format("The answer \"{}\" was not handed in.", name));
-    push_answer_value(L, runs.at(run).at("answers").at(name).dump());
+    const nlohmann::json& answer = runs.at(run).at("answers").at(name);
+    if (answer.at("kind") != "data" && answer.at("kind") != "text" && holds_no_numbers(answer))
+        throw InvalidArgument(fmt::format("The answer \"{}\" holds NaN or infinite numbers.", name));
+    push_answer_value(L, answer.dump());
     lua_pushvalue(L, 2);
     lua_pushvalue(L, -2);
     lua_rawset(L, 1);
@@ -330,6 +361,7 @@ int verdict(Call& call) {
     lua_State* L = call.state();
     const DeclaredCheck& check = session.checks.at(static_cast<std::size_t>(call.size(1, "number")));
     session.current = &check;
+    session.took_hidden = false;
     const int answers = lua_gettop(L) + 1;
     push_answers(call, "main");
     push_answers(call, check.rerun.empty() ? "main" : check.rerun);

@@ -6,7 +6,7 @@ namespace dynlab {
 /// Reads check files and tries them on a submission, in this process, which should be in a box and is confined here.
 /// `job`:
 ///   {"files": [{"name", "source", "visible"}, ...], "hidden_folder": place, "specimens": {name: number},
-///    "time_ms": most milliseconds for each check,
+///    "time_ms": most milliseconds for each check, "only": the number of the one that is wanted, or null for all,
 ///    "submission": {"runs": {"main": ..., rerun: ...}, "findings": [...]} or null to list the checks only}
 /// Returns {"checks": [{"id", "about", "hint", "points", "visible", "rerun", "document", "share", "message"}, ...]}, or
 /// {"error": sentence} when a file cannot be read; share and message are absent when the checks are only listed, and

@@ -36,6 +36,7 @@ struct CheckSession {
     std::filesystem::path hidden_folder;  ///< holds NAME.mat
     bool visible_file = true;             ///< of the file that is being read
     const DeclaredCheck* current = nullptr;
+    bool took_hidden = false;  ///< the current check asked for a hidden record or what theory says of one
     std::optional<Verdict> verdict;
 };
 

@@ -58,7 +58,13 @@ std::vector<std::string> row_of(const std::string& id, const std::string& name, 
     return row;
 }
 
-TextTable gradebook_of(const ClassResults& results, std::vector<std::string>& not_in_roster) {
+/// Of several submissions of one student, the better one.
+const Entry* better(const Entry* a, const Entry* b) {
+    const auto points = [](const Entry* entry) { return entry->grade ? entry->grade->earned() : -1; };
+    return a == nullptr || points(b) > points(a) ? b : a;
+}
+
+TextTable gradebook_of(const ClassResults& results, std::vector<std::string>& remarks) {
     const std::vector<std::string> ids = check_ids(results);
     TextTable table;
     table.names = {"id", "name", "submission", "state", "points", "possible", "penalty", "late_hours"};
@@ -72,8 +78,16 @@ TextTable gradebook_of(const ClassResults& results, std::vector<std::string>& no
     std::vector<const Entry*> work(students.size(), nullptr);
     for (const Entry& entry : results.entries) {
         const auto owners = results.roster->owners(entry.submission);
-        if (owners.empty()) not_in_roster.push_back(entry.submission.name);
-        for (const std::size_t owner : owners) work[owner] = &entry;
+        if (owners.empty())
+            remarks.push_back(
+                fmt::format("the submission \"{}\" belongs to nobody in the roster", entry.submission.name));
+        for (const std::size_t owner : owners) {
+            if (work[owner] != nullptr)
+                remarks.push_back(
+                    fmt::format("{} has several submissions, of which the better one counts: \"{}\", \"{}\"",
+                                students[owner].id, work[owner]->submission.name, entry.submission.name));
+            work[owner] = better(work[owner], &entry);
+        }
     }
     for (std::size_t i = 0; i < students.size(); ++i)
         table.rows.push_back(row_of(students[i].id, students[i].name, work[i], ids));
@@ -104,12 +118,11 @@ RecordedTable success_of(const ClassResults& results) {
     return table;
 }
 
-std::string attention_of(const ClassResults& results, const std::vector<std::string>& not_in_roster) {
+std::string attention_of(const ClassResults& results, const std::vector<std::string>& remarks) {
     std::string attention;
     const auto add = [&](const std::string& sentence) { attention += "- " + escaped_markdown(sentence) + "\n"; };
     for (const std::string& complaint : results.complaints) add(complaint);
-    for (const std::string& name : not_in_roster)
-        add(fmt::format("the submission \"{}\" belongs to nobody in the roster", name));
+    for (const std::string& remark : remarks) add(remark);
     for (const Entry& entry : results.entries)
         if (entry.grade && !entry.grade->whole()) add(fmt::format("\"{}\" is not graded whole", entry.submission.name));
     return attention.empty() ? "Nothing.\n" : attention;
@@ -157,8 +170,8 @@ RecordedFigure histogram_of(const Vector& points, double possible) {
 }  // namespace
 
 void write_class_results(const ClassResults& results) {
-    std::vector<std::string> not_in_roster;
-    write_file_atomically(results.out / "gradebook.csv", csv_text(gradebook_of(results, not_in_roster)));
+    std::vector<std::string> remarks;
+    write_file_atomically(results.out / "gradebook.csv", csv_text(gradebook_of(results, remarks)));
     double possible = 0;
     for (const Entry& entry : results.entries)
         if (entry.grade) possible = std::max(possible, entry.grade->possible());
@@ -166,7 +179,7 @@ void write_class_results(const ClassResults& results) {
     RunRecord record;
     add_numbers(results, points, possible, record);
     record.tables["success"] = success_of(results);
-    record.texts["attention"] = {attention_of(results, not_in_roster)};
+    record.texts["attention"] = {attention_of(results, remarks)};
     record.figures["points"] = histogram_of(points, possible);
     GnuplotRenderer renderer;
     const TemporaryFolder drawn;

@@ -36,8 +36,12 @@ long written(const fs::path& path) {
     };
     if (!fs::is_directory(path)) return seconds(path);
     long newest = 0;
-    for (const auto& entry : fs::recursive_directory_iterator(path))
-        if (entry.is_regular_file() && !entry.is_symlink()) newest = std::max(newest, seconds(entry.path()));
+    for (auto entry = fs::recursive_directory_iterator(path); entry != fs::recursive_directory_iterator(); ++entry) {
+        const bool hidden = entry->path().filename().string().starts_with('.');  // written by whoever looked at it
+        const fs::file_type type = entry->symlink_status().type();
+        if (hidden) entry.disable_recursion_pending();
+        if (!hidden && type == fs::file_type::regular) newest = std::max(newest, seconds(entry->path()));
+    }
     return newest;
 }
 

@@ -22,7 +22,7 @@ constexpr std::size_t kPrinted = 4000;         // characters that are kept of th
 constexpr std::size_t kMostOutput = 4u << 20;  // of printed text
 constexpr int kOpenFiles = 64;
 constexpr auto kMargin = std::chrono::milliseconds(300);  // the script's own limit comes first: its answers are kept
-constexpr std::uint64_t kMostAnswers = 32ull << 20;
+constexpr std::uint64_t kMostAnswers = 4ull << 20;
 
 /// The script as the lesson wants it: its own promises of answers do not count.
 PercentScript read_for_grading(const json& job) {

@@ -26,12 +26,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Of what is too large to be graded, its size alone: reading it may take for ever.
 std::string hash_of_content(const Submission& submission) {
-    if (submission.archive) return hash_of_file(submission.path);
+    const SubmissionLimits limits;
+    const auto too_large = [](std::uintmax_t bytes) { return fmt::format("too large: {}", bytes); };
+    if (submission.archive) {
+        const std::uintmax_t bytes = fs::file_size(submission.path);
+        return bytes > limits.bytes ? too_large(bytes) : hash_of_file(submission.path);
+    }
     ContentHash hash;
     std::vector<fs::path> files;
+    std::uintmax_t bytes = 0;
     for (const auto& entry : fs::recursive_directory_iterator(submission.path))
-        if (entry.symlink_status().type() == fs::file_type::regular) files.push_back(entry.path());
+        if (entry.symlink_status().type() == fs::file_type::regular) {
+            files.push_back(entry.path());
+            bytes += entry.file_size();
+        }
+    if (bytes > limits.bytes) return too_large(bytes);
     std::sort(files.begin(), files.end());
     for (const fs::path& file : files) {
         const std::string name = file.lexically_relative(submission.path).string();
@@ -46,13 +57,16 @@ class ClassGrading {
     ClassGrading(const GradingRequest& request, GradingOutcome& outcome)
         : request_(request),
           outcome_(outcome),
-          submissions_(submissions_in(opened(request))),
+          submissions_(submissions_in(opened(request), left_out_)),
           rules_(request.setup),
           manual_(prepared(request.out) / "manual.csv"),
           documents_(request.setup.isolation, request.setup.program) {
         if (request.deadlines) deadlines_ = Deadlines(*request.deadlines);
         if (request.roster) roster_.emplace(*request.roster);
         outcome_.complaints = rules_.try_solution();
+        for (const std::string& name : left_out_)
+            outcome_.complaints.push_back(
+                fmt::format("\"{}\" is left out: it is neither a folder nor an archive (.zip, .tar.gz)", name));
         grades_.resize(submissions_.size());
         chosen_ = chosen();
     }
@@ -71,9 +85,10 @@ class ClassGrading {
 
   private:
     /// The folder itself, or what an LMS put into one zip.
-    fs::path opened(const GradingRequest& request) const {
+    fs::path opened(const GradingRequest& request) {
         if (!fs::is_regular_file(request.submissions)) return request.submissions;
-        unpack_export(request.submissions, export_.path() / "all", request.setup.isolation, request.setup.program);
+        left_out_ =
+            unpack_export(request.submissions, export_.path() / "all", request.setup.isolation, request.setup.program);
         return export_.path() / "all";
     }
 
@@ -218,6 +233,7 @@ class ClassGrading {
     const GradingRequest& request_;
     GradingOutcome& outcome_;
     TemporaryFolder export_;
+    std::vector<std::string> left_out_;
     std::vector<Submission> submissions_;
     GradingRules rules_;
     ManualMarks manual_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "course/document_findings.h"
 #include "data_io/dataset_index.h"
 #include "platform/atomic_file.h"
 #include "platform/content_hash.h"
@@ -20,17 +21,33 @@ using nlohmann::json;
 
 constexpr char kSeedOnly[] = "seed";
 constexpr char kMain[] = "main";
-constexpr auto kCheckTime = std::chrono::milliseconds(10000);   // of one check
-constexpr auto kChecksTime = std::chrono::milliseconds(60000);  // of all
-constexpr auto kDocumentTime = std::chrono::seconds(120);
+constexpr auto kCheckTime = std::chrono::milliseconds(10000);     // of one check
+constexpr auto kSingleTime = std::chrono::milliseconds(60000);    // of all, where each needs a box of its own
+constexpr auto kDocumentTime = std::chrono::milliseconds(15000);  // beyond the script's own
+constexpr std::size_t kLongestTrouble = 2000;
 constexpr auto kMargin = std::chrono::milliseconds(300);  // the script's copy is ended before its box
 constexpr auto kStartTime = std::chrono::milliseconds(500);
 constexpr std::uint64_t kScriptMemory = 1ull << 30;
+
+/// What an error says, however long.
+std::string shortened(const std::string& trouble) {
+    return trouble.size() > kLongestTrouble ? trouble.substr(0, kLongestTrouble) + " ..." : trouble;
+}
+
+/// The lesson's template where it demands something, else its report.
+std::string standard_for(const Lesson& lesson, const PercentScript& script) {
+    const DocumentStandard named = standard_of(script.header.template_name);
+    const fs::path report = lesson.report("en");
+    const bool demands = named.rules.pages || !named.rules.sections.empty();
+    return demands || !fs::exists(report) ? script.header.template_name : report.string();
+}
+
 }  // namespace
 
 GradingRules::GradingRules(GradingSetup setup) : setup_(std::move(setup)) {
     const PercentScript lesson = read_percent_script(setup_.lesson.script());
     seed_ = lesson.header.seed;
+    standard_ = standard_for(setup_.lesson, lesson);
     for (const ExpectedAnswer& answer : lesson.header.answers) answers_.push_back({answer.name, answer.kind});
     read_checks();
     make_records();
@@ -141,7 +158,7 @@ json GradingRules::run(const fs::path& folder, const GroupSeed& group_seed, std:
         ended ? *result.output : json{{kMain, {{"error", fmt::format("The script was ended: {}.", result.reason)}}}};
     for (const auto& [name, run] : runs.items())
         log += fmt::format("run {}: {:.3f} s of the script\n{}", name, run.value("seconds", 0.0),
-                           run.contains("error") ? "  " + run.at("error").get<std::string>() + "\n" : "");
+                           run.contains("error") ? "  " + shortened(run.at("error")) + "\n" : "");
     return runs;
 }
 
@@ -152,10 +169,13 @@ json GradingRules::findings(const fs::path& folder, const GroupSeed& group_seed)
     box.add(shared_folder() / "report_templates", "/box/home/report_templates");
     box.set_environment("DYNLAB_HOME", home.string());
     const fs::path inside = box.add(folder, "/box/submission"), program = box.add(setup_.program, "/box/dynlab");
+    const bool file = standard_.ends_with(".md");
+    const std::string standard = file ? box.add(standard_, "/box/standard/report.md").string() : standard_;
     Box::Limits limits;
-    limits.timeout = kDocumentTime;
+    limits.timeout = setup_.timeout + kDocumentTime;
     const ChildResult child =
-        box.run({program.string(), "check", "--json", "--document-only", inside.string()}, {}, "", limits);
+        box.run({program.string(), "check", "--json", "--document-only", "--template", standard, inside.string()}, {},
+                "", limits);
     const json found = json::parse(child.output, nullptr, false);
     if (!found.is_discarded() && found.contains("findings")) return found.at("findings");
     return json::array({{{"id", "document-fails"},
@@ -163,7 +183,8 @@ json GradingRules::findings(const fs::path& folder, const GroupSeed& group_seed)
                          {"what", child.timed_out ? "The report takes too long." : "The report cannot be made."}}});
 }
 
-BoxedResult GradingRules::checked(json submission, const GroupSeed& group_seed) const {
+BoxedResult GradingRules::checked(json submission, const GroupSeed& group_seed, std::optional<std::size_t> only,
+                                  std::chrono::milliseconds timeout) const {
     Box box(setup_.isolation);
     box.set_environment("DYNLAB_HOME", add_home(box, kMain, group_seed).string());
     const bool tries = !submission.is_null();
@@ -172,8 +193,30 @@ BoxedResult GradingRules::checked(json submission, const GroupSeed& group_seed) 
                       {"hidden_folder", tries ? box.add(records_.path() / "hidden", "/box/hidden").string() : ""},
                       {"specimens", specimens_},
                       {"time_ms", kCheckTime.count()},
+                      {"only", only ? json(*only) : json()},
                       {"submission", std::move(submission)}};
-    return run_boxed(box, setup_.program, job, kChecksTime);
+    return run_boxed(box, setup_.program, job, timeout);
+}
+
+/// A verdict for each check. Answers that crash one check, or hold it up, take the others with them; then each is tried
+/// in a box of its own, and only those stay without a verdict that come to no end there: "lost" says why.
+json GradingRules::verdicts(const json& submission, const GroupSeed& group_seed, std::string& log) const {
+    const auto usable = [](const BoxedResult& result, std::size_t count) {
+        return result.output && result.output->contains("checks") && result.output->at("checks").size() == count;
+    };
+    const BoxedResult together = checked(submission, group_seed);
+    log += fmt::format("checks: {:.3f} s in their box{}\n", together.seconds,
+                       together.output ? "" : "; " + together.reason);
+    if (usable(together, checks_.size())) return together.output->at("checks");
+    json all = json::array();
+    for (std::size_t k = 0; k < checks_.size(); ++k) {
+        const BoxedResult alone = checked(submission, group_seed, k, kSingleTime / static_cast<int>(checks_.size()));
+        if (usable(alone, 1))
+            all.push_back(alone.output->at("checks").at(0));
+        else
+            all.push_back({{"lost", alone.output ? "its result cannot be read" : alone.reason}});
+    }
+    return all;
 }
 
 Grade GradingRules::without_checks(const std::string& name, const std::string& trouble) const {
@@ -197,25 +240,22 @@ Grade GradingRules::without_checks(const std::string& name, const std::string& t
 
 Grade GradingRules::grade(const std::string& name, const fs::path& folder, const GroupSeed& group_seed) const {
     Grade grade = without_checks(name, "");
-    const json runs = run(folder, group_seed, grade.log);
-    const json& main = runs.at(kMain);
-    if (main.contains("error")) grade.trouble = main.at("error");
+    json submission = {{"runs", run(folder, group_seed, grade.log)}};
+    const json& main = submission.at("runs").at(kMain);
+    if (main.contains("error")) grade.trouble = shortened(main.at("error"));
     if (main.contains("printed")) grade.printed = main.at("printed");
-    const BoxedResult result =
-        checked({{"runs", runs}, {"findings", document_ ? findings(folder, group_seed) : json::array()}}, group_seed);
-    grade.log +=
-        fmt::format("checks: {:.3f} s in their box{}\n", result.seconds, result.output ? "" : "; " + result.reason);
+    submission["findings"] = document_ ? findings(folder, group_seed) : json::array();
+    const json found = verdicts(submission, group_seed, grade.log);
     if (!grade.printed.empty()) grade.log += "\nprinted by the script, at its end:\n" + grade.printed;
-    const bool usable =
-        result.output && result.output->contains("checks") && result.output->at("checks").size() == grade.checks.size();
     for (std::size_t k = 0; k < grade.checks.size(); ++k) {
         CheckGrade& check = grade.checks[k];
-        if (!usable) {
+        const json& verdict = found.at(k);
+        if (verdict.contains("lost")) {
             check.graded = false;
-            check.message = fmt::format("The check could not be run: {}.", result.reason);
+            check.message =
+                fmt::format("The check could not be run on these answers: {}.", verdict.at("lost").get<std::string>());
             continue;
         }
-        const json& verdict = result.output->at("checks").at(k);
         if (verdict.at("share").is_number()) check.earned = check.points * verdict.at("share").get<double>();
         check.message = verdict.at("message");
     }
@@ -228,7 +268,10 @@ std::vector<std::string> GradingRules::try_solution() {
     if (const fs::path report = setup_.lesson.report("en"); fs::exists(report))
         fs::copy_file(report, work.path() / "report.md");
     std::vector<std::string> complaints;
-    for (const CheckGrade& check : grade("solution", work.path()).checks) {
+    const Grade solution = grade("solution", work.path());
+    if (!solution.trouble.empty())
+        complaints.push_back("the worked solution did not run to its end: " + solution.trouble);
+    for (const CheckGrade& check : solution.checks) {
         if (check.graded && check.earned == check.points) continue;
         broken_.insert(check.id);
         complaints.push_back(

@@ -55,7 +55,9 @@ class GradingRules {
     void make_record(const std::string& data_set, const std::string& key, const std::filesystem::path& folder);
     nlohmann::json run(const std::filesystem::path& folder, const GroupSeed& group_seed, std::string& log) const;
     nlohmann::json findings(const std::filesystem::path& folder, const GroupSeed& group_seed) const;
-    BoxedResult checked(nlohmann::json submission, const GroupSeed& group_seed) const;
+    BoxedResult checked(nlohmann::json submission, const GroupSeed& group_seed, std::optional<std::size_t> only = {},
+                        std::chrono::milliseconds timeout = std::chrono::seconds(60)) const;
+    nlohmann::json verdicts(const nlohmann::json& submission, const GroupSeed& group_seed, std::string& log) const;
     std::filesystem::path data_of(const GroupSeed& group_seed) const;
     std::filesystem::path add_home(Box& box, const std::string& run, const GroupSeed& group_seed) const;
     std::uint32_t drawn(const std::string& what) const;
@@ -63,6 +65,7 @@ class GradingRules {
     GradingSetup setup_;
     nlohmann::json files_ = nlohmann::json::array(), answers_ = nlohmann::json::array(), checks_;
     std::uint32_t seed_ = 1;
+    std::string standard_;  ///< the template, or the file of one, whose rules a document must keep
     std::map<std::string, std::uint32_t> specimens_;
     std::set<std::string> reruns_, broken_;
     bool document_ = false;

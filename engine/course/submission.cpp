@@ -47,6 +47,13 @@ std::optional<fs::path> folder_with_script(const fs::path& folder, int depth = 0
     return found;
 }
 
+/// The folder that Moodle makes for a text typed into its form, beside that of the files.
+bool is_online_text(const fs::path& folder) {
+    const std::vector<fs::path> entries = entries_of(folder);
+    return folder.filename().string().find("_assignsubmission_onlinetext") != std::string::npos &&
+           entries.size() == 1 && entries.front().filename() == "onlinetext.html";
+}
+
 }  // namespace
 
 std::optional<std::string> archive_stem(const std::string& name) {
@@ -58,20 +65,21 @@ std::optional<std::string> archive_stem(const std::string& name) {
 }
 
 void read_lms_name(Submission& submission) {
-    static const std::regex moodle(R"(^(.+)_(\d+)_assignsubmission_(?:file|onlinetext)_?.*$)");
+    // What the platform wrote stands first; what comes after it is the student's own and may look the same.
     static const std::regex canvas(R"(^([^_]+)(_LATE)?_(\d+)_(\d+)_.*$)");
+    static const std::regex moodle(R"(^(.+?)_(\d+)_assignsubmission_(?:file|onlinetext)_?.*$)");
     std::smatch parts;
-    if (std::regex_match(submission.name, parts, moodle)) {
-        submission.person = parts[1];
-        submission.lms_id = parts[2];
-    } else if (std::regex_match(submission.name, parts, canvas)) {
+    if (std::regex_match(submission.name, parts, canvas)) {
         submission.person = parts[1];
         submission.late = parts[2].matched;
         submission.lms_id = parts[3];
+    } else if (std::regex_match(submission.name, parts, moodle)) {
+        submission.person = parts[1];
+        submission.lms_id = parts[2];
     }
 }
 
-std::vector<Submission> submissions_in(const fs::path& folder) {
+std::vector<Submission> submissions_in(const fs::path& folder, std::vector<std::string>& left_out) {
     std::vector<Submission> all;
     if (!fs::is_directory(folder)) throw EnvironmentError(fmt::format("there is no folder '{}'", folder.string()));
     for (const fs::path& entry : entries_of(folder)) {
@@ -79,17 +87,22 @@ std::vector<Submission> submissions_in(const fs::path& folder) {
         submission.path = entry;
         const std::string name = entry.filename().string();
         if (is_folder(entry)) {
+            if (is_online_text(entry)) continue;
             submission.name = name;
         } else if (const auto stem = archive_stem(name); stem && is_plain_file(entry)) {
             submission.name = *stem;
             submission.archive = true;
         } else {
+            left_out.push_back(name);
             continue;
         }
         read_lms_name(submission);
         const bool taken =
             std::any_of(all.begin(), all.end(), [&](const auto& other) { return other.name == submission.name; });
-        if (taken) submission.name = name;
+        if (taken) {
+            if (submission.person.empty()) submission.person = submission.name;
+            submission.name = name;
+        }
         all.push_back(std::move(submission));
     }
     if (all.empty())
@@ -105,7 +118,8 @@ std::vector<std::string> unpack(const fs::path& archive, const fs::path& to, Iso
                                 const SubmissionLimits& limits) {
     fs::create_directories(to);
     Box box(level);
-    nlohmann::json job = {{"work", "unpack"}, {"bytes", limits.bytes}, {"files", limits.files}};
+    nlohmann::json job = {
+        {"work", "unpack"}, {"bytes", limits.bytes}, {"files", limits.files}, {"keep_times", limits.keep_times}};
     job["archive"] = box.add(archive, "/box/archive").string();
     job["to"] = box.add_writable(to, "/box/unpacked").string();
     const BoxedResult result = run_boxed(box, program, job, std::chrono::seconds(60));
@@ -120,7 +134,7 @@ std::vector<std::string> unpack(const fs::path& archive, const fs::path& to, Iso
 
 std::vector<std::string> unpack_export(const fs::path& archive, const fs::path& to, Isolation level,
                                        const fs::path& program) {
-    constexpr SubmissionLimits kOfAClass{4ull << 30, 200'000};
+    constexpr SubmissionLimits kOfAClass{4ull << 30, 200'000, true};
     try {
         return unpack(archive, to, level, program, kOfAClass);
     } catch (const SubmissionError& error) {

@@ -14,15 +14,16 @@ struct Submission {
     std::string name;            ///< the entry's name, without an archive's ending: how marks find it again
     std::filesystem::path path;  ///< a folder, or an archive
     bool archive = false;
-    std::string person;  ///< from the name an LMS gave: Moodle's full name, Canvas's joined name; else empty
+    std::string person;  ///< from the name an LMS gave: Moodle's full name, Canvas's joined name; else as a rule empty
     std::string lms_id;  ///< the number in that name
     bool late = false;   ///< Canvas wrote LATE into it
 };
 
-/// What stands in `folder`: folders and archives (.zip, .tar, .tar.gz, .tgz, .tar.xz), sorted by name. Links, hidden
-/// entries and other files are left out. Moodle's "Name_ID_assignsubmission_file_..." and Canvas's
-/// "nameLATE_ID_ID_file.zip" are recognised. Throws EnvironmentError where there is none.
-std::vector<Submission> submissions_in(const std::filesystem::path& folder);
+/// What stands in `folder`: folders and archives (.zip, .tar, .tar.gz, .tgz, .tar.xz), sorted by name. Hidden entries
+/// and Moodle's folders of typed text are passed over; the names of links and other files go to `left_out`. Moodle's
+/// "Name_ID_assignsubmission_file_..." and Canvas's "name_LATE_ID_ID_file.zip" are recognised. Throws EnvironmentError
+/// where there is none.
+std::vector<Submission> submissions_in(const std::filesystem::path& folder, std::vector<std::string>& left_out);
 
 /// Unpacks the one zip in which an LMS exports all submissions into `to`, an empty folder, in a box.
 /// Returns the names of what was left out: links, and what is absolute or would lead outside. Throws EnvironmentError.
@@ -33,6 +34,7 @@ std::vector<std::string> unpack_export(const std::filesystem::path& archive, con
 struct SubmissionLimits {
     std::uint64_t bytes = 200ull << 20;
     int files = 2000;
+    bool keep_times = false;  ///< of the files in an archive
 };
 
 /// The name without an archive's ending (.zip, .tar, .tar.gz, .tgz, .tar.xz, .tar.bz2); nothing for other files.

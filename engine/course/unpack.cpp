@@ -4,6 +4,8 @@
 #include <archive_entry.h>
 #include <fmt/format.h>
 
+#include <cctype>
+#include <chrono>
 #include <fstream>
 #include <memory>
 
@@ -27,10 +29,12 @@ std::optional<fs::path> safe_place(const char* name) {
     for (char& c : text)
         if (c == '\\') c = '/';
     const fs::path path(text);
-    if (path.empty() || path.is_absolute() || text.find(':') != std::string::npos) return {};
+    constexpr std::size_t kLongestName = 255;  // of a file system
+    const bool on_a_drive = text.size() > 1 && std::isalpha(static_cast<unsigned char>(text[0])) && text[1] == ':';
+    if (path.empty() || path.is_absolute() || on_a_drive) return {};
     int depth = 0;
     for (const fs::path& part : path) {
-        if (part == ".." || ++depth > kDeepest) return {};
+        if (part == ".." || ++depth > kDeepest || part.native().size() > kLongestName) return {};
         for (const unsigned char c : part.string())
             if (c < 0x20 || c == 0x7F) return {};
     }
@@ -43,6 +47,7 @@ class Unpacking {
         : to_(job.at("to").get<std::string>()),
           bytes_left_(job.at("bytes").get<std::uint64_t>()),
           files_left_(job.at("files").get<int>()),
+          keep_times_(job.at("keep_times").get<bool>()),
           archive_(archive_read_new(), archive_read_free) {
         archive_read_support_filter_gzip(archive_.get());
         archive_read_support_filter_xz(archive_.get());
@@ -77,6 +82,8 @@ class Unpacking {
         if (--files_left_ < 0) throw std::runtime_error("the archive holds too many files");
         if (!place || !ordinary || archive_entry_hardlink(entry) != nullptr) {
             left_out_.push_back(name ? name : "a name that cannot be read");
+            // What is passed over has to be unpacked as well.
+            if (archive_entry_size_is_set(entry)) use(static_cast<std::uint64_t>(archive_entry_size(entry)));
             return;
         }
         if (type == AE_IFDIR) {
@@ -85,6 +92,15 @@ class Unpacking {
         }
         fs::create_directories((to_ / *place).parent_path());
         write(to_ / *place);
+        if (keep_times_ && archive_entry_mtime_is_set(entry)) {
+            const auto time = std::chrono::system_clock::from_time_t(archive_entry_mtime(entry));
+            fs::last_write_time(to_ / *place, std::chrono::file_clock::from_sys(time));
+        }
+    }
+
+    void use(std::uint64_t bytes) {
+        if (bytes > bytes_left_) throw std::runtime_error("the archive is too large once unpacked");
+        bytes_left_ -= bytes;
     }
 
     void write(const fs::path& file) {
@@ -92,9 +108,7 @@ class Unpacking {
         char block[kBlock];
         la_ssize_t count = 0;
         while ((count = archive_read_data(archive_.get(), block, sizeof block)) > 0) {
-            if (static_cast<std::uint64_t>(count) > bytes_left_)
-                throw std::runtime_error("the archive is too large once unpacked");
-            bytes_left_ -= static_cast<std::uint64_t>(count);
+            use(static_cast<std::uint64_t>(count));
             out.write(block, count);
         }
         if (count < 0) fail();
@@ -104,6 +118,7 @@ class Unpacking {
     fs::path to_;
     std::uint64_t bytes_left_;
     int files_left_;
+    bool keep_times_;
     Archive archive_;
     std::vector<std::string> left_out_;
 };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 
 #include "platform/atomic_file.h"
@@ -117,9 +118,22 @@ bool is_number(const std::string& cell) {
     return error == std::errc() && end == cell.data() + cell.size();
 }
 
+/// After blanks, a sign that makes spreadsheets compute; some take the full-width ones for the same.
+bool begins_like_a_formula(std::string_view cell) {
+    constexpr std::array<std::string_view, 10> kSpaces = {" ",      "\t",     "\r",     "\n",     "\u00A0",
+                                                          "\u2007", "\u202F", "\u3000", "\uFEFF", "\u200B"};
+    constexpr std::array<std::string_view, 8> kSigns = {"=", "+", "-", "@", "\uFF1D", "\uFF0B", "\uFF0D", "\uFF20"};
+    const auto begins = [&cell](std::string_view text) { return cell.starts_with(text); };
+    if (begins("\t") || begins("\r")) return true;
+    for (auto blank = kSpaces.begin(); blank != kSpaces.end();) {
+        blank = std::find_if(kSpaces.begin(), kSpaces.end(), begins);
+        if (blank != kSpaces.end()) cell.remove_prefix(blank->size());
+    }
+    return std::any_of(kSigns.begin(), kSigns.end(), begins);
+}
+
 void append_cell(std::string& text, std::string cell) {
-    constexpr std::string_view kFormula = "=+-@\t\r";
-    if (!cell.empty() && kFormula.find(cell[0]) != std::string_view::npos && !is_number(cell)) cell.insert(0, "'");
+    if (begins_like_a_formula(cell) && !is_number(cell)) cell.insert(0, "'");
     if (cell.find_first_of(",;\"\r\n\t") == std::string::npos) {
         text += cell;
         return;

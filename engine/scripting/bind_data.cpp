@@ -60,9 +60,20 @@ void push_variable(const Call& call, const Variable& variable, const std::string
     std::visit(Pusher{call, place}, variable.value);
 }
 
+/// Where a script is graded it reads the course's data and what lies in its own folder, and nothing else.
+void check_stays_inside(const std::filesystem::path& path) {
+    const bool leads_out = std::find(path.begin(), path.end(), "..") != path.end();
+    if (path.is_absolute() || leads_out)
+        throw InvalidArgument(fmt::format(
+            "\"{}\" leads outside the folder; where scripts are graded, only the course's data and files of the "
+            "folder itself can be loaded",
+            path.string()));
+}
+
 int load(Call& call) {
     call.at_most(1);
     const std::string name = call.text(1, "name or path");
+    if (call.context().options.graded) check_stays_inside(name);
     const LoadedData loaded = load_data(name, call.context().options.script_folder, call.context().options.graded);
     call.context().recorder.note_file_read(loaded.file);
     push_variables(call, loaded.variables, name);

@@ -2,7 +2,7 @@
 -- expects: continuous: The order is a, b
 -- expects: discrete: The order is a1, b1
 -- expects: noisy: exact samples
--- expects: follows_samples: away from what was expected
+-- expects: follows_samples: On a record that you have not seen
 -- The columns of Phi stand in another order, and the exact samples are taken twice.
 local games, four = load("winning_times"), load("step_response")
 local last = #games.year - 1

@@ -1,6 +1,6 @@
 -- expects: position_model: The integrator is missing
 -- expects: fits: away from what was expected
--- expects: crane_follows: It comes to
+-- expects: crane_follows: On a record that you have not seen
 -- expects: discarded: still stands against a buffer
 -- The position's model is left without its integrator, and only the saturated voltage is discarded.
 local c = load("crane")

@@ -1,6 +1,6 @@
 -- expects: position_model: estimated on the validation record
 -- expects: angle_model: The sign is wrong
--- expects: crane_follows: It comes to
+-- expects: crane_follows: On a record that you have not seen
 -- expects: discarded: More is discarded
 -- The position is estimated on the validation record, the angle counted backwards, and nearly all of limits thrown away.
 local c = load("crane")

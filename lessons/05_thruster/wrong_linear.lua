@@ -2,8 +2,8 @@
 -- expects: delay: it has no dead band to wait for
 -- expects: thrust_300: Forward and reverse are the same
 -- expects: model: This model is linear
--- expects: statics_follow: away from what was expected
--- expects: model_follows: It comes to
+-- expects: statics_follow: On a record that you have not seen
+-- expects: model_follows: On a record that you have not seen
 -- One linear model for everything.
 local T = load("thruster")
 local parts, squares = {}, {}

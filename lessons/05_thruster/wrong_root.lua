@@ -2,8 +2,8 @@
 -- expects: thrust_300: These are the roots of the thrust
 -- expects: model: The field root says the contrary
 -- expects: fit: the fit to the sine chirps
--- expects: statics_follow: away from what was expected
--- expects: model_follows: It comes to
+-- expects: statics_follow: On a record that you have not seen
+-- expects: model_follows: On a record that you have not seen
 -- The root of the thrust is modelled and never squared again; the fit is that of the records it was learnt from.
 local T = load("thruster")
 local Ts = 0.002

@@ -3,8 +3,8 @@
 -- expects: delay: in ms
 -- expects: model: Neutral is not taken off
 -- expects: fit: away from what was expected
--- expects: statics_follow: away from what was expected
--- expects: model_follows: It comes to
+-- expects: statics_follow: On a record that you have not seen
+-- expects: model_follows: On a record that you have not seen
 -- Rad/s, milliseconds, and pulse widths that count from zero.
 local T = load("thruster")
 local Ts = 0.002
