@@ -3,6 +3,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <map>
 #include <regex>
 
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
 constexpr int kMostPasses = 4;
-constexpr std::uint64_t kMemoryLimit = 1u << 30;
+constexpr std::uint64_t kMemoryLimit = 1u << 30, kLargestFile = 64u << 20;
 constexpr std::array kAuxiliaryFiles = {"main.aux", "main.out", "main.toc"};
 
 /// What a pass reads from the pass before. Lines for a table of contents count only where there is one.
@@ -186,6 +187,7 @@ class LatexRun {
         if (!format_folder_.empty()) child.environment.emplace_back("TEXFORMATS", format_folder_.string() + ":");
         child.timeout = 120s;
         child.memory_bytes = kMemoryLimit;
+        child.file_bytes = kLargestFile;
         return child;
     }
 
@@ -194,6 +196,8 @@ class LatexRun {
         const ChildResult run = run_child(command(), "texlive-latex-base");
         note("latex pass " + std::to_string(pass), start);
         if (run.timed_out) throw LatexRefusal("pdflatex did not finish within two minutes", 0, "");
+        if (run.exit_code == 128 + SIGXFSZ)
+            throw LatexRefusal("pdflatex wrote a file of more than 64 MB; use smaller pictures", 0, "");
         if (run.output_exceeded) throw LatexRefusal("pdflatex wrote messages without end", 0, "");
         const std::string log = "\n" + run.output;
         if (run.exit_code != 0) {

@@ -19,7 +19,7 @@ struct Launch {
     std::string program, folder;
     std::vector<std::string> arguments, environment;
     std::vector<char*> argument_pointers, environment_pointers;
-    std::optional<std::uint64_t> memory_bytes;
+    std::optional<std::uint64_t> memory_bytes, file_bytes;
     FileDescriptor input;
 };
 
@@ -68,6 +68,7 @@ Launch prepare_launch(const ChildOptions& options, const std::string& package) {
     launch.argument_pointers = pointers_to(launch.arguments);
     launch.environment_pointers = pointers_to(launch.environment);
     launch.memory_bytes = options.memory_bytes;
+    launch.file_bytes = options.file_bytes;
     launch.input = input_file(options.input);
     return launch;
 }
@@ -80,6 +81,7 @@ Launch prepare_launch(const ChildOptions& options, const std::string& package) {
                        (launch.folder.empty() || ::chdir(launch.folder.c_str()) == 0);
     if (ready) {
         if (launch.memory_bytes) limit_memory(*launch.memory_bytes);
+        if (launch.file_bytes) limit_files(*launch.file_bytes);
         ::execve(launch.program.c_str(), launch.argument_pointers.data(), launch.environment_pointers.data());
     }
     const int reason = errno;

@@ -17,6 +17,7 @@ struct ChildOptions {
     std::string input;                                             ///< given on standard input, then closed
     std::optional<std::chrono::milliseconds> timeout;  ///< wall clock; the whole process group is killed after it
     std::optional<std::uint64_t> memory_bytes;         ///< address-space limit of the child
+    std::optional<std::uint64_t> file_bytes;           ///< of the largest file the child may write; SIGXFSZ ends it
     std::uint64_t output_bytes = 64u << 20;            ///< more output than this ends the child
 };
 

@@ -52,6 +52,13 @@ void limit_memory(std::uint64_t bytes) {
     ::setrlimit(RLIMIT_AS, &limit);
 }
 
+void limit_files(std::uint64_t bytes) {
+    rlimit limit{};
+    ::getrlimit(RLIMIT_FSIZE, &limit);
+    limit.rlim_cur = limit.rlim_max = std::min<rlim_t>(bytes, limit.rlim_max);
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+}
+
 ProcessGroup::ProcessGroup(pid_t leader, FileDescriptor output, FileDescriptor error_output, const Limits& limits)
     : leader_(leader),
       output_(std::move(output)),

@@ -21,6 +21,7 @@ struct Pipe {
 bool become_group_leader(pid_t parent);
 
 void limit_memory(std::uint64_t bytes);  ///< address space of this process from now on
+void limit_files(std::uint64_t bytes);   ///< the largest file it writes from now on; a lower limit stays
 
 /// The parent's side of a forked child that leads its own process group and writes into two pipes.
 class ProcessGroup {

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "document_fixture.h"
+#include "documents/latex.h"
 #include "documents/pdf_inspection.h"
 
 namespace dynlab {
@@ -119,6 +120,34 @@ TEST_F(hostile_documents, all_symbols_environments_and_control_characters_that_a
     text += "\n$\\,\\;\\:\\!\\ \\{\\}\\|\\_\\%\\&\\#\\$\\>\\/\\-\\text{\\'e\\`e\\^e\\~n\\=o\\.z\\\"u}$\n";
     EXPECT_GT(text.size(), 5000u);
     EXPECT_EQ(refusal(text, "out.pdf"), "");
+}
+
+/// How LaTeX refuses a body that no filter has seen.
+std::string refusal_of_body(const std::string& body) {
+    const TemporaryFolder folder;
+    LatexJob job;
+    job.body = "\\begin{document}\n" + body + "\n\\end{document}\n";
+    job.layout.shared_templates = std::filesystem::path(DYNLAB_SOURCE_DIR) / "report_templates";
+    job.work_folder = folder.path();
+    try {
+        run_latex(job);
+    } catch (const LatexRefusal& refusal) {
+        return refusal.what();
+    }
+    return "";
+}
+
+// What holds should a command ever slip through.
+TEST_F(hostile_documents, latex_itself_knows_no_raw_objects_and_fills_no_disk) {
+    write("canary.tex", "SECRETWORD");
+    EXPECT_EQ(refusal_of_body("plain"), "");
+    EXPECT_THAT(refusal_of_body("\\immediate\\pdfobj stream file{" + file("canary.tex").string() + "}"),
+                HasSubstr("Undefined control sequence"));
+    EXPECT_EQ(refusal_of_body("\\ifcsname tex_pdfobj:D\\endcsname\\errmessage{known}\\fi"), "");
+    EXPECT_THAT(refusal_of_body("\\immediate\\openout5=big.tex \\def\\x{aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa}"
+                                "\\edef\\x{\\x\\x\\x\\x\\x\\x\\x\\x}\\edef\\x{\\x\\x\\x\\x\\x\\x\\x\\x}"
+                                "\\loop\\immediate\\write5{\\x\\x\\x}\\iftrue\\repeat"),
+                HasSubstr("a file of more than 64 MB"));
 }
 
 TEST_F(hostile_documents, formulas_of_the_course_are_not_refused) {
