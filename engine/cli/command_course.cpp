@@ -9,6 +9,7 @@
 #include "course/store/course_status.h"
 #include "course/store/groups.h"
 #include "numerics/error.h"
+#include "platform/terminal_text.h"
 
 namespace dynlab {
 namespace {
@@ -58,9 +59,9 @@ void add_roster(CLI::App& course, CourseWords& where, Action& action) {
     std::cout << fmt::format("{} students: {} new, {} changed, {} moved to another group; {} new groups.\n",
                              change.students, change.new_students, change.changed, change.moved, change.new_groups);
     if (!change.absent.empty())
-        std::cout << fmt::format(
-            "Not in this file, but in the course (they stay; roster drop GROUP takes a group out): {}\n",
-            fmt::join(change.absent, ", "));
+        std::cout << terminal_text(
+            fmt::format("Not in this file, but in the course (they stay; roster drop GROUP takes a group out): {}\n",
+                        fmt::join(change.absent, ", ")));
     return kDone;
 };
 }  // namespace
@@ -105,7 +106,8 @@ int add_one(const CourseWords& where, const AssignmentWords& words) {
                               "\" was given");
     a.grace = *grace;
     a.criteria = criteria_of(words.criteria);
-    std::cout << (add_assignment(course, a) ? "" : "Nothing new. ") << course_summary(course, CourseClock::now());
+    std::cout << (add_assignment(course, a) ? "" : "Nothing new. ")
+              << terminal_text(course_summary(course, CourseClock::now()));
     return kDone;
 }
 
@@ -153,13 +155,14 @@ void add_status(CLI::App& course, CourseWords& where, Action& action) {
             const Instant now = time_of(opened, words->at);
             std::vector<Assignment> shown;
             if (words->assignment.empty()) {
-                std::cout << course_summary(opened, now);
+                std::cout << terminal_text(course_summary(opened, now));
                 shown = assignments_of(opened);
             } else {
                 shown = {assignment_named(opened, words->assignment)};
             }
             for (const Assignment& a : shown)
-                std::cout << (words->assignment.empty() ? "\n" : "") << assignment_status(opened, a, now);
+                std::cout << (words->assignment.empty() ? "\n" : "")
+                          << terminal_text(assignment_status(opened, a, now));
             return kDone;
         };
     });

@@ -8,6 +8,7 @@
 #include "course/store/final_changes_document.h"
 #include "platform/error.h"
 #include "platform/progress.h"
+#include "platform/terminal_text.h"
 
 namespace dynlab {
 namespace {
@@ -49,7 +50,7 @@ int changes(const CourseWords& where, const ChangesWords& words) {
     request.progress = comparing.progress();
     const std::vector<GroupChanges> all = final_changes(course, assignment, request);
     comparing.finish();
-    std::cout << final_changes_table(assignment, all);
+    std::cout << terminal_text(final_changes_table(assignment, all));
     if (words.out.empty()) return kDone;
     const BoxedDocuments documents(request.level, request.program);
     const std::size_t written =

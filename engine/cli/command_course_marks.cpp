@@ -8,6 +8,7 @@
 #include "course/store/groups.h"
 #include "course/store/review_marks.h"
 #include "platform/atomic_file.h"
+#include "platform/terminal_text.h"
 
 namespace dynlab {
 namespace {
@@ -21,7 +22,7 @@ using Run = int (*)(const CourseWords&, const MarkWords&);
 
 int give_out(const std::string& text, const std::string& file) {
     if (file.empty()) {
-        std::cout << text;
+        std::cout << terminal_text(text);
     } else {
         write_file_atomically(file, text);
         std::cout << file << '\n';
@@ -65,14 +66,14 @@ int marks(const CourseWords& where, const MarkWords& words) {
             row.push_back(percent(mark.reviews_mark(), mark.reviews_override.has_value()));
             rows.push_back(row);
         }
-    std::cout << aligned_table(header, rows);
+    std::cout << terminal_text(aligned_table(header, rows));
     for (const ReviewPair& pair : review_pairs(course, a))
         for (const ReviewMark& mark : all.reviews)
             if (mark.pair == pair.id && mark.outlier)
-                std::cout << fmt::format(
+                std::cout << terminal_text(fmt::format(
                     "Look at the review of {} by {}: far below the others{}.\n", pair.author_name, pair.reviewer_name,
                     mark.retaliation ? fmt::format("; {} had given {} few points", pair.author_name, pair.reviewer_name)
-                                     : "");
+                                     : ""));
     return kDone;
 }
 

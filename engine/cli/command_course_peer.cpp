@@ -6,6 +6,7 @@
 #include "course/anonymous_copy.h"
 #include "course/store/aligned_table.h"
 #include "course/store/peer_review.h"
+#include "platform/terminal_text.h"
 
 namespace dynlab {
 namespace {
@@ -21,7 +22,7 @@ int assign(const CourseWords& where, const PeerWords& words) {
     const AssignOutcome done = assign_reviews(course, assignment, time_of(course, words.at), words.early);
     std::cout << fmt::format("{}: {} groups, {} reviews (seed {}): {} new, {} taken back.\n", assignment.name,
                              done.groups, done.pairs, assignment.seed, done.fresh, done.ended);
-    for (const std::string& remark : done.remarks) std::cout << remark << '\n';
+    for (const std::string& remark : done.remarks) std::cout << terminal_text(remark) << '\n';
     if (done.remarks.empty())
         std::cout << "Nobody reviews their own report, one twice, one of a common member, or each other.\n";
     return kDone;
@@ -39,7 +40,7 @@ int show_pairs(const CourseWords& where, const PeerWords& words) {
         rows.push_back(
             {pair.reviewer_name, pair.report_pseudonym(), pair.author_name, pair.reviewer_pseudonym(), state});
     }
-    std::cout << aligned_table({"reviewer", "reads", "written by", "who knows them as", "state"}, rows);
+    std::cout << terminal_text(aligned_table({"reviewer", "reads", "written by", "who knows them as", "state"}, rows));
     return kDone;
 }
 
@@ -67,7 +68,7 @@ int send(const CourseWords& where, const PeerWords& words, Way way) {
     Course course(where.folder);
     const Assignment assignment = assignment_named(course, words.assignment);
     const SendOutcome done = send_copies(course, assignment, way, time_of(course, words.at), anonymous_copier());
-    for (const std::string& stopped : done.stopped) std::cerr << "dynlab: " << stopped << '\n';
+    for (const std::string& stopped : done.stopped) std::cerr << "dynlab: " << terminal_text(stopped) << '\n';
     std::cout << fmt::format("{}: {} sent now, {} before, {} stopped, {} not come yet; in {}\n", assignment.name,
                              done.sent, done.before, done.stopped.size(), done.waiting, done.folder.string());
     return done.stopped.empty() ? kDone : kFailed;

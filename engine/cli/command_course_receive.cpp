@@ -11,6 +11,7 @@
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/progress.h"
+#include "platform/terminal_text.h"
 
 namespace dynlab {
 namespace {
@@ -49,10 +50,10 @@ void show(const ReceiveOutcome& outcome, const std::string& stage) {
                                  ? fmt::format(", {} known already", rows.size() - static_cast<std::size_t>(fresh))
                                  : "");
     if (!rows.empty())
-        std::cout << aligned_table({"group", stage == "review" ? "review of" : "part", "version", "when", "remark"},
-                                   rows)
+        std::cout << terminal_text(aligned_table(
+                         {"group", stage == "review" ? "review of" : "part", "version", "when", "remark"}, rows))
                   << "Receipts: " << outcome.receipts.string() << '\n';
-    for (const std::string& refused : outcome.refused) std::cerr << "dynlab: " << refused << '\n';
+    for (const std::string& refused : outcome.refused) std::cerr << "dynlab: " << terminal_text(refused) << '\n';
 }
 
 int receive_files(const CourseWords& where, const ReceiveWords& words, const std::string& stage) {
@@ -114,7 +115,7 @@ int verify(const CourseWords& where, const std::vector<std::string>& receipts) {
     }
     if (receipts.empty()) {
         const StoreCheck check = check_store(course);
-        for (const std::string& trouble : check.troubles) std::cerr << "dynlab: " << trouble << '\n';
+        for (const std::string& trouble : check.troubles) std::cerr << "dynlab: " << terminal_text(trouble) << '\n';
         std::cout << fmt::format("{} files, {} versions: {}\n", check.files, check.versions,
                                  check.troubles.empty() ? "all there and unaltered" : "see above");
         well = check.troubles.empty();

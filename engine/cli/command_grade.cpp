@@ -9,6 +9,7 @@
 #include "course/grading.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
+#include "platform/terminal_text.h"
 
 namespace dynlab {
 namespace {
@@ -45,7 +46,7 @@ int grade(const GradeWords& words) {
     if (words.secret.empty())
         std::cerr << "dynlab: no --secret FILE: anybody who reads the project can compute the hidden records\n";
     const GradingOutcome outcome = grade_class(request);
-    for (const std::string& complaint : outcome.complaints) std::cerr << "dynlab: " << complaint << '\n';
+    for (const std::string& complaint : outcome.complaints) std::cerr << "dynlab: " << terminal_text(complaint) << '\n';
     std::cout << fmt::format("{} submission{}: {} graded now, {} unchanged{}; isolation {}\n", outcome.submissions,
                              outcome.submissions == 1 ? "" : "s", outcome.made, outcome.kept,
                              outcome.not_whole > 0 ? fmt::format(", {} with ungraded checks", outcome.not_whole) : "",

@@ -5,6 +5,7 @@
 
 #include "cli/commands.h"
 #include "course/hand_in.h"
+#include "platform/terminal_text.h"
 
 namespace dynlab {
 namespace {
@@ -20,9 +21,9 @@ int pack(const PackWords& words) {
     if (!folder.has_filename()) folder = folder.parent_path();
     const fs::path file = words.output.empty() ? fs::path(folder.filename().string() + ".zip") : fs::path(words.output);
     const Pack pack = pack_folder(folder, file);
-    for (const std::string& name : pack.files) std::cout << name << '\n';
+    for (const std::string& name : pack.files) std::cout << terminal_text(name) << '\n';
     for (const std::string& name : pack.left_out)
-        std::cerr << "dynlab: left out, as it is no ordinary file: " << name << '\n';
+        std::cerr << "dynlab: left out, as it is no ordinary file: " << terminal_text(name) << '\n';
     std::cout << fmt::format("{}: {} files, SHA-256 {}\n", file.string(), pack.files.size(), pack.hash);
     return kDone;
 }
@@ -30,7 +31,7 @@ int pack(const PackWords& words) {
 int bundle(const PackWords& words) {
     const Lesson lesson = find_lesson(words.subject);
     const fs::path file = words.output.empty() ? fs::path(lesson.slug + ".zip") : fs::path(words.output);
-    for (const std::string& name : bundle_lesson(lesson, file)) std::cout << name << '\n';
+    for (const std::string& name : bundle_lesson(lesson, file)) std::cout << terminal_text(name) << '\n';
     std::cout << file.string() << '\n';
     return kDone;
 }

@@ -5,6 +5,7 @@
 #include "cli/seed_option.h"
 #include "platform/activity_line.h"
 #include "platform/atomic_file.h"
+#include "platform/terminal_text.h"
 #include "workflow/memories.h"
 #include "workflow/run_script.h"
 
@@ -30,7 +31,7 @@ void save_figures(RunRecord& record, GnuplotRenderer& renderer, const fs::path& 
     draw_figures(record, renderer, folder, FigureFormat::kPdf);
     renderer.finish();
     for (const std::string& name : figures_in_order(record))
-        std::cout << "figure " << name << ": " << record.figures.at(name).file.string() << '\n';
+        std::cout << "figure " << terminal_text(name) << ": " << record.figures.at(name).file.string() << '\n';
 }
 
 RunRecord run_showing_activity(RunRequest& request, GnuplotRenderer& renderer) {
@@ -58,9 +59,9 @@ int run(const RunWords& words) {
     if (!words.out.empty()) write_file_atomically(out / "record.json", to_json(record));
     std::cout.flush();
     if (const std::string missing = missing_answers(request.script, record); !missing.empty())
-        std::cerr << "dynlab: answers that are not given yet: " << missing << '\n';
+        std::cerr << "dynlab: answers that are not given yet: " << terminal_text(missing) << '\n';
     if (!record.error) return kDone;
-    std::cerr << "dynlab: " << record.error->message << '\n';
+    std::cerr << "dynlab: " << terminal_text(record.error->message) << '\n';
     return kFailed;
 }
 

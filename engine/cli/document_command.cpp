@@ -7,6 +7,7 @@
 
 #include "cli/commands.h"
 #include "platform/activity_line.h"
+#include "platform/terminal_text.h"
 
 namespace dynlab {
 namespace {
@@ -56,7 +57,7 @@ int make_document(ReportRequest request, bool show_timings) {
     const ReportResult result = make_showing_activity(request);
     const std::string file = std::filesystem::absolute(request.output).lexically_normal().string();
     const char* const state = result.up_to_date ? " (up to date)" : result.error ? " (up to the error)" : "";
-    if (result.error) std::cerr << "dynlab: " << *result.error << std::endl;
+    if (result.error) std::cerr << "dynlab: " << terminal_text(*result.error) << std::endl;
     std::cout << file << state << '\n';
     if (show_timings) show(result);
     return result.error ? kFailed : kDone;

@@ -8,6 +8,7 @@
 #include "platform/error.h"
 #include "platform/interrupt.h"
 #include "platform/memory.h"
+#include "platform/terminal_text.h"
 
 namespace {
 
@@ -37,7 +38,7 @@ int run_action(const Action& action) {
     const InterruptScope interrupts;
     const auto complain = [](const std::exception& error, int code) {
         std::fflush(stdout);
-        std::cerr << "dynlab: " << error.what() << std::endl;
+        std::cerr << "dynlab: " << terminal_text(error.what()) << std::endl;
         return code;
     };
     try {

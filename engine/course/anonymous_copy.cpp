@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <csignal>
 
 #include "course/name_findings.h"
 #include "course/submission.h"
@@ -12,11 +13,21 @@
 #include "platform/error.h"
 #include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
+#include "platform/terminal_text.h"
 
 namespace dynlab {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::uint64_t kLargestFile = 64ull << 20, kMostMade = 200ull << 20;
+
+std::uint64_t bytes_below(const fs::path& folder) {
+    std::uint64_t bytes = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (fs::is_regular_file(entry.symlink_status())) bytes += entry.file_size();
+    return bytes;
+}
 
 bool is_pdf(const fs::path& file) {
     std::string ending = file.extension().string();
@@ -100,20 +111,25 @@ class Copying {
         const fs::path home = box.add(shared_folder() / "data", "/box/home/data").parent_path();
         box.add(shared_folder() / "report_templates", "/box/home/report_templates");
         box.set_environment("DYNLAB_HOME", home.string());
-        const fs::path inside = box.add_writable(folder, "/box/submission");
+        const fs::path inside = box.add(folder, "/box/submission");
         const fs::path out = box.add_writable(report().parent_path(), "/box/made");
         const fs::path program = box.add(setup_.program, "/box/dynlab");
         Box::Limits limits;
         limits.timeout = setup_.report_time;
+        limits.file_bytes = kLargestFile;
         const ChildResult child =
             box.run({program.string(), "report", inside.string(), "-o", (out / "report.pdf").string()}, {}, "", limits);
-        if (child.exit_code == 0 && fs::is_regular_file(report())) return true;
-        result_.trouble =
-            child.timed_out
-                ? fmt::format("Making the report again takes more than {} s.", setup_.report_time.count())
-                : "The report cannot be made again: " + child.error_output.substr(0, child.error_output.find('\n')) +
-                      ".";
+        const bool made = child.exit_code == 0 && fs::is_regular_file(report());
+        if (made && bytes_below(report().parent_path()) <= kMostMade) return true;
+        result_.trouble = "The report cannot be made again: " + (made ? "it is too large" : reason_of(child)) + ".";
         return false;
+    }
+
+    std::string reason_of(const ChildResult& child) const {
+        if (child.timed_out) return fmt::format("it takes more than {} s", setup_.report_time.count());
+        if (child.exit_code == 128 + SIGXFSZ)
+            return fmt::format("it writes a file of more than {} MB", kLargestFile >> 20);
+        return terminal_text(child.error_output.substr(0, child.error_output.find('\n')));
     }
 
     fs::path handed_in_;

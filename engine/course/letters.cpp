@@ -69,25 +69,6 @@ bool is_sign(char32_t c) {
 
 }  // namespace
 
-char32_t next_character(std::string_view& text) {
-    const auto byte = [&text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    const unsigned char first = byte(0);
-    const std::size_t length = first < 0x80   ? 1
-                               : first < 0xC2 ? 0
-                               : first < 0xE0 ? 2
-                               : first < 0xF0 ? 3
-                               : first < 0xF5 ? 4
-                                              : 0;
-    char32_t character = length == 1 ? first : length == 0 ? 0xFFFD : first & (0x7F >> length);
-    bool whole = length > 0 && length <= text.size();
-    for (std::size_t i = 1; whole && i < length; ++i) {
-        whole = (byte(i) & 0xC0) == 0x80;
-        character = character << 6 | (byte(i) & 0x3F);
-    }
-    text.remove_prefix(whole ? length : 1);
-    return whole ? character : 0xFFFD;
-}
-
 std::string folded_letter(char32_t given) {
     const char32_t c = plain_form(given);
     if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9')) return {static_cast<char>(c)};

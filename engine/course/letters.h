@@ -2,10 +2,9 @@
 #include <string>
 #include <string_view>
 
-namespace dynlab {
+#include "platform/terminal_text.h"
 
-/// Takes the first character off `utf8`, which is not empty; U+FFFD for broken UTF-8.
-char32_t next_character(std::string_view& utf8);
+namespace dynlab {
 
 /// A letter without accent, in lower case: "É" -> "e", "Ł" -> "l", "Æ" -> "ae", a ligature -> its letters, full-width
 /// and mathematical letters -> plain ones, Greek and Cyrillic capitals -> small ones (UTF-8). Other letters and digits

@@ -3,6 +3,7 @@
 #include <cctype>
 
 #include "course/letters.h"
+#include "platform/terminal_text.h"
 
 namespace dynlab {
 namespace {
@@ -46,9 +47,7 @@ std::string printable(std::string_view utf8, std::size_t most) {
         if (count++ == most) return result + "…";
         const std::string_view before = utf8;
         const char32_t c = next_character(utf8);
-        const bool control = c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0xFFFD || (c >= 0x200B && c <= 0x200F) ||
-                             (c >= 0x2028 && c <= 0x202E) || (c >= 0x2066 && c <= 0x2069);
-        result += control ? "?" : std::string(before.substr(0, before.size() - utf8.size()));
+        result += is_obeyed(c) ? "?" : std::string(before.substr(0, before.size() - utf8.size()));
     }
     return result;
 }

@@ -93,6 +93,7 @@ ChildResult Box::run(const Words& command, const fs::path& folder, const std::st
     child.input = input;
     child.timeout = limits.timeout;
     child.output_bytes = limits.output_bytes;
+    child.file_bytes = limits.file_bytes;
     auto environment = environment_;
     const auto set = [&environment](const char* name, const std::string& value) {
         const bool given = std::any_of(environment.begin(), environment.end(),

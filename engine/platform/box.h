@@ -41,6 +41,7 @@ class Box {
         std::chrono::milliseconds timeout{10000};    ///< wall clock, then everything inside is killed
         std::uint64_t output_bytes = 32ull << 20;    ///< of standard output and error
         std::uint64_t scratch_bytes = 128ull << 20;  ///< of /tmp at level kFull
+        std::optional<std::uint64_t> file_bytes;     ///< of the largest file written; SIGXFSZ ends who writes more
     };
     /// `command` names this program (its place comes from add) or one in /usr/bin. `folder` is a place in the box.
     ChildResult run(const std::vector<std::string>& command, const std::filesystem::path& folder,

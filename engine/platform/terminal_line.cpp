@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "platform/system_call.h"
+#include "platform/terminal_text.h"
 
 namespace dynlab {
 namespace {
@@ -30,7 +31,7 @@ void print(const std::string& text) {
 }  // namespace
 
 void show_terminal_line(const std::string& text) {
-    print(kClearLine + beginning_of(text, terminal_width() - 1));
+    print(kClearLine + beginning_of(terminal_text(text), terminal_width() - 1));
 }
 
 void clear_terminal_line() {

@@ -231,5 +231,31 @@ TEST(attacks, reports_read_no_files_and_run_no_commands) {
         EXPECT_EQ(GradingBench::score(bench.result(name)), 0) << name;
 }
 
+// Oracle: the bytes that a terminal obeys, of which none may come out.
+TEST(attacks, names_and_messages_of_students_reach_no_terminal_as_commands) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    Workbench& work = bench.bench();
+    const std::string red = "\x1B[31m", name = "pi" + red + "pe", turned = "\u202Egpj.exe";
+    const auto told = [&work, &red](const std::vector<std::string>& words, const std::string& shown) {
+        const ChildResult result = work.dynlab(words);
+        const std::string all = result.output + result.error_output;
+        EXPECT_THAT(all, HasSubstr(shown)) << words.front();
+        EXPECT_THAT(all, ::testing::Not(AnyOf(HasSubstr(red), HasSubstr("\u202E")))) << words.front();
+    };
+    work.write("mine/analysis.lua", "error('bad" + red + "')\n");
+    work.write("mine/report.md", "---\ntitle: Mine\n---\n\nText.\n");
+    work.write("mine/" + turned, "x");
+    work.shell("mkfifo 'mine/" + name + "'");
+    told({"pack", "mine"}, "pi?[31mpe");
+    told({"pack", "mine"}, "?gpj.exe");
+    told({"report", "mine"}, "bad?[31m");
+    told({"run", "mine/analysis.lua"}, "bad?[31m");
+    work.write("in/one" + red + "/report.md", "no analysis");
+    work.write("out/results/one" + red + "/results.json", "no result of ours");
+    told({"grade", "in", "--lesson", "99", "--out", "out", "--isolation", GradingBench::level(), "--no-pdf", "--only",
+          "two" + red},
+         "two?[31m");
+}
+
 }  // namespace
 }  // namespace dynlab::test

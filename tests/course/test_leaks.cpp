@@ -277,5 +277,25 @@ TEST_F(leaks, copies_are_made_again_from_the_source) {
     EXPECT_THAT(anonymous_copy(file("work"), file("other.pdf"), setup).trouble, HasSubstr("cannot be made again"));
 }
 
+// Oracle: the folder that was handed in, which stays as it was, and the size of what a script writes.
+TEST_F(leaks, a_report_made_again_fills_no_disk) {
+    AnonymousCopySetup setup;
+    setup.names = *names_;
+    setup.program = DYNLAB_PROGRAM;
+    const std::string header = "-- ---\n-- title: Work\n-- ---\n\n-- %%\n";
+    write("work/report.md", "---\ntitle: Work\n---\n\n# Result\n\nThe gain is known.\n");
+    write("work/analysis.lua", header + "save_csv(\"small.csv\", {t = zeros(3)})\n");
+    EXPECT_TRUE(anonymous_copy(file("work"), file("copy.pdf"), setup).made);
+    write("work/analysis.lua", header +
+                                   "local big = {}\nfor i = 1, 20 do big['c' .. i] = randn(200000) end\n"
+                                   "save_csv(\"big.csv\", big, {digits = 17})\n");
+    EXPECT_THAT(anonymous_copy(file("work"), file("none.pdf"), setup).trouble, HasSubstr("a file of more than 64 MB"));
+    if (setup.isolation != Isolation::kFull) return;
+    write("work/analysis.lua", header + "save_csv(\"/box/submission/fill.csv\", {t = zeros(3)})\n");
+    const AnonymousCopy copy = anonymous_copy(file("work"), file("none.pdf"), setup);
+    EXPECT_FALSE(copy.made);
+    EXPECT_THAT(copy.trouble, HasSubstr("read-only file system (in /box/submission)"));
+}
+
 }  // namespace
 }  // namespace dynlab
