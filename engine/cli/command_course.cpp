@@ -47,15 +47,22 @@ void add_roster(CLI::App& course, CourseWords& where, Action& action) {
     CLI::App* roster = course.add_subcommand("roster", "Students and groups: import, drop, return");
     roster->require_subcommand(1);
     auto file = std::make_shared<std::string>();
+    auto no_groups = std::make_shared<bool>(false);
     CLI::App* import = roster->add_subcommand("import", "Read students and groups from a CSV; may be repeated");
-    import->add_option("CSV", *file, "Columns id, and optionally name, group, mail, moodle, canvas")->required();
+    import->add_option("CSV", *file, "Columns id and group, and optionally name, email (or mail), moodle, canvas")
+        ->required();
+    import->add_flag("--no-groups", *no_groups, "The file has no column group: who is new works alone");
     import->footer(
-        "A student without a group is one alone; in several, they are joined by |. Who is not in the file stays.\n"
+        "A student without a group is one alone; in several, they are joined by |. Who is not in the file stays, and\n"
+        "so does what has no column in it. Names and addresses that change are still looked for in anonymous copies.\n"
         "Example:  dynlab course roster import roster.csv");
-    import->callback([&where, file, &action] {
-        action = [&where, file] {
+    import->callback([&where, file, no_groups, &action] {
+        action = [&where, file, no_groups] {
             Course opened(where.folder);
-    const RosterChange change = import_roster(opened, *file);
+    const RosterChange change = import_roster(opened, *file, *no_groups);
+    if (!change.unknown_columns.empty())
+        std::cerr << terminal_text(fmt::format("dynlab: {}: not read: the unknown columns {}\n", *file,
+                                               fmt::join(change.unknown_columns, ", ")));
     std::cout << fmt::format("{} students: {} new, {} changed, {} moved to another group; {} new groups.\n",
                              change.students, change.new_students, change.changed, change.moved, change.new_groups);
     if (!change.absent.empty())

@@ -34,6 +34,7 @@ Roster::Roster(const std::filesystem::path& file) {
     if (!id)
         throw EnvironmentError(
             fmt::format("{}: the column id is missing; there are {}", file.string(), fmt::join(table.names, ", ")));
+    columns_ = table.names;
     std::set<std::string> seen;
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         const auto& row = table.rows[i];
@@ -59,6 +60,21 @@ Roster::Roster(const std::filesystem::path& file) {
         }
         students_.push_back(std::move(student));
     }
+}
+
+bool Roster::has(const std::string& column) const {
+    const auto there = [this](const char* name) {
+        return std::find(columns_.begin(), columns_.end(), name) != columns_.end();
+    };
+    return columns_.empty() || there(column.c_str()) || (column == "mail" && there("email"));
+}
+
+std::vector<std::string> Roster::unknown_columns() const {
+    static const std::set<std::string> known = {"id", "name", "group", "seed", "email", "mail", "moodle", "canvas"};
+    std::vector<std::string> unknown;
+    for (const std::string& column : columns_)
+        if (!known.contains(column)) unknown.push_back(column);
+    return unknown;
 }
 
 std::vector<std::size_t> Roster::owners(const Submission& submission) const {

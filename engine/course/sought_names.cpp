@@ -165,6 +165,16 @@ SoughtNames::SoughtNames(const Roster& roster) {
 
 void SoughtNames::add(const Student& student, bool own) {
     ++people_;
+    add_writings(student, own);
+    for (const FormerName& former : student.former) {
+        Student before = student;
+        if (!former.name.empty()) before.name = former.name;
+        before.mail = former.mail;
+        add_writings(before, own);
+    }
+}
+
+void SoughtNames::add_writings(const Student& student, bool own) {
     for (NamePattern& pattern : patterns_of(student, own)) index(std::move(pattern));
     const std::string address = squeezed(student.mail, nullptr);
     if (address.find('@') != std::string::npos && address.size() >= kShortestAddress)

@@ -49,6 +49,7 @@ class SoughtNames {
 
   private:
     using Tokens = std::vector<NameToken>;
+    void add_writings(const Student& student, bool own);
     void index(NamePattern pattern);
     void find_patterns(const Tokens& tokens, std::string_view text, TextManner manner,
                        std::vector<NameHit>& hits) const;

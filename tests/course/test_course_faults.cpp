@@ -176,5 +176,21 @@ TEST(course_migration, goes_step_by_step_or_not_at_all) {
     EXPECT_EQ(version(), known + 2);
 }
 
+// oracle: the first version's tables and what stood in them
+TEST(course_migration, of_a_first_version_keeps_its_students) {
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "course.db";
+    Database database(file, Database::Opening::kNew);
+    migrate_course(database, Database::Opening::kNew, "k", {course_steps().front()});
+    EXPECT_THROW(database.query("SELECT * FROM former_names"), EnvironmentError);
+    database.run("INSERT INTO students VALUES ('s1', 'Ada King', '', '', '')");
+    migrate_course(database, Database::Opening::kExisting, "k");
+    database.run("INSERT INTO former_names VALUES ('s1', 'Ada Byron', '', 7)");
+    EXPECT_THROW(database.run("INSERT INTO former_names VALUES ('s2', 'Bo Ek', '', 7)"), EnvironmentError);
+    Rows rows = database.query("SELECT name FROM students");
+    ASSERT_TRUE(rows.next());
+    EXPECT_EQ(rows.text(0), "Ada King");
+}
+
 }  // namespace
 }  // namespace dynlab::test

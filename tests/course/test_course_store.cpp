@@ -113,6 +113,58 @@ TEST(course_store, refuses_bad_input_and_stays_untouched) {
     refused({"roster", "drop", "group-77"}, "there is no group");
 }
 
+// oracle: the columns that are there
+TEST(course_store, a_roster_changes_what_it_has_columns_for) {
+    CourseBench bench(2);
+    const auto import = [&](const std::string& csv, std::vector<std::string> more = {}) {
+        bench.bench().write("more.csv", csv);
+        std::vector<std::string> words = {"roster", "import", "more.csv"};
+        words.insert(words.end(), more.begin(), more.end());
+        return bench.course(words);
+    };
+    const auto rows = [&](const char* sql) {
+        return bench.bench().shell(std::string("sqlite3 k/course.db '") + sql + "'").output;
+    };
+    CourseBench::expect_done(
+        import("id,name,group,email,moodle,canvas\ns1,Ada King,group-01,ada@a.example,11,21\ns2,Bo "
+               "Ek,group-02,bo@a.example,,\n"));
+    CourseBench::expect_done(import("id,group\ns1,group-02\ns2,group-02\n"));
+    EXPECT_EQ(rows("SELECT * FROM students"), "s1|Ada King|ada@a.example|11|21\ns2|Bo Ek|bo@a.example||\n");
+    CourseBench::expect_done(import("id,group,mail\ns1,group-02,king@a.example\n"));
+    EXPECT_EQ(rows("SELECT * FROM students"), "s1|Ada King|king@a.example|11|21\ns2|Bo Ek|bo@a.example||\n");
+    EXPECT_EQ(rows("SELECT student, name, mail FROM former_names"),
+              "s1|Ada King|ada@a.example\ns1|Student 1|\ns2|Student 2|\n");
+
+    // A group column of another name.
+    const std::string before = bench.dump();
+    const ChildResult refused = import("id,name,grp,email\ns1,Ada King,1,\ns3,Cy Ost,2,\n");
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_THAT(refused.error_output,
+                AllOf(HasSubstr("the column group is missing; there are id, name, grp, email, and known are id, name, "
+                                "group, email (or mail), moodle, canvas"),
+                      HasSubstr("--no-groups")));
+    EXPECT_EQ(bench.dump(), before);
+    const ChildResult alone = import("id,name,grp\ns1,Ada King,1\ns3,Cy Ost,2\n", {"--no-groups"});
+    CourseBench::expect_done(alone);
+    EXPECT_THAT(alone.error_output, HasSubstr("unknown columns grp"));
+    EXPECT_EQ(
+        rows("SELECT m.student, g.name FROM memberships m JOIN groups g ON g.id = m.group_id WHERE until IS NULL"),
+        "s1|group-02\ns2|group-02\ns3|s3\n");
+}
+
+// oracle: nobody is in the groups that the mistaken roster made, and nothing came from them
+TEST(course_store, groups_of_a_mistaken_roster_do_not_count) {
+    CourseBench bench(2);
+    bench.hand_in("group-01.pdf", small_pdf("one"), "2026-03-01 10:00");
+    bench.bench().write("wrong.csv", "id,group\ns1,wrong-1\ns2,wrong-2\n");
+    CourseBench::expect_done(bench.course({"roster", "import", "wrong.csv"}));
+    EXPECT_THAT(bench.course({"status"}).output, AllOf(HasSubstr("3 groups"), HasSubstr("group-01")));  // has work
+    CourseBench::expect_done(bench.course({"roster", "import", "roster.csv"}));
+    const std::string status = bench.course({"status"}).output;
+    EXPECT_THAT(status, AllOf(HasSubstr("k: 2 groups\n"), HasSubstr("group-02"), Not(HasSubstr("wrong"))));
+    EXPECT_THAT(bench.course({"peer", "assign", "--at", "2026-03-02 10:00"}).error_output, Not(HasSubstr("map")));
+}
+
 // oracle: what each platform documents of its export, and the zip's own names
 TEST(course_store, takes_a_platform_s_zip_and_leaves_out_what_leads_outside) {
     CourseBench bench(4);

@@ -141,8 +141,11 @@ void import_course(const fs::path& file, const fs::path& from, const fs::path& f
     Database& db = course.database();
     Transaction transaction(db);
     db.execute("DELETE FROM course; DELETE FROM journal");  // what create wrote
-    for (const std::string& table : course_tables())
+    const bool older = all.value("tables version", std::int64_t{0}) < static_cast<std::int64_t>(course_steps().size());
+    for (const std::string& table : course_tables()) {
+        if (older && !all["tables"].contains(table)) continue;  // one that a later version brought
         for (const json& row : all["tables"].at(table)) db.insert(table, row);
+    }
     transaction.commit();
 }
 

@@ -54,6 +54,10 @@ CREATE TABLE overrides (id INTEGER PRIMARY KEY, assignment INTEGER NOT NULL REFE
   group_id INTEGER NOT NULL REFERENCES groups, what TEXT NOT NULL CHECK (what IN ('work', 'reviews')),
   percent REAL NOT NULL CHECK (percent BETWEEN 0 AND 100), reason TEXT NOT NULL, made_at INTEGER NOT NULL);
 CREATE TABLE journal (id INTEGER PRIMARY KEY, at INTEGER NOT NULL, what TEXT NOT NULL);
+)",
+    R"(
+CREATE TABLE former_names (student TEXT NOT NULL REFERENCES students, name TEXT NOT NULL, mail TEXT NOT NULL,
+  until INTEGER NOT NULL, PRIMARY KEY (student, name, mail)) WITHOUT ROWID;
 )"};
 
 std::int64_t pragma(Database& database, const char* name) {
@@ -66,8 +70,9 @@ std::int64_t pragma(Database& database, const char* name) {
 
 const std::vector<std::string>& course_tables() {
     static const std::vector<std::string> tables = {
-        "course",      "groups", "students", "memberships", "assignments", "criteria",    "files",     "pseudonyms",
-        "allocations", "pairs",  "versions", "sendings",    "scores",      "oral_scores", "overrides", "journal"};
+        "course", "groups",      "students",    "memberships", "assignments", "criteria",
+        "files",  "pseudonyms",  "allocations", "pairs",       "versions",    "sendings",
+        "scores", "oral_scores", "overrides",   "journal",     "former_names"};
     return tables;
 }
 

@@ -55,12 +55,21 @@ class Import {
         if (!rows.next()) {
             ++change_.new_students;
             db_.run("INSERT INTO students VALUES (?, ?, ?, ?, ?)", s.id, s.name, s.mail, s.moodle, s.canvas);
-        } else if (rows.text(0) != s.name || rows.text(1) != s.mail || rows.text(2) != s.moodle ||
-                   rows.text(3) != s.canvas) {
-            ++change_.changed;
-            db_.run("UPDATE students SET name = ?, mail = ?, moodle = ?, canvas = ? WHERE id = ?", s.name, s.mail,
-                    s.moodle, s.canvas, s.id);
+            return;
         }
+        const std::vector<std::string> before = {rows.text(0), rows.text(1), rows.text(2), rows.text(3)};
+        const auto kept = [&](const char* column, const std::string& read, std::size_t place) {
+            return roster_.has(column) ? read : before[place];
+        };
+        const std::vector<std::string> after = {kept("name", s.name, 0), kept("mail", s.mail, 1),
+                                                kept("moodle", s.moodle, 2), kept("canvas", s.canvas, 3)};
+        if (after == before) return;
+        ++change_.changed;
+        if ((after[0] != before[0] && !before[0].empty()) || (after[1] != before[1] && !before[1].empty()))
+            db_.run("INSERT INTO former_names VALUES (?, ?, ?, ?) ON CONFLICT DO UPDATE SET until = excluded.until",
+                    s.id, before[0], before[1], now_);
+        db_.run("UPDATE students SET name = ?, mail = ?, moodle = ?, canvas = ? WHERE id = ?", after[0], after[1],
+                after[2], after[3], s.id);
     }
 
     std::int64_t group(const std::string& name) {
@@ -73,11 +82,12 @@ class Import {
 
     void move(const Student& student) {
         std::set<std::int64_t> wanted, present;
-        for (const std::string& name : names_in(student.group.empty() ? student.id : student.group))
-            wanted.insert(group(name));
         for (Rows rows = db_.query("SELECT group_id FROM memberships WHERE student = ? AND until IS NULL", student.id);
              rows.next();)
             present.insert(rows.integer(0));
+        if (!roster_.has("group") && !present.empty()) return;
+        for (const std::string& name : names_in(student.group.empty() ? student.id : student.group))
+            wanted.insert(group(name));
         if (wanted == present) return;
         if (!present.empty()) ++change_.moved;
         for (const std::int64_t id : present)
@@ -103,7 +113,11 @@ class Import {
 std::vector<Group> groups_of(Course& course) {
     std::vector<Group> groups;
     std::map<std::int64_t, std::size_t> place;
-    for (Rows rows = course.database().query("SELECT id, name, left_at FROM groups ORDER BY name"); rows.next();) {
+    for (Rows rows = course.database().query(
+             "SELECT id, name, left_at FROM groups WHERE id IN (SELECT group_id FROM memberships WHERE until IS NULL "
+             "UNION SELECT group_id FROM versions UNION SELECT group_id FROM oral_scores UNION SELECT group_id FROM "
+             "overrides) ORDER BY name");
+         rows.next();) {
         place[rows.integer(0)] = groups.size();
         groups.push_back({rows.integer(0), rows.text(1), !rows.null(2), {}});
     }
@@ -134,14 +148,26 @@ std::vector<Student> students_of(Course& course) {
              "GROUP BY s.id ORDER BY s.id");
          rows.next();)
         students.push_back({rows.text(0), rows.text(1), rows.text(2), {}, rows.text(3), rows.text(4), rows.text(5)});
+    std::map<std::string, std::size_t> place;
+    for (std::size_t i = 0; i < students.size(); ++i) place[students[i].id] = i;
+    for (Rows rows = course.database().query("SELECT student, name, mail FROM former_names ORDER BY student, until");
+         rows.next();)
+        students[place.at(rows.text(0))].former.push_back({rows.text(1), rows.text(2)});
     return students;
 }
 
-RosterChange import_roster(Course& course, const std::filesystem::path& file) {
+RosterChange import_roster(Course& course, const std::filesystem::path& file, bool no_groups) {
     const Roster roster(file);
     if (roster.students().empty())
         throw EnvironmentError(fmt::format("{}: there are no students below the header", file.string()));
-    return Import(course, roster).run();
+    if (!roster.has("group") && !no_groups)
+        throw EnvironmentError(fmt::format(
+            "{}: the column group is missing; there are {}, and known are id, name, group, email (or mail), moodle, "
+            "canvas. Say --no-groups where each student works alone",
+            file.string(), fmt::join(roster.columns(), ", ")));
+    RosterChange change = Import(course, roster).run();
+    change.unknown_columns = roster.unknown_columns();
+    return change;
 }
 
 void set_group_left(Course& course, const std::string& name, bool left, const std::string& reason) {

@@ -16,21 +16,26 @@ struct Group {
     std::vector<std::string> members;  ///< ids of the students who belong to it now
 };
 
-std::vector<Group> groups_of(Course& course);  ///< all that ever were, by name
+/// By name: those with members, and those with work or marks; not what a mistaken roster made and a later one emptied.
+std::vector<Group> groups_of(Course& course);
 /// By its name. Throws InvalidArgument with the nearest name.
 Group group_named(Course& course, const std::string& name);
 
-/// All who ever were in the course; `group` is the one each belongs to now (the first by name where there are several).
+/// All who ever were in the course, with the names and addresses that they had before; `group` is the one each belongs
+/// to now (the first by name where there are several).
 std::vector<Student> students_of(Course& course);
 
 struct RosterChange {
     int students = 0, new_students = 0, changed = 0, moved = 0, new_groups = 0;
-    std::vector<std::string> absent;  ///< ids of students who are not in the file; they stay
+    std::vector<std::string> absent;           ///< ids of students who are not in the file; they stay
+    std::vector<std::string> unknown_columns;  ///< that were not read
 };
-/// Reads a roster (columns id, and optionally name, group, mail, moodle, canvas) into the course, whole or not at all.
-/// A student without a group is a group alone; one in several has them joined by "|". Who is in another group than
-/// before leaves that one; both stay known, so that nobody reviews work of their own.
-RosterChange import_roster(Course& course, const std::filesystem::path& file);
+/// Reads a roster (columns id and group, and optionally name, email or mail, moodle, canvas) into the course, whole or
+/// not at all. What has no column stays as it was; names and addresses that change stay known. A student without a
+/// group is a group alone; one in several has them joined by "|". Who is in another group than before leaves that one;
+/// both stay known, so that nobody reviews work of their own. With `no_groups` the column group may miss: who is new is
+/// a group alone then. Throws EnvironmentError where it misses otherwise.
+RosterChange import_roster(Course& course, const std::filesystem::path& file, bool no_groups = false);
 
 /// The group has dropped out, or is back. Its work stays. Throws InvalidArgument where that was so before.
 void set_group_left(Course& course, const std::string& name, bool left, const std::string& reason);

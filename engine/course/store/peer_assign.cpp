@@ -41,7 +41,8 @@ class Assigning {
             problem_.active[place] = !groups_[place].left;
             outcome_.groups += problem_.active[place];
         }
-        for (const auto& [a, b] : kindred_groups(course_)) problem_.kin.emplace_back(place_.at(a), place_.at(b));
+        for (const auto& [a, b] : kindred_groups(course_))
+            if (place_.contains(a) && place_.contains(b)) problem_.kin.emplace_back(place_[a], place_[b]);
         for (const ReviewPair& pair : review_pairs(course_, assignment_)) {
             if (pair.ended) continue;
             const ReviewEdge edge(place_.at(pair.reviewer), place_.at(pair.author));
