@@ -95,7 +95,7 @@ add_move("return", "A group that had dropped out is back", false);
 
 struct AssignmentWords {
     std::string name, kind = "report", lesson, first, review, final, grace = "0",
-                      criteria = "data:5,workflow:5,conclusions:5,strength:5,suggestions:5";
+                      criteria = "data:5,steps:5,conclusions:5,strength:5,suggestions:5";
     int reviews = 2;
     std::uint32_t seed = 0;
 };

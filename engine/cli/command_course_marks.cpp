@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <iostream>
 
@@ -22,7 +23,8 @@ using Run = int (*)(const CourseWords&, const MarkWords&);
 
 int give_out(const std::string& text, const std::string& file) {
     if (file.empty()) {
-        std::cout << terminal_text(text);
+        // A file gets what the text is, line ends of CSV included.
+        std::cout << (::isatty(STDOUT_FILENO) != 0 ? terminal_text(text) : text);
     } else {
         write_file_atomically(file, text);
         std::cout << file << '\n';

@@ -31,7 +31,9 @@ int assign(const CourseWords& where, const PeerWords& words) {
 int show_pairs(const CourseWords& where, const PeerWords& words) {
     Course course(where.folder);
     std::vector<std::vector<std::string>> rows;
-    for (const ReviewPair& pair : review_pairs(course, assignment_named(course, words.assignment))) {
+    const Assignment assignment = assignment_named(course, words.assignment);
+    refuse_without_reviews(assignment);
+    for (const ReviewPair& pair : review_pairs(course, assignment)) {
         const char* const state = pair.released  ? "released"
                                   : pair.written ? "written"
                                   : pair.ended   ? "taken back"
@@ -67,11 +69,12 @@ AnonymousCopier anonymous_copier() {
 int send(const CourseWords& where, const PeerWords& words, Way way) {
     Course course(where.folder);
     const Assignment assignment = assignment_named(course, words.assignment);
-    const SendOutcome done = send_copies(course, assignment, way, time_of(course, words.at), anonymous_copier());
-    for (const std::string& stopped : done.stopped) std::cerr << "dynlab: " << terminal_text(stopped) << '\n';
+    const SendOutcome done =
+        send_copies(course, assignment, way, time_of(course, words.at), anonymous_copier(), words.early);
+    for (const std::string& hit : done.hits) std::cerr << "dynlab: " << terminal_text(hit) << '\n';
     std::cout << fmt::format("{}: {} sent now, {} before, {} stopped, {} not come yet; in {}\n", assignment.name,
-                             done.sent, done.before, done.stopped.size(), done.waiting, done.folder.string());
-    return done.stopped.empty() ? kDone : kFailed;
+                             done.sent, done.before, done.stopped, done.waiting, done.folder.string());
+    return done.stopped == 0 ? kDone : kFailed;
 }
 
 int send_reports(const CourseWords& where, const PeerWords& words) {
@@ -88,6 +91,7 @@ CLI::App* add_one(CLI::App& parent, const char* name, const char* about, CourseW
     command->add_option("ASSIGNMENT", words->assignment, "Needed when there are several");
     add_time_option(*command, words->at);
     if (run == assign) command->add_flag("--early", words->early, "Although first versions may still come");
+    if (run == release) command->add_flag("--early", words->early, "Although reviews may still come");
     command->callback([&where, words, run, &action] { action = [&where, words, run] { return run(where, *words); }; });
     return command;
 }

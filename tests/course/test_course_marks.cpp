@@ -25,7 +25,7 @@ class ScoredCourse {
         for (std::size_t i = 0; i < scores.size(); ++i) table += scores[i] + "\n";
         bench_.bench().write("table", table);
         const ChildResult made = bench_.bench().shell(
-            "echo reviewer,report,data,workflow,conclusions,strength,suggestions >s.csv\n"
+            "echo reviewer,report,data,steps,conclusions,strength,suggestions >s.csv\n"
             "$DYNLAB course --course k peer show | awk 'NR == FNR {for (i = 1; i <= 4; i++) s[FNR, i] = $i; next} "
             "/^group/ {r = substr($1, 7) + 0; a = substr($3, 7) + 0; p = s[r, a]; "
             "print $1 \",\" $2 \",\" p \",\" p \",\" p \",\" p \",\" p}' table - >>s.csv");
@@ -95,7 +95,11 @@ TEST(course_marks, wrong_scores_are_refused_with_their_line) {
         EXPECT_EQ(bench.dump(), before) << csv;
     };
     refused("group,data\ngroup-01,3\n", "s.csv, line 1: the column reviewer is missing");
-    refused("reviewer,report,beauty\ngroup-01,report-1,3\n", "there is no column of a criterion of crane");
+    refused("reviewer,report,beauty\ngroup-01,report-1,3\n",
+            "s.csv, line 1: unknown columns: beauty; the criteria of crane are data, steps, conclusions, strength, "
+            "suggestions");
+    refused("reviewer,report,data,workflow,style\ngroup-01,,3,3,3\n", "unknown columns: workflow, style;");
+    refused("reviewer,report\ngroup-01,\n", "there is no column of a criterion; the criteria of crane are data, ");
     refused(good + "group-01,report-1000,3,3,3,3,3\n", "s.csv, line 14: ");
     refused(good + "gruop-01,,3,3,3,3,3\n", "group-01");
     refused("reviewer,data\ngroup-01,3\n", "s.csv, line 2: ");  // which of its three?
@@ -124,6 +128,12 @@ TEST(course_marks, of_a_presentation_come_from_the_sheet_of_the_oral) {
                     HasSubstr("talk is a presentation: it has no "));
     EXPECT_THAT(bench.course({"peer", "assign", "talk", "--at", "2026-04-02 10:00"}).error_output,
                 HasSubstr("presentation"));
+    for (const std::vector<std::string>& words : {std::vector<std::string>{"peer", "send", "talk"},
+                                                  {"peer", "show", "talk"},
+                                                  {"release", "talk"},
+                                                  {"override", "talk", "group-01", "reviews", "80", "--reason", "x"}})
+        EXPECT_THAT(bench.course(words).error_output, HasSubstr("talk is a presentation: it has no reviews"));
+    EXPECT_THAT(bench.course({"oral", "sheet", "crane"}).error_output, HasSubstr("crane is a report: "));
     EXPECT_EQ(bench.course({"oral", "sheet", "talk"}).output,
               "group,content,figures,answers\r\ngroup-01,,,\r\ngroup-02,,,\r\ngroup-03,,,\r\n");
     bench.bench().write("oral.csv", "group,content,figures,answers\ngroup-01,8,5,3\ngroup-02,10,,\n");

@@ -7,6 +7,7 @@
 namespace dynlab::test {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -62,12 +63,52 @@ TEST(peer_review, allots_mends_and_takes_reviews) {
     EXPECT_THAT(bench.course({"status", "--at", "2026-03-06 14:00"}).output, HasSubstr("dropped out"));
 }
 
+// oracle: the roster's history; the pairs: four reports, two copies of each
+TEST(peer_review, seeks_former_names_and_counts_copies) {
+    CourseBench bench(4);
+    const auto roster = [&](const std::string& first) {
+        bench.bench().write("names.csv", "id,name,group,email\n" + first +
+                                             "s2,Bo Ek,group-02,\ns3,Cy Ost,group-03,\ns4,Di Uhl,group-04,\n");
+        CourseBench::expect_done(bench.course({"roster", "import", "names.csv"}));
+    };
+    roster("s1,Wilhelmina Rutherford,group-01,zwirner@a.example\n");
+    roster("s1,Wilma Rathenau,group-01,wr@a.example\n");
+    const std::vector<std::string> texts = {"by Wilhelmina Rutherford, zwirner@a.example", "by Wilma Rathenau", "three",
+                                            "four"};
+    for (int i = 1; i <= 4; ++i)
+        bench.bench().write("in/" + CourseBench::group(i) + ".pdf", small_pdf(texts[static_cast<std::size_t>(i) - 1]));
+    CourseBench::expect_done(bench.course({"receive", "in", "--at", "2026-03-01 10:00", "--no-checks"}));
+    CourseBench::expect_done(bench.course({"peer", "assign", "--at", "2026-03-01 13:00"}));
+    const ChildResult sent = bench.course({"peer", "send", "--at", "2026-03-01 14:00"});
+    EXPECT_THAT(sent.output, HasSubstr("4 sent now, 0 before, 4 stopped, 0 not come yet"));
+    EXPECT_THAT(sent.error_output,
+                AllOf(HasSubstr("report of group-01 was not sent: page 1: "), HasSubstr("Wilhelmina Rutherford"),
+                      HasSubstr("mail address"), HasSubstr("report of group-02 was not sent: page 1: ")));
+    EXPECT_EQ(std::count(sent.error_output.begin(), sent.error_output.end(), '\n'), 2);
+    CourseBench::expect_done(bench.course({"export", "--json", "--out", "all.json"}));
+    CourseBench::expect_done(bench.bench().dynlab({"course", "import", "all.json", "copy", "--from", "k"}));
+    EXPECT_EQ(bench.bench().shell("sqlite3 copy/course.db .dump").output, bench.dump());
+}
+
+// oracle: the deadline of the reviews, with its ten minutes of grace
+TEST(peer_review, releases_reviews_after_their_deadline) {
+    CourseBench bench(4);
+    hand_in_all(bench, 4);
+    CourseBench::expect_done(bench.course({"peer", "assign", "--at", "2026-03-01 13:00"}));
+    const ChildResult early = bench.course({"release", "--at", "2026-03-08 12:10"});
+    EXPECT_EQ(early.exit_code, 1);
+    EXPECT_THAT(early.error_output, HasSubstr("the reviews of crane may still come until Sun 2026-03-08 12:10; wait, "
+                                              "or say --early"));
+    EXPECT_THAT(bench.course({"release", "--at", "2026-03-08 12:10", "--early"}).output, HasSubstr("8 not come yet"));
+    EXPECT_THAT(bench.course({"release", "--at", "2026-03-08 12:11"}).output, HasSubstr("8 not come yet"));
+}
+
 // oracle: equality of stores
 TEST(peer_review, exports_and_imports_an_equal_store) {
     CourseBench bench(4, 1);
     hand_in_all(bench, 4);
     bench.course({"peer", "assign", "--at", "2026-03-01 13:00"});
-    bench.bench().write("s.csv", "reviewer,data,workflow,conclusions,strength,suggestions\ngroup-01,5,4,3,4.5,2\n");
+    bench.bench().write("s.csv", "reviewer,data,steps,conclusions,strength,suggestions\ngroup-01,5,4,3,4.5,2\n");
     CourseBench::expect_done(bench.course({"scores", "crane", "s.csv"}));
     EXPECT_THAT(bench.course({"scores", "crane", "s.csv"}).output, HasSubstr("0 new scores"));
     bench.bench().write("bad.csv", "reviewer,data\ngroup-02,4\ngroup-03,9\n");

@@ -144,6 +144,11 @@ Assignment assignment_named(Course& course, const std::string& name) {
                                       near ? fmt::format("; did you mean {}?", *near) : ""));
 }
 
+void refuse_without_reviews(const Assignment& assignment) {
+    if (!assignment.is_report())
+        throw InvalidArgument(fmt::format("{} is a presentation: it has no reviews", assignment.name));
+}
+
 std::vector<Criterion> criteria_of(const std::string& text) {
     std::vector<Criterion> criteria;
     std::set<std::string> seen;

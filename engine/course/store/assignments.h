@@ -37,6 +37,9 @@ std::vector<Assignment> assignments_of(Course& course);  ///< in the order of th
 /// By name; with an empty name the only one. Throws InvalidArgument.
 Assignment assignment_named(Course& course, const std::string& name);
 
+/// Throws InvalidArgument for a presentation.
+void refuse_without_reviews(const Assignment& assignment);
+
 /// "clarity:5, methods:10" as criteria. Throws InvalidArgument.
 std::vector<Criterion> criteria_of(const std::string& text);
 

@@ -119,8 +119,7 @@ class Assigning {
 }  // namespace
 
 AssignOutcome assign_reviews(Course& course, const Assignment& assignment, Instant now, bool early) {
-    if (!assignment.is_report())
-        throw InvalidArgument(fmt::format("{} is a presentation: it has no reviews", assignment.name));
+    refuse_without_reviews(assignment);
     if (!early && now <= assignment.first_due + assignment.grace)
         throw InvalidArgument(fmt::format("the first versions of {} may still come until {}; wait, or say --early",
                                           assignment.name,

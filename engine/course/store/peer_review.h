@@ -40,13 +40,14 @@ enum class Way {
 };  ///< reports to those who review them, reviews to those who wrote the report
 
 struct SendOutcome {
-    int sent = 0, before = 0, waiting = 0;  ///< now; already earlier; reviews that have not come
-    std::vector<std::string> stopped;       ///< copies with hits, sentences
-    std::filesystem::path folder;           ///< FOR/NAME.pdf for each receiver
+    int sent = 0, before = 0, stopped = 0, waiting = 0;  ///< copies: now; earlier; with hits; of what has not come
+    std::vector<std::string> hits;                       ///< a line for each document that was stopped
+    std::filesystem::path folder;                        ///< FOR/NAME.pdf for each receiver
 };
 /// Makes the copies that have not been made yet and puts them into outbox/ASSIGNMENT/WAY/GROUP/. A hit stops that copy
-/// only. Copies are kept in the store like all that is handed in.
+/// only. Copies are kept in the store like all that is handed in. Throws InvalidArgument for a presentation, and for
+/// reviews that may still come (unless `early`).
 SendOutcome send_copies(Course& course, const Assignment& assignment, Way way, Instant now,
-                        const AnonymousCopier& copier);
+                        const AnonymousCopier& copier, bool early = false);
 
 }  // namespace dynlab

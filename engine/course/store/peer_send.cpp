@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
+#include <set>
+
 #include "course/store/peer_review.h"
+#include "numerics/error.h"
 #include "platform/atomic_file.h"
 #include "platform/temporary_folder.h"
 
@@ -73,6 +76,10 @@ class Sending {
             ++outcome_.waiting;
             return;
         }
+        if (stopped_.contains(version->id)) {  // for another reviewer
+            ++outcome_.stopped;
+            return;
+        }
         const TemporaryFolder scratch;
         const auto under_its_name = [&](const Version& v) {  // the store's own names tell no kind
             const fs::path file = scratch.path() / fs::path(v.name).filename();
@@ -89,9 +96,11 @@ class Sending {
         fs::create_directories(request.copy.parent_path());
         const CopyOutcome copy = copier_(request);
         if (!copy.made) {
-            for (const std::string& hit : copy.hits)
-                outcome_.stopped.push_back(fmt::format("{} of {} was not sent: {}", part,
-                                                       to_reviewers() ? pair.author_name : pair.reviewer_name, hit));
+            stopped_.insert(version->id);
+            ++outcome_.stopped;
+            outcome_.hits.push_back(fmt::format("{} of {} was not sent: {}", part,
+                                                to_reviewers() ? pair.author_name : pair.reviewer_name,
+                                                fmt::join(copy.hits, "; ")));
             return;
         }
         record(pair, *version, read_file(request.copy));
@@ -115,13 +124,19 @@ class Sending {
     Instant now_;
     const AnonymousCopier& copier_;
     std::vector<Student> people_;
+    std::set<std::int64_t> stopped_;  ///< versions
     SendOutcome outcome_;
 };
 
 }  // namespace
 
 SendOutcome send_copies(Course& course, const Assignment& assignment, Way way, Instant now,
-                        const AnonymousCopier& copier) {
+                        const AnonymousCopier& copier, bool early) {
+    refuse_without_reviews(assignment);
+    if (way == Way::kToAuthors && !early && now <= assignment.review_due.value_or(0) + assignment.grace)
+        throw InvalidArgument(fmt::format("the reviews of {} may still come until {}; wait, or say --early",
+                                          assignment.name,
+                                          course.clock().show(assignment.review_due.value_or(0) + assignment.grace)));
     return Sending(course, assignment, way, now, copier).run();
 }
 

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "course/store/groups.h"
 #include "course/store/review_marks.h"
@@ -44,12 +45,23 @@ std::map<std::int64_t, Points> oral_points(Course& course, const Assignment& a) 
 /// A sheet of scores: each row has an owner and points.
 class ScoreSheet {
   public:
-    ScoreSheet(const Assignment& assignment, const std::filesystem::path& file, const char* owner)
+    /// Besides `owner` and the criteria there may be the columns `others`.
+    ScoreSheet(const Assignment& assignment, const std::filesystem::path& file, const char* owner,
+               std::set<std::string> others = {})
         : assignment_(assignment), file_(file), table_(read_text_table(file)), owner_(owner) {
         if (!table_.column(owner)) fail(1, fmt::format("the column {} is missing", owner));
+        std::vector<std::string> criteria, unknown;
         bool any = false;
-        for (const Criterion& c : assignment.criteria) any = any || column(c.name);
-        if (!any) fail(1, fmt::format("there is no column of a criterion of {}", assignment.name));
+        for (const Criterion& c : assignment.criteria) {
+            criteria.push_back(c.name);
+            any = any || column(c.name);
+            others.insert(lower_case(c.name));
+        }
+        for (const std::string& name : table_.names)
+            if (name != owner && !others.contains(name)) unknown.push_back(name);
+        const std::string known = fmt::format("the criteria of {} are {}", assignment.name, fmt::join(criteria, ", "));
+        if (!unknown.empty()) fail(1, fmt::format("unknown columns: {}; {}", fmt::join(unknown, ", "), known));
+        if (!any) fail(1, "there is no column of a criterion; " + known);
     }
 
     std::size_t rows() const { return table_.rows.size(); }
@@ -86,10 +98,11 @@ class ScoreSheet {
     [[noreturn]] void fail(int line, const std::string& what) const {
         throw EnvironmentError(fmt::format("{}, line {}: {}", file_.string(), line, what));
     }
-    std::optional<std::size_t> column(std::string name) const {
+    static std::string lower_case(std::string name) {
         for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-        return table_.column(name);
+        return name;
     }
+    std::optional<std::size_t> column(const std::string& name) const { return table_.column(lower_case(name)); }
 
     const Assignment& assignment_;
     std::filesystem::path file_;
@@ -122,7 +135,7 @@ int import_scores(Course& course, const Assignment& a, const ScoreSheet& sheet, 
 }  // namespace
 
 int import_review_scores(Course& course, const Assignment& a, const std::filesystem::path& file, Instant now) {
-    const ScoreSheet sheet(a, file, "reviewer");
+    const ScoreSheet sheet(a, file, "reviewer", {"report"});
     const std::vector<ReviewPair> pairs = review_pairs(course, a);
     return import_scores(
         course, a, sheet, review_points(course, a),
@@ -151,6 +164,8 @@ int import_oral_scores(Course& course, const Assignment& a, const std::filesyste
 }
 
 std::string oral_sheet(Course& course, const Assignment& a) {
+    if (a.is_report())
+        throw InvalidArgument(fmt::format("{} is a report: its marks come from reviews, not from an oral", a.name));
     TextTable table;
     table.names = {"group"};
     for (const Criterion& c : a.criteria) table.names.push_back(c.name);
@@ -168,6 +183,7 @@ std::string oral_sheet(Course& course, const Assignment& a) {
 
 void override_mark(Course& course, const Assignment& a, const std::string& group, const std::string& what,
                    double percent, const std::string& reason, Instant now) {
+    if (what == "reviews") refuse_without_reviews(a);
     if (reason.empty()) throw InvalidArgument("say why: --reason \"...\"; it stands in the export");
     if (!(percent >= 0 && percent <= 100))
         throw InvalidArgument(fmt::format("a mark is a number from 0 to 100 percent, but {} was given", percent));
