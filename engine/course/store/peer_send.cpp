@@ -100,7 +100,7 @@ class Sending {
             ++outcome_.stopped;
             outcome_.hits.push_back(fmt::format("{} of {} was not sent: {}", part,
                                                 to_reviewers() ? pair.author_name : pair.reviewer_name,
-                                                fmt::join(copy.hits, "; ")));
+                                                fmt::join(copy.hits, " ")));
             return;
         }
         record(pair, *version, read_file(request.copy));
