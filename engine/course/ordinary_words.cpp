@@ -1,7 +1,5 @@
-#include <string_view>
-#include <unordered_set>
-
 #include "course/name_patterns.h"
+#include "course/word_set.h"
 
 namespace dynlab {
 namespace {
@@ -90,20 +88,10 @@ constexpr std::string_view kWords =
     "wind windows winter winters wise with wold wolf wood woods word work works worth wright writer wronskian xetex "
     "yard year york young yule zadeh zero zhu ziegler";
 
-std::unordered_set<std::string_view> words_apart() {
-    std::unordered_set<std::string_view> words;
-    for (std::size_t begin = 0; begin < kWords.size();) {
-        const std::size_t end = std::min(kWords.find(' ', begin), kWords.size());
-        words.insert(kWords.substr(begin, end - begin));
-        begin = end + 1;
-    }
-    return words;
-}
-
 }  // namespace
 
 bool is_ordinary_word(const std::string& folded) {
-    static const std::unordered_set<std::string_view> words = words_apart();
+    static const std::unordered_set<std::string_view> words = word_set(kWords);
     return words.contains(folded);
 }
 

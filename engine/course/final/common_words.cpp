@@ -1,7 +1,5 @@
-#include <string_view>
-#include <unordered_set>
-
 #include "course/final/remark_traces.h"
+#include "course/word_set.h"
 
 namespace dynlab {
 namespace {
@@ -52,20 +50,10 @@ constexpr std::string_view kWords =
     "suggere suggestion suggestions suite sujet surtout tableau tableaux tant telle telles tels tout toute toutes tous "
     "travail tres trop trouve trouver trois utile utilise utiliser utilisee vers version voir voit votre vous vraiment";
 
-std::unordered_set<std::string_view> set_of_words() {
-    std::unordered_set<std::string_view> words;
-    for (std::size_t begin = 0; begin < kWords.size();) {
-        const std::size_t end = std::min(kWords.find(' ', begin), kWords.size());
-        words.insert(kWords.substr(begin, end - begin));
-        begin = end + 1;
-    }
-    return words;
-}
-
 }  // namespace
 
 bool is_common_word(const std::string& folded) {
-    static const std::unordered_set<std::string_view> words = set_of_words();
+    static const std::unordered_set<std::string_view> words = word_set(kWords);
     return words.contains(folded);
 }
 
