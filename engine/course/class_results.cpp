@@ -123,8 +123,16 @@ std::string attention_of(const ClassResults& results, const std::vector<std::str
     const auto add = [&](const std::string& sentence) { attention += "- " + escaped_markdown(sentence) + "\n"; };
     for (const std::string& complaint : results.complaints) add(complaint);
     for (const std::string& remark : remarks) add(remark);
-    for (const Entry& entry : results.entries)
-        if (entry.grade && !entry.grade->whole()) add(fmt::format("\"{}\" is not graded whole", entry.submission.name));
+    for (const Entry& entry : results.entries) {
+        if (!entry.grade) continue;
+        const std::string& name = entry.submission.name;
+        if (!entry.grade->whole()) add(fmt::format("\"{}\" is not graded whole", name));
+        if (!entry.grade->trouble.empty())
+            add(fmt::format("the script of \"{}\" did not run to its end: {}", name, entry.grade->trouble));
+        if (entry.grade->penalty > 0)
+            add(fmt::format("\"{}\" came {:.1f} hours late, which costs {} points", name, entry.grade->late_hours,
+                            points_text(entry.grade->penalty)));
+    }
     return attention.empty() ? "Nothing.\n" : attention;
 }
 
@@ -186,6 +194,7 @@ void write_class_results(const ClassResults& results) {
     draw_figures(record, renderer, drawn.path(), results.pdf ? FigureFormat::kPdf : FigureFormat::kSvg);
     renderer.finish();
     results.documents->make("class_summary.md", record, results.out / (results.pdf ? "summary.pdf" : "summary.md"));
+    std::filesystem::remove(results.out / (results.pdf ? "summary.md" : "summary.pdf"));  // of an earlier run
 }
 
 }  // namespace dynlab

@@ -98,4 +98,15 @@ Deadlines::Lateness Deadlines::of(const Submission& submission) const {
     return {};
 }
 
+std::vector<std::string> Deadlines::strays(const std::vector<Submission>& submissions) const {
+    std::vector<std::string> names;
+    for (const auto& [name, rule] : rules_) {
+        const bool known = name == "*" || std::any_of(submissions.begin(), submissions.end(), [&](const Submission& s) {
+                               return s.name == name || s.lms_id == name;
+                           });
+        if (!known) names.push_back(name);
+    }
+    return names;
+}
+
 }  // namespace dynlab

@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "course/submission.h"
 
@@ -21,6 +22,8 @@ class Deadlines {
         double hours = 0, percent = 0;  ///< of the points earned
     };
     Lateness of(const Submission& submission) const;
+    /// The names in the table that are those of none of the submissions.
+    std::vector<std::string> strays(const std::vector<Submission>& submissions) const;
 
   private:
     struct Rule {

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <set>
 #include <thread>
 
 #include "course/class_results.h"
@@ -20,6 +21,7 @@
 #include "platform/interrupt.h"
 #include "platform/progress.h"
 #include "platform/temporary_folder.h"
+#include "platform/terminal_text.h"
 
 namespace dynlab {
 namespace {
@@ -59,7 +61,7 @@ class ClassGrading {
           outcome_(outcome),
           submissions_(submissions_in(opened(request), left_out_)),
           rules_(request.setup),
-          manual_(prepared(request.out) / "manual.csv"),
+          manual_(prepared(request) / "manual.csv"),
           documents_(request.setup.isolation, request.setup.program) {
         if (request.deadlines) deadlines_ = Deadlines(*request.deadlines);
         if (request.roster) roster_.emplace(*request.roster);
@@ -79,6 +81,7 @@ class ClassGrading {
         for (std::thread& thread : threads) thread.join();
         if (failure_) std::rethrow_exception(failure_);
         take_the_others();
+        tell_strays();
         std::sort(outcome_.complaints.begin(), outcome_.complaints.end());  // threads end in any order
         write_class_results(results());
     }
@@ -92,9 +95,26 @@ class ClassGrading {
         return export_.path() / "all";
     }
 
-    static const fs::path& prepared(const fs::path& out) {
-        fs::create_directories(out / "results");
-        return out;
+    static const fs::path& prepared(const GradingRequest& request) {
+        const fs::path results = request.out / "results";
+        fs::create_directories(results);
+        for (const auto& entry : fs::directory_iterator(results)) {
+            const std::optional<Grade> grade = earlier(entry.path());
+            if (!grade || grade->lesson == request.setup.lesson.slug) continue;
+            throw EnvironmentError(fmt::format("{} holds the results of lesson {}; name another folder with --out",
+                                               request.out.string(), grade->lesson));
+        }
+        return request.out;
+    }
+
+    /// What the instructor wrote about nobody, most likely by a slip of the pen.
+    void tell_strays() {
+        std::set<std::string> names, checks;
+        for (const Submission& submission : submissions_) names.insert(submission.name);
+        for (const auto& check : rules_.checks()) checks.insert(check.at("id"));
+        for (std::string& sentence : manual_.strays(names, checks)) outcome_.complaints.push_back(std::move(sentence));
+        for (const std::string& name : deadlines_.strays(submissions_))
+            outcome_.complaints.push_back(fmt::format("the deadline of \"{}\": there is no such submission", name));
     }
 
     std::vector<std::size_t> chosen() const {
@@ -138,7 +158,7 @@ class ClassGrading {
     void one(std::size_t place) {
         const Submission& submission = submissions_[place];
         const std::string fingerprint = rules_.fingerprint(hash_of_content(submission), seed_of(submission));
-        std::optional<Grade> grade = request_.regrade ? std::nullopt : earlier(submission);
+        std::optional<Grade> grade = request_.regrade ? std::nullopt : earlier(folder_of(submission));
         const bool keep = grade && grade->fingerprint == fingerprint;
         if (!keep) {
             grade = graded(submission);
@@ -178,8 +198,8 @@ class ClassGrading {
         }
     }
 
-    std::optional<Grade> earlier(const Submission& submission) const {
-        const fs::path file = folder_of(submission) / "results.json";
+    static std::optional<Grade> earlier(const fs::path& folder) {
+        const fs::path file = folder / "results.json";
         if (!fs::exists(file)) return {};
         try {
             return from_results_json(read_file(file));
@@ -206,7 +226,7 @@ class ClassGrading {
             const std::lock_guard lock(mutex_);
             outcome_.complaints.push_back(fmt::format("\"{}\": {}", submission.name, error.what()));
         }
-        if (!grade.log.empty()) write_file_atomically(folder / "log.txt", grade.log);
+        if (!grade.log.empty()) write_file_atomically(folder / "log.txt", terminal_text(grade.log));
         write_file_atomically(folder / "results.json", results);
     }
 
@@ -214,7 +234,7 @@ class ClassGrading {
     void take_the_others() {
         for (std::size_t i = 0; i < submissions_.size(); ++i)
             if (!grades_[i])
-                if (auto grade = earlier(submissions_[i])) grades_[i] = manual_.applied(*std::move(grade));
+                if (auto grade = earlier(folder_of(submissions_[i]))) grades_[i] = manual_.applied(*std::move(grade));
         for (const auto& grade : grades_)
             if (grade && !grade->whole()) ++outcome_.not_whole;
     }

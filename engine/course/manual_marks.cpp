@@ -43,4 +43,17 @@ Grade ManualMarks::applied(Grade grade) const {
     return grade;
 }
 
+std::vector<std::string> ManualMarks::strays(const std::set<std::string>& submissions,
+                                             const std::set<std::string>& checks) const {
+    std::vector<std::string> sentences;
+    for (const auto& [place, mark] : marks_) {
+        const auto& [submission, check] = place;
+        if (!submissions.contains(submission))
+            sentences.push_back(fmt::format("manual.csv: there is no submission \"{}\"", submission));
+        else if (!checks.contains(check))
+            sentences.push_back(fmt::format("manual.csv: there is no check \"{}\" (for \"{}\")", check, submission));
+    }
+    return sentences;
+}
+
 }  // namespace dynlab

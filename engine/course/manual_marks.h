@@ -1,8 +1,10 @@
 #pragma once
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "course/grade.h"
 
@@ -15,6 +17,9 @@ class ManualMarks {
     /// Writes an empty table with its header where there is none. Throws EnvironmentError with file and line.
     explicit ManualMarks(const std::filesystem::path& file);
     Grade applied(Grade grade) const;
+    /// A sentence for each mark whose submission or check is not among these.
+    std::vector<std::string> strays(const std::set<std::string>& submissions,
+                                    const std::set<std::string>& checks) const;
 
   private:
     struct Mark {

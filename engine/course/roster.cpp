@@ -94,8 +94,11 @@ std::vector<std::size_t> Roster::owners(const Submission& submission) const {
     if (found.empty() && !bare(own).empty())
         found =
             those([&](const Student& s) { return bare(s.name) == bare(own) || last_name_first(s.name) == bare(own); });
-    // Two students of the same name cannot be told apart.
-    return found.size() > 1 && students_[found.front()].group.empty() ? std::vector<std::size_t>{} : found;
+    if (found.empty() || found.size() > 1)  // two students of the same name cannot be told apart
+        return !found.empty() && students_[found.front()].group.empty() ? std::vector<std::size_t>{} : found;
+    // What one member hands in is the group's.
+    const std::string& group = students_[found.front()].group;
+    return group.empty() ? found : those([&](const Student& s) { return s.group == group; });
 }
 
 }  // namespace dynlab

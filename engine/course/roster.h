@@ -36,7 +36,8 @@ class Roster {
     const std::vector<std::string>& columns() const { return columns_; }
     std::vector<std::string> unknown_columns() const;
     /// Whose work it is, by the submission's own name (a group's, a student's id or name) or what an LMS wrote into it;
-    /// never by what stands in the submission. Places in students(); empty when nobody fits.
+    /// never by what stands in the submission. What one member hands in is the whole group's. Places in students();
+    /// empty when nobody fits.
     std::vector<std::size_t> owners(const Submission& submission) const;
 
   private:

@@ -95,7 +95,9 @@ void confine_process(const ProcessLimits& limits) {
     limit(RLIMIT_CPU, static_cast<rlim_t>(limits.cpu_seconds));
     limit(RLIMIT_FSIZE, limits.file_bytes);
     limit(RLIMIT_NOFILE, static_cast<rlim_t>(limits.open_files));
+#ifndef __SANITIZE_ADDRESS__  // the address sanitizer reserves more addresses than any limit leaves
     limit(RLIMIT_AS, limits.memory_bytes);
+#endif
     if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0)
         throw EnvironmentError("cannot give up privileges: " + system_reason(errno));
     filter_system_calls();

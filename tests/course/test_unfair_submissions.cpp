@@ -200,5 +200,31 @@ TEST(unfair_submissions, scripts_load_nothing_from_outside_their_folder_at_eithe
     EXPECT_EQ(GradingBench::score(bench.result("own")), 3);
 }
 
+// oracle: what the instructor is told
+TEST(unfair_submissions, the_instructor_is_told_of_slips_and_of_scripts_without_an_end) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    const Workbench& work = bench.bench();
+    work.write("roster.csv", "id,name,group,moodle\n1,Student One,g1,111\n2,Student Two,g1,112\n");
+    work.write("in/Student One_111_assignsubmission_file/analysis.lua", "answer('x', 42)\nwhile true do end\n");
+    work.write("out/manual.csv",
+               "submission,check,points,reason\ng9,x,1,typo\n"
+               "Student One_111_assignsubmission_file,nosuch,1,typo\n");
+    work.write("deadlines.csv", "submission,deadline\n*,2001-01-01 12:00\ng8,2001-01-01 12:00\n");
+    const ChildResult graded =
+        bench.grade({"--roster", "roster.csv", "--deadlines", "deadlines.csv", "--timeout", "2"});
+    EXPECT_EQ(graded.exit_code, 1);
+    for (const char* words : {"no submission \"g9\"", "no check \"nosuch\"", "\"g8\": there is no such submission"})
+        EXPECT_THAT(graded.error_output, HasSubstr(words));
+    const std::string summary = work.read("out/summary.md");
+    EXPECT_THAT(summary, HasSubstr("did not run to its end"));
+    EXPECT_THAT(summary, HasSubstr("hours late"));
+    EXPECT_THAT(row_of(bench, "1"), HasSubstr("graded"));
+    EXPECT_THAT(row_of(bench, "2"), HasSubstr("graded"));  // the group's
+
+    const ChildResult other = bench.bench().dynlab(
+        {"grade", "in", "--lesson", "04", "--out", "out", "--isolation", GradingBench::level(), "--no-pdf"});
+    EXPECT_NE(other.exit_code, 0);
+}
+
 }  // namespace
 }  // namespace dynlab::test
