@@ -21,22 +21,29 @@ namespace fs = std::filesystem;
 struct ReceiveWords {
     std::vector<std::string> files;
     std::string assignment, from, of, at, isolation = "full";
-    bool no_checks = false;
+    bool no_checks = false, first = false;
 };
 
 std::string remark(const Received& r) {
+    if (!r.trouble.empty() && r.part == "pack") return r.trouble + ": ask for a pack that opens";
     if (!r.trouble.empty()) return fmt::format("{}: ask for a readable file", r.trouble);
+    if (r.no_document) return "no PDF in the pack: ask for one";
     if (r.known) return "known already, nothing changed";
     if (r.rules_broken == 0) return "";
     return fmt::format("{} rule{} broken{}", r.rules_broken, r.rules_broken == 1 ? "" : "s",
                        r.names ? ": it names somebody" : "");
 }
 
+std::string what(const Received& r) {
+    if (r.about.empty()) return r.from_pack ? r.part + " (from the pack)" : r.part;
+    return r.about + (r.part == "pack" ? " (pack)" : r.from_pack ? " (from the pack)" : "");
+}
+
 void show(const ReceiveOutcome& outcome, const std::string& stage) {
     std::vector<std::vector<std::string>> rows;
     int fresh = 0, late = 0;
     for (const Received& r : outcome.received) {
-        rows.push_back({r.group, r.about.empty() ? r.part : r.about, fmt::format("v{}", r.version),
+        rows.push_back({r.group, what(r), fmt::format("v{}", r.version),
                         r.late > 0 ? "late by " + duration_text(r.late) : "in time", remark(r)});
         fresh += !r.known;
         late += !r.known && r.late > 0;
@@ -64,6 +71,7 @@ int receive_files(const CourseWords& where, const ReceiveWords& words, const std
     request.at = time_of(course, words.at);
     request.level = words.isolation == "full" ? Isolation::kFull : Isolation::kProcess;
     request.program = fs::read_symlink("/proc/self/exe");
+    request.take_as_first = words.first;
     request.checks = !words.no_checks;
     std::unique_ptr<ProgressBar> bar;
     request.progress = [&](std::size_t done, std::size_t total) {
@@ -85,6 +93,8 @@ void add_receive(CLI::App& parent, const char* name, const char* about, const st
     command->add_option("--assignment", words->assignment, "Which; needed when there are several")->type_name("NAME");
     command->add_option("--from", words->from, "Whose; by the names of files and folders unless given")
         ->type_name("GROUP");
+    if (stage == "first")
+        command->add_flag("--first", words->first, "A first version, even of a report whose reviews are out");
     if (stage == "review")
         command->add_option("--of", words->of, "Which report it reviews; by the file's name unless given")
             ->type_name("report-NN");
@@ -96,7 +106,9 @@ void add_receive(CLI::App& parent, const char* name, const char* about, const st
     command->add_flag("--no-checks", words->no_checks, "Do not look into the PDFs");
     command->footer(
         "Whose a file is, is told by its name or its folder's: a group, a student's name or id, or what the platform\n"
-        "wrote; never by what stands in it. Every version is kept and gets a signed receipt; a file that cannot be\n"
+        "wrote; never by what stands in it. A pack's report.pdf\n"
+        "(slides.pdf, review.pdf), or its only PDF, counts as if it had come alone. Every version is kept and gets a "
+        "signed receipt; a file that cannot be\n"
         "read is kept and flagged. Example:\n  " +
         example);
     command->callback([&where, words, stage, &action] {

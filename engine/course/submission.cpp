@@ -111,11 +111,8 @@ std::vector<Submission> submissions_in(const fs::path& folder, std::vector<std::
     return all;
 }
 
-namespace {
-
-/// Returns the names of what was left out.
-std::vector<std::string> unpack(const fs::path& archive, const fs::path& to, Isolation level, const fs::path& program,
-                                const SubmissionLimits& limits) {
+std::vector<std::string> unpack_submission(const fs::path& archive, const fs::path& to, Isolation level,
+                                           const fs::path& program, const SubmissionLimits& limits) {
     fs::create_directories(to);
     Box box(level);
     nlohmann::json job = {
@@ -130,13 +127,11 @@ std::vector<std::string> unpack(const fs::path& archive, const fs::path& to, Iso
     return result.output->at("left_out").get<std::vector<std::string>>();
 }
 
-}  // namespace
-
 std::vector<std::string> unpack_export(const fs::path& archive, const fs::path& to, Isolation level,
                                        const fs::path& program) {
     constexpr SubmissionLimits kOfAClass{4ull << 30, 200'000, true};
     try {
-        return unpack(archive, to, level, program, kOfAClass);
+        return unpack_submission(archive, to, level, program, kOfAClass);
     } catch (const SubmissionError& error) {
         throw EnvironmentError(fmt::format("{}: {}", archive.string(), error.what()));
     }
@@ -145,7 +140,7 @@ std::vector<std::string> unpack_export(const fs::path& archive, const fs::path& 
 fs::path stage_submission(const Submission& submission, const fs::path& to, Isolation level, const fs::path& program,
                           const SubmissionLimits& limits) {
     if (submission.archive) {
-        unpack(submission.path, to / "unpacked", level, program, limits);
+        unpack_submission(submission.path, to / "unpacked", level, program, limits);
     } else {
         fs::create_directories(to / "unpacked");
         if (copy_folder(submission.path, to / "unpacked", limits.bytes, limits.files).too_large)
@@ -158,7 +153,7 @@ fs::path stage_submission(const Submission& submission, const fs::path& to, Isol
     for (const fs::path& entry : entries_of(to / "unpacked"))
         if (is_plain_file(entry) && archive_stem(entry.filename().string())) archives.push_back(entry);
     if (archives.size() == 1) {
-        unpack(archives.front(), to / "inner", level, program, limits);
+        unpack_submission(archives.front(), to / "inner", level, program, limits);
         if (const auto folder = folder_with_script(to / "inner")) return *folder;
     }
     throw SubmissionError("There is no analysis.lua in it; hand in the folder that dynlab new made.");

@@ -25,17 +25,23 @@ struct Submission {
 /// where there is none.
 std::vector<Submission> submissions_in(const std::filesystem::path& folder, std::vector<std::string>& left_out);
 
-/// Unpacks the one zip in which an LMS exports all submissions into `to`, an empty folder, in a box.
-/// Returns the names of what was left out: links, and what is absolute or would lead outside. Throws EnvironmentError.
-std::vector<std::string> unpack_export(const std::filesystem::path& archive, const std::filesystem::path& to,
-                                       Isolation level, const std::filesystem::path& program);
-
 /// What a submission may take when it is copied or unpacked.
 struct SubmissionLimits {
     std::uint64_t bytes = 200ull << 20;
     int files = 2000;
     bool keep_times = false;  ///< of the files in an archive
 };
+
+/// Unpacks a submission's archive into `to`, which is made, in a box by `program`. Returns the names of what was left
+/// out. Throws SubmissionError.
+std::vector<std::string> unpack_submission(const std::filesystem::path& archive, const std::filesystem::path& to,
+                                           Isolation level, const std::filesystem::path& program,
+                                           const SubmissionLimits& limits = {});
+
+/// Unpacks the one zip in which an LMS exports all submissions into `to`, an empty folder, in a box.
+/// Returns the names of what was left out: links, and what is absolute or would lead outside. Throws EnvironmentError.
+std::vector<std::string> unpack_export(const std::filesystem::path& archive, const std::filesystem::path& to,
+                                       Isolation level, const std::filesystem::path& program);
 
 /// The name without an archive's ending (.zip, .tar, .tar.gz, .tgz, .tar.xz, .tar.bz2); nothing for other files.
 std::optional<std::string> archive_stem(const std::string& name);

@@ -7,6 +7,7 @@
 
 #include "course/store/course_schema.h"
 #include "course/store/groups.h"
+#include "course/store/newest_versions.h"
 #include "course/store/review_marks.h"
 #include "data_io/text_table.h"
 #include "platform/atomic_file.h"
@@ -22,15 +23,14 @@ std::string percent_text(const std::optional<double>& value) {
     return value ? fmt::format("{:.4g}", *value) : "";
 }
 
-/// When the newest version of a stage came, and how late.
-std::pair<std::string, std::string> arrival(Course& course, const Assignment& a, std::int64_t group,
-                                            const char* stage) {
-    Rows rows = course.database().query(
-        "SELECT received_at, late FROM versions WHERE assignment = ? AND group_id = ? AND stage = ? AND part IN "
-        "('report', 'slides') ORDER BY number DESC LIMIT 1",
-        a.id, group, stage);
-    if (!rows.next()) return {"missing", ""};
-    return {course.clock().show_exactly(rows.integer(0)), rows.integer(1) > 0 ? duration_text(rows.integer(1)) : ""};
+/// When the newest version came, and how late, or which earlier one was in time.
+std::pair<std::string, std::string> arrival(Course& course, const HandedInParts& parts, const char* part) {
+    const auto found = parts.find(part);
+    if (found == parts.end()) return {"missing", ""};
+    const HandedIn& h = found->second;
+    return {course.clock().show_exactly(h.received_at), h.is_late()  ? duration_text(h.late)
+                                                        : h.late > 0 ? fmt::format("v{} in time", h.in_time)
+                                                                     : ""};
 }
 
 std::map<std::int64_t, std::string> remarks_by_reviewer(Course& course, const Assignment& a, const Marks& marks) {
@@ -62,12 +62,14 @@ std::string marks_csv(Course& course, const Assignment& a) {
                    "work percent",
                    "work reason",
                    "reviews written",
+                   "reviews_late",
                    "reviews percent",
                    "reviews reason",
                    "remarks"};
     const Marks marks = course_marks(course, a);
     const auto remarks = remarks_by_reviewer(course, a, marks);
     const std::vector<ReviewPair> pairs = review_pairs(course, a);
+    auto versions = newest_versions(course, a);
     std::map<std::string, Group> by_name;
     for (const Group& group : groups_of(course)) by_name[group.name] = group;
     for (const Student& s : students_of(course)) {
@@ -75,16 +77,19 @@ std::string marks_csv(Course& course, const Assignment& a) {
         const auto group = by_name.find(s.group);
         if (group != by_name.end()) {
             const std::int64_t id = group->second.id;
-            const auto first = arrival(course, a, id, "first"), last = arrival(course, a, id, "final");
+            const char* const part = a.is_report() ? "report" : "slides";
+            const auto first = arrival(course, versions[id]["first"], part),
+                       last = arrival(course, versions[id]["final"], part);
             row.insert(row.end(), {first.first, first.second, a.is_report() ? last.first : "", last.second});
-            int written = 0, all = 0;
+            int written = 0, late = 0, all = 0;
             for (const ReviewPair& pair : pairs)
-                if (pair.reviewer == id && !pair.ended) ++all, written += pair.written;
+                if (pair.reviewer == id && !pair.ended) ++all, written += pair.written, late += pair.late;
             for (const GroupMark& mark : marks.groups)
                 if (mark.group == id)
                     row.insert(row.end(), {percent_text(mark.work_mark()), mark.work_reason,
                                            all > 0 ? fmt::format("{} of {}", written, all) : "",
-                                           percent_text(mark.reviews_mark()), mark.reviews_reason});
+                                           all > 0 ? fmt::format("{}", late) : "", percent_text(mark.reviews_mark()),
+                                           mark.reviews_reason});
             std::string remark = group->second.left ? "dropped out" : "";
             if (const auto own = remarks.find(id); own != remarks.end())
                 remark += (remark.empty() ? "" : "; ") + own->second;

@@ -7,33 +7,11 @@
 
 #include "course/store/aligned_table.h"
 #include "course/store/groups.h"
-#include "course/store/inspection.h"
+#include "course/store/newest_versions.h"
 #include "course/store/review_pairs.h"
 
 namespace dynlab {
 namespace {
-
-/// The newest version of each part that a group handed in for a stage.
-struct HandedIn {
-    std::int64_t version = 0, late = 0;
-    int rules_broken = 0;
-    std::string trouble;
-};
-using Parts = std::map<std::string, HandedIn>;
-
-std::map<std::int64_t, std::map<std::string, Parts>> newest_versions(Course& course, const Assignment& assignment) {
-    std::map<std::int64_t, std::map<std::string, Parts>> all;
-    for (Rows rows = course.database().query(
-             "SELECT group_id, stage, part, number, late, findings FROM versions WHERE assignment = ? AND stage <> "
-             "'review' ORDER BY number",
-             assignment.id);
-         rows.next();) {
-        const Inspection seen = inspection_from(rows.text(5));
-        all[rows.integer(0)][rows.text(1)][rows.text(2)] = {rows.integer(3), rows.integer(4), seen.rules_broken,
-                                                            seen.trouble};
-    }
-    return all;
-}
 
 std::string plural(std::int64_t count, const std::string& word) {
     return fmt::format("{} {}{}", count, word, count == 1 ? "" : "s");
@@ -44,13 +22,16 @@ std::string when(const CourseClock& clock, Instant due, Instant now) {
     return fmt::format("{} ({})", clock.show(due), due >= now ? "in " + distance : distance + " ago");
 }
 
-/// "v2", "v1 late 2 h 5 min", "v1, 3 rules broken", "v1 damaged", "-".
-std::string cell_of(const Parts& parts, const std::string& main) {
+/// "v2", "v1 late 2 h 5 min", "v2 (v1 in time)", "v1, 3 rules broken", "v1 damaged", "-".
+std::string cell_of(const HandedInParts& parts, const std::string& main) {
     const auto found = parts.find(main);
     if (found == parts.end()) return parts.empty() ? "-" : fmt::format("only the {}", parts.begin()->first);
     const HandedIn& h = found->second;
     std::string cell = fmt::format("v{}", h.version);
-    if (h.late > 0) cell += " late " + duration_text(h.late);
+    if (h.late > 0 && h.in_time > 0)
+        cell += fmt::format(" (v{} in time)", h.in_time);
+    else if (h.late > 0)
+        cell += " late " + duration_text(h.late);
     if (!h.trouble.empty())
         cell += " " + h.trouble;
     else if (h.rules_broken > 0)
@@ -100,9 +81,9 @@ class Status {
         const auto& stages = versions_[group.id];
         const auto parts = [&](const char* stage) {
             const auto found = stages.find(stage);
-            return found == stages.end() ? Parts() : found->second;
+            return found == stages.end() ? HandedInParts() : found->second;
         };
-        const Parts first = parts("first"), last = parts("final");
+        const HandedInParts first = parts("first"), last = parts("final");
         if (group.left && first.empty() && last.empty()) return;
         ++groups_;
         const std::string members = fmt::format("{}", group.members.size());
@@ -115,29 +96,30 @@ class Status {
             count(group, first, last);
             return;
         }
-        int to_write = 0, written = 0, to_get = 0, got = 0;
+        int to_write = 0, written = 0, late = 0, to_get = 0, got = 0;
         for (const ReviewPair& pair : pairs_) {
             if (pair.ended) continue;
-            if (pair.reviewer == group.id) ++to_write, written += pair.written;
+            if (pair.reviewer == group.id) ++to_write, written += pair.written, late += pair.late;
             if (pair.author == group.id) ++to_get, got += pair.written;
         }
         const auto share = [](int part, int whole) {
             return whole == 0 ? std::string("-") : fmt::format("{} of {}", part, whole);
         };
         open_reviews_ += group.left ? 0 : to_write - written;
-        rows_.push_back({group.name, members, cell_of(first, main_), share(written, to_write), share(got, to_get),
-                         cell_of(last, main_), to_do(group, first, last)});
+        rows_.push_back({group.name, members, cell_of(first, main_),
+                         share(written, to_write) + (late > 0 ? fmt::format(", {} late", late) : ""),
+                         share(got, to_get), cell_of(last, main_), to_do(group, first, last)});
         count(group, first, last);
     }
 
-    void count(const Group& group, const Parts& first, const Parts& last) {
+    void count(const Group& group, const HandedInParts& first, const HandedInParts& last) {
         if (group.left) return;
         const auto found = first.find(main_);
         if (found == first.end()) {
             ++missing_;
         } else {
             ++present_;
-            if (found->second.late > 0) ++late_;
+            if (found->second.is_late()) ++late_;
             if (!found->second.trouble.empty()) ++unreadable_;
             unassigned_ += !in_allocation(group.id);
         }
@@ -150,13 +132,18 @@ class Status {
     }
 
     /// What the instructor may want to do about this group.
-    std::string to_do(const Group& group, const Parts& first, const Parts& last) const {
+    std::string to_do(const Group& group, const HandedInParts& first, const HandedInParts& last) const {
         if (group.left) return "dropped out";
         std::vector<std::string> things;
         const auto due_over = [&](std::optional<Instant> due) { return due && now_ > *due + assignment_.grace; };
         const auto found = first.find(main_);
+        const auto only_pack = [&](const HandedInParts& parts, const char* of) {
+            if (parts.contains("pack") && !parts.contains(main_))
+                things.push_back(fmt::format("no PDF in the pack{}: ask for one", of));
+        };
         if (found == first.end()) {
-            if (due_over(assignment_.first_due))
+            only_pack(first, "");
+            if (things.empty() && due_over(assignment_.first_due))
                 things.push_back(assignment_.is_report() ? "ask for the first version, or roster drop"
                                                          : "ask for the slides, or roster drop");
             return join(things);
@@ -165,7 +152,7 @@ class Status {
             if (!first.contains("script") && !first.contains("pack") && due_over(assignment_.first_due))
                 things.push_back("ask for the script");
         }
-        const auto readable = [&](const Parts& parts, const char* what) {
+        const auto readable = [&](const HandedInParts& parts, const char* what) {
             const auto there = parts.find(main_);
             if (there != parts.end() && !there->second.trouble.empty())
                 things.push_back(fmt::format("ask for a readable {} ({})", what, there->second.trouble));
@@ -177,7 +164,8 @@ class Status {
         for (const ReviewPair& pair : pairs_)
             if (pair.reviewer == group.id && !pair.ended && !pair.written) ++open;
         if (open > 0 && due_over(assignment_.review_due)) things.push_back("remind of " + plural(open, "review"));
-        if (!last.contains(main_) && due_over(assignment_.final_due)) things.push_back("ask for the final version");
+        only_pack(last, " of the final version");
+        if (last.empty() && due_over(assignment_.final_due)) things.push_back("ask for the final version");
         return join(things);
     }
 
@@ -210,16 +198,20 @@ class Status {
         if (any([](const ReviewPair& p) { return !p.sent && !p.written; })) return command("peer send");
         if (any([](const ReviewPair& p) { return p.written && !p.released; }) && now_ > *assignment_.review_due)
             return command("release");
+        const bool released = any([](const ReviewPair& p) { return p.released; });
+        if (!released)
+            return fmt::format("wait for reviews, dynlab course review receive FILE... --assignment {}",
+                               assignment_.name);
         if (now_ > *assignment_.final_due)
             return (finals_ > 0 ? command("final changes --assignment") + ", then " : "") + command("export");
-        return {};
+        return command("scores") + " FILE.csv, then " + command("marks");
     }
 
     Course& course_;
     const Assignment& assignment_;
     Instant now_;
     std::string main_;
-    std::map<std::int64_t, std::map<std::string, Parts>> versions_;
+    std::map<std::int64_t, std::map<std::string, HandedInParts>> versions_;
     std::vector<ReviewPair> pairs_;
     std::vector<std::vector<std::string>> rows_;
     int groups_ = 0, present_ = 0, late_ = 0, unreadable_ = 0, missing_ = 0, unassigned_ = 0, open_reviews_ = 0,

@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
+#include <deque>
 #include <map>
+#include <set>
 
+#include "course/store/file_kind.h"
 #include "course/store/inspection.h"
+#include "course/store/packed_document.h"
 #include "course/store/receipts.h"
 #include "course/store/review_pairs.h"
 #include "course/store/senders.h"
@@ -22,7 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kMostBytes = 200u << 20;
-constexpr std::size_t kStart = 1024;
 
 Instant due_of(const Assignment& assignment, const std::string& stage) {
     if (stage == "first") return assignment.first_due;
@@ -40,17 +42,6 @@ std::string part_of(const Assignment& assignment, const std::string& stage, cons
     return assignment.is_report() ? "report" : "slides";
 }
 
-/// As much as its kind can be told from: all of a script.
-std::string start_of(const IncomingFile& file) {
-    if (file.name.ends_with(".lua")) return read_file(file.file);
-    std::string start(kStart, '\0');
-    std::ifstream in(file.file, std::ios::binary);
-    in.read(start.data(), static_cast<std::streamsize>(kStart));
-    if (in.bad() || !in.is_open()) throw EnvironmentError("the file cannot be read");
-    start.resize(static_cast<std::size_t>(in.gcount()));
-    return start;
-}
-
 /// A file on its way into the store.
 struct Candidate {
     const IncomingFile* file = nullptr;
@@ -58,6 +49,8 @@ struct Candidate {
     std::string part, hash;
     std::int64_t bytes = 0;
     std::optional<ReviewPair> pair;
+    bool from_pack = false;    ///< a PDF that was taken out of the group's pack
+    bool no_document = false;  ///< a pack without the PDF that is wanted
     Inspection inspection;
 };
 
@@ -68,14 +61,15 @@ class Receiving {
         outcome_.assignment = assignment_named(course, request.assignment);
         due_ = due_of(outcome_.assignment, request.stage);
         if (!request.from.empty()) from_ = group_named(course, request.from);
-        if (request.stage == "review") pairs_ = review_pairs(course, outcome_.assignment);
+        if (request.stage != "final") pairs_ = review_pairs(course, outcome_.assignment);
     }
 
     ReceiveOutcome run() {
         for (const fs::path& file : request_.files) incoming_.add(file);
         outcome_.refused = incoming_.left_out();
-        for (const IncomingFile& file : incoming_.files()) attempt(file, [&] { identify(file); });
+        for (const IncomingFile* file : wanted_files()) attempt(*file, [&] { identify(*file); });
         refuse_doubles();
+        open_packs();
         keep_all();
         write();
         outcome_.receipts = course_.folder() / "receipts" / outcome_.assignment.name;
@@ -99,6 +93,22 @@ class Receiving {
         }
     }
 
+    /// Text and scripts that lie in a sender's folder beside a PDF or a pack need no remark.
+    std::vector<const IncomingFile*> wanted_files() const {
+        std::set<std::string> fruitful;
+        const auto counts = [&](const IncomingFile& file) { return is_wanted(kind_of_file_at(file.name, file.file)); };
+        for (const IncomingFile& file : incoming_.files())
+            if (!file.folder.empty() && counts(file)) fruitful.insert(file.folder);
+        std::vector<const IncomingFile*> wanted;
+        for (const IncomingFile& file : incoming_.files())
+            if (!fruitful.contains(file.folder) || counts(file)) wanted.push_back(&file);
+        return wanted;
+    }
+
+    bool is_wanted(const std::string& kind) const {
+        return !kind.empty() && !(kind == "script" && outcome_.assignment.is_report());
+    }
+
     void identify(const IncomingFile& file) {
         Candidate candidate;
         candidate.file = &file;
@@ -109,28 +119,56 @@ class Receiving {
         if (candidate.bytes == 0) throw EnvironmentError("the file is empty");
         if (static_cast<std::uintmax_t>(candidate.bytes) > kMostBytes)
             throw EnvironmentError(fmt::format("the file has more than {} MB", kMostBytes >> 20));
-        const std::string kind = kind_of_file(file.name, start_of(file));
-        const bool script = kind == "script" && !outcome_.assignment.is_report();
-        if (kind.empty() || (kind == "script" && !script))
+        const std::string kind = kind_of_file_at(file.name, file.file);
+        if (!is_wanted(kind))
             throw EnvironmentError(outcome_.assignment.is_report()
                                        ? "this is no PDF and no pack (.zip, .tar.gz); ask for one"
                                        : "this is no PDF, no script (.lua) and no pack (.zip, .tar.gz); ask for one");
         candidate.part = part_of(outcome_.assignment, request_.stage, kind);
+        if (request_.stage == "first" && !request_.take_as_first) refuse_after_reviews(candidate);
         if (request_.stage == "review")
             candidate.pair = reviewed_pair(pairs_, *group, request_.of.empty() ? file.name : request_.of);
         candidates_.push_back(std::move(candidate));
     }
 
+    /// Who hands in a report once it was reviewed means the final version, but for a file that is known.
+    void refuse_after_reviews(const Candidate& candidate) const {
+        bool sent = false, released = false;
+        for (const ReviewPair& pair : pairs_) {
+            if (pair.author != candidate.group.id) continue;
+            sent = sent || pair.sent;
+            released = released || pair.released;
+        }
+        const Assignment& a = outcome_.assignment;
+        const bool over = a.review_due && request_.at > *a.review_due + a.grace;
+        if (!released && !(sent && over)) return;
+        if (is_known(candidate, hash_of(read_file(candidate.file->file)))) return;
+        throw EnvironmentError(fmt::format(
+            "the reviews of {} are {}: did you mean dynlab course final receive? --first takes it as a first "
+            "version all the same",
+            candidate.group.name, released ? "released" : "due"));
+    }
+
+    bool is_known(const Candidate& c, const std::string& hash) const {
+        return course_.database()
+            .query(
+                "SELECT 1 FROM versions WHERE assignment = ? AND group_id = ? AND stage = ? AND part = ? AND hash = ?",
+                outcome_.assignment.id, c.group.id, request_.stage, c.part, hash)
+            .next();
+    }
+
+    /// For what a candidate is; of two only one can hold.
+    static std::string place_of(const Candidate& c, const std::string& part) {
+        return fmt::format("{}/{}/{}", c.group.id, part, c.pair ? c.pair->id : 0);
+    }
+
     /// Two files of a group for the same thing: nobody can say which holds.
     void refuse_doubles() {
         std::map<std::string, int> count;
-        const auto key = [](const Candidate& c) {
-            return fmt::format("{}/{}/{}", c.group.id, c.part, c.pair ? c.pair->id : 0);
-        };
-        for (const Candidate& c : candidates_) ++count[key(c)];
+        for (const Candidate& c : candidates_) ++count[place_of(c, c.part)];
         std::vector<Candidate> single;
         for (Candidate& c : candidates_) {
-            if (count[key(c)] == 1) {
+            if (count[place_of(c, c.part)] == 1) {
                 single.push_back(std::move(c));
                 continue;
             }
@@ -139,6 +177,41 @@ class Receiving {
                             c.file->source, c.group.name, c.part));
         }
         candidates_ = std::move(single);
+    }
+
+    std::string document_part() const { return part_of(outcome_.assignment, request_.stage, "pdf"); }
+
+    /// A pack's PDF counts as if it had come beside it, unless one did.
+    void open_packs() {
+        const std::string part = document_part();
+        std::set<std::string> present;
+        for (const Candidate& c : candidates_) present.insert(place_of(c, c.part));
+        std::vector<std::size_t> packs;
+        for (std::size_t i = 0; i < candidates_.size(); ++i)
+            if (candidates_[i].part == "pack" && !present.contains(place_of(candidates_[i], part))) packs.push_back(i);
+        std::vector<std::optional<PackedDocument>> found(packs.size());
+        side_by_side(packs.size(), [&](std::size_t i) {
+            Candidate& pack = candidates_[packs[i]];
+            try {
+                found[i] = document_in_pack(pack.file->file, part, opened_.path() / std::to_string(i), request_.level,
+                                            request_.program);
+                pack.no_document = !found[i];
+            } catch (const SubmissionError&) {
+                pack.inspection.trouble = "damaged";
+            }
+        });
+        for (std::size_t i = 0; i < packs.size(); ++i)
+            if (found[i]) add_packed(candidates_[packs[i]], *found[i], part);
+    }
+
+    void add_packed(const Candidate& pack, const PackedDocument& document, const std::string& part) {
+        const IncomingFile& whole = *pack.file;
+        packed_.push_back({document.file, whole.name + "/" + document.name, whole.source + "/" + document.name,
+                           whole.sender, whole.folder});
+        Candidate candidate;
+        candidate.file = &packed_.back(), candidate.group = pack.group, candidate.pair = pack.pair;
+        candidate.part = part, candidate.from_pack = true;
+        candidates_.push_back(std::move(candidate));
     }
 
     void keep_all() {
@@ -164,18 +237,35 @@ class Receiving {
     }
 
     void write() {
-        std::sort(candidates_.begin(), candidates_.end(),
-                  [](const Candidate& a, const Candidate& b) { return a.group.name < b.group.name; });
+        std::stable_sort(candidates_.begin(), candidates_.end(),  // a pack stays before what it held
+                         [](const Candidate& a, const Candidate& b) { return a.group.name < b.group.name; });
         Transaction transaction(course_.database());
         int fresh = 0;
+        std::set<std::string> known_packs;
         for (const Candidate& candidate : candidates_) {
+            // A pack that came before brings nothing back that a newer PDF has replaced.
+            if (candidate.from_pack && known_packs.contains(place_of(candidate, "pack")) &&
+                has_any(candidate, candidate.part))
+                continue;
             outcome_.received.push_back(take(candidate));
-            if (!outcome_.received.back().known) ++fresh;
+            if (!outcome_.received.back().known)
+                ++fresh;
+            else if (candidate.part == "pack")
+                known_packs.insert(place_of(candidate, "pack"));
         }
         if (fresh > 0)
             course_.note(fmt::format("{}: {} received, {}", outcome_.assignment.name, fresh, request_.stage),
                          request_.at);
         transaction.commit();
+    }
+
+    bool has_any(const Candidate& c, const std::string& part) const {
+        return course_.database()
+            .query(
+                "SELECT 1 FROM versions WHERE assignment = ? AND group_id = ? AND stage = ? AND ifnull(pair, 0) = ? "
+                "AND part = ?",
+                outcome_.assignment.id, c.group.id, request_.stage, c.pair ? c.pair->id : 0, part)
+            .next();
     }
 
     Received take(const Candidate& c) {
@@ -186,6 +276,7 @@ class Receiving {
         received.group = c.group.name, received.part = c.part;
         received.rules_broken = c.inspection.rules_broken, received.trouble = c.inspection.trouble;
         received.names = c.inspection.names;
+        received.from_pack = c.from_pack, received.no_document = c.no_document && !has_any(c, document_part());
         if (c.pair) received.about = c.pair->report_pseudonym();
         Rows before = db.query(
             "SELECT id, number, hash, late FROM versions WHERE assignment = ? AND group_id = ? AND stage = ? AND "
@@ -220,23 +311,12 @@ class Receiving {
     std::optional<Group> from_;
     std::vector<ReviewPair> pairs_;
     std::vector<Candidate> candidates_;
+    TemporaryFolder opened_;           ///< what packs held
+    std::deque<IncomingFile> packed_;  ///< candidates point to them
     ReceiveOutcome outcome_;
 };
 
 }  // namespace
-
-std::string kind_of_file(const std::string& name, std::string_view content) {
-    const auto begins = [&](std::string_view magic) { return content.substr(0, magic.size()) == magic; };
-    if (content.substr(0, 1024).find("%PDF-") != std::string_view::npos) return "pdf";
-    const bool archive = begins("PK\x03\x04") || begins("\x1F\x8B") ||
-                         begins(std::string_view("\xFD"
-                                                 "7zXZ\0",
-                                                 6)) ||
-                         begins("BZh") || content.substr(0, 262).ends_with("ustar");
-    if (archive && archive_stem(name)) return "pack";
-    if (name.ends_with(".lua") && content.find('\0') == std::string_view::npos) return "script";
-    return {};
-}
 
 fs::path write_receipt(Course& course, std::int64_t version) {
     const Receipt receipt = receipt_of(course, version);

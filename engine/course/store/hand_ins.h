@@ -9,10 +9,6 @@
 
 namespace dynlab {
 
-/// What kind of file it is, by its first bytes and its name's ending: "pdf", "pack" (zip or tar), "script" (.lua), or
-/// empty for anything else.
-std::string kind_of_file(const std::string& name, std::string_view content);
-
 /// What receive is asked to do.
 struct ReceiveRequest {
     std::vector<std::filesystem::path> files;
@@ -22,7 +18,8 @@ struct ReceiveRequest {
     Instant at = 0;                           ///< time of receipt
     Isolation level = Isolation::kFull;
     std::filesystem::path program;
-    bool checks = true;  ///< look at PDFs as dynlab check does
+    bool take_as_first = false;  ///< a first version even when the group's report was reviewed already
+    bool checks = true;          ///< look at PDFs as dynlab check does
     std::function<void(std::size_t done, std::size_t total)> progress;
 };
 
@@ -30,10 +27,12 @@ struct ReceiveRequest {
 struct Received {
     std::string group, part, about;  ///< about: of a review, the pseudonym of the report
     std::int64_t version = 0, late = 0, id = 0;
-    bool known = false;  ///< the same content as the version before: nothing was changed
+    bool known = false;        ///< the same content as the version before: nothing was changed
+    bool from_pack = false;    ///< a PDF that was taken out of the group's pack
+    bool no_document = false;  ///< a pack without the PDF that is wanted
     int rules_broken = 0;
     bool names = false;   ///< of a review: it names somebody of the course
-    std::string trouble;  ///< when the PDF cannot be read: "damaged"
+    std::string trouble;  ///< when the file cannot be read: "damaged"
 };
 
 struct ReceiveOutcome {

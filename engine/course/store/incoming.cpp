@@ -62,12 +62,18 @@ void Incoming::add(const fs::path& given) {
 }
 
 void Incoming::add_file(const fs::path& file, const std::string& source) {
-    if (fs::symlink_status(file).type() == fs::file_type::symlink && source != file.string()) {
-        left_out_.push_back(fmt::format("{}: a link; it was left out", source));
-        return;
-    }
     const std::string name = file.filename();
     files_.push_back({file, name, source, sender_of(name)});
+}
+
+/// A file of a folder: links could lead to files that nobody handed in.
+void Incoming::add_found(const fs::path& file, const std::string& source) {
+    const fs::file_type type = fs::symlink_status(file).type();
+    if (type == fs::file_type::regular)
+        add_file(file, source);
+    else
+        left_out_.push_back(fmt::format("{}: {}; it was left out", source,
+                                        type == fs::file_type::symlink ? "a link" : "no ordinary file"));
 }
 
 void Incoming::add_batch(const fs::path& folder, const std::string& source) {
@@ -86,23 +92,25 @@ void Incoming::add_batch(const fs::path& folder, const std::string& source) {
             Submission sender;
             sender.name = name;
             read_lms_name(sender);
-            add_folder_of(sender, entry, place);
+            add_folder_of(sender, entry, place, place);
         } else {
-            add_file(entry, place);
+            add_found(entry, place);
         }
     }
 }
 
-void Incoming::add_folder_of(const Submission& sender, const fs::path& folder, const std::string& source) {
+void Incoming::add_folder_of(const Submission& sender, const fs::path& folder, const std::string& source,
+                             const std::string& own) {
     for (const fs::path& entry : entries_of(folder)) {
         const std::string place = source + "/" + entry.filename().string();
+        if (entry.filename() == "data") continue;  // the course's records, or a link to them
         if (is_folder(entry)) {
-            add_folder_of(sender, entry, place);
+            add_folder_of(sender, entry, place, own);
             continue;
         }
         const std::size_t before = files_.size();
-        add_file(entry, place);
-        if (files_.size() > before) files_.back().sender = sender;
+        add_found(entry, place);
+        if (files_.size() > before) files_.back().sender = sender, files_.back().folder = own;
     }
 }
 

@@ -15,6 +15,7 @@ struct IncomingFile {
     std::string name;            ///< its own name
     std::string source;          ///< for messages: the file that was given, and the place in it
     Submission sender;           ///< name, person and lms_id as the folder's or the file's name tells them
+    std::string folder = {};     ///< source of the sender's own folder; empty for a file alone
 };
 
 /// Everything that was given to receive: files, folders, and what Moodle or Canvas exports as one zip. Archives are
@@ -38,8 +39,10 @@ class Incoming {
 
   private:
     void add_file(const std::filesystem::path& file, const std::string& source);
+    void add_found(const std::filesystem::path& file, const std::string& source);
     void add_batch(const std::filesystem::path& folder, const std::string& source);
-    void add_folder_of(const Submission& sender, const std::filesystem::path& folder, const std::string& source);
+    void add_folder_of(const Submission& sender, const std::filesystem::path& folder, const std::string& source,
+                       const std::string& own);
 
     Way way_;
     TemporaryFolder scratch_;

@@ -1,0 +1,179 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "course/course_bench.h"
+
+namespace dynlab::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr char kInTime[] = "2026-03-01 10:00";
+
+/// NAME.zip as dynlab pack makes it, of a folder with a script, a text and these PDFs.
+void pack(CourseBench& bench, const std::string& name, const std::vector<std::string>& pdfs,
+          const std::string& words = "words") {
+    bench.bench().write("work-" + name + "/analysis.lua", "-- %%\n");
+    bench.bench().write("work-" + name + "/report.md", "# Words\n");
+    for (const std::string& pdf : pdfs)
+        bench.bench().write("work-" + name + "/" + pdf, small_pdf(words + " of " + pdf));
+    CourseBench::expect_done(bench.bench().dynlab({"pack", "work-" + name, "-o", name + ".zip"}));
+}
+
+ChildResult receive(const CourseBench& bench, const std::vector<std::string>& files, const std::string& at,
+                    std::vector<std::string> before = {}) {
+    before.push_back("receive");
+    before.insert(before.end(), files.begin(), files.end());
+    before.insert(before.end(), {"--at", at, "--isolation", CourseBench::level()});
+    return bench.course(before);
+}
+
+std::string report_hash(CourseBench& bench, const std::string& group) {
+    return bench.bench()
+        .shell(
+            "sqlite3 k/course.db \"SELECT v.hash FROM versions v JOIN groups g ON g.id = v.group_id WHERE g.name = '" +
+            group + "' AND part = 'report' ORDER BY number DESC LIMIT 1\"")
+        .output;
+}
+
+// oracle: sha256sum of what was packed
+TEST(packed_hand_ins, the_report_of_a_pack_counts) {
+    CourseBench bench(4, 1);
+    pack(bench, "group-01", {"report.pdf", "figures/step.pdf"});
+    pack(bench, "group-02", {"my work.pdf"});
+    pack(bench, "group-03", {});
+    pack(bench, "group-04", {"a.pdf", "b.pdf"});
+    const std::vector<std::string> all = {"group-01.zip", "group-02.zip", "group-03.zip", "group-04.zip"};
+    const ChildResult taken = receive(bench, all, kInTime);
+    CourseBench::expect_done(taken);
+    EXPECT_THAT(taken.output,
+                AllOf(ContainsRegex("group-01 +pack +v1"), ContainsRegex("group-01 +report \\(from the pack\\) +v1"),
+                      ContainsRegex("group-02 +report \\(from the pack\\) +v1 +in time +[1-9][0-9]* rule"),
+                      ContainsRegex("group-03 +pack .*no PDF in the pack: ask for one"),
+                      ContainsRegex("group-04 +pack .*no PDF in the pack: ask for one"), HasSubstr("6 files taken")));
+    const std::string packed = bench.bench().shell("sha256sum < work-group-01/report.pdf").output.substr(0, 64);
+    EXPECT_EQ(report_hash(bench, "group-01"), packed + "\n");
+    const std::string status = bench.course({"status", "crane", "--at", "2026-03-01 13:00"}).output;
+    EXPECT_THAT(status, AllOf(ContainsRegex("group-01 +1 +v1"), ContainsRegex("group-03 .*no PDF in the pack: ask"),
+                              HasSubstr("4 groups: 2 handed in, 2 missing.")));
+    EXPECT_THAT(bench.course({"peer", "assign", "--at", "2026-03-01 13:00"}).output, HasSubstr("2 groups, 2 reviews"));
+    EXPECT_THAT(bench.course({"verify"}).output, HasSubstr("all there and unaltered"));
+    const std::string before = bench.dump();
+    CourseBench::expect_done(receive(bench, all, kInTime));
+    EXPECT_EQ(bench.dump(), before);
+}
+
+// oracle: sha256sum of what was handed in alone
+TEST(packed_hand_ins, a_pdf_that_came_alone_holds) {
+    CourseBench bench(3);
+    pack(bench, "group-01", {"report.pdf"}, "packed");
+    bench.bench().write("group-01.pdf", small_pdf("alone"));
+    const std::string alone = bench.bench().shell("sha256sum < group-01.pdf").output.substr(0, 64) + "\n";
+    EXPECT_THAT(receive(bench, {"group-01.zip", "group-01.pdf"}, kInTime).output,
+                AllOf(HasSubstr("2 files taken"), Not(HasSubstr("from the pack"))));
+    EXPECT_EQ(report_hash(bench, "group-01"), alone);
+    CourseBench::expect_done(receive(bench, {"group-01.zip"}, kInTime));  // known: it replaces nothing
+    EXPECT_EQ(report_hash(bench, "group-01"), alone);
+    bench.bench().write("group-02.zip", "PK\x03\x04 no archive at all");
+    EXPECT_THAT(receive(bench, {"group-02.zip"}, kInTime).output, HasSubstr("damaged: ask for a pack that opens"));
+}
+
+// oracle: the rule: a review is a document that somebody can read
+TEST(packed_hand_ins, a_pack_is_a_review_only_with_a_pdf) {
+    CourseBench bench(2, 1);
+    for (const char* group : {"group-01", "group-02"})
+        bench.hand_in(std::string(group) + ".pdf", small_pdf(group), kInTime);
+    CourseBench::expect_done(bench.course({"peer", "assign", "--at", "2026-03-01 13:00"}));
+    pack(bench, "group-01", {});
+    pack(bench, "group-02", {"remarks.pdf"});
+    const ChildResult taken = receive(bench, {"group-01.zip", "group-02.zip"}, "2026-03-09 10:00", {"review"});
+    CourseBench::expect_done(taken);
+    EXPECT_THAT(taken.output, AllOf(ContainsRegex("group-01 +report-[0-9]+ \\(pack\\) .*no PDF in the pack"),
+                                    ContainsRegex("group-02 +report-[0-9]+ \\(from the pack\\) +v1")));
+    EXPECT_THAT(bench.course({"status", "--at", "2026-03-09 11:00"}).output, HasSubstr("crane"));
+    EXPECT_THAT(
+        bench.course({"status", "crane", "--at", "2026-03-09 11:00"}).output,
+        AllOf(ContainsRegex("group-01 +1 +v1[^\n]* 0 of 1 "), ContainsRegex("group-02 +1 +v1[^\n]* 1 of 1, 1 late")));
+}
+
+// oracle: the rules of deadlines: a review is late when no version of it came in time
+TEST(packed_hand_ins, late_reviews_and_late_second_versions_are_told_apart) {
+    CourseBench bench(3, 1);
+    for (int i = 1; i <= 3; ++i) bench.hand_in(CourseBench::group(i) + ".pdf", small_pdf("one"), kInTime);
+    bench.hand_in("group-01.pdf", small_pdf("two"), "2026-03-01 13:00");
+    CourseBench::expect_done(bench.course({"peer", "assign", "--at", "2026-03-01 14:00"}));
+    bench.hand_in("r.pdf", small_pdf("r1"), "2026-03-07 10:00", {"--assignment", "crane"});
+    const auto review = [&](const char* group, const char* text, const char* at) {
+        bench.bench().write("r.pdf", small_pdf(text));
+        CourseBench::expect_done(bench.course({"review", "receive", "r.pdf", "--from", group, "--at", at}));
+    };
+    review("group-01", "good", "2026-03-07 10:00"), review("group-01", "better", "2026-03-09 10:00");
+    review("group-02", "good", "2026-03-09 10:00");
+    const std::string status = bench.course({"status", "crane", "--at", "2026-03-09 12:00"}).output;
+    EXPECT_THAT(status,
+                AllOf(ContainsRegex("group-01 +1 +v2 \\(v1 in time\\)[^\n]* 1 of 1  "),
+                      ContainsRegex("group-02 +1 +v1[^\n]* 1 of 1, 1 late"), HasSubstr("3 groups: 3 handed in;")));
+    const std::string csv = bench.course({"export", "crane"}).output;
+    EXPECT_THAT(csv, AllOf(HasSubstr(",reviews written,reviews_late,"), HasSubstr(",v1 in time,"),
+                           ContainsRegex("group-01[^\n]*,1 of 1,0,"), ContainsRegex("group-02[^\n]*,1 of 1,1,"),
+                           ContainsRegex("group-03[^\n]*,0 of 1,0,")));
+}
+
+// oracle: the store before; the course's dates
+TEST(packed_hand_ins, a_first_version_after_the_reviews_is_asked_about) {
+    CourseBench bench(2, 1);
+    for (const char* group : {"group-01", "group-02"})
+        bench.hand_in(std::string(group) + ".pdf", small_pdf(group), kInTime);
+    CourseBench::expect_done(bench.course({"peer", "assign", "--at", "2026-03-01 13:00"}));
+    CourseBench::expect_done(bench.hand_in("group-01.pdf", small_pdf("more"), "2026-03-09 10:00"));  // nobody reads it
+    bench.bench().shell(  // as peer send and release record it
+        "sqlite3 k/course.db \"INSERT INTO sendings (pair, way, version, hash, made_at) SELECT p.id, 'to reviewer', "
+        "v.id, "
+        "v.hash, 0 FROM pairs p JOIN versions v ON v.group_id = p.author WHERE v.number = 1\"");
+    CourseBench::expect_done(bench.hand_in("group-02.pdf", small_pdf("again"), "2026-03-07 10:00"));  // while they read
+    EXPECT_THAT(bench.course({"status", "crane", "--at", "2026-03-07 12:00"}).output,
+                HasSubstr("Next: wait for reviews, dynlab course review receive FILE... --assignment crane"));
+    const std::string before = bench.dump();
+    const ChildResult late = bench.hand_in("group-02.pdf", small_pdf("last"), "2026-03-09 10:00");
+    EXPECT_EQ(late.exit_code, 1);
+    EXPECT_THAT(
+        late.error_output,
+        HasSubstr("the reviews of group-02 are due: did you mean dynlab course final receive? --first takes it as "
+                  "a first version all the same"));
+    EXPECT_EQ(bench.dump(), before);
+    bench.bench().shell(
+        "sqlite3 k/course.db \"INSERT INTO sendings (pair, way, version, hash, made_at) SELECT pair, 'to author', "
+        "version, "
+        "hash, 0 FROM sendings\"");
+    EXPECT_THAT(bench.hand_in("group-02.pdf", small_pdf("last"), "2026-03-07 10:00").error_output,
+                HasSubstr("the reviews of group-02 are released: did you mean dynlab course final receive?"));
+    EXPECT_THAT(bench.course({"status", "crane", "--at", "2026-03-09 12:00"}).output,
+                HasSubstr("Next: dynlab course scores crane FILE.csv, then dynlab course marks crane"));
+    CourseBench::expect_done(bench.hand_in("group-02.pdf", small_pdf("again"), "2026-03-09 10:00"));  // known
+    CourseBench::expect_done(bench.hand_in("group-02.pdf", small_pdf("last"), "2026-03-09 10:00", {"--first"}));
+    CourseBench::expect_done(receive(bench, {"group-02.pdf"}, "2026-03-10 10:00", {"final"}));
+}
+
+// oracle: the rule; what lies beside a report needs no word
+TEST(packed_hand_ins, takes_folders_as_students_keep_them) {
+    CourseBench bench(3);
+    bench.bench().write("records/long.csv", "t,y\n");
+    for (const char* group : {"group-01", "group-02"}) {
+        bench.bench().write(std::string("in/") + group + "/analysis.lua", "-- %%\n");
+        bench.bench().write(std::string("in/") + group + "/report.md", "# Words\n");
+    }
+    bench.bench().write("in/group-01/report.pdf", small_pdf("one"));
+    bench.bench().write("in/group-01/data/paper.pdf", small_pdf("not theirs"));
+    bench.bench().shell("ln -s $PWD/records in/group-02/data; mkfifo in/group-02/pipe");
+    const ChildResult taken = receive(bench, {"in"}, kInTime);
+    EXPECT_THAT(taken.output, AllOf(HasSubstr("1 file taken"), ContainsRegex("group-01 +report +v1")));
+    EXPECT_THAT(taken.error_output, AllOf(HasSubstr("in/group-02/report.md: this is no PDF and no pack"),
+                                          HasSubstr("pipe: no ordinary file"), Not(HasSubstr("group-01")),
+                                          Not(HasSubstr("filesystem")), Not(HasSubstr("data"))));
+}
+
+}  // namespace
+}  // namespace dynlab::test
