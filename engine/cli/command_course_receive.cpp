@@ -106,10 +106,9 @@ void add_receive(CLI::App& parent, const char* name, const char* about, const st
     command->add_flag("--no-checks", words->no_checks, "Do not look into the PDFs");
     command->footer(
         "Whose a file is, is told by its name or its folder's: a group, a student's name or id, or what the platform\n"
-        "wrote; never by what stands in it. A pack's report.pdf\n"
-        "(slides.pdf, review.pdf), or its only PDF, counts as if it had come alone. Every version is kept and gets a "
-        "signed receipt; a file that cannot be\n"
-        "read is kept and flagged. Example:\n  " +
+        "wrote; never by what stands in it. A pack's report.pdf (slides.pdf, review.pdf), or its only PDF, counts as\n"
+        "if it had come alone. Every version is kept and gets a signed receipt; a file that cannot be read is kept\n"
+        "and flagged. Example:\n  " +
         example);
     command->callback([&where, words, stage, &action] {
         action = [&where, words, stage] { return receive_files(where, *words, stage); };

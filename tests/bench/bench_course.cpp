@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "bench/bench.h"
-#include "platform/atomic_file.h"
+#include "bench/program_work.h"
 #include "support/program.h"
 
 namespace dynlab::bench {
@@ -15,17 +15,10 @@ namespace fs = std::filesystem;
 using test::Workbench;
 
 constexpr int kGroups = 300;
-const fs::path kSixPages = fs::path(DYNLAB_SOURCE_DIR) / "tests/bench/six_pages";
-
-void must_succeed(const ChildResult& result) {
-    if (result.exit_code != 0) throw std::runtime_error(result.output + result.error_output);
-}
 
 /// A course of 300 groups, and class.zip with a report of six pages by each. The reports differ in one remark.
 void prepare(const Workbench& bench) {
-    for (const char* file : {"analysis.lua", "report.md"})
-        bench.write(fs::path("six") / file, read_file(kSixPages / file));
-    must_succeed(bench.dynlab({"report", "six"}));
+    make_six_pages(bench);
     const std::string report = bench.read("report.pdf");
     const std::size_t end = report.rfind("startxref");
     std::string roster = "id,name,group,mail\n";

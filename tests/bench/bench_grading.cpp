@@ -3,9 +3,9 @@
 #include <chrono>
 #include <fstream>
 #include <regex>
-#include <stdexcept>
 
 #include "bench/bench.h"
+#include "bench/program_work.h"
 #include "support/program.h"
 
 namespace dynlab::bench {
@@ -39,7 +39,7 @@ Seconds grading_seconds(const Workbench& bench, int jobs, bool pdf) {
     const auto start = std::chrono::steady_clock::now();
     const ChildResult graded = bench.dynlab(words);
     const std::chrono::duration<double> whole = std::chrono::steady_clock::now() - start;
-    if (graded.exit_code != 0) throw std::runtime_error(graded.output + graded.error_output);
+    must_succeed(graded);
     const std::string logs = bench.shell("cat out/results/*/log.txt").output;
     const std::regex line(R"(([0-9.]+) s of the script)");
     Seconds seconds{whole.count(), 0};

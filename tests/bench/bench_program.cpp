@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "bench/bench.h"
-#include "platform/atomic_file.h"
+#include "bench/program_work.h"
 #include "platform/program_lookup.h"
 #include "support/program.h"
 
@@ -15,11 +15,6 @@ namespace fs = std::filesystem;
 using test::Workbench;
 
 constexpr int kRepetitions = 11;
-const fs::path kSixPages = fs::path(DYNLAB_SOURCE_DIR) / "tests/bench/six_pages";
-
-void must_succeed(const ChildResult& result) {
-    if (result.exit_code != 0) throw std::runtime_error(result.output + result.error_output);
-}
 
 void measure_start(const Workbench& bench, Report& report) {
     const auto start = [&] { must_succeed(bench.dynlab({"run", "-e", "print(1)"})); };
@@ -56,10 +51,8 @@ std::string plain_markdown(const Workbench& bench, std::string text) {
 }
 
 void measure_report(const Workbench& bench, Report& report) {
-    for (const char* file : {"analysis.lua", "report.md"})
-        bench.write(fs::path("six") / file, read_file(kSixPages / file));
+    make_six_pages(bench);
     const std::string text = bench.read("six/report.md");
-    must_succeed(bench.dynlab({"report", "six"}));
     const std::string plain = plain_markdown(bench, text);
     bench.write("in.md", plain);
 

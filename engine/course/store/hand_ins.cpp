@@ -96,7 +96,13 @@ class Receiving {
     /// Text and scripts that lie in a sender's folder beside a PDF or a pack need no remark.
     std::vector<const IncomingFile*> wanted_files() const {
         std::set<std::string> fruitful;
-        const auto counts = [&](const IncomingFile& file) { return is_wanted(kind_of_file_at(file.name, file.file)); };
+        const auto counts = [&](const IncomingFile& file) {
+            try {
+                return is_wanted(kind_of_file_at(file.name, file.file));
+            } catch (const EnvironmentError&) {
+                return true;  // what cannot be read is complained of by its name when its turn comes
+            }
+        };
         for (const IncomingFile& file : incoming_.files())
             if (!file.folder.empty() && counts(file)) fruitful.insert(file.folder);
         std::vector<const IncomingFile*> wanted;
