@@ -2,15 +2,18 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace dynlab {
 
 namespace {
 
-/// The pair of a 2 x 2 block, without cancellation where its poles are close.
+/// The pair of a 2 x 2 block, without cancellation where its poles are close; equal poles are so exactly.
 CascadeBasis::Pair pair_of(const Eigen::Matrix2d& F) {
-    const double half = 0.5 * (F(0, 0) - F(1, 1));
-    return {0.5 * (F(0, 0) + F(1, 1)), half * half + F(0, 1) * F(1, 0)};
+    constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
+    const double half = 0.5 * (F(0, 0) - F(1, 1)), square = half * half + F(0, 1) * F(1, 0);
+    return {0.5 * (F(0, 0) + F(1, 1)), std::abs(square) <= kRounding * half * half ? 0 : square};
 }
 
 bool split_poles(const Matrix& F, std::vector<CascadeBasis::Pair>& pairs) {

@@ -17,12 +17,6 @@ constexpr int kLanes = Lanes::kWidth;
 constexpr Index kShortestSegment = 8;
 constexpr double kForgotten = 1e-19;  // what is left of a state after so many steps is less than rounding
 
-Part gather(const double* p, Index stride) {
-    Part lanes;
-    for (int lane = 0; lane < kLanes; ++lane) lanes[lane] = p[lane * stride];
-    return lanes;
-}
-
 Part broadcast(double x) {
     return Part{} + x;
 }
@@ -42,12 +36,14 @@ struct Source {
 };
 
 /// What the columns of a cascade are: its states, or, kFed, for two poles and one output, q alone, which
-/// q[k+1] = centre q[k] + p[k] + feed v[k] makes a multiple of the output; kTap: after them the sample.
-template <int kOrder_, bool kFed_, bool kTap_>
+/// q[k+1] = centre q[k] + p[k] + feed v[k] makes a multiple of the output; kTap: after them the sample. kRepeated: the
+/// two poles are one, `square` is zero.
+template <int kOrder_, bool kFed_, bool kTap_, bool kRepeated_ = false>
 struct Shape {
     static constexpr int kOrder = kOrder_;
     static constexpr bool kFed = kFed_;
     static constexpr bool kTap = kTap_;
+    static constexpr bool kRepeated = kRepeated_;
     static constexpr int kColumns = (kFed ? 1 : kOrder) + (kTap ? 1 : 0);
 };
 using NoSignal = Shape<0, false, false>;
@@ -71,7 +67,13 @@ class LaneCascade {
 
     [[gnu::always_inline]] Part sample(Index k) const {
         if constexpr (Shape::kColumns == 0) return Part{};
-        return gather(v_ + k, segment_);
+        return Lanes::gather_part(v_ + k, segment_);
+    }
+    /// Asks the memory for what is needed soon: by itself, the processor stops at the end of every page.
+    [[gnu::always_inline]] void fetch_ahead(Index k) const {
+        constexpr Index kLine = 8, kAhead = 16 * kLine;  // samples
+        if (Shape::kColumns == 0 || k % kLine != 0 || k + kAhead >= segment_) return;
+        for (int lane = 0; lane < kLanes; ++lane) __builtin_prefetch(v_ + k + kAhead + lane * segment_);
     }
     [[gnu::always_inline]] Part column(int i, const Part& v) const {
         if constexpr (Shape::kFed) return i == 0 ? state_[1] : v;
@@ -89,11 +91,13 @@ class LaneCascade {
                 Part own = p;
                 if constexpr (Shape::kFed) own += feed_ * v;
                 state_[2 * b + 1] = centre_[b] * q + own;
-                drive += square_[b] * q;
+                if constexpr (!Shape::kRepeated) drive += square_[b] * q;
             }
             state_[2 * b] = centre_[b] * state_[2 * b] + drive;
         });
     }
+
+    const Part& state(int i) const { return state_[i]; }
 
     /// Samples before a lane's first one that its state remembers, or all of a segment.
     Index back() const { return back_; }
@@ -162,23 +166,28 @@ template <class First, class Second>
     if constexpr (Second::kOrder > 0) second.hand_over(sources[1].state);
 }
 
-/// Which products are wanted.
-enum Wanted { kFirstAlone = 1, kSecondPairAlone = 2 };
+/// Which products are wanted: those of the first cascade's columns among themselves, or only with the sample, and those
+/// of the second pair of `Second` among themselves.
+enum Wanted { kFirstAlone = 1, kFirstWithSample = 2, kSecondPairAlone = 4 };
 
-/// Sums of the products of all columns, first those of `First`, then those of `Second`; those of `First` among
-/// themselves and those of the second pair of `Second` among themselves only if wanted.
+/// Sums of the products of all columns, first those of `First`, then those of `Second`; zero where they are not wanted.
+/// With kFirstWithSample, the places of the states of `First` hold how much these products have grown from the lanes'
+/// first steps to their ends.
 template <class First, class Second, int kWanted>
 Matrix sum_products(const std::array<Source, 2>& sources, Index segment) {
     constexpr int kFirst = First::kColumns, kColumns = kFirst + Second::kColumns;
     constexpr auto left_out = [](int i, int j) {
-        const bool pair = Second::kOrder == 4 && i >= kFirst + 2 && j < kFirst + 4;
-        return (!(kWanted & kFirstAlone) && j < kFirst) || (!(kWanted & kSecondPairAlone) && pair);
+        if (j < kFirst) return !(kWanted & kFirstAlone) && !(kWanted & kFirstWithSample && j + 1 == kFirst);
+        return Second::kOrder == 4 && i >= kFirst + 2 && j < kFirst + 4 && !(kWanted & kSecondPairAlone);
     };
     LaneCascade<First> first(sources[0], segment);
     LaneCascade<Second> second(sources[1], segment);
     find_states(first, second, sources, segment);
+    [[maybe_unused]] const LaneCascade<First> start = first;
     Part sums[kColumns][kColumns] = {};
     for (Index k = 0; k < segment; ++k) {
+        first.fetch_ahead(k);
+        second.fetch_ahead(k);
         const Part v = first.sample(k), w = second.sample(k);
         repeat<kColumns>([&](auto i) {
             const Part x = i < kFirst ? first.column(i, v) : second.column(i - kFirst, w);
@@ -190,10 +199,33 @@ Matrix sum_products(const std::array<Source, 2>& sources, Index segment) {
         first.step(v);
         second.step(w);
     }
+    if constexpr (kWanted & kFirstWithSample)
+        for (int i = 0; i < First::kOrder; ++i)
+            for (int j = i; j < First::kOrder; ++j)
+                sums[i][j] = first.state(i) * first.state(j) - start.state(i) * start.state(j);
     Matrix total = Matrix::Zero(kColumns, kColumns);
     for (int i = 0; i < kColumns; ++i)
         for (int j = i; j < kColumns; ++j) total(i, j) = total(j, i) = sum_of_lanes(sums[i][j]);
     return total;
+}
+
+/// From what sum_products gives with kFirstWithSample for two equal poles c, the sums P, Q, R of p p, p q and q q:
+/// squared, p[k+1] = c p[k] + v[k] and q[k+1] = c q[k] + p[k] say how they grow in a step, summed over the record
+///     growth of P = (c^2 - 1) P + 2 c <p,v> + <v,v>   and so on
+/// (the Lyapunov equation of the record). False where the terms cancel: a signal with little of what the filter passes.
+bool complete_squares(Matrix& total, double c) {
+    constexpr double kMostCancelled = 50;
+    const double left = 1 - c * c, pv = total(0, 2), qv = total(1, 2), vv = total(2, 2);
+    const double dP = total(0, 0), dQ = total(0, 1), dR = total(1, 1);
+    const double P = (2 * c * pv + vv - dP) / left, size_P = (2 * std::abs(c * pv) + vv + std::abs(dP)) / left;
+    const double Q = (c * (P + qv) + pv - dQ) / left;
+    const double size_Q = (std::abs(c) * (size_P + std::abs(qv)) + std::abs(pv) + std::abs(dQ)) / left;
+    const double R = (2 * c * Q + P - dR) / left, size_R = (2 * std::abs(c) * size_Q + size_P + std::abs(dR)) / left;
+    total(0, 0) = P;
+    total(0, 1) = total(1, 0) = Q;
+    total(1, 1) = R;
+    return left > 0 && size_P <= kMostCancelled * P && size_R <= kMostCancelled * R &&
+           size_Q <= kMostCancelled * std::sqrt(P * R);
 }
 
 using Summation = Matrix (*)(const std::array<Source, 2>&, Index);
@@ -208,6 +240,12 @@ Summation summation_for(Index order, bool fed, bool tap, int wanted) {
         if (order == Second::kOrder && fed == Second::kFed && tap == Second::kTap && wanted == w)
             found = &sum_products<First, Second, w>;
     };
+    if constexpr (First::kRepeated) {
+        try_shape(Shape<2, false, false, true>(), Constant<kFirstWithSample>());
+        try_shape(Shape<2, false, true, true>(), Constant<kFirstWithSample>());
+        try_shape(Shape<2, true, false, true>(), Constant<kFirstWithSample>());
+        return found;
+    }
     const auto try_wanted = [&](auto w) {
         try_shape(Shape<1, false, false>(), w);
         try_shape(Shape<1, false, true>(), w);
@@ -250,15 +288,20 @@ Outputs outputs_of(const std::array<Source, 2>& sources, bool two, bool fed, boo
     return outputs;
 }
 
-Summation summation_for(const std::array<Source, 2>& sources, const Outputs& outputs, bool fed, bool tap,
-                        const std::vector<Index>& left, const std::vector<Index>& right) {
+/// Of these products of outputs; `order` is that of the second cascade.
+int wanted_products(const Outputs& outputs, Index order, const std::vector<Index>& left,
+                    const std::vector<Index>& right) {
     const auto both_need = [&](Index column, Index count) {
         return outputs.need(left, column, count) && outputs.need(right, column, count);
     };
-    const Index order = sources[1].basis.order;
     int wanted = 0;
     if (both_need(0, outputs.first_columns)) wanted |= kFirstAlone;
     if (order == 4 && both_need(outputs.first_columns + 2, 2)) wanted |= kSecondPairAlone;
+    return wanted;
+}
+
+Summation summation_for(const std::array<Source, 2>& sources, const Outputs& outputs, bool fed, bool tap, int wanted) {
+    const Index order = sources[1].basis.order;
     switch (outputs.first_columns) {
         case 0:
             return summation_for<NoSignal>(order, fed, tap, wanted);
@@ -271,6 +314,19 @@ Summation summation_for(const std::array<Source, 2>& sources, const Outputs& out
         default:
             return nullptr;
     }
+}
+
+/// With the wanted products of the first source's columns among themselves from how they grow, where its poles and the
+/// second's are repeated and this loses no digits; nothing otherwise.
+std::optional<Matrix> sum_by_growth(const std::array<Source, 2>& sources, const Outputs& outputs, bool fed, bool tap,
+                                    int wanted, Index segment) {
+    const auto repeated = [](const CascadeBasis& basis) { return basis.order == 2 && basis.pairs[0].square == 0; };
+    if (wanted != kFirstAlone || outputs.first_columns != 3 || !repeated(sources[0].basis) ||
+        !repeated(sources[1].basis))
+        return {};
+    Matrix total = summation_for<Shape<2, false, true, true>>(2, fed, tap, kFirstWithSample)(sources, segment);
+    if (!complete_squares(total, sources[0].basis.pairs[0].centre)) return {};
+    return total;
 }
 
 /// The two sources, the second alone for one signal; false where there are none.
@@ -313,7 +369,8 @@ std::optional<Matrix> cascade_moments(const std::vector<FilteredSignal>& signals
     if (fed) sources[1].feed = last.outputs(0, 0) / last.outputs(0, 1);
     const bool two = signals.size() > 1;
     const Outputs outputs = outputs_of(sources, two, fed, tap);
-    const Summation sum = summation_for(sources, outputs, fed, tap, left, right);
+    const int wanted = wanted_products(outputs, last.order, left, right);
+    const Summation sum = summation_for(sources, outputs, fed, tap, wanted);
     if (!sum) return {};
 
     const std::vector<OutputSum> no_sums;
@@ -333,7 +390,9 @@ std::optional<Matrix> cascade_moments(const std::vector<FilteredSignal>& signals
     if (signals.size() == 3 &&
         !agree_on_state(sources[1].state, signals[1], samples.recursion(1).state(), *sources[1].v))
         return {};
-    const Matrix with_outputs = sum(sources, segment).lazyProduct(outputs.weights.transpose());
+    std::optional<Matrix> products = sum_by_growth(sources, outputs, fed, tap, wanted, segment);
+    if (!products) products = sum(sources, segment);
+    const Matrix with_outputs = products->lazyProduct(outputs.weights.transpose());
     Matrix moments = samples.total();
     for (Index j = 0; j < moments.cols(); ++j)
         for (Index i = 0; i < moments.rows(); ++i)

@@ -1,4 +1,7 @@
 #pragma once
+#if defined(__AVX__)
+#include <immintrin.h>
+#endif
 #include <utility>
 
 namespace dynlab {
@@ -28,11 +31,25 @@ class Lanes {
         return *this;
     }
 
-    /// The numbers at p[0], p[stride], ..., p[7 stride].
+    /// The numbers at p[0], p[stride], ..., as many as a part holds; stride >= 1.
+    [[gnu::always_inline]] static Part gather_part(const double* p, long stride) {
+#if defined(__AVX__) && !defined(__AVX512F__)
+        // By number, the moves would keep a unit busy that multiplies. So two neighbours are loaded at a time, of which
+        // one is wanted, and always between p[0] and p[3 stride].
+        const auto pairs = [](const double* a, const double* b) {
+            return _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(a)), _mm_loadu_pd(b), 1);
+        };
+        return _mm256_blend_pd(pairs(p, p + 2 * stride), pairs(p + stride - 1, p + 3 * stride - 1), 0b1010);
+#else
+        Part part;
+        for (int lane = 0; lane < kWidth; ++lane) part[lane] = p[lane * stride];
+        return part;
+#endif
+    }
+    /// The numbers at p[0], p[stride], ..., p[7 stride]; stride >= 1.
     static Lanes gather(const double* p, long stride) {
         Lanes lanes;
-        for (int i = 0; i < kParts; ++i)
-            for (int j = 0; j < kWidth; ++j) lanes.part_[i][j] = p[(i * kWidth + j) * stride];
+        for (int i = 0; i < kParts; ++i) lanes.part_[i] = gather_part(p + i * kWidth * stride, stride);
         return lanes;
     }
 
