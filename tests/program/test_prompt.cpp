@@ -116,7 +116,8 @@ TEST(prompt, control_c_ends_the_statement_only) {
          {"print('star' .. 'ted') while true do end", "print('star' .. 'ted') for i = 1, 1e15 do end",
           "print('star' .. 'ted') while true do pcall(function() while true do end end) end",
           "print('star' .. 'ted') while true do sum(randn(1000000)) end",
-          "print('star' .. 'ted') gradient_descent(randn(100000, 1), randn(100000), {MaxIter = 1e8, Tol = 0})"}) {
+          "print('star' .. 'ted') gradient_descent(randn(100000, 1), randn(100000), {MaxIter = 1e8, step = 1e-9, Tol = "
+          "0})"}) {
         terminal.enter(endless);
         terminal.until("started\r\n");
         terminal.type(kControlC);
