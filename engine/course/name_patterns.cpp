@@ -196,6 +196,7 @@ std::vector<NamePattern> patterns_of(const Student& student, bool own) {
     if (written_out != student.name) add_names(who, full_name(written_out), own, patterns);
     add_number(NameKind::kNumber, who, student.id, patterns);
     if (!student.group.empty()) add_number(NameKind::kGroup, student.group, student.group, patterns);
+    for (const std::string& group : student.other_groups) add_number(NameKind::kGroup, group, group, patterns);
     const std::string account = student.mail.substr(0, student.mail.find('@'));
     if (account != student.id) add_number(NameKind::kMail, who, account, patterns);
     Part letters = part_of(account);

@@ -15,9 +15,10 @@ struct FormerName {
 
 struct Student {
     std::string id, name, group;
-    std::optional<std::uint32_t> seed;  ///< the group's, where groups have records of their own
-    std::string mail, moodle, canvas;   ///< address; numbers by which the learning platforms know the student
-    std::vector<FormerName> former{};   ///< looked for in documents like what is known now
+    std::optional<std::uint32_t> seed;        ///< the group's, where groups have records of their own
+    std::string mail, moodle, canvas;         ///< address; numbers by which the learning platforms know the student
+    std::vector<FormerName> former{};         ///< looked for in documents like what is known now
+    std::vector<std::string> other_groups{};  ///< where they are or were besides; looked for like `group`
 };
 
 /// The students of a course. The file has a column `id`, and optionally `name`, `group`, `seed`, `email` (or `mail`),

@@ -90,6 +90,24 @@ TEST(peer_review, seeks_former_names_and_counts_copies) {
     EXPECT_EQ(bench.bench().shell("sqlite3 copy/course.db .dump").output, bench.dump());
 }
 
+// oracle: the roster's history; the pairs
+TEST(peer_review, seeks_the_groups_that_a_student_was_in_before) {
+    CourseBench bench(3);
+    for (const std::string first : {"lynx-77", "group-01"}) {
+        bench.bench().write("names.csv",
+                            "id,name,group\ns1,Ada Ek," + first + "\ns2,Bo Ost,group-02\ns3,Cy Uhl,group-03\n");
+        CourseBench::expect_done(bench.course({"roster", "import", "names.csv"}));
+    }
+    const std::vector<std::string> texts = {"written by lynx-77", "two", "three"};
+    for (int i = 1; i <= 3; ++i)
+        bench.bench().write("in/" + CourseBench::group(i) + ".pdf", small_pdf(texts[static_cast<std::size_t>(i) - 1]));
+    CourseBench::expect_done(bench.course({"receive", "in", "--at", "2026-03-01 10:00", "--no-checks"}));
+    CourseBench::expect_done(bench.course({"peer", "assign", "--at", "2026-03-01 13:00"}));
+    const ChildResult sent = bench.course({"peer", "send", "--at", "2026-03-01 14:00"});
+    EXPECT_THAT(sent.error_output, AllOf(HasSubstr("report of group-01 was not sent: page 1: "), HasSubstr("lynx-77")));
+    EXPECT_EQ(std::count(sent.error_output.begin(), sent.error_output.end(), '\n'), 1);
+}
+
 // oracle: the deadline of the reviews, with its ten minutes of grace
 TEST(peer_review, releases_reviews_after_their_deadline) {
     CourseBench bench(4);

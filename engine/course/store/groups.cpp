@@ -153,6 +153,12 @@ std::vector<Student> students_of(Course& course) {
     for (Rows rows = course.database().query("SELECT student, name, mail FROM former_names ORDER BY student, until");
          rows.next();)
         students[place.at(rows.text(0))].former.push_back({rows.text(1), rows.text(2)});
+    for (Rows rows = course.database().query(
+             "SELECT DISTINCT m.student, g.name FROM memberships m JOIN groups g ON g.id = m.group_id ORDER BY 1, 2");
+         rows.next();) {
+        Student& student = students[place.at(rows.text(0))];
+        if (rows.text(1) != student.group) student.other_groups.push_back(rows.text(1));
+    }
     return students;
 }
 
