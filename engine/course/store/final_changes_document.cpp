@@ -176,8 +176,9 @@ class Composition {
                 const Remark& remark = answered.remark;
                 if (!remark.question.empty() && remark.question != question)
                     text += "**" + text_.plain(question = remark.question) + "**\n\n";
-                text += text_.emphasised(fmt::format("Remark {}.", ++number)) + " " + text_.plain(remark.text) + "\n\n";
-                text += outcome(answered) + "\n";
+                text += text_.emphasised(fmt::format("Remark {}.", ++number)) + " " + text_.plain(remark.text);
+                // One paragraph, which is not torn apart at the end of a page.
+                text += "\\\n" + outcome(answered) + "\n";
             }
         }
         return text;
