@@ -196,7 +196,8 @@ class Status {
             return std::any_of(pairs_.begin(), pairs_.end(), [&](const ReviewPair& p) { return !p.ended && fits(p); });
         };
         if (any([](const ReviewPair& p) { return !p.sent && !p.written; })) return command("peer send");
-        if (any([](const ReviewPair& p) { return p.written && !p.released; }) && now_ > *assignment_.review_due)
+        if (any([](const ReviewPair& p) { return p.written && !p.released; }) &&
+            now_ > *assignment_.review_due + assignment_.grace)
             return command("release");
         const bool released = any([](const ReviewPair& p) { return p.released; });
         if (!released)
