@@ -155,6 +155,10 @@ void add_status(CLI::App& course, CourseWords& where, Action& action) {
     auto words = std::make_shared<Words>();
     CLI::App* command = course.add_subcommand("status", "What came, what is late, and what to do about it");
     command->add_option("ASSIGNMENT", words->assignment, "All unless given");
+    command->footer(
+        "Examples:\n"
+        "  dynlab course status\n"
+        "  dynlab course status crane");
     add_time_option(*command, words->at);
     command->callback([&where, words, &action] {
         action = [&where, words] {

@@ -7,7 +7,6 @@
 #include "course/store/final_changes.h"
 #include "course/store/final_changes_document.h"
 #include "platform/error.h"
-#include "platform/progress.h"
 #include "platform/terminal_text.h"
 
 namespace dynlab {
@@ -20,23 +19,6 @@ struct ChangesWords {
     std::string assignment, out, isolation = "full";
 };
 
-/// Shows on a terminal how far `what` is.
-class Bar {
-  public:
-    explicit Bar(std::string what) : what_(std::move(what)) {}
-    std::function<void(std::size_t, std::size_t)> progress() {
-        return [this](std::size_t done, std::size_t total) {
-            if (!bar_) bar_ = std::make_unique<ProgressBar>(what_, total);
-            bar_->advance(done);
-        };
-    }
-    void finish() { bar_.reset(); }
-
-  private:
-    std::string what_;
-    std::unique_ptr<ProgressBar> bar_;
-};
-
 int changes(const CourseWords& where, const ChangesWords& words) {
     const Isolation level = words.isolation == "full" ? Isolation::kFull : Isolation::kProcess;
     if (const auto obstacle = obstacle_to(level)) throw EnvironmentError(*obstacle);
@@ -46,7 +28,7 @@ int changes(const CourseWords& where, const ChangesWords& words) {
     request.groups = words.groups;
     request.level = level;
     request.program = fs::read_symlink("/proc/self/exe");
-    Bar comparing("comparing the versions"), writing("writing the documents");
+    WorkBar comparing("comparing the versions"), writing("writing the documents");
     request.progress = comparing.progress();
     const std::vector<GroupChanges> all = final_changes(course, assignment, request);
     comparing.finish();

@@ -121,12 +121,17 @@ void add_mark_commands(CLI::App& course, CourseWords& where, Action& action) {
     scored.app->add_option("CSV", scored.words->file, "Columns reviewer, report (or group, at the oral), criteria")
         ->required();
     add_time_option(*scored.app, scored.words->at);
+    scored.app->footer(
+        "A line a review: reviewer,report,data,... with the reviewing group and the report's\n"
+        "pseudonym, as peer show has them. The latest score counts.\n"
+        "Example:  dynlab course scores crane scores.csv");
 
     CLI::App* oral = course.add_subcommand("oral", "The oral presentation");
     oral->require_subcommand(1);
     const auto marking = add_one(*oral, "sheet", "A marking sheet to be filled in, for scores", where, action, sheet);
     marking.app->add_option("ASSIGNMENT", marking.words->assignment)->required();
     marking.app->add_option("-o,--out", marking.words->out, "Printed unless given")->type_name("CSV");
+    marking.app->footer("Example:  dynlab course oral sheet final-talk -o sheet.csv");
 
     const auto shown =
         add_one(course, "marks", "Medians, marks of reports and reviewers, odd reviews", where, action, marks);
@@ -142,18 +147,24 @@ void add_mark_commands(CLI::App& course, CourseWords& where, Action& action) {
     set.app->add_option("WHAT", set.words->what)->required()->check(CLI::IsMember({"work", "reviews"}));
     set.app->add_option("PERCENT", set.words->percent)->required();
     set.app->add_option("--reason", set.words->reason, "Stands in the export")->required();
+    set.app->footer("Example:  dynlab course override crane group-09 work 60 --reason \"handed in on paper\"");
 
     const auto given =
         add_one(course, "export", "A row a student as CSV, or the whole store as JSON", where, action, export_course);
     given.app->add_option("ASSIGNMENT", given.words->assignment, "Needed when there are several");
     given.app->add_option("-o,--out", given.words->out, "Printed unless given")->type_name("FILE");
     given.app->add_flag("--json", given.words->json, "The whole store, for import");
+    given.app->footer(
+        "Examples:\n"
+        "  dynlab course export crane -o marks.csv\n"
+        "  dynlab course export --json -o course.json");
 
     const auto taken = add_one(course, "import", "Make a course from a JSON export", where, action, import);
     taken.app->add_option("JSON", taken.words->file)->required();
     taken.app->add_option("DIR", taken.words->out, "Folder of the new course")->required();
     taken.app->add_option("--from", taken.words->from, "Course folder with the handed-in files and the key")
         ->capture_default_str();
+    taken.app->footer("Example:  dynlab course import course.json copy --from signals-2026");
 }
 
 }  // namespace dynlab

@@ -107,9 +107,16 @@ void add_peer_commands(CLI::App& course, CourseWords& where, Action& action) {
             "Each group writes, and gets, the same number of reviews; what is written or sent stays. May be repeated.\n"
             "Example:  dynlab course peer assign crane");
     add_one(*peer, "send", "Make anonymous copies of the reports for their reviewers", where, action, send_reports)
-        ->footer("A name found in a copy stops that copy, and you are told where it stands.");
-    add_one(course, "release", "Make anonymous copies of the reviews for the authors", where, action, release);
-    add_one(*peer, "show", "The pairs with their pseudonyms; for your eyes only", where, action, show_pairs);
+        ->footer(
+            "A name found in a copy stops that copy, and you are told where it stands. Repeated, it makes what is new "
+            "only.\n"
+            "Example:  dynlab course peer send crane");
+    add_one(course, "release", "Make anonymous copies of the reviews for the authors", where, action, release)
+        ->footer(
+            "A review that names somebody is stopped, like a report. Repeated, it makes what is new only.\n"
+            "Example:  dynlab course release crane");
+    add_one(*peer, "show", "The pairs with their pseudonyms; for your eyes only", where, action, show_pairs)
+        ->footer("Example:  dynlab course peer show crane");
 }
 
 }  // namespace dynlab

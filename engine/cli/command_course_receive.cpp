@@ -10,7 +10,6 @@
 #include "course/store/store_check.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
-#include "platform/progress.h"
 #include "platform/terminal_text.h"
 
 namespace dynlab {
@@ -73,13 +72,10 @@ int receive_files(const CourseWords& where, const ReceiveWords& words, const std
     request.program = fs::read_symlink("/proc/self/exe");
     request.take_as_first = words.first;
     request.checks = !words.no_checks;
-    std::unique_ptr<ProgressBar> bar;
-    request.progress = [&](std::size_t done, std::size_t total) {
-        if (!bar) bar = std::make_unique<ProgressBar>("looking at the files", total);
-        bar->advance(done);
-    };
+    WorkBar bar("looking at the files");
+    request.progress = bar.progress();
     const ReceiveOutcome outcome = receive(course, request);
-    bar.reset();
+    bar.finish();
     show(outcome, stage);
     return outcome.refused.empty() ? kDone : kFailed;
 }

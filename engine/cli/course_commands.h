@@ -1,6 +1,11 @@
 #pragma once
+#include <functional>
+#include <memory>
+#include <string>
+
 #include "cli/commands.h"
 #include "course/store/course_store.h"
+#include "platform/progress.h"
 
 namespace dynlab {
 
@@ -11,6 +16,23 @@ struct CourseWords {
 
 void add_time_option(CLI::App& command, std::string& text);      ///< --at TIME
 Instant time_of(const Course& course, const std::string& text);  ///< of --at; now when that is empty
+
+/// Shows how far work is that says only when it begins how much there is.
+class WorkBar {
+  public:
+    explicit WorkBar(std::string what) : what_(std::move(what)) {}
+    std::function<void(std::size_t, std::size_t)> progress() {
+        return [this](std::size_t done, std::size_t total) {
+            if (!bar_) bar_ = std::make_unique<ProgressBar>(what_, total);
+            bar_->advance(done);
+        };
+    }
+    void finish() { bar_.reset(); }
+
+  private:
+    std::string what_;
+    std::unique_ptr<ProgressBar> bar_;
+};
 
 /// final changes: below the command final.
 void add_final_changes(CLI::App& final, CourseWords& where, Action& action);
