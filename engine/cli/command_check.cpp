@@ -70,12 +70,11 @@ void add_check(CLI::App& app, Action& action) {
     command->add_flag("--json", words->as_json, "Print the findings as JSON, for programs");
     command->footer(
         "A folder is copied and its analysis run in the clean copy; nothing is written into it.\n"
-        "What is demanded comes from the template that analysis.lua names; of a PDF alone, wide pages are slides, "
-        "others a\n"
-        "lab_report. Pages, sections, figures that the text never mentions, unfilled slots, languages, text size and\n"
-        "margins are looked at. The members in group.toml and the people of a roster are looked for in text, "
-        "metadata,\n"
-        "pictures, links, comments, embedded files and everything else inside, home folders too: dynlab help names.\n"
+        "What is demanded comes from the template that analysis.lua names; of a PDF alone, wide pages are slides, the\n"
+        "headings of a review make it a peer_review, and others are a lab_report. Pages, sections, figures that the\n"
+        "text never mentions, unfilled slots, languages, text size and margins are looked at. The members in\n"
+        "group.toml and the people of a roster are looked for in text, metadata, pictures, links, comments, embedded\n"
+        "files and everything else inside, home folders too: dynlab help names.\n"
         "Examples:  dynlab check my-crane     dynlab check report.pdf     dynlab check talk.pdf --template slides "
         "--json\n"
         "Exit codes: 0 no rule is broken (there may be hints), 1 a rule is broken, 2 wrong usage.\n"

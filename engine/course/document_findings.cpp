@@ -53,10 +53,24 @@ std::string joined(const std::vector<std::string>& words) {
     return fmt::format("{}", fmt::join(words, ", "));
 }
 
-DocumentStandard usual_standard(const DocumentText& text) {
-    const char* const name = text.is_slides() ? "slides" : "lab_report";
+/// Of a template that may not be installed.
+DocumentStandard known_standard(const char* name) {
     const std::vector<std::string> known = installed_templates();
     return std::find(known.begin(), known.end(), name) == known.end() ? DocumentStandard() : standard_of(name);
+}
+
+/// How many of the demanded sections a document has.
+std::ptrdiff_t sections_in(const DocumentText& text, const DocumentStandard& standard) {
+    const Findings found = section_findings(text, standard.rules, "en");
+    const auto demanded = [](const SectionRule& section) { return !section.optional; };
+    return std::count_if(standard.rules.sections.begin(), standard.rules.sections.end(), demanded) -
+           std::count_if(found.begin(), found.end(), [](const Finding& f) { return f.id == "section-missing"; });
+}
+
+DocumentStandard usual_standard(const DocumentText& text) {
+    if (text.is_slides()) return known_standard("slides");
+    DocumentStandard report = known_standard("lab_report"), review = known_standard("peer_review");
+    return sections_in(text, review) > sections_in(text, report) ? review : report;
 }
 
 DocumentStandard standard_for(const DocumentText& text, const CheckWishes& wishes) {

@@ -47,7 +47,8 @@ struct CheckResult {
 /// Checks a PDF from anybody. Findings about the file itself: not-pdf, encrypted, damaged, too-large, scanned (rules),
 /// protected (hint); further ones in section_findings.h, name_findings.h, figure_findings.h, language_findings.h,
 /// layout_findings.h and leftover_findings.h. Without a standard, slides (landscape) are held against the template
-/// "slides" and other documents against "lab_report". Throws PdfRefusal when there is no such file or it may not be
+/// "slides", documents with more headings of the form "peer_review" than of "lab_report" against that, and others
+/// against "lab_report". Throws PdfRefusal when there is no such file or it may not be
 /// read.
 CheckResult check_pdf(const std::filesystem::path& file, const CheckWishes& wishes = {}, const PdfLimits& limits = {});
 

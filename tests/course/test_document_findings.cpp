@@ -234,12 +234,22 @@ TEST_F(document_findings, slides_are_held_against_their_own_limits) {
     EXPECT_EQ(only(found(one, {"Validation", "\\tiny " + much}), "text-small").page, 2);
 }
 
-TEST_F(document_findings, without_a_wish_wide_pages_are_slides_and_others_a_lab_report) {
+TEST_F(document_findings, without_a_wish_pages_and_headings_tell_the_kind) {
     const auto known = [](const std::string& name) {
         return std::filesystem::exists(DYNLAB_SOURCE_DIR "/report_templates/" + name + ".md") ? name : "";
     };
     check_latex("", kProse);
     EXPECT_EQ(check_pdf(file("own.pdf")).template_name, known("lab_report"));
+    const auto with_headings = [&](const std::vector<const char*>& titles) {
+        std::string body;
+        for (const char* title : titles) body += std::string("\\section{") + title + "}\n" + kProse;
+        check_latex("", body);
+        return check_pdf(file("own.pdf")).template_name;
+    };
+    EXPECT_EQ(with_headings({"Process", "Raw data", "Validation", "Conclusions", "Suggestions"}), known("lab_report"));
+    EXPECT_EQ(with_headings({"Data and experiments", "Steps of the identification", "Suggestions"}),
+              known("peer_review"));
+    EXPECT_EQ(with_headings({"Principale qualité", "Conclusions", "Suggestions"}), known("peer_review"));
     check_slides({{"Process", "A chirp."}});
     EXPECT_EQ(check_pdf(file("own.pdf")).template_name, known("slides"));
 }
