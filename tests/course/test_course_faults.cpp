@@ -22,8 +22,8 @@ course() { taskset -c 0 $DYNLAB course --course try "$@"; }
 command=$1 fault=$2 between=$3 after=$4
 for place in $(seq 400); do
   rm -rf try; cp -r k try; rm -f count
-  FAULT="$fault $place" FAULT_COUNT=$PWD/count LD_PRELOAD=$FAULTS taskset -c 0 $DYNLAB course --course try $command \
-    >said 2>&1; code=$?
+  taskset -c 0 env FAULT="$fault $place" FAULT_COUNT=$PWD/count LD_PRELOAD=$FAULTS \
+    $DYNLAB course --course try $command >said 2>&1; code=$?
   [ -e count ] && [ $(cat count) -lt $place ] && { echo "failed at $((place - 1)) places"; exit 0; }
   eval "$between" || { echo "place $place, code $code, at once"; cat said; exit 1; }
   course $command >said2 2>&1 || { echo "place $place, repeated"; cat said said2; exit 1; }
@@ -99,6 +99,40 @@ TEST_F(course_faults, a_kill_anywhere_in_other_commands_loses_nothing) {
         EXPECT_EQ(tried.exit_code, 0) << tried.output << tried.error_output;
         EXPECT_THAT(tried.output, ContainsRegex("failed at [1-9][0-9] places")) << command;
     }
+}
+
+// Whether both copies went the way $1, each once, and stand in the outbox's folder $2 as the store has them.
+constexpr const char* kAllSent = R"sh(
+ask() { sqlite3 try/course.db "SELECT $1 FROM sendings WHERE way = '$way' $2"; }
+way=$1
+[ "$(ask 'count(*), count(DISTINCT pair)')" = '2|2' ] || exit 1
+find "try/outbox/crane/$2" -name '*.pdf' -exec sha256sum {} + | cut -c1-64 | sort >outbox
+ask hash 'ORDER BY hash' | cmp -s - outbox
+)sh";
+
+// oracle: the store's list of what was sent, and the hashes of what stands in the outbox
+TEST_F(course_faults, a_kill_anywhere_while_sending_copies_loses_none) {
+    if (obstacle_to(Isolation::kFull)) GTEST_SKIP() << "no bubblewrap here";
+    CourseBench::expect_done(
+        bench_.course({"receive", "in/group-01.pdf", "in/group-02.pdf", "--no-checks", "--at", "2026-03-01 10:00"}));
+    CourseBench::expect_done(bench_.course({"peer", "assign", "--at", "2026-03-02 10:00"}));
+    bench_.bench().write("all_sent", kAllSent);
+    const auto try_sending = [&](const std::string& command, const std::string& way, const std::string& folder) {
+        bench_.bench().write("command", command);
+        const ChildResult tried =
+            try_all("command", "kill", kSound, "bash all_sent \"" + way + "\" \"" + folder + "\"");
+        EXPECT_EQ(tried.exit_code, 0) << tried.output << tried.error_output;
+        EXPECT_THAT(tried.output, ContainsRegex("failed at [1-9][0-9] places")) << command;
+        CourseBench::expect_done(bench_.bench().shell("$DYNLAB course --course k " + command));
+    };
+    try_sending("peer send --at 2026-03-02T11:00", "to reviewer", "to-review");
+    bench_.bench().write("review.pdf", small_pdf("The data are good."));
+    CourseBench::expect_done(bench_.bench().shell(
+        "set -e; $DYNLAB course --course k peer show | awk '$NF == \"sent\" {print $1, $2}' | while read -r group "
+        "report; do\n"
+        "$DYNLAB course --course k review receive review.pdf --from $group --of $report --no-checks "
+        "--at 2026-03-04T10:00; done"));
+    try_sending("release --at 2026-03-09T11:00", "to author", "reviews");
 }
 
 // oracle: the store before, or all of it once the transaction is done; the sentence

@@ -4,7 +4,8 @@
 //   kill 7    the process is killed before the seventh
 //   full 7    from the seventh on the disk is full
 //
-// What was counted is written into the file that FAULT_COUNT names, when the process ends by itself.
+// What was counted is written into the file that FAULT_COUNT names, when the process ends by itself. Programs that it
+// starts are left alone.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -14,20 +15,23 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 
 namespace {
 
 struct Fault {
     bool kills = false, fills = false;
     int at = 0, count = 0;
+    std::string file;
     Fault() {
-        const char* text = std::getenv("FAULT");
+        const char *const text = std::getenv("FAULT"), *const place = std::getenv("FAULT_COUNT");
         char word[8] = {};
         if (text && std::sscanf(text, "%7s %d", word, &at) == 2) kills = word[0] == 'k', fills = word[0] == 'f';
+        if (place) file = place;
+        for (const char* name : {"FAULT", "FAULT_COUNT", "LD_PRELOAD"}) unsetenv(name);
     }
     ~Fault() {
-        const char* file = std::getenv("FAULT_COUNT");
-        if (std::FILE* out = file ? std::fopen(file, "w") : nullptr) {
+        if (std::FILE* out = file.empty() ? nullptr : std::fopen(file.c_str(), "w")) {
             const int counted = count;
             std::fprintf(out, "%d\n", counted);
             std::fclose(out);
