@@ -85,6 +85,10 @@ TEST(peer_review, seeks_former_names_and_counts_copies) {
                 AllOf(HasSubstr("report of group-01 was not sent: page 1: "), HasSubstr("Wilhelmina Rutherford"),
                       HasSubstr("mail address"), HasSubstr("report of group-02 was not sent: page 1: ")));
     EXPECT_EQ(std::count(sent.error_output.begin(), sent.error_output.end(), '\n'), 2);
+    const std::string status = bench.course({"status", "--at", "2026-03-01 15:00"}).output;
+    EXPECT_THAT(status, ::testing::ContainsRegex("group-01 .* its copy was not sent: peer send tells why\n"
+                                                 "group-02 .* its copy was not sent: peer send tells why\n"
+                                                 "group-03 [^\n:]*\ngroup-04 [^\n:]*\n"));
     CourseBench::expect_done(bench.course({"export", "--json", "--out", "all.json"}));
     CourseBench::expect_done(bench.bench().dynlab({"course", "import", "all.json", "copy", "--from", "k"}));
     EXPECT_EQ(bench.bench().shell("sqlite3 copy/course.db .dump").output, bench.dump());

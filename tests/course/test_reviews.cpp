@@ -107,6 +107,8 @@ TEST(reviews, that_name_somebody_are_told_of_at_receipt) {
     const ChildResult released = course.course({"release", "--at", "2026-03-09 10:00"});
     EXPECT_THAT(released.output, HasSubstr("1 sent now"));
     EXPECT_THAT(released.error_output, HasSubstr("review of group-01 was not sent: page 1: The name of Student 3"));
+    EXPECT_THAT(course.course({"status", "--at", "2026-03-09 11:00"}).output,
+                ::testing::ContainsRegex("group-01 .* a review by it was not released: release tells why\n"));
 }
 
 // oracle: what dynlab check says of the same file

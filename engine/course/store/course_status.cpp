@@ -126,9 +126,13 @@ class Status {
         finals_ += last.contains(main_);
     }
 
+    /// Of those that are not taken back.
+    template <class Condition>
+    bool any_pair(const Condition& fits) const {
+        return std::any_of(pairs_.begin(), pairs_.end(), [&](const ReviewPair& p) { return !p.ended && fits(p); });
+    }
     bool in_allocation(std::int64_t group) const {
-        return std::any_of(pairs_.begin(), pairs_.end(),
-                           [&](const ReviewPair& p) { return !p.ended && (p.reviewer == group || p.author == group); });
+        return any_pair([group](const ReviewPair& p) { return p.reviewer == group || p.author == group; });
     }
 
     /// What the instructor may want to do about this group.
@@ -159,6 +163,13 @@ class Status {
         };
         readable(first, assignment_.is_report() ? "first version" : "file");
         readable(last, "final version");
+        const auto id = group.id;
+        if (any_pair([](const ReviewPair& p) { return p.sent; }) &&
+            any_pair([id](const ReviewPair& p) { return p.author == id && !p.sent && !p.written; }))
+            things.push_back("its copy was not sent: peer send tells why");
+        if (any_pair([](const ReviewPair& p) { return p.released; }) &&
+            any_pair([id](const ReviewPair& p) { return p.reviewer == id && p.written && !p.released; }))
+            things.push_back("a review by it was not released: release tells why");
         if (!pairs_.empty() && !in_allocation(group.id)) things.push_back("came after the allocation: peer assign");
         int open = 0;
         for (const ReviewPair& pair : pairs_)
@@ -192,14 +203,11 @@ class Status {
         if (!assignment_.is_report()) return command("oral sheet");
         if (now_ <= assignment_.first_due + assignment_.grace) return {};
         if (pairs_.empty() || unassigned_ > 0) return command("peer assign");
-        const auto any = [&](const auto& fits) {
-            return std::any_of(pairs_.begin(), pairs_.end(), [&](const ReviewPair& p) { return !p.ended && fits(p); });
-        };
-        if (any([](const ReviewPair& p) { return !p.sent && !p.written; })) return command("peer send");
-        if (any([](const ReviewPair& p) { return p.written && !p.released; }) &&
+        if (any_pair([](const ReviewPair& p) { return !p.sent && !p.written; })) return command("peer send");
+        if (any_pair([](const ReviewPair& p) { return p.written && !p.released; }) &&
             now_ > *assignment_.review_due + assignment_.grace)
             return command("release");
-        const bool released = any([](const ReviewPair& p) { return p.released; });
+        const bool released = any_pair([](const ReviewPair& p) { return p.released; });
         if (!released)
             return fmt::format("wait for reviews, dynlab course review receive FILE... --assignment {}",
                                assignment_.name);
