@@ -214,7 +214,7 @@ Matrix sum_products(const std::array<Source, 2>& sources, Index segment) {
 ///     growth of P = (c^2 - 1) P + 2 c <p,v> + <v,v>   and so on
 /// (the Lyapunov equation of the record). False where the terms cancel: a signal with little of what the filter passes.
 bool complete_squares(Matrix& total, double c) {
-    constexpr double kMostCancelled = 50;
+    constexpr double kMostCancelled = 10;
     const double left = 1 - c * c, pv = total(0, 2), qv = total(1, 2), vv = total(2, 2);
     const double dP = total(0, 0), dQ = total(0, 1), dR = total(1, 1);
     const double P = (2 * c * pv + vv - dP) / left, size_P = (2 * std::abs(c * pv) + vv + std::abs(dP)) / left;
