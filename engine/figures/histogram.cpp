@@ -83,7 +83,9 @@ Figure histogram(const VectorView& values, const HistogramOptions& options) {
     const double width = bins.edges[1] - bins.edges[0];
     panel.x_range = {std::min(bins.edges[0], options.truth.value_or(bins.edges[0])) - 0.5 * width,
                      std::max(bins.edges[count], options.truth.value_or(bins.edges[count])) + 0.5 * width};
+    constexpr double kFew = 5;  // the axis would have halves between the counts
     if (bins.counts.maxCoeff() == 0) panel.y_range = {0, 1};
+    if (bins.counts.maxCoeff() <= kFew) panel.y_tick_step = 1;
     panel.curves = {std::move(bars)};
     if (options.truth) panel.references = {{false, *options.truth, options.truth_label, 1}};
     return Figure(std::move(panel));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "figures/panel_axes.h"
 #include "numerics/error.h"
 
 using namespace dynlab;
@@ -52,4 +53,17 @@ TEST(histogram, between_given_edges) {
 TEST(histogram, refuses_nothing_and_not_a_number) {
     EXPECT_THROW(histogram(Vector()), InvalidArgument);
     EXPECT_THROW(histogram(Vector{{1, std::nan("")}}), InvalidArgument);
+}
+
+// Oracle: counts are whole numbers, so are the axis' ticks.
+TEST(histogram, few_counts_have_no_fractions_on_their_axis) {
+    for (const Index values : {1, 2, 3, 5, 6, 40}) {
+        HistogramOptions options;
+        options.bins = 3;
+        const Figure figure = histogram(Vector::Ones(values), options);
+        Axis x, y;
+        choose_axes(figure.panels[0], 10, 6, x, y);
+        EXPECT_GE(y.ticks.size(), 2u);
+        for (const Tick& tick : y.ticks) EXPECT_EQ(tick.value, std::round(tick.value)) << values << " values";
+    }
 }
