@@ -123,7 +123,10 @@ TEST(bad_input, script_that_fails_is_told_even_where_no_report_can_be_made) {
 TEST(bad_input, control_c_ends_an_endless_loop_and_leaves_nothing) {
     const Workbench bench;
     write_folder(bench, "while true do pcall(function() while true do end end) end\n", "::: {.cells}\n:::\n");
-    const ChildResult result = bench.shell("timeout --preserve-status -s INT 0.5 \"$DYNLAB\" report mine");
+    // Not before the program catches SIGINT, the second bit of SigCgt; half a second later the loop has begun.
+    const ChildResult result = bench.shell(
+        "\"$DYNLAB\" report mine & until grep -q 'SigCgt:.*[2367abef]$' /proc/$!/status || ! kill -0 $!; do\n"
+        "sleep 0.02; done; sleep 0.5; kill -INT $!; wait $!");
     expect_failure(result, 130, "interrupted");
     EXPECT_THAT(bench.files(), ElementsAre("mine"));
 }
