@@ -55,7 +55,7 @@ const Attack kAttacks[] = {
     {"slow_gsub", "string.gsub(string.rep('a', 1e5), '.-.-.-.-b', '')\nanswer('x', 42)", 0, ""},
     {"memory_bomb", "local t = {}\nwhile true do t[#t + 1] = string.rep('x', 1e6) .. #t end", 0, ""},
     {"table_bomb", "local t = {}\nwhile true do t = {t, t, {t}} t[#t + 1] = {} end", 0, ""},
-    {"vector_bomb", "local v = {}\nwhile true do v[#v + 1] = zeros(1e7) end", 0, "1.07 GB in all"},
+    {"vector_bomb", "local v = {}\nwhile true do v[#v + 1] = zeros(7e7) end", 0, "1.07 GB in all"},
     {"huge_vector", "answer('x', #zeros(1e15))", 0, ""},
     {"huge_matrix", "eye(1e9)", 0, ""},
     {"deep_recursion", "local function f() return 1 + f() end\nf()", 0, ""},
