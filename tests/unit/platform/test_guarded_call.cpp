@@ -17,13 +17,11 @@ namespace {
 using namespace std::chrono_literals;
 using testing::HasSubstr;
 
-// The address sanitizer catches a crash, and ends a program that gets no memory, by itself.
+// The address sanitizer catches a crash by itself, and lets no limit of memory be set.
 #ifdef __SANITIZE_ADDRESS__
 constexpr int kExitOfCrash = 1;
-constexpr const char* kWordOfGluttony = "";
 #else
 constexpr int kExitOfCrash = 128 + SIGSEGV;
-constexpr const char* kWordOfGluttony = "bad_alloc";
 #endif
 
 TEST(guarded_call, returns_the_result) {
@@ -46,10 +44,12 @@ TEST(guarded_call, survives_crash_hang_and_gluttony) {
         for (;;) pause();
     };
     EXPECT_TRUE(run_guarded(hang, {.timeout = 100ms}).timed_out);
+#ifndef __SANITIZE_ADDRESS__
     const auto gluttony = [] { return std::string(1u << 30, 'x'); };
     const ChildResult result = run_guarded(gluttony, {.memory_bytes = 100u << 20});
     EXPECT_EQ(result.exit_code, 1);
-    EXPECT_THAT(result.error_output, HasSubstr(kWordOfGluttony));
+    EXPECT_THAT(result.error_output, HasSubstr("bad_alloc"));
+#endif
     const auto flood = [] { return std::string(1u << 20, 'x'); };
     EXPECT_TRUE(run_guarded(flood, {.output_bytes = 1000}).output_exceeded);
 }
