@@ -48,8 +48,7 @@ struct CheckResult {
 /// protected (hint); further ones in section_findings.h, name_findings.h, figure_findings.h, language_findings.h,
 /// layout_findings.h and leftover_findings.h. Without a standard, slides (landscape) are held against the template
 /// "slides", documents with more headings of the form "peer_review" than of "lab_report" against that, and others
-/// against "lab_report". Throws PdfRefusal when there is no such file or it may not be
-/// read.
+/// against "lab_report". Throws PdfRefusal when there is no such file or it may not be read.
 CheckResult check_pdf(const std::filesystem::path& file, const CheckWishes& wishes = {}, const PdfLimits& limits = {});
 
 void sort_findings(Findings& findings);  ///< rules first, then by page

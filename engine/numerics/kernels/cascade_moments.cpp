@@ -244,22 +244,22 @@ Summation summation_for(Index order, bool fed, bool tap, int wanted) {
         try_shape(Shape<2, false, false, true>(), Constant<kFirstWithSample>());
         try_shape(Shape<2, false, true, true>(), Constant<kFirstWithSample>());
         try_shape(Shape<2, true, false, true>(), Constant<kFirstWithSample>());
-        return found;
-    }
-    const auto try_wanted = [&](auto w) {
-        try_shape(Shape<1, false, false>(), w);
-        try_shape(Shape<1, false, true>(), w);
-        try_shape(Shape<2, false, false>(), w);
-        try_shape(Shape<2, false, true>(), w);
-        try_shape(Shape<2, true, false>(), w);
-        try_shape(Shape<4, false, false>(), w);
-        try_shape(Shape<4, false, true>(), w);
-    };
-    try_wanted(Constant<0>());
-    try_wanted(Constant<kSecondPairAlone>());
-    if constexpr (First::kColumns > 0) {
-        try_wanted(Constant<kFirstAlone>());
-        try_wanted(Constant<kFirstAlone | kSecondPairAlone>());
+    } else {
+        const auto try_wanted = [&](auto w) {
+            try_shape(Shape<1, false, false>(), w);
+            try_shape(Shape<1, false, true>(), w);
+            try_shape(Shape<2, false, false>(), w);
+            try_shape(Shape<2, false, true>(), w);
+            try_shape(Shape<2, true, false>(), w);
+            try_shape(Shape<4, false, false>(), w);
+            try_shape(Shape<4, false, true>(), w);
+        };
+        try_wanted(Constant<0>());
+        try_wanted(Constant<kSecondPairAlone>());
+        if constexpr (First::kColumns > 0) {
+            try_wanted(Constant<kFirstAlone>());
+            try_wanted(Constant<kFirstAlone | kSecondPairAlone>());
+        }
     }
     return found;
 }
