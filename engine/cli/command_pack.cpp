@@ -24,7 +24,8 @@ int pack(const PackWords& words) {
     for (const std::string& name : pack.files) std::cout << terminal_text(name) << '\n';
     for (const std::string& name : pack.left_out)
         std::cerr << "dynlab: left out, as it is no ordinary file: " << terminal_text(name) << '\n';
-    std::cout << fmt::format("{}: {} files, SHA-256 {}\n", file.string(), pack.files.size(), pack.hash);
+    std::cout << fmt::format("{}: {} file{}, SHA-256 {}\n", file.string(), pack.files.size(),
+                             pack.files.size() == 1 ? "" : "s", pack.hash);
     return kDone;
 }
 
