@@ -1,20 +1,10 @@
 #include "numerics/kernels/cascade_basis.h"
 
-#include <Eigen/Dense>
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include "numerics/kernels/newton_basis.h"
 
 namespace dynlab {
 
 namespace {
-
-/// The pair of a 2 x 2 block, without cancellation where its poles are close; equal poles are so exactly.
-CascadeBasis::Pair pair_of(const Eigen::Matrix2d& F) {
-    constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
-    const double half = 0.5 * (F(0, 0) - F(1, 1)), square = half * half + F(0, 1) * F(1, 0);
-    return {0.5 * (F(0, 0) + F(1, 1)), std::abs(square) <= kRounding * half * half ? 0 : square};
-}
 
 bool split_poles(const Matrix& F, std::vector<CascadeBasis::Pair>& pairs) {
     switch (F.rows()) {
@@ -36,46 +26,20 @@ bool split_poles(const Matrix& F, std::vector<CascadeBasis::Pair>& pairs) {
 
 }  // namespace
 
-namespace {
-
-/// The solution of A x = b for a matrix whose rows and columns may differ in size by many orders of magnitude.
-template <int n>
-Vector solve_scaled(Eigen::Matrix<double, n, n> A, Eigen::Matrix<double, n, 1> b) {
-    const auto inverse = [](double norm) { return norm > 0 ? 1 / norm : 1; };
-    const Eigen::Matrix<double, n, 1> rows = A.rowwise().norm().unaryExpr(inverse);
-    A = rows.asDiagonal() * A;
-    const Eigen::Matrix<double, n, 1> columns = A.colwise().norm().transpose().unaryExpr(inverse);
-    A = A * columns.asDiagonal();
-    b = rows.cwiseProduct(b);
-    return columns.cwiseProduct(A.fullPivLu().solve(b));
-}
-
-}  // namespace
-
 Vector CascadeBasis::from_state(const Vector& x, double v) const {
     const Vector rest = x - tap * v;
     if (order == 0) return rest;
     if (order == 1) return solve_scaled<1>(to_state, rest);
-    return order == 2 ? solve_scaled<2>(to_state, rest) : solve_scaled<4>(to_state, rest);
+    if (order == 2) return solve_scaled<2>(to_state, rest);
+    return solve_scaled<4>(to_state, rest);
 }
 
 namespace {
 
-/// `in_order`: the pairs are those of the blocks of F, one after the other.
 template <int n>
-void set_columns(const TappedSystem& system, Index next, bool in_order, CascadeBasis& basis) {
+Matrix columns_of(const TappedSystem& system, Index next, const std::vector<CascadeBasis::Pair>& pairs, bool in_order) {
     const Eigen::Matrix<double, n, n> F = system.F;
-    Eigen::Matrix<double, n, 1> g = F * system.G.col(next) + system.G.col(next + 1);
-    basis.to_state.resize(n, n);
-    for (Index i = 0; i < n; i += 2) {
-        const auto [centre, square] = basis.pairs[static_cast<std::size_t>(i / 2)];
-        const Eigen::Matrix<double, n, 1> second = F * g - centre * g;
-        basis.to_state.col(i) = g;
-        if (i + 1 < n) basis.to_state.col(i + 1) = second;
-        g = F * second - centre * second - square * g;
-        // The poles of what comes before are done with, but for rounding.
-        if (in_order) g.head(std::min<Index>(n, i + 2)).setZero();
-    }
+    return newton_columns<n>(F, F * system.G.col(next) + system.G.col(next + 1), pairs.data(), in_order);
 }
 
 std::optional<CascadeBasis> basis_with(const TappedSystem& system, std::vector<CascadeBasis::Pair> pairs,
@@ -89,9 +53,9 @@ std::optional<CascadeBasis> basis_with(const TappedSystem& system, std::vector<C
     basis.order = n;
     basis.delay = system.delay + next;
     basis.tap = system.G.col(next);
-    if (n == 1) set_columns<1>(system, next, in_order, basis);
-    if (n == 2) set_columns<2>(system, next, in_order, basis);
-    if (n == 4) set_columns<4>(system, next, in_order, basis);
+    if (n == 1) basis.to_state = columns_of<1>(system, next, basis.pairs, in_order);
+    if (n == 2) basis.to_state = columns_of<2>(system, next, basis.pairs, in_order);
+    if (n == 4) basis.to_state = columns_of<4>(system, next, basis.pairs, in_order);
     basis.outputs.resize(system.C.rows(), n + 1);
     basis.outputs << system.C * basis.to_state, system.C * basis.tap + system.D.col(next);
     return basis;

@@ -74,6 +74,7 @@ std::vector<Vector> DenominatorGroup::numerators(const Member& member, const Vec
 
 template <class Moments>
 RegressionMoments DenominatorGroup::sum_over_records(const Moments& moments_of) const {
+    if (members_.size() == 1 && weights_[0] == 1) return moments_of(members_.front());
     RegressionMoments sum{Matrix::Zero(count_, count_), Vector::Zero(count_), Matrix(), 0};
     for (const Member& member : members_) {
         const double weight = weights_[member.output];
@@ -120,22 +121,43 @@ Vector DenominatorGroup::reflected(const VectorView& theta, bool* any) const {
     return result;
 }
 
-Vector solve_moments(const RegressionMoments& moments, double* condition_number) {
-    const Index d = moments.z_y.size();
+namespace {
+
+/// With the size known to the compiler where it is small.
+template <int d>
+Vector solve_moments_of(const RegressionMoments& moments, double* condition_number) {
+    using Square = Eigen::Matrix<double, d, d>;
+    using Column = Eigen::Matrix<double, d, 1>;
+    const Vector unsolvable = Vector::Constant(moments.z_y.size(), std::numeric_limits<double>::quiet_NaN());
     if (condition_number) *condition_number = std::numeric_limits<double>::infinity();
     // Rows and columns are brought to a common size; a Gram matrix then has a diagonal of ones.
-    const Vector columns = moments.z_phi.colwise().norm().transpose();
-    if (!moments.z_phi.allFinite() || !moments.z_y.allFinite() || !(columns.minCoeff() > 0))
-        return Vector::Constant(d, std::numeric_limits<double>::quiet_NaN());
-    Matrix scaled = moments.z_phi * columns.cwiseInverse().asDiagonal();
-    const Vector rows = scaled.rowwise().norm();
-    if (!(rows.minCoeff() > 0)) return Vector::Constant(d, std::numeric_limits<double>::quiet_NaN());
-    scaled = rows.cwiseInverse().asDiagonal() * scaled;
-    const Eigen::PartialPivLU<Matrix> decomposition(scaled);
+    Square scaled = moments.z_phi;
+    const Column known = moments.z_y, columns = scaled.colwise().norm().transpose();
+    if (!scaled.allFinite() || !known.allFinite() || !(columns.minCoeff() > 0)) return unsolvable;
+    scaled = (scaled * columns.cwiseInverse().asDiagonal()).eval();
+    const Column rows = scaled.rowwise().norm();
+    if (!(rows.minCoeff() > 0)) return unsolvable;
+    scaled = (rows.cwiseInverse().asDiagonal() * scaled).eval();
+    const Eigen::PartialPivLU<Square> decomposition(scaled);
     const double reciprocal = decomposition.rcond();
-    if (condition_number) *condition_number = reciprocal > 0 ? 1 / reciprocal : *condition_number;
-    if (!(reciprocal > 0)) return Vector::Constant(d, std::numeric_limits<double>::quiet_NaN());
-    return decomposition.solve(moments.z_y.cwiseQuotient(rows)).cwiseQuotient(columns);
+    if (!(reciprocal > 0)) return unsolvable;
+    if (condition_number) *condition_number = 1 / reciprocal;
+    return Column(decomposition.solve(known.cwiseQuotient(rows))).cwiseQuotient(columns);
+}
+
+}  // namespace
+
+Vector solve_moments(const RegressionMoments& moments, double* condition_number) {
+    switch (moments.z_y.size()) {
+        case 2:
+            return solve_moments_of<2>(moments, condition_number);
+        case 3:
+            return solve_moments_of<3>(moments, condition_number);
+        case 4:
+            return solve_moments_of<4>(moments, condition_number);
+        default:
+            return solve_moments_of<Eigen::Dynamic>(moments, condition_number);
+    }
 }
 
 Matrix inverse_gram(const Matrix& gram, double* condition_number) {

@@ -7,6 +7,7 @@
 
 #include "numerics/error.h"
 #include "numerics/linalg/balance.h"
+#include "numerics/linalg/short_step.h"
 
 namespace dynlab {
 
@@ -35,42 +36,23 @@ Eigen::RowVectorXd input_scale(const Matrix& B) {
     return scale;
 }
 
-/// A short step of n states by Taylor's series of phi_2(Z) = sum_k Z^k/(k+2)!, Z = hA (Higham 2008, section 10.7.4):
-///     phi_1 = I + Z phi_2,   F = I + Z phi_1,   G = h phi_1 B,   H1 = h phi_2 B.
-/// Nothing when the step is too long for that.
 template <int n>
-std::optional<StepMatrices> short_step(const MatrixView& A, const MatrixView& B, double h) {
-    constexpr double kLongest = 0.5, kNegligible = 1e-18;
-    using Square = Eigen::Matrix<double, n, n>;
-    Square Z = h * A;
-    const Eigen::Matrix<double, n, 1> scale = balance(Z);
-    const double size = Z.cwiseAbs().colwise().sum().maxCoeff();
-    if (!(size <= kLongest)) return {};
-    int terms = 1;
-    for (double term = size / 3; term > kNegligible; term *= size / (terms + 2)) ++terms;
-    const Square identity = Square::Identity();
-    Square phi2 = identity;
-    for (int k = terms; k > 0; --k) phi2 = identity + Z / (k + 2) * phi2;
-    phi2 /= 2;
-    const Square phi1 = identity + Z.lazyProduct(phi2), F = identity + Z.lazyProduct(phi1);
-    const Matrix input = scale.cwiseInverse().asDiagonal() * (h * B);
-    StepMatrices step;
-    step.F = scale.asDiagonal() * F * scale.cwiseInverse().asDiagonal();
-    step.G = scale.asDiagonal() * phi1.lazyProduct(input);
-    step.H1 = scale.asDiagonal() * phi2.lazyProduct(input);
-    step.H0 = step.G - step.H1;
-    return step;
+std::optional<StepMatrices> short_step_of(const MatrixView& A, const MatrixView& B, double h) {
+    using Inputs = Eigen::Matrix<double, n, Eigen::Dynamic>;
+    const auto step = short_step<n, Eigen::Dynamic>(A, Inputs(B), h);
+    if (!step) return {};
+    return StepMatrices{step->F, step->G, step->H0, step->H1};
 }
 
 /// For the numbers of states that one and two poles have, alone and in series.
-std::optional<StepMatrices> short_step(const MatrixView& A, const MatrixView& B, double h) {
+std::optional<StepMatrices> short_step_of(const MatrixView& A, const MatrixView& B, double h) {
     switch (A.rows()) {
         case 1:
-            return short_step<1>(A, B, h);
+            return short_step_of<1>(A, B, h);
         case 2:
-            return short_step<2>(A, B, h);
+            return short_step_of<2>(A, B, h);
         case 4:
-            return short_step<4>(A, B, h);
+            return short_step_of<4>(A, B, h);
         default:
             return {};
     }
@@ -79,7 +61,7 @@ std::optional<StepMatrices> short_step(const MatrixView& A, const MatrixView& B,
 }  // namespace
 
 StepMatrices exact_step(const MatrixView& A, const MatrixView& B, double h) {
-    if (std::optional<StepMatrices> step = short_step(A, B, h)) return *std::move(step);
+    if (std::optional<StepMatrices> step = short_step_of(A, B, h)) return *std::move(step);
     // In steps of h, with s = t/h: d/ds [x; a; b - a] = [hA hB 0; 0 0 I; 0 0 0] [x; a; b - a].
     const Index n = A.rows(), m = B.cols();
     const Eigen::RowVectorXd scale = input_scale(h * B);

@@ -1,0 +1,43 @@
+#pragma once
+#include <optional>
+
+#include "numerics/linalg/balance.h"
+
+namespace dynlab {
+
+/// StepMatrices (matrix_exponential.h) of n states and m inputs, sizes that the compiler knows.
+template <int n, int m>
+struct SizedStep {
+    Eigen::Matrix<double, n, n> F;
+    Eigen::Matrix<double, n, m> G, H0, H1;
+};
+
+/// A short step of n states by Taylor's series of phi_2(Z) = sum_k Z^k/(k+2)!, Z = hA (Higham 2008, section 10.7.4):
+///     phi_1 = I + Z phi_2,   F = I + Z phi_1,   G = h phi_1 B,   H1 = h phi_2 B.
+/// Nothing when the step is too long for that.
+template <int n, int m>
+std::optional<SizedStep<n, m>> short_step(const Eigen::Matrix<double, n, n>& A, const Eigen::Matrix<double, n, m>& B,
+                                          double h) {
+    constexpr double kLongest = 0.5, kNegligible = 1e-18;
+    using Square = Eigen::Matrix<double, n, n>;
+    Square Z = h * A;
+    const Eigen::Matrix<double, n, 1> scale = balance(Z);
+    const double size = Z.cwiseAbs().colwise().sum().maxCoeff();
+    if (!(size <= kLongest)) return {};
+    int terms = 1;
+    for (double term = size / 3; term > kNegligible; term *= size / (terms + 2)) ++terms;
+    const Square identity = Square::Identity();
+    Square phi2 = identity;
+    for (int k = terms; k > 0; --k) phi2 = (identity + (1.0 / (k + 2) * Z).lazyProduct(phi2)).eval();
+    phi2 /= 2;
+    const Square phi1 = identity + Z.lazyProduct(phi2), F = identity + Z.lazyProduct(phi1);
+    const Eigen::Matrix<double, n, m> input = scale.cwiseInverse().asDiagonal() * (h * B);
+    SizedStep<n, m> step;
+    step.F = scale.asDiagonal() * F * scale.cwiseInverse().asDiagonal();
+    step.G = scale.asDiagonal() * phi1.lazyProduct(input);
+    step.H1 = scale.asDiagonal() * phi2.lazyProduct(input);
+    step.H0 = step.G - step.H1;
+    return step;
+}
+
+}  // namespace dynlab
