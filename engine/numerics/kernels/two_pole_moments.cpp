@@ -126,10 +126,9 @@ System<4, m + 3> instruments(const VectorView& A, const VectorView& B) {
     return system;
 }
 
-/// p/E and 1/E of the first output of `front`, driven by what it does to a held input.
-template <int p>
-SampledSystem<4, 2> in_series(const SampledSystem<2, p>& front, const SampledSystem<2, 3>& filter) {
-    const Eigen::RowVector2d c = front.C.row(0);
+/// p/E and 1/E of what the model `front` makes of a held input.
+SampledSystem<4, 2> in_series(const SampledSystem<2, 1>& front, const SampledSystem<2, 3>& filter) {
+    const Eigen::RowVector2d c = front.C;
     SampledSystem<4, 2> chain;
     chain.F << front.F, Sized<2, 2>::Zero(), filter.now * c + filter.next * c.lazyProduct(front.F), filter.F;
     chain.next.setZero();
