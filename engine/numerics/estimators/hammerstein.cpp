@@ -76,6 +76,21 @@ IdData expanded(const IdData& data, const Vector& edges) {
     return result;
 }
 
+/// Where the search for one channel per hat function begins. The functions sum up to one, which a system that has come
+/// to rest does not answer, so there only what the others do beyond the last one can be told.
+Vector channels_start(const IdData& hats, const TransferStructure& channels, const TransferOptions& options) {
+    if (options.initial_state == InitialState::kZero) return start_at(hats, channels, options);
+    std::vector<Index> others;
+    for (Index i = 1; i < channels.inputs; ++i) others.push_back(i);
+    const TransferChannel& channel = channels.channels[0];
+    const TransferStructure fewer = TransferStructure::grid(1, channels.inputs - 1, Denominators::kPerOutput,
+                                                            channels.poles, {channel.zeros}, {channel.delay});
+    const Vector found = start_at(without_operating_points(hats.select({1}, others)).data, fewer, options);
+    Vector start = Vector::Zero(channels.parameter_count());
+    start.head(found.size()) = found;
+    return start;
+}
+
 /// The output as a function of [a_1..a_n, b_0..b_(m-1), c_1..c_K, delay], with b_m given: that of K inputs with the
 /// numerators c_i B and all else in common.
 class HammersteinOutput : public OutputErrorModel {
@@ -267,7 +282,8 @@ HammersteinEstimate hammerstein(const IdData& data, const TransferStructure& str
 
     const IdData hats = expanded(data, estimate.breakpoints);
     TransferStructure channels = TransferStructure::grid(1, K, Denominators::kPerOutput, {n}, {m}, {delay});
-    const TransferEstimate start = search_transfer("hammerstein", hats, channels, options);
+    const TransferEstimate start =
+        search_transfer("hammerstein", hats, channels, options, channels_start(hats, channels, options));
     channels.free_delays = structure.free_delays;
     const DelayRange range = structure.free_delays ? delay_range(data, options) : DelayRange{};
     const TransferOutput output(channels, {options.initial_state, false}, hats, range.least, range.largest);

@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "numerics/kernels/lane_cascade.h"
+#include "numerics/kernels/lane_states.h"
 
 namespace dynlab {
 

@@ -195,7 +195,7 @@ DelayScan scan_delays(const IdData& data, const TransferStructure& structure, co
 }
 
 TransferEstimate search_transfer(const char* method, const IdData& data, const TransferStructure& structure,
-                                 const TransferOptions& given) {
+                                 const TransferOptions& given, const Vector& start) {
     check_transfer_data(method, data, structure);
     TransferOptions options = given;
     if (structure.free_delays && !options.TdMax) options.TdMax = std::max(options.TdMin, likely_largest_delay(data));
@@ -208,7 +208,7 @@ TransferEstimate search_transfer(const char* method, const IdData& data, const T
     if (structure.free_delays)
         scan = scan_delays(for_start, structure, options);
     else
-        scan.starts = {start_at(for_start, structure, options)};
+        scan.starts = {start.size() > 0 ? start : start_at(for_start, structure, options)};
     TransferEstimate best;
     double best_bic = kInfinity;
     for (const StartCondition& condition : start_conditions(record, options.initial_state, options.offset)) {

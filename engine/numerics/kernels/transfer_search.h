@@ -21,9 +21,10 @@ DelayScan scan_delays(const IdData& data, const TransferStructure& structure, co
 
 /// Output-error estimate under all options: offsets and operating points, start conditions tried where they are
 /// "auto" (smallest BIC), delays looked for on a grid when the structure has them free; the best starts are refined
-/// jointly (transfer_refinement.h). `method` begins messages of errors.
+/// jointly (transfer_refinement.h). `method` begins messages of errors. `start`: where the search for fixed delays
+/// begins, when it is given.
 TransferEstimate search_transfer(const char* method, const IdData& data, const TransferStructure& structure,
-                                 const TransferOptions& options);
+                                 const TransferOptions& options, const Vector& start = {});
 
 /// A start from rest for fixed delays: the first estimate at options.lambda or at the best of several cut-off
 /// frequencies, on the beginning of a long record.
