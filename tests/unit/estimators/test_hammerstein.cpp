@@ -3,7 +3,9 @@
 
 #include <cmath>
 
+#include "numerics/estimators/coe.h"
 #include "numerics/estimators/hammerstein.h"
+#include "numerics/signals/prbs.h"
 #include "numerics/simulation/lsim.h"
 #include "support/difference_equation.h"
 #include "support/thrown_message.h"
@@ -163,6 +165,22 @@ TEST(hammerstein, an_input_of_few_values_has_these_as_edges) {
     }
     const auto as_asked = hammerstein(data, without_zero().structure, at_edges(values({-1, 0, 1})));
     EXPECT_THAT(as_asked.message, Not(HasSubstr("only 3 values")));
+}
+
+// oracle: second route, coe; two points lie on a line, so the model is linear with an offset
+TEST(hammerstein, of_a_binary_input_is_the_linear_model_with_an_offset) {
+    const Vector u = prbs(4, 50);
+    const Vector f = 0.5 + 1.5 * u.array();
+    const Vector x = lsim(without_zero().G, f.array() - f[0], 0.05).array() + f[0];
+    const IdData data(Matrix(x + 0.2 * RandomStream(1).normal(u.size())), Matrix(u), 0.05);
+    const auto result = hammerstein(data, without_zero().structure, at_edges(values({-1, 1})));
+    TransferOptions options;
+    options.initial_state = InitialState::kSteady;
+    options.offset = Offset::kEstimate;
+    options.Tol = 1e-9;
+    const TransferEstimate linear = coe(data, without_zero().structure, options);
+    EXPECT_LT((result.theta.head(2) - linear.theta.head(2)).cwiseQuotient(linear.theta.head(2)).norm(), 1e-6);
+    EXPECT_NEAR(result.loss / linear.loss, 1, 1e-9);
 }
 
 TEST(hammerstein, tells_when_a_line_would_do) {  // oracle: the simulated system is linear
