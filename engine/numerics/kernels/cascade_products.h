@@ -17,27 +17,25 @@ using ColumnProducts = Eigen::Matrix<double, First::kColumns + Second::kColumns,
 template <class First, class Second, int kWanted, class Number>
 [[gnu::always_inline]] inline void run_products(CascadeRun<First, Number>& first, CascadeRun<Second, Number>& second,
                                                 Index steps, Number (*total)[First::kColumns + Second::kColumns]) {
-    constexpr int kFirst = First::kColumns, kColumns = kFirst + Second::kColumns;
+    constexpr int kFirst = First::kColumns, kColumns = kFirst + Second::kColumns, kFewColumns = 5;
     constexpr auto left_out = [](int i, int j) {
         if (j < kFirst) return !(kWanted & kFirstAlone) && !(kWanted & kFirstWithSample && j + 1 == kFirst);
         return Second::kOrder == 4 && i >= kFirst + 2 && j < kFirst + 4 && !(kWanted & kSecondPairAlone);
     };
     [[maybe_unused]] const CascadeRun<First, Number> start = first;
     Number sums[kColumns][kColumns] = {};
-    for (Index k = 0; k < steps; ++k) {
-        first.fetch_ahead(k);
-        second.fetch_ahead(k);
-        const Number v = first.sample(k), w = second.sample(k);
-        repeat<kColumns>([&](auto i) {
-            const Number x = i < kFirst ? first.column(i, v) : second.column(i - kFirst, w);
-            repeat<kColumns>([&](auto j) {
-                if constexpr (j >= i && !left_out(i, j))
-                    sums[i][j] += x * (j < kFirst ? first.column(j, v) : second.column(j - kFirst, w));
+    for_samples<kColumns <= kFewColumns>(
+        first, second, 0, steps, [&](const Number& v, const Number& w) __attribute__((always_inline)) {
+            repeat<kColumns>([&](auto i) __attribute__((always_inline)) {
+                const Number x = i < kFirst ? first.column(i, v) : second.column(i - kFirst, w);
+                repeat<kColumns>([&](auto j) __attribute__((always_inline)) {
+                    if constexpr (j >= i && !left_out(i, j))
+                        sums[i][j] += x * (j < kFirst ? first.column(j, v) : second.column(j - kFirst, w));
+                });
             });
+            first.step(v);
+            second.step(w);
         });
-        first.step(v);
-        second.step(w);
-    }
     if constexpr (kWanted & kFirstWithSample)
         for (int i = 0; i < First::kOrder; ++i)
             for (int j = i; j < First::kOrder; ++j)

@@ -57,6 +57,10 @@ class CascadeRun {
         else
             return Lanes::gather_part(v_ + k, segment_);
     }
+    /// samples[j] = sample(k + j) for as many samples as there are lanes, which takes fewer loads.
+    [[gnu::always_inline]] void samples(Index k, Number* samples) const {
+        if constexpr (Shape::kColumns > 0) Lanes::gather_tile(v_ + k, segment_, samples);
+    }
     /// Asks the memory for what is needed soon: by itself, the processor stops at the end of every page.
     [[gnu::always_inline]] void fetch_ahead(Index k) const {
         constexpr Index kLine = 8, kAhead = 16 * kLine;  // samples
@@ -70,7 +74,7 @@ class CascadeRun {
     }
     [[gnu::always_inline]] void step(const Number& v) {
         // From the last pair to the first: each is driven by what the one before has been.
-        repeat<kPairs>([&](auto i) {
+        repeat<kPairs>([&](auto i) __attribute__((always_inline)) {
             constexpr int b = kPairs - 1 - i;
             Number drive = v;
             if constexpr (b > 0) drive = state_[2 * b - 1];
@@ -95,5 +99,30 @@ class CascadeRun {
     Index segment_;
     Number feed_, centre_[kPairs + 1], square_[kPairs + 1], state_[kOrder + 1] = {};  // an array of none is not allowed
 };
+
+/// f(v, w) for the samples from .. to - 1 of the two runs. kTiles: several are loaded at once, which takes registers
+/// that f must not need.
+template <bool kTiles, class First, class Second, class Number, class Function>
+[[gnu::always_inline]] inline void for_samples(const CascadeRun<First, Number>& first,
+                                               const CascadeRun<Second, Number>& second, Index from, Index to,
+                                               const Function& f) {
+    Index k = from;
+    if constexpr (kTiles && std::is_same_v<Number, Lanes::Part>)
+        for (; k + kCascadeLanes <= to; k += kCascadeLanes) {
+            first.fetch_ahead(k);
+            second.fetch_ahead(k);
+            Number v[kCascadeLanes] = {}, w[kCascadeLanes] = {};
+            first.samples(k, v);
+            second.samples(k, w);
+            for (int j = 0; j < kCascadeLanes; ++j) f(v[j], w[j]);
+        }
+    for (; k < to; ++k) {
+        if constexpr (!kTiles) {
+            first.fetch_ahead(k);
+            second.fetch_ahead(k);
+        }
+        f(first.sample(k), second.sample(k));
+    }
+}
 
 }  // namespace dynlab

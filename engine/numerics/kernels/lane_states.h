@@ -74,12 +74,17 @@ template <class First, class Second>
     const SegmentMemory<First::kOrder> of_first(sources[0], segment);
     const SegmentMemory<Second::kOrder> of_second(sources[1], segment);
     const Index both = segment - std::min(of_first.back(), of_second.back());
-    for (Index k = segment - of_first.back(); k < both; ++k) first.step(first.sample(k));
-    for (Index k = segment - of_second.back(); k < both; ++k) second.step(second.sample(k));
-    for (Index k = both; k < segment; ++k) {
-        first.step(first.sample(k));
-        second.step(second.sample(k));
-    }
+    for_samples<true>(
+        first, second, segment - of_first.back(),
+        both, [&](const auto& v, const auto&) __attribute__((always_inline)) { first.step(v); });
+    for_samples<true>(
+        first, second, segment - of_second.back(),
+        both, [&](const auto&, const auto& w) __attribute__((always_inline)) { second.step(w); });
+    for_samples<true>(
+        first, second, both, segment, [&](const auto& v, const auto& w) __attribute__((always_inline)) {
+            first.step(v);
+            second.step(w);
+        });
     of_first.hand_over(sources[0].state, first);
     of_second.hand_over(sources[1].state, second);
 }

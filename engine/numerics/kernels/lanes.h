@@ -6,6 +6,16 @@
 
 namespace dynlab {
 
+/// f(0), ..., f(n - 1) with the place as a constant: only then does the compiler keep what it indexes in registers.
+/// For the same end, functions that work on lanes are marked always_inline: GCC leaves lambdas out of long ones.
+template <int n, class Function>
+[[gnu::always_inline]] inline void repeat(const Function& f) {
+    [&]<int... i>(std::integer_sequence<int, i...>) __attribute__((always_inline)) {
+        (f(std::integral_constant<int, i>()), ...);
+    }
+    (std::make_integer_sequence<int, n>());
+}
+
 /// Eight numbers that are worked on together, in as many machine vectors as the processor's width asks for. (One
 /// vector of eight is no good: where the processor has narrower ones, GCC 12 takes it apart number by number.)
 class Lanes {
@@ -45,6 +55,17 @@ class Lanes {
         for (int lane = 0; lane < kWidth; ++lane) part[lane] = p[lane * stride];
         return part;
 #endif
+    }
+    /// tile[j] = gather_part(p + j, stride) for j = 0 .. kWidth - 1: whole vectors are loaded and transposed.
+    [[gnu::always_inline]] static void gather_tile(const double* p, long stride, Part* tile) {
+        typedef double Unaligned
+            __attribute__((vector_size(kWidth * sizeof(double)), aligned(sizeof(double)), may_alias));
+        Part rows[kWidth];
+        repeat<kWidth>([&](auto i) __attribute__((always_inline)) {
+            rows[i] = *reinterpret_cast<const Unaligned*>(p + i * stride);
+        });
+        transpose<1>(rows);
+        repeat<kWidth>([&](auto i) __attribute__((always_inline)) { tile[i] = rows[i]; });
     }
     /// The numbers at p[0], p[stride], ..., p[7 stride]; stride >= 1.
     static Lanes gather(const double* p, long stride) {
@@ -86,16 +107,29 @@ class Lanes {
     }
 
   private:
+    typedef long Places __attribute__((vector_size(kWidth * sizeof(double))));
+
+    /// Of blocks of so many rows and columns, two at a time, those that are not on the diagonal change places.
+    template <int size>
+    [[gnu::always_inline]] static void transpose(Part* rows) {
+        if constexpr (size < kWidth) {
+            Places upper, lower;  // of two rows one after the other
+            for (int lane = 0; lane < kWidth; ++lane) {
+                upper[lane] = lane & size ? kWidth + lane - size : lane;
+                lower[lane] = lane & size ? kWidth + lane : lane + size;
+            }
+            repeat<kWidth>([&](auto i) __attribute__((always_inline)) {
+                if constexpr (!(i & size)) {
+                    const Part first = rows[i], second = rows[i + size];
+                    rows[i] = __builtin_shuffle(first, second, upper);
+                    rows[i + size] = __builtin_shuffle(first, second, lower);
+                }
+            });
+            transpose<2 * size>(rows);
+        }
+    }
+
     Part part_[kParts];
 };
-
-/// f(0), ..., f(n - 1) with the place as a constant: only then does the compiler keep what it indexes in registers.
-template <int n, class Function>
-[[gnu::always_inline]] inline void repeat(const Function& f) {
-    [&]<int... i>(std::integer_sequence<int, i...>) {
-        (f(std::integral_constant<int, i>()), ...);
-    }
-    (std::make_integer_sequence<int, n>());
-}
 
 }  // namespace dynlab
