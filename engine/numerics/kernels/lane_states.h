@@ -29,7 +29,7 @@ class SegmentMemory {
                 next[i] = run.state(i)[lane];
                 run.state(i)[lane] = x[i];
             }
-            x = next + through_.lazyProduct(x);
+            x = (next + through_.lazyProduct(x)).eval();
         }
     }
 
