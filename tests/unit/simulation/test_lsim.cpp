@@ -24,6 +24,29 @@ double second_order_ramp(double t) {
     return t < 0 ? 0 : 2 * t / 3 + std::exp(-t) - std::exp(-3 * t) / 9 - 8.0 / 9;
 }
 
+TEST(lsim, finds_a_sample_that_is_not_finite_wherever_it_is) {
+    constexpr Index N = 60;
+    const std::vector<TransferFunction> systems = {
+        kSecondOrder,
+        kSecondOrder.with_delay(0.73),
+        kSecondOrder.with_delay(100),                                   // no sample ever comes out
+        TransferFunction(from({1}), from({1, 1000})),                   // forgets at once
+        TransferFunction(from({3}), from({1})),                         // no state
+        TransferFunction(from({1, 2, 3}), from({1, 0, 0}), 0.1),        // no pole but zero
+        TransferFunction(from({0, 0, 3}), from({1, 0, 0}), 0.1, 0.2)};  // and a delay
+    for (const TransferFunction& G : systems)
+        for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL})
+            for (Index k = 0; k < N; ++k) {
+                Vector u = Vector::Ones(N);
+                u[k] = bad;
+                EXPECT_NE(thrown_message([&] { lsim(G, u, 0.1); }).find("sample " + std::to_string(k + 1)),
+                          std::string::npos)
+                    << k << " of " << bad;
+            }
+    const TransferFunction unstable(from({1}), from({1, -200}));
+    EXPECT_FALSE(lsim(unstable, Vector::Ones(N), 0.1).allFinite());  // the input is not to blame
+}
+
 TEST(lsim, step_of_a_second_order_system) {  // oracle: analytic
     for (const double delay : {0.0, 0.5, 0.33}) {
         const Vector y = lsim(kSecondOrder.with_delay(delay), Vector::Ones(100), 0.1);
