@@ -15,7 +15,7 @@
 namespace dynlab {
 namespace {
 
-constexpr Index kCurvePoints = 800;
+constexpr Index kBodePoints = 800;
 
 Vector below_nyquist(const TransferFunction& G, const Vector& w) {
     if (G.continuous()) return w;
@@ -68,7 +68,7 @@ Figure bode_plot(const std::vector<NamedModel>& models, const Vector& w) {
     if (models.empty()) throw InvalidArgument("there are no models to plot");
     if (w.size() > 0 && !(w.minCoeff() > 0))
         throw InvalidArgument(fmt::format("frequencies must be positive, but the smallest is {}", w.minCoeff()));
-    const Vector grid = w.size() > 0 ? w : joint_frequency_grid(models, kCurvePoints);
+    const Vector grid = w.size() > 0 ? w : joint_frequency_grid(models, kBodePoints);
     auto [magnitude, phase] = frequency_panels();
     for (const NamedModel& model : models) {
         Curve curve;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -12,6 +11,7 @@
 #include "figures/histogram.h"
 #include "figures/style.h"
 #include "numerics/error.h"
+#include "numerics/linalg/decompositions.h"
 
 namespace dynlab {
 namespace {
@@ -101,9 +101,9 @@ Panel histogram_panel(const Vector& values, std::pair<double, double> range, std
 }
 
 /// Points of {v : (v - centre)' C^-1 (v - centre) = -2 ln(1 - level)}, the chi-square quantile for two numbers.
-Matrix ellipse(const Eigen::Vector2d& centre, const Eigen::Matrix2d& covariance, double level) {
+/// `root` is the lower triangle L of C = L L'.
+Matrix ellipse(const Eigen::Vector2d& centre, const Eigen::Matrix2d& root, double level) {
     constexpr Index kPoints = 91;
-    const Eigen::Matrix2d root = covariance.llt().matrixL();
     const double radius = std::sqrt(-2 * std::log1p(-level));
     Matrix points(kPoints, 2);
     for (Index i = 0; i < kPoints; ++i) {
@@ -143,8 +143,9 @@ void add_truth(Panel& panel, const MonteCarloResult& result, Index x, Index y, d
     Eigen::Matrix2d covariance;
     if (result.bound.size() > 0) {
         covariance << result.bound(x, x), result.bound(x, y), result.bound(y, x), result.bound(y, y);
-        if (covariance.allFinite() && covariance.llt().info() == Eigen::Success) {
-            const Matrix points = ellipse({result.truth[x], result.truth[y]}, covariance, level);
+        const auto root = covariance.allFinite() ? cholesky_root(covariance) : std::nullopt;
+        if (root) {
+            const Matrix points = ellipse({result.truth[x], result.truth[y]}, *root, level);
             Curve curve;
             curve.x = points.col(0);
             curve.y = points.col(1);

@@ -11,7 +11,7 @@
 namespace dynlab {
 namespace {
 
-constexpr Index kCurvePoints = 2000;
+constexpr Index kNyquistPoints = 2000;
 constexpr double kFarFactor = 8;
 
 /// Points much farther out than half of all points, and than the critical point, become gaps.
@@ -44,7 +44,7 @@ void add_direction(Panel& panel, const ComplexVector& response) {
 
 Figure nyquist_plot(const std::vector<NamedModel>& models, const Vector& w) {
     if (models.empty()) throw InvalidArgument("there are no models to plot");
-    const Vector grid = w.size() > 0 ? w : joint_frequency_grid(models, kCurvePoints);
+    const Vector grid = w.size() > 0 ? w : joint_frequency_grid(models, kNyquistPoints);
     Panel panel;
     panel.x_label = "real part";
     panel.y_label = "imaginary part";

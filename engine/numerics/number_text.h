@@ -1,12 +1,10 @@
 #pragma once
-#include <complex>
 #include <string>
 
 namespace dynlab {
 
-/// A number as messages and model displays show it: so many significant digits, no trailing zeros ("0.05").
+/// A number as messages and displays show it: that many significant digits (at most 17), no trailing zeros ("0.05"),
+/// no sign of a zero, and "NaN", "Inf" or "-Inf" where there is no number.
 std::string number_text(double value, int significant_digits = 5);
-/// "-1 + 2i"; a real number when the imaginary part is zero.
-std::string number_text(std::complex<double> value, int significant_digits = 5);
 
 }  // namespace dynlab

@@ -115,21 +115,21 @@ PolynomialModel polynomial_of_json(const json& j) {
     return model;
 }
 
-const char* const kNaN = "NaN";
+const char* const kNanText = "NaN";
 const char* const kInfinite = "Infinity";
 const char* const kMinusInfinite = "-Infinity";
 
 }  // namespace
 
 json json_of_number(double value) {
-    if (std::isnan(value)) return kNaN;
+    if (std::isnan(value)) return kNanText;
     if (std::isinf(value)) return value > 0 ? kInfinite : kMinusInfinite;
     return value;
 }
 
 double number_of_json(const json& j) {
     if (j.is_number()) return j.get<double>();
-    if (j == kNaN) return std::numeric_limits<double>::quiet_NaN();
+    if (j == kNanText) return std::numeric_limits<double>::quiet_NaN();
     if (j == kInfinite) return std::numeric_limits<double>::infinity();
     if (j == kMinusInfinite) return -std::numeric_limits<double>::infinity();
     does_not_fit("number");

@@ -103,6 +103,10 @@ void wrong_argument(lua_State* L, int index, const char* what, const char* wante
     wrong_value(L, index, argument_label(index, what), article(wanted));
 }
 
+const char* Call::function_name() const {
+    return static_cast<const char*>(lua_touserdata(state_, lua_upvalueindex(1)));
+}
+
 void Call::at_most(int arguments) const {
     if (arguments_ > arguments)
         throw InvalidArgument(

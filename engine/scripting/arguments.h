@@ -23,6 +23,7 @@ class Call {
     RuntimeContext& context() const { return context_of(state_); }
     int count() const { return arguments_; }
     bool given(int index) const { return index <= arguments_ && !lua_isnoneornil(state_, index); }
+    const char* function_name() const;  ///< the Lua name of the running function
     int type(int index) const { return index <= arguments_ ? lua_type(state_, index) : LUA_TNONE; }
     void at_most(int arguments) const;  ///< throws when the script gave more
 

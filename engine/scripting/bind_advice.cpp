@@ -62,7 +62,7 @@ int give_advice(Call& call) {
     return 1;
 }
 
-constexpr std::array kFunctions = {
+constexpr std::array kAdviceFunctions = {
     FunctionEntry{"advice", "data", "advice(data) -> table",
                   "what a teacher would say of a record before a model is fitted to it", guarded<give_advice>},
 };
@@ -70,7 +70,7 @@ constexpr std::array kFunctions = {
 }  // namespace
 
 FunctionEntries advice_functions() {
-    return kFunctions;
+    return kAdviceFunctions;
 }
 
 }  // namespace dynlab

@@ -40,14 +40,14 @@ int answer(Call& call) {
     return 0;
 }
 
-constexpr std::array kFunctions = {
+constexpr std::array kAnswersFunctions = {
     FunctionEntry{"answer", "report", "answer(name, value)", "hands a result in for the checks", guarded<answer>},
 };
 
 }  // namespace
 
 FunctionEntries answer_functions() {
-    return kFunctions;
+    return kAnswersFunctions;
 }
 
 }  // namespace dynlab

@@ -31,26 +31,26 @@ int find(Call& call) {
     return 1;
 }
 
-constexpr const char* kArea = "vectors";
-constexpr std::array kFunctions = {
-    FunctionEntry{"gt", kArea, "gt(v, x) -> mask", "which elements are greater than x",
+constexpr const char* kComparisonsArea = "vectors";
+constexpr std::array kComparisonsFunctions = {
+    FunctionEntry{"gt", kComparisonsArea, "gt(v, x) -> mask", "which elements are greater than x",
                   guarded<compare_elements<std::greater<double>>>},
-    FunctionEntry{"lt", kArea, "lt(v, x) -> mask", "which elements are less than x",
+    FunctionEntry{"lt", kComparisonsArea, "lt(v, x) -> mask", "which elements are less than x",
                   guarded<compare_elements<std::less<double>>>},
-    FunctionEntry{"ge", kArea, "ge(v, x) -> mask", "which elements are greater than or equal to x",
+    FunctionEntry{"ge", kComparisonsArea, "ge(v, x) -> mask", "which elements are greater than or equal to x",
                   guarded<compare_elements<std::greater_equal<double>>>},
-    FunctionEntry{"le", kArea, "le(v, x) -> mask", "which elements are less than or equal to x",
+    FunctionEntry{"le", kComparisonsArea, "le(v, x) -> mask", "which elements are less than or equal to x",
                   guarded<compare_elements<std::less_equal<double>>>},
-    FunctionEntry{"eq", kArea, "eq(v, x) -> mask", "which elements are equal to x",
+    FunctionEntry{"eq", kComparisonsArea, "eq(v, x) -> mask", "which elements are equal to x",
                   guarded<compare_elements<std::equal_to<double>>>},
-    FunctionEntry{"find", kArea, "find(mask) -> places",
+    FunctionEntry{"find", kComparisonsArea, "find(mask) -> places",
                   "places of the elements that are true; v:select(mask) gives the elements", guarded<find>},
 };
 
 }  // namespace
 
 FunctionEntries vector_comparisons() {
-    return kFunctions;
+    return kComparisonsFunctions;
 }
 
 }  // namespace dynlab

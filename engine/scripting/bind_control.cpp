@@ -86,20 +86,20 @@ int drive_crane(Call& call) {
     return 1;
 }
 
-constexpr const char* kArea = "control";
-constexpr std::array kFunctions = {
-    FunctionEntry{"lqr", kArea, "lqr(A, B, Q, R) -> K, poles", "designs a linear-quadratic state feedback",
+constexpr const char* kControlArea = "control";
+constexpr std::array kControlFunctions = {
+    FunctionEntry{"lqr", kControlArea, "lqr(A, B, Q, R) -> K, poles", "designs a linear-quadratic state feedback",
                   guarded<lqr>},
-    FunctionEntry{"place", kArea, "place(A, B, poles) -> K, poles", "places the poles of a system with one input",
+    FunctionEntry{"place", kControlArea, "place(A, B, poles) -> K, poles", "places the poles of a system with one input",
                   guarded<place>},
-    FunctionEntry{"drive_crane", kArea, "drive_crane(controller, {duration =, position =, ...}) -> table",
+    FunctionEntry{"drive_crane", kControlArea, "drive_crane(controller, {duration =, position =, ...}) -> table",
                   "tries a controller on the course's simulated crane", guarded<drive_crane>},
 };
 
 }  // namespace
 
 FunctionEntries control_functions() {
-    return kFunctions;
+    return kControlFunctions;
 }
 
 }  // namespace dynlab

@@ -139,20 +139,20 @@ int idplot(Call& call) {
     return give_figure(call, id_plot(all, Options(call, i, {"labels"}).texts("labels")));
 }
 
-constexpr const char* kArea = "data";
-constexpr std::array kFunctions = {
-    FunctionEntry{"load", kArea, "load(name_or_path) -> table", "reads a data set of the course, a .mat or a .csv file",
+constexpr const char* kDataArea = "data";
+constexpr std::array kDataFunctions = {
+    FunctionEntry{"load", kDataArea, "load(name_or_path) -> table", "reads a data set of the course, a .mat or a .csv file",
                   guarded<load>},
-    FunctionEntry{"iddata", kArea, "iddata(y, u, Ts, {InterSample =, InputName =, OutputName =, ...}) -> data",
+    FunctionEntry{"iddata", kDataArea, "iddata(y, u, Ts, {InterSample =, InputName =, OutputName =, ...}) -> data",
                   "input-output data with their sampling", guarded<make_iddata>},
-    FunctionEntry{"idplot", kArea, "idplot(data, ..., {labels =}) -> fig", "outputs above inputs over time",
+    FunctionEntry{"idplot", kDataArea, "idplot(data, ..., {labels =}) -> fig", "outputs above inputs over time",
                   guarded<idplot>},
 };
 
 }  // namespace
 
 FunctionEntries data_functions() {
-    return kFunctions;
+    return kDataFunctions;
 }
 
 }  // namespace dynlab

@@ -9,12 +9,12 @@
 namespace dynlab {
 namespace {
 
-const IdData& self(Call& call) {
+const IdData& data_self(Call& call) {
     return object_argument<IdData>(call, 1, "data");
 }
 
 const Experiment& only_experiment(Call& call) {
-    const IdData& data = self(call);
+    const IdData& data = data_self(call);
     if (data.experiments.size() != 1)
         throw InvalidArgument(fmt::format("the data hold {} experiments; take one of them with data:experiment(k)",
                                           data.experiments.size()));
@@ -43,36 +43,36 @@ int field_u(Call& call) {
 }
 int field_t(Call& call) {
     only_experiment(call);
-    return call.give_vector(self(call).time());
+    return call.give_vector(data_self(call).time());
 }
 int field_Ts(Call& call) {
-    return call.give(self(call).Ts);
+    return call.give(data_self(call).Ts);
 }
 int field_N(Call& call) {
-    return call.give_whole(self(call).sample_count());
+    return call.give_whole(data_self(call).sample_count());
 }
 int field_ny(Call& call) {
-    return call.give_whole(self(call).output_count());
+    return call.give_whole(data_self(call).output_count());
 }
 int field_nu(Call& call) {
-    return call.give_whole(self(call).input_count());
+    return call.give_whole(data_self(call).input_count());
 }
 int field_experiments(Call& call) {
-    return call.give_whole(static_cast<Index>(self(call).experiments.size()));
+    return call.give_whole(static_cast<Index>(data_self(call).experiments.size()));
 }
 int field_hold(Call& call) {
-    return call.give(std::string(self(call).hold == Hold::kZoh ? "zoh" : "foh"));
+    return call.give(std::string(data_self(call).hold == Hold::kZoh ? "zoh" : "foh"));
 }
 int field_input_name(Call& call) {
-    return give_texts(call, self(call).input_names);
+    return give_texts(call, data_self(call).input_names);
 }
 int field_output_name(Call& call) {
-    return give_texts(call, self(call).output_names);
+    return give_texts(call, data_self(call).output_names);
 }
 
 int part(Call& call) {
     call.at_most(3);
-    return give_data(call, self(call).range(call.whole(2, "first"), call.whole(3, "last")));
+    return give_data(call, data_self(call).range(call.whole(2, "first"), call.whole(3, "last")));
 }
 
 Index whole_place(double number) {
@@ -90,12 +90,12 @@ int part_by_table(Call& call) {
     if (bounds.size() != 2)
         throw InvalidArgument(
             fmt::format("the samples i to j are data[{{i, j}}], but {} numbers were given", bounds.size()));
-    return give_data(call, self(call).range(whole_place(bounds[0]), whole_place(bounds[1])));
+    return give_data(call, data_self(call).range(whole_place(bounds[0]), whole_place(bounds[1])));
 }
 
 int experiment(Call& call) {
     call.at_most(2);
-    IdData data = self(call);
+    IdData data = data_self(call);
     const Index number = call.whole(2, "experiment");
     if (number < 1 || number > static_cast<Index>(data.experiments.size()))
         throw InvalidArgument(
@@ -107,7 +107,7 @@ int experiment(Call& call) {
 /// data:split(0.6) gives two data objects.
 int split(Call& call) {
     call.at_most(2);
-    auto [first, second] = self(call).split(call.number(2, "fraction"));
+    auto [first, second] = data_self(call).split(call.number(2, "fraction"));
     return give_data(call, std::move(first)) + give_data(call, std::move(second));
 }
 
@@ -122,7 +122,7 @@ std::vector<Index> channels(Call& call, int index, const char* what) {
 /// data:select(outputs, inputs)
 int select(Call& call) {
     call.at_most(3);
-    const IdData& data = self(call);
+    const IdData& data = data_self(call);
     std::vector<Index> inputs;
     for (Index i = 1; i <= data.input_count(); ++i) inputs.push_back(i);
     if (call.given(3)) inputs = channels(call, 3, "inputs");
@@ -131,16 +131,16 @@ int select(Call& call) {
 
 int shift(Call& call) {
     call.at_most(2);
-    return give_data(call, self(call).shifted(call.whole(2, "samples")));
+    return give_data(call, data_self(call).shifted(call.whole(2, "samples")));
 }
 
 int remove_mean_of(Call& call) {
     call.at_most(1);
-    return give_data(call, remove_mean(self(call)).data);
+    return give_data(call, remove_mean(data_self(call)).data);
 }
 
-int to_text(Call& call) {
-    const IdData& data = self(call);
+int data_to_text(Call& call) {
+    const IdData& data = data_self(call);
     const std::string sampling =
         data.regular() ? "Ts = " + number_text(data.Ts) + " " + data.time_unit : "sampled irregularly";
     const std::size_t experiments = data.experiments.size();
@@ -150,7 +150,7 @@ int to_text(Call& call) {
                                  experiments > 1 ? fmt::format(", {} experiments", experiments) : ""));
 }
 
-constexpr std::array kFields = {
+constexpr std::array kDataTypeFields = {
     Member{"y", guarded<field_y>},
     Member{"u", guarded<field_u>},
     Member{"t", guarded<field_t>},
@@ -163,7 +163,7 @@ constexpr std::array kFields = {
     Member{"InputName", guarded<field_input_name>},
     Member{"OutputName", guarded<field_output_name>},
 };
-constexpr std::array kMethods = {
+constexpr std::array kDataTypeMethods = {
     Member{"range", guarded<part>},
     Member{"experiment", guarded<experiment>},
     Member{"split", guarded<split>},
@@ -177,11 +177,11 @@ constexpr std::array kMethods = {
     Member{"keep", guarded<keep_parts>},
     Member{"discard", guarded<discard_parts>},
 };
-constexpr std::array kOperators = {Member{"__tostring", guarded<to_text>}};
+constexpr std::array kDataTypeOperators = {Member{"__tostring", guarded<data_to_text>}};
 
 }  // namespace
 
-const ObjectType Boxed<IdData>::type{"iddata", kFields, kMethods, kOperators, guarded<part_by_table>};
+const ObjectType Boxed<IdData>::type{"iddata", kDataTypeFields, kDataTypeMethods, kDataTypeOperators, guarded<part_by_table>};
 
 std::size_t Boxed<IdData>::outside_bytes(const IdData& data) {
     std::size_t numbers = 0;

@@ -17,15 +17,15 @@
 namespace dynlab {
 namespace {
 
-constexpr OrderEntry kNb{"nb", "coefficients of B"};
-constexpr OrderEntry kNk{"nk", "samples of delay, 1 for no direct term"};
-constexpr OrderEntry kNa{"na", "poles"}, kNf{"nf", "poles"};
-constexpr OrderEntry kNc{"nc", "coefficients of C after the leading one"};
-constexpr OrderEntry kNd{"nd", "coefficients of D after the leading one"};
-constexpr std::array kArxOrders = {kNa, kNb, kNk};
-constexpr std::array kArmaxOrders = {kNa, kNb, kNc, kNk};
-constexpr std::array kOutputErrorOrders = {kNb, kNf, kNk};
-constexpr std::array kBoxJenkinsOrders = {kNb, kNc, kNd, kNf, kNk};
+constexpr OrderEntry kDiscreteNb{"nb", "coefficients of B"};
+constexpr OrderEntry kDiscreteNk{"nk", "samples of delay, 1 for no direct term"};
+constexpr OrderEntry kDiscreteNa{"na", "poles"}, kDiscreteNf{"nf", "poles"};
+constexpr OrderEntry kDiscreteNc{"nc", "coefficients of C after the leading one"};
+constexpr OrderEntry kDiscreteNd{"nd", "coefficients of D after the leading one"};
+constexpr std::array kArxOrders = {kDiscreteNa, kDiscreteNb, kDiscreteNk};
+constexpr std::array kArmaxOrders = {kDiscreteNa, kDiscreteNb, kDiscreteNc, kDiscreteNk};
+constexpr std::array kDiscreteOutputErrorOrders = {kDiscreteNb, kDiscreteNf, kDiscreteNk};
+constexpr std::array kBoxJenkinsOrders = {kDiscreteNb, kDiscreteNc, kDiscreteNd, kDiscreteNf, kDiscreteNk};
 
 Estimate estimate_of(const char* method, const PolynomialEstimate& result) {
     Estimate estimate = common_estimate(method, result);
@@ -54,10 +54,6 @@ int only_value(const std::vector<int>& entry, const OrderEntry& what) {
         fmt::format("{} is one number of {} for all inputs, but {} were given", what.name, what.meaning, entry.size()));
 }
 
-const char* name_of(Call& call) {
-    return static_cast<const char*>(lua_touserdata(call.state(), lua_upvalueindex(1)));
-}
-
 /// The data of an estimation with an integrator: the running sum of the input stands for the input.
 IdData data_for(const IdData& data, bool integration) {
     return integration ? summed_inputs(data) : data;
@@ -70,9 +66,9 @@ int estimate_equation_error(Call& call) {
     const auto orders = order_lists(call, 2, kArxOrders);
     const bool integration = Options(call, 3, {"Integration"}).flag("Integration", false);
     PolynomialEstimate result =
-        kMethod(data_for(data, integration), PolynomialOrders::arx(only_value(orders[0], kNa), orders[1], orders[2]));
+        kMethod(data_for(data, integration), PolynomialOrders::arx(only_value(orders[0], kDiscreteNa), orders[1], orders[2]));
     if (integration) append_integrator(result);
-    return give_estimate(call, estimate_of(name_of(call), result), result);
+    return give_estimate(call, estimate_of(call.function_name(), result), result);
 }
 
 void read_search_options(const Options& options, PolynomialOptions& wanted) {
@@ -91,7 +87,7 @@ PolynomialOptions polynomial_options(const Options& options) {
 
 /// With robust standard errors, where the record is not too long for them.
 int give_assessed(Call& call, const IdData& data, PolynomialEstimate result, Offset offset, bool integration) {
-    Estimate estimate = estimate_of(name_of(call), result);
+    Estimate estimate = estimate_of(call.function_name(), result);
     if (data.sample_count() <= kMostAssessed && result.std.allFinite())
         estimate.assessment = std::make_shared<Assessment>(assess(data, result, offset));
     if (integration) append_integrator(result);
@@ -113,7 +109,7 @@ template <auto kMethod>
 int estimate_output_error(Call& call) {
     call.at_most(3);
     object_argument<IdData>(call, 1, "data");
-    const auto orders = order_lists(call, 2, kOutputErrorOrders);
+    const auto orders = order_lists(call, 2, kDiscreteOutputErrorOrders);
     return estimate_simulation<kMethod>(call, PolynomialOrders::output_error(orders[0], orders[1], orders[2]));
 }
 
@@ -121,8 +117,8 @@ int estimate_armax(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const auto lists = order_lists(call, 2, kArmaxOrders);
-    PolynomialOrders orders = PolynomialOrders::arx(only_value(lists[0], kNa), lists[1], lists[3]);
-    orders.nc = only_value(lists[2], kNc);
+    PolynomialOrders orders = PolynomialOrders::arx(only_value(lists[0], kDiscreteNa), lists[1], lists[3]);
+    orders.nc = only_value(lists[2], kDiscreteNc);
     const Options options(call, 3, {"MaxIter", "Tol", "Integration"});
     PolynomialOptions wanted;
     read_search_options(options, wanted);
@@ -136,32 +132,32 @@ int estimate_bj(Call& call) {
     object_argument<IdData>(call, 1, "data");
     const auto lists = order_lists(call, 2, kBoxJenkinsOrders);
     PolynomialOrders orders = PolynomialOrders::output_error(lists[0], lists[3], lists[4]);
-    orders.nc = only_value(lists[1], kNc);
-    orders.nd = only_value(lists[2], kNd);
+    orders.nc = only_value(lists[1], kDiscreteNc);
+    orders.nd = only_value(lists[2], kDiscreteNd);
     return estimate_simulation<bj>(call, orders);
 }
 
-constexpr const char* kArea = "discrete time";
-constexpr std::array kFunctions = {
-    FunctionEntry{"arx", kArea, "arx(data, {na, nb, nk}, {Integration =}) -> G", "A y = B u + e by least squares",
+constexpr const char* kDiscreteEstimatorsArea = "discrete time";
+constexpr std::array kDiscreteEstimatorsFunctions = {
+    FunctionEntry{"arx", kDiscreteEstimatorsArea, "arx(data, {na, nb, nk}, {Integration =}) -> G", "A y = B u + e by least squares",
                   guarded<estimate_equation_error<arx>>},
-    FunctionEntry{"iv4", kArea, "iv4(data, {na, nb, nk}, {Integration =}) -> G",
+    FunctionEntry{"iv4", kDiscreteEstimatorsArea, "iv4(data, {na, nb, nk}, {Integration =}) -> G",
                   "A y = B u + v by instrumental variables in four steps",
                   guarded<long_call<estimate_equation_error<iv4>>>},
-    FunctionEntry{"armax", kArea, "armax(data, {na, nb, nc, nk}, {MaxIter =, Tol =, Integration =}) -> G",
+    FunctionEntry{"armax", kDiscreteEstimatorsArea, "armax(data, {na, nb, nc, nk}, {MaxIter =, Tol =, Integration =}) -> G",
                   "A y = B u + C e with the smallest prediction error", guarded<long_call<estimate_armax>>},
-    FunctionEntry{"oe", kArea, "oe(data, {nb, nf, nk}, {InitialState =, Offset =, Integration =, ...}) -> G",
+    FunctionEntry{"oe", kDiscreteEstimatorsArea, "oe(data, {nb, nf, nk}, {InitialState =, Offset =, Integration =, ...}) -> G",
                   "y = B/F u + e with the smallest simulation error", guarded<long_call<estimate_output_error<oe>>>},
-    FunctionEntry{"sriv", kArea, "sriv(data, {nb, nf, nk}, {InitialState =, Offset =, Integration =, ...}) -> G",
+    FunctionEntry{"sriv", kDiscreteEstimatorsArea, "sriv(data, {nb, nf, nk}, {InitialState =, Offset =, Integration =, ...}) -> G",
                   "y = B/F u + e by refined instrumental variables", guarded<long_call<estimate_output_error<sriv>>>},
-    FunctionEntry{"bj", kArea, "bj(data, {nb, nc, nd, nf, nk}, {InitialState =, Offset =, Integration =, ...}) -> G",
+    FunctionEntry{"bj", kDiscreteEstimatorsArea, "bj(data, {nb, nc, nd, nf, nk}, {InitialState =, Offset =, Integration =, ...}) -> G",
                   "y = B/F u + C/D e with the smallest prediction error", guarded<long_call<estimate_bj>>},
 };
 
 }  // namespace
 
 FunctionEntries discrete_estimator_functions() {
-    return kFunctions;
+    return kDiscreteEstimatorsFunctions;
 }
 
 }  // namespace dynlab

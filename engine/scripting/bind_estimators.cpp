@@ -17,7 +17,7 @@ int read_step_response(Call& call) {
     call.at_most(1);
     auto result = std::make_shared<StepTestResult>(kMethod(object_argument<IdData>(call, 1, "data")));
     Estimate estimate;
-    estimate.method = static_cast<const char*>(lua_touserdata(call.state(), lua_upvalueindex(1)));
+    estimate.method = call.function_name();
     estimate.names = result->names;
     estimate.theta = result->parameters;
     estimate.message = result->message;
@@ -95,7 +95,7 @@ int estimate_process_model(Call& call) {
 }
 
 constexpr const char* kStep = "step tests";
-constexpr std::array kFunctions = {
+constexpr std::array kEstimatorsFunctions = {
     FunctionEntry{"step_first_order", kStep, "step_first_order(data) -> G",
                   "K/(1 + T s) read off a step response: gain and 5 % settling time",
                   guarded<read_step_response<step_first_order>>},
@@ -115,7 +115,7 @@ constexpr std::array kFunctions = {
 }  // namespace
 
 FunctionEntries estimator_functions() {
-    return kFunctions;
+    return kEstimatorsFunctions;
 }
 
 }  // namespace dynlab

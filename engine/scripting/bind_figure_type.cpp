@@ -6,7 +6,7 @@
 namespace dynlab {
 namespace {
 
-Figure& self(Call& call) {
+Figure& figure_self(Call& call) {
     return object_argument<FigurePointer>(call, 1, "figure")->figure;
 }
 
@@ -18,7 +18,7 @@ Panel& panel_of(Figure& figure, Index number) {
 
 /// The panel that argument `index` numbers, the first one unless given.
 Panel& panel_argument(Call& call, int index) {
-    return panel_of(self(call), call.given(index) ? call.whole(index, "panel") : 1);
+    return panel_of(figure_self(call), call.given(index) ? call.whole(index, "panel") : 1);
 }
 
 /// Methods give the figure back, so that they can be chained.
@@ -36,8 +36,8 @@ int add_curve(Call& call) {
     curve.y = call.vector(3, "y");
     curve.label = options.text("label", "");
     read_curve_look(options, curve);
-    panel_of(self(call), options.size("panel", 1)).curves.push_back(std::move(curve));
-    self(call).validate();
+    panel_of(figure_self(call), options.size("panel", 1)).curves.push_back(std::move(curve));
+    figure_self(call).validate();
     return give_self(call);
 }
 
@@ -77,7 +77,7 @@ int set_options(Call& call) {
     const Options options(call, 2,
                           {"title", "xlabel", "ylabel", "x_range", "y_range", "x_log", "y_log", "equal_axes", "legend",
                            "width", "height", "panel", "curves", "references", "annotations", "arrows"});
-    Figure& figure = self(call);
+    Figure& figure = figure_self(call);
     read_panel_options(call, options, panel_of(figure, options.size("panel", 1)));
     figure.width_cm = options.number("width", figure.width_cm);
     figure.height_cm = options.number("height", figure.height_cm);
@@ -85,8 +85,8 @@ int set_options(Call& call) {
     return give_self(call);
 }
 
-int to_text(Call& call) {
-    const Figure& figure = self(call);
+int figure_to_text(Call& call) {
+    const Figure& figure = figure_self(call);
     std::size_t curves = 0;
     for (const Panel& panel : figure.panels) curves += panel.curves.size();
     return call.give(fmt::format("figure: {} panel{}, {} curve{}", figure.panels.size(),
@@ -94,21 +94,21 @@ int to_text(Call& call) {
 }
 
 int panel_count(Call& call) {
-    return call.give_whole(static_cast<Index>(self(call).panels.size()));
+    return call.give_whole(static_cast<Index>(figure_self(call).panels.size()));
 }
 
-constexpr std::array kFields = {Member{"panels", guarded<panel_count>}};
-constexpr std::array kMethods = {Member{"add", guarded<add_curve>},
+constexpr std::array kFigureTypeFields = {Member{"panels", guarded<panel_count>}};
+constexpr std::array kFigureTypeMethods = {Member{"add", guarded<add_curve>},
                                  Member{"mark", guarded<add_mark>},
                                  Member{"hline", guarded<add_reference<true>>},
                                  Member{"vline", guarded<add_reference<false>>},
                                  Member{"arrow", guarded<add_arrow>},
                                  Member{"set", guarded<set_options>}};
-constexpr std::array kOperators = {Member{"__tostring", guarded<to_text>}};
+constexpr std::array kFigureTypeOperators = {Member{"__tostring", guarded<figure_to_text>}};
 
 }  // namespace
 
-const ObjectType Boxed<FigurePointer>::type{"figure", kFields, kMethods, kOperators};
+const ObjectType Boxed<FigurePointer>::type{"figure", kFigureTypeFields, kFigureTypeMethods, kFigureTypeOperators};
 
 std::size_t Boxed<FigurePointer>::outside_bytes(const FigurePointer& figure) {
     std::size_t bytes = sizeof(ScriptFigure);

@@ -184,21 +184,21 @@ int save(Call& call) {
     return 0;
 }
 
-constexpr const char* kArea = "figures";
-constexpr std::array kFunctions = {
-    FunctionEntry{"plot", kArea, "plot(x, y, \"name\", ..., {title =, xlabel =, ylabel =, style =, ...}) -> fig",
+constexpr const char* kFiguresArea = "figures";
+constexpr std::array kFiguresFunctions = {
+    FunctionEntry{"plot", kFiguresArea, "plot(x, y, \"name\", ..., {title =, xlabel =, ylabel =, style =, ...}) -> fig",
                   "draws curves in one panel", guarded<plot>},
-    FunctionEntry{"figure", kArea, "figure{...} -> fig; figure(n)",
+    FunctionEntry{"figure", kFiguresArea, "figure{...} -> fig; figure(n)",
                   "a figure from its description; or the number of the next figure", guarded<figure>},
-    FunctionEntry{"subplot", kArea, "subplot(rows, columns, {fig1, fig2, ...}) -> fig",
+    FunctionEntry{"subplot", kFiguresArea, "subplot(rows, columns, {fig1, fig2, ...}) -> fig",
                   "puts the panels of figures into one", guarded<subplot>},
-    FunctionEntry{"save", kArea, "save(fig, path)", "writes a figure as .pdf, .svg or .png", guarded<save>},
+    FunctionEntry{"save", kFiguresArea, "save(fig, path)", "writes a figure as .pdf, .svg or .png", guarded<save>},
 };
 
 }  // namespace
 
 FunctionEntries figure_functions() {
-    return kFunctions;
+    return kFiguresFunctions;
 }
 
 }  // namespace dynlab

@@ -41,7 +41,7 @@ int estimate_hammerstein(Call& call) {
     return 1;
 }
 
-constexpr std::array kFunctions = {
+constexpr std::array kHammersteinFunctions = {
     FunctionEntry{"hammerstein", "continuous time",
                   "hammerstein(data, np, nz, {Bins =, Breakpoints =, TdMin =, TdMax =, IODelay =, ...}) -> G",
                   "a static characteristic by bins, then linear dynamics", guarded<long_call<estimate_hammerstein>>},
@@ -50,7 +50,7 @@ constexpr std::array kFunctions = {
 }  // namespace
 
 FunctionEntries hammerstein_functions() {
-    return kFunctions;
+    return kHammersteinFunctions;
 }
 
 }  // namespace dynlab

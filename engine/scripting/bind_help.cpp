@@ -24,7 +24,7 @@ int help(Call& call) {
     return 0;
 }
 
-constexpr std::array kFunctions = {
+constexpr std::array kHelpFunctions = {
     FunctionEntry{"help", "help", "help(name)", "explains a function; without a name, lists everything by area",
                   guarded<help>},
 };
@@ -32,7 +32,7 @@ constexpr std::array kFunctions = {
 }  // namespace
 
 FunctionEntries help_functions() {
-    return kFunctions;
+    return kHelpFunctions;
 }
 
 }  // namespace dynlab

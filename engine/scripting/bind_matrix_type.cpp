@@ -9,7 +9,7 @@
 namespace dynlab {
 namespace {
 
-NumericBlock& self(Call& call) {
+NumericBlock& matrix_self(Call& call) {
     NumericBlock* A = to_matrix(call.state(), 1);
     if (A == nullptr) wrong_argument(call.state(), 1, "A", "matrix; methods are called with a colon, A:name(...)");
     return *A;
@@ -24,14 +24,14 @@ Index place(Call& call, int index, const char* what, Index size) {
 
 int matrix_at(Call& call) {
     call.at_most(3);
-    NumericBlock& A = self(call);
+    NumericBlock& A = matrix_self(call);
     const Index i = place(call, 2, "row", A.rows), j = place(call, 3, "column", A.columns);
     return call.give(A.matrix()(i, j));
 }
 
 int matrix_set(Call& call) {
     call.at_most(4);
-    NumericBlock& A = self(call);
+    NumericBlock& A = matrix_self(call);
     const Index i = place(call, 2, "row", A.rows), j = place(call, 3, "column", A.columns);
     A.matrix()(i, j) = call.number(4, "value");
     return 0;
@@ -39,29 +39,29 @@ int matrix_set(Call& call) {
 
 int matrix_row(Call& call) {
     call.at_most(2);
-    NumericBlock& A = self(call);
+    NumericBlock& A = matrix_self(call);
     const Index i = place(call, 2, "row", A.rows);
     return call.give_vector(A.matrix().row(i).transpose());
 }
 
 int matrix_column(Call& call) {
     call.at_most(2);
-    NumericBlock& A = self(call);
+    NumericBlock& A = matrix_self(call);
     const Index j = place(call, 2, "column", A.columns);
     return call.give_vector(A.matrix().col(j));
 }
 
 int matrix_transpose(Call& call) {
-    return call.give_matrix(self(call).matrix().transpose());
+    return call.give_matrix(matrix_self(call).matrix().transpose());
 }
 int matrix_rows(Call& call) {
-    return call.give_whole(self(call).rows);
+    return call.give_whole(matrix_self(call).rows);
 }
 int matrix_columns(Call& call) {
-    return call.give_whole(self(call).columns);
+    return call.give_whole(matrix_self(call).columns);
 }
 int matrix_tostring(Call& call) {
-    return call.give(matrix_text(self(call).matrix()));
+    return call.give(matrix_text(matrix_self(call).matrix()));
 }
 int matrix_equal(Call& call) {
     NumericBlock *a = to_matrix(call.state(), 1), *b = to_matrix(call.state(), 2);
@@ -70,7 +70,7 @@ int matrix_equal(Call& call) {
 }
 
 /// A[{i, j}]
-int read_element(Call& call) {
+int read_matrix_element(Call& call) {
     lua_State* L = call.state();
     if (call.type(2) != LUA_TTABLE || lua_rawlen(L, 2) != 2)
         throw InvalidArgument(
@@ -84,7 +84,7 @@ int read_element(Call& call) {
     return matrix_at(inner);
 }
 
-int write_element(Call& call) {
+int write_matrix_element(Call& call) {
     lua_State* L = call.state();
     if (call.type(2) != LUA_TTABLE || lua_rawlen(L, 2) != 2)
         throw InvalidArgument("an element of a matrix is set by A[{i, j}] = x or A:set(i, j, x)");
@@ -100,23 +100,23 @@ int refuse_length(Call&) {
     throw InvalidArgument("# counts the elements of a vector; a matrix has A.rows and A.columns");
 }
 
-constexpr std::array kFields = {Member{"rows", guarded<matrix_rows>}, Member{"columns", guarded<matrix_columns>}};
-constexpr std::array kMethods = {Member{"at", guarded<matrix_at>},       Member{"set", guarded<matrix_set>},
+constexpr std::array kMatrixTypeFields = {Member{"rows", guarded<matrix_rows>}, Member{"columns", guarded<matrix_columns>}};
+constexpr std::array kMatrixTypeMethods = {Member{"at", guarded<matrix_at>},       Member{"set", guarded<matrix_set>},
                                  Member{"row", guarded<matrix_row>},     Member{"col", guarded<matrix_column>},
                                  Member{"t", guarded<matrix_transpose>}, Member{"times", guarded<numeric_times>}};
-constexpr std::array kOperators = {
+constexpr std::array kMatrixTypeOperators = {
     Member{"__add", guarded<numeric_add>},          Member{"__sub", guarded<numeric_subtract>},
     Member{"__mul", guarded<numeric_multiply>},     Member{"__div", guarded<numeric_divide>},
     Member{"__pow", guarded<numeric_power>},        Member{"__unm", guarded<numeric_negate>},
     Member{"__tostring", guarded<matrix_tostring>}, Member{"__eq", guarded<matrix_equal>},
     Member{"__lt", guarded<refuse_comparison>},     Member{"__le", guarded<refuse_comparison>},
-    Member{"__newindex", guarded<write_element>},   Member{"__len", guarded<refuse_length>},
+    Member{"__newindex", guarded<write_matrix_element>},   Member{"__len", guarded<refuse_length>},
 };
 
 }  // namespace
 
 const ObjectType& matrix_type() {
-    static const ObjectType type{"matrix", kFields, kMethods, kOperators, guarded<read_element>};
+    static const ObjectType type{"matrix", kMatrixTypeFields, kMatrixTypeMethods, kMatrixTypeOperators, guarded<read_matrix_element>};
     return type;
 }
 

@@ -8,12 +8,12 @@
 namespace dynlab {
 namespace {
 
-const Model& self(Call& call) {
+const Model& model_self(Call& call) {
     return object_argument<Model>(call, 1, "G");
 }
 
 const Estimate& estimate_of(Call& call) {
-    const Model& model = self(call);
+    const Model& model = model_self(call);
     if (!model.estimate)
         throw InvalidArgument("this model was written down, not estimated, so it has no standard errors and no report");
     return *model.estimate;
@@ -21,7 +21,7 @@ const Estimate& estimate_of(Call& call) {
 
 /// The transfer function of a model with one channel.
 const TransferFunction& only_channel(Call& call) {
-    const Model& model = self(call);
+    const Model& model = model_self(call);
     if (model.single_channel()) return model.G;
     throw InvalidArgument("this field is one channel's, and the model is no single one: " + channels_hint(model));
 }
@@ -37,18 +37,18 @@ int field_delay(Call& call) {
 }
 
 const PolynomialModel& polynomials(Call& call) {
-    const Model& model = self(call);
+    const Model& model = model_self(call);
     if (model.polynomial) return *model.polynomial;
     throw InvalidArgument(
         "only models of difference equations, as arx, oe and sriv give them, have this polynomial; lssvf and ivsvf "
         "give A and B, rivc gives C and D, n4sid matrices A, B, C and D");
 }
 bool is_carx(Call& call) {
-    const Model& model = self(call);
+    const Model& model = model_self(call);
     return model.estimate && model.estimate->carx;
 }
 const NoiseModel* noise_of(Call& call) {
-    const Model& model = self(call);
+    const Model& model = model_self(call);
     return model.estimate ? model.estimate->noise.get() : nullptr;
 }
 template <Vector PolynomialModel::*kPolynomial>
@@ -80,7 +80,7 @@ void push_channels(const Call& call, const TransferFunction* first, std::size_t 
 }
 /// The transfer function from each input; with several outputs such a list for each.
 int field_channels(Call& call) {
-    const Model& model = self(call);
+    const Model& model = model_self(call);
     const std::vector<TransferFunction> channels = channels_of(model);
     if (model.outputs == 1) {
         push_channels(call, channels.data(), model.inputs());
@@ -94,10 +94,10 @@ int field_channels(Call& call) {
     return 1;
 }
 int field_sampling_time(Call& call) {
-    return call.give(self(call).G.Ts());
+    return call.give(model_self(call).G.Ts());
 }
 int field_param(Call& call) {
-    return call.give_vector(parameters_of(self(call)).values);
+    return call.give_vector(parameters_of(model_self(call)).values);
 }
 int field_std(Call& call) {
     return call.give_vector(estimate_of(call).std);
@@ -121,7 +121,7 @@ int field_robust_covariance(Call& call) {
 int field_names(Call& call) {
     lua_newtable(call.state());
     lua_Integer place = 0;
-    for (const std::string& name : parameters_of(self(call)).names) {
+    for (const std::string& name : parameters_of(model_self(call)).names) {
         lua_pushstring(call.state(), name.c_str());
         lua_rawseti(call.state(), -2, ++place);
     }
@@ -168,8 +168,8 @@ int field_report(Call& call) {
 
 /// G.Kp, G.Tp1, G.K, ...: a parameter by its name, which is the field's own.
 int field_parameter(Call& call) {
-    const std::string name = static_cast<const char*>(lua_touserdata(call.state(), lua_upvalueindex(1)));
-    const ModelParameters parameters = parameters_of(self(call));
+    const std::string name = call.function_name();
+    const ModelParameters parameters = parameters_of(model_self(call));
     for (std::size_t i = 0; i < parameters.names.size(); ++i)
         if (parameters.names[i] == name) return call.give(parameters.values[static_cast<Index>(i)]);
     throw InvalidArgument(fmt::format("this model has no parameter of that name; its parameters are {}",
@@ -179,7 +179,7 @@ int field_parameter(Call& call) {
 /// A matrix of a state-space model, or what the letter stands for in any other.
 template <Matrix StateSpace::*kMatrix, int (*kOther)(Call&)>
 int field_matrix(Call& call) {
-    const Model& model = self(call);
+    const Model& model = model_self(call);
     return model.system ? call.give_matrix((*model.system).*kMatrix) : kOther(call);
 }
 
@@ -190,11 +190,11 @@ int field_C(Call& call) {
 /// The letter D names the noise polynomial of a difference equation or of rivc, and the delay of step_delayed.
 int field_D(Call& call) {
     if (const NoiseModel* noise = noise_of(call)) return call.give_vector(noise->D);
-    return self(call).polynomial ? field_polynomial<&PolynomialModel::D>(call) : field_parameter(call);
+    return model_self(call).polynomial ? field_polynomial<&PolynomialModel::D>(call) : field_parameter(call);
 }
 
 int to_text_of_model(Call& call) {
-    return call.give(channels_text(self(call)));
+    return call.give(channels_text(model_self(call)));
 }
 
 template <TransferFunction (*kOperator)(const TransferFunction&, const TransferFunction&)>
@@ -222,7 +222,7 @@ int negate(Call& call) {
     return give_model(call, TransferFunction(-G.num(), G.den(), G.Ts(), G.delay()));
 }
 
-constexpr std::array kFields = {
+constexpr std::array kModelTypeFields = {
     Member{"num", guarded<field_num>},
     Member{"den", guarded<field_den>},
     Member{"IODelay", guarded<field_delay>},
@@ -253,7 +253,7 @@ constexpr std::array kFields = {
     Member{"F", guarded<field_input_polynomials<&PolynomialModel::F>>},
     Member{"channels", guarded<field_channels>},
 };
-constexpr std::array kOperators = {
+constexpr std::array kModelTypeOperators = {
     Member{"__add", guarded<combine<plus>>},         Member{"__sub", guarded<combine<minus>>},
     Member{"__mul", guarded<combine<times>>},        Member{"__div", guarded<combine<over>>},
     Member{"__pow", guarded<raise_to_power>},        Member{"__unm", guarded<negate>},
@@ -292,7 +292,7 @@ constexpr std::array kSystemOperators = {Member{"__tostring", guarded<system_tex
 
 }  // namespace
 
-const ObjectType Boxed<Model>::type{"model", kFields, {}, kOperators};
+const ObjectType Boxed<Model>::type{"model", kModelTypeFields, {}, kModelTypeOperators};
 const ObjectType Boxed<StateSpace>::type{"state-space model", kSystemFields, {}, kSystemOperators};
 
 }  // namespace dynlab

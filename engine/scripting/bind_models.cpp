@@ -148,36 +148,36 @@ int present(Call& call) {
     return 0;
 }
 
-constexpr const char* kArea = "models";
-constexpr std::array kFunctions = {
-    FunctionEntry{"tf", kArea, "tf(num, den, {Ts =, IODelay =}) -> G; tf(\"s\"); tf(\"z\", Ts)",
+constexpr const char* kModelsArea = "models";
+constexpr std::array kModelsFunctions = {
+    FunctionEntry{"tf", kModelsArea, "tf(num, den, {Ts =, IODelay =}) -> G; tf(\"s\"); tf(\"z\", Ts)",
                   "a transfer function, or its variable to write one with", guarded<make_tf>},
-    FunctionEntry{"idproc", kArea, "idproc(\"P1D\", {Kp =, Tp1 =, Td =}) -> G",
+    FunctionEntry{"idproc", kModelsArea, "idproc(\"P1D\", {Kp =, Tp1 =, Td =}) -> G",
                   "a process model from its gain, time constants and delay", guarded<make_idproc>},
-    FunctionEntry{"ss", kArea, "ss(A, B, C, D, {Ts =}) -> system; ss(G)", "a state-space model", guarded<make_ss>},
-    FunctionEntry{"series", kArea, "series(G1, G2) -> G", "one behind the other", guarded<connect_series>},
-    FunctionEntry{"parallel", kArea, "parallel(G1, G2) -> G", "side by side, outputs added", guarded<connect_parallel>},
-    FunctionEntry{"feedback", kArea, "feedback(forward, backward, sign) -> G",
+    FunctionEntry{"ss", kModelsArea, "ss(A, B, C, D, {Ts =}) -> system; ss(G)", "a state-space model", guarded<make_ss>},
+    FunctionEntry{"series", kModelsArea, "series(G1, G2) -> G", "one behind the other", guarded<connect_series>},
+    FunctionEntry{"parallel", kModelsArea, "parallel(G1, G2) -> G", "side by side, outputs added", guarded<connect_parallel>},
+    FunctionEntry{"feedback", kModelsArea, "feedback(forward, backward, sign) -> G",
                   "a closed loop, negative feedback unless sign is 1", guarded<connect_feedback>},
-    FunctionEntry{"c2d", kArea, "c2d(G, Ts, \"zoh\" | \"foh\" | \"tustin\") -> Gd",
+    FunctionEntry{"c2d", kModelsArea, "c2d(G, Ts, \"zoh\" | \"foh\" | \"tustin\") -> Gd",
                   "discrete-time equal of a continuous-time model", guarded<to_discrete>},
-    FunctionEntry{"d2c", kArea, "d2c(Gd, \"zoh\" | \"foh\" | \"tustin\") -> G",
+    FunctionEntry{"d2c", kModelsArea, "d2c(Gd, \"zoh\" | \"foh\" | \"tustin\") -> G",
                   "continuous-time equal of a discrete-time model", guarded<to_continuous>},
-    FunctionEntry{"pole", kArea, "pole(G) -> complex vector", "poles", guarded<poles>},
-    FunctionEntry{"zero", kArea, "zero(G) -> complex vector", "zeros", guarded<zeros_of>},
-    FunctionEntry{"dcgain", kArea, "dcgain(G) -> K", "steady-state gain", guarded<dc_gain>},
-    FunctionEntry{"damp", kArea, "damp(G) -> wn, zeta, T",
+    FunctionEntry{"pole", kModelsArea, "pole(G) -> complex vector", "poles", guarded<poles>},
+    FunctionEntry{"zero", kModelsArea, "zero(G) -> complex vector", "zeros", guarded<zeros_of>},
+    FunctionEntry{"dcgain", kModelsArea, "dcgain(G) -> K", "steady-state gain", guarded<dc_gain>},
+    FunctionEntry{"damp", kModelsArea, "damp(G) -> wn, zeta, T",
                   "natural frequency, damping ratio and time constant of every pole", guarded<damp>},
-    FunctionEntry{"bandwidth", kArea, "bandwidth(G) -> w",
+    FunctionEntry{"bandwidth", kModelsArea, "bandwidth(G) -> w",
                   "frequency (rad/s) at which the gain is 3 dB below its dc value", guarded<bandwidth_of>},
-    FunctionEntry{"stable", kArea, "stable(G) -> true or false", "whether all poles are stable", guarded<stable>},
-    FunctionEntry{"present", kArea, "present(G, ...)", "prints all that is known of models", guarded<present>},
+    FunctionEntry{"stable", kModelsArea, "stable(G) -> true or false", "whether all poles are stable", guarded<stable>},
+    FunctionEntry{"present", kModelsArea, "present(G, ...)", "prints all that is known of models", guarded<present>},
 };
 
 }  // namespace
 
 FunctionEntries model_functions() {
-    return kFunctions;
+    return kModelsFunctions;
 }
 
 }  // namespace dynlab

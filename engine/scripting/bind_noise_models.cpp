@@ -13,7 +13,7 @@ namespace {
 
 constexpr OrderEntry kNc{"nc", "coefficients of C after the leading one"};
 constexpr OrderEntry kNd{"nd", "coefficients of D after the leading one"};
-constexpr std::array kOrders = {kNb, kNc, kNd, kNf, kNk};
+constexpr std::array kNoiseModelOrders = {kNb, kNc, kNd, kNf, kNk};
 
 int noise_order(const std::vector<int>& entry, const OrderEntry& what) {
     if (entry.size() == 1) return entry.front();
@@ -29,7 +29,7 @@ struct NoisyReading {
 
 int give_with_noise(Call& call, const IdData& data, const NoisyReading& reading) {
     const RivcResult result = reading.estimation(data);
-    Estimate estimate = estimate_of(name_of(call), result);
+    Estimate estimate = estimate_of(call.function_name(), result);
     estimate.of_coefficients = !reading.integration;
     estimate.noise = std::make_shared<NoiseModel>(NoiseModel{result.C, result.D, result.C_std, result.D_std});
     estimate.vectors.insert(estimate.vectors.end(), {{"C_std", result.C_std}, {"D_std", result.D_std}});
@@ -50,12 +50,12 @@ NoisyReading reading_of(const StructureMaker& structure, const NoiseOrders& nois
 
 NoisyReading read_rivc(const Call& call) {
     call.at_most(3);
-    const auto orders = order_lists(call, 2, kOrders);
+    const auto orders = order_lists(call, 2, kNoiseModelOrders);
     const Options options(
         call, 3, {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator", "Integration"});
     TransferOptions wanted;
     read_common_options(options, wanted);
-    return reading_of(structure_of_orders(kOrders, orders, sharing_of(options)),
+    return reading_of(structure_of_orders(kNoiseModelOrders, orders, sharing_of(options)),
                       {noise_order(orders[1], kNc), noise_order(orders[2], kNd)}, options, wanted);
 }
 
@@ -82,13 +82,13 @@ Estimation read_estimation(const Call& call) {
     return kRead(call).estimation;
 }
 
-constexpr NamedReader kReaders[] = {{"rivc", read_estimation<read_rivc>}, {"tfrivc", read_estimation<read_tfrivc>}};
+constexpr NamedReader kNoiseModelsReaders[] = {{"rivc", read_estimation<read_rivc>}, {"tfrivc", read_estimation<read_tfrivc>}};
 
-constexpr const char* kArea = "continuous time";
-constexpr std::array kFunctions = {
-    FunctionEntry{"rivc", kArea, "rivc(data, {nb, nc, nd, nf, nk}, {lambda =, MaxIter =, Tol =, ...}) -> G",
+constexpr const char* kNoiseModelsArea = "continuous time";
+constexpr std::array kNoiseModelsFunctions = {
+    FunctionEntry{"rivc", kNoiseModelsArea, "rivc(data, {nb, nc, nd, nf, nk}, {lambda =, MaxIter =, Tol =, ...}) -> G",
                   "y = B/F u + C/D e, coloured noise modelled too", guarded<long_call<estimate_with_noise<read_rivc>>>},
-    FunctionEntry{"tfrivc", kArea, "tfrivc(data, np, nz, {nc =, nd =, TdMin =, TdMax =, IODelay =, ...}) -> G",
+    FunctionEntry{"tfrivc", kNoiseModelsArea, "tfrivc(data, np, nz, {nc =, nd =, TdMin =, TdMax =, IODelay =, ...}) -> G",
                   "rivc by numbers of poles and zeros, the delay estimated",
                   guarded<long_call<estimate_with_noise<read_tfrivc>>>},
 };
@@ -96,11 +96,11 @@ constexpr std::array kFunctions = {
 }  // namespace
 
 EstimationReaders noise_model_readers() {
-    return kReaders;
+    return kNoiseModelsReaders;
 }
 
 FunctionEntries noise_model_functions() {
-    return kFunctions;
+    return kNoiseModelsFunctions;
 }
 
 }  // namespace dynlab

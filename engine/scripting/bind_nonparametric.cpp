@@ -17,14 +17,14 @@ namespace dynlab {
 namespace {
 
 /// (data, G1, G2, ..., {options}): the models to draw over the estimate, and where the options stand.
-struct Comparison {
+struct SpectralModels {
     const IdData& data;
     std::vector<NamedModel> models;
     int options;
 };
 
-Comparison comparison_arguments(const Call& call) {
-    Comparison read{object_argument<IdData>(call, 1, "data"), {}, 2};
+SpectralModels comparison_arguments(const Call& call) {
+    SpectralModels read{object_argument<IdData>(call, 1, "data"), {}, 2};
     for (; holds_model(call, read.options); ++read.options) {
         const Model* model = to_object<Model>(call.state(), read.options);
         const std::string name =
@@ -55,7 +55,7 @@ void print_message(const Call& call, const std::string& message, const std::vect
     call.print(fmt::format("{}{}{}\n", message, warnings.empty() ? "" : " ", fmt::join(warnings, " ")));
 }
 
-int give_spectral(const Call& call, const Options& options, Comparison& read, const SpectralEstimate& estimate,
+int give_spectral(const Call& call, const Options& options, SpectralModels& read, const SpectralEstimate& estimate,
                   const char* method) {
     name_models(options, read.models);
     print_message(call, estimate.message, estimate.warnings);
@@ -76,7 +76,7 @@ int give_spectral(const Call& call, const Options& options, Comparison& read, co
     return 2;
 }
 
-int give_impulse(const Call& call, const Options& options, Comparison& read, const ImpulseEstimate& estimate) {
+int give_impulse(const Call& call, const Options& options, SpectralModels& read, const ImpulseEstimate& estimate) {
     name_models(options, read.models);
     print_message(call, estimate.message, estimate.warnings);
     give_figure(call, impulse_estimate_plot(estimate, read.data.Ts, read.models, confidence_of(options)));
@@ -97,7 +97,7 @@ int give_impulse(const Call& call, const Options& options, Comparison& read, con
 }
 
 int ratio_of_transforms(Call& call) {
-    Comparison read = comparison_arguments(call);
+    SpectralModels read = comparison_arguments(call);
     const Options options(call, read.options, {"smooth", "remove_mean", "confidence", "labels"});
     EtfeOptions wanted;
     wanted.smooth = options.size("smooth", 0);
@@ -106,7 +106,7 @@ int ratio_of_transforms(Call& call) {
 }
 
 int spectral_analysis(Call& call) {
-    Comparison read = comparison_arguments(call);
+    SpectralModels read = comparison_arguments(call);
     const Options options(call, read.options, {"window", "w", "remove_mean", "confidence", "labels"});
     SpaOptions wanted;
     wanted.window = options.size("window", 0);
@@ -116,7 +116,7 @@ int spectral_analysis(Call& call) {
 }
 
 int regression_on_past_inputs(Call& call) {
-    Comparison read = comparison_arguments(call);
+    SpectralModels read = comparison_arguments(call);
     const Options options(call, read.options, {"lags", "smooth", "confidence", "labels"});
     ImpulseestOptions wanted;
     wanted.lags = options.size("lags", 0);
@@ -126,7 +126,7 @@ int regression_on_past_inputs(Call& call) {
 }
 
 int correlation_analysis(Call& call) {
-    Comparison read = comparison_arguments(call);
+    SpectralModels read = comparison_arguments(call);
     const Options options(call, read.options, {"lags", "whitening", "confidence", "labels"});
     CraOptions wanted;
     wanted.lags = options.size("lags", 0);
@@ -139,26 +139,26 @@ int correlation_analysis(Call& call) {
     return 2;
 }
 
-constexpr const char* kArea = "nonparametric";
-constexpr std::array kFunctions = {
-    FunctionEntry{"etfe", kArea, "etfe(data, G1, ..., {smooth =, remove_mean =, confidence =, labels =}) -> fig, table",
+constexpr const char* kNonparametricArea = "nonparametric";
+constexpr std::array kNonparametricFunctions = {
+    FunctionEntry{"etfe", kNonparametricArea, "etfe(data, G1, ..., {smooth =, remove_mean =, confidence =, labels =}) -> fig, table",
                   "frequency response as the ratio of the Fourier transforms of output and input",
                   guarded<ratio_of_transforms>},
-    FunctionEntry{"spa", kArea,
+    FunctionEntry{"spa", kNonparametricArea,
                   "spa(data, G1, ..., {window =, w =, remove_mean =, confidence =, labels =}) -> fig, table",
                   "frequency response with errors, from smoothed correlations", guarded<spectral_analysis>},
-    FunctionEntry{"impulseest", kArea,
+    FunctionEntry{"impulseest", kNonparametricArea,
                   "impulseest(data, G1, ..., {lags =, smooth =, confidence =, labels =}) -> fig, table",
                   "impulse response by regression on past inputs, and the dead time it shows",
                   guarded<regression_on_past_inputs>},
-    FunctionEntry{"cra", kArea, "cra(data, G1, ..., {lags =, whitening =, confidence =, labels =}) -> fig, table",
+    FunctionEntry{"cra", kNonparametricArea, "cra(data, G1, ..., {lags =, whitening =, confidence =, labels =}) -> fig, table",
                   "impulse response from correlations with the whitened input", guarded<correlation_analysis>},
 };
 
 }  // namespace
 
 FunctionEntries nonparametric_functions() {
-    return kFunctions;
+    return kNonparametricFunctions;
 }
 
 }  // namespace dynlab

@@ -18,8 +18,8 @@
 namespace dynlab {
 namespace {
 
-constexpr std::array kOrders = {OrderEntry{"nb", "coefficients of B"}, OrderEntry{"nf", "poles"},
-                                OrderEntry{"nk", "samples of delay"}};
+constexpr std::array kStructureOrders = {OrderEntry{"nb", "coefficients of B"}, OrderEntry{"nf", "poles"},
+                                         OrderEntry{"nk", "samples of delay"}};
 
 /// {from, to} or a single number.
 std::pair<int, int> range_of(const Options& options, const char* name, std::pair<int, int> fallback) {
@@ -71,7 +71,7 @@ std::vector<TransferStructure> listed_structures(const Call& call, const IdData&
     const int list = lua_gettop(L);
     for (lua_Integer i = 1; lua_rawgeti(L, list, i) != LUA_TNIL; ++i) {
         lua_replace(L, 2);
-        const auto orders = order_lists(call, 2, kOrders);
+        const auto orders = order_lists(call, 2, kStructureOrders);
         for (const auto& entry : orders)
             if (entry.size() != 1) throw InvalidArgument("the orders {nb, nf, nk} must be numbers, not lists");
         if (orders[0][0] < 1) throw InvalidArgument("nb, the number of coefficients of B, must be at least 1");
@@ -93,8 +93,6 @@ TransferOptions estimation_options(const Options& options) {
     wanted.lambda = options.optional_number("lambda");
     wanted.initial_state = parse_initial_state(options.text("InitialState", "zero"));
     wanted.offset = parse_offset(options.text("Offset", "none"));
-    if (wanted.offset == Offset::kRemove)
-        throw InvalidArgument("to compare structures, take the means off the data first: data:remove_mean()");
     wanted.TdMin = options.number("TdMin", wanted.TdMin);
     wanted.TdMax = options.optional_number("TdMax");
     wanted.NumTd = static_cast<int>(options.size("NumTd", wanted.NumTd));
@@ -198,15 +196,15 @@ int estimate_delay(Call& call) {
     return 3;
 }
 
-constexpr const char* kArea = "structure";
-constexpr std::array kFunctions = {
-    FunctionEntry{"srivcstruc", kArea,
+constexpr const char* kOrdersArea = "structure";
+constexpr std::array kOrdersFunctions = {
+    FunctionEntry{"srivcstruc", kOrdersArea,
                   "srivcstruc(data, {poles = {1, 4}, zeros = {0, 2}, delays =, validate =, ...}) -> V",
                   "srivc for many numbers of poles, zeros and samples of delay, with criteria for each",
                   guarded<long_call<try_structures>>},
-    FunctionEntry{"selcstruc", kArea, "selcstruc(V, criterion) -> G, fig",
+    FunctionEntry{"selcstruc", kOrdersArea, "selcstruc(V, criterion) -> G, fig",
                   "the structure that a criterion chooses, explained in words", guarded<select_structure>},
-    FunctionEntry{"delayest", kArea,
+    FunctionEntry{"delayest", kOrdersArea,
                   "delayest(data, {poles = {1, 3}, zeros = {0, 1}, TdMin =, TdMax =, ...}) -> Td, fig, D",
                   "the delay between input and output, with its standard error and the loss over the delay",
                   guarded<long_call<estimate_delay>>},
@@ -215,7 +213,7 @@ constexpr std::array kFunctions = {
 }  // namespace
 
 FunctionEntries order_functions() {
-    return kFunctions;
+    return kOrdersFunctions;
 }
 
 }  // namespace dynlab

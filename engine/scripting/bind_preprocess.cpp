@@ -74,20 +74,20 @@ int remove_outliers(Call& call) {
     return give_repaired(call, replace_outliers(call.vector(1, "x"), wanted));
 }
 
-constexpr const char* kArea = "data";
-constexpr std::array kFunctions = {
-    FunctionEntry{"detrend", kArea, "detrend(data, \"linear\" | \"mean\" | \"start\", {samples =}) -> data",
+constexpr const char* kPreprocessArea = "data";
+constexpr std::array kPreprocessFunctions = {
+    FunctionEntry{"detrend", kPreprocessArea, "detrend(data, \"linear\" | \"mean\" | \"start\", {samples =}) -> data",
                   "takes off the straight line, the mean, or the level before the input changes",
                   guarded<detrend_signals>},
-    FunctionEntry{"idfilt", kArea, "idfilt(data, {lower, upper}, {order =, zero_phase =, stop =, start =}) -> data",
+    FunctionEntry{"idfilt", kPreprocessArea, "idfilt(data, {lower, upper}, {order =, zero_phase =, stop =, start =}) -> data",
                   "Butterworth filter over inputs and outputs alike", guarded<filter_signals>},
-    FunctionEntry{"resample", kArea, "resample(data, up, down) -> data",
+    FunctionEntry{"resample", kPreprocessArea, "resample(data, up, down) -> data",
                   "other sampling rate, by up/down, with a filter against aliasing", guarded<resample_signals>},
-    FunctionEntry{"merge", kArea, "merge(data1, data2, ...) -> data", "several experiments in one data object",
+    FunctionEntry{"merge", kPreprocessArea, "merge(data1, data2, ...) -> data", "several experiments in one data object",
                   guarded<merge_data>},
-    FunctionEntry{"fillmissing", kArea, "fillmissing(x, {t =, longest =}) -> filled, places",
+    FunctionEntry{"fillmissing", kPreprocessArea, "fillmissing(x, {t =, longest =}) -> filled, places",
                   "straight lines over samples that are not numbers", guarded<fill_gaps>},
-    FunctionEntry{"filloutliers", kArea, "filloutliers(x, {window =, threshold =}) -> cleaned, places",
+    FunctionEntry{"filloutliers", kPreprocessArea, "filloutliers(x, {window =, threshold =}) -> cleaned, places",
                   "straight lines over samples that stand out from their neighbours", guarded<remove_outliers>},
 };
 
@@ -149,7 +149,7 @@ int merge_data(Call& call) {
 }
 
 FunctionEntries preprocess_functions() {
-    return kFunctions;
+    return kPreprocessFunctions;
 }
 
 }  // namespace dynlab

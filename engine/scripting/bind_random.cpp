@@ -29,19 +29,19 @@ int draw(Call& call) {
     return 1;
 }
 
-constexpr const char* kArea = "random";
-constexpr std::array kFunctions = {
-    FunctionEntry{"rng", kArea, "rng(seed)", "starts the random numbers afresh from a seed", guarded<rng>},
-    FunctionEntry{"randn", kArea, "randn(n, m) -> v", "normal random numbers with mean 0 and variance 1",
+constexpr const char* kRandomArea = "random";
+constexpr std::array kRandomFunctions = {
+    FunctionEntry{"rng", kRandomArea, "rng(seed)", "starts the random numbers afresh from a seed", guarded<rng>},
+    FunctionEntry{"randn", kRandomArea, "randn(n, m) -> v", "normal random numbers with mean 0 and variance 1",
                   guarded<draw<&RandomStream::normal>>},
-    FunctionEntry{"rand", kArea, "rand(n, m) -> v", "random numbers spread evenly over [0, 1)",
+    FunctionEntry{"rand", kRandomArea, "rand(n, m) -> v", "random numbers spread evenly over [0, 1)",
                   guarded<draw<&RandomStream::uniform>>},
 };
 
 }  // namespace
 
 FunctionEntries random_functions() {
-    return kFunctions;
+    return kRandomFunctions;
 }
 
 }  // namespace dynlab

@@ -25,43 +25,43 @@ struct Boxed<RegressionFit> {
 
 namespace {
 
-const RegressionFit& self(Call& call) {
+const RegressionFit& regression_self(Call& call) {
     return object_argument<RegressionFit>(call, 1, "fit");
 }
 
 template <auto kMember>
 int field_vector(Call& call) {
-    return call.give_vector(self(call).regression.*kMember);
+    return call.give_vector(regression_self(call).regression.*kMember);
 }
 template <auto kMember>
 int field_number(Call& call) {
-    return call.give(self(call).regression.*kMember);
+    return call.give(regression_self(call).regression.*kMember);
 }
-int field_covariance(Call& call) {
-    return call.give_matrix(self(call).regression.covariance);
+int regression_covariance(Call& call) {
+    return call.give_matrix(regression_self(call).regression.covariance);
 }
 int field_rank(Call& call) {
-    return call.give_whole(self(call).regression.rank);
+    return call.give_whole(regression_self(call).regression.rank);
 }
 int field_message(Call& call) {
-    return call.give(self(call).regression.message);
+    return call.give(regression_self(call).regression.message);
 }
 int field_coefficients(Call& call) {
-    const RegressionFit& fit = self(call);
+    const RegressionFit& fit = regression_self(call);
     return call.give_vector(fit.polynomial ? fit.polynomial->coefficients : fit.regression.theta);
 }
 int field_centre(Call& call) {
-    return call.give(self(call).polynomial ? self(call).polynomial->centre : 0.0);
+    return call.give(regression_self(call).polynomial ? regression_self(call).polynomial->centre : 0.0);
 }
 
 int fit_text(Call& call) {
-    const LinearRegression& fit = self(call).regression;
+    const LinearRegression& fit = regression_self(call).regression;
     return call.give(fmt::format("theta = {}\nstandard errors = {}\nRMSE = {}, condition number = {}\n{}",
                                  vector_text(fit.theta), vector_text(fit.std), number_text(fit.rmse),
                                  number_text(fit.condition_number), fit.message));
 }
 
-constexpr std::array kFields = {
+constexpr std::array kRegressionFields = {
     Member{"theta", guarded<field_vector<&LinearRegression::theta>>},
     Member{"std", guarded<field_vector<&LinearRegression::std>>},
     Member{"fitted", guarded<field_vector<&LinearRegression::fitted>>},
@@ -69,13 +69,13 @@ constexpr std::array kFields = {
     Member{"sigma", guarded<field_number<&LinearRegression::sigma>>},
     Member{"rmse", guarded<field_number<&LinearRegression::rmse>>},
     Member{"condition_number", guarded<field_number<&LinearRegression::condition_number>>},
-    Member{"covariance", guarded<field_covariance>},
+    Member{"covariance", guarded<regression_covariance>},
     Member{"rank", guarded<field_rank>},
     Member{"message", guarded<field_message>},
     Member{"coefficients", guarded<field_coefficients>},
     Member{"centre", guarded<field_centre>},
 };
-constexpr std::array kOperators = {Member{"__tostring", guarded<fit_text>}};
+constexpr std::array kRegressionOperators = {Member{"__tostring", guarded<fit_text>}};
 
 int least_squares(Call& call) {
     call.at_most(3);
@@ -110,7 +110,7 @@ Forecast forecast_at(const RegressionFit& fit, double x, double level) {
 
 int predict(Call& call) {
     call.at_most(3);
-    const RegressionFit& fit = self(call);
+    const RegressionFit& fit = regression_self(call);
     const double level = call.number_or(3, "level", 0.95);
     const bool single = fit.polynomial && call.type(2) == LUA_TNUMBER;
     const Forecast result = single ? forecast_at(fit, call.number(2, "x"), level)
@@ -194,29 +194,29 @@ int descend(Call& call) {
     return 1;
 }
 
-constexpr const char* kArea = "regression";
-constexpr std::array kFunctions = {
+constexpr const char* kRegressionArea = "regression";
+constexpr std::array kRegressionFunctions = {
     FunctionEntry{"polyfit", "vectors", "polyfit(x, y, degree) -> p", "least-squares polynomial, highest power first",
                   guarded<polyfit>},
-    FunctionEntry{"lsq", kArea, "lsq(Phi, y, {method = \"qr\" | \"normal\"}) -> fit",
+    FunctionEntry{"lsq", kRegressionArea, "lsq(Phi, y, {method = \"qr\" | \"normal\"}) -> fit",
                   "least squares with standard errors, residuals and condition number", guarded<least_squares>},
-    FunctionEntry{"polyfit_report", kArea, "polyfit_report(x, y, degree, {centred =, method =}) -> fit",
+    FunctionEntry{"polyfit_report", kRegressionArea, "polyfit_report(x, y, degree, {centred =, method =}) -> fit",
                   "polynomial by least squares with its standard errors", guarded<polynomial>},
-    FunctionEntry{"forecast", kArea, "forecast(fit, x, level) -> {value, low, high, ...}",
+    FunctionEntry{"forecast", kRegressionArea, "forecast(fit, x, level) -> {value, low, high, ...}",
                   "forecast with its prediction interval", guarded<predict>},
-    FunctionEntry{"regression_plot", kArea,
+    FunctionEntry{"regression_plot", kRegressionArea,
                   "regression_plot(x, y, fit, {forecast =, level =, xlabel =, ylabel =}) -> fig",
                   "data, fitted polynomial and its bands", guarded<draw_regression>},
-    FunctionEntry{"gradient_descent", kArea, "gradient_descent(Phi, y, {step =, MaxIter =, Tol =, start =}) -> table",
+    FunctionEntry{"gradient_descent", kRegressionArea, "gradient_descent(Phi, y, {step =, MaxIter =, Tol =, start =}) -> table",
                   "least squares by steepest descent, with the loss after every step", guarded<descend>},
 };
 
 }  // namespace
 
-const ObjectType Boxed<RegressionFit>::type{"regression", kFields, {}, kOperators};
+const ObjectType Boxed<RegressionFit>::type{"regression", kRegressionFields, {}, kRegressionOperators};
 
 FunctionEntries regression_functions() {
-    return kFunctions;
+    return kRegressionFunctions;
 }
 
 }  // namespace dynlab

@@ -111,24 +111,24 @@ int report_language(Call& call) {
                                              : static_cast<ReportLanguage*>(found->second)->code);
 }
 
-constexpr const char* kArea = "report";
-constexpr std::array kFunctions = {
-    FunctionEntry{"report.value", kArea, "report.value(name, x, format)", "puts a number or text into the report",
+constexpr const char* kReportArea = "report";
+constexpr std::array kReportFunctions = {
+    FunctionEntry{"report.value", kReportArea, "report.value(name, x, format)", "puts a number or text into the report",
                   guarded<report_value>},
-    FunctionEntry{"report.table", kArea, "report.table(name, {{title, ...}, {cell, ...}, ...})",
+    FunctionEntry{"report.table", kReportArea, "report.table(name, {{title, ...}, {cell, ...}, ...})",
                   "puts a table into the report, header first", guarded<report_table>},
-    FunctionEntry{"report.figure", kArea, "report.figure(name, fig, caption)", "puts a figure into the report",
+    FunctionEntry{"report.figure", kReportArea, "report.figure(name, fig, caption)", "puts a figure into the report",
                   guarded<report_figure>},
-    FunctionEntry{"report.text", kArea, "report.text(name, markdown)", "puts Markdown text into the report",
+    FunctionEntry{"report.text", kReportArea, "report.text(name, markdown)", "puts Markdown text into the report",
                   guarded<report_text>},
-    FunctionEntry{"report.language", kArea, "report.language() -> text", "tells the report's language",
+    FunctionEntry{"report.language", kReportArea, "report.language() -> text", "tells the report's language",
                   guarded<report_language>},
 };
 
 }  // namespace
 
 FunctionEntries report_functions() {
-    return kFunctions;
+    return kReportFunctions;
 }
 
 }  // namespace dynlab

@@ -150,12 +150,12 @@ int validate_across(Call& call) {
     return 2;
 }
 
-constexpr const char* kArea = "validation";
-constexpr std::array kFunctions = {
+constexpr const char* kResidualsArea = "validation";
+constexpr std::array kResidualsFunctions = {
     FunctionEntry{
-        "resid", kArea, "resid(data, G, {lags =, confidence =, InitialState =, Offset =, quiet =}) -> fig, table",
+        "resid", kResidualsArea, "resid(data, G, {lags =, confidence =, InitialState =, Offset =, quiet =}) -> fig, table",
         "is the simulation error white and independent of the input? with a verdict in words", guarded<test_residuals>},
-    FunctionEntry{"crossvalidate", kArea,
+    FunctionEntry{"crossvalidate", kResidualsArea,
                   "crossvalidate(data, fit, {folds =, by_experiment =, InitialState =, Offset =}) -> fig, table",
                   "fits on all parts but one and simulates on that one, part by part", guarded<validate_across>},
 };
@@ -163,7 +163,7 @@ constexpr std::array kFunctions = {
 }  // namespace
 
 FunctionEntries residual_functions() {
-    return kFunctions;
+    return kResidualsFunctions;
 }
 
 }  // namespace dynlab

@@ -216,7 +216,7 @@ int rig_truth(Call& call) {
     return 1;
 }
 
-constexpr std::array kFunctions = {
+constexpr std::array kRigsFunctions = {
     FunctionEntry{"rig", "data", "rig(name, {seed =, specimen =}) -> table",
                   "repeats one of the course's simulated experiments, with other noise for another seed",
                   guarded<long_call<rig>>},
@@ -227,7 +227,7 @@ constexpr std::array kFunctions = {
 }  // namespace
 
 FunctionEntries rig_functions() {
-    return kFunctions;
+    return kRigsFunctions;
 }
 
 }  // namespace dynlab

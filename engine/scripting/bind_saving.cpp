@@ -152,7 +152,7 @@ double rounded(double value, int digits) {
     return std::strtod(text, nullptr);
 }
 
-constexpr int kDeepestTable = 16;
+constexpr int kDeepestSavedTable = 16;
 
 VariableTable variables_of(const Call& call, int index, int digits, int depth);
 
@@ -181,8 +181,8 @@ Variable variable_on_top(const Call& call, const std::string& name, int digits, 
 }
 
 VariableTable variables_of(const Call& call, int index, int digits, int depth) {
-    if (depth > kDeepestTable)
-        throw InvalidArgument(fmt::format("tables within tables are written to {} levels only", kDeepestTable));
+    if (depth > kDeepestSavedTable)
+        throw InvalidArgument(fmt::format("tables within tables are written to {} levels only", kDeepestSavedTable));
     luaL_checkstack(call.state(), 8, "the tables are nested too deeply");
     VariableTable variables;
     for (const std::string& name : names_of_entries(call, index, Options(call, 0, {}))) {
@@ -202,18 +202,18 @@ int save_mat(Call& call) {
     return 0;
 }
 
-constexpr const char* kArea = "data";
-constexpr std::array kFunctions = {
-    FunctionEntry{"save_csv", kArea, "save_csv(path, data, {units =, title =, columns =, Ts =, digits =})",
+constexpr const char* kSavingArea = "data";
+constexpr std::array kSavingFunctions = {
+    FunctionEntry{"save_csv", kSavingArea, "save_csv(path, data, {units =, title =, columns =, Ts =, digits =})",
                   "writes data, or a table of vectors, as CSV", guarded<save_csv>},
-    FunctionEntry{"save_mat", kArea, "save_mat(path, variables, {digits =})",
+    FunctionEntry{"save_mat", kSavingArea, "save_mat(path, variables, {digits =})",
                   "writes vectors, matrices, numbers, texts and tables of them as a MAT file", guarded<save_mat>},
 };
 
 }  // namespace
 
 FunctionEntries saving_functions() {
-    return kFunctions;
+    return kSavingFunctions;
 }
 
 }  // namespace dynlab

@@ -59,26 +59,26 @@ int make_multisine(Call& call) {
     return call.give_vector(multisine(call.vector(1, "frequencies"), call.number(2, "T"), call.number(3, "Ts")));
 }
 
-constexpr const char* kArea = "signals";
-constexpr std::array kFunctions = {
-    FunctionEntry{"prbs", kArea, "prbs(n, p, {low, high}) -> u",
+constexpr const char* kSignalsArea = "signals";
+constexpr std::array kSignalsFunctions = {
+    FunctionEntry{"prbs", kSignalsArea, "prbs(n, p, {low, high}) -> u",
                   "pseudo-random binary sequence of n stages, each bit held for p samples", guarded<make_prbs>},
-    FunctionEntry{"rbs", kArea, "rbs(N, p, {low, high}) -> u",
+    FunctionEntry{"rbs", kSignalsArea, "rbs(N, p, {low, high}) -> u",
                   "N samples of a random binary signal, each value held for p samples", guarded<make_rbs>},
-    FunctionEntry{"step_signal", kArea, "step_signal(N, first, {low, high}) -> u",
+    FunctionEntry{"step_signal", kSignalsArea, "step_signal(N, first, {low, high}) -> u",
                   "N samples that change from low to high at sample `first`", guarded<make_step>},
-    FunctionEntry{"sine", kArea, "sine(f, T, Ts, {amplitude =, phase =}) -> u", "a sine of f hertz for T seconds",
+    FunctionEntry{"sine", kSignalsArea, "sine(f, T, Ts, {amplitude =, phase =}) -> u", "a sine of f hertz for T seconds",
                   guarded<make_sine>},
-    FunctionEntry{"chirp", kArea, "chirp(f0, f1, T, Ts, {shape = \"sine\" | \"square\"}) -> u",
+    FunctionEntry{"chirp", kSignalsArea, "chirp(f0, f1, T, Ts, {shape = \"sine\" | \"square\"}) -> u",
                   "a sine or square wave whose frequency (hertz) runs from f0 to f1", guarded<make_chirp>},
-    FunctionEntry{"multisine", kArea, "multisine({f1, f2, ...}, T, Ts) -> u", "a sum of sines with low peaks",
+    FunctionEntry{"multisine", kSignalsArea, "multisine({f1, f2, ...}, T, Ts) -> u", "a sum of sines with low peaks",
                   guarded<make_multisine>},
 };
 
 }  // namespace
 
 FunctionEntries signal_functions() {
-    return kFunctions;
+    return kSignalsFunctions;
 }
 
 }  // namespace dynlab

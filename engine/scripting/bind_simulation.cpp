@@ -147,20 +147,20 @@ int draw_histogram(Call& call) {
     return give_figure(call, histogram(call.vector(1, "values"), wanted));
 }
 
-constexpr const char* kArea = "simulation";
+constexpr const char* kSimulationArea = "simulation";
 constexpr const char* kFigures = "figures";
-constexpr std::array kFunctions = {
-    FunctionEntry{"lsim", kArea, "lsim(G, u, t_or_Ts, {hold = \"zoh\" | \"foh\", x0 =}) -> y",
+constexpr std::array kSimulationFunctions = {
+    FunctionEntry{"lsim", kSimulationArea, "lsim(G, u, t_or_Ts, {hold = \"zoh\" | \"foh\", x0 =}) -> y",
                   "response of a model to an input, exact at the samples", guarded<simulate>},
-    FunctionEntry{"svf", kArea, "svf(x, n, lambda, {Ts =, hold = \"zoh\" | \"foh\"}) -> matrix",
+    FunctionEntry{"svf", kSimulationArea, "svf(x, n, lambda, {Ts =, hold = \"zoh\" | \"foh\"}) -> matrix",
                   "outputs of the state-variable filter, highest derivative first", guarded<filter_states>},
-    FunctionEntry{"step", kArea, "step(G, t) -> y, t; step(G1, G2, ..., {labels =, confidence =}) -> fig",
+    FunctionEntry{"step", kSimulationArea, "step(G, t) -> y, t; step(G1, G2, ..., {labels =, confidence =}) -> fig",
                   "response to a unit step, as numbers at given instants or as a figure",
                   guarded<time_response<step_response, step_plot, true>>},
-    FunctionEntry{"impulse", kArea, "impulse(G, t) -> y, t; impulse(G1, G2, ..., {labels =}) -> fig",
+    FunctionEntry{"impulse", kSimulationArea, "impulse(G, t) -> y, t; impulse(G1, G2, ..., {labels =}) -> fig",
                   "response to a unit impulse, as numbers or as a figure",
                   guarded<time_response<impulse_response, impulse_plot, false>>},
-    FunctionEntry{"freqresp", kArea, "freqresp(G, w) -> complex vector", "frequency response at w (rad/s)",
+    FunctionEntry{"freqresp", kSimulationArea, "freqresp(G, w) -> complex vector", "frequency response at w (rad/s)",
                   guarded<frequency_response_of>},
     FunctionEntry{"bode", kFigures, "bode(G1, G2, ..., w, {labels =, confidence =}) -> fig",
                   "magnitude and phase over frequency", guarded<draw_models<bode_plot, true>>},
@@ -175,7 +175,7 @@ constexpr std::array kFunctions = {
 }  // namespace
 
 FunctionEntries simulation_functions() {
-    return kFunctions;
+    return kSimulationFunctions;
 }
 
 }  // namespace dynlab

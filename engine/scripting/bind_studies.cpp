@@ -191,7 +191,7 @@ int run_study(Call& call) {
     return 1;
 }
 
-constexpr std::array kFunctions = {
+constexpr std::array kStudiesFunctions = {
     FunctionEntry{"montecarlo", "validation",
                   "montecarlo{system =, input =, Ts =, sigma = | snr =, runs =, seed =, estimators = {...}} -> M",
                   "the same experiment many times with fresh noise: bias and scatter of estimators",
@@ -201,7 +201,7 @@ constexpr std::array kFunctions = {
 }  // namespace
 
 FunctionEntries study_functions() {
-    return kFunctions;
+    return kStudiesFunctions;
 }
 
 }  // namespace dynlab

@@ -42,7 +42,7 @@ int estimate_n4sid(Call& call) {
     return 1;
 }
 
-constexpr std::array kFunctions = {
+constexpr std::array kSubspaceFunctions = {
     FunctionEntry{"n4sid", "discrete time", "n4sid(data, order, {BlockRows =, Weighting =, Feedthrough =}) -> G",
                   "a state-space model by subspace identification, without iterating",
                   guarded<long_call<estimate_n4sid>>},
@@ -51,7 +51,7 @@ constexpr std::array kFunctions = {
 }  // namespace
 
 FunctionEntries subspace_functions() {
-    return kFunctions;
+    return kSubspaceFunctions;
 }
 
 }  // namespace dynlab

@@ -41,7 +41,7 @@ int estimate_filtered(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
     TransferEstimate result = read_filtered<kMethod, kMomentFunctionals>(call)(data);
     measure_fit(result, data);
-    Estimate estimate = estimate_of(name_of(call), result);
+    Estimate estimate = estimate_of(call.function_name(), result);
     estimate.carx = true;
     return give_estimate(call, std::move(estimate), result);
 }
@@ -63,7 +63,7 @@ struct RefinedReading {
 
 int give_refined(Call& call, const IdData& data, const RefinedReading& reading) {
     const TransferEstimate result = reading.estimation(data);
-    Estimate estimate = estimate_of(name_of(call), result);
+    Estimate estimate = estimate_of(call.function_name(), result);
     estimate.of_coefficients = !reading.integration;
     estimate.assessment = assessment_of(reading.integration ? integrated_inputs(data) : data, result, reading.options);
     return give_estimate(call, std::move(estimate), result);
@@ -112,40 +112,40 @@ int estimate_refined(Call& call) {
 }
 
 template <auto kRead>
-Estimation read_estimation(const Call& call) {
+Estimation read_transfer_estimation(const Call& call) {
     return kRead(call).estimation;
 }
 
-constexpr NamedReader kReaders[] = {{"lssvf", read_filtered<lssvf, false>},
+constexpr NamedReader kTransferEstimatorsReaders[] = {{"lssvf", read_filtered<lssvf, false>},
                                     {"ivsvf", read_filtered<ivsvf, false>},
                                     {"lsgpmf", read_filtered<lssvf, true>},
                                     {"ivgpmf", read_filtered<ivsvf, true>},
-                                    {"srivc", read_estimation<read_refined<srivc>>},
-                                    {"coe", read_estimation<read_refined<coe>>},
-                                    {"tfsrivc", read_estimation<read_transfer_function<srivc>>},
-                                    {"tfcoe", read_estimation<read_transfer_function<coe>>}};
+                                    {"srivc", read_transfer_estimation<read_refined<srivc>>},
+                                    {"coe", read_transfer_estimation<read_refined<coe>>},
+                                    {"tfsrivc", read_transfer_estimation<read_transfer_function<srivc>>},
+                                    {"tfcoe", read_transfer_estimation<read_transfer_function<coe>>}};
 
-constexpr const char* kArea = "continuous time";
-constexpr std::array kFunctions = {
-    FunctionEntry{"lssvf", kArea, "lssvf(data, {na, nb, nk}, lambda, {hold_y =}) -> G",
+constexpr const char* kTransferEstimatorsArea = "continuous time";
+constexpr std::array kTransferEstimatorsFunctions = {
+    FunctionEntry{"lssvf", kTransferEstimatorsArea, "lssvf(data, {na, nb, nk}, lambda, {hold_y =}) -> G",
                   "A y = B u + e by least squares on state-variable filtered signals",
                   guarded<estimate_filtered<lssvf, false>>},
-    FunctionEntry{"ivsvf", kArea, "ivsvf(data, {na, nb, nk}, lambda, {hold_y =}) -> G",
+    FunctionEntry{"ivsvf", kTransferEstimatorsArea, "ivsvf(data, {na, nb, nk}, lambda, {hold_y =}) -> G",
                   "the same by instrumental variables, without lssvf's bias", guarded<estimate_filtered<ivsvf, false>>},
-    FunctionEntry{"lsgpmf", kArea, "lsgpmf(data, {na, nb, nk}, lambda, {beta =, hold_y =}) -> G",
+    FunctionEntry{"lsgpmf", kTransferEstimatorsArea, "lsgpmf(data, {na, nb, nk}, lambda, {beta =, hold_y =}) -> G",
                   "least squares on Poisson moment functionals", guarded<estimate_filtered<lssvf, true>>},
-    FunctionEntry{"ivgpmf", kArea, "ivgpmf(data, {na, nb, nk}, lambda, {beta =, hold_y =}) -> G",
+    FunctionEntry{"ivgpmf", kTransferEstimatorsArea, "ivgpmf(data, {na, nb, nk}, lambda, {beta =, hold_y =}) -> G",
                   "instrumental variables on Poisson moment functionals", guarded<estimate_filtered<ivsvf, true>>},
-    FunctionEntry{"srivc", kArea, "srivc(data, {nb, nf, nk}, {lambda =, MaxIter =, Tol =, ...}) -> G",
+    FunctionEntry{"srivc", kTransferEstimatorsArea, "srivc(data, {nb, nf, nk}, {lambda =, MaxIter =, Tol =, ...}) -> G",
                   "y = B/F u + e by refined instrumental variables",
                   guarded<long_call<estimate_refined<read_refined<srivc>>>>},
-    FunctionEntry{"coe", kArea, "coe(data, {nb, nf, nk}, {lambda =, MaxIter =, Tol =, ...}) -> G",
+    FunctionEntry{"coe", kTransferEstimatorsArea, "coe(data, {nb, nf, nk}, {lambda =, MaxIter =, Tol =, ...}) -> G",
                   "y = B/F u + e with the smallest simulation error",
                   guarded<long_call<estimate_refined<read_refined<coe>>>>},
-    FunctionEntry{"tfsrivc", kArea, "tfsrivc(data, np, nz, {TdMin =, TdMax =, IODelay =, ...}) -> G",
+    FunctionEntry{"tfsrivc", kTransferEstimatorsArea, "tfsrivc(data, np, nz, {TdMin =, TdMax =, IODelay =, ...}) -> G",
                   "srivc by numbers of poles and zeros, the delay estimated",
                   guarded<long_call<estimate_refined<read_transfer_function<srivc>>>>},
-    FunctionEntry{"tfcoe", kArea, "tfcoe(data, np, nz, {TdMin =, TdMax =, IODelay =, ...}) -> G",
+    FunctionEntry{"tfcoe", kTransferEstimatorsArea, "tfcoe(data, np, nz, {TdMin =, TdMax =, IODelay =, ...}) -> G",
                   "coe by numbers of poles and zeros, the delay estimated",
                   guarded<long_call<estimate_refined<read_transfer_function<coe>>>>},
 };
@@ -153,7 +153,7 @@ constexpr std::array kFunctions = {
 }  // namespace
 
 EstimationReaders transfer_estimation_readers() {
-    return kReaders;
+    return kTransferEstimatorsReaders;
 }
 
 int give_transfer_estimate(const Call& call, const char* method, const TransferEstimate& estimate) {
@@ -161,7 +161,7 @@ int give_transfer_estimate(const Call& call, const char* method, const TransferE
 }
 
 FunctionEntries transfer_estimator_functions() {
-    return kFunctions;
+    return kTransferEstimatorsFunctions;
 }
 
 }  // namespace dynlab

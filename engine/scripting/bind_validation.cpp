@@ -126,22 +126,22 @@ int measure_fit(Call& call) {
     return 1;
 }
 
-constexpr const char* kArea = "validation";
-constexpr std::array kFunctions = {
+constexpr const char* kValidationArea = "validation";
+constexpr std::array kValidationFunctions = {
     FunctionEntry{"test_your_model", "step tests", "test_your_model(G, data, {InitialState =, Offset =}) -> fig",
                   "measured response and the model's over each other", guarded<test_model>},
-    FunctionEntry{"compare", kArea, "compare(data, G1, G2, ..., {labels =, InitialState =, Offset =}) -> fig",
+    FunctionEntry{"compare", kValidationArea, "compare(data, G1, G2, ..., {labels =, InitialState =, Offset =}) -> fig",
                   "measured and simulated outputs with their fits", guarded<compare_models>},
-    FunctionEntry{"fit", kArea, "fit(data, G, {InitialState =, Offset =}) -> percent",
+    FunctionEntry{"fit", kValidationArea, "fit(data, G, {InitialState =, Offset =}) -> percent",
                   "fit of the simulated output, 100 % is perfect", guarded<fit>},
-    FunctionEntry{"fit_measures", kArea, "fit_measures(data, G, {InitialState =, Offset =}) -> table",
+    FunctionEntry{"fit_measures", kValidationArea, "fit_measures(data, G, {InitialState =, Offset =}) -> table",
                   "fit, R_T^2, RMSE, FPE, AIC, BIC and YIC of the simulated output", guarded<measure_fit>},
 };
 
 }  // namespace
 
 FunctionEntries validation_functions() {
-    return kFunctions;
+    return kValidationFunctions;
 }
 
 }  // namespace dynlab

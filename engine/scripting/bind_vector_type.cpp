@@ -44,22 +44,22 @@ int write_element(Call& call) {
     return 0;
 }
 
-NumericBlock& self(Call& call) {
+NumericBlock& vector_self(Call& call) {
     NumericBlock* v = to_vector(call.state(), 1);
     if (v == nullptr) wrong_argument(call.state(), 1, "v", "vector; methods are called with a colon, v:name(...)");
     return *v;
 }
 
 int vector_length(Call& call) {
-    return call.give_whole(self(call).rows);
+    return call.give_whole(vector_self(call).rows);
 }
 int vector_tostring(Call& call) {
-    return call.give(vector_text(self(call).vector()));
+    return call.give(vector_text(vector_self(call).vector()));
 }
 
 int vector_range(Call& call) {
     call.at_most(3);
-    NumericBlock& v = self(call);
+    NumericBlock& v = vector_self(call);
     const Index first = call.whole(2, "first"), last = call.whole(3, "last");
     if (first < 1 || last > v.rows || first > last + 1)
         throw InvalidArgument(
@@ -79,7 +79,7 @@ int select_by_mask(Call& call, NumericBlock& v, MaskBlock& mask) {
 
 int vector_select(Call& call) {
     call.at_most(2);
-    NumericBlock& v = self(call);
+    NumericBlock& v = vector_self(call);
     if (MaskBlock* mask = to_mask(call.state(), 2)) return select_by_mask(call, v, *mask);
     const VectorMap places = call.vector(2, "mask or element numbers");
     NumericBlock& result = push_vector(call.state(), places.size());
@@ -94,7 +94,7 @@ int vector_select(Call& call) {
 }
 
 int vector_table(Call& call) {
-    NumericBlock& v = self(call);
+    NumericBlock& v = vector_self(call);
     lua_createtable(call.state(), static_cast<int>(v.rows), 0);
     for (Index i = 0; i < v.rows; ++i) {
         lua_pushnumber(call.state(), v.data()[i]);

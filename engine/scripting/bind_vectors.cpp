@@ -209,49 +209,49 @@ int solve(Call& call) {
     return vector ? call.give_vector(solution.col(0)) : call.give_matrix(solution);
 }
 
-constexpr const char* kArea = "vectors";
-constexpr std::array kFunctions = {
-    FunctionEntry{"vector", kArea, "vector{x1, x2, ...} -> v",
+constexpr const char* kVectorsArea = "vectors";
+constexpr std::array kVectorsFunctions = {
+    FunctionEntry{"vector", kVectorsArea, "vector{x1, x2, ...} -> v",
                   "a column of numbers; vectors among the values are joined", guarded<make_vector>},
-    FunctionEntry{"matrix", kArea, "matrix{{...}, {...}} or matrix{v1, v2} -> A",
+    FunctionEntry{"matrix", kVectorsArea, "matrix{{...}, {...}} or matrix{v1, v2} -> A",
                   "a matrix from its rows (tables) or its columns (vectors)", guarded<make_matrix>},
-    FunctionEntry{"zeros", kArea, "zeros(n, m) -> v", "n zeros, or an n x m matrix of zeros", guarded<zeros>},
-    FunctionEntry{"ones", kArea, "ones(n, m) -> v", "n ones, or an n x m matrix of ones", guarded<ones>},
-    FunctionEntry{"eye", kArea, "eye(n) -> A", "the n x n identity matrix", guarded<eye>},
-    FunctionEntry{"linspace", kArea, "linspace(first, last, n) -> v", "n equally spaced values from first to last",
+    FunctionEntry{"zeros", kVectorsArea, "zeros(n, m) -> v", "n zeros, or an n x m matrix of zeros", guarded<zeros>},
+    FunctionEntry{"ones", kVectorsArea, "ones(n, m) -> v", "n ones, or an n x m matrix of ones", guarded<ones>},
+    FunctionEntry{"eye", kVectorsArea, "eye(n) -> A", "the n x n identity matrix", guarded<eye>},
+    FunctionEntry{"linspace", kVectorsArea, "linspace(first, last, n) -> v", "n equally spaced values from first to last",
                   guarded<linspace>},
-    FunctionEntry{"range", kArea, "range(first, last) or range(first, step, last) -> v",
+    FunctionEntry{"range", kVectorsArea, "range(first, last) or range(first, step, last) -> v",
                   "values from first to last, step by step (MATLAB's first:step:last)", guarded<range>},
-    FunctionEntry{"sum", kArea, "sum(v) -> x", "sum of the elements", guarded<sum>},
-    FunctionEntry{"mean", kArea, "mean(v) -> x", "arithmetic mean", guarded<mean>},
-    FunctionEntry{"std", kArea, "std(v) -> x", "standard deviation (divided by N - 1)", guarded<standard_deviation>},
-    FunctionEntry{"var", kArea, "var(v) -> x", "variance (divided by N - 1)", guarded<variance>},
-    FunctionEntry{"min", kArea, "min(v) -> x, place; min(x, y) -> v",
+    FunctionEntry{"sum", kVectorsArea, "sum(v) -> x", "sum of the elements", guarded<sum>},
+    FunctionEntry{"mean", kVectorsArea, "mean(v) -> x", "arithmetic mean", guarded<mean>},
+    FunctionEntry{"std", kVectorsArea, "std(v) -> x", "standard deviation (divided by N - 1)", guarded<standard_deviation>},
+    FunctionEntry{"var", kVectorsArea, "var(v) -> x", "variance (divided by N - 1)", guarded<variance>},
+    FunctionEntry{"min", kVectorsArea, "min(v) -> x, place; min(x, y) -> v",
                   "smallest element and its place; the smaller of two, element by element", guarded<extreme<false>>},
-    FunctionEntry{"max", kArea, "max(v) -> x, place; max(x, y) -> v",
+    FunctionEntry{"max", kVectorsArea, "max(v) -> x, place; max(x, y) -> v",
                   "largest element and its place; the larger of two, element by element", guarded<extreme<true>>},
-    FunctionEntry{"abs", kArea, "abs(x) -> y", "absolute value of a number or of every element",
+    FunctionEntry{"abs", kVectorsArea, "abs(x) -> y", "absolute value of a number or of every element",
                   guarded<apply<std::fabs>>},
-    FunctionEntry{"sqrt", kArea, "sqrt(x) -> y", "square root of a number or of every element",
+    FunctionEntry{"sqrt", kVectorsArea, "sqrt(x) -> y", "square root of a number or of every element",
                   guarded<apply<std::sqrt, true>>},
-    FunctionEntry{"exp", kArea, "exp(x) -> y", "exponential of a number or of every element", guarded<apply<std::exp>>},
-    FunctionEntry{"log", kArea, "log(x) -> y", "natural logarithm of a number or of every element",
+    FunctionEntry{"exp", kVectorsArea, "exp(x) -> y", "exponential of a number or of every element", guarded<apply<std::exp>>},
+    FunctionEntry{"log", kVectorsArea, "log(x) -> y", "natural logarithm of a number or of every element",
                   guarded<apply<std::log, true>>},
-    FunctionEntry{"sin", kArea, "sin(x) -> y", "sine (radians) of a number or of every element",
+    FunctionEntry{"sin", kVectorsArea, "sin(x) -> y", "sine (radians) of a number or of every element",
                   guarded<apply<std::sin>>},
-    FunctionEntry{"cos", kArea, "cos(x) -> y", "cosine (radians) of a number or of every element",
+    FunctionEntry{"cos", kVectorsArea, "cos(x) -> y", "cosine (radians) of a number or of every element",
                   guarded<apply<std::cos>>},
-    FunctionEntry{"cumsum", kArea, "cumsum(v) -> w", "running sum", guarded<cumulative_sum>},
-    FunctionEntry{"diff", kArea, "diff(v) -> w", "differences of neighbours, one element fewer", guarded<difference>},
-    FunctionEntry{"dot", kArea, "dot(a, b) -> x", "scalar product", guarded<dot>},
-    FunctionEntry{"norm", kArea, "norm(v) -> x", "Euclidean length", guarded<norm>},
-    FunctionEntry{"sort", kArea, "sort(v) -> sorted, places", "ascending order, and where each element stood",
+    FunctionEntry{"cumsum", kVectorsArea, "cumsum(v) -> w", "running sum", guarded<cumulative_sum>},
+    FunctionEntry{"diff", kVectorsArea, "diff(v) -> w", "differences of neighbours, one element fewer", guarded<difference>},
+    FunctionEntry{"dot", kVectorsArea, "dot(a, b) -> x", "scalar product", guarded<dot>},
+    FunctionEntry{"norm", kVectorsArea, "norm(v) -> x", "Euclidean length", guarded<norm>},
+    FunctionEntry{"sort", kVectorsArea, "sort(v) -> sorted, places", "ascending order, and where each element stood",
                   guarded<sort>},
-    FunctionEntry{"polyval", kArea, "polyval(p, x) -> y", "value of a polynomial, highest power first",
+    FunctionEntry{"polyval", kVectorsArea, "polyval(p, x) -> y", "value of a polynomial, highest power first",
                   guarded<polyval>},
-    FunctionEntry{"interp1", kArea, "interp1(x, y, x_new, {outside =}) -> y_new", "linear interpolation",
+    FunctionEntry{"interp1", kVectorsArea, "interp1(x, y, x_new, {outside =}) -> y_new", "linear interpolation",
                   guarded<interp1>},
-    FunctionEntry{"solve", kArea, "solve(A, b) -> x",
+    FunctionEntry{"solve", kVectorsArea, "solve(A, b) -> x",
                   "A x = b; the least-squares solution when A has more rows than columns (MATLAB's A\\b)",
                   guarded<solve>},
 };
@@ -259,7 +259,7 @@ constexpr std::array kFunctions = {
 }  // namespace
 
 FunctionEntries vector_functions() {
-    return kFunctions;
+    return kVectorsFunctions;
 }
 
 }  // namespace dynlab

@@ -9,6 +9,7 @@
 
 #include "platform/error.h"
 #include "platform/interrupt.h"
+#include "platform/text_file.h"
 #include "scripting/errors.h"
 #include "scripting/line_editor.h"
 #include "scripting/prompt_session.h"
@@ -139,6 +140,7 @@ bool run_statements_of(std::istream& input, const std::filesystem::path& figure_
         std::string line;
         at_end = !std::getline(input, line);
         ++line_number;
+        if (line_number == 1) line = without_byte_order_mark(line);
         if (pending.empty()) {
             first_line = line_number;
             pending.assign(static_cast<std::size_t>(line_number - 1),

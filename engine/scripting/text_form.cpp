@@ -90,13 +90,6 @@ std::string joined_row(const std::vector<std::string>& cells, const std::vector<
 
 }  // namespace
 
-std::string number_text(double value, int significant_digits) {
-    if (std::isnan(value)) return "NaN";
-    if (std::isinf(value)) return value > 0 ? "Inf" : "-Inf";
-    if (value == 0) return "0";
-    return fmt::format("{:.{}g}", value, significant_digits);
-}
-
 std::string vector_text(const VectorView& v) {
     std::string text = "[";
     const bool shortened = v.size() > kLongVector;

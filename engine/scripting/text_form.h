@@ -3,11 +3,11 @@
 #include <string>
 
 #include "numerics/linalg/types.h"
+#include "numerics/number_text.h"
 
 namespace dynlab {
 
-/// The short readable forms that print and tostring show.
-std::string number_text(double value, int significant_digits = 5);
+/// The short readable forms that print and tostring show, with number_text() for the numbers.
 std::string vector_text(const VectorView& v);  ///< [1 2 3]; long ones shortened, with their length
 std::string matrix_text(const MatrixView& m);  ///< rows under each other, columns aligned
 std::string complex_text(const Complex& value, int significant_digits = 5);

@@ -158,8 +158,4 @@ int give_estimate(const Call& call, Estimate estimate, const TransferEstimate& r
     return 1;
 }
 
-const char* name_of(Call& call) {
-    return static_cast<const char*>(lua_touserdata(call.state(), lua_upvalueindex(1)));
-}
-
 }  // namespace dynlab

@@ -34,8 +34,6 @@ Hold hold_y_of(const Options& options);
 /// The options that srivc, coe, rivc and their tf twins share.
 void read_common_options(const Options& options, TransferOptions& wanted);
 
-/// The Lua name under which the running function was called.
-const char* name_of(Call& call);
 /// What a script can ask of the result.
 Estimate estimate_of(const char* method, const TransferEstimate& result);
 /// The model with all its channels.

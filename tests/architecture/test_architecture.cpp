@@ -14,7 +14,7 @@
 #include "scripting/function_entry.h"
 #include "scripting/help.h"
 
-namespace {
+namespace test_architecture {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
@@ -56,7 +56,7 @@ std::string place_of(const fs::path& file) {
 std::map<std::string, std::set<std::string>> allowed_layers() {
     std::map<std::string, std::set<std::string>> allowed;
     const std::string cmake = text_of(kRoot / "engine/CMakeLists.txt");
-    const std::regex line(R"(\ndynlab_layer\((\w+)\s*(?:USES\s+([a-z_ ]+?)\s*)?(?:WITH[^)]*)?\))");
+    const std::regex line(R"(\ndynlab_layer\((\w+)\s*(?:USES\s+([a-z_ ]+?)\s*)?(?:(?:READS|READS_AS|WITH)[^)]*)?\))");
     for (std::sregex_iterator it(cmake.begin(), cmake.end(), line), end; it != end; ++it) {
         const std::string layer = (*it)[1];
         std::set<std::string>& layers = allowed[layer];
@@ -85,7 +85,7 @@ TEST(architecture, layers_include_only_layers_above_them) {
 }
 
 TEST(architecture, numerics_is_pure) {
-    const std::regex allowed("Eigen/.*|unsupported/Eigen/.*|tbb/.*|oneapi/tbb/.*|immintrin[.]h");
+    const std::regex allowed("Eigen/.*|unsupported/Eigen/.*|boost/math/.*|tbb/.*|oneapi/tbb/.*|immintrin[.]h");
     const std::set<std::string> forbidden = {"iostream", "fstream", "filesystem", "cstdio", "stdio.h",
                                              "chrono",   "random",  "thread",     "ctime"};
     std::vector<std::string> offences;
@@ -97,6 +97,23 @@ TEST(architecture, numerics_is_pure) {
             }
         }
     }
+    EXPECT_THAT(offences, IsEmpty());
+}
+
+// Two definitions of one function in one namespace: the linker takes either, and tells nobody.
+TEST(architecture, a_function_is_declared_in_one_header) {
+    std::map<std::string, fs::path> headers;
+    std::vector<std::string> offences;
+    for (const fs::path& file : files_below(kRoot / "engine", {".h"})) {
+        const std::string code = std::regex_replace(text_of(file), std::regex("//[^\n]*"), "");
+        for (const std::string& declared : matches(code, R"(\n([A-Za-z][^;{}#()]*\([^;{}]*\)) *;)")) {
+            const std::string in_one_line = std::regex_replace(declared, std::regex("\\s+"), " ");
+            const std::string signature = std::regex_replace(in_one_line, std::regex(" = [^,()]*"), "");
+            const auto [known, first] = headers.emplace(signature, file);
+            if (!first) offences.push_back(signature + " in " + place_of(known->second) + " and " + place_of(file));
+        }
+    }
+    EXPECT_GT(headers.size(), 500u);
     EXPECT_THAT(offences, IsEmpty());
 }
 
@@ -176,4 +193,4 @@ TEST(architecture, every_data_set_can_be_made_again) {
     }
 }
 
-}  // namespace
+}  // namespace test_architecture

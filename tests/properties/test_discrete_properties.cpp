@@ -9,10 +9,10 @@
 #include "numerics/estimators/sriv.h"
 #include "support/difference_equation.h"
 
+namespace test_discrete_properties {
+
 using namespace dynlab;
 using namespace dynlab::test;
-
-namespace {
 
 PolynomialOptions tight() {
     PolynomialOptions options;
@@ -76,8 +76,6 @@ class discrete_properties : public testing::TestWithParam<Method> {
 
 INSTANTIATE_TEST_SUITE_P(methods, discrete_properties, testing::ValuesIn(kMethods),
                          [](const auto& instance) { return std::string(instance.param.name); });
-
-}  // namespace
 
 TEST_P(discrete_properties, the_unit_of_time_has_no_say) {  // oracle: invariance
     const auto [u, y] = record(0.5);
@@ -147,3 +145,5 @@ TEST(subspace_properties, units_and_order_of_experiments_have_no_say) {
         EXPECT_LT(std::abs(a.models[0].at(z) / b.models[0].at(z) - 1.0), 1e-8);
     }
 }
+
+}  // namespace test_discrete_properties

@@ -5,10 +5,10 @@
 #include "support/difference_equation.h"
 #include "support/transfer_cases.h"
 
+namespace test_hammerstein_properties {
+
 using namespace dynlab;
 using namespace dynlab::test;
-
-namespace {
 
 HammersteinEstimate fit(const Vector& u, const Vector& y, double Ts) {
     HammersteinOptions options;
@@ -16,8 +16,6 @@ HammersteinEstimate fit(const Vector& u, const Vector& y, double Ts) {
     options.Tol = 1e-10;
     return hammerstein(IdData(Matrix(y), Matrix(u), Ts), TransferStructure::single(1, 0), options);
 }
-
-}  // namespace
 
 // Oracle: invariance. Units of input, output and time go into edges, levels and poles, and nowhere else.
 TEST(hammerstein_properties, units_have_no_say) {
@@ -33,3 +31,5 @@ TEST(hammerstein_properties, units_have_no_say) {
     EXPECT_NEAR(other.theta[0] * 60 / one.theta[0], 1, 1e-6);
     EXPECT_NEAR(other.fit_percent, one.fit_percent, 1e-6);
 }
+
+}  // namespace test_hammerstein_properties

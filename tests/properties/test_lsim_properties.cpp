@@ -3,9 +3,9 @@
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
 
-using namespace dynlab;
+namespace test_lsim_properties {
 
-namespace {
+using namespace dynlab;
 
 constexpr Index kCount = 120;
 constexpr double kTs = 0.1;
@@ -39,8 +39,6 @@ void expect_close(const Vector& given, const Vector& wanted, std::size_t model) 
     EXPECT_LT((given - wanted).lpNorm<Eigen::Infinity>(), 1e-11 * (1 + wanted.lpNorm<Eigen::Infinity>()))
         << "model " << model;
 }
-
-}  // namespace
 
 class lsim_properties : public testing::TestWithParam<Hold> {};
 
@@ -100,3 +98,5 @@ TEST_P(lsim_properties, whole_sample_delays_only_shift) {  // oracle: time invar
 
 INSTANTIATE_TEST_SUITE_P(holds, lsim_properties, testing::Values(Hold::kZoh, Hold::kFoh),
                          [](const auto& hold) { return hold.param == Hold::kZoh ? "zoh" : "foh"; });
+
+}  // namespace test_lsim_properties

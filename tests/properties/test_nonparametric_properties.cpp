@@ -6,10 +6,10 @@
 #include "numerics/estimators/spa.h"
 #include "support/difference_equation.h"
 
+namespace test_nonparametric_properties {
+
 using namespace dynlab;
 using namespace dynlab::test;
-
-namespace {
 
 /// The estimate and its standard errors as one vector of real numbers.
 using Estimator = Vector (*)(const IdData&);
@@ -69,8 +69,6 @@ class nonparametric_properties : public testing::TestWithParam<Method> {
 INSTANTIATE_TEST_SUITE_P(methods, nonparametric_properties, testing::ValuesIn(kMethods),
                          [](const auto& method) { return std::string(method.param.name); });
 
-}  // namespace
-
 TEST_P(nonparametric_properties, scale_with_the_output_and_against_the_input) {  // oracle: linearity
     const Vector plain = GetParam().estimate(data_of(input(), output()));
     expect_equal(GetParam().estimate(data_of(input(), 1e4 * output())), 1e4 * plain);
@@ -93,3 +91,5 @@ TEST_P(nonparametric_properties, do_not_depend_on_the_unit_of_time) {  // oracle
     expect_equal(GetParam().estimate(data_of(input(), output(), 1e-3)),
                  GetParam().estimate(data_of(input(), output())));
 }
+
+}  // namespace test_nonparametric_properties

@@ -6,10 +6,10 @@
 #include "support/process_cases.h"
 #include "support/transfer_cases.h"
 
+namespace test_process_properties {
+
 using namespace dynlab;
 using namespace dynlab::test;
-
-namespace {
 
 constexpr double kTs = 0.1;
 
@@ -62,8 +62,6 @@ void expect_grown(const ProcsrivcResult& grown, const ProcsrivcResult& one, cons
     EXPECT_EQ(grown.start.offset, one.start.offset);
     EXPECT_NEAR(grown.fit_percent, one.fit_percent, 1e-7);
 }
-
-}  // namespace
 
 class process_properties : public testing::TestWithParam<const char*> {
   protected:
@@ -132,3 +130,5 @@ TEST_P(process_properties, irregular_records_may_begin_at_any_time) {  // oracle
 INSTANTIATE_TEST_SUITE_P(structures, process_properties,
                          testing::Values("P1", "P2", "P3", "P2U", "P1D", "P2DU", "P1I", "P2Z", "P3ZU", "P1DI"),
                          [](const auto& instance) { return std::string(instance.param); });
+
+}  // namespace test_process_properties

@@ -9,10 +9,10 @@
 #include "numerics/simulation/lsim.h"
 #include "support/transfer_cases.h"
 
+namespace test_static_properties {
+
 using namespace dynlab;
 using namespace dynlab::test;
-
-namespace {
 
 using Reading = StepTestResult (*)(const IdData&);
 
@@ -39,8 +39,6 @@ Step step_of(const TransferFunction& G) {
     const Vector y = lsim(G, u, 0.01);
     return {u, y + 0.005 * RandomStream(3).normal(900)};
 }
-
-}  // namespace
 
 class step_properties : public testing::TestWithParam<std::size_t> {
   protected:
@@ -103,3 +101,5 @@ TEST_F(regression_properties, polynomials_may_begin_at_any_abscissa) {  // oracl
     EXPECT_NEAR(late.at(2001.7), one.at(1.7), 1e-9);
     EXPECT_LT(relative_difference(late.regression.theta, one.regression.theta), 1e-8);
 }
+
+}  // namespace test_static_properties

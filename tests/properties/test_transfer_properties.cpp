@@ -7,10 +7,10 @@
 #include "numerics/estimators/srivc.h"
 #include "support/transfer_cases.h"
 
+namespace test_transfer_properties {
+
 using namespace dynlab;
 using namespace dynlab::test;
-
-namespace {
 
 using Method = std::function<TransferEstimate(const IdData&, const TransferStructure&, double time_scale)>;
 
@@ -63,8 +63,6 @@ const std::vector<std::pair<std::string, Method>> kMethods = {
      }},
 };
 constexpr std::size_t kForRegularSampling = 2;  // the last ones
-
-}  // namespace
 
 class transfer_properties : public testing::TestWithParam<std::size_t> {
   protected:
@@ -131,3 +129,5 @@ std::string name_of(const testing::TestParamInfo<std::size_t>& instance) {
 INSTANTIATE_TEST_SUITE_P(methods, transfer_properties, testing::Range<std::size_t>(0, kMethods.size()), name_of);
 INSTANTIATE_TEST_SUITE_P(methods, irregular_transfer_properties,
                          testing::Range<std::size_t>(0, kMethods.size() - kForRegularSampling), name_of);
+
+}  // namespace test_transfer_properties

@@ -4,10 +4,10 @@
 #include "numerics/signals/preprocess.h"
 #include "support/hair_dryer.h"
 
+namespace test_arx_reference {
+
 using namespace dynlab;
 using namespace dynlab::test;
-
-namespace {
 
 PolynomialEstimate hair_dryer_model(int nk) {
     return arx(remove_mean(hair_dryer()).data, PolynomialOrders::arx(2, {2}, {nk}));
@@ -18,8 +18,6 @@ void expect_values(const Vector& theta, const Vector& published, double toleranc
     for (Index i = 0; i < theta.size(); ++i) EXPECT_NEAR(theta[i], published[i], tolerance) << i;
 }
 
-}  // namespace
-
 // Oracle: reference values computed by another program for the hair dryer: all 1000 samples, means removed, least
 // squares from the first sample whose whole past is recorded (the fifth with nk = 3).
 TEST(arx_reference, hair_dryer_with_three_samples_of_delay) {
@@ -29,3 +27,5 @@ TEST(arx_reference, hair_dryer_with_three_samples_of_delay) {
 TEST(arx_reference, hair_dryer_with_two_samples_of_delay) {
     expect_values(hair_dryer_model(2).theta, Vector{{-1.50096, 0.59173, 0.00531, 0.07323}}, 0.51e-5);
 }
+
+}  // namespace test_arx_reference

@@ -7,10 +7,10 @@
 #include "numerics/estimators/srivc.h"
 #include "support/transfer_cases.h"
 
+namespace test_coe_reference {
+
 using namespace dynlab;
 using namespace dynlab::test;
-
-namespace {
 
 Vector numbers(const nlohmann::json& list) {
     Vector result(static_cast<Index>(list.size()));
@@ -27,8 +27,6 @@ TransferOptions exact() {
     options.Tol = 1e-10;
     return options;
 }
-
-}  // namespace
 
 TEST(coe_reference, output_error_rows_match_the_long_double_program) {  // oracle: reference data in 80-bit arithmetic
     std::ifstream file(std::string(DYNLAB_SOURCE_DIR) + "/tests/reference/data/gold_longdouble.json");
@@ -76,3 +74,5 @@ TEST(coe_reference, equals_srivc) {  // oracle: second route, the fixed point of
             << set;
     }
 }
+
+}  // namespace test_coe_reference

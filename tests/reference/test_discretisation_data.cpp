@@ -11,7 +11,7 @@
 #include "support/reference_data.h"
 
 namespace dynlab {
-namespace {
+namespace test_discretisation_data {
 
 Vector numbers_of(const nlohmann::json& values) {
     Vector numbers(static_cast<Index>(values.size()));
@@ -75,5 +75,5 @@ TEST(discretisation_data, outputs_with_delays_between_samples) {  // oracle: ref
               1e-13);
 }
 
-}  // namespace
+}  // namespace test_discretisation_data
 }  // namespace dynlab

@@ -7,10 +7,10 @@
 #include "numerics/signals/preprocess.h"
 #include "support/hair_dryer.h"
 
+namespace test_hair_dryer_reference {
+
 using namespace dynlab;
 using namespace dynlab::test;
-
-namespace {
 
 /// The first 500 samples, their own means removed.
 IdData first_half() {
@@ -32,8 +32,6 @@ void expect_digits(const TransferEstimate& found, const Vector& published, doubl
     EXPECT_NEAR(found.fit_percent[0], fit, 0.51e-2);
 }
 
-}  // namespace
-
 // Oracle: output-error optima computed by another program (held input, zero initial state).
 TEST(hair_dryer_reference, two_poles_after_two_samples) {
     const TransferEstimate found = optimum(2, 0.16);
@@ -44,3 +42,5 @@ TEST(hair_dryer_reference, two_poles_after_two_samples) {
 TEST(hair_dryer_reference, one_pole_after_three_samples) {
     expect_digits(optimum(1, 0.24), Eigen::Vector2d(2.8200, 2.6316), 84.28);
 }
+
+}  // namespace test_hair_dryer_reference

@@ -5,6 +5,8 @@
 #include "numerics/estimators/n4sid.h"
 #include "support/hair_dryer.h"
 
+namespace test_n4sid_reference {
+
 using namespace dynlab;
 using namespace dynlab::test;
 
@@ -24,3 +26,5 @@ TEST(n4sid_reference, hair_dryer_eigenvalues) {
     EXPECT_EQ(found.block_rows, 15);
     EXPECT_TRUE(found.warnings.empty()) << found.message;
 }
+
+}  // namespace test_n4sid_reference

@@ -3,10 +3,10 @@
 #include "numerics/estimators/procsrivc.h"
 #include "support/reference_data.h"
 
+namespace test_procsrivc_reference {
+
 using namespace dynlab;
 using namespace dynlab::test;
-
-namespace {
 
 IdData reference_set(const std::string& name) {
     const auto columns = reference_columns(name + ".csv");
@@ -38,8 +38,6 @@ ProcsrivcOptions exact_options() {
     options.Tol = 1e-10;
     return options;
 }
-
-}  // namespace
 
 class procsrivc_reference : public testing::TestWithParam<const char*> {};
 
@@ -77,3 +75,5 @@ TEST_P(procsrivc_reference, defaults_find_the_same_optimum) {  // oracle: refere
 
 INSTANTIATE_TEST_SUITE_P(structures, procsrivc_reference, testing::Values("P1D", "P2D", "P2DU"),
                          [](const auto& instance) { return std::string(instance.param); });
+
+}  // namespace test_procsrivc_reference

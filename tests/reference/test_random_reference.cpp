@@ -4,17 +4,15 @@
 #include "numerics/signals/random.h"
 #include "support/reference_data.h"
 
-using namespace dynlab;
+namespace test_random_reference {
 
-namespace {
+using namespace dynlab;
 
 Vector column(const std::string& file, const std::string& name) {
     const auto columns = test::reference_columns(file);
     const std::vector<double>& values = columns.at(name);
     return Vector::Map(values.data(), static_cast<Index>(values.size()));
 }
-
-}  // namespace
 
 TEST(random_reference, noise_of_a_whole_record) {  // oracle: reference data, y = x + 0.2 e with seed 1
     const Vector noise = column("sys2_s0.2_seed1.csv", "y") - column("sys2_noisefree.csv", "y");
@@ -27,3 +25,5 @@ TEST(random_reference, binary_sequences_of_three_experiments) {  // oracle: refe
     EXPECT_EQ(column("rg_noisefree.csv", "u"), prbs(10, 7));
     EXPECT_EQ(column("P1D_noisefree.csv", "u"), prbs(7, 12));
 }
+
+}  // namespace test_random_reference

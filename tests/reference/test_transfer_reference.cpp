@@ -7,10 +7,10 @@
 #include "numerics/estimators/srivc.h"
 #include "support/transfer_cases.h"
 
+namespace test_transfer_reference {
+
 using namespace dynlab;
 using namespace dynlab::test;
-
-namespace {
 
 struct GoldRow {
     std::string set, method;
@@ -54,8 +54,6 @@ TransferEstimate estimate(const std::string& set, const std::string& method, dou
     refined.Tol = 1e-10;
     return srivc(data, structure_of(set), refined);
 }
-
-}  // namespace
 
 // oracle: an independent program in 80-bit arithmetic
 TEST(transfer_reference, svf_and_srivc_match_the_long_double_program) {
@@ -112,3 +110,5 @@ TEST(transfer_reference, srivc_rows_with_exact_instruments_match) {
         EXPECT_LT(relative_difference(found.std, Vector::Map(values.second.data(), d)), 1e-7);
     }
 }
+
+}  // namespace test_transfer_reference

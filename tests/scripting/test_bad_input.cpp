@@ -12,6 +12,8 @@
 #include "numerics/simulation/lsim.h"
 #include "script_run.h"
 
+namespace test_bad_input {
+
 using namespace dynlab;
 using dynlab::test::printed;
 using testing::AllOf;
@@ -19,8 +21,6 @@ using testing::AnyOf;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
-
-namespace {
 
 /// How scripts call each method on the data `d`: with orders that suit them, and with wrong ones.
 struct Calls {
@@ -138,8 +138,6 @@ const std::string kRecord =
 std::string said(const std::string& code) {
     return printed(kRecord + code);
 }
-
-}  // namespace
 
 TEST(bad_input, the_table_holds_every_method) {
     const std::set<std::string> others = {"lsq", "polyfit_report", "forecast", "gradient_descent"};
@@ -323,3 +321,5 @@ TEST(bad_input, a_step_at_the_first_sample_is_no_poor_input) {  // oracle: the s
                     Not(HasSubstr("ERROR")))
             << call;
 }
+
+}  // namespace test_bad_input

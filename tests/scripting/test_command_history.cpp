@@ -10,8 +10,7 @@
 #include "platform/temporary_folder.h"
 
 namespace dynlab::test {
-namespace {
-
+namespace test_command_history {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
@@ -71,5 +70,5 @@ TEST(command_history, a_place_that_cannot_be_written_stops_nobody) {
     }
 }
 
-}  // namespace
+}  // namespace test_command_history
 }  // namespace dynlab::test

@@ -8,8 +8,7 @@
 #include "scripting/prompt_session.h"
 
 namespace dynlab::test {
-namespace {
-
+namespace test_completion {
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -106,5 +105,5 @@ TEST(completion, takes_any_text) {
     EXPECT_THAT(session.names("local x = t"), Contains("t"));
 }
 
-}  // namespace
+}  // namespace test_completion
 }  // namespace dynlab::test

@@ -10,10 +10,10 @@
 #include "script_run.h"
 #include "scripting/memo/value_archive.h"
 
+namespace test_long_calls {
+
 using namespace dynlab;
 using testing::HasSubstr;
-
-namespace {
 
 const std::string kData =
     "s = tf('s')\nG0 = 2/(s^2 + 4*s + 3)\nu = prbs(4, 100)\nrng(1)\n"
@@ -50,8 +50,6 @@ class long_calls : public testing::Test {
     }
     TemporaryFolder home_;
 };
-
-}  // namespace
 
 // A value that was written and read back is written as the same bytes again: no member of any class is lost or changed.
 TEST_F(long_calls, values_come_back_bit_by_bit) {
@@ -192,3 +190,5 @@ TEST_F(long_calls, short_calls_and_failed_ones_are_not_kept) {
     EXPECT_EQ(first.computed, 0u);
     EXPECT_EQ(run_with_memory(failing).printed, first.printed);
 }
+
+}  // namespace test_long_calls

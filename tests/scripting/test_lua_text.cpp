@@ -7,8 +7,7 @@
 #include "scripting/script_run.h"
 
 namespace dynlab::test {
-namespace {
-
+namespace test_lua_text {
 using testing::Not;
 
 TEST(lua_text, lua_reads_every_byte_back) {
@@ -22,5 +21,5 @@ TEST(lua_text, lua_reads_every_byte_back) {
     EXPECT_EQ(printed(code + "print('read')\n"), "read\n");
 }
 
-}  // namespace
+}  // namespace test_lua_text
 }  // namespace dynlab::test

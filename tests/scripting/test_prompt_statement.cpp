@@ -10,8 +10,7 @@
 #include "scripting/prompt_session.h"
 
 namespace dynlab::test {
-namespace {
-
+namespace test_prompt_statement {
 using Kind = PromptStatement::Kind;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -119,5 +118,5 @@ TEST(prompt_statement, an_error_while_a_value_is_shown_is_an_error_of_the_statem
     EXPECT_EQ(session({"setmetatable({}, {__tostring = function() error('shy', 0) end})"}), "ERROR prompt:1: shy\n");
 }
 
-}  // namespace
+}  // namespace test_prompt_statement
 }  // namespace dynlab::test

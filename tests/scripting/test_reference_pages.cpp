@@ -10,8 +10,7 @@
 #include "scripting/help.h"
 
 namespace dynlab::test {
-namespace {
-
+namespace test_reference_pages {
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -69,5 +68,5 @@ TEST_P(reference_pages, example_runs_and_shows_something) {
     EXPECT_TRUE(shows);
 }
 
-}  // namespace
+}  // namespace test_reference_pages
 }  // namespace dynlab::test

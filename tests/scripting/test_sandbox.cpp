@@ -10,6 +10,8 @@
 #include "platform/interrupt.h"
 #include "script_run.h"
 
+namespace test_sandbox {
+
 using namespace dynlab;
 using dynlab::test::error_of;
 using dynlab::test::printed;
@@ -83,8 +85,6 @@ TEST(sandbox, limits_printed_text) {
               "lesson.lua:1: the script printed more text than a run may keep");
 }
 
-namespace {
-
 /// Seconds until `code` ends by itself or by the time limit of 0.2 s.
 double seconds_until_end(const std::string& code) {
     RunOptions options;
@@ -94,8 +94,6 @@ double seconds_until_end(const std::string& code) {
         << code;
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
-
-}  // namespace
 
 /// These loops would run for ever: a bound in seconds that tells ended from endless on any machine, no measure of
 /// speed.
@@ -120,8 +118,6 @@ TEST(sandbox, stops_every_endless_loop_at_the_time_limit) {
         EXPECT_LT(seconds_until_end(code), kEnds) << code;
 }
 
-namespace {
-
 /// Runs `code` and presses Ctrl-C after 50 ms; gives the seconds from there to the end of the run.
 double seconds_after_interrupt(const std::string& code) {
     InterruptScope scope;
@@ -139,8 +135,6 @@ double seconds_after_interrupt(const std::string& code) {
     presser.join();
     return std::chrono::duration<double>(end - pressed).count();
 }
-
-}  // namespace
 
 TEST(sandbox, obeys_control_c) {
     EXPECT_LT(seconds_after_interrupt("while true do end"), kEnds);
@@ -172,3 +166,5 @@ TEST(sandbox, works_on_after_an_interrupt) {
     EXPECT_FALSE(record.error);
     EXPECT_EQ(record.outputs.at("cell-1").front().printed, "again\n");
 }
+
+}  // namespace test_sandbox

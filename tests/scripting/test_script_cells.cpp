@@ -4,9 +4,9 @@
 #include "documents/percent_script.h"
 #include "script_run.h"
 
-using namespace dynlab;
+namespace test_script_cells {
 
-namespace {
+using namespace dynlab;
 
 RunRecord run_script(const std::string& source) {
     GnuplotRenderer renderer;
@@ -29,8 +29,6 @@ const char* const kScript =
     "-- %% id=third\n"
     "co()\n"
     "for i = 1, 3 do plot({1, 2}, {i, i + 1}, {title = 'picture ' .. i}) end\n";
-
-}  // namespace
 
 TEST(script_cells, get_what_their_lines_print_and_draw) {
     const RunRecord record = run_script(kScript);
@@ -113,3 +111,5 @@ TEST(script_cells, show_curves_as_described) {
               "lesson.lua:1: save: '/etc/x.pdf' lies outside the script's folder and the output folder; scripts write "
               "only there");
 }
+
+}  // namespace test_script_cells

@@ -6,6 +6,8 @@
 #include "script_run.h"
 #include "scripting/help.h"
 
+namespace test_script_course {
+
 using namespace dynlab;
 using dynlab::test::error_of;
 using dynlab::test::printed;
@@ -112,3 +114,5 @@ TEST(script_course, counts_samples_and_channels_in_whole_numbers) {
               "lesson.lua:1: samples and channels are counted in whole numbers, but 1.5 was given");
     EXPECT_NE(error_of(data + "d:select({1.7})").find("but 1.7 was given"), std::string::npos);
 }
+
+}  // namespace test_script_course

@@ -4,11 +4,11 @@
 
 #include "script_run.h"
 
+namespace test_script_discrete {
+
 using dynlab::test::error_of;
 using dynlab::test::printed;
 using testing::HasSubstr;
-
-namespace {
 
 const std::string kRecord =
     "local Go = tf({2}, {1, 4, 3})\nlocal u = prbs(7, 3)\nlocal y = lsim(Go, u, 0.2)\n"
@@ -17,8 +17,6 @@ const std::string kTwoInputs =
     "local u1, u2 = prbs(7, 3), prbs(7, 2):range(1, 254)\nu1 = u1:range(1, 254)\n"
     "local y = lsim(tf({0.5}, {1, -0.8}, {Ts = 1}), u1, 1) + lsim(tf({2}, {1, -0.5}, {Ts = 1}), u2, 1)\n"
     "local data = iddata(y, matrix{u1, u2}, 1)\n";
-
-}  // namespace
 
 TEST(script_discrete, models_have_their_polynomials) {
     EXPECT_EQ(printed(kRecord + "local G, D = arx(data, {2, 2, 1}), c2d(Go, 0.2)\n"
@@ -97,3 +95,5 @@ TEST(script_discrete, integration_adds_an_integrator) {
                     HasSubstr("true\ttrue\t2"))
             << call;
 }
+
+}  // namespace test_script_discrete

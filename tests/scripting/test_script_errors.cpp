@@ -3,11 +3,11 @@
 
 #include "script_run.h"
 
+namespace test_script_errors {
+
 using dynlab::test::error_of;
 using dynlab::test::printed;
 using dynlab::test::run;
-
-namespace {
 
 struct Expected {
     const char* code;
@@ -17,8 +17,6 @@ struct Expected {
 void check(std::initializer_list<Expected> cases) {
     for (const Expected& expected : cases) EXPECT_EQ(error_of(expected.code), expected.sentence) << expected.code;
 }
-
-}  // namespace
 
 TEST(script_errors, say_which_name_is_unknown_and_which_is_near) {
     check({
@@ -176,3 +174,5 @@ TEST(script_errors, refuse_to_replace_functions_of_dynlab) {
                       "5\nprint(mean)"),
               "43\t3\n5\n");
 }
+
+}  // namespace test_script_errors

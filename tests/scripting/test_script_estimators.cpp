@@ -4,6 +4,8 @@
 
 #include "script_run.h"
 
+namespace test_script_estimators {
+
 using namespace dynlab;
 using dynlab::test::error_of;
 using dynlab::test::printed;
@@ -11,15 +13,11 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-namespace {
-
 const std::string kColoured =
     "rng(1)\nlocal u = prbs(7, 8)\nlocal e, v = randn(#u), zeros(#u)\nv[1] = e[1]\n"
     "for k = 2, #u do v[k] = 0.9*v[k - 1] + e[k] end\n"
     "local data = iddata(lsim(tf({2}, {1, 4, 3}, {IODelay = 0.3}), u, 0.05) + 0.01*v, u, 0.05)\n"
     "local function near(a, b, std) return math.abs(a - b) <= 3*std end\n";
-
-}  // namespace
 
 TEST(script_estimators, rivc_shows_the_noise_model_with_its_errors) {
     EXPECT_EQ(printed(kColoured + "local G = rivc(data, {1, 0, 1, 2, 6})\n"
@@ -60,3 +58,5 @@ TEST(script_estimators, difference_equations_have_robust_errors_too) {
                     AllOf(HasSubstr("3\ttrue\tfalse"), HasSubstr("(robust +- "), HasSubstr("are the ones to use")))
             << method;
 }
+
+}  // namespace test_script_estimators

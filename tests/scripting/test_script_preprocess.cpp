@@ -4,11 +4,11 @@
 
 #include "script_run.h"
 
+namespace test_script_preprocess {
+
 using dynlab::test::error_of;
 using dynlab::test::printed;
 using testing::HasSubstr;
-
-namespace {
 
 const std::string kRecord =
     "local u = step_signal(100, 21, {1, 2})\n"
@@ -22,8 +22,6 @@ std::string said(const std::string& code) {
 std::string refused(const std::string& code) {
     return error_of(kRecord + code);
 }
-
-}  // namespace
 
 TEST(script_preprocess, functions_and_methods_do_the_same) {
     EXPECT_EQ(said("local a, b = detrend(d, 'start'), d:detrend('start') print(max(abs(a.y - b.y)), a.y[1], b.u[100])"),
@@ -65,3 +63,5 @@ TEST(script_preprocess, misuse_is_told_with_the_remedy) {
     EXPECT_THAT(refused("resample(d, 1, 0)"), HasSubstr("between 1 and 1000"));
     EXPECT_THAT(refused("merge(d, d:resample(1, 2))"), HasSubstr("has the sampling time 0.2 but the first has 0.1"));
 }
+
+}  // namespace test_script_preprocess

@@ -3,6 +3,8 @@
 
 #include "script_run.h"
 
+namespace test_script_rigs {
+
 using namespace dynlab;
 using dynlab::test::error_of;
 using dynlab::test::printed;
@@ -56,3 +58,5 @@ TEST(script_rigs, unknown_fields_are_told_at_every_level) {
     }
     EXPECT_NE(error_of("print(rig_truth('suspension').wn)").find("the truth of suspension"), std::string::npos);
 }
+
+}  // namespace test_script_rigs

@@ -4,21 +4,19 @@
 
 #include "script_run.h"
 
+namespace test_script_studies {
+
 using namespace dynlab;
 using dynlab::test::error_of;
 using dynlab::test::printed;
 using testing::AllOf;
 using testing::HasSubstr;
 
-namespace {
-
 const std::string kStudy =
     "local s = tf('s')\nlocal G0 = 2/(s^2 + 4*s + 3)\nlocal u = prbs(4, 100)\n"
     "local function study(estimators, runs)\n"
     "  return montecarlo{system = G0, input = u, Ts = 0.01, sigma = 0.2, runs = runs or 20, estimators = estimators}\n"
     "end\n";
-
-}  // namespace
 
 TEST(script_studies, runs_are_what_the_functions_give_one_by_one) {
     EXPECT_EQ(
@@ -102,6 +100,21 @@ TEST(script_studies, order_search_recommends_the_true_orders) {
     EXPECT_THAT(error_of(record + "srivcstruc(data, {pole = 2})"), HasSubstr("did you mean 'poles'"));
 }
 
+TEST(script_studies, a_second_record_is_judged_as_fit_judges_it) {  // oracle: fit() of the recommended model
+    const std::string record =
+        "local u = prbs(7, 8)\nlocal x = lsim(tf({2}, {1, 4, 3}), u, 0.05)\n"
+        "local data = iddata(x + 50 + 0.1*randn(#u), u + 3, 0.05)\n"
+        "local check = iddata(x - 20 + 0.1*randn(#u), u - 1, 0.05)\n";
+    for (const std::string offset : {"estimate", "remove", "auto"}) {
+        const std::string start = "InitialState = 'estimate', Offset = '" + offset + "'}";
+        EXPECT_THAT(printed(record + "local V = srivcstruc(data, {poles = 2, zeros = 0, validate = check, " + start +
+                            ")\nlocal own = fit(check, V.best.model, {" + start +
+                            ")\nprint(math.abs(V.best.validation_fit - own) < 1e-9, own > 50)"),
+                    HasSubstr("true\ttrue\n"))
+            << offset;
+    }
+}
+
 TEST(script_studies, delays_are_real_numbers) {  // oracle: the simulated system
     const std::string record =
         "local u = prbs(8, 5)\nlocal x = lsim(tf({-4, 0.5}, {1, 1, 4}, {IODelay = 8}), u, 0.1)\n"
@@ -115,3 +128,5 @@ TEST(script_studies, delays_are_real_numbers) {  // oracle: the simulated system
     EXPECT_THAT(error_of(record + "delayest(data, {pole = 2})"), HasSubstr("did you mean 'poles'"));
     EXPECT_THAT(error_of(record + "delayest(x)"), HasSubstr("data"));
 }
+
+}  // namespace test_script_studies

@@ -4,13 +4,13 @@
 
 #include "script_run.h"
 
+namespace test_script_validation {
+
 using namespace dynlab;
 using dynlab::test::error_of;
 using dynlab::test::printed;
 using testing::HasSubstr;
 using testing::Not;
-
-namespace {
 
 const std::string kRecord =
     "local u = prbs(7, 8)\n"
@@ -18,8 +18,6 @@ const std::string kRecord =
     "local white = iddata(x + 0.1*randn(#u), u, 0.05)\n"
     "local noise = lsim(tf({1}, {0.4, 1}), randn(#u), 0.05)\n"
     "local coloured = iddata(x + noise, u, 0.05)\n";
-
-}  // namespace
 
 TEST(script_validation, resid_says_what_is_left) {
     EXPECT_THAT(printed(kRecord + "local fig, t = resid(white, procsrivc(white, 'P2'))\nprint(t.white, t.independent, "
@@ -116,3 +114,5 @@ TEST(script_validation, crossvalidate_passes_errors_on) {
     EXPECT_THAT(error_of(kRecord + "crossvalidate(white, 3)"),
                 HasSubstr("argument 2 (fit) must be a function of a data object"));
 }
+
+}  // namespace test_script_validation

@@ -3,6 +3,8 @@
 
 #include "script_run.h"
 
+namespace test_script_vectors {
+
 using dynlab::test::error_of;
 using dynlab::test::printed;
 
@@ -126,3 +128,5 @@ TEST(script_vectors, extremes_pass_over_what_is_not_a_number) {
               "3\t3\n3\t1\n1\t3\n");
     EXPECT_EQ(error_of("linspace(0, 1/0, 3)"), "lesson.lua:1: linspace: first and last must be finite numbers");
 }
+
+}  // namespace test_script_vectors

@@ -11,10 +11,10 @@
 #include "numerics/simulation/lsim.h"
 #include "support/difference_equation.h"
 
+namespace test_discrete_statistics {
+
 using namespace dynlab;
 using namespace dynlab::test;
-
-namespace {
 
 constexpr int kRuns = 200;
 
@@ -65,8 +65,6 @@ IdData course_record(double Ts, Index N, std::uint32_t seed) {
     const Vector x = lsim(course_system(), u, Ts);
     return IdData(Matrix(x + 0.2 * RandomStream(seed).normal(N)), Matrix(u), Ts);
 }
-
-}  // namespace
 
 TEST(discrete_statistics, standard_errors_of_oe_are_honest) {  // oracle: statistics, fixed seeds
     expect_honest(monte_carlo(4, with_white_output_noise, [](const IdData& data) { return oe(data, kOutputError); }),
@@ -144,3 +142,5 @@ TEST(discrete_statistics, default_settings_find_good_models_of_fast_samples) {  
         }
     }
 }
+
+}  // namespace test_discrete_statistics

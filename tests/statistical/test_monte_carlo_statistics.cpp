@@ -11,10 +11,10 @@
 #include "numerics/validation/monte_carlo.h"
 #include "support/transfer_cases.h"
 
+namespace test_monte_carlo_statistics {
+
 using namespace dynlab;
 using namespace dynlab::test;
-
-namespace {
 
 nlohmann::json reference_study(const std::string& name) {
     std::ifstream stream(std::string(DYNLAB_SOURCE_DIR) + "/tests/reference/data/" + name + ".json");
@@ -114,8 +114,6 @@ void compare_course_study(double sigma, const std::string& reference_name) {
     }
 }
 
-}  // namespace
-
 TEST(monte_carlo_statistics, course_system_with_sigma_02) {
     compare_course_study(0.2, "mc_sys2_0.2");
 }
@@ -138,8 +136,6 @@ TEST(monte_carlo_statistics, rao_garnier_at_10_dB) {
     expect_honest_errors(study.results[5]);
 }
 
-namespace {
-
 /// Runs of srivc from default settings whose loss is within 1 % of the loss at the true parameters, or below.
 int good_fits(double snr) {
     const MonteCarloStudy study = rao_garnier_study(snr);
@@ -155,9 +151,9 @@ int good_fits(double snr) {
     return static_cast<int>((result.results.front().theta.col(0).array() < 1.01).count());
 }
 
-}  // namespace
-
 TEST(monte_carlo_statistics, rao_garnier_is_found_from_default_settings) {
     EXPECT_EQ(good_fits(10), 200);
     EXPECT_GE(good_fits(0), 196);
 }
+
+}  // namespace test_monte_carlo_statistics

@@ -6,9 +6,9 @@
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
 
-using namespace dynlab;
+namespace test_procsrivc_statistics {
 
-namespace {
+using namespace dynlab;
 
 constexpr Index kSamples = 400;
 constexpr int kRuns = 300;
@@ -55,8 +55,6 @@ void expect_honest(const Study& study, const Vector& truth) {
     EXPECT_NEAR(study.noise_variance / (kNoise * kNoise), 1, 0.02);
 }
 
-}  // namespace
-
 TEST(procsrivc_statistics, standard_errors_of_p1d_are_honest) {  // oracle: statistics, fixed seeds
     const Vector truth{{1.5, 0.8, 0.373}};
     expect_honest(monte_carlo("P1D", truth), truth);
@@ -66,3 +64,5 @@ TEST(procsrivc_statistics, standard_errors_of_p2u_are_honest) {  // oracle: stat
     const Vector truth{{0.9, 0.5, 0.35}};
     expect_honest(monte_carlo("P2U", truth), truth);
 }
+
+}  // namespace test_procsrivc_statistics

@@ -10,9 +10,9 @@
 #include "numerics/validation/assessment.h"
 #include "numerics/validation/residual_tests.h"
 
-using namespace dynlab;
+namespace test_residual_statistics {
 
-namespace {
+using namespace dynlab;
 
 Vector ar1(Index N, double pole, std::uint32_t seed) {
     constexpr Index kSettling = 200;
@@ -41,8 +41,6 @@ Rates rejection_rates(const Vector& u, double pole) {
     return rates;
 }
 
-}  // namespace
-
 // 1 % of 1000 runs has a standard deviation of 0.3 %. The far tail of Ljung and Box's statistic is a little heavier
 // than that of chi-squared for a finite record (Ljung 1986), up to about twice the level here.
 TEST(residual_statistics, white_errors_are_rejected_as_often_as_promised) {
@@ -66,8 +64,6 @@ TEST(residual_statistics, coloured_errors_do_not_feign_a_dependence) {
             EXPECT_NEAR(rates.outside, 0.01, 0.006);
         }
 }
-
-namespace {
 
 struct ErrorStudy {
     Vector spread, plain, robust;
@@ -96,8 +92,6 @@ ErrorStudy error_study(const Vector& u, double Ts, double pole, double size) {
     return study;
 }
 
-}  // namespace
-
 // The relative error of a spread from 300 runs is 1/sqrt(600) = 4 %.
 TEST(residual_statistics, robust_errors_of_white_noise_are_the_plain_ones) {
     const auto study = error_study(prbs(7, 8), 0.05, 0, 0.2);
@@ -116,3 +110,5 @@ TEST(residual_statistics, robust_errors_of_coloured_noise_are_honest_where_plain
         }
     }
 }
+
+}  // namespace test_residual_statistics

@@ -7,10 +7,10 @@
 #include "numerics/kernels/transfer_sensitivity.h"
 #include "support/coloured_noise.h"
 
+namespace test_rivc_statistics {
+
 using namespace dynlab;
 using namespace dynlab::test;
-
-namespace {
 
 constexpr int kRuns = 60;
 // The standard deviation from 60 runs has a relative error of 1/sqrt(118) = 9 %: this is 2.7 of them.
@@ -66,8 +66,6 @@ Vector unweighted(const ColouredProblem& problem) {
     return problem.sigma() * (inverse * (back.transpose() * back) * inverse).diagonal().cwiseSqrt();
 }
 
-}  // namespace
-
 // oracle: the scatter over seeds 1 to 60 on the classic problem, its truth, and the Cramer-Rao bound
 TEST(rivc_statistics, reported_errors_are_the_scatter_and_reach_the_bound) {
     const ColouredProblem problem;
@@ -97,3 +95,5 @@ TEST(rivc_statistics, a_noise_model_pays_where_theory_says) {
         EXPECT_NEAR(plain.spread()[i] / of_srivc[i], 1, kAllowed) << i;
     }
 }
+
+}  // namespace test_rivc_statistics

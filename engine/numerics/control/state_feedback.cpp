@@ -1,13 +1,11 @@
 #include "numerics/control/state_feedback.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "numerics/error.h"
+#include "numerics/linalg/decompositions.h"
 
 namespace dynlab {
 namespace {
@@ -35,7 +33,7 @@ void require_symmetric(const char* name, const MatrixView& M) {
 
 StateFeedback closed(const MatrixView& A, const MatrixView& B, Matrix K) {
     StateFeedback result{std::move(K), {}};
-    result.poles = Eigen::EigenSolver<Matrix>(A - B * result.K, false).eigenvalues();
+    result.poles = eigenvalues(A - B * result.K);
     return result;
 }
 
@@ -76,28 +74,27 @@ StateFeedback linear_quadratic_regulator(const MatrixView& A, const MatrixView& 
     require_size("R", R, B.cols(), B.cols());
     require_symmetric("Q", Q);
     require_symmetric("R", R);
-    const Eigen::LLT<Matrix> factor(R);
-    if (factor.info() != Eigen::Success) throw InvalidArgument("R must be positive: every input must cost something");
-    if (Eigen::SelfAdjointEigenSolver<Matrix>(Q, Eigen::EigenvaluesOnly).eigenvalues().minCoeff() < -1e-10 * Q.norm())
+    const auto cheapest = solve_by_cholesky(R, B.transpose());  // R^-1 B'
+    if (!cheapest) throw InvalidArgument("R must be positive: every input must cost something");
+    if (symmetric_eigenvalues(Q).minCoeff() < -1e-10 * Q.norm())
         throw InvalidArgument("Q must not be negative: no state may be rewarded for being large");
 
     Matrix hamiltonian(2 * n, 2 * n);
-    hamiltonian << A, -B * factor.solve(B.transpose()), -Q, -A.transpose();
-    const Eigen::EigenSolver<Matrix> modes(hamiltonian);
-    const double size = std::max(modes.eigenvalues().cwiseAbs().maxCoeff(), 1e-300);
+    hamiltonian << A, -B * cheapest->x, -Q, -A.transpose();
+    const auto [values, vectors] = eigenvectors(hamiltonian);
+    const double size = std::max(values.cwiseAbs().maxCoeff(), 1e-300);
     Eigen::MatrixXcd stable(2 * n, n);
     Index count = 0;
     for (Index i = 0; i < 2 * n; ++i)
-        if (modes.eigenvalues()[i].real() < -1e-10 * size && count < n)
-            stable.col(count++) = modes.eigenvectors().col(i);
-    const Eigen::FullPivLU<Eigen::MatrixXcd> upper(stable.topRows(n));
-    if (count < n || !upper.isInvertible())
+        if (values[i].real() < -1e-10 * size && count < n) stable.col(count++) = vectors.col(i);
+    const auto inverse = count < n ? std::nullopt : inverse_of_regular(stable.topRows(n));
+    if (!inverse)
         throw InvalidArgument(
             "no feedback makes the criterion finite: the input does not reach an unstable mode, or Q does not see a "
             "mode "
             "that does not die away by itself");
-    const Matrix P = (stable.bottomRows(n) * upper.inverse()).real();
-    return closed(A, B, factor.solve(B.transpose() * (P + P.transpose()) / 2));
+    const Matrix P = (stable.bottomRows(n) * *inverse).real();
+    return closed(A, B, cheapest->x * (P + P.transpose()) / 2);
 }
 
 StateFeedback pole_placement(const MatrixView& A, const MatrixView& B, const ComplexVector& poles) {
@@ -116,10 +113,9 @@ StateFeedback pole_placement(const MatrixView& A, const MatrixView& B, const Com
     Matrix reach(n, n);
     reach.col(0) = B;
     for (Index k = 1; k < n; ++k) reach.col(k) = A * reach.col(k - 1) / scale;
-    const Eigen::FullPivLU<Matrix> factor(reach.transpose());
-    if (!factor.isInvertible())
-        throw InvalidArgument("the input does not reach every state, so not every pole can move");
-    Eigen::RowVectorXd row = factor.solve(Vector::Unit(n, n - 1)).transpose() / std::pow(scale, n - 1);
+    const auto last_row = solve_regular(reach.transpose(), Vector::Unit(n, n - 1));
+    if (!last_row) throw InvalidArgument("the input does not reach every state, so not every pole can move");
+    Eigen::RowVectorXd row = last_row->transpose() / std::pow(scale, n - 1);
     Eigen::RowVectorXd K = Eigen::RowVectorXd::Zero(n);
     for (Index k = 0; k < n; ++k, row = row * A) K += c[k] * row;
     K += row;

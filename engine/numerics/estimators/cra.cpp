@@ -13,7 +13,7 @@ namespace dynlab {
 
 namespace {
 
-constexpr Index kFewestSamples = 8;
+constexpr Index kFewestSamplesOfCra = 8;
 constexpr double kPredictable = 1e-6;  // part of its power that a signal keeps when its past tells it: a sine, say
 
 /// Sums over all experiments of lagged_products, lags 0 .. lags.
@@ -63,7 +63,7 @@ void CraOptions::validate() const {
 
 CorrelationAnalysis cra(const IdData& data, const CraOptions& options) {
     options.validate();
-    IdData record = nonparametric_data("cra", data, kFewestSamples + options.whitening, true);
+    IdData record = nonparametric_data("cra", data, kFewestSamplesOfCra + options.whitening, true);
     Index shortest = record.sample_count();
     for (const Experiment& experiment : record.experiments) shortest = std::min(shortest, experiment.y.rows());
     const Index lags = lags_or_default("cra", options.lags, shortest - options.whitening);

@@ -11,7 +11,7 @@ namespace dynlab {
 
 namespace {
 
-constexpr Index kFewestSamples = 8;
+constexpr Index kFewestSamplesOfEtfe = 8;
 
 /// Weights 1 + cos over -m..m, none of them zero, of sum one.
 Vector hann_weights(Index m) {
@@ -78,7 +78,7 @@ SpectralEstimate etfe(const IdData& data, const EtfeOptions& options) {
         throw InvalidArgument("etfe: the data must hold one experiment, but they hold " +
                               std::to_string(data.experiments.size()) +
                               "; take one with data:experiment(k), or use spa, which joins them");
-    const Experiment record = nonparametric_data("etfe", data, kFewestSamples, options.remove_mean).experiments.front();
+    const Experiment record = nonparametric_data("etfe", data, kFewestSamplesOfEtfe, options.remove_mean).experiments.front();
     const ComplexVector U = fourier_transform(record.u.col(0)), Y = fourier_transform(record.y.col(0));
     const Index N = U.size(), lines = N / 2;
     if (2 * options.smooth + 1 > lines)

@@ -1,11 +1,11 @@
 #include "numerics/estimators/gradient_descent.h"
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "numerics/error.h"
+#include "numerics/linalg/decompositions.h"
 #include "numerics/number_text.h"
 
 namespace dynlab {
@@ -61,7 +61,7 @@ GradientDescentResult gradient_descent(const MatrixView& Phi, const VectorView& 
     check(Phi, y, options);
     const double N = static_cast<double>(y.size());
     const Matrix hessian = Phi.transpose() * Phi / N;
-    const Vector lambda = Eigen::SelfAdjointEigenSolver<Matrix>(hessian, Eigen::EigenvaluesOnly).eigenvalues();
+    const Vector lambda = symmetric_eigenvalues(hessian);
     const double largest = lambda[lambda.size() - 1];
 
     GradientDescentResult result;

@@ -1,11 +1,11 @@
 #include "numerics/estimators/impulseest.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
 #include "numerics/error.h"
 #include "numerics/kernels/spectral_estimate.h"
+#include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/number_text.h"
 #include "numerics/validation/chi_squared.h"
@@ -14,7 +14,7 @@ namespace dynlab {
 
 namespace {
 
-constexpr Index kFewestSamples = 8, kMostLags = 400;
+constexpr Index kFewestSamplesOfImpulseest = 8, kMostLags = 400;
 
 /// Rows [u(k) u(k-1) .. u(k-n)] and y(k), both without their means over the experiment (which estimates c).
 struct Regression {
@@ -111,10 +111,10 @@ void choose_scale(Choice& choice) {
 
 Choice choice_for(const Matrix& gram, const Vector& projection, double energy, double count, double lambda) {
     const Matrix L = kernel_root(gram.rows(), lambda);
-    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(L.transpose() * gram * L);
+    const auto [values, vectors] = symmetric_eigen(L.transpose() * gram * L);
     Choice choice;
-    choice.evidence.LU = L * eigen.eigenvectors();
-    choice.evidence.d = eigen.eigenvalues().cwiseMax(0);
+    choice.evidence.LU = L * vectors;
+    choice.evidence.d = values.cwiseMax(0);
     choice.evidence.b = choice.evidence.LU.transpose() * projection;
     choice.evidence.energy = energy;
     choice.evidence.count = count;
@@ -158,7 +158,7 @@ void ImpulseestOptions::validate() const {
 
 ImpulseEstimate impulseest(const IdData& data, const ImpulseestOptions& options) {
     options.validate();
-    const IdData record = nonparametric_data("impulseest", data, kFewestSamples, false);
+    const IdData record = nonparametric_data("impulseest", data, kFewestSamplesOfImpulseest, false);
     Index shortest = record.sample_count();
     for (const Experiment& experiment : record.experiments) shortest = std::min(shortest, experiment.y.rows());
     const Index n = lags_or_default("impulseest", options.lags, shortest);

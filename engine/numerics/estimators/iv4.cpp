@@ -1,6 +1,5 @@
 #include "numerics/estimators/iv4.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <numeric>
 
@@ -9,6 +8,7 @@
 #include "numerics/kernels/discrete_output.h"
 #include "numerics/kernels/equation_error.h"
 #include "numerics/kernels/prediction_fit.h"
+#include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/polynomial.h"
 
 namespace dynlab {
@@ -54,14 +54,16 @@ InstrumentEstimate solve_instruments(const ArxEquations& equations, const ArxEqu
     const auto [with_equations, gram] = equations.moments(instruments);
     const Vector scale = gram.diagonal().cwiseSqrt().cwiseMax(1e-300).cwiseInverse();
     const Matrix scaled = scale.asDiagonal() * with_equations.leftCols(d) * scale.asDiagonal();
-    const Eigen::JacobiSVD<Matrix> svd(scaled, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    const SingularValues svd = jacobi_svd(scaled);
+    const double smallest = static_cast<double>(d) * std::numeric_limits<double>::epsilon() * svd.s[0];
+    const Vector weights = (svd.s.array() > smallest).select(svd.s.cwiseInverse(), 0);
+    const Matrix inverse = svd.V * weights.asDiagonal() * svd.U.transpose();
     InstrumentEstimate estimate;
-    estimate.theta = scale.asDiagonal() * svd.solve(scale.asDiagonal() * with_equations.col(d));
-    const Matrix inverse = svd.solve(Matrix::Identity(d, d));
+    estimate.theta = scale.asDiagonal() * (inverse * (scale.asDiagonal() * with_equations.col(d)));
     const Matrix scaled_gram = scale.asDiagonal() * gram * scale.asDiagonal();
     estimate.unscaled_covariance =
         scale.asDiagonal() * (inverse * scaled_gram * inverse.transpose()) * scale.asDiagonal();
-    estimate.condition_number = svd.singularValues()[0] / std::max(svd.singularValues()[d - 1], 1e-300);
+    estimate.condition_number = svd.s[0] / std::max(svd.s[d - 1], 1e-300);
     return estimate;
 }
 

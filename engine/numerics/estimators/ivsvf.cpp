@@ -1,10 +1,10 @@
 #include "numerics/estimators/ivsvf.h"
 
-#include <Eigen/Dense>
 #include <cmath>
 
 #include "numerics/error.h"
 #include "numerics/kernels/simulation_report.h"
+#include "numerics/linalg/decompositions.h"
 
 namespace dynlab {
 
@@ -39,7 +39,7 @@ TransferEstimate ivsvf(const IdData& data, const TransferStructure& structure, c
         mirrored = mirrored || unstable;
         const double squares = std::max(
             0.0, least_squares.y_y - 2 * theta.dot(least_squares.z_y) + theta.dot(least_squares.z_phi * theta));
-        const Matrix inverse = sums.z_phi.partialPivLu().inverse();
+        const Matrix inverse = solve_by_lu(sums.z_phi, Matrix::Identity(d, d)).x;
         estimate.theta.segment(group.place(), d) = theta;
         estimate.covariance.block(group.place(), group.place(), d, d) =
             squares / static_cast<double>(group.sample_count() - d) * inverse * sums.z_z * inverse.transpose();

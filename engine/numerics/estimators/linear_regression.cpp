@@ -1,12 +1,12 @@
 #include "numerics/estimators/linear_regression.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "numerics/error.h"
+#include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/number_text.h"
@@ -16,8 +16,6 @@ namespace dynlab {
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
 struct Solution {
     Vector theta;
     Matrix inverse_gram;
@@ -25,22 +23,17 @@ struct Solution {
 
 Solution solve_normal_equations(const MatrixView& Phi, const VectorView& y) {
     const Matrix gram = Phi.transpose() * Phi;
-    const Eigen::LLT<Matrix> factor(gram);
-    if (factor.info() != Eigen::Success || factor.rcond() < std::numeric_limits<double>::epsilon())
+    const auto inverse = solve_by_cholesky(gram, Matrix::Identity(gram.rows(), gram.cols()));
+    const auto solution = solve_by_cholesky(gram, Phi.transpose() * y);
+    if (!inverse || inverse->reciprocal_condition < std::numeric_limits<double>::epsilon())
         throw InvalidArgument(
             "The normal equations have no unique solution to working accuracy: columns of Phi depend on each other, "
             "or are scaled too differently; use method \"qr\", or centre and scale the regressors");
-    return {factor.solve(Phi.transpose() * y), factor.solve(Matrix::Identity(gram.rows(), gram.cols()))};
+    return {solution->x, inverse->x};
 }
 
 double condition_of(const MatrixView& Phi) {
-    const Vector singular = Eigen::HouseholderQR<Matrix>(Phi)
-                                .matrixQR()
-                                .topRows(Phi.cols())
-                                .triangularView<Eigen::Upper>()
-                                .toDenseMatrix()
-                                .jacobiSvd()
-                                .singularValues();
+    const Vector singular = singular_values(triangular_part(Phi));
     const double smallest = singular[singular.size() - 1];
     return smallest > 0 ? singular[0] / smallest : std::numeric_limits<double>::infinity();
 }
@@ -108,7 +101,7 @@ double PolynomialFit::at(double x) const {
     return evaluate(regression.theta, x - centre);
 }
 
-PolynomialFit fit_polynomial(const VectorView& x, const VectorView& y, int degree, const PolynomialOptions& options) {
+PolynomialFit fit_polynomial(const VectorView& x, const VectorView& y, int degree, const PolyfitOptions& options) {
     if (degree < 0) throw InvalidArgument("The degree must not be negative, and is " + std::to_string(degree));
     if (x.size() != y.size())
         throw InvalidArgument("x and y must be equally long, and hold " + std::to_string(x.size()) + " and " +

@@ -29,7 +29,7 @@ struct LinearRegression {
 /// kNormal when the columns depend on each other. Reference: Ljung (1999), section 7.3 and appendix II.
 LinearRegression lsq(const MatrixView& Phi, const VectorView& y, RegressionMethod method = RegressionMethod::kQr);
 
-struct PolynomialOptions {
+struct PolyfitOptions {
     bool centred = true;  ///< powers of x - mean(x): far better conditioned when x are years
     RegressionMethod method = RegressionMethod::kQr;
 };
@@ -46,7 +46,7 @@ struct PolynomialFit {
 
 /// Throws InvalidArgument for a negative degree, lengths that differ, or no more distinct x than the degree.
 PolynomialFit fit_polynomial(const VectorView& x, const VectorView& y, int degree,
-                             const PolynomialOptions& options = {});
+                             const PolyfitOptions& options = {});
 
 /// What a model says of one new measurement.
 struct Forecast {

@@ -1,6 +1,5 @@
 #include "numerics/estimators/lssvf.h"
 
-#include <Eigen/Dense>
 #include <cmath>
 
 #include "numerics/error.h"

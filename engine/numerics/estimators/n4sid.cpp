@@ -1,11 +1,11 @@
 #include "numerics/estimators/n4sid.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
 #include "numerics/error.h"
 #include "numerics/kernels/polynomial_estimate.h"
+#include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/triangular_factor.h"
 #include "numerics/number_text.h"
@@ -17,7 +17,7 @@ namespace {
 constexpr Index kBlock = 512;  // equations worked on together
 constexpr Index kUsualBlockRows = 15;
 constexpr double kNoSignal = 1e-10;  // of a singular value against the largest
-constexpr int kHighestOrder = 100;
+constexpr int kMostStates = 100;
 
 struct Sizes {
     Index n, nu, ny, s;
@@ -105,40 +105,40 @@ Observability observability(const Matrix& R, const Sizes& sizes, SubspaceWeighti
     // Only what the past really spans: directions of rounding size, as in noise-free records, point anywhere.
     Vector unscale = R.middleCols(f, p).colwise().norm().transpose();
     for (double& value : unscale) value = value > 0 ? 1 / value : 1;
-    const Eigen::BDCSVD<Matrix> span(R.block(f, f, p, p) * unscale.asDiagonal(), Eigen::ComputeThinU);
-    const Index rank = (span.singularValues().array() > kNoSignal * span.singularValues()[0]).count();
-    const Matrix basis = span.matrixU().leftCols(rank).transpose();
+    const SingularValues span = divide_and_conquer_svd(R.block(f, f, p, p) * unscale.asDiagonal());
+    const Index rank = (span.s.array() > kNoSignal * span.s[0]).count();
+    const Matrix basis = span.U.leftCols(rank).transpose();
     const Matrix past = basis * R.block(f, f, p, p), by_past = basis * R.block(f, f + p, p, q);
     Matrix weighed = by_past, unweigh = Matrix::Identity(q, q);
     if (weighting == SubspaceWeighting::kN4sid) {
-        const Matrix on_past = past.completeOrthogonalDecomposition().solve(by_past);
+        const Matrix on_past = shortest_solution(past, by_past);
         weighed.resize(f + rank, q);
         weighed << R.block(0, f, f, p) * on_past, past * on_past;
     } else if (weighting == SubspaceWeighting::kCva) {
         Matrix future(rank + q, q);
         future << by_past, rest;
-        const Eigen::BDCSVD<Matrix> spread(future, Eigen::ComputeThinV);
-        const Vector& root = spread.singularValues();
+        const SingularValues spread = divide_and_conquer_svd(future);
+        const Vector& root = spread.s;
         Vector inverse = Vector::Zero(q);
         for (Index i = 0; i < q && root[i] > kNoSignal * root[0]; ++i) inverse[i] = 1 / root[i];
-        const Matrix& E = spread.matrixV();
+        const Matrix& E = spread.V;
         weighed = by_past * E * inverse.asDiagonal() * E.transpose();
         unweigh = E * root.asDiagonal() * E.transpose();
     }
-    const Eigen::BDCSVD<Matrix> svd(weighed, Eigen::ComputeThinV);
-    return {unweigh * svd.matrixV().leftCols(sizes.n), svd.singularValues()};
+    const SingularValues svd = divide_and_conquer_svd(weighed);
+    return {unweigh * svd.V.leftCols(sizes.n), svd.s};
 }
 
 /// A whose eigenvalues outside the unit circle are mirrored into it; `reflected` tells whether there were any.
-Matrix mirrored_inside(const Matrix& A, bool& reflected) {
-    const Eigen::EigenSolver<Matrix> eigen(A);
-    ComplexVector values = eigen.eigenvalues();
+Matrix with_stable_eigenvalues(const Matrix& A, bool& reflected) {
+    auto [values, V] = eigenvectors(A);
     reflected = values.cwiseAbs().maxCoeff() > 1;
     if (!reflected) return A;
+    const auto inverse = inverse_of_regular(V);
+    if (!inverse) return A / values.cwiseAbs2().maxCoeff();  // defective: the outermost eigenvalue counts for all
     for (Complex& value : values)
         if (std::abs(value) > 1) value = 1.0 / std::conj(value);
-    const Eigen::MatrixXcd V = eigen.eigenvectors();
-    return (V * values.asDiagonal() * V.inverse()).real();
+    return (V * values.asDiagonal() * *inverse).real();
 }
 
 /// B, D and the initial states by least squares: the simulated output is linear in them.
@@ -260,9 +260,9 @@ void SubspaceOptions::validate() const {
 
 SubspaceEstimate n4sid(const IdData& data, int order, const SubspaceOptions& options) {
     options.validate();
-    if (order < 1 || order > kHighestOrder)
+    if (order < 1 || order > kMostStates)
         throw InvalidArgument("n4sid: the order, a number of states, must lie between 1 and " +
-                              std::to_string(kHighestOrder) + ", and is " + std::to_string(order));
+                              std::to_string(kMostStates) + ", and is " + std::to_string(order));
     check_sampled_data("n4sid", data);
     const Sizes sizes{order, data.input_count(), data.output_count(),
                       chosen_block_rows(data, order, options.BlockRows)};
@@ -274,8 +274,8 @@ SubspaceEstimate n4sid(const IdData& data, int order, const SubspaceOptions& opt
     const auto [directions, singular_values] = observability(R, sizes, options.Weighting);
     const Index shifted = (sizes.s - 1) * sizes.ny;
     bool reflected = false;
-    const Matrix A = mirrored_inside(
-        directions.topRows(shifted).colPivHouseholderQr().solve(directions.bottomRows(shifted)), reflected);
+    const Matrix A =
+        with_stable_eigenvalues(solve_by_pivoted_qr(directions.topRows(shifted), directions.bottomRows(shifted)), reflected);
     const Matrix C = directions.topRows(sizes.ny);
 
     const InputEquations equations(scaled, sizes, A, C, options.Feedthrough);

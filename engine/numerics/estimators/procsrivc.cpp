@@ -17,7 +17,7 @@ namespace dynlab {
 
 namespace {
 
-constexpr Index kSamplesPerParameter = 3;
+constexpr Index kSamplesPerProcessParameter = 3;
 
 struct Problem {
     IdData data;  // from which the estimate is made: without operating points, with Offset "remove"
@@ -30,19 +30,6 @@ struct Problem {
     double longest = 0;                 // s, of the longest record
     bool flat = true;                   // no input ever changes
 };
-
-double duration(const IdData& data, std::size_t experiment) {
-    const Vector t = data.time(experiment);
-    return t[t.size() - 1] - t[0];
-}
-
-double time_unit(const IdData& data) {
-    if (data.regular()) return data.Ts;
-    double total = 0;
-    for (std::size_t e = 0; e < data.experiments.size(); ++e) total += duration(data, e);
-    const auto steps = data.sample_count() - static_cast<Index>(data.experiments.size());
-    return total / static_cast<double>(std::max<Index>(1, steps));
-}
 
 void check_data(const IdData& data) {
     if (data.experiments.empty() || data.input_count() != 1 || data.output_count() != 1)
@@ -59,7 +46,7 @@ void check_data(const IdData& data) {
 
 Problem problem_of(const IdData& data, const ProcsrivcOptions& options) {
     check_data(data);
-    Problem problem{data, std::vector<OperatingPoint>(data.experiments.size()), {}, {}, 0, time_unit(data), 0, 0, 0,
+    Problem problem{data, std::vector<OperatingPoint>(data.experiments.size()), {}, {}, 0, data.mean_step(), 0, 0, 0,
                     true};
     if (options.offset == Offset::kRemove) {
         CentredData centred = without_operating_points(data);
@@ -78,7 +65,7 @@ Problem problem_of(const IdData& data, const ProcsrivcOptions& options) {
         problem.y.segment(row, experiment.y.rows()) = experiment.y;
         row += experiment.y.rows();
         problem.spread += (experiment.y.array() - experiment.y.mean()).square().sum();
-        problem.longest = std::max(problem.longest, duration(data, e));
+        problem.longest = std::max(problem.longest, data.duration(e));
     }
     TransferOptions bounds;
     bounds.TdMin = options.TdMin;
@@ -137,15 +124,16 @@ std::vector<StartCondition> conditions_for(const Problem& problem, const Process
 
 Fit best_fit(const Problem& problem, const ProcessStructure& structure, const ProcsrivcOptions& options) {
     const auto conditions = conditions_for(problem, structure, options);
-    const Index N = problem.y.size(), fewest = kSamplesPerParameter * value_count(problem, structure, conditions[0]);
+    const Index N = problem.y.size(),
+                fewest = kSamplesPerProcessParameter * value_count(problem, structure, conditions[0]);
     if (N < fewest)
         throw InvalidArgument("procsrivc: at least " + std::to_string(fewest) + " samples are needed for " +
-                              std::to_string(fewest / kSamplesPerParameter) + " values, and the data hold " +
+                              std::to_string(fewest / kSamplesPerProcessParameter) + " values, and the data hold " +
                               std::to_string(N));
     Fit best = fit_condition(problem, structure, conditions.front(), options);
     for (std::size_t i = 1; i < conditions.size(); ++i) {
         if (best.solution.termination == Termination::kCancelled) break;
-        if (N < kSamplesPerParameter * value_count(problem, structure, conditions[i])) continue;
+        if (N < kSamplesPerProcessParameter * value_count(problem, structure, conditions[i])) continue;
         Fit fit = fit_condition(problem, structure, conditions[i], options);
         if (fit.bic < best.bic) best = std::move(fit);
     }

@@ -17,7 +17,7 @@ namespace dynlab {
 
 namespace {
 
-constexpr double kRounding = 1e-10;  // of the output's variation: a smaller simulation error holds no noise
+constexpr double kNoiseRounding = 1e-10;  // of the output's variation: a smaller simulation error holds no noise
 constexpr double kNearUnitCircle = 0.995;
 
 void check(const IdData& data, const NoiseOrders& orders, const TransferStructure& structure) {
@@ -114,7 +114,7 @@ class Passes {
     }
     /// Nothing but rounding is left, so that there is no noise to model.
     bool exact(const Vector& errors) const {
-        return errors.norm() <= kRounding * (y_.array() - y_.mean()).matrix().norm();
+        return errors.norm() <= kNoiseRounding * (y_.array() - y_.mean()).matrix().norm();
     }
     Vector seconds(const Vector& theta) const { return theta.cwiseProduct(model_.seconds()); }
 

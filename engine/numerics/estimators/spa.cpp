@@ -12,7 +12,7 @@ namespace dynlab {
 
 namespace {
 
-constexpr Index kFewestSamples = 8, kDefaultWindow = 30, kDefaultFrequencies = 128;
+constexpr Index kFewestSamplesOfSpa = 8, kDefaultWindow = 30, kDefaultFrequencies = 128;
 constexpr double kPoorInput = 1e-4;    // part of the largest input power below which hardly anything is excited
 constexpr double kLeastInput = 1e-10;  // what the response is divided by at least
 
@@ -92,7 +92,7 @@ void SpaOptions::validate() const {
 
 SpectralEstimate spa(const IdData& data, const SpaOptions& options) {
     options.validate();
-    const IdData record = nonparametric_data("spa", data, kFewestSamples, options.remove_mean);
+    const IdData record = nonparametric_data("spa", data, kFewestSamplesOfSpa, options.remove_mean);
     Index shortest = record.sample_count();
     for (const Experiment& experiment : record.experiments) shortest = std::min(shortest, experiment.y.rows());
     const Index M = window_of(options, shortest);

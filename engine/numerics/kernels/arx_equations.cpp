@@ -1,8 +1,8 @@
 #include "numerics/kernels/arx_equations.h"
 
-#include <Eigen/Dense>
 #include <cmath>
 
+#include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/triangular_factor.h"
 
@@ -18,12 +18,12 @@ ArxSolution solve_gram(const Matrix& gram) {
     Vector unscale = gram.diagonal().head(d).cwiseSqrt();
     for (double& value : unscale) value = value > 0 ? 1 / value : 1;
     const Matrix scaled = unscale.asDiagonal() * gram.topLeftCorner(d, d) * unscale.asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(scaled);
+    const auto [values, vectors] = symmetric_eigen(scaled);
     ArxSolution solution;
-    solution.condition_number = std::sqrt(eigen.eigenvalues()[d - 1] / std::max(eigen.eigenvalues()[0], 1e-300));
-    const Matrix V = unscale.asDiagonal() * eigen.eigenvectors();
-    solution.inverse_gram = V * eigen.eigenvalues().cwiseInverse().asDiagonal() * V.transpose();
-    solution.theta = unscale.asDiagonal() * scaled.ldlt().solve(unscale.asDiagonal() * gram.col(d).head(d));
+    solution.condition_number = std::sqrt(values[d - 1] / std::max(values[0], 1e-300));
+    const Matrix V = unscale.asDiagonal() * vectors;
+    solution.inverse_gram = V * values.cwiseInverse().asDiagonal() * V.transpose();
+    solution.theta = unscale.asDiagonal() * solve_semidefinite(scaled, unscale.asDiagonal() * gram.col(d).head(d));
     return solution;
 }
 

@@ -1,9 +1,10 @@
 #include "numerics/kernels/denominator_group.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 
+#include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/polynomial.h"
 
 namespace dynlab {
@@ -163,9 +164,9 @@ Vector solve_moments(const RegressionMoments& moments, double* condition_number)
 Matrix inverse_gram(const Matrix& gram, double* condition_number) {
     const Vector scale = gram.diagonal().cwiseSqrt().cwiseInverse();
     const Matrix scaled = scale.asDiagonal() * gram * scale.asDiagonal();
-    const Eigen::PartialPivLU<Matrix> decomposition(scaled);
-    if (condition_number) *condition_number = 1 / decomposition.rcond();
-    return scale.asDiagonal() * decomposition.inverse() * scale.asDiagonal();
+    const auto [inverse, reciprocal] = solve_by_lu(scaled, Matrix::Identity(scaled.rows(), scaled.cols()));
+    if (condition_number) *condition_number = 1 / reciprocal;
+    return scale.asDiagonal() * inverse * scale.asDiagonal();
 }
 
 Vector reflect_unstable_roots(const VectorView& den, bool* any) {

@@ -12,10 +12,10 @@ namespace dynlab {
 
 namespace {
 
-constexpr int kRoughIterations = 20;
-constexpr double kRoughTolerance = 1e-3;
+constexpr int kScreeningIterations = 20;
+constexpr double kScreeningTolerance = 1e-3;
 
-struct Record {
+struct DiscreteRecord {
     std::vector<SampledExperiment> experiments;
     Vector removed_outputs;  ///< per experiment
     Index samples = 0;
@@ -34,8 +34,8 @@ void remove_operating_point(SampledExperiment& experiment, double& removed_outpu
     experiment.y.array() -= removed_output;
 }
 
-Record prepared_record(const IdData& data, Offset offset) {
-    Record record;
+DiscreteRecord prepared_record(const IdData& data, Offset offset) {
+    DiscreteRecord record;
     record.experiments = sampled_experiments(data, offset, &record.removed_outputs);
     for (const SampledExperiment& experiment : record.experiments) {
         record.samples += experiment.y.size();
@@ -47,7 +47,7 @@ Record prepared_record(const IdData& data, Offset offset) {
 
 /// Two samples that say what start_conditions asks of an input, for all inputs together: whether the first
 /// samples are zero, and whether anything changes.
-Vector summary_of_inputs(const Record& record) {
+Vector summary_of_inputs(const DiscreteRecord& record) {
     double first = 0, change = 0;
     for (const SampledExperiment& experiment : record.experiments) {
         first = std::max(first, experiment.u.row(0).cwiseAbs().maxCoeff());
@@ -56,7 +56,7 @@ Vector summary_of_inputs(const Record& record) {
     return Eigen::Vector2d(first, first + change);
 }
 
-struct Fit {
+struct DiscreteFit {
     StartCondition condition;
     InstrumentSolution solution;
     double squared_errors = 0, squared_variation = 0;
@@ -68,8 +68,8 @@ Index value_count(const DiscreteOutput& model) {
     return model.parameter_count() + model.left_out();
 }
 
-Fit fit_condition(const Record& record, const DiscreteOutput& model, const DiscreteSearch& search) {
-    Fit fit;
+DiscreteFit fit_condition(const DiscreteRecord& record, const DiscreteOutput& model, const DiscreteSearch& search) {
+    DiscreteFit fit;
     fit.condition = model.condition();
     const Vector y = model.target();
     fit.solution = search(model, y);
@@ -81,7 +81,7 @@ Fit fit_condition(const Record& record, const DiscreteOutput& model, const Discr
     return fit;
 }
 
-StepFit step_fit(const Record& record, const Fit& fit) {
+StepFit step_fit(const DiscreteRecord& record, const DiscreteFit& fit) {
     const double N = static_cast<double>(record.samples);
     double spread = 0;
     for (const SampledExperiment& experiment : record.experiments)
@@ -90,21 +90,21 @@ StepFit step_fit(const Record& record, const Fit& fit) {
             record.samples,         fit.values, static_cast<Index>(record.experiments.size())};
 }
 
-void require_samples(const std::string& method, const Record& record, Index values) {
+void require_samples(const std::string& method, const DiscreteRecord& record, Index values) {
     if (record.samples > values) return;
     throw InvalidArgument(method + " needs more samples than the " + std::to_string(values) +
                           " values it estimates, and the record holds " + std::to_string(record.samples));
 }
 
-Fit best_fit(const std::string& method, const Record& record, const PolynomialOrders& orders,
+DiscreteFit best_fit(const std::string& method, const DiscreteRecord& record, const PolynomialOrders& orders,
              const PolynomialOptions& options, const DiscreteSearch& search) {
     const auto conditions = start_conditions(summary_of_inputs(record), options.initial_state, options.offset);
-    Fit best;
+    DiscreteFit best;
     for (std::size_t i = 0; i < conditions.size(); ++i) {
         const DiscreteOutput model(orders, conditions[i], record.experiments);
         if (i == 0) require_samples(method, record, value_count(model));
         if (record.samples <= value_count(model)) continue;
-        Fit fit = fit_condition(record, model, search);
+        DiscreteFit fit = fit_condition(record, model, search);
         if (i == 0 || fit.bic < best.bic) best = std::move(fit);
         if (best.solution.termination == Termination::kCancelled) break;
     }
@@ -127,7 +127,7 @@ void add_uncertainty(PolynomialEstimate& estimate, const DiscreteOutput& model, 
     estimate.std = estimate.covariance.diagonal().cwiseMax(0).cwiseSqrt();
 }
 
-void add_warnings(PolynomialEstimate& estimate, const Fit& fit, const PolynomialOptions& options) {
+void add_warnings(PolynomialEstimate& estimate, const DiscreteFit& fit, const PolynomialOptions& options) {
     auto& warnings = estimate.warnings;
     warn_of_termination(estimate, options.MaxIter);
     if (fit.solution.reflected)
@@ -138,7 +138,7 @@ void add_warnings(PolynomialEstimate& estimate, const Fit& fit, const Polynomial
             warnings.push_back("The model has a pole outside or on the unit circle.");
 }
 
-std::string message_of(const PolynomialEstimate& estimate) {
+std::string message_of_fit(const PolynomialEstimate& estimate) {
     std::string text = ending_text(estimate) + ", simulating " + description(estimate.start) + ": fit " +
                        number_text(estimate.fit_percent, 4) + " %.";
     for (const std::string& warning : estimate.warnings) text += ' ' + warning;
@@ -151,7 +151,7 @@ DiscreteSearch output_error_search(const PolynomialOptions& options) {
     return [options](const DiscreteOutput& model, const Vector& y) {
         const Vector start = instrument_start(model, y, options.cancel);
         const InstrumentSolution rough =
-            iterate_instruments(model, y, start, kRoughIterations, kRoughTolerance, options.cancel);
+            iterate_instruments(model, y, start, kScreeningIterations, kScreeningTolerance, options.cancel);
         const OutputErrorSolution end =
             minimise_output_error(model, y, rough.theta, {options.MaxIter, options.Tol, options.cancel});
         InstrumentSolution solution;
@@ -183,8 +183,8 @@ PolynomialEstimate fit_discrete_output(const std::string& method, const IdData& 
     if (orders.na + orders.nc + orders.nd > 0)
         throw InvalidArgument(method + " has the orders nb, nf and nk only: na, nc and nd must be zero");
     check_polynomial_data(method, data, orders);
-    const Record record = prepared_record(data, options.offset);
-    const Fit fit = best_fit(method, record, orders, options, search);
+    const DiscreteRecord record = prepared_record(data, options.offset);
+    const DiscreteFit fit = best_fit(method, record, orders, options, search);
     const Vector summary = summary_of_inputs(record);
     if (summary[0] == summary[1] && fit.solution.termination != Termination::kCancelled)
         require_transient(method, step_fit(record, fit));
@@ -205,7 +205,7 @@ PolynomialEstimate fit_discrete_output(const std::string& method, const IdData& 
     estimate.termination = fit.solution.termination;
     estimate.trace = fit.solution.trace;
     add_warnings(estimate, fit, options);
-    estimate.message = message_of(estimate);
+    estimate.message = message_of_fit(estimate);
     return estimate;
 }
 

@@ -1,12 +1,12 @@
 #include "numerics/kernels/instrument_iteration.h"
 
-#include <Eigen/Dense>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
 #include "numerics/linalg/polynomial.h"
+#include "numerics/linalg/decompositions.h"
 
 namespace dynlab {
 
@@ -16,8 +16,6 @@ constexpr std::array kFilterPoles = {0.9, 0.5, 0.98, 0.8, 0.95, 0.0};
 constexpr int kStartIterations = 4;
 constexpr double kStartTolerance = 1e-3, kSameLoss = 1e-4;
 constexpr double kShortestStep = 1.0 / 8, kRounding = 1e-9;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 Vector scale_of(const Matrix& columns) {
     Vector scale = columns.colwise().norm().transpose();
     for (double& value : scale)
@@ -30,7 +28,7 @@ Vector instrumental_solution(const Matrix& Psi, const Matrix& Phi, const Vector&
     const Vector left = scale_of(Psi).cwiseInverse(), right = scale_of(Phi).cwiseInverse();
     const Matrix system = left.asDiagonal() * (Psi.transpose() * Phi) * right.asDiagonal();
     const Vector known = left.asDiagonal() * (Psi.transpose() * errors);
-    return right.asDiagonal() * system.completeOrthogonalDecomposition().solve(known);
+    return right.asDiagonal() * shortest_solution(system, known);
 }
 
 double mean_square(const Vector& errors) {

@@ -1,12 +1,12 @@
 #include "numerics/kernels/output_error.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
 
 #include "numerics/error.h"
+#include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/least_squares.h"
 
 namespace dynlab {
@@ -86,7 +86,7 @@ class Search {
             system(i, i) = 1;
             right[i] = 0;
         }
-        const Vector step = system.ldlt().solve(right).cwiseQuotient(scale_);
+        const Vector step = solve_semidefinite(system, right).cwiseQuotient(scale_);
         return (theta_ + step).cwiseMax(model_.lower()).cwiseMin(model_.upper());
     }
 

@@ -7,7 +7,7 @@ namespace dynlab {
 
 namespace {
 
-constexpr double kRounding = 1e-24;  // of the output's mean square: smaller errors hold no noise
+constexpr double kPredictionRounding = 1e-24;  // of the output's mean square: smaller errors hold no noise
 
 /// Sum of squares about the mean of each experiment.
 double variation_of(const Vector& y, const std::vector<Index>& lengths) {
@@ -53,7 +53,7 @@ ArmaNoise start_noise(const std::vector<Vector>& errors, int nc, int nd, double 
         squares += record.squaredNorm();
         count += record.size();
     }
-    if (squares <= kRounding * output_power * static_cast<double>(count)) return ArmaNoise::white(nc, nd);
+    if (squares <= kPredictionRounding * output_power * static_cast<double>(count)) return ArmaNoise::white(nc, nd);
     return estimate_arma(errors, nc, nd, 1e-3);
 }
 

@@ -12,7 +12,6 @@ namespace dynlab {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLeastTime = 1e-3;   // samples: any faster lag looks like none
 constexpr double kLargestTime = 1e6;  // records: any slower one looks like an integrator
 

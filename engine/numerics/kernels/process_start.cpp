@@ -1,11 +1,11 @@
 #include "numerics/kernels/process_start.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "numerics/kernels/transfer_sensitivity.h"
+#include "numerics/linalg/decompositions.h"
 
 namespace dynlab {
 
@@ -177,7 +177,7 @@ class LinearPart {
             if (!(value > 0)) value = 1;
         Matrix scaled = scale.cwiseInverse().asDiagonal() * gram_ * scale.cwiseInverse().asDiagonal();
         scaled.diagonal().array() += 1e-12;  // keeps columns that look alike from cancelling each other at any size
-        solution_ = scaled.ldlt().solve(moment_.cwiseQuotient(scale)).cwiseQuotient(scale);
+        solution_ = solve_semidefinite(scaled, moment_.cwiseQuotient(scale)).cwiseQuotient(scale);
         const double squares = power_ - 2 * moment_.dot(solution_) + solution_.dot(gram_ * solution_);
         return std::max(0.0, squares) / static_cast<double>(rest_.rows());
     }

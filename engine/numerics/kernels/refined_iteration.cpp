@@ -13,7 +13,6 @@ namespace dynlab {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kCutoffs = 8;       // frequencies that find_start tries
 constexpr int kTrialPasses = 4;   // passes after each of them
 constexpr int kMostHalvings = 3;  // of a pass that raises the loss
@@ -107,10 +106,10 @@ double change_to_come(double change, double last_change) {
     return factor < kHardlyGained ? change * factor / (1 - factor) : kInfinity;
 }
 
-double mean_sampling_time(const IdData& data) {
-    if (data.regular()) return data.Ts;
-    const Vector& t = data.experiments.front().t;
-    return (t[t.size() - 1] - t[0]) / static_cast<double>(std::max<Index>(1, t.size() - 1));
+double longest_record(const IdData& data) {
+    double longest = 0;
+    for (std::size_t e = 0; e < data.experiments.size(); ++e) longest = std::max(longest, data.duration(e));
+    return longest;
 }
 
 /// Part of the data with one output, one input and this output signal in each experiment.
@@ -255,9 +254,8 @@ Vector filtered_start(const IdData& data, const TransferStructure& structure, do
 
 Vector find_start(const IdData& data, const TransferStructure& structure, Hold hold_y,
                   const std::function<bool()>& cancel) {
-    const double Ts = mean_sampling_time(data);
-    const double N = static_cast<double>(data.sample_count(0));
-    const double slowest = 4 / (N * Ts), fastest = 0.6 * std::numbers::pi / Ts;
+    const double Ts = data.mean_step();
+    const double slowest = 4 / (longest_record(data) + Ts), fastest = 0.6 * std::numbers::pi / Ts;
     const double ratio = std::pow(fastest / slowest, 1.0 / (kCutoffs - 1));
     Vector best = Vector::Constant(structure.parameter_count(), std::numeric_limits<double>::quiet_NaN());
     double best_loss = kInfinity;

@@ -96,9 +96,7 @@ void check_transfer_data(const char* method, const IdData& data, const TransferS
                               std::to_string(data.sample_count()));
     for (const TransferChannel& channel : structure.channels)
         for (std::size_t e = 0; e < data.experiments.size(); ++e) {
-            const Index N = data.sample_count(e);
-            const double length = data.regular() ? static_cast<double>(N - 1) * data.Ts
-                                                 : data.experiments[e].t[N - 1] - data.experiments[e].t[0];
+            const double length = data.duration(e);
             if (channel.delay >= length)
                 throw InvalidArgument(caller + "the delay of " + number_text(channel.delay) +
                                       " s is not shorter than the record of " + number_text(length) + " s");

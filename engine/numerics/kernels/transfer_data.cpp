@@ -8,20 +8,6 @@
 
 namespace dynlab {
 
-namespace {
-
-double shortest_record(const IdData& data) {
-    double shortest = std::numeric_limits<double>::infinity();
-    for (const Experiment& experiment : data.experiments) {
-        const double steps = static_cast<double>(experiment.y.rows() - 1);
-        shortest = std::min(shortest,
-                            data.regular() ? steps * data.Ts : experiment.t[experiment.t.size() - 1] - experiment.t[0]);
-    }
-    return shortest;
-}
-
-}  // namespace
-
 CentredData without_operating_points(const IdData& data) {
     CentredData centred{data, {}};
     for (Experiment& experiment : centred.data.experiments) {
@@ -46,6 +32,12 @@ std::vector<StartCondition> start_conditions(const IdData& data, InitialState st
     }
     summary.row(1) += summary.row(0);
     return start_conditions(summary, state, offset);
+}
+
+double shortest_record(const IdData& data) {
+    double shortest = std::numeric_limits<double>::infinity();
+    for (std::size_t e = 0; e < data.experiments.size(); ++e) shortest = std::min(shortest, data.duration(e));
+    return shortest;
 }
 
 DelayRange delay_range(const IdData& data, const TransferOptions& options) {

@@ -18,6 +18,8 @@ CentredData without_operating_points(const IdData& data);
 /// together can tell apart.
 std::vector<StartCondition> start_conditions(const IdData& data, InitialState state, Offset offset);
 
+double shortest_record(const IdData& data);  ///< s, of all experiments
+
 struct DelayRange {
     double least = 0, largest = 0;  ///< s
 };

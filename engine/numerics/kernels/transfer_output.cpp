@@ -11,7 +11,6 @@ namespace dynlab {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFastest = 1e5;  // per time unit: no record tells faster motions from none
 
 std::vector<Index> denominators_of(const TransferStructure& structure, Index output) {
@@ -22,17 +21,6 @@ std::vector<Index> denominators_of(const TransferStructure& structure, Index out
             different.push_back(denominator);
     }
     return different;
-}
-
-double mean_step(const IdData& data) {
-    if (data.regular()) return data.Ts;
-    double duration = 0;
-    Index steps = 0;
-    for (const Experiment& experiment : data.experiments) {
-        duration += experiment.t[experiment.t.size() - 1] - experiment.t[0];
-        steps += experiment.t.size() - 1;
-    }
-    return steps > 0 ? duration / static_cast<double>(steps) : 1;
 }
 
 }  // namespace
@@ -50,7 +38,7 @@ struct TransferOutput::Block {
 
 TransferOutput::TransferOutput(const TransferStructure& structure, const StartCondition& condition, const IdData& data,
                                double least_delay, double largest_delay)
-    : structure_(structure), condition_(condition), hold_(data.hold), time_unit_(mean_step(data)) {
+    : structure_(structure), condition_(condition), hold_(data.hold), time_unit_(data.mean_step()) {
     if (data.output_count() != structure.outputs || data.input_count() != structure.inputs)
         throw InvalidArgument("The model has " + std::to_string(structure.inputs) + " input(s) and " +
                               std::to_string(structure.outputs) + " output(s), and the data have " +

@@ -19,8 +19,8 @@ namespace dynlab {
 namespace {
 
 constexpr int kWeightRounds = 2;
-constexpr double kRoughTolerance = 1e-3;
-constexpr double kLeastError = 1e-6;  // of the output's own size: smaller errors count as rounding
+constexpr double kFirstTolerance = 1e-3;
+constexpr double kLeastRelativeError = 1e-6;  // of the output's own size: smaller errors count as rounding
 
 // Sum of squares of each output about the mean of each experiment.
 Vector variations(const IdData& data) {
@@ -99,7 +99,7 @@ std::vector<Vector> starts_around(const TransferStructure& structure, const IdDa
 
 void set_weights(TransferOutput& model, const Vector& output, const Vector& power) {
     const double N = static_cast<double>(model.sample_count());
-    const Vector errors = (squared_errors(model, output) / N).cwiseSqrt().cwiseMax(kLeastError * power.cwiseSqrt());
+    const Vector errors = (squared_errors(model, output) / N).cwiseSqrt().cwiseMax(kLeastRelativeError * power.cwiseSqrt());
     if (errors.allFinite()) model.set_weights(errors.cwiseInverse());
 }
 
@@ -108,7 +108,7 @@ OutputErrorSolution search(TransferOutput& model, const TransferStructure& struc
     OutputErrorOptions search_options{options.MaxIter, options.Tol, options.cancel};
     Vector theta = start;
     if (structure.outputs > 1) {
-        const OutputErrorOptions rough{options.MaxIter, std::max(options.Tol, kRoughTolerance), options.cancel};
+        const OutputErrorOptions rough{options.MaxIter, std::max(options.Tol, kFirstTolerance), options.cancel};
         const Vector power = powers(data);
         Vector output;
         model.simulate(theta, output, nullptr);

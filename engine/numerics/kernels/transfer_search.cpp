@@ -19,13 +19,6 @@ constexpr double kTrialTolerance = 1e-4;
 constexpr int kGridPasses = 4;       // at each delay of the grid
 constexpr int kFreshStart = 8;       // so many delays apart the sweep over cut-off frequencies is made anew
 constexpr std::size_t kValleys = 3;  // of the loss over the delay that are refined
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-double mean_step(const IdData& data) {
-    if (data.regular()) return data.Ts;
-    const Vector& t = data.experiments.front().t;
-    return (t[t.size() - 1] - t[0]) / static_cast<double>(t.size() - 1);
-}
 
 TransferStructure fixed(TransferStructure structure) {
     structure.free_delays = false;
@@ -149,7 +142,8 @@ double likely_largest_delay(const IdData& data) {
         }
     const double steps =
         std::min(kMargin * static_cast<double>(furthest) + 2, static_cast<double>(std::max<Index>(1, lags)));
-    return std::ceil(steps) * mean_step(data);
+    const double largest = std::ceil(steps) * data.mean_step();
+    return data.regular() ? largest : std::min(largest, shortest_record(data) / 4);
 }
 
 Vector start_at(const IdData& data, const TransferStructure& structure, const TransferOptions& options) {
@@ -168,7 +162,7 @@ Vector start_at(const IdData& data, const TransferStructure& structure, const Tr
 DelayScan scan_delays(const IdData& data, const TransferStructure& structure, const TransferOptions& options) {
     const DelayRange range = delay_range(data, options);
     const IdData beginning = beginning_of(data, kTrialSamples);
-    const double step = std::max(mean_step(data), (range.largest - range.least) / std::max(1, options.NumTd - 1));
+    const double step = std::max(data.mean_step(), (range.largest - range.least) / std::max(1, options.NumTd - 1));
     const Index count = 1 + static_cast<Index>(std::floor((range.largest - range.least) / step + 1e-9));
     DelayScan scan;
     scan.delays.resize(count);

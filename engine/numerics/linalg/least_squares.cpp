@@ -1,10 +1,10 @@
 #include "numerics/linalg/least_squares.h"
 
-#include <Eigen/Dense>
 #include <limits>
 #include <string>
 
 #include "numerics/error.h"
+#include "numerics/linalg/decompositions.h"
 
 namespace dynlab {
 
@@ -35,19 +35,14 @@ LeastSquares solve_least_squares(const MatrixView& A, const VectorView& b) {
     check_sizes(A, b);
     const Index columns = A.cols();
     const Vector unscale = column_scale(A).cwiseInverse();
-    const Eigen::HouseholderQR<Matrix> qr(A * unscale.asDiagonal());
-    const Matrix R = qr.matrixQR().topRows(columns).triangularView<Eigen::Upper>();
-    const Vector rotated = (qr.householderQ().adjoint() * b).head(columns);
-
-    const Eigen::JacobiSVD<Matrix> svd(R, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const Vector& singular = svd.singularValues();
+    const auto [R, rotated] = rotate_equations(A * unscale.asDiagonal(), b);
+    const auto [left, singular, right] = jacobi_svd(R);
     const double smallest_kept = static_cast<double>(A.rows()) * std::numeric_limits<double>::epsilon() * singular(0);
     const Index rank = (singular.array() > smallest_kept).count();
-    const Matrix V =
-        (unscale.asDiagonal() * svd.matrixV().leftCols(rank)) * singular.head(rank).cwiseInverse().asDiagonal();
+    const Matrix V = (unscale.asDiagonal() * right.leftCols(rank)) * singular.head(rank).cwiseInverse().asDiagonal();
 
     LeastSquares result;
-    result.solution = V * (svd.matrixU().leftCols(rank).transpose() * rotated);
+    result.solution = V * (left.leftCols(rank).transpose() * rotated);
     result.residuals = b - A * result.solution;
     result.inverse_gram = V * V.transpose();
     result.rank = rank;

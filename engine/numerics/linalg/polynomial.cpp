@@ -1,11 +1,11 @@
 #include "numerics/linalg/polynomial.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "numerics/error.h"
 #include "numerics/linalg/balance.h"
+#include "numerics/linalg/decompositions.h"
 
 namespace dynlab {
 
@@ -73,7 +73,7 @@ ComplexVector roots(const VectorView& p) {
     } else {
         Matrix A = companion(stripped.head(others + 1));
         balance(A);
-        result.head(others) = A.eigenvalues();
+        result.head(others) = eigenvalues(A);
     }
     return result;
 }

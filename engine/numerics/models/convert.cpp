@@ -1,11 +1,11 @@
 #include "numerics/models/convert.h"
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <string>
 
 #include "numerics/error.h"
 #include "numerics/kernels/tapped_system.h"
+#include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/matrix_exponential.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/number_text.h"
@@ -116,7 +116,7 @@ TransferFunction exact_d2c(const TransferFunction& G, Hold hold) {
     const Matrix map = discrete_numerators(derivative_filter(den, 1, hold), G.den());
     Vector wanted = Vector::Zero(G.den().size());
     wanted.tail(G.num().size()) = G.num();
-    const Vector num = without_rounding(map.fullPivLu().solve(wanted));
+    const Vector num = without_rounding(shortest_solution(map, wanted));
     return TransferFunction(in_seconds(num, G.Ts()), in_seconds(den, G.Ts()), 0, G.delay());
 }
 
@@ -145,12 +145,11 @@ StateSpace c2d(const StateSpace& system, double Ts, Discretisation method) {
     const Matrix &A = system.A, &B = system.B, &C = system.C;
     if (method == Discretisation::kTustin) {
         const Matrix I = Matrix::Identity(A.rows(), A.rows());
-        const Eigen::FullPivLU<Matrix> solver(I - Ts / 2 * A);
+        const Matrix back = I - Ts / 2 * A;
         // Compared with the two terms of the difference, which leave rounding errors where they cancel.
         const double rounding = 1e-14 * (1 + Ts / 2 * A.norm());
-        if (A.rows() > 0 && solver.matrixLU().diagonal().cwiseAbs().minCoeff() <= rounding)
-            report_pole_without_image(Ts);
-        const Matrix inverse = solver.inverse();
+        if (A.rows() > 0 && singular_values(back).minCoeff() <= rounding) report_pole_without_image(Ts);
+        const Matrix inverse = solve_by_lu(back, I).x;
         return StateSpace(inverse * (I + Ts / 2 * A), Ts * inverse * B, C * inverse,
                           system.D + Ts / 2 * C * inverse * B, Ts);
     }

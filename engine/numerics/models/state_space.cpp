@@ -1,12 +1,12 @@
 #include "numerics/models/state_space.h"
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <string>
 #include <utility>
 
 #include "numerics/error.h"
 #include "numerics/linalg/balance.h"
+#include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/models/transfer_function.h"
 #include "numerics/number_text.h"
@@ -33,7 +33,7 @@ struct ZerosAndGain {
 ComplexVector balanced_eigenvalues(Matrix A) {
     if (A.rows() == 0) return ComplexVector();
     balance(A);
-    return A.eigenvalues();
+    return eigenvalues(A);
 }
 
 /// The output and its derivatives up to the first that the input reaches directly must vanish: the zeros are the
@@ -50,7 +50,7 @@ ZerosAndGain zeros_and_gain(const Matrix& A, const Vector& b, const Eigen::RowVe
         const double gain = row.dot(b.transpose());
         if (std::abs(gain) > kRounding * row.stableNorm() * b.stableNorm()) {
             const Matrix inner = A - b * (row * A) / gain;
-            const Matrix Q = derivatives.transpose().householderQr().householderQ();
+            const Matrix Q = full_orthogonal_basis(derivatives.transpose());
             const Matrix null_space = Q.rightCols(n - degree);
             return {balanced_eigenvalues(null_space.transpose() * inner * null_space), gain};
         }

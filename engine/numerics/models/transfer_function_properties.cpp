@@ -9,8 +9,6 @@ namespace dynlab {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// The point of the s plane that stands for a pole or zero.
 Complex continuous_point(const TransferFunction& G, Complex point) {
     return G.continuous() ? point : std::log(point) / G.Ts();

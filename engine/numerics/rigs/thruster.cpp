@@ -14,7 +14,7 @@
 namespace dynlab {
 namespace {
 
-enum : Index { kSpeed, kReading, kReadingRate, kStates };
+enum : Index { kThrusterSpeed, kReading, kReadingRate, kThrusterStates };
 
 double voltage_of(const ThrusterParameters& p, double width) {
     const double beyond = std::max(0., std::abs(width - p.neutral) - p.dead_band);
@@ -39,14 +39,14 @@ Vector readings(const ThrusterParameters& p, const Vector& pwm, double Ts, Rando
     const double w = 2 * std::numbers::pi * p.cell_frequency;
     OdeSolver solver(
         [&](double, const OdeState& x) {
-            const double speed = x[kSpeed], thrust = thrust_of_speed(p, speed);
+            const double speed = x[kThrusterSpeed], thrust = thrust_of_speed(p, speed);
             const double torque = p.motor_constant * (voltage - p.motor_constant * speed) / p.resistance;
             const double force = thrust + p.wake * std::abs(thrust) * eddy;
             return OdeState{{(torque - p.drag_torque * speed * std::abs(speed)) / p.inertia, x[kReadingRate],
                              w * w * (force - x[kReading]) - 2 * p.cell_damping * w * x[kReadingRate]}};
         },
         {.relative_tolerance = 1e-9, .absolute_tolerance = 1e-9});
-    OdeState x = OdeState::Zero(kStates);
+    OdeState x = OdeState::Zero(kThrusterStates);
     Vector truth(pwm.size());
     for (Index k = 0; k < pwm.size(); ++k) {
         truth[k] = x[kReading] + p.tare;

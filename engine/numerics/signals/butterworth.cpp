@@ -12,8 +12,8 @@ namespace dynlab {
 
 namespace {
 
-constexpr int kHighestOrder = 20;
-constexpr double kForgotten = 1e-6;  // part of a transient that is left behind the continuation of a record
+constexpr int kHighestFilterOrder = 20;
+constexpr double kTransientLeft = 1e-6;  // part of a transient that is left behind the continuation of a record
 
 /// The filter in the plane s = (z - 1)/(z + 1): edges tan(w Ts/2), and the kind of band.
 struct Analog {
@@ -123,15 +123,15 @@ Index memory_of(const FilterSections& sections) {
         const double radius = discriminant < 0 ? std::sqrt(f.a2) : std::abs(f.a1 / 2) + std::sqrt(discriminant);
         slowest = std::max(slowest, radius);
     }
-    const double samples = slowest > 0 ? std::log(kForgotten) / std::log(std::min(slowest, 1 - 1e-15)) : 0;
+    const double samples = slowest > 0 ? std::log(kTransientLeft) / std::log(std::min(slowest, 1 - 1e-15)) : 0;
     return static_cast<Index>(std::min(samples, 1e9)) + 2;
 }
 
 }  // namespace
 
 void FilterOptions::validate() const {
-    if (order < 1 || order > kHighestOrder)
-        throw InvalidArgument("the order of the filter must lie between 1 and " + std::to_string(kHighestOrder) +
+    if (order < 1 || order > kHighestFilterOrder)
+        throw InvalidArgument("the order of the filter must lie between 1 and " + std::to_string(kHighestFilterOrder) +
                               ", but it is " + std::to_string(order));
 }
 

@@ -109,6 +109,20 @@ Vector IdData::time(std::size_t experiment) const {
     return t;
 }
 
+double IdData::duration(std::size_t experiment) const {
+    const Experiment& record = experiments.at(experiment);
+    if (record.t.size() > 0) return record.t[record.t.size() - 1] - record.t[0];
+    return static_cast<double>(record.y.rows() - 1) * Ts;
+}
+
+double IdData::mean_step() const {
+    if (regular()) return Ts;
+    double total = 0;
+    for (std::size_t e = 0; e < experiments.size(); ++e) total += duration(e);
+    const Index steps = sample_count() - static_cast<Index>(experiments.size());
+    return steps > 0 ? total / static_cast<double>(steps) : 1;
+}
+
 IdData IdData::range(Index first, Index last) const {
     const Experiment& experiment = only_experiment(*this, "range");
     const Index count = experiment.y.rows();

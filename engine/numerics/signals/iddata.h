@@ -41,6 +41,9 @@ struct IdData {
     Index input_count() const { return experiments.empty() ? 0 : experiments.front().u.cols(); }
     bool regular() const { return Ts > 0; }
     Vector time(std::size_t experiment = 0) const;  ///< N sampling instants of one experiment
+    double duration(std::size_t experiment) const;  ///< from its first sample to its last
+    /// Ts, or the mean interval between neighbouring samples of all experiments; 1 where none has a second sample.
+    double mean_step() const;
 
     IdData range(Index first,
                  Index last) const;  ///< samples first..last (1-based, inclusive), one experiment

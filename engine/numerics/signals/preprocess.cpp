@@ -26,7 +26,7 @@ Line remove_line(Matrix& signals, const Vector& t, TrendKind kind) {
 }
 
 constexpr double kStays = 0.05;  // part of an input's range within which it counts as not yet changed
-constexpr Index kFewest = 3;
+constexpr Index kFewestLeft = 3;
 
 /// Samples before the first change of any input; all of them when none changes.
 Index samples_before_change(const Matrix& u) {
@@ -48,7 +48,7 @@ Index initial_stretch(const Experiment& experiment, Index samples) {
             "detrend: without an input nothing tells where the calm beginning ends; say how many "
             "samples it has, as in detrend(data, \"start\", {samples = 20})");
     const Index found = samples_before_change(experiment.u);
-    if (found >= kFewest) return found;
+    if (found >= kFewestLeft) return found;
     throw InvalidArgument(
         "detrend: the input changes already at sample " + std::to_string(found + 1) +
         ", so the record shows no level from before; remove the mean instead, or say how many samples "

@@ -1,12 +1,12 @@
 #include "numerics/signals/step_record.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <vector>
 
 #include "numerics/error.h"
+#include "numerics/linalg/decompositions.h"
 #include "numerics/signals/robust_statistics.h"
 
 namespace dynlab {
@@ -110,9 +110,7 @@ double local_parabola(const StepRecord& record, const Vector& y, Index k, Index 
     const Vector x = (record.t.segment(first, count).array() - record.t[k]) / span;
     Matrix basis(count, 3);
     basis << Vector::Ones(count), x, x.cwiseAbs2();
-    const Eigen::Matrix3d gram = basis.transpose() * basis;
-    const Eigen::Vector3d moment = basis.transpose() * y.segment(first, count);
-    return gram.ldlt().solve(moment)[0];
+    return solve_semidefinite(basis.transpose() * basis, basis.transpose() * y.segment(first, count))[0];
 }
 
 // Samples from 28.3 % to 63.2 % of the rise, from a running median of five that no single outlier can pass.

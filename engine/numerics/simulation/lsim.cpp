@@ -16,7 +16,7 @@ namespace dynlab {
 
 namespace {
 
-constexpr double kRounding = 1e-9;  // relative difference of two sampling times that mean the same
+constexpr double kGridRounding = 1e-9;  // relative difference of two sampling times that mean the same
 
 void check_model(const TransferFunction& G) {
     if (G.proper()) return;
@@ -35,7 +35,7 @@ Vector initial_state(const VectorView& x0, Index order) {
 }
 
 void check_discrete_sampling(double model_Ts, double Ts) {
-    if (std::abs(model_Ts - Ts) <= kRounding * Ts) return;
+    if (std::abs(model_Ts - Ts) <= kGridRounding * Ts) return;
     throw InvalidArgument("lsim: the model is discrete with Ts = " + number_text(model_Ts) +
                           " s but the data are sampled every " + number_text(Ts) + " s; both must be equal");
 }
@@ -44,7 +44,7 @@ void check_discrete_sampling(double model_Ts, double Ts) {
 double regular_sampling_time(const VectorView& t) {
     const Index intervals = t.size() - 1;
     const double Ts = (t(intervals) - t(0)) / static_cast<double>(intervals);
-    const double largest_rounding = kRounding * Ts;
+    const double largest_rounding = kGridRounding * Ts;
     for (Index k = 1; k < intervals; ++k)
         if (std::abs(t(k) - t(0) - static_cast<double>(k) * Ts) > largest_rounding) return 0;
     return Ts;

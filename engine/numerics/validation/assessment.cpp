@@ -18,7 +18,7 @@ namespace dynlab {
 namespace {
 
 // One output of one experiment.
-struct Record {
+struct AssessedRecord {
     Matrix u;
     Vector y, t;
     double Ts;
@@ -26,14 +26,14 @@ struct Record {
 };
 
 // Response to u and its derivatives with respect to [a_1..a_n b_0..b_m delay].
-Matrix driven_sensitivities(const Record& record, const TransferFunction& G, const VectorView& u) {
+Matrix driven_sensitivities(const AssessedRecord& record, const TransferFunction& G, const VectorView& u) {
     return record.Ts > 0 ? transfer_sensitivities(G.num(), G.den(), G.delay(), u, record.Ts, record.hold)
                          : transfer_sensitivities(G.num(), G.den(), G.delay(), u, record.t, record.hold);
 }
 
 // The same with the system at rest at the first input value before the record; a model with an integrator has no such
 // rest and starts from zero input.
-Matrix channel_sensitivities(const Record& record, const TransferFunction& G, Index input, InitialState state) {
+Matrix channel_sensitivities(const AssessedRecord& record, const TransferFunction& G, Index input, InitialState state) {
     const double gain = G.dc_gain();
     const double resting = state == InitialState::kZero || !std::isfinite(gain) ? 0 : record.u(0, input);
     Matrix columns = driven_sensitivities(record, G, record.u.col(input).array() - resting);
@@ -47,7 +47,7 @@ Matrix channel_sensitivities(const Record& record, const TransferFunction& G, In
 }
 
 // The free motions of 1/A: the impulse responses of s^i/A, i = 0 .. n-1.
-Matrix free_motions(const Record& record, const Vector& den) {
+Matrix free_motions(const AssessedRecord& record, const Vector& den) {
     const Index n = den.size() - 1;
     const Vector since_start = record.t.array() - record.t[0];
     Matrix motions(record.y.size(), n);
@@ -58,7 +58,7 @@ Matrix free_motions(const Record& record, const Vector& den) {
 
 // Derivatives with respect to a_1..a_n of the free motion P/A, P = sum weights_i s^i: the impulse responses of
 // -s^(n-i) P/A^2.
-Matrix free_sensitivities_of(const Record& record, const Vector& den, const Vector& weights) {
+Matrix free_sensitivities_of(const AssessedRecord& record, const Vector& den, const Vector& weights) {
     const Index n = den.size() - 1;
     const Vector since_start = record.t.array() - record.t[0], square = multiply(den, den);
     Matrix columns(record.y.size(), n);
@@ -93,7 +93,7 @@ std::vector<const ChannelPlaces*> free_systems(std::span<const ChannelPlaces> ch
     return systems;
 }
 
-Linearised linearise(const Record& record, std::span<const ChannelPlaces> channels, const StartCondition& start,
+Linearised linearise(const AssessedRecord& record, std::span<const ChannelPlaces> channels, const StartCondition& start,
                      Index parameters) {
     const Index N = record.y.size();
     Linearised result{Matrix::Zero(N, parameters), record.y, 0};
@@ -147,9 +147,9 @@ std::string verdict_of(const Assessment& assessment, const std::vector<std::stri
     return text;
 }
 
-// Robust covariance and standard errors, with the whiteness known.
+// Robust covariance and standard errors, with the whiteness known. Psi and errors hold one block for each output.
 void finish(Assessment& assessment, const Matrix& Psi, const Vector& errors, const std::vector<Index>& lengths,
-            const MatrixView& plain, Index linear_unknowns) {
+            Index outputs, const MatrixView& plain, Index linear_unknowns) {
     const Index N = Psi.rows(), q = Psi.cols();
     std::vector<Index> free;
     for (Index i = 0; i < q; ++i)
@@ -157,13 +157,21 @@ void finish(Assessment& assessment, const Matrix& Psi, const Vector& errors, con
     const auto known = static_cast<Index>(free.size()) + linear_unknowns;
     assessment.covariance = Matrix::Zero(q, q);
     if (!free.empty() && N > known) {
-        const RobustCovariance robust = robust_covariance(Psi(Eigen::all, free), errors, lengths);
+        const RobustCovariance robust = robust_covariance(Psi(Eigen::all, free), errors, lengths, outputs);
         const double freedom =
             static_cast<double>(N - static_cast<Index>(free.size())) / static_cast<double>(N - known);
         assessment.covariance(free, free) = freedom * robust.covariance;
         assessment.bandwidth = robust.bandwidth;
     }
     assessment.std = assessment.covariance.diagonal().cwiseSqrt();
+}
+
+// One output's rows, weighted as the fit of several outputs weights them: with one over the size of its errors.
+void weigh(Eigen::Ref<Matrix> Psi, Eigen::Ref<Vector> errors) {
+    const double size = errors.norm();
+    if (size == 0) return;
+    Psi /= size;
+    errors /= size;
 }
 
 // `by_parameter` (columns of Psi x q) leads from the channels' coefficients to the parameters of the estimate.
@@ -173,30 +181,31 @@ Assessment assess_channels(const IdData& data, const std::vector<ChannelPlaces>&
     if (static_cast<Index>(channels.size()) != ny * nu)
         throw InvalidArgument("The estimate has " + std::to_string(channels.size()) + " channel(s) and the data have " +
                               std::to_string(ny) + " output(s) and " + std::to_string(nu) + " input(s)");
-    const Index N = data.sample_count() * ny;
-    Matrix Psi(N, q);
-    Vector errors(N);
+    const Index N = data.sample_count();
+    Matrix Psi(N * ny, q);
+    Vector errors(N * ny);
     std::vector<Index> lengths;
+    for (std::size_t k = 0; k < data.experiments.size(); ++k) lengths.push_back(data.sample_count(k));
     Assessment assessment;
     Index first = 0, linear_unknowns = 0;
     for (Index i = 0; i < ny; ++i) {
         std::vector<Vector> own_errors;
         for (std::size_t k = 0; k < data.experiments.size(); ++k) {
             const Experiment& experiment = data.experiments[k];
-            const Record record{experiment.u, experiment.y.col(i), data.time(k), data.Ts, data.hold};
+            const AssessedRecord record{experiment.u, experiment.y.col(i), data.time(k), data.Ts, data.hold};
             const std::span<const ChannelPlaces> own(channels.data() + i * nu, static_cast<std::size_t>(nu));
             const Linearised part = linearise(record, own, start, by_parameter.rows());
-            lengths.push_back(part.errors.size());
-            Psi.middleRows(first, lengths.back()) = part.Psi * by_parameter;
-            errors.segment(first, lengths.back()) = part.errors;
-            first += lengths.back();
+            Psi.middleRows(first, lengths[k]) = part.Psi * by_parameter;
+            errors.segment(first, lengths[k]) = part.errors;
+            first += lengths[k];
             linear_unknowns += part.linear_unknowns;
             own_errors.push_back(part.errors);
         }
+        weigh(Psi.middleRows(i * N, N), errors.segment(i * N, N));
         assessment.whiteness.push_back(whiteness_test(own_errors, options));
         assessment.white = assessment.white && assessment.whiteness.back().white;
     }
-    finish(assessment, Psi, errors, lengths, plain, linear_unknowns);
+    finish(assessment, Psi, errors, lengths, ny, plain, linear_unknowns);
     assessment.verdict = verdict_of(assessment, data.output_names);
     return assessment;
 }
@@ -260,7 +269,7 @@ Assessment assess(const IdData& data, const PolynomialEstimate& estimate, Offset
     }
     assessment.whiteness = {whiteness_test(records, options)};
     assessment.white = assessment.whiteness.front().white;
-    finish(assessment, Psi, errors, lengths, estimate.covariance, linear_unknowns);
+    finish(assessment, Psi, errors, lengths, 1, estimate.covariance, linear_unknowns);
     assessment.verdict = verdict_of(assessment, data.output_names);
     return assessment;
 }

@@ -23,9 +23,11 @@ struct Assessment {
 
 /// Sensitivities and output errors are worked out again at the estimate, from its start condition and with the values
 /// that enter linearly (initial state, offset) projected out, then handed to robust_covariance() and
-/// whiteness_test(). Errors of different outputs and experiments count as independent of each other. Parameters whose
-/// plain variance is zero (held at a bound) keep it. `data` are those the estimator saw, with any operating point
-/// already removed. Throws InvalidArgument for data that do not fit the estimate's channels.
+/// whiteness_test(). Each output counts with one over the standard deviation of its errors, as in the fit of outputs
+/// that share a denominator. Errors of different experiments count as independent of each other, those of different
+/// outputs need not be. Parameters whose plain variance is zero (held at a bound) keep it. `data` are those the
+/// estimator saw, with any operating point already removed. Throws InvalidArgument for data that do not fit the
+/// estimate's channels.
 Assessment assess(const IdData& data, const TransferEstimate& estimate, const ResidualOptions& options = {});
 /// The same for a process model; the operating point the result names is removed here.
 Assessment assess(const IdData& data, const ProcsrivcResult& estimate, const ResidualOptions& options = {});

@@ -2,10 +2,8 @@
 
 namespace dynlab {
 
-/// P(X > x) for X chi-squared with `degrees` > 0 degrees of freedom (need not be whole): the regularised upper
-/// incomplete gamma function Q(degrees/2, x/2), by its series (DLMF 8.11.4) or continued fraction (DLMF 8.9.2).
-/// Relative accuracy about 1e-12. Throws InvalidArgument for degrees that are not positive or an x that is not a
-/// number.
+/// P(X > x) for X chi-squared with `degrees` > 0 degrees of freedom (need not be whole). Throws InvalidArgument for
+/// degrees that are not positive or an x that is not a number.
 double chi_squared_upper_tail(double x, double degrees);
 
 /// The x with P(X <= x) = probability, 0 < probability < 1. Throws InvalidArgument otherwise.

@@ -18,19 +18,19 @@ namespace {
 using Channels = std::span<const TransferFunction>;  // of one output, one per input
 
 // One output of one experiment.
-struct Record {
+struct ComparedRecord {
     Matrix u;
     Vector y, t;
     double Ts;
     Hold hold;
 };
 
-Vector simulate(const Record& record, const TransferFunction& G, const VectorView& u, const VectorView& x0) {
+Vector simulate(const ComparedRecord& record, const TransferFunction& G, const VectorView& u, const VectorView& x0) {
     return record.Ts > 0 ? lsim(G, u, record.Ts, record.hold, x0) : lsim(G, u, record.t, record.hold, x0);
 }
 
 // Response from rest at zero input, or at the first input values.
-Vector driven_response(const Record& record, Channels channels, InitialState state) {
+Vector driven_response(const ComparedRecord& record, Channels channels, InitialState state) {
     Vector response = Vector::Zero(record.y.size());
     for (Index j = 0; j < record.u.cols(); ++j) {
         const TransferFunction& G = channels[static_cast<std::size_t>(j)];
@@ -60,7 +60,7 @@ Index free_order(Channels channels) {
     return n;
 }
 
-Matrix free_motions(const Record& record, Channels channels) {
+Matrix free_motions(const ComparedRecord& record, Channels channels) {
     const Index N = record.y.size();
     Matrix motions(N, free_order(channels));
     Index column = 0;
@@ -73,13 +73,13 @@ Matrix free_motions(const Record& record, Channels channels) {
     return motions;
 }
 
-struct Candidate {
+struct DelayCandidate {
     CompareResult result;
     double bic = std::numeric_limits<double>::infinity();
 };
 
-Candidate candidate(const Record& record, Channels channels, const StartCondition& condition) {
-    Candidate found;
+DelayCandidate candidate(const ComparedRecord& record, Channels channels, const StartCondition& condition) {
+    DelayCandidate found;
     CompareResult& result = found.result;
     result.start = condition;
     result.output = driven_response(record, channels, condition.state);
@@ -104,7 +104,7 @@ Candidate candidate(const Record& record, Channels channels, const StartConditio
     return found;
 }
 
-CompareResult compare_record(Record record, Channels channels, const CompareOptions& options) {
+CompareResult compare_record(ComparedRecord record, Channels channels, const CompareOptions& options) {
     double removed_output = 0;
     if (options.offset == Offset::kRemove) {
         const JointOperatingPoint removed = joint_operating_point(record.u, record.y);
@@ -113,11 +113,11 @@ CompareResult compare_record(Record record, Channels channels, const CompareOpti
         removed_output = removed.output;
     }
     const auto conditions = start_conditions(record.u, options.initial_state, options.offset);
-    Candidate best = candidate(record, channels, conditions.front());
+    DelayCandidate best = candidate(record, channels, conditions.front());
     for (std::size_t i = 1; i < conditions.size(); ++i) {
         const Index n = conditions[i].state == InitialState::kEstimate ? free_order(channels) : 0;
         if (record.y.size() <= n + 1) continue;
-        Candidate next = candidate(record, channels, conditions[i]);
+        DelayCandidate next = candidate(record, channels, conditions[i]);
         if (next.bic < best.bic) best = std::move(next);
     }
     CompareResult result = std::move(best.result);

@@ -22,14 +22,15 @@ constexpr int kMostCandidates = 2000;
 constexpr double kRoundingShare = 1e-20;  // of the output's mean square: smaller errors are rounding
 
 /// Measured and simulated output of all experiments, each counted from the mean of its measured output.
-struct Outputs {
+struct ValidationOutputs {
     Vector measured, simulated;
 };
 
-Outputs outputs_of(const IdData& data, const TransferEstimate& estimate) {
-    const Comparison comparison = compare_all(
-        data, estimate.models, {estimate.start.state, estimate.start.offset ? Offset::kEstimate : Offset::kNone});
-    Outputs all{Vector(data.sample_count()), Vector(data.sample_count())};
+ValidationOutputs outputs_of(const IdData& data, const TransferEstimate& estimate, Offset asked) {
+    const Offset chosen = estimate.start.offset ? Offset::kEstimate : Offset::kNone;
+    const Comparison comparison =
+        compare_all(data, estimate.models, {estimate.start.state, asked == Offset::kRemove ? Offset::kRemove : chosen});
+    ValidationOutputs all{Vector(data.sample_count()), Vector(data.sample_count())};
     Index first = 0;
     for (std::size_t k = 0; k < data.experiments.size(); ++k) {
         const auto y = data.experiments[k].y.col(0);
@@ -67,13 +68,24 @@ bool has_cancellation(const TransferEstimate& estimate) {
     return false;
 }
 
-double validation_fit(const IdData& data, const TransferEstimate& estimate) {
-    return compare_all(data, estimate.models, {InitialState::kEstimate, Offset::kNone}).fit_percent[0];
+bool has_constant_inputs(const IdData& data) {
+    return std::any_of(data.experiments.begin(), data.experiments.end(),
+                       [](const Experiment& experiment) { return (experiment.u.array() == experiment.u(0, 0)).all(); });
 }
 
-void measure(OrderCandidate& candidate, const IdData& data, const IdData* validation) {
+/// Minus infinity for an unstable model that leaves the range of numbers.
+double validation_fit(const IdData& data, const TransferEstimate& estimate, Offset offset) {
+    // With a constant input a free motion and a constant together would hide the gain.
+    const bool hidden = offset == Offset::kEstimate && has_constant_inputs(data);
+    const InitialState state = hidden ? InitialState::kAuto : InitialState::kEstimate;
+    const double fit = compare_all(data, estimate.models, {state, offset}).fit_percent[0];
+    return std::isfinite(fit) ? fit : -std::numeric_limits<double>::infinity();
+}
+
+void measure(OrderCandidate& candidate, const IdData& data, const OrderSelectionOptions& options) {
     const TransferEstimate& estimate = candidate.estimate;
-    const Outputs outputs = outputs_of(data, estimate);
+    const Offset offset = options.estimation.offset;
+    const ValidationOutputs outputs = outputs_of(data, estimate, offset);
     const Index N = data.sample_count(), d = estimate.theta.size();
     const auto samples = static_cast<double>(N), count = static_cast<double>(d);
     const double mean_square = (outputs.measured - outputs.simulated).squaredNorm() / samples;
@@ -92,7 +104,7 @@ void measure(OrderCandidate& candidate, const IdData& data, const IdData* valida
     candidate.undetermined = undetermined_parameters(estimate);
     candidate.cancellation = has_cancellation(estimate);
     candidate.converged = estimate.termination == Termination::kConverged;
-    if (validation != nullptr) candidate.validation_fit = validation_fit(*validation, estimate);
+    if (options.validation != nullptr) candidate.validation_fit = validation_fit(*options.validation, estimate, offset);
 }
 
 OrderCandidate candidate_of(const IdData& data, const TransferStructure& structure,
@@ -104,7 +116,7 @@ OrderCandidate candidate_of(const IdData& data, const TransferStructure& structu
     try {
         candidate.estimate = srivc(data, structure, options.estimation);
         if (!candidate.estimate.theta.allFinite()) throw InvalidArgument("a parameter is not finite");
-        measure(candidate, data, options.validation);
+        measure(candidate, data, options);
     } catch (const std::exception& error) {
         candidate.failure = error.what();
     }

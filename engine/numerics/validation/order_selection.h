@@ -21,7 +21,7 @@ struct OrderCandidate {
     double log_condition = 0;  ///< log10 of the column-scaled equations' condition number
     int iterations = 0;
     double fit_percent = 0;
-    std::optional<double> validation_fit;  ///< percent, of the second record
+    std::optional<double> validation_fit;  ///< percent, of the second record; minus infinity when it overflows
     double evidence = 0;  ///< N ln V + d ln N, V the mean square error, but not below rounding of the output
     std::vector<std::string> undetermined;  ///< parameters whose standard error exceeds their value
     bool cancellation = false;              ///< a zero lies on a pole within what the data can tell
@@ -53,8 +53,9 @@ std::vector<TransferStructure> order_grid(std::pair<int, int> poles, std::pair<i
                                           const std::vector<double>& delays, bool free_delay = false);
 
 /// Estimates every structure on `data` (one input, one output, any number of experiments) by srivc, several at once.
-/// Equal numbers for any number of threads. Throws InvalidArgument for other data, no candidates, and when none of them
-/// could be estimated.
+/// A second record is simulated as compare_all() does it with the initial state estimated, for that is the record's
+/// own, and with the offset that the estimation was asked for. Equal numbers for any number of threads. Throws
+/// InvalidArgument for other data, no candidates, and when none of them could be estimated.
 OrderSelection select_order(const IdData& data, const std::vector<TransferStructure>& candidates,
                             const OrderSelectionOptions& options = {});
 

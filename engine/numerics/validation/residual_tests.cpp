@@ -1,10 +1,10 @@
 #include "numerics/validation/residual_tests.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 
 #include "numerics/error.h"
+#include "numerics/linalg/decompositions.h"
 #include "numerics/number_text.h"
 #include "numerics/signals/correlation.h"
 #include "numerics/validation/chi_squared.h"
@@ -112,12 +112,12 @@ struct QuadraticForm {
 
 // N r' P^-1 r in the directions the input excites: those P gives more than the edges of the record can feign.
 QuadraticForm quadratic_form(const Vector& r, const Vector& g, double N) {
-    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(symmetric_toeplitz(g, r.size()));
-    const Vector along = eigen.eigenvectors().transpose() * r;
+    const auto [values, vectors] = symmetric_eigen(symmetric_toeplitz(g, r.size()));
+    const Vector along = vectors.transpose() * r;
     QuadraticForm form;
     for (Index i = 0; i < r.size(); ++i) {
-        if (eigen.eigenvalues()[i] <= g[0] / N) continue;
-        form.statistic += N * along[i] * along[i] / eigen.eigenvalues()[i];
+        if (values[i] <= g[0] / N) continue;
+        form.statistic += N * along[i] * along[i] / values[i];
         ++form.degrees;
     }
     return form;

@@ -12,7 +12,8 @@ namespace dynlab {
 
 namespace {
 
-void check_sizes(const MatrixView& H, const MatrixView& Z, const VectorView& e, const std::vector<Index>& lengths) {
+void check_sizes(const MatrixView& H, const MatrixView& Z, const VectorView& e, const std::vector<Index>& lengths,
+                 Index outputs) {
     const Index N = Z.rows(), d = Z.cols();
     if (e.size() != N || H.rows() != d || H.cols() != d)
         throw InvalidArgument("A robust covariance of " + std::to_string(N) + " samples and " + std::to_string(d) +
@@ -20,8 +21,19 @@ void check_sizes(const MatrixView& H, const MatrixView& Z, const VectorView& e, 
     if (N <= d)
         throw InvalidArgument("A robust covariance needs more samples than parameters, and got " + std::to_string(N) +
                               " samples and " + std::to_string(d) + " parameters");
-    if (std::accumulate(lengths.begin(), lengths.end(), Index{0}) != N)
-        throw InvalidArgument("The lengths of the records must add up to the " + std::to_string(N) + " samples");
+    if (outputs * std::accumulate(lengths.begin(), lengths.end(), Index{0}) != N)
+        throw InvalidArgument("The lengths of the records of " + std::to_string(outputs) +
+                              " output(s) must add up to the " + std::to_string(N) + " samples");
+}
+
+// v(k): one row for each instant.
+Matrix weighted_errors(const MatrixView& H, const MatrixView& Z, const VectorView& e, Index outputs) {
+    Matrix all = Z * H.transpose();
+    all.array().colwise() *= e.array();
+    const Index instants = Z.rows() / outputs;
+    Matrix V = all.topRows(instants);
+    for (Index i = 1; i < outputs; ++i) V += all.middleRows(i * instants, instants);
+    return V;
 }
 
 // Lag-one correlations of the columns of V, no closer to one than Andrews advises.
@@ -65,15 +77,14 @@ Matrix bartlett_sum(const Eigen::Ref<const Matrix>& V, Index L) {
 }  // namespace
 
 RobustCovariance robust_covariance(const MatrixView& H, const MatrixView& Z, const VectorView& e,
-                                   const std::vector<Index>& given_lengths) {
-    const std::vector<Index> lengths = given_lengths.empty() ? std::vector<Index>{Z.rows()} : given_lengths;
-    check_sizes(H, Z, e, lengths);
+                                   const std::vector<Index>& given_lengths, Index outputs) {
+    const std::vector<Index> lengths = given_lengths.empty() ? std::vector<Index>{Z.rows() / outputs} : given_lengths;
+    check_sizes(H, Z, e, lengths, outputs);
     const Index N = Z.rows(), d = Z.cols();
-    Matrix V = Z * H.transpose();
-    V.array().colwise() *= e.array();
+    const Matrix V = weighted_errors(H, Z, e, outputs);
     RobustCovariance result;
-    result.bandwidth =
-        bartlett_bandwidth(lag_one_correlations(V, lengths), N, *std::max_element(lengths.begin(), lengths.end()));
+    result.bandwidth = bartlett_bandwidth(lag_one_correlations(V, lengths), V.rows(),
+                                          *std::max_element(lengths.begin(), lengths.end()));
     result.covariance = Matrix::Zero(d, d);
     Index first = 0;
     for (const Index length : lengths) {
@@ -85,12 +96,13 @@ RobustCovariance robust_covariance(const MatrixView& H, const MatrixView& Z, con
     return result;
 }
 
-RobustCovariance robust_covariance(const MatrixView& Psi, const VectorView& e, const std::vector<Index>& lengths) {
+RobustCovariance robust_covariance(const MatrixView& Psi, const VectorView& e, const std::vector<Index>& lengths,
+                                   Index outputs) {
     if (Psi.rows() <= Psi.cols())
         throw InvalidArgument("A robust covariance needs more samples than parameters, and got " +
                               std::to_string(Psi.rows()) + " samples and " + std::to_string(Psi.cols()) +
                               " parameters");
-    return robust_covariance(solve_least_squares(Psi, e).inverse_gram, Psi, e, lengths);
+    return robust_covariance(solve_least_squares(Psi, e).inverse_gram, Psi, e, lengths, outputs);
 }
 
 }  // namespace dynlab

@@ -19,15 +19,19 @@ struct RobustCovariance {
 /// for instrumental variables. The window is the one of least mean square error for first-order autoregressive v
 /// (Andrews 1991, section 6, every parameter counting alike):
 ///     L = 1.1447 (alpha N)^(1/3),   alpha = mean_i 4 rho_i^2/((1 - rho_i)^2 (1 + rho_i)^2),
-/// rounded up; it grows with the correlation the residuals and sensitivities have in common, and is 1 (White 1980)
-/// without any. The result is positive semidefinite and does not depend on the parameters' units; the work is
-/// O(N d^2) for any L, for the window's double sum is one over squared moving sums.
-/// `Z` is N x d, `e` has N values. `lengths` (summing to N) tells uninterrupted records apart, which are taken as
-/// independent of each other; empty for one. Throws InvalidArgument for sizes that do not fit or N <= d.
+/// N the number of instants, rounded up; it grows with the correlation the residuals and sensitivities have in common,
+/// and is 1 (White 1980) without any. The result is positive semidefinite and does not depend on the parameters' units;
+/// the work is O(N d^2) for any L, for the window's double sum is one over squared moving sums. `Z` is N x d, `e` has N
+/// values. Where several `outputs` were fitted together, both hold as many blocks of N/outputs rows, each output's at
+/// the same instants and with the weight that it had in the fit; v(k) is the sum over the outputs at one instant then,
+/// so that the errors of one output may depend on those of another. `lengths` (summing to N/outputs) tells
+/// uninterrupted records apart, which are taken as independent of each other; empty for one. Throws InvalidArgument for
+/// sizes that do not fit or N <= d.
 RobustCovariance robust_covariance(const MatrixView& H, const MatrixView& Z, const VectorView& e,
-                                   const std::vector<Index>& lengths = {});
+                                   const std::vector<Index>& lengths = {}, Index outputs = 1);
 
 /// The same for an output-error estimate with sensitivities Psi = d simulated/d theta (N x d).
-RobustCovariance robust_covariance(const MatrixView& Psi, const VectorView& e, const std::vector<Index>& lengths = {});
+RobustCovariance robust_covariance(const MatrixView& Psi, const VectorView& e, const std::vector<Index>& lengths = {},
+                                   Index outputs = 1);
 
 }  // namespace dynlab

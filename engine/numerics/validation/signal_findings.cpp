@@ -1,9 +1,9 @@
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <numbers>
 
+#include "numerics/linalg/decompositions.h"
 #include "numerics/number_text.h"
 #include "numerics/signals/correlation.h"
 #include "numerics/signals/quantisation.h"
@@ -18,7 +18,7 @@ namespace {
 constexpr Index kShortestRun = 5;        // samples at a limit that are no chance
 constexpr double kClippedExcess = 0.05;  // of the range, what the signal would have gone beyond its limit
 constexpr double kCoarse = 100;          // steps over the range below which quantisation matters
-constexpr Index kHighestOrder = 20, kPoorOrder = 6;
+constexpr Index kHighestExcitation = 20, kPoorOrder = 6;
 constexpr double kExcited = 5e-3;  // singular value against the largest one
 
 struct Channel {
@@ -202,15 +202,13 @@ Index half_correlation(const Vector& x, Index most) {
 /// model it can determine.
 Index excitation_order(const Vector& u) {
     const Index N = u.size(), shift = half_correlation(u.array() - u.mean(), std::max<Index>(N / 20, 1));
-    const Index order = std::min(kHighestOrder, N / (2 * shift));
+    const Index order = std::min(kHighestExcitation, N / (2 * shift));
     if (order < 1) return 1;
     const Index rows = N - (order - 1) * shift;
     Matrix copies(rows, order);
     for (Index i = 0; i < order; ++i) copies.col(i) = u.segment(i * shift, rows);
     copies.rowwise() -= copies.colwise().mean().eval();
-    const Eigen::HouseholderQR<Matrix> qr(copies);
-    const Matrix R = qr.matrixQR().topRows(std::min(rows, order)).triangularView<Eigen::Upper>();
-    const Vector singular = R.jacobiSvd().singularValues();
+    const Vector singular = singular_values(triangular_part(copies));
     return (singular.array() > kExcited * singular[0]).count();
 }
 
@@ -242,7 +240,7 @@ void find_excitation(const Channel& channel, const Quantisation& grid, std::vect
                               std::to_string((order + 1) / 2) + (order > 2 ? " frequencies" : " frequency") +
                               " only. Excite with a prbs, a chirp or a multisine that covers the plant's bandwidth."
                         : " is rich enough for models with " +
-                              (order >= kHighestOrder ? std::string("20 parameters or more")
+                              (order >= kHighestExcitation ? std::string("20 parameters or more")
                                                       : std::to_string(order) + " parameters") +
                               "."),
               static_cast<double>(order)));

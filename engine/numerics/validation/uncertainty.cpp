@@ -1,6 +1,5 @@
 #include "numerics/validation/uncertainty.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +7,7 @@
 
 #include "numerics/error.h"
 #include "numerics/kernels/process_output.h"
+#include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/number_text.h"
 #include "numerics/simulation/time_response.h"
@@ -16,8 +16,6 @@
 namespace dynlab {
 
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 void check_model(const TransferFunction& G, const Matrix& covariance) {
     if (!G.continuous()) throw InvalidArgument("Uncertainty is worked out for continuous-time models: give d2c(G)");
@@ -61,7 +59,7 @@ Eigen::Matrix2d covariance_of(const Eigen::RowVectorXcd& derivatives, const Matr
 }
 
 double largest_std(const Eigen::Matrix2d& covariance) {
-    return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(covariance).eigenvalues()[1]);
+    return std::sqrt(symmetric_eigenvalues(covariance)[1]);
 }
 
 // A conjugate pair is near multiple when it comes close to the real axis, as any two roots that come close.
@@ -168,9 +166,9 @@ Matrix confidence_region(const RootUncertainty& root, double confidence, Index c
         const double half = normal_half_width(confidence) * std::sqrt(root.covariance(0, 0));
         return Matrix{{x - half, 0}, {x + half, 0}};
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(root.covariance);
-    const Eigen::Matrix2d axes = std::sqrt(chi_squared_quantile(confidence, 2)) * eigen.eigenvectors() *
-                                 eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+    const auto [values, vectors] = symmetric_eigen(root.covariance);
+    const Eigen::Matrix2d axes =
+        std::sqrt(chi_squared_quantile(confidence, 2)) * vectors * values.cwiseMax(0).cwiseSqrt().asDiagonal();
     const Vector angle = Vector::LinSpaced(count, 0, 2 * std::numbers::pi);
     Matrix circle(2, count);
     circle << angle.array().cos().matrix().transpose(), angle.array().sin().matrix().transpose();

@@ -14,10 +14,6 @@ using namespace std::chrono_literals;
 constexpr auto kLong = 10ms;  // far more than it takes to read a result back
 constexpr auto kQuick = 2ms;  // not even worth a look: a loop of estimations on records of one length, say
 
-const char* name_of(const Call& call) {
-    return static_cast<const char*>(lua_touserdata(call.state(), lua_upvalueindex(1)));
-}
-
 /// Nothing when an argument has no lasting content.
 std::optional<std::string> archive_of_arguments(const Call& call) {
     ArchiveWriter arguments;
@@ -70,7 +66,7 @@ int run_long_call(Call& call, Binding body) {
     const auto arguments = memory ? archive_of_arguments(call) : std::nullopt;
     if (!arguments) return body(call);
     auto& quick_calls = call.context().quick_calls;
-    const std::pair<std::string, std::size_t> kind{name_of(call), arguments->size()};
+    const std::pair<std::string, std::size_t> kind{call.function_name(), arguments->size()};
     if (quick_calls.count(kind)) return body(call);
     const std::string key = memory->key({kind.first, *arguments});
     if (const auto known = memory->recall(key)) return give_again(call, *known);

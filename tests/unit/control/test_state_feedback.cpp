@@ -10,7 +10,7 @@
 #include "support/thrown_message.h"
 
 namespace dynlab {
-namespace {
+namespace test_state_feedback {
 
 Matrix one(double value) {
     return Matrix::Constant(1, 1, value);
@@ -97,5 +97,5 @@ TEST(state_feedback, refuses_what_no_feedback_can_do) {
               std::string::npos);
 }
 
-}  // namespace
+}  // namespace test_state_feedback
 }  // namespace dynlab

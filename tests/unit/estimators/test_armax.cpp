@@ -7,11 +7,11 @@
 #include "support/difference_equation.h"
 #include "support/thrown_message.h"
 
+namespace test_armax {
+
 using namespace dynlab;
 using namespace dynlab::test;
 using testing::HasSubstr;
-
-namespace {
 
 PolynomialOrders orders_of(int na, std::vector<int> nb, int nc, std::vector<int> nk) {
     PolynomialOrders orders = PolynomialOrders::arx(na, std::move(nb), std::move(nk));
@@ -46,8 +46,6 @@ double loss_of(const IdData& data, const Vector& theta) {
     }
     return e.squaredNorm() / static_cast<double>(y.size() - 2);
 }
-
-}  // namespace
 
 TEST(armax, recovers_noise_free_systems) {  // oracle: the simulated system
     const auto result = armax(record(500, 0, 1), kOrders, tight());
@@ -135,3 +133,5 @@ TEST(armax, refuses_what_it_cannot_fit) {  // oracle: definitions
     constant.experiments[0].u.setOnes();
     EXPECT_THAT(refusal(constant, kOrders), HasSubstr("armax: the input u1 is too poor"));
 }
+
+}  // namespace test_armax

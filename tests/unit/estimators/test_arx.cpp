@@ -8,11 +8,11 @@
 #include "support/difference_equation.h"
 #include "support/thrown_message.h"
 
+namespace test_arx {
+
 using namespace dynlab;
 using namespace dynlab::test;
 using testing::HasSubstr;
-
-namespace {
 
 const PolynomialOrders kSecond = PolynomialOrders::arx(2, {2}, {2});
 const Vector kTruth{{-1.2, 0.5, 0.4, -0.1}};
@@ -45,8 +45,6 @@ Equations equations(const Matrix& u, const Vector& y, const PolynomialOrders& or
 double worst(const Vector& a, const Vector& b) {
     return (a - b).cwiseAbs().maxCoeff();
 }
-
-}  // namespace
 
 TEST(arx, recovers_a_noise_free_system) {  // oracle: the simulated system
     for (double Ts : {0.1, 1e-6}) {
@@ -170,3 +168,5 @@ TEST(arx, refuses_other_data_and_orders) {
     EXPECT_EQ(refusal(rich, kSecond), "");
     EXPECT_THAT(refusal(data, PolynomialOrders::output_error({1}, {1}, {1})), HasSubstr("nf must be zero"));
 }
+
+}  // namespace test_arx

@@ -7,11 +7,11 @@
 #include "support/difference_equation.h"
 #include "support/thrown_message.h"
 
+namespace test_bj {
+
 using namespace dynlab;
 using namespace dynlab::test;
 using testing::HasSubstr;
-
-namespace {
 
 PolynomialOrders orders_of(int nc, int nd) {
     PolynomialOrders orders = PolynomialOrders::output_error({2}, {2}, {1});
@@ -47,8 +47,6 @@ double loss_of(const IdData& data, const Vector& theta) {
     w[0] = 0;
     return divided_by(model.C, w).squaredNorm() / static_cast<double>(y.size() - 1);
 }
-
-}  // namespace
 
 TEST(bj, recovers_noise_free_systems) {  // oracle: the simulated system
     const auto result = bj(record(500, 0, 1), kOrders, tight());
@@ -127,3 +125,5 @@ TEST(bj, refuses_what_it_cannot_fit) {  // oracle: definitions
     EXPECT_THAT(thrown_message([&] { bj(record(100, 0.1, 1), other); }), HasSubstr("na must be zero"));
     EXPECT_THAT(thrown_message([&] { bj(record(4, 0.1, 1), kOrders); }), HasSubstr("bj needs more samples"));
 }
+
+}  // namespace test_bj

@@ -5,6 +5,8 @@
 
 #include "numerics/estimators/catalogue.h"
 
+namespace test_catalogue {
+
 using namespace dynlab;
 
 TEST(catalogue, every_method_has_its_files) {  // oracle: the source tree
@@ -38,3 +40,5 @@ TEST(catalogue, names_are_unique_and_found) {  // oracle: definition
     }
     EXPECT_FALSE(find_method("srivc_of_nothing").has_value());
 }
+
+}  // namespace test_catalogue

@@ -7,11 +7,11 @@
 #include "support/thrown_message.h"
 #include "support/transfer_cases.h"
 
+namespace test_coe {
+
 using namespace dynlab;
 using namespace dynlab::test;
 using testing::HasSubstr;
-
-namespace {
 
 const TransferStructure kCourse = TransferStructure::single(2, 0);
 
@@ -44,8 +44,6 @@ void expect_near_truth(const TransferEstimate& found, const Vector& truth, doubl
 IdData record(const Vector& y, const Vector& u, double Ts) {
     return IdData(Matrix(y), Matrix(u), Ts);
 }
-
-}  // namespace
 
 TEST(coe, equals_srivc_on_noisy_sets) {  // oracle: the fixed point of SRIVC is the output-error optimum
     for (const char* set : {"sys2_s0.2_seed1", "sys2_s0.4_seed1", "rg_snr10_seed1"}) {
@@ -278,3 +276,5 @@ TEST(coe, refuses_bad_options_in_words) {  // oracle: the sentence names the opt
     options.TdMax = 0.5;
     EXPECT_NE(thrown_message([&] { coe(data, with_free_delay(2, 0), options); }).find("TdMax"), std::string::npos);
 }
+
+}  // namespace test_coe

@@ -10,11 +10,11 @@
 #include "support/difference_equation.h"
 #include "support/thrown_message.h"
 
+namespace test_cra {
+
 using namespace dynlab;
 using namespace dynlab::test;
 using testing::HasSubstr;
-
-namespace {
 
 const Vector kResponse{{0.0, 0.0, 1.0, 0.7, 0.4, 0.2, 0.1, 0.0, 0.0, 0.0, 0.0}};
 
@@ -33,8 +33,6 @@ CraOptions with(Index lags, Index whitening) {
 Vector coloured(Index N, std::uint32_t seed) {
     return divided_by(Vector{{1.0, -1.2, 0.5}}, RandomStream(seed).normal(N));
 }
-
-}  // namespace
 
 TEST(cra, is_the_correlation_divided_by_the_power) {  // oracle: direct sums
     const IdData data = record(RandomStream(1).normal(150), 0.3, 2);
@@ -105,3 +103,5 @@ TEST(cra, says_what_it_needs) {
     EXPECT_THROW(cra(data, with(5, 101)), InvalidArgument);
     EXPECT_THAT(thrown_message([&] { cra(data.range(1, 12)); }), HasSubstr("at least 18 samples"));
 }
+
+}  // namespace test_cra

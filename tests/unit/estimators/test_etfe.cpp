@@ -12,11 +12,11 @@
 #include "support/difference_equation.h"
 #include "support/thrown_message.h"
 
+namespace test_etfe {
+
 using namespace dynlab;
 using namespace dynlab::test;
 using testing::HasSubstr;
-
-namespace {
 
 const Vector kB{{0.0, 0.5, 0.2}}, kF{{1.0, -0.9, 0.3}};
 
@@ -32,8 +32,6 @@ IdData periodic(Index period, double noise, std::uint32_t seed) {
     const Vector x = divided_by(kF, weighted_past(kB, one.replicate(12, 1)));
     return IdData(Matrix(x.tail(period) + noise * random.normal(period)), Matrix(one), 1);
 }
-
-}  // namespace
 
 TEST(etfe, is_exact_for_whole_periods_in_steady_state) {  // oracle: the true frequency response
     for (const Index period : {100, 101, 127}) {
@@ -110,3 +108,5 @@ TEST(etfe, transforms_of_any_length_follow_the_definition) {  // oracle: the sum
     }
     EXPECT_EQ(fourier_transform(Vector()).size(), 0);
 }
+
+}  // namespace test_etfe

@@ -7,9 +7,9 @@
 #include "numerics/estimators/linear_regression.h"
 #include "numerics/signals/random.h"
 
-using namespace dynlab;
+namespace test_gradient_descent {
 
-namespace {
+using namespace dynlab;
 
 struct Problem {
     Matrix Phi;
@@ -23,8 +23,6 @@ Problem line_problem() {
     p.y = p.Phi * Vector{{-2.0, 5.0}} + 0.1 * random.normal(40);
     return p;
 }
-
-}  // namespace
 
 TEST(gradient_descent, ends_at_the_least_squares_solution) {  // oracle: second route
     const Problem p = line_problem();
@@ -95,3 +93,5 @@ TEST(gradient_descent, refuses_what_does_not_fit) {
     options.start = Vector::Ones(3);
     EXPECT_THROW(gradient_descent(p.Phi, p.y, options), InvalidArgument);
 }
+
+}  // namespace test_gradient_descent

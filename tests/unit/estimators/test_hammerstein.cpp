@@ -11,12 +11,12 @@
 #include "support/thrown_message.h"
 #include "support/transfer_cases.h"
 
+namespace test_hammerstein {
+
 using namespace dynlab;
 using namespace dynlab::test;
 using testing::HasSubstr;
 using testing::Not;
-
-namespace {
 
 const Vector kEdges{{-1, -0.2, 0.2, 1}};
 const Vector kLevels{{-1.6, 0.1, 0.1, 2.1}};  // a dead band, and a smaller gain backwards
@@ -62,8 +62,6 @@ HammersteinOptions at_edges(const Vector& edges) {
     options.Tol = 1e-9;
     return options;
 }
-
-}  // namespace
 
 TEST(hammerstein, hat_functions_share_out_every_value) {  // oracle: definition
     const Matrix hats = hat_functions(kEdges, values({-3, -1, -0.6, 0.1, 0.2, 0.6, 1, 4}));
@@ -211,3 +209,5 @@ TEST(hammerstein, refuses_what_it_cannot_fit) {  // oracle: definitions
     other.hold = Hold::kFoh;
     EXPECT_THAT(refusal(other, {}), HasSubstr("held input"));
 }
+
+}  // namespace test_hammerstein

@@ -10,11 +10,11 @@
 #include "support/difference_equation.h"
 #include "support/thrown_message.h"
 
+namespace test_impulseest {
+
 using namespace dynlab;
 using namespace dynlab::test;
 using testing::HasSubstr;
-
-namespace {
 
 /// 0 for `dead` samples, then a decaying oscillation.
 Vector response_with(Index dead, Index count) {
@@ -36,8 +36,6 @@ ImpulseestOptions plain(Index lags) {
     options.smooth = false;
     return options;
 }
-
-}  // namespace
 
 TEST(impulseest, is_exact_for_noise_free_finite_responses) {  // oracle: the response put in
     const Vector g = response_with(3, 21), u = RandomStream(2).normal(300);
@@ -159,3 +157,5 @@ TEST(impulseest, a_response_that_outlasts_the_lags_is_told) {
     ASSERT_EQ(estimate.warnings.size(), 1u);
     EXPECT_THAT(estimate.warnings[0], HasSubstr("not died out"));
 }
+
+}  // namespace test_impulseest

@@ -10,11 +10,11 @@
 #include "support/difference_equation.h"
 #include "support/thrown_message.h"
 
+namespace test_iv4 {
+
 using namespace dynlab;
 using namespace dynlab::test;
 using testing::HasSubstr;
-
-namespace {
 
 const PolynomialOrders kOrders = PolynomialOrders::arx(2, {2}, {1});
 const Vector kTheta{{-1.5, 0.7, 1, 0.5}};
@@ -46,8 +46,6 @@ Matrix regressors(const Vector& y, const Vector& u, Index first) {
 Vector instruments(const Vector& theta, const Vector& u) {
     return model_output(PolynomialModel(kOrders, theta, 1), u, Vector::Zero(u.size()));
 }
-
-}  // namespace
 
 TEST(iv4, recovers_noise_free_systems) {  // oracle: the simulated system
     const auto result = iv4(record(400, 0, 1), kOrders);
@@ -103,3 +101,5 @@ TEST(iv4, refuses_what_it_cannot_fit) {  // oracle: definitions
     EXPECT_THAT(thrown_message([&] { iv4(record(6, 0.1, 1), kOrders); }), HasSubstr("iv4 needs more equations"));
     EXPECT_NE(thrown_message([&] { iv4(record(8, 0.1, 1), kOrders); }), "");
 }
+
+}  // namespace test_iv4

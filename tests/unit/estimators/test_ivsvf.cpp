@@ -7,10 +7,10 @@
 #include "support/thrown_message.h"
 #include "support/transfer_cases.h"
 
+namespace test_ivsvf {
+
 using namespace dynlab;
 using namespace dynlab::test;
-
-namespace {
 
 const TransferStructure kCourse = TransferStructure::single(2, 0);
 
@@ -19,8 +19,6 @@ SvfOptions cutoff(double lambda) {
     options.lambda = lambda;
     return options;
 }
-
-}  // namespace
 
 // oracle: residual of the definition, with stored columns from lsim
 TEST(ivsvf, solves_the_equations_of_its_definition) {
@@ -54,3 +52,5 @@ TEST(ivsvf, refuses_what_lssvf_refuses) {  // oracle: the sentence names the met
     const std::string message = thrown_message([&] { ivsvf(data.range(1, 4), kCourse, cutoff(3)); });
     EXPECT_EQ(message.find("ivsvf: "), 0u) << message;
 }
+
+}  // namespace test_ivsvf

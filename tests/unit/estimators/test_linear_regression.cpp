@@ -7,9 +7,9 @@
 #include "numerics/estimators/linear_regression.h"
 #include "numerics/signals/random.h"
 
-using namespace dynlab;
+namespace test_linear_regression {
 
-namespace {
+using namespace dynlab;
 
 struct Problem {
     Matrix Phi;
@@ -23,8 +23,6 @@ Problem random_problem(Index N, Index d, double noise, std::uint32_t seed = 1) {
     problem.y = problem.Phi * problem.truth + noise * random.normal(N);
     return problem;
 }
-
-}  // namespace
 
 TEST(linear_regression, exact_data_give_the_truth) {  // oracle: analytic
     for (auto method : {RegressionMethod::kQr, RegressionMethod::kNormal}) {
@@ -147,3 +145,5 @@ TEST(linear_regression, refuses_what_does_not_fit) {
     EXPECT_THROW(parse_regression_method("svd"), InvalidArgument);
     EXPECT_EQ(parse_regression_method("normal"), RegressionMethod::kNormal);
 }
+
+}  // namespace test_linear_regression

@@ -6,10 +6,10 @@
 #include "support/thrown_message.h"
 #include "support/transfer_cases.h"
 
+namespace test_lssvf {
+
 using namespace dynlab;
 using namespace dynlab::test;
-
-namespace {
 
 SvfOptions cutoff(double lambda) {
     SvfOptions options;
@@ -18,8 +18,6 @@ SvfOptions cutoff(double lambda) {
 }
 
 const TransferStructure kCourse = TransferStructure::single(2, 0);
-
-}  // namespace
 
 TEST(lssvf, equals_least_squares_on_the_columns_of_svf) {  // oracle: second route, stored columns and QR
     const IdData data = course_record(0.2, 3);
@@ -112,3 +110,5 @@ TEST(lssvf, refused_constant_input_is_no_experiment) {  // oracle: justification
     const IdData record(Matrix(2 * u), Matrix(u), 0.1);
     EXPECT_FALSE(thrown_message([&] { lssvf(record, kCourse, cutoff(3)); }).empty());
 }
+
+}  // namespace test_lssvf

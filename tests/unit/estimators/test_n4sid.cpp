@@ -7,11 +7,11 @@
 #include "support/difference_equation.h"
 #include "support/thrown_message.h"
 
+namespace test_n4sid {
+
 using namespace dynlab;
 using namespace dynlab::test;
 using testing::HasSubstr;
-
-namespace {
 
 /// Two inputs, two outputs, three states, all four transfer functions of them.
 StateSpace square_system(bool feedthrough) {
@@ -69,8 +69,6 @@ SubspaceOptions with(SubspaceWeighting weighting, bool feedthrough, int block_ro
     options.BlockRows = block_rows;
     return options;
 }
-
-}  // namespace
 
 TEST(n4sid, recovers_noise_free_systems) {  // oracle: the simulated system
     for (const bool feedthrough : {false, true})
@@ -194,3 +192,5 @@ TEST(n4sid, refuses_what_it_cannot_use) {  // oracle: definitions
     EXPECT_THAT(refusal(IdData(y, u, Vector::LinSpaced(400, 0, 1)), 2), HasSubstr("regularly"));
     EXPECT_THAT(thrown_message([] { parse_subspace_weighting("moesp"); }), HasSubstr("\"CVA\""));
 }
+
+}  // namespace test_n4sid

@@ -6,11 +6,11 @@
 #include "support/difference_equation.h"
 #include "support/thrown_message.h"
 
+namespace test_oe {
+
 using namespace dynlab;
 using namespace dynlab::test;
 using testing::HasSubstr;
-
-namespace {
 
 struct Case {
     PolynomialOrders orders;
@@ -51,8 +51,6 @@ PolynomialOptions tight() {
 double worst_relative(const Vector& a, const Vector& truth) {
     return (a - truth).cwiseQuotient(truth).cwiseAbs().maxCoeff();
 }
-
-}  // namespace
 
 TEST(oe, recovers_noise_free_systems) {  // oracle: the simulated system
     for (const Case& c : cases()) {
@@ -189,3 +187,5 @@ TEST(oe, refuses_what_it_cannot_fit) {
     EXPECT_THAT(refusal(data, options), HasSubstr("MaxIter"));
     EXPECT_THAT(thrown_message([&] { oe(data, PolynomialOrders::arx(2, {1}, {1})); }), HasSubstr("na, nc and nd"));
 }
+
+}  // namespace test_oe

@@ -12,11 +12,11 @@
 #include "numerics/simulation/lsim.h"
 #include "support/process_cases.h"
 
+namespace test_procsrivc {
+
 using namespace dynlab;
 using namespace dynlab::test;
 using testing::HasSubstr;
-
-namespace {
 
 // Levels of random length and sign, so that every structure is excited.
 Vector rough_input(Index N, Index hold, double mean = 0) {
@@ -76,8 +76,6 @@ const std::vector<Case>& cases() {
     };
     return kCases;
 }
-
-}  // namespace
 
 TEST(procsrivc, recovers_exact_data_from_any_hold) {  // oracle: the simulated system
     const Vector u = rough_input(1000, 12);
@@ -403,3 +401,5 @@ TEST(procsrivc, refuses_what_it_cannot_fit) {
     options.NumTd = 0;
     EXPECT_THAT(refusal([&] { fit(data, "P1", options); }), HasSubstr("NumTd"));
 }
+
+}  // namespace test_procsrivc

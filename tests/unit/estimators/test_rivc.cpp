@@ -6,10 +6,10 @@
 #include "support/coloured_noise.h"
 #include "support/thrown_message.h"
 
+namespace test_rivc {
+
 using namespace dynlab;
 using namespace dynlab::test;
-
-namespace {
 
 const TransferStructure kCourse = TransferStructure::single(2, 0);
 
@@ -18,8 +18,6 @@ TransferOptions exact() {
     options.Tol = 1e-10;
     return options;
 }
-
-}  // namespace
 
 TEST(rivc, noise_free_records_give_the_truth) {  // oracle: the simulated system
     const RivcResult found = rivc(course_record(0, 1), kCourse, {1, 2}, exact());
@@ -128,3 +126,5 @@ TEST(rivc, always_answers) {
     options.cancel = [] { return true; };
     EXPECT_TRUE(rivc(ColouredProblem().record(1), kCourse, {1, 2}, options).theta.allFinite());
 }
+
+}  // namespace test_rivc

@@ -12,11 +12,11 @@
 #include "support/difference_equation.h"
 #include "support/thrown_message.h"
 
+namespace test_spa {
+
 using namespace dynlab;
 using namespace dynlab::test;
 using testing::HasSubstr;
-
-namespace {
 
 const Vector kB{{0.0, 0.5, 0.2}}, kF{{1.0, -0.9, 0.3}};
 
@@ -30,8 +30,6 @@ IdData record(Index N, double noise, std::uint32_t seed, double Ts = 0.5) {
     const Vector u = random.normal(N), x = divided_by(kF, weighted_past(kB, u));
     return IdData(Matrix(x + noise * random.normal(N)), Matrix(u), Ts);
 }
-
-}  // namespace
 
 TEST(spa, spectra_are_transforms_of_windowed_covariances) {  // oracle: the definition, summed directly
     const IdData data = record(200, 0.3, 5);
@@ -130,3 +128,5 @@ TEST(spa, poor_excitation_is_told) {
     EXPECT_THAT(estimate.warnings[1], HasSubstr("practically no power"));
     EXPECT_TRUE(estimate.response.allFinite());
 }
+
+}  // namespace test_spa

@@ -9,11 +9,11 @@
 #include "support/difference_equation.h"
 #include "support/thrown_message.h"
 
+namespace test_sriv {
+
 using namespace dynlab;
 using namespace dynlab::test;
 using testing::HasSubstr;
-
-namespace {
 
 const PolynomialOrders kOrders = PolynomialOrders::output_error({2}, {2}, {1});
 const Vector kTruth{{-1.5, 0.7, 1, 0.5}};
@@ -37,8 +37,6 @@ PolynomialOptions tight() {
 double worst_relative(const Vector& a, const Vector& truth) {
     return (a - truth).cwiseQuotient(truth).cwiseAbs().maxCoeff();
 }
-
-}  // namespace
 
 TEST(sriv, recovers_noise_free_systems) {  // oracle: the simulated system
     EXPECT_LT(worst_relative(sriv(simulated(kOrders, kTruth, 500, 0, 1), kOrders, tight()).theta, kTruth), 1e-9);
@@ -132,3 +130,5 @@ TEST(sriv, refuses_what_it_cannot_fit) {
     EXPECT_THAT(thrown_message([&] { sriv(data, PolynomialOrders::output_error({2}, {-2}, {1})); }),
                 HasSubstr("nf, the number of poles"));
 }
+
+}  // namespace test_sriv

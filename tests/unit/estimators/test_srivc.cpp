@@ -11,10 +11,10 @@
 #include "support/thrown_message.h"
 #include "support/transfer_cases.h"
 
+namespace test_srivc {
+
 using namespace dynlab;
 using namespace dynlab::test;
-
-namespace {
 
 const TransferStructure kCourse = TransferStructure::single(2, 0);
 
@@ -23,8 +23,6 @@ TransferOptions exact() {
     options.Tol = 1e-10;
     return options;
 }
-
-}  // namespace
 
 TEST(srivc, output_error_is_orthogonal_to_its_sensitivities) {  // oracle: stationarity of the output-error criterion
     const IdData data = course_record(0.4, 11);
@@ -173,3 +171,5 @@ TEST(srivc, tells_of_delays_that_held_inputs_cannot_show) {
     proper.free_delays = true;
     EXPECT_EQ(srivc(data, proper).message.find(doubt), std::string::npos);
 }
+
+}  // namespace test_srivc

@@ -10,10 +10,10 @@
 #include "numerics/rigs/suspension.h"
 #include "numerics/signals/random.h"
 
+namespace test_step_test {
+
 using namespace dynlab;
 using testing::HasSubstr;
-
-namespace {
 
 struct Experimental {
     Index N = 1000, step = 100;
@@ -53,8 +53,6 @@ std::string refusal(const std::function<void()>& action) {
     }
     return "nothing was refused";
 }
-
-}  // namespace
 
 TEST(step_test,
      first_order_recovers_a_clean_response) {  // oracle: analytic; ln 20 time constants to 5 %, read as three
@@ -248,3 +246,5 @@ TEST(step_test, refuses_records_it_cannot_read) {
     const auto result = step_first_order(record_of(e, 1, first_order(0.8)));
     EXPECT_THROW(result.parameter("z"), InvalidArgument);
 }
+
+}  // namespace test_step_test

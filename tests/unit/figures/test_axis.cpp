@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+namespace test_axis {
+
 using namespace dynlab;
 
 // Oracle: properties of a readable axis, over ranges of all magnitudes.
@@ -57,3 +59,5 @@ TEST(axis, wanted_steps_are_kept) {
     ASSERT_EQ(axis.ticks.size(), 5u);
     EXPECT_EQ(axis.ticks[0].value, -180);
 }
+
+}  // namespace test_axis

@@ -8,9 +8,9 @@
 #include <map>
 #include <random>
 
-using namespace dynlab;
+namespace test_decimation {
 
-namespace {
+using namespace dynlab;
 
 constexpr double kCell = 0.01;
 
@@ -31,8 +31,6 @@ std::map<long, std::pair<double, double>> column_extremes(const Trace& trace) {
     }
     return extremes;
 }
-
-}  // namespace
 
 // Oracle: the definition. Every column of the thinned curve spans what it spans in the original, so that the drawn
 // vertical extent is the same in each.
@@ -100,3 +98,5 @@ TEST(decimation, bands_keep_their_outer_edges) {
         EXPECT_EQ(thin_upper[i].y, highest.at(column).second);
     }
 }
+
+}  // namespace test_decimation

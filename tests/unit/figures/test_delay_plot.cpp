@@ -5,10 +5,10 @@
 
 #include "numerics/error.h"
 
+namespace test_delay_plot {
+
 using namespace dynlab;
 using testing::HasSubstr;
-
-namespace {
 
 DelaySearch search() {
     DelaySearch one;
@@ -19,8 +19,6 @@ DelaySearch search() {
     one.candidate.estimate.delay_loss = Vector{{0.6, 1, 0.5, 0.7}};
     return one;
 }
-
-}  // namespace
 
 TEST(delay_plot, shows_the_curve_and_the_estimate) {  // oracle: the search itself
     const Figure figure = delay_plot(search());
@@ -62,3 +60,5 @@ TEST(delay_plot, refuses_a_search_that_was_stopped) {
     stopped.cancelled = true;
     EXPECT_THROW(delay_plot(stopped), InvalidArgument);
 }
+
+}  // namespace test_delay_plot

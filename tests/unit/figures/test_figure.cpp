@@ -8,11 +8,11 @@
 
 #include "numerics/error.h"
 
+namespace test_figure {
+
 using namespace dynlab;
 using testing::AllOf;
 using testing::HasSubstr;
-
-namespace {
 
 Figure figure_with(Vector x, Vector y) {
     Curve curve;
@@ -33,8 +33,6 @@ std::string complaint_of(const Figure& figure) {
     }
     return "";
 }
-
-}  // namespace
 
 // Oracle: the contract of Figure::validate().
 TEST(figure, sizes_that_differ_are_named_with_panel_and_curve) {
@@ -72,3 +70,5 @@ TEST(figure, more_panels_than_places_are_refused) {
     figure.columns = 2;
     EXPECT_EQ(complaint_of(figure), "");
 }
+
+}  // namespace test_figure

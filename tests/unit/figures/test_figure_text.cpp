@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+namespace test_figure_text {
+
 using namespace dynlab;
 
 // Oracle: gnuplot's rules for single-quoted strings and enhanced text, by hand.
@@ -51,3 +53,5 @@ TEST(figure_text, long_labels_are_broken_then_made_smaller_then_cut) {
     const FittedText cut = fit_text(std::string(100, 'w'), 2.8, 9);
     EXPECT_LE(text_width(cut.lines[0], cut.size), 2.81);
 }
+
+}  // namespace test_figure_text

@@ -16,12 +16,12 @@
 #include "platform/interrupt.h"
 #include "platform/temporary_folder.h"
 
+namespace test_gnuplot_renderer {
+
 using namespace dynlab;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
-
-namespace {
 
 Figure sine(const std::string& label = "a curve") {
     Curve curve;
@@ -44,8 +44,6 @@ std::filesystem::path draw_one(GnuplotRenderer& renderer, const Figure& figure, 
     renderer.finish();
     return file;
 }
-
-}  // namespace
 
 // Oracle: the formats' own signatures.
 TEST(gnuplot_renderer, writes_whole_files_of_all_formats) {
@@ -306,3 +304,5 @@ TEST(gnuplot_renderer, extreme_data_are_drawn) {
     EXPECT_NO_THROW(renderer.finish());
     EXPECT_EQ(file_count(folder.path()), static_cast<std::size_t>(number));
 }
+
+}  // namespace test_gnuplot_renderer

@@ -8,6 +8,8 @@
 #include "figures/panel_axes.h"
 #include "numerics/error.h"
 
+namespace test_histogram {
+
 using namespace dynlab;
 
 // Oracle: Freedman and Diaconis' rule by hand. Of 1..1000 the quartiles are 250.75 and 750.25 (interpolated), the width
@@ -67,3 +69,5 @@ TEST(histogram, few_counts_have_no_fractions_on_their_axis) {
         for (const Tick& tick : y.ticks) EXPECT_EQ(tick.value, std::round(tick.value)) << values << " values";
     }
 }
+
+}  // namespace test_histogram

@@ -5,10 +5,10 @@
 #include "figures/id_plot.h"
 #include "numerics/error.h"
 
+namespace test_id_plot {
+
 using namespace dynlab;
 using testing::ElementsAre;
-
-namespace {
 
 const IdData kData(Matrix(Vector{{0.0, 1.0, 2.0}}), Matrix(Vector{{1.0, 1.0, 0.0}}), 0.1);
 
@@ -17,8 +17,6 @@ std::vector<std::string> legend_of(const Figure& figure) {
     for (const Curve& curve : figure.panels.front().curves) labels.push_back(curve.label);
     return labels;
 }
-
-}  // namespace
 
 TEST(id_plot, one_object_is_named_only_when_asked) {
     EXPECT_THAT(legend_of(id_plot({&kData})), ElementsAre(""));
@@ -48,3 +46,5 @@ TEST(id_plot, held_inputs_are_stairs_below_the_outputs) {
     EXPECT_EQ(figure.panels[0].curves[0].style, CurveStyle::kLine);
     EXPECT_EQ(figure.panels[1].curves[0].style, CurveStyle::kStairs);
 }
+
+}  // namespace test_id_plot

@@ -9,7 +9,7 @@
 #include "numerics/error.h"
 
 namespace dynlab {
-namespace {
+namespace test_impulse_estimate_plot {
 
 constexpr double kTs = 0.5;
 
@@ -21,8 +21,6 @@ ImpulseEstimate estimate_with_dead_time(Index first) {
     estimate.first = first;
     return estimate;
 }
-
-}  // namespace
 
 TEST(impulse_estimate_plot, draws_stems_per_second_in_the_band_of_chance) {
     const ImpulseEstimate estimate = estimate_with_dead_time(2);
@@ -75,4 +73,5 @@ TEST(impulse_estimate_plot, refuses_an_empty_estimate) {
     EXPECT_THROW(impulse_estimate_plot({}, kTs, {}), InvalidArgument);
 }
 
+}  // namespace test_impulse_estimate_plot
 }  // namespace dynlab

@@ -10,10 +10,10 @@
 #include "numerics/signals/random.h"
 #include "support/thrown_message.h"
 
+namespace test_monte_carlo_plot {
+
 using namespace dynlab;
 using testing::HasSubstr;
-
-namespace {
 
 MonteCarloResult normal_result(const std::string& label, double bias, std::uint32_t seed) {
     constexpr Index kRuns = 500;
@@ -39,8 +39,6 @@ MonteCarlo study() {
     all.results = {normal_result("good", 0, 1), normal_result("biased", -0.6, 2)};
     return all;
 }
-
-}  // namespace
 
 TEST(monte_carlo_plot, histograms_hold_every_run_and_the_truth) {  // oracle: counting
     const Figure figure = monte_carlo_histograms(study());
@@ -113,3 +111,5 @@ TEST(monte_carlo_plot, refuses_what_it_cannot_draw) {
     mixed.results.back().names = {"a1", "b1"};
     EXPECT_THAT(thrown_message([&] { monte_carlo_histograms(mixed); }), HasSubstr("different parameters"));
 }
+
+}  // namespace test_monte_carlo_plot

@@ -7,9 +7,9 @@
 #include "figures/panel_axes.h"
 #include "numerics/error.h"
 
-using namespace dynlab;
+namespace test_order_plot {
 
-namespace {
+using namespace dynlab;
 
 OrderCandidate candidate(int poles, int zeros, double delay, double bic) {
     OrderCandidate one;
@@ -19,8 +19,6 @@ OrderCandidate candidate(int poles, int zeros, double delay, double bic) {
     one.bic = bic;
     return one;
 }
-
-}  // namespace
 
 TEST(order_plot, a_curve_for_each_number_of_zeros) {  // oracle: the candidates themselves
     OrderSelection selection;
@@ -54,3 +52,5 @@ TEST(order_plot, over_the_delay_when_nothing_else_differs) {
     for (OrderCandidate& one : selection.candidates) one.failure = "no luck";
     EXPECT_THROW(order_plot(selection, OrderCriterion::kBic, {1, ""}), InvalidArgument);
 }
+
+}  // namespace test_order_plot

@@ -5,9 +5,9 @@
 
 #include "figures/style.h"
 
-using namespace dynlab;
+namespace test_panel_axes {
 
-namespace {
+using namespace dynlab;
 
 constexpr double kWidths[] = {1.6, 2, 2.5, 3, 5, 12}, kHeights[] = {0.8, 1.2, 2, 4, 8};
 
@@ -35,8 +35,6 @@ void expect_readable(const Panel& panel) {
         }
 }
 
-}  // namespace
-
 TEST(panel_axes, narrow_axes_show_two_numbers_that_do_not_touch) {
     for (const auto& range : {std::pair{0.0, 1.0}, {0.32, 0.68}, {3.42, 3.97}, {-0.31, 0.09}, {1.9, 2.1}, {-7.0, 61.0}})
         expect_readable(panel_over(range, range));
@@ -57,3 +55,5 @@ TEST(panel_axes, a_wanted_step_is_thinned_but_never_divided) {
         for (const Tick& tick : x.ticks) EXPECT_EQ(tick.label.find('.'), std::string::npos) << tick.label;
     }
 }
+
+}  // namespace test_panel_axes

@@ -11,7 +11,7 @@
 #include "numerics/error.h"
 
 namespace dynlab {
-namespace {
+namespace test_spectral_plot {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr double kQuantile = 2.5758293035489004;  // of 99 %, two-sided
@@ -26,8 +26,6 @@ SpectralEstimate lag() {
 }
 
 const TransferFunction kLag(Vector{{2.0}}, Vector{{1.0, 1.0}});
-
-}  // namespace
 
 TEST(spectral_plot, draws_decibels_over_degrees_from_the_lowest_frequency_above_zero) {
     const Figure figure = spectral_plot(lag(), "etfe", {});
@@ -107,4 +105,5 @@ TEST(spectral_plot, refuses_what_has_no_frequency_to_draw) {
     EXPECT_THROW(spectral_plot(estimate, "etfe", {}), InvalidArgument);
 }
 
+}  // namespace test_spectral_plot
 }  // namespace dynlab

@@ -9,18 +9,16 @@
 #include "figures/step_construction.h"
 #include "numerics/error.h"
 
+namespace test_standard_plots {
+
 using namespace dynlab;
 using testing::HasSubstr;
-
-namespace {
 
 const Curve& curve_called(const Figure& figure, const std::string& label) {
     for (const Curve& curve : figure.panels[0].curves)
         if (curve.label == label) return curve;
     throw std::runtime_error("no curve " + label);
 }
-
-}  // namespace
 
 // Oracle: roots by hand, 1/((s + 1)(s + 2)).
 TEST(pole_zero_map, shows_every_pole_inside_the_axes) {
@@ -80,3 +78,5 @@ TEST(step_construction, draws_the_band_of_the_change_and_times_from_the_step) {
     ASSERT_EQ(figure.panels[0].arrows.size(), 1u);
     EXPECT_THAT(figure.panels[0].arrows[0].text, HasSubstr("= 15 s"));
 }
+
+}  // namespace test_standard_plots

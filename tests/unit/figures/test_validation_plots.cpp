@@ -14,9 +14,9 @@
 #include "numerics/simulation/lsim.h"
 #include "numerics/validation/chi_squared.h"
 
-using namespace dynlab;
+namespace test_validation_plots {
 
-namespace {
+using namespace dynlab;
 
 const TransferFunction kG(Vector{{2.0}}, Vector{{1.0, 1.0, 4.0}});
 
@@ -37,8 +37,6 @@ double largest_stem(const Panel& panel) {
         if (curve.style == CurveStyle::kStems) most = std::max(most, curve.y.cwiseAbs().maxCoeff());
     return most;
 }
-
-}  // namespace
 
 TEST(validation_plots, step_band_is_the_response_and_its_standard_deviations) {  // oracle: step_response_std
     const Figure figure = step_plot({certain_to(0.95)});
@@ -130,3 +128,5 @@ TEST(validation_plots, cross_validation_shows_parts_and_means) {  // oracle: the
     EXPECT_EQ(figure.panels[0].curves[1].y, (Vector{{50.0, 70.0}}));
     EXPECT_EQ(figure.panels[0].curves[2].label, "mean 85.0 %");
 }
+
+}  // namespace test_validation_plots

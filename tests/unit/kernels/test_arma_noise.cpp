@@ -5,6 +5,8 @@
 #include "support/coloured_noise.h"
 #include "support/thrown_message.h"
 
+namespace test_arma_noise {
+
 using namespace dynlab;
 using namespace dynlab::test;
 
@@ -52,3 +54,5 @@ TEST(arma_noise, refuses_what_cannot_be) {
     EXPECT_NE(thrown_message([] { estimate_arma({Vector::Ones(50)}, -1, 2, 1e-6); }).find("negative"),
               std::string::npos);
 }
+
+}  // namespace test_arma_noise

@@ -6,10 +6,10 @@
 #include "numerics/linalg/polynomial.h"
 #include "support/difference_equation.h"
 
+namespace test_discrete_output {
+
 using namespace dynlab;
 using namespace dynlab::test;
-
-namespace {
 
 const PolynomialOrders kOrders = PolynomialOrders::output_error({2, 1}, {1, 2}, {0, 3});
 const Vector kModel{{-0.7, 1, 0.5, -1.3, 0.6, 2}};
@@ -41,8 +41,6 @@ const std::vector<StartCondition>& conditions() {
                                                      {InitialState::kEstimate, false}, {InitialState::kEstimate, true}};
     return kAll;
 }
-
-}  // namespace
 
 TEST(discrete_output, follows_the_difference_equation) {  // oracle: the recursion
     const auto list = experiments();
@@ -136,3 +134,5 @@ TEST(discrete_output, poles_are_mirrored) {  // oracle: definition
     EXPECT_EQ(reflect_into_unit_circle(mirrored), mirrored);
     EXPECT_EQ(reflect_into_unit_circle(Vector()).size(), 0);
 }
+
+}  // namespace test_discrete_output

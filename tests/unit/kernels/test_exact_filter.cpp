@@ -9,7 +9,7 @@
 #include "numerics/signals/random.h"
 
 namespace dynlab {
-namespace {
+namespace test_exact_filter {
 
 /// The definition of TappedSystem, sample by sample.
 Matrix by_definition(const TappedSystem& system, const Vector& u, Vector x) {
@@ -121,5 +121,5 @@ TEST(exact_filter, delays_within_rounding_of_a_multiple_count_as_one) {  // orac
     EXPECT_NEAR(split_delay(0.37, 0.1).rest, 0.07, 1e-15);
 }
 
-}  // namespace
+}  // namespace test_exact_filter
 }  // namespace dynlab

@@ -12,9 +12,9 @@
 #include "numerics/linalg/polynomial.h"
 #include "numerics/signals/random.h"
 
-using namespace dynlab;
+namespace test_filter_moments {
 
-namespace {
+using namespace dynlab;
 
 using Samples = Eigen::Map<const Vector>;
 
@@ -31,8 +31,6 @@ Vector stable_denominator(Index order) {
     if (order % 2 == 1) den = multiply(den, Eigen::Vector2d(1, 0.7));
     return den;
 }
-
-}  // namespace
 
 struct MomentsCase {
     Index order, samples;
@@ -136,3 +134,5 @@ TEST(filter_moments, two_equal_poles_keep_the_digits_whatever_the_signal) {
             EXPECT_LT(difference(moments, outputs, outputs), rounding) << "pole " << pole << ", y " << y.head(3);
         }
 }
+
+}  // namespace test_filter_moments

@@ -5,13 +5,11 @@
 #include "numerics/error.h"
 #include "numerics/kernels/initial_conditions.h"
 
+namespace test_initial_conditions {
+
 using namespace dynlab;
 
-namespace {
-
 const Vector kStep{{2.0, 2.0, 5.0, 5.0}}, kFlat{{3.0, 3.0, 3.0, 3.0}}, kRich{{1.0, -1.0, 1.0, 1.0}};
-
-}  // namespace
 
 TEST(initial_conditions, words_are_understood) {  // oracle: definition
     EXPECT_EQ(parse_initial_state("zero"), InitialState::kZero);
@@ -77,3 +75,5 @@ TEST(initial_conditions, several_inputs_rest_together) {  // oracle: the definit
     EXPECT_EQ(start_conditions(Matrix::Ones(N, 2), InitialState::kAuto, Offset::kAuto).size(), 3u);
     EXPECT_EQ(start_conditions(u, InitialState::kAuto, Offset::kAuto).size(), 6u);
 }
+
+}  // namespace test_initial_conditions

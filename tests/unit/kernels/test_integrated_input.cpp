@@ -8,14 +8,12 @@
 #include "support/thrown_message.h"
 #include "support/transfer_cases.h"
 
+namespace test_integrated_input {
+
 using namespace dynlab;
 using namespace dynlab::test;
 
-namespace {
-
 const TransferFunction kPosition(values({3}), values({1, 2, 0}), 0, 0.12);  // a motor: 3/(s (s + 2)), late
-
-}  // namespace
 
 TEST(integrated_input, models_get_the_integrator_of_the_system) {  // oracle: the simulated system
     const Vector u = prbs(7, 6);
@@ -61,3 +59,5 @@ TEST(integrated_input, needs_a_held_input) {  // oracle: definition
     data.hold = Hold::kFoh;
     EXPECT_THAT(thrown_message([&] { integrated_inputs(data); }), testing::HasSubstr("held input"));
 }
+
+}  // namespace test_integrated_input

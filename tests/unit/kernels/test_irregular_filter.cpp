@@ -7,9 +7,9 @@
 #include "numerics/linalg/polynomial.h"
 #include "numerics/signals/random.h"
 
-using namespace dynlab;
+namespace test_irregular_filter {
 
-namespace {
+using namespace dynlab;
 
 const Matrix kA = companion(Vector{{1, 0.6, 4}}), kC{{1, 2}, {0, 3}};
 const Vector kB{{1, 0}}, kD{{0.5, 0}};
@@ -24,8 +24,6 @@ Vector irregular_instants(Index N) {
     }
     return t;
 }
-
-}  // namespace
 
 TEST(irregular_filter, equals_the_regular_filter_on_regular_instants) {  // oracle: second route
     const Vector u = RandomStream(4).normal(60), x{{0.3, -1}};
@@ -59,3 +57,5 @@ TEST(irregular_filter, extra_instants_change_nothing) {  // oracle: property, sa
         for (Index k = 0; k < N; ++k) EXPECT_LT((many.row(2 * k) - few.row(k)).norm(), 1e-13) << k;
     }
 }
+
+}  // namespace test_irregular_filter

@@ -8,9 +8,9 @@
 #include "numerics/kernels/output_error.h"
 #include "numerics/signals/random.h"
 
-using namespace dynlab;
+namespace test_output_error {
 
-namespace {
+using namespace dynlab;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -44,8 +44,6 @@ class Decay : public OutputErrorModel {
 };
 
 const Vector kTimes = Vector::LinSpaced(50, 0, 5);
-
-}  // namespace
 
 TEST(output_error, finds_the_truth_of_exact_data) {  // oracle: analytic
     const Vector y = 2.5 * (-0.8 * kTimes).array().exp();
@@ -126,3 +124,5 @@ TEST(output_error, refuses_misuse) {
     options.max_iterations = -1;
     EXPECT_THROW(options.validate(), InvalidArgument);
 }
+
+}  // namespace test_output_error

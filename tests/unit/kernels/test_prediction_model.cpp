@@ -3,10 +3,10 @@
 #include "numerics/kernels/prediction_model.h"
 #include "support/difference_equation.h"
 
+namespace test_prediction_model {
+
 using namespace dynlab;
 using namespace dynlab::test;
-
-namespace {
 
 /// Everything at once: A, two inputs with an F each, C and D.
 PolynomialOrders full_orders() {
@@ -34,8 +34,6 @@ const StartCondition kConditions[] = {{InitialState::kZero, false},
                                       {InitialState::kZero, true},
                                       {InitialState::kEstimate, false},
                                       {InitialState::kEstimate, true}};
-
-}  // namespace
 
 TEST(prediction_model, sensitivities_are_those_of_its_output) {  // oracle: central differences
     const auto experiments = records(0.3);
@@ -103,3 +101,5 @@ TEST(prediction_model, stays_where_the_noise_model_can_be_inverted) {  // oracle
     model.simulate(theta, output, nullptr);
     EXPECT_FALSE(output.allFinite());
 }
+
+}  // namespace test_prediction_model

@@ -6,10 +6,10 @@
 #include "numerics/signals/random.h"
 #include "support/process_cases.h"
 
+namespace test_process_output {
+
 using namespace dynlab;
 using namespace dynlab::test;
-
-namespace {
 
 ProcessInput some_input(Index N, bool regular) {
     ProcessInput input{RandomStream(5).normal(N), Hold::kFoh, {}};
@@ -19,8 +19,6 @@ ProcessInput some_input(Index N, bool regular) {
     for (Index k = 0; k < N; ++k) input.t[k] = static_cast<double>(k) + 0.3 * std::sin(static_cast<double>(k));
     return input;
 }
-
-}  // namespace
 
 TEST(process_output, coefficients_are_those_of_the_model) {  // oracle: second route, the transfer function
     for (const ProcessModel& model : every_process()) {
@@ -72,3 +70,5 @@ TEST(process_output, sensitivities_agree_with_differences) {  // oracle: central
                 }
             }
 }
+
+}  // namespace test_process_output

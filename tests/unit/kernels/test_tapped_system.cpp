@@ -4,15 +4,13 @@
 
 #include "numerics/kernels/tapped_system.h"
 
-using namespace dynlab;
+namespace test_tapped_system {
 
-namespace {
+using namespace dynlab;
 
 TappedSystem lag(double Ts, Hold hold, double delay) {  // 1/(s + 1) and a feed-through of 0.5
     return discretise(Matrix{{-1}}, Vector{{1.0}}, Matrix{{1}}, Vector{{0.5}}, Ts, hold, delay);
 }
-
-}  // namespace
 
 TEST(tapped_system, held_input_with_a_delay_between_samples) {  // oracle: analytic, Astrom and Wittenmark (1997) 2.3
     const double Ts = 0.5, rest = 0.2;
@@ -54,3 +52,5 @@ TEST(tapped_system, derivatives_add_up_to_the_signal) {  // oracle: definition, 
     EXPECT_LT((den.transpose() * system.C).norm(), 1e-14);
     EXPECT_NEAR(den.dot(system.D.col(0)), 1, 1e-15);
 }
+
+}  // namespace test_tapped_system

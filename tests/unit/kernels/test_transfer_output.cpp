@@ -7,9 +7,9 @@
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
 
-using namespace dynlab;
+namespace test_transfer_output {
 
-namespace {
+using namespace dynlab;
 
 constexpr Index kN = 120;
 constexpr double kTs = 0.1;
@@ -68,8 +68,6 @@ Vector some_values(const TransferStructure& structure, const TransferOutput& mod
                 theta[structure.delay_place(o, i)] = 1.37 + static_cast<double>(i);
     return theta;
 }
-
-}  // namespace
 
 TEST(transfer_output, sensitivities_agree_with_differences) {  // oracle: second route, central differences
     for (const Case& c : cases())
@@ -168,3 +166,5 @@ TEST(transfer_output, has_no_end_instead_of_failing) {  // oracle: definition
     EXPECT_THROW(TransferOutput(structure, {InitialState::kZero, false}, record(2, 1, Hold::kZoh, true), 0, 0),
                  InvalidArgument);
 }
+
+}  // namespace test_transfer_output

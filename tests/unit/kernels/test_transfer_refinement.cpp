@@ -9,10 +9,10 @@
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
 
+namespace test_transfer_refinement {
+
 using namespace dynlab;
 using testing::HasSubstr;
-
-namespace {
 
 constexpr double kTs = 0.1;
 const StartCondition kRest{InitialState::kZero, false};
@@ -67,8 +67,6 @@ TransferStructure common_structure() {
     return TransferStructure::grid(2, 2, Denominators::kCommon, {2}, {1, 0, 0, 0}, {0.0, 0.25, 0.0, 0.3});
 }
 const Vector kCommonTheta{{1.2, 2.0, 0.7, 3.0, -1.0, 2.0, 4.0}};
-
-}  // namespace
 
 TEST(transfer_refinement, one_channel_is_found_again) {  // oracle: the simulated system
     const Vector truth{{1.0, 4.0, -1.0, 2.0}};
@@ -245,3 +243,5 @@ TEST(transfer_refinement, refuses_what_cannot_be_estimated) {
     EXPECT_THAT(refine(IdData(Matrix::Ones(100, 1), data.experiments[0].u, kTs), structure, kRest, theta),
                 HasSubstr("never changes"));
 }
+
+}  // namespace test_transfer_refinement

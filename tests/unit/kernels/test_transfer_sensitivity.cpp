@@ -6,9 +6,9 @@
 #include "numerics/kernels/transfer_sensitivity.h"
 #include "numerics/signals/random.h"
 
-using namespace dynlab;
+namespace test_transfer_sensitivity {
 
-namespace {
+using namespace dynlab;
 
 Vector rough_input(Index N) {
     const Vector noise = RandomStream(5).normal(N);
@@ -23,8 +23,6 @@ Vector difference(const Vector& num, const Vector& den, double delay, const Vect
     return transfer_response(num + num_step, den + den_step, delay + delay_step, u, Ts, hold) -
            transfer_response(num - num_step, den - den_step, delay - delay_step, u, Ts, hold);
 }
-
-}  // namespace
 
 TEST(transfer_sensitivity, first_order_step_is_exact) {  // oracle: analytic
     const double T = 0.7, K = 3, Ts = 0.05, D = 0.163;
@@ -111,3 +109,5 @@ TEST(transfer_sensitivity, refuses_what_is_not_proper) {
     EXPECT_THROW(transfer_response(Vector{{1.0, 2.0, 0.0}}, Vector{{1.0, 3.0}}, 0, Vector::Ones(5), 1, Hold::kZoh),
                  InvalidArgument);
 }
+
+}  // namespace test_transfer_sensitivity

@@ -8,9 +8,9 @@
 #include "numerics/linalg/polynomial.h"
 #include "numerics/signals/random.h"
 
-using namespace dynlab;
+namespace test_two_pole_moments {
 
-namespace {
+using namespace dynlab;
 
 SampleView view(const Vector& x) {
     return {x.data(), x.size()};
@@ -66,8 +66,6 @@ void expect_svf_moments(const Signals& signals, int zeros, double Ts, Hold hold,
     EXPECT_LT(difference(sums->z_y, expected.z_y.head(d), size, last), rounding);
     EXPECT_NEAR(sums->y_y / expected.y_y, 1, rounding);
 }
-
-}  // namespace
 
 class two_pole_moments : public testing::TestWithParam<Kind> {
   protected:
@@ -205,3 +203,5 @@ TEST(two_pole_moments_of_other_kinds, a_signal_that_the_filter_stops_keeps_its_d
     for (const Hold hold_y : {Hold::kZoh, Hold::kFoh})
         expect_svf_moments(signals, 0, 0.01, Hold::kZoh, hold_y, Eigen::Vector3d(1, 0.02, 1e-4), 1e-5);
 }
+
+}  // namespace test_two_pole_moments

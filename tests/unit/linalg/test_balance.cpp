@@ -5,6 +5,8 @@
 #include "numerics/linalg/balance.h"
 #include "numerics/linalg/polynomial.h"
 
+namespace test_balance {
+
 using namespace dynlab;
 
 TEST(balance, is_an_exact_similarity) {  // oracle: definition; powers of two make no rounding error
@@ -25,3 +27,5 @@ TEST(balance, brings_rows_and_columns_to_like_norms) {  // oracle: definition (P
         EXPECT_LT(std::max(row, column) / std::min(row, column), 4.5) << "row " << i;
     }
 }
+
+}  // namespace test_balance

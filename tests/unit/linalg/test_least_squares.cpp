@@ -8,7 +8,7 @@
 #include "support/thrown_message.h"
 
 namespace dynlab {
-namespace {
+namespace test_least_squares {
 
 Matrix random_matrix(Index rows, Index columns) {
     RandomStream random(3);
@@ -66,5 +66,5 @@ TEST(least_squares, refusals) {
               "least squares: the right-hand side holds a value that is not finite");
 }
 
-}  // namespace
+}  // namespace test_least_squares
 }  // namespace dynlab

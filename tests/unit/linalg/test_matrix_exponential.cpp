@@ -10,7 +10,7 @@
 #include "support/thrown_message.h"
 
 namespace dynlab {
-namespace {
+namespace test_matrix_exponential {
 
 TEST(matrix_exponential, of_a_rotation) {  // oracle: analytic, cos and sin
     Matrix A(2, 2);
@@ -78,5 +78,5 @@ TEST(matrix_exponential, refusals) {
               "matrix exponential: the matrix holds a value that is not finite");
 }
 
-}  // namespace
+}  // namespace test_matrix_exponential
 }  // namespace dynlab

@@ -7,7 +7,7 @@
 #include "support/thrown_message.h"
 
 namespace dynlab {
-namespace {
+namespace test_polynomial {
 
 ComplexVector sorted(ComplexVector values) {
     std::sort(values.begin(), values.end(),
@@ -83,5 +83,5 @@ TEST(polynomial, monic_puts_a_one_first) {  // oracle: definition
     EXPECT_EQ(monic(Vector()), from({1}));
 }
 
-}  // namespace
+}  // namespace test_polynomial
 }  // namespace dynlab

@@ -2,6 +2,8 @@
 
 #include "numerics/linalg/triangular_factor.h"
 
+namespace test_triangular_factor {
+
 using namespace dynlab;
 
 TEST(triangular_factor, keeps_the_gram_matrix_of_all_rows) {  // oracle: the definition R'R = M'M
@@ -21,3 +23,5 @@ TEST(triangular_factor, fewer_rows_than_columns_leave_zeros) {  // oracle: the d
     factor.add(M);
     EXPECT_LT((factor.R().transpose() * factor.R() - M.transpose() * M).cwiseAbs().maxCoeff(), 1e-14);
 }
+
+}  // namespace test_triangular_factor

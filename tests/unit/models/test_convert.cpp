@@ -9,7 +9,7 @@
 #include "support/thrown_message.h"
 
 namespace dynlab {
-namespace {
+namespace test_convert {
 
 Vector from(std::initializer_list<double> values) {
     return Eigen::Map<const Vector>(values.begin(), static_cast<Index>(values.size()));
@@ -120,5 +120,5 @@ TEST(convert, says_what_is_wrong) {
     EXPECT_NE(thrown_message([&] { c2d(TransferFunction::variable(), 0.1); }).find("zeros"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace test_convert
 }  // namespace dynlab

@@ -6,11 +6,11 @@
 #include "numerics/simulation/lsim.h"
 #include "support/thrown_message.h"
 
+namespace test_polynomial_model {
+
 using namespace dynlab;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-namespace {
 
 PolynomialOrders all_orders() {
     PolynomialOrders orders = PolynomialOrders::output_error({2, 1}, {1, 2}, {1, 3});
@@ -19,8 +19,6 @@ PolynomialOrders all_orders() {
     orders.nd = 2;
     return orders;
 }
-
-}  // namespace
 
 TEST(polynomial_model, places_follow_the_names) {  // oracle: definition
     const PolynomialOrders orders = all_orders();
@@ -96,3 +94,5 @@ TEST(polynomial_model, refuses_orders_without_meaning) {
     EXPECT_THAT(thrown_message([] { PolynomialModel(PolynomialOrders::arx(1, {1}, {1}), Vector::Zero(2), 0); }),
                 HasSubstr("sampling time must be a positive"));
 }
+
+}  // namespace test_polynomial_model

@@ -4,6 +4,8 @@
 #include "numerics/models/process_model.h"
 #include "support/thrown_message.h"
 
+namespace test_process_model {
+
 using namespace dynlab;
 using testing::AllOf;
 using testing::ElementsAre;
@@ -49,3 +51,5 @@ TEST(process_model, says_which_letters_exist) {
     EXPECT_THAT(thrown_message([] { ProcessModel(ProcessStructure::parse("P1D"), Vector::Ones(2)); }),
                 AllOf(HasSubstr("Kp, Tp1, Td"), HasSubstr("2")));
 }
+
+}  // namespace test_process_model

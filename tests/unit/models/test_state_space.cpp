@@ -8,7 +8,7 @@
 #include "support/thrown_message.h"
 
 namespace dynlab {
-namespace {
+namespace test_state_space {
 
 Vector from(std::initializer_list<double> values) {
     return Eigen::Map<const Vector>(values.begin(), static_cast<Index>(values.size()));
@@ -68,5 +68,5 @@ TEST(state_space, a_direct_term_of_rounding_size_is_none) {
     EXPECT_EQ(with.den(), without.den());
 }
 
-}  // namespace
+}  // namespace test_state_space
 }  // namespace dynlab

@@ -7,7 +7,7 @@
 #include "support/thrown_message.h"
 
 namespace dynlab {
-namespace {
+namespace test_transfer_function {
 
 Vector from(std::initializer_list<double> values) {
     return Eigen::Map<const Vector>(values.begin(), static_cast<Index>(values.size()));
@@ -115,5 +115,5 @@ TEST(transfer_function, says_what_is_wrong) {
     EXPECT_NE(thrown_message([] { kSecondOrder / TransferFunction(from({0}), from({1})); }), "");
 }
 
-}  // namespace
+}  // namespace test_transfer_function
 }  // namespace dynlab

@@ -8,9 +8,9 @@
 #include "numerics/error.h"
 #include "numerics/rigs/crane_experiments.h"
 
-using namespace dynlab;
+namespace test_crane {
 
-namespace {
+using namespace dynlab;
 
 constexpr OdeOptions kStrict{.relative_tolerance = 1e-12, .absolute_tolerance = 1e-14};
 
@@ -43,8 +43,6 @@ double heating(const CraneParameters& p, const CraneState& s) {
     return p.motor_damping * s.motor_speed * s.motor_speed + p.belt_damping * slip * slip +
            (p.trolley_damping * speed + dry) * speed + (p.pivot_damping + p.air_drag * swing) * swing * swing;
 }
-
-}  // namespace
 
 TEST(crane, keeps_its_energy_without_friction) {  // oracle: conservation of energy
     const CraneParameters p = lossless();
@@ -274,3 +272,5 @@ TEST(crane, refuses_what_is_not_physical) {
     plan.Ts = 0;
     EXPECT_THROW(simulate_crane({}, plan, 1), InvalidArgument);
 }
+
+}  // namespace test_crane

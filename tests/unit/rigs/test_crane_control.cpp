@@ -9,7 +9,7 @@
 #include "support/thrown_message.h"
 
 namespace dynlab {
-namespace {
+namespace test_crane_control {
 
 CraneExperiments without_noise() {
     CraneExperiments plan;
@@ -56,5 +56,5 @@ TEST(crane_control, refuses_a_start_off_the_rail_and_a_voltage_that_is_none) {
     EXPECT_NE(thrown_message([&] { control_crane({}, {}, {}, broken, 1); }).find("0.52"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace test_crane_control
 }  // namespace dynlab

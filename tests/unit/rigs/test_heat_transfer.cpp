@@ -7,9 +7,9 @@
 
 #include "numerics/error.h"
 
-using namespace dynlab;
+namespace test_heat_transfer {
 
-namespace {
+using namespace dynlab;
 
 HeatTransferParameters exact() {
     HeatTransferParameters p;
@@ -30,8 +30,6 @@ double three_lags(double a, double b, double c, double t) {
     };
     return 1 - term(a, b, c) - term(b, a, c) - term(c, a, b);
 }
-
-}  // namespace
 
 TEST(heat_transfer, steps_as_three_lags_and_a_dead_time) {  // oracle: analytic, linear in the heating power
     const HeatTransferParameters p = exact();
@@ -115,3 +113,5 @@ TEST(heat_transfer, refuses_what_is_not_physical) {
     EXPECT_THROW(response({}, Vector(), 1), InvalidArgument);
     EXPECT_THROW(response({}, Vector::Constant(5, std::nan("")), 1), InvalidArgument);
 }
+
+}  // namespace test_heat_transfer

@@ -7,6 +7,8 @@
 #include "numerics/error.h"
 #include "numerics/simulation/lsim.h"
 
+namespace test_linear_system {
+
 using namespace dynlab;
 
 TEST(linear_system, has_the_stated_factors) {  // oracle: the factored form at points of the complex plane
@@ -53,3 +55,5 @@ TEST(linear_system, refuses_values_out_of_range) {
     p.noise_std = -1;
     EXPECT_THROW(simulate_linear_system(p, 1), InvalidArgument);
 }
+
+}  // namespace test_linear_system

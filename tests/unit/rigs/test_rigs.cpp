@@ -8,6 +8,8 @@
 #include "numerics/rigs/suspension.h"
 #include "numerics/signals/random.h"
 
+namespace test_rigs {
+
 using namespace dynlab;
 
 TEST(heat_exchanger, obeys_its_energy_balance) {  // oracle: residual of the differential equation
@@ -137,3 +139,5 @@ TEST(first_order_step, refuses_what_is_no_experiment) {
     p.time_constant = 0;
     EXPECT_THROW(simulate_first_order_step(p, 1), InvalidArgument);
 }
+
+}  // namespace test_rigs

@@ -7,9 +7,9 @@
 
 #include "numerics/error.h"
 
-using namespace dynlab;
+namespace test_thruster {
 
-namespace {
+using namespace dynlab;
 
 constexpr double kGravity = 9.80665;
 
@@ -25,8 +25,6 @@ Vector step_to(double width, Index before, Index count) {
     pwm.tail(count - before).setConstant(width);
     return pwm;
 }
-
-}  // namespace
 
 TEST(thruster, has_the_makers_performance) {  // oracle: published figures of the T200 at 12 V
     const ThrusterParameters p;
@@ -174,3 +172,5 @@ TEST(thruster, refuses_what_is_not_physical) {
     EXPECT_THROW(simulate_thruster({}, plan, 1), InvalidArgument);
     EXPECT_THROW(simulate_thruster({}, Vector(), 0.002, 1), InvalidArgument);
 }
+
+}  // namespace test_thruster

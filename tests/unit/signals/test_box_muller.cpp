@@ -6,9 +6,9 @@
 #include "numerics/signals/box_muller.h"
 #include "numerics/signals/random.h"
 
-using namespace dynlab;
+namespace test_box_muller {
 
-namespace {
+using namespace dynlab;
 
 /// Largest difference, relative to R, from the definition in long double.
 double largest_difference(const NormalPairs& u1, const NormalPairs& u2) {
@@ -25,8 +25,6 @@ double largest_difference(const NormalPairs& u1, const NormalPairs& u2) {
     }
     return largest;
 }
-
-}  // namespace
 
 TEST(box_muller, agrees_with_the_definition) {  // oracle: long double of the mathematical library
     RandomStream random(11);
@@ -49,3 +47,5 @@ TEST(box_muller, extreme_uniforms_give_numbers) {  // oracle: long double of the
         EXPECT_LT(largest_difference(u1, same), 5e-16) << u2;
     }
 }
+
+}  // namespace test_box_muller

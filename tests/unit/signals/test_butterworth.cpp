@@ -10,10 +10,10 @@
 #include "numerics/signals/random.h"
 #include "support/thrown_message.h"
 
+namespace test_butterworth {
+
 using namespace dynlab;
 using testing::HasSubstr;
-
-namespace {
 
 constexpr double kTs = 0.1, kInfinity = std::numeric_limits<double>::infinity();
 const double kEnd = std::numbers::pi / kTs;
@@ -44,8 +44,6 @@ FilterOptions of_order(int order, bool stop = false) {
 Vector impulse_at(Index place, Index count) {
     return Vector::Unit(count, place);
 }
-
-}  // namespace
 
 TEST(butterworth, has_the_analytic_magnitude) {  // oracle: |H|^2 = 1/(1 + v^(2n))
     const Vector w = Vector::LinSpaced(200, 0.001, 0.999) * kEnd;
@@ -151,3 +149,5 @@ TEST(butterworth, refuses_bands_that_are_none) {
     const IdData irregular(Matrix(Vector{{1, 2, 3}}), Matrix(), Vector{{0, 1, 3}});
     EXPECT_THROW(filter_data(irregular, {0, 1}), InvalidArgument);
 }
+
+}  // namespace test_butterworth

@@ -4,9 +4,9 @@
 #include "numerics/signals/correlation.h"
 #include "numerics/signals/random.h"
 
-using namespace dynlab;
+namespace test_correlation {
 
-namespace {
+using namespace dynlab;
 
 double product(const Vector& x, const Vector& y, Index lag) {
     double sum = 0;
@@ -14,8 +14,6 @@ double product(const Vector& x, const Vector& y, Index lag) {
         if (k + lag >= 0 && k + lag < x.size()) sum += x[k + lag] * y[k];
     return sum;
 }
-
-}  // namespace
 
 TEST(correlation, both_ways_equal_the_definition) {  // oracle: the definition
     RandomStream random(3);
@@ -41,3 +39,5 @@ TEST(correlation, refuses_unequal_lengths) {
     EXPECT_THROW(lagged_products(Vector(), Vector(), 1), InvalidArgument);
     EXPECT_THROW(lagged_products(Vector::Ones(3), Vector::Ones(3), -1), InvalidArgument);
 }
+
+}  // namespace test_correlation

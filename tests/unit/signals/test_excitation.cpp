@@ -6,6 +6,8 @@
 #include "numerics/error.h"
 #include "numerics/signals/excitation.h"
 
+namespace test_excitation {
+
 using namespace dynlab;
 
 TEST(excitation, step_signal_by_hand) {  // oracle: analytic
@@ -89,3 +91,5 @@ TEST(excitation, refusals_are_justified) {
     EXPECT_THROW(rbs(10, 0, random), InvalidArgument);
     EXPECT_THROW(rbs(0, 1, random), InvalidArgument);
 }
+
+}  // namespace test_excitation

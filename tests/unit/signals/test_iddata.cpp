@@ -6,11 +6,11 @@
 #include "numerics/signals/iddata.h"
 #include "support/thrown_message.h"
 
+namespace test_iddata {
+
 using namespace dynlab;
 using testing::AllOf;
 using testing::HasSubstr;
-
-namespace {
 
 /// Two outputs and one input whose values say channel and sample: y1 = 1, 2, ..., y2 = 101, ..., u1 = 1001, ...
 IdData numbered(Index N, double Ts = 0.5) {
@@ -19,8 +19,6 @@ IdData numbered(Index N, double Ts = 0.5) {
     y.col(1) = y.col(0).array() + 100;
     return IdData(y, y.col(0).array() + 1000, Ts);
 }
-
-}  // namespace
 
 TEST(iddata, names_sizes_and_time) {  // oracle: definition
     const IdData data = numbered(4);
@@ -40,6 +38,19 @@ TEST(iddata, irregular_instants) {  // oracle: definition
     EXPECT_EQ(data.time(), t);
     EXPECT_EQ(data.range(2, 3).time(), t.tail(2));
     EXPECT_EQ(data.range(2, 3).experiments[0].start_time, 1.5);
+}
+
+TEST(iddata, durations_and_mean_step_count_all_experiments) {  // oracle: the instants
+    const auto sampled_at = [](const Vector& t) { return IdData(Matrix::Ones(t.size(), 1), Matrix(t.size(), 0), t); };
+    const IdData short_one = sampled_at(Vector{{1, 1.5, 2}}), long_one = sampled_at(Vector{{0, 4, 6, 9, 13}});
+    for (const IdData& data : {IdData::merge({short_one, long_one}), IdData::merge({long_one, short_one})})
+        EXPECT_DOUBLE_EQ(data.mean_step(), (1.0 + 13.0) / (2 + 4));
+    EXPECT_EQ(IdData::merge({short_one, long_one}).duration(0), 1);
+    EXPECT_EQ(IdData::merge({short_one, long_one}).duration(1), 13);
+    EXPECT_EQ(sampled_at(Vector{{5}}).mean_step(), 1);
+    const IdData regular(Matrix::Ones(5, 1), Matrix(5, 0), 0.25);
+    EXPECT_EQ(regular.mean_step(), 0.25);
+    EXPECT_EQ(regular.duration(0), 1);
 }
 
 TEST(iddata, range_and_split_keep_the_clock) {  // oracle: the numbered samples
@@ -115,3 +126,5 @@ TEST(iddata, refuses_ranges_outside_the_record) {
     EXPECT_THROW(data.split(0), InvalidArgument);
     EXPECT_THROW(data.split(1), InvalidArgument);
 }
+
+}  // namespace test_iddata

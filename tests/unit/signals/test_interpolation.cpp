@@ -8,7 +8,7 @@
 #include "numerics/error.h"
 
 namespace dynlab {
-namespace {
+namespace test_interpolation {
 
 const Vector kX{{0, 1, 3}}, kY{{5, 10, -10}};
 
@@ -26,5 +26,5 @@ TEST(interpolation, has_no_values_outside_unless_the_ends_are_held) {
     EXPECT_THROW(interpolate_linearly(kX, kY, no_number, Outside::kHold), InvalidArgument);
 }
 
-}  // namespace
+}  // namespace test_interpolation
 }  // namespace dynlab

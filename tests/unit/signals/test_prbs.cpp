@@ -3,17 +3,15 @@
 #include "numerics/error.h"
 #include "numerics/signals/prbs.h"
 
-using namespace dynlab;
+namespace test_prbs {
 
-namespace {
+using namespace dynlab;
 
 /// Circular autocorrelation of one period at a lag.
 double circular_correlation(const Vector& u, Index lag) {
     const Index rest = u.size() - lag;
     return u.head(rest).dot(u.tail(rest)) + u.tail(lag).dot(u.head(lag));
 }
-
-}  // namespace
 
 TEST(prbs, every_register_has_maximal_length) {  // oracle: definition; each window of n bits occurs once, never zeros
     for (int stages = 3; stages <= 18; ++stages) {
@@ -58,3 +56,5 @@ TEST(prbs, refuses_what_it_cannot_make) {
     EXPECT_THROW(prbs(19, 1), InvalidArgument);
     EXPECT_THROW(prbs(4, 0), InvalidArgument);
 }
+
+}  // namespace test_prbs

@@ -4,6 +4,8 @@
 #include "numerics/signals/preprocess.h"
 #include "numerics/signals/random.h"
 
+namespace test_preprocess {
+
 using namespace dynlab;
 
 TEST(preprocess, removes_the_mean_of_each_channel) {  // oracle: definition
@@ -67,3 +69,5 @@ TEST(preprocess, the_calm_beginning_may_be_told) {  // oracle: definition
     EXPECT_THROW(remove_initial_level(IdData(Matrix(y), Matrix(), 1)), InvalidArgument);
     EXPECT_EQ(remove_initial_level(IdData(Matrix(y), Matrix(), 1), 2).removed[0].output_offset(0), 3);
 }
+
+}  // namespace test_preprocess

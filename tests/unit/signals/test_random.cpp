@@ -4,6 +4,8 @@
 
 #include "numerics/signals/random.h"
 
+namespace test_random {
+
 using namespace dynlab;
 
 TEST(random, uniforms_come_from_the_standard_twister) {  // oracle: std::mt19937 of the C++ library
@@ -41,3 +43,5 @@ TEST(random, normals_are_normal) {  // oracle: statistics; bounds are five stand
     EXPECT_NEAR(e.pow(4).mean(), 3, 5 * std::sqrt(96.0) / root);
     EXPECT_NEAR((e.head(kCount - 1) * e.tail(kCount - 1)).mean(), 0, 5 / root);
 }
+
+}  // namespace test_random

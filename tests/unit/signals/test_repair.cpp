@@ -11,12 +11,12 @@
 #include "numerics/signals/random.h"
 #include "support/thrown_message.h"
 
+namespace test_repair {
+
 using namespace dynlab;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-namespace {
 
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 
@@ -25,8 +25,6 @@ Vector slow_sine(Index count, double noise, std::uint32_t seed = 1) {
     for (Index k = 0; k < count; ++k) x[k] += std::sin(0.05 * static_cast<double>(k));
     return x;
 }
-
-}  // namespace
 
 TEST(repair, gaps_become_straight_lines) {  // oracle: by hand
     const RepairedSignal filled = fill_missing(Vector{{kNan, 2, kNan, kNan, 8, kNan}});
@@ -96,3 +94,5 @@ TEST(repair, quantisation_is_the_grid_that_samples_lie_on) {  // oracle: signals
     EXPECT_EQ(quantisation_of(Vector::Constant(9, 2.0)).levels, 1);
     EXPECT_EQ(quantisation_of(Vector{{1, 2, 1, 2}}).step, 1);
 }
+
+}  // namespace test_repair

@@ -8,9 +8,9 @@
 #include "numerics/error.h"
 #include "numerics/signals/extension.h"
 
-using namespace dynlab;
+namespace test_resample {
 
-namespace {
+using namespace dynlab;
 
 /// sin(w k + 0.4) at k = 0, step, 2 step, ...
 Vector sampled_sine(double w, Index count, double step = 1) {
@@ -22,8 +22,6 @@ Vector sampled_sine(double w, Index count, double step = 1) {
 double inner_error(const Vector& a, const Vector& b, Index margin) {
     return (a - b).segment(margin, a.size() - 2 * margin).cwiseAbs().maxCoeff();
 }
-
-}  // namespace
 
 TEST(resample, keeps_sines_that_the_lower_rate_can_carry) {  // oracle: the sine at the new instants
     for (const auto& [up, down] :
@@ -97,3 +95,5 @@ TEST(resample, continuation_reflects_in_the_end_points) {  // oracle: definition
     EXPECT_EQ(point_reflected(x, 5), (Vector{{-8, -7, -6, -3, 0, 1, 2, 5, 8, 9, 10, 13, 16}}));
     EXPECT_EQ(point_reflected(Vector{{4.0}}, 2), Vector::Constant(5, 4.0));
 }
+
+}  // namespace test_resample

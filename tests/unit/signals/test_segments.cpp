@@ -6,17 +6,15 @@
 #include "numerics/error.h"
 #include "support/thrown_message.h"
 
+namespace test_segments {
+
 using namespace dynlab;
 using testing::HasSubstr;
-
-namespace {
 
 IdData counted(Index count) {
     const Vector y = Vector::LinSpaced(count, 1, static_cast<double>(count));
     return IdData(Matrix(y), Matrix(-y), 0.5);
 }
-
-}  // namespace
 
 TEST(segments, kept_stretches_become_experiments_with_their_times) {  // oracle: definition
     const IdData kept = keep_segments(counted(10), {{7, 8}, {1, 3}});
@@ -48,3 +46,5 @@ TEST(segments, refuses_stretches_outside_the_record) {
     const IdData two = IdData::merge({counted(3), counted(3)});
     EXPECT_THAT(thrown_message([&] { keep_segments(two, {{1, 2}}); }), HasSubstr("take one with data:experiment(k)"));
 }
+
+}  // namespace test_segments

@@ -6,7 +6,7 @@
 #include <numbers>
 
 namespace dynlab {
-namespace {
+namespace test_frequency_response {
 
 TEST(frequency_response, of_a_lag_at_its_corner) {  // oracle: analytic, 1/(1 + j), -3.01 dB and -45 degrees
     const TransferFunction lag(Vector::Ones(1), Eigen::Vector2d(2, 1));
@@ -38,5 +38,5 @@ TEST(frequency_response, natural_grid_spans_the_corners) {                      
     EXPECT_DOUBLE_EQ(natural_frequency_grid(discrete)(399), std::numbers::pi / 0.01);
 }
 
-}  // namespace
+}  // namespace test_frequency_response
 }  // namespace dynlab

@@ -9,7 +9,7 @@
 #include "support/thrown_message.h"
 
 namespace dynlab {
-namespace {
+namespace test_lsim {
 
 Vector from(std::initializer_list<double> values) {
     return Eigen::Map<const Vector>(values.begin(), static_cast<Index>(values.size()));
@@ -183,5 +183,5 @@ TEST(lsim, says_what_is_wrong) {
               "state-variable filter: the cut-off frequency lambda must be a positive number of rad/s, but it is -3");
 }
 
-}  // namespace
+}  // namespace test_lsim
 }  // namespace dynlab

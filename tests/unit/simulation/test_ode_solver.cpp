@@ -6,9 +6,9 @@
 
 #include "numerics/error.h"
 
-using namespace dynlab;
+namespace test_ode_solver {
 
-namespace {
+using namespace dynlab;
 
 /// y'' = -y with y(0) = 0, y'(0) = 1.
 OdeState oscillator(double, const OdeState& x) {
@@ -27,8 +27,6 @@ double error_of_steps(int count) {
     for (int k = 0; k < count; ++k) x = solver.step(10.0 * k / count, x, 10.0 / count).x;
     return std::hypot(x[0] - std::sin(10), x[1] - std::cos(10));
 }
-
-}  // namespace
 
 TEST(ode_solver, is_of_order_five) {  // oracle: the error of a method of order 5 shrinks by 32 when steps are halved
     EXPECT_NEAR(std::log2(error_of_steps(50) / error_of_steps(100)), 5, 0.1);
@@ -88,3 +86,5 @@ TEST(ode_solver, gives_up_in_words_where_nothing_can_be_integrated) {
     EXPECT_NEAR(t, 1, 1e-3);
     EXPECT_THROW(OdeSolver(oscillator, {.relative_tolerance = 0}), InvalidArgument);
 }
+
+}  // namespace test_ode_solver

@@ -7,7 +7,7 @@
 #include "support/thrown_message.h"
 
 namespace dynlab {
-namespace {
+namespace test_time_response {
 
 const TransferFunction kLag(Vector::Ones(1), Eigen::Vector2d(2, 1));  // 1/(2s + 1)
 
@@ -60,5 +60,5 @@ TEST(time_response, refusals) {
               "0.15 s");
 }
 
-}  // namespace
+}  // namespace test_time_response
 }  // namespace dynlab

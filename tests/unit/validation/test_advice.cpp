@@ -12,12 +12,12 @@
 #include "numerics/simulation/lsim.h"
 #include "support/difference_equation.h"
 
+namespace test_advice {
+
 using namespace dynlab;
 using dynlab::test::random_levels;
 using testing::AllOf;
 using testing::HasSubstr;
-
-namespace {
 
 constexpr double kTs = 0.1;
 
@@ -47,8 +47,6 @@ std::string said(const Advice& advice, const std::string& code) {
     const RecordFinding* finding = advice.find(code);
     return finding != nullptr ? finding->message : "no " + code + " among:\n" + codes(advice);
 }
-
-}  // namespace
 
 TEST(advice, clean_records_raise_no_warning) {  // oracle: nothing was put in; false alarms over 30 seeds
     int alarms = 0;
@@ -259,3 +257,5 @@ TEST(advice, outputs_are_judged_one_by_one) {  // oracle: only the second has an
     ASSERT_TRUE(advice.has("offset")) << codes(advice);
     EXPECT_EQ(advice.find("offset")->channel, "y2");
 }
+
+}  // namespace test_advice

@@ -6,6 +6,7 @@
 
 #include "numerics/estimators/oe.h"
 #include "numerics/estimators/sriv.h"
+#include "numerics/estimators/srivc.h"
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
@@ -13,9 +14,9 @@
 #include "numerics/validation/compare.h"
 #include "numerics/validation/robust_covariance.h"
 
-using namespace dynlab;
+namespace test_assessment {
 
-namespace {
+using namespace dynlab;
 
 constexpr double kTs = 0.05;
 
@@ -62,26 +63,35 @@ void expect_second_route(const IdData& data, const TransferStructure& structure,
             }
         return Vector(Eigen::Map<const Vector>(stacked.data(), static_cast<Index>(stacked.size())));
     };
-    std::vector<double> measured;
+    const Index N = data.sample_count(), ny = data.output_count();
+    Vector y(N * ny);
     std::vector<Index> lengths;
-    for (Index i = 0; i < data.output_count(); ++i)
+    for (std::size_t k = 0; k < data.experiments.size(); ++k) lengths.push_back(data.sample_count(k));
+    for (Index i = 0, row = 0; i < ny; ++i)
         for (const Experiment& experiment : data.experiments) {
-            const Vector y = experiment.y.col(i);
-            measured.insert(measured.end(), y.begin(), y.end());
-            lengths.push_back(y.size());
+            y.segment(row, experiment.y.rows()) = experiment.y.col(i);
+            row += experiment.y.rows();
         }
-    const Vector y = Eigen::Map<const Vector>(measured.data(), static_cast<Index>(measured.size()));
     // A change of theta also moves the refitted values along with the residual; to first order in the residual the
     // projected sensitivities are what remains, so the residual is kept small here.
-    const RobustCovariance expected = robust_covariance(differences(output, theta), y - output(theta), lengths);
-    const double N = static_cast<double>(y.size()), d = static_cast<double>(theta.size());
-    const double freedom = (N - d) / (N - d - static_cast<double>(linear_unknowns));
+    Matrix Psi = differences(output, theta);
+    Vector errors = y - output(theta);
+    for (Index i = 0; i < ny; ++i) {
+        const double size = errors.segment(i * N, N).norm();
+        Psi.middleRows(i * N, N) /= size;
+        errors.segment(i * N, N) /= size;
+    }
+    const RobustCovariance expected = robust_covariance(Psi, errors, lengths, ny);
+    const double free = static_cast<double>(y.size() - theta.size());
+    const double freedom = free / (free - static_cast<double>(linear_unknowns));
     const Assessment actual = assess(data, estimate_of(structure, theta, start));
     EXPECT_EQ(actual.bandwidth, expected.bandwidth);
     EXPECT_LT((actual.covariance - freedom * expected.covariance).norm(), 1e-4 * actual.covariance.norm());
 }
 
-IdData cut_record(const TransferStructure& structure, const Vector& theta, Index nu, std::uint32_t seed) {
+/// `noise`: what the errors of one output are multiplied with for the next.
+IdData cut_record(const TransferStructure& structure, const Vector& theta, Index nu, std::uint32_t seed,
+                  double noise = 1) {
     const auto models = structure.models(theta);
     const Index N = 500, ny = structure.outputs;
     Matrix u(N, nu), y(N, ny);
@@ -90,13 +100,12 @@ IdData cut_record(const TransferStructure& structure, const Vector& theta, Index
         for (Index k = 0; k < N; ++k) u(k, j) = 1.5 + (levels[k / (8 + 3 * j)] > 0 ? 1 : -1);
     }
     for (Index i = 0; i < ny; ++i) {
-        y.col(i) = 1e-5 * ar1(N, 0.7, seed + 10 + static_cast<std::uint32_t>(i));
+        const auto own_seed = seed + 10 + static_cast<std::uint32_t>(i);
+        y.col(i) = 1e-5 * std::pow(noise, static_cast<double>(i)) * ar1(N, 0.7, own_seed);
         for (Index j = 0; j < nu; ++j) y.col(i) += lsim(models[static_cast<std::size_t>(i * nu + j)], u.col(j), kTs);
     }
     return IdData(y, u, kTs);
 }
-
-}  // namespace
 
 TEST(assessment, one_channel_from_rest) {  // oracle: differences of compare_all()
     const auto structure = TransferStructure::single(2, 1);
@@ -120,6 +129,31 @@ TEST(assessment, several_experiments_and_channels) {  // oracle: differences of 
     const IdData whole = cut_record(structure, theta, 2, 5);
     expect_second_route(IdData::merge({whole, cut_record(structure, theta, 2, 25)}), structure, theta,
                         {InitialState::kZero, false}, 0);
+}
+
+TEST(assessment, outputs_that_share_a_denominator) {  // oracle: differences of compare_all()
+    const auto structure = TransferStructure::grid(2, 1, Denominators::kCommon, {2}, {0, 1}, {0, 0.1});
+    const Vector theta{{2.0, 5.0, 4.0, 3.0, 1.0}};
+    const IdData data = cut_record(structure, theta, 1, 6, 20);
+    expect_second_route(data, structure, theta, {InitialState::kZero, false}, 0);
+    expect_second_route(data, structure, theta, {InitialState::kEstimate, true}, 6);
+}
+
+TEST(assessment, an_output_given_twice_in_two_units_teaches_nothing_new) {  // oracle: the fit of the one output
+    const auto single = TransferStructure::single(2, 0);
+    const auto twice = TransferStructure::grid(2, 1, Denominators::kCommon, {2}, {0, 0}, {0, 0});
+    const Vector u = prbs(7, 8);
+    const Vector y =
+        lsim(TransferFunction(Vector{{2.0}}, Vector{{1.0, 4.0, 3.0}}), u, kTs) + 0.1 * ar1(u.size(), 0.7, 1);
+    Matrix both(y.size(), 2);
+    both << y, -1000 * y;
+    const IdData one(Matrix(y), Matrix(u), kTs), two(both, Matrix(u), kTs);
+    const TransferEstimate alone = srivc(one, single), joint = srivc(two, twice);
+    EXPECT_LT((joint.theta.head(3) - alone.theta).cwiseQuotient(alone.theta).norm(), 1e-4);
+    const Vector expected = assess(one, alone).std, std = assess(two, joint).std;
+    // The windows are those of 3 and of 4 parameters.
+    for (Index i = 0; i < 3; ++i) EXPECT_NEAR(std[i] / expected[i], 1, 0.03) << i;
+    EXPECT_NEAR(std[3] / (1000 * expected[2]), 1, 0.03);
 }
 
 TEST(assessment, irregular_sampling_and_as_many_zeros_as_poles) {  // oracle: differences of compare_all()
@@ -244,3 +278,5 @@ TEST(assessment, parameters_held_at_a_bound_stay_certain) {  // oracle: the defi
     EXPECT_EQ(held.std[0], 0);
     EXPECT_GT(held.std[1], 0);
 }
+
+}  // namespace test_assessment

@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "numerics/error.h"
 #include "numerics/validation/chi_squared.h"
+
+namespace test_chi_squared {
 
 using namespace dynlab;
 
@@ -35,7 +38,13 @@ TEST(chi_squared, half_width_of_the_normal_distribution) {  // oracle: the error
 
 TEST(chi_squared, refuses_what_has_no_meaning) {
     EXPECT_THROW(chi_squared_upper_tail(1, 0), InvalidArgument);
+    EXPECT_THROW(chi_squared_upper_tail(std::nan(""), 3), InvalidArgument);
     EXPECT_THROW(chi_squared_quantile(1, 3), InvalidArgument);
+    EXPECT_THROW(chi_squared_quantile(0.5, -1), InvalidArgument);
     EXPECT_THROW(normal_half_width(0), InvalidArgument);
+    EXPECT_THROW(normal_half_width(1), InvalidArgument);
     EXPECT_EQ(chi_squared_upper_tail(-1, 3), 1);
+    EXPECT_EQ(chi_squared_upper_tail(std::numeric_limits<double>::infinity(), 3), 0);
 }
+
+}  // namespace test_chi_squared

@@ -8,9 +8,9 @@
 #include "numerics/validation/compare.h"
 #include "numerics/validation/fit_measures.h"
 
-using namespace dynlab;
+namespace test_compare {
 
-namespace {
+using namespace dynlab;
 
 const TransferFunction kG(Vector{{2.0}}, Vector{{1.0, 1.2, 4.0}});
 
@@ -24,8 +24,6 @@ Vector rough_input(Index N, double mean) {
 IdData siso(const Vector& y, const Vector& u, double Ts) {
     return IdData(Matrix(y), Matrix(u), Ts);
 }
-
-}  // namespace
 
 TEST(compare, zero_state_is_plain_simulation) {  // oracle: second route, lsim
     const Vector u = rough_input(400, 0), y = lsim(kG, u, 0.05) + 0.1 * RandomStream(1).normal(400);
@@ -138,3 +136,5 @@ TEST(compare, fit_over_experiments_is_that_of_all_squares_together) {  // oracle
     }
     EXPECT_NEAR(all.fit_percent[0], 100 * (1 - std::sqrt(squares / variation)), 1e-10);
 }
+
+}  // namespace test_compare

@@ -9,14 +9,12 @@
 #include "numerics/simulation/lsim.h"
 #include "numerics/validation/cramer_rao.h"
 
+namespace test_cramer_rao {
+
 using namespace dynlab;
 using testing::ElementsAre;
 
-namespace {
-
 const TransferFunction kSecondOrder(Vector{{2.0}}, Vector{{1.0, 4.0, 3.0}});
-
-}  // namespace
 
 TEST(cramer_rao, published_bound_of_the_second_order_system) {
     // Oracle: the published bound at 10 dB for prbs(7, 8), 1016 samples, Ts = 0.05 s: b0 .076, a1 .162, a2 .103.
@@ -68,3 +66,5 @@ TEST(cramer_rao, refuses_what_it_cannot_know) {
     const TransferFunction jumps(Vector{{1.0, 1.0}}, Vector{{1.0, 2.0}}, 0, 0.1);
     EXPECT_THROW(cramer_rao_bound(jumps, u, 0.1, Hold::kZoh, 1, {"a1", "b0", "b1", "Td"}), InvalidArgument);
 }
+
+}  // namespace test_cramer_rao

@@ -10,10 +10,10 @@
 #include "numerics/simulation/lsim.h"
 #include "numerics/validation/crossvalidate.h"
 
+namespace test_crossvalidate {
+
 using namespace dynlab;
 using testing::HasSubstr;
-
-namespace {
 
 const TransferFunction kG(Vector{{2.0}}, Vector{{1.0, 4.0, 3.0}});
 constexpr double kTs = 0.05;
@@ -22,8 +22,6 @@ IdData record(double noise) {
     const Vector u = prbs(7, 8);
     return IdData(Matrix(lsim(kG, u, kTs) + noise * RandomStream(1).normal(u.size())), Matrix(u), kTs);
 }
-
-}  // namespace
 
 TEST(crossvalidate, folds_cover_the_record_and_training_never_sees_them) {  // oracle: counting samples
     IdData data = record(0.1);
@@ -111,3 +109,5 @@ TEST(crossvalidate, refuses_folds_that_cannot_be) {
     EXPECT_THROW(cross_validate(record(0.1), fit, {.folds = 200}), InvalidArgument);
     EXPECT_THROW(cross_validate(record(0.1), fit, {.by_experiment = true}), InvalidArgument);
 }
+
+}  // namespace test_crossvalidate

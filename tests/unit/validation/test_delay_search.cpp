@@ -12,11 +12,11 @@
 #include "numerics/simulation/lsim.h"
 #include "support/thrown_message.h"
 
+namespace test_delay_search {
+
 using namespace dynlab;
 using testing::HasSubstr;
 using testing::Not;
-
-namespace {
 
 const TransferFunction kTrap(Vector{{-4, 0.5}}, Vector{{1, 1, 4}}, 0, 8);  // a published test problem
 
@@ -25,8 +25,6 @@ IdData record(const TransferFunction& G, const Vector& u, double Ts, double snr,
     const double sigma = std::sqrt((x.array() - x.mean()).square().mean()) * std::pow(10, -snr / 20);
     return IdData(Matrix(x + sigma * RandomStream(seed).normal(x.size())), Matrix(u), Ts);
 }
-
-}  // namespace
 
 TEST(delay_search, delay_trap_is_avoided_from_default_settings) {  // oracle: the simulated system
     for (const std::uint32_t seed : {1u, 2u, 3u}) {
@@ -124,3 +122,5 @@ TEST(delay_search, refuses_what_cannot_be_searched) {
     const IdData two(Matrix(data.experiments.front().y), Matrix::Random(data.sample_count(), 2), 0.1);
     EXPECT_THAT(thrown_message([&] { search_delay(two); }), HasSubstr("one input and one output"));
 }
+
+}  // namespace test_delay_search

@@ -5,13 +5,11 @@
 #include "numerics/error.h"
 #include "numerics/validation/fit_measures.h"
 
+namespace test_fit_measures {
+
 using namespace dynlab;
 
-namespace {
-
 const Vector kY{{1.0, 2.0, 3.0, 6.0}}, kSim{{1.5, 2.0, 2.5, 5.0}};
-
-}  // namespace
 
 TEST(fit_measures, fit_percent_by_hand) {  // oracle: analytic; |e|^2 = 1.5, |y - mean|^2 = 14
     EXPECT_NEAR(fit_percent(kY, kSim), 100 * (1 - std::sqrt(1.5 / 14)), 1e-12);
@@ -57,3 +55,5 @@ TEST(fit_measures, refuses_what_has_no_meaning) {
     EXPECT_THROW(information_criteria(1, 5, 4), InvalidArgument);
     EXPECT_THROW(information_criteria(-1, 50, 4), InvalidArgument);
 }
+
+}  // namespace test_fit_measures

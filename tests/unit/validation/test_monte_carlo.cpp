@@ -12,11 +12,11 @@
 #include "numerics/validation/monte_carlo.h"
 #include "support/thrown_message.h"
 
+namespace test_monte_carlo {
+
 using namespace dynlab;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-namespace {
 
 MonteCarloStudy first_order_study() {
     return {TransferFunction(Vector{{2.0}}, Vector{{1.0, 1.0}}), prbs(5, 4), 0.1, Hold::kZoh, 0.3, {}, 40, 7};
@@ -29,8 +29,6 @@ MonteCarloEstimate moments(const IdData& data) {
 }
 
 const MonteCarloMethod kMoments{"moments", moments};
-
-}  // namespace
 
 TEST(monte_carlo, runs_use_consecutive_seeds) {  // oracle: the records made one by one
     const MonteCarloStudy study = first_order_study();
@@ -189,3 +187,5 @@ TEST(monte_carlo, refuses_unsuitable_studies) {
                 }),
                 HasSubstr("two estimators"));
 }
+
+}  // namespace test_monte_carlo

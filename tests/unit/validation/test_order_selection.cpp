@@ -2,21 +2,23 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "numerics/error.h"
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
+#include "numerics/validation/compare.h"
 #include "numerics/validation/fit_measures.h"
 #include "numerics/validation/order_selection.h"
 #include "support/thrown_message.h"
+
+namespace test_order_selection {
 
 using namespace dynlab;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
-
-namespace {
 
 const TransferFunction kSecondOrder(Vector{{2.0}}, Vector{{1.0, 4.0, 3.0}});
 const TransferFunction kRaoGarnier(Vector{{-6400.0, 1600.0}}, Vector{{1.0, 5.0, 408.0, 416.0, 1600.0}});
@@ -30,8 +32,6 @@ IdData record(const TransferFunction& G, const Vector& u, double Ts, double snr,
 OrderCandidate chosen(const OrderSelection& selection, OrderCriterion criterion = OrderCriterion::kRecommended) {
     return selection.candidates[choose_order(selection, criterion).place];
 }
-
-}  // namespace
 
 TEST(order_selection, grid_holds_every_strictly_proper_structure) {  // oracle: counting
     const auto grid = order_grid({1, 3}, {0, 2}, {0.0, 0.1});
@@ -73,6 +73,59 @@ TEST(order_selection, a_second_record_decides_when_it_is_given) {  // oracle: th
     EXPECT_EQ(chosen(selection).zeros, 0);
     for (const OrderCandidate& candidate : selection.candidates) EXPECT_TRUE(candidate.validation_fit.has_value());
     EXPECT_THAT(choose_order(selection).explanation, HasSubstr("second record"));
+}
+
+TEST(order_selection, a_second_record_with_an_offset_is_judged_as_the_estimation_was_asked_to) {
+    // Oracle: the noise, which a good model leaves over, and compare() for the recommended model alone.
+    const Vector period = prbs(8, 5);
+    Vector periods(2 * period.size());
+    periods << period, period;
+    const IdData one = record(kSecondOrder, prbs(7, 8), 0.05, 20, 1), two = record(kSecondOrder, periods, 0.05, 20, 2);
+    const auto lifted = [](IdData data, double inputs, double outputs) {
+        data.experiments.front().u.array() += inputs;
+        data.experiments.front().y.array() += outputs;
+        return data;
+    };
+    // The second record is one period of a running experiment, so that its means are a level at rest.
+    const IdData data = lifted(one, 3, 50), other = lifted(two.range(period.size() + 1, periods.size()), 5, -20);
+    OrderSelectionOptions options;
+    options.validation = &other;
+    for (const Offset offset : {Offset::kEstimate, Offset::kRemove, Offset::kAuto}) {
+        SCOPED_TRACE(static_cast<int>(offset));
+        options.estimation.offset = offset;
+        options.estimation.initial_state = InitialState::kEstimate;
+        const OrderCandidate best = chosen(select_order(data, order_grid({1, 3}, {0, 1}, {0.0}), options));
+        EXPECT_EQ(best.poles, 2);
+        EXPECT_EQ(best.zeros, 0);
+        EXPECT_NEAR(best.fit_percent, 90, 1);  // 20 dB
+        EXPECT_NEAR(*best.validation_fit, 90, 1);
+        const TransferFunction& G = best.estimate.models.front();
+        const CompareOptions as_asked{InitialState::kEstimate, offset};
+        EXPECT_NEAR(*best.validation_fit, compare(other, G, as_asked).fit_percent, 1e-9);
+    }
+}
+
+TEST(order_selection, a_step_at_the_first_sample_serves_as_second_record) {  // oracle: the noise
+    const IdData data = record(kSecondOrder, prbs(7, 8), 0.05, 20, 1);
+    IdData step = record(kSecondOrder, Vector::Ones(400), 0.05, 20, 2);
+    step.experiments.front().y.array() += 7;
+    OrderSelectionOptions options;
+    options.validation = &step;
+    options.estimation.offset = Offset::kEstimate;
+    EXPECT_NEAR(*chosen(select_order(data, order_grid({2, 2}, {0, 0}, {0.0}), options)).validation_fit, 90, 1);
+}
+
+TEST(order_selection,
+     an_unstable_model_that_overflows_has_the_worst_of_validation_fits) {  // oracle: exp(1270) overflows
+    const TransferFunction unstable(Vector{{1.0}}, Vector{{1.0, -1.0}});
+    const IdData data = record(unstable, prbs(5, 4).head(100), 0.05, 40, 1);
+    const IdData other = record(kSecondOrder, prbs(7, 200), 0.05, 20, 2);
+    OrderSelectionOptions options;
+    options.validation = &other;
+    options.estimation.initial_state = InitialState::kEstimate;
+    const OrderSelection selection = select_order(data, order_grid({2, 2}, {0, 0}, {0.0}), options);
+    ASSERT_GT(selection.candidates.front().fit_percent, 90);
+    EXPECT_EQ(*selection.candidates.front().validation_fit, -std::numeric_limits<double>::infinity());
 }
 
 TEST(order_selection, finds_the_delay_among_several) {  // oracle: the simulated system
@@ -154,3 +207,5 @@ TEST(order_selection, failures_are_kept_and_told) {
     EXPECT_THROW(choose_order(stopped), InvalidArgument);
     EXPECT_THROW(select_order(data, {}), InvalidArgument);
 }
+
+}  // namespace test_order_selection

@@ -10,10 +10,10 @@
 #include "numerics/validation/chi_squared.h"
 #include "numerics/validation/residual_tests.h"
 
+namespace test_residual_tests {
+
 using namespace dynlab;
 using testing::HasSubstr;
-
-namespace {
 
 const TransferFunction kG(Vector{{2.0}}, Vector{{1.0, 4.0, 3.0}});
 constexpr double kTs = 0.05;
@@ -31,8 +31,6 @@ IdData record(const Vector& y, const Vector& u) {
 ResidualTests plain_tests(const IdData& data, const TransferFunction& G, const ResidualOptions& options = {}) {
     return residual_tests(data, {G}, {InitialState::kZero, Offset::kNone}, options);
 }
-
-}  // namespace
 
 TEST(residual_tests, correlations_equal_their_definition) {  // oracle: the definition
     const Vector u = prbs(6, 3), N_e = ar1(u.size(), 0.6, 2);
@@ -154,3 +152,5 @@ TEST(residual_tests, refuses_short_records_and_wrong_sizes) {
     EXPECT_THROW(residual_tests(data, {Matrix::Zero(39, 1)}, {10, 0.99}), InvalidArgument);
     EXPECT_THROW(residual_tests(data, std::vector<Matrix>{}, {10, 0.99}), InvalidArgument);
 }
+
+}  // namespace test_residual_tests

@@ -7,9 +7,9 @@
 #include "numerics/signals/random.h"
 #include "numerics/validation/robust_covariance.h"
 
-using namespace dynlab;
+namespace test_robust_covariance {
 
-namespace {
+using namespace dynlab;
 
 Matrix random_matrix(Index rows, Index columns, std::uint32_t seed) {
     const Vector numbers = RandomStream(seed).normal(rows * columns);
@@ -39,8 +39,6 @@ Matrix by_definition(const Matrix& H, const Matrix& Z, const Vector& e, Index L,
     return N / (N - static_cast<double>(d)) * H * S * H.transpose();
 }
 
-}  // namespace
-
 TEST(robust_covariance, equals_its_definition) {  // oracle: the definition's double sum
     Matrix Z = random_matrix(150, 3, 1);
     for (Index k = 1; k < 150; ++k) Z.row(k) += 0.9 * Z.row(k - 1);
@@ -52,6 +50,23 @@ TEST(robust_covariance, equals_its_definition) {  // oracle: the definition's do
         const Matrix expected = by_definition(H, Z, e, result.bandwidth, lengths);
         EXPECT_LT((result.covariance - expected).norm(), 1e-12 * expected.norm());
         EXPECT_LT((result.std - expected.diagonal().cwiseSqrt()).norm(), 1e-12 * result.std.norm());
+    }
+}
+
+TEST(robust_covariance, sums_over_outputs_that_were_fitted_together) {  // oracle: the definition's double sum
+    const Matrix first = random_matrix(150, 3, 1), second = random_matrix(150, 3, 8), H = random_matrix(3, 3, 3);
+    const Vector e = ar1(150, 0.8, 2), f = 0.5 * e + ar1(150, 0.9, 9);
+    Matrix Z(300, 3), products(150, 3);
+    Z << first, second;
+    Vector errors(300);
+    errors << e, f;
+    for (Index k = 0; k < 150; ++k) products.row(k) = first.row(k) * e[k] + second.row(k) * f[k];
+    for (const std::vector<Index>& lengths : {std::vector<Index>{150}, std::vector<Index>{70, 50, 30}}) {
+        const auto result = robust_covariance(H, Z, errors, lengths, 2);
+        EXPECT_GT(result.bandwidth, 1);
+        Matrix expected = by_definition(H, products, Vector::Ones(150), result.bandwidth, lengths);
+        expected *= (300.0 / 297) / (150.0 / 147);
+        EXPECT_LT((result.covariance - expected).norm(), 1e-12 * expected.norm());
     }
 }
 
@@ -88,6 +103,10 @@ TEST(robust_covariance, refuses_sizes_that_do_not_fit) {
     const Matrix Psi = random_matrix(10, 2, 1);
     EXPECT_THROW(robust_covariance(Psi, Vector::Ones(9)), InvalidArgument);
     EXPECT_THROW(robust_covariance(Psi, Vector::Ones(10), {4, 5}), InvalidArgument);
+    EXPECT_THROW(robust_covariance(Psi, Vector::Ones(10), {10}, 2), InvalidArgument);
+    EXPECT_THROW(robust_covariance(Psi, Vector::Ones(10), {}, 3), InvalidArgument);
     EXPECT_THROW(robust_covariance(Matrix(Psi.topRows(2)), Vector::Ones(2)), InvalidArgument);
     EXPECT_THROW(robust_covariance(Matrix::Identity(3, 3), Psi, Vector::Ones(10)), InvalidArgument);
 }
+
+}  // namespace test_robust_covariance

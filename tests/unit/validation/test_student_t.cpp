@@ -5,9 +5,9 @@
 #include "numerics/error.h"
 #include "numerics/validation/student_t.h"
 
-using namespace dynlab;
+namespace test_student_t {
 
-namespace {
+using namespace dynlab;
 
 const double kPi = std::acos(-1.0);
 
@@ -24,32 +24,25 @@ double integrated_density(double x, double degrees) {
     return scale * sum * h / 3;
 }
 
-}  // namespace
-
 TEST(student_t, one_degree_is_cauchy) {  // oracle: analytic
     for (double p : {0.001, 0.2, 0.6, 0.95, 0.975, 0.9999})
         EXPECT_NEAR(student_t_quantile(p, 1) / std::tan(kPi * (p - 0.5)), 1, 1e-11) << p;
 }
 
 TEST(student_t, two_and_four_degrees_closed_form) {  // oracle: analytic (Shaw 2006)
-    for (double p : {0.55, 0.9, 0.975, 0.999}) {
+    for (double p : {1e-8, 0.01, 0.55, 0.9, 0.975, 0.999}) {
         const double alpha = 4 * p * (1 - p);
         EXPECT_NEAR(student_t_quantile(p, 2) / ((2 * p - 1) * std::sqrt(2 / alpha)), 1, 1e-12) << p;
         const double q = std::cos(std::acos(std::sqrt(alpha)) / 3) / std::sqrt(alpha);
-        EXPECT_NEAR(student_t_quantile(p, 4) / (2 * std::sqrt(q - 1)), 1, 1e-11) << p;
+        EXPECT_NEAR(student_t_quantile(p, 4) / std::copysign(2 * std::sqrt(q - 1), p - 0.5), 1, 1e-11) << p;
     }
 }
 
-TEST(student_t, cdf_is_the_integral_of_the_density) {  // oracle: second route, Simpson's rule
-    for (double degrees : {1.0, 2.5, 3.0, 27.0, 100.0})
-        for (double x : {0.1, 0.7, 1.9, 3.0})
-            EXPECT_NEAR(student_t_cdf(x, degrees), 0.5 + integrated_density(x, degrees), 1e-12) << degrees << " " << x;
-}
-
-TEST(student_t, quantile_inverts_cdf) {  // oracle: definition
-    for (double degrees : {0.7, 1.0, 5.0, 27.0, 498.0, 1e5})
-        for (double p : {1e-8, 0.01, 0.3, 0.5, 0.8, 0.995})
-            EXPECT_NEAR(student_t_cdf(student_t_quantile(p, degrees), degrees) / p, 1, 1e-11) << degrees << " " << p;
+TEST(student_t, quantile_inverts_the_integral_of_the_density) {  // oracle: second route, Simpson's rule
+    for (double degrees : {0.7, 1.0, 2.5, 3.0, 27.0, 100.0})
+        for (double p : {0.01, 0.3, 0.5, 0.8, 0.975})
+            EXPECT_NEAR(0.5 + integrated_density(student_t_quantile(p, degrees), degrees), p, 1e-11)
+                << degrees << " " << p;
 }
 
 TEST(student_t, many_degrees_are_normal) {  // oracle: Cornish-Fisher expansion about the normal law
@@ -62,20 +55,12 @@ TEST(student_t, many_degrees_are_normal) {  // oracle: Cornish-Fisher expansion 
     }
 }
 
-TEST(student_t, incomplete_beta_symmetry_and_powers) {  // oracle: analytic, I_x(a, 1) = x^a
-    for (double a : {0.5, 2.0, 13.5}) {
-        EXPECT_NEAR(incomplete_beta(a, 1, 0.3), std::pow(0.3, a), 1e-14);
-        EXPECT_NEAR(incomplete_beta(a, 2.5, 0.8), 1 - incomplete_beta(2.5, a, 0.2), 1e-13);
-    }
-    EXPECT_EQ(incomplete_beta(2, 3, 0), 0);
-    EXPECT_EQ(incomplete_beta(2, 3, 1), 1);
-}
-
 TEST(student_t, refuses_what_has_no_answer) {
     EXPECT_THROW(student_t_quantile(0, 5), InvalidArgument);
     EXPECT_THROW(student_t_quantile(1, 5), InvalidArgument);
     EXPECT_THROW(student_t_quantile(0.9, 0), InvalidArgument);
-    EXPECT_THROW(student_t_cdf(1, std::nan("")), InvalidArgument);
-    EXPECT_THROW(incomplete_beta(0, 1, 0.5), InvalidArgument);
-    EXPECT_THROW(incomplete_beta(1, 1, 1.5), InvalidArgument);
+    EXPECT_THROW(student_t_quantile(0.9, std::nan("")), InvalidArgument);
+    EXPECT_THROW(student_t_quantile(std::nan(""), 5), InvalidArgument);
 }
+
+}  // namespace test_student_t

@@ -12,9 +12,9 @@
 #include "numerics/validation/chi_squared.h"
 #include "numerics/validation/uncertainty.h"
 
-using namespace dynlab;
+namespace test_uncertainty {
 
-namespace {
+using namespace dynlab;
 
 // Third order with a zero and a delay: theta = [a1 a2 a3 b0 b1 delay].
 const Vector kTheta{{4.0, 9.0, 6.0, -1.0, 3.0, 0.4}};
@@ -51,8 +51,6 @@ void expect_close(const Vector& actual, const Vector& expected, double tolerance
     ASSERT_EQ(actual.size(), expected.size());
     EXPECT_LT((actual - expected).norm(), tolerance * expected.norm());
 }
-
-}  // namespace
 
 TEST(uncertainty, step_response_equals_finite_differences) {  // oracle: differences of the response
     Vector t(5);
@@ -208,3 +206,5 @@ TEST(uncertainty, refuses_what_it_cannot_describe) {
     EXPECT_TRUE(std::isnan(
         describe_uncertainty({TransferFunction(Vector{{1.0}}, Vector{{1.0, 0.0}}), Matrix::Identity(2, 2)}).gain_std));
 }
+
+}  // namespace test_uncertainty

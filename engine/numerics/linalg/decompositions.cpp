@@ -1,0 +1,109 @@
+#include "numerics/linalg/decompositions.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+namespace dynlab {
+
+namespace {
+
+template <class Decomposition>
+SingularValues parts_of(const Decomposition& svd) {
+    return {svd.matrixU(), svd.singularValues(), svd.matrixV()};
+}
+
+Matrix triangle_of(const Eigen::HouseholderQR<Matrix>& qr) {
+    return qr.matrixQR().topRows(std::min(qr.rows(), qr.cols())).triangularView<Eigen::Upper>();
+}
+
+}  // namespace
+
+SingularValues jacobi_svd(const MatrixView& A) {
+    return parts_of(Eigen::JacobiSVD<Matrix>(A, Eigen::ComputeThinU | Eigen::ComputeThinV));
+}
+
+SingularValues divide_and_conquer_svd(const MatrixView& A) {
+    return parts_of(Eigen::BDCSVD<Matrix>(A, Eigen::ComputeThinU | Eigen::ComputeThinV));
+}
+
+Vector singular_values(const MatrixView& A) {
+    return Eigen::JacobiSVD<Matrix>(A).singularValues();
+}
+
+SymmetricEigen symmetric_eigen(const MatrixView& A) {
+    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(A);
+    return {eigen.eigenvalues(), eigen.eigenvectors()};
+}
+
+Vector symmetric_eigenvalues(const MatrixView& A) {
+    return Eigen::SelfAdjointEigenSolver<Matrix>(A, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+Eigenvectors eigenvectors(const MatrixView& A) {
+    const Eigen::EigenSolver<Matrix> eigen(A);
+    return {eigen.eigenvalues(), eigen.eigenvectors()};
+}
+
+ComplexVector eigenvalues(const MatrixView& A) {
+    return Eigen::EigenSolver<Matrix>(A, false).eigenvalues();
+}
+
+Matrix triangular_part(const MatrixView& A) {
+    return triangle_of(Eigen::HouseholderQR<Matrix>(A));
+}
+
+RotatedEquations rotate_equations(const MatrixView& A, const VectorView& b) {
+    const Eigen::HouseholderQR<Matrix> qr(A);
+    const Vector rotated = qr.householderQ().adjoint() * b;
+    return {triangle_of(qr), rotated.head(std::min(A.rows(), A.cols()))};
+}
+
+Matrix full_orthogonal_basis(const MatrixView& A) {
+    return Eigen::HouseholderQR<Matrix>(A).householderQ();
+}
+
+Matrix solve_by_pivoted_qr(const MatrixView& A, const MatrixView& B) {
+    return Eigen::ColPivHouseholderQR<Matrix>(A).solve(B);
+}
+
+Matrix shortest_solution(const MatrixView& A, const MatrixView& B) {
+    return Eigen::CompleteOrthogonalDecomposition<Matrix>(A).solve(B);
+}
+
+std::optional<Matrix> cholesky_root(const MatrixView& A) {
+    const Eigen::LLT<Matrix> factor(A);
+    if (factor.info() != Eigen::Success) return {};
+    return Matrix(factor.matrixL());
+}
+
+std::optional<SquareSolution> solve_by_cholesky(const MatrixView& A, const MatrixView& B) {
+    const Eigen::LLT<Matrix> factor(A);
+    if (factor.info() != Eigen::Success) return {};
+    return SquareSolution{factor.solve(B), factor.rcond()};
+}
+
+Vector solve_semidefinite(const MatrixView& A, const VectorView& b) {
+    return Eigen::LDLT<Matrix>(A).solve(b);
+}
+
+SquareSolution solve_by_lu(const MatrixView& A, const MatrixView& B) {
+    const Eigen::PartialPivLU<Matrix> factor(A);
+    return {factor.solve(B), factor.rcond()};
+}
+
+std::optional<Matrix> solve_regular(const MatrixView& A, const MatrixView& B) {
+    const Eigen::FullPivLU<Matrix> factor(A);
+    if (!factor.isInvertible()) return {};
+    return Matrix(factor.solve(B));
+}
+
+std::optional<Eigen::MatrixXcd> inverse_of_regular(const Eigen::MatrixXcd& A) {
+    const Eigen::FullPivLU<Eigen::MatrixXcd> factor(A);
+    if (!factor.isInvertible()) return {};
+    return Eigen::MatrixXcd(factor.inverse());
+}
+
+}  // namespace dynlab

@@ -1,0 +1,109 @@
+// Oracle: the scatter of estimates over fixed seeds.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "numerics/estimators/srivc.h"
+#include "numerics/rigs/crane_experiments.h"
+#include "numerics/signals/prbs.h"
+#include "numerics/validation/assessment.h"
+#include "support/coloured_noise.h"
+
+namespace test_assessment_statistics {
+
+using namespace dynlab;
+using namespace dynlab::test;
+
+constexpr int kRuns = 200;
+constexpr double kTs = 0.05;
+// The standard deviation from 200 runs has a relative error of 1/sqrt(398) = 5 %: this is three of them.
+constexpr double kAllowed = 0.15;
+
+/// Two outputs with one denominator, the second in units a hundred times smaller.
+struct TwoOutputs {
+    double first_noise, second_noise;  // standard deviations
+    double in_common;                  // correlation of the two
+    TransferStructure structure = TransferStructure::grid(2, 1, Denominators::kCommon, {2}, {0, 1}, {0, 0});
+    Vector theta = values({1.2, 4, 4, 100, 300});
+
+    IdData record(std::uint32_t seed) const {
+        const Vector u = prbs(7, 8);
+        const Vector first = noise(u.size(), seed), own = noise(u.size(), seed + 10000);
+        const Vector second = in_common * first + std::sqrt(1 - in_common * in_common) * own;
+        const auto models = structure.models(theta);
+        Matrix y(u.size(), 2);
+        y << lsim(models[0], u, kTs) + first_noise * first, lsim(models[1], u, kTs) + second_noise * second;
+        return IdData(y, Matrix(u), kTs);
+    }
+
+    /// Coloured, of variance one.
+    static Vector noise(Index N, std::uint32_t seed) {
+        return 0.8 * arma_signal(values({1}), values({1, -0.6}), N, seed);
+    }
+};
+
+struct Runs {
+    Vector spread, robust;  // standard deviation over the runs, mean of the robust standard errors
+};
+
+Runs runs_of(const TwoOutputs& system) {
+    Matrix values(kRuns, system.theta.size());
+    Runs runs{{}, Vector::Zero(system.theta.size())};
+    for (int run = 0; run < kRuns; ++run) {
+        const IdData data = system.record(static_cast<std::uint32_t>(run + 1));
+        const TransferEstimate estimate = srivc(data, system.structure);
+        values.row(run) = estimate.theta.transpose();
+        runs.robust += assess(data, estimate).std / kRuns;
+    }
+    runs.spread =
+        ((values.rowwise() - values.colwise().mean()).colwise().squaredNorm() / (kRuns - 1)).cwiseSqrt().transpose();
+    return runs;
+}
+
+void expect_honest_errors(const TwoOutputs& system) {
+    const Runs runs = runs_of(system);
+    for (Index i = 0; i < system.theta.size(); ++i)
+        EXPECT_NEAR(runs.robust[i] / runs.spread[i], 1, kAllowed)
+            << system.structure.parameter_names()[static_cast<std::size_t>(i)] << ": " << runs.robust[i] << ", "
+            << runs.spread[i];
+}
+
+/// The crane's estimation record, its voltage integrated (exactly, with foh), counted from the rest it begins with.
+IdData crane_record(std::uint32_t seed) {
+    constexpr Index kRest = 50;
+    const CraneExperiments experiments;
+    const CraneRecord record = simulate_crane({}, experiments, seed).front();
+    const Index N = record.u.size();
+    Vector integral = Vector::Zero(N);
+    for (Index k = 1; k < N; ++k) integral[k] = integral[k - 1] + experiments.Ts * record.u[k - 1];
+    Matrix y(N, 2);
+    y << record.x, record.theta;
+    y.rowwise() -= y.topRows(kRest).colwise().mean().eval();
+    IdData data(y, Matrix(integral), experiments.Ts);
+    data.hold = Hold::kFoh;
+    return data;
+}
+
+TEST(assessment_statistics, robust_errors_of_outputs_with_one_denominator_are_their_scatter) {
+    expect_honest_errors({.first_noise = 0.05, .second_noise = 50, .in_common = 0});
+}
+
+TEST(assessment_statistics, robust_errors_are_the_scatter_where_outputs_have_a_disturbance_in_common) {
+    expect_honest_errors({.first_noise = 0.1, .second_noise = 10, .in_common = 0.9});
+}
+
+// Oracle: position and angle of the crane together hold more information about their common poles than either alone.
+TEST(assessment_statistics, two_outputs_of_the_crane_are_no_less_certain_than_one) {
+    constexpr int kSeeds = 8;
+    const auto single = TransferStructure::single(3, 2);
+    const auto common = TransferStructure::grid(2, 1, Denominators::kCommon, {3}, {2, 2}, {0, 0});
+    Vector alone = Vector::Zero(3), together = Vector::Zero(3);
+    for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
+        const IdData data = crane_record(seed), position = data.select({1}, {1});
+        alone += assess(position, srivc(position, single)).std.head(3) / kSeeds;
+        together += assess(data, srivc(data, common)).std.head(3) / kSeeds;
+    }
+    for (Index i = 0; i < 3; ++i) EXPECT_LT(together[i], (1 + kAllowed) * alone[i]) << "a" << i + 1;
+}
+
+}  // namespace test_assessment_statistics
