@@ -25,7 +25,7 @@ std::optional<double> delay_of(const std::string& text) {
     throw CLI::ValidationError("--delay", "wanted a number of seconds or the word auto, not '" + text + "'");
 }
 
-void print_now(const std::string& text) {
+void print_at_once(const std::string& text) {
     std::fwrite(text.data(), 1, text.size(), stdout);
     std::fflush(stdout);
 }
@@ -33,13 +33,13 @@ void print_now(const std::string& text) {
 int identify(const IdentifyWords& words) {
     const std::string script = identification_script(words.request);
     if (words.script) {
-        print_now(script);
+        print_at_once(script);
         return kDone;
     }
     const std::string stem = std::filesystem::path(words.request.data).stem().string();
     ReportRequest report = report_of_script(parse_percent_script(script, "identify.lua"),
                                             words.report.empty() ? stem + "_model.pdf" : words.report);
-    report.print = print_now;
+    report.print = print_at_once;
     return make_document(std::move(report), false);
 }
 

@@ -48,9 +48,9 @@ std::optional<fs::path> pdf_below(const fs::path& folder) {
 }
 
 /// The making of one copy.
-class Copying {
+class CopyingAnonymously {
   public:
-    Copying(const fs::path& handed_in, const AnonymousCopySetup& setup) : handed_in_(handed_in), setup_(setup) {}
+    CopyingAnonymously(const fs::path& handed_in, const AnonymousCopySetup& setup) : handed_in_(handed_in), setup_(setup) {}
 
     AnonymousCopy make(const fs::path& copy) {
         const std::optional<fs::path> original = found_original();
@@ -141,7 +141,7 @@ class Copying {
 }  // namespace
 
 AnonymousCopy anonymous_copy(const fs::path& handed_in, const fs::path& copy, const AnonymousCopySetup& setup) {
-    return Copying(handed_in, setup).make(copy);
+    return CopyingAnonymously(handed_in, setup).make(copy);
 }
 
 }  // namespace dynlab

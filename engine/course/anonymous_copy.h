@@ -37,9 +37,11 @@ struct AnonymousCopy {
 AnonymousCopy anonymous_copy(const std::filesystem::path& handed_in, const std::filesystem::path& copy,
                              const AnonymousCopySetup& setup);
 
-/// The PDF without document information, XMP, embedded files, comments, forms, scripts, dates, identities, private data
-/// of programs, metadata of pictures, earlier versions and objects that nothing refers to. Links, bookmarks and layers
-/// stay, as they belong to the text. Throws PdfRefusal, MissingProgram.
+/// The PDF without document information, XMP, embedded files, comments, forms, dates, identities, private data of
+/// programs, metadata of pictures, earlier versions and objects that nothing refers to. Links, bookmarks and layers
+/// stay, as they belong to the text; of actions only those that turn to a place in the document (GoTo, and Named for
+/// the next, previous, first and last page) or open an address when they are clicked (URI), one at a time. Nothing is
+/// fetched from other files. Throws PdfRefusal, MissingProgram.
 std::string clean_pdf(const std::filesystem::path& file, const PdfObjectLimits& limits = {});
 
 }  // namespace dynlab

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr auto kTime = std::chrono::seconds(30);
+constexpr auto kTimeOfDocument = std::chrono::seconds(30);
 
 /// What of a record reaches such documents.
 json json_of(const RunRecord& record) {
@@ -26,7 +26,7 @@ json json_of(const RunRecord& record) {
     return j;
 }
 
-RunRecord record_of(const json& j) {
+RunRecord record_of_content(const json& j) {
     RunRecord record;
     for (const auto& [name, value] : j.at("values").items()) record.values[name] = {{}, value};
     for (const auto& [name, text] : j.at("texts").items()) record.texts[name] = {text};
@@ -89,7 +89,7 @@ void BoxedDocuments::make(const std::string& template_name, const RunRecord& rec
     const bool pdf = document_format(output) == DocumentFormat::kPdf;
     if (pdf) job["format"] = box.add(latex_format(), "/box/format").string();
     job["to"] = (box.add_writable(made.path(), "/box/made") / output.filename()).string();
-    const BoxedResult result = run_boxed(box, program_, job, kTime);
+    const BoxedResult result = run_boxed(box, program_, job, kTimeOfDocument);
     if (!result.output) throw EnvironmentError(output.filename().string() + " cannot be made: " + result.reason);
     place_all(made.path(), output.parent_path());
 }
@@ -103,7 +103,7 @@ json make_boxed_document(const json& job) {
     DocumentSource source;
     source.template_file = shared_folder() / "report_templates" / job.at("template").get<std::string>();
     const auto make = [&](const json& content) {
-        const RunRecord record = record_of(content);
+        const RunRecord record = record_of_content(content);
         source.record = &record;
         maker.make(source, to, document_format(to), [] {});
     };

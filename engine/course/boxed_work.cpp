@@ -5,10 +5,11 @@
 namespace dynlab {
 
 BoxedResult run_boxed(Box& box, const std::filesystem::path& program, const nlohmann::json& job,
-                      std::chrono::milliseconds timeout) {
+                      std::chrono::milliseconds timeout, std::uint64_t output_bytes) {
     const std::filesystem::path inside = box.add(program, "/box/dynlab");
     Box::Limits limits;
     limits.timeout = timeout;
+    limits.output_bytes = output_bytes;
     const auto start = std::chrono::steady_clock::now();
     const ChildResult child = box.run({inside.string(), "boxed"}, {},
                                       job.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), limits);

@@ -1,5 +1,6 @@
 #pragma once
 #include <chrono>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -16,8 +17,9 @@ struct BoxedResult {
     double seconds = 0;  ///< wall clock, box and start included
 };
 
-/// Runs one piece of work, {"work": "run" | "checks" | "unpack", ...}, with `program` (dynlab) in the box.
+/// Runs one piece of work, {"work": "run" | "checks" | "unpack", ...}, with `program` (dynlab) in the box; it may give
+/// out so many bytes.
 BoxedResult run_boxed(Box& box, const std::filesystem::path& program, const nlohmann::json& job,
-                      std::chrono::milliseconds timeout);
+                      std::chrono::milliseconds timeout, std::uint64_t output_bytes = Box::Limits{}.output_bytes);
 
 }  // namespace dynlab

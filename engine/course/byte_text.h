@@ -12,7 +12,8 @@ bool is_text(std::string_view bytes);
 /// characters in ASCII, UTF-8 and UTF-16, each on a line.
 std::string text_in(std::string_view bytes);
 
-/// Character references of XML and HTML (&#xE9; &amp;) as the characters.
+/// Character references of XML and HTML 4 (&#xE9; &amp; &eacute;) as the characters; U+FFFD for a number that is
+/// none's. What is no reference stays as it is.
 std::string without_references(const std::string& xml);
 
 /// Comments and metadata of a JPEG: all segments before the picture, and what stands behind its end.

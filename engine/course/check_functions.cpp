@@ -6,13 +6,11 @@
 #include <set>
 
 #include "course/check_session.h"
-#include "data_io/mat_file.h"
 #include "numerics/number_text.h"
 #include "scripting/answer_value.h"
 #include "scripting/arguments.h"
 #include "scripting/context.h"
 #include "scripting/errors.h"
-#include "scripting/sandbox.h"
 #include "scripting/table_fields.h"
 
 namespace dynlab {
@@ -30,7 +28,7 @@ int give_judgement(const Call& call, double share, const std::string& message) {
     return 1;
 }
 
-std::string percent(double share) {
+std::string percent_of_share(double share) {
     return number_text(100 * share, 3) + " %";
 }
 
@@ -113,7 +111,7 @@ int near(Call& call) {
     const double half = options.number("half", most);  // this far away earns half the points
     if (!(most >= 0) || !(half >= most)) throw InvalidArgument("the tolerance must not be negative, nor half below it");
     const double apart = distance(call, absolute);
-    const auto measured = [&](double x) { return absolute ? number_text(x, 3) : percent(x); };
+    const auto measured = [&](double x) { return absolute ? number_text(x, 3) : percent_of_share(x); };
     if (apart <= most) return give_judgement(call, 1, "");
     if (!std::isfinite(apart)) return give_judgement(call, 0, "It is not a finite number, or not as many as wanted.");
     if (on_secret_record(call))
@@ -197,52 +195,7 @@ int differs(Call& call) {
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
-// Records and facts
-
-void call_library(const Call& call, const char* name, int arguments) {
-    lua_State* L = call.state();
-    push_library(L);
-    lua_getfield(L, -1, name);
-    lua_remove(L, -2);
-    lua_insert(L, -arguments - 1);
-    lua_call(L, arguments, 1);
-}
-
-int hidden(Call& call) {
-    call.at_most(1);
-    const std::string name = call.text(1, "name");
-    CheckSession& session = session_of(call);
-    if (!session.specimens.contains(name))
-        throw InvalidArgument(fmt::format("there is no hidden record \"{}\": name a simulated experiment", name));
-    session.took_hidden = true;
-    call.give((session.hidden_folder / (name + ".mat")).string());
-    call_library(call, "load", 1);
-    return 1;
-}
-
-/// truth(name): of the hidden record; truth(b): of the record of the rerun.
-int truth(Call& call) {
-    call.at_most(1);
-    CheckSession& session = session_of(call);
-    session.took_hidden = true;
-    std::string name, key;
-    if (call.type(1) == LUA_TSTRING) {
-        name = key = call.text(1, "name");
-    } else {
-        if (!session.current || session.current->rerun.empty() || call.type(1) != LUA_TTABLE)
-            throw InvalidArgument("truth takes a data set's name, or the answers of a rerun");
-        name = session.current->rerun;
-        key = "rerun:" + name;
-    }
-    const auto specimen = session.specimens.find(key);
-    if (specimen == session.specimens.end())
-        throw InvalidArgument(fmt::format("there is no hidden record \"{}\"", name));
-    call.give(name);
-    lua_createtable(call.state(), 0, 1);
-    set_whole(call.state(), "specimen", specimen->second);
-    call_library(call, "rig_truth", 2);
-    return 1;
-}
+// Facts
 
 int has(Call& call, const char* group, const char* words) {
     call.at_most(1);
@@ -286,9 +239,6 @@ constexpr std::array kFunctions = {
     FunctionEntry{"all_of", kArea, "all_of(judgement, ...)", "the least of several judgements", guarded<all_of>},
     FunctionEntry{"any_of", kArea, "any_of(judgement, ...)", "the best of several judgements", guarded<any_of>},
     FunctionEntry{"differs", kArea, "differs(x, y)", "whether an answer was computed from the data", guarded<differs>},
-    FunctionEntry{"hidden", kArea, "hidden(name) -> table", "a further record of the rerun's apparatus",
-                  guarded<hidden>},
-    FunctionEntry{"truth", kArea, "truth(name | answers) -> table", "what theory says of that record", guarded<truth>},
     FunctionEntry{"has_figure", kArea, "has_figure(name)", "whether the report has this figure", guarded<has_figure>},
     FunctionEntry{"has_value", kArea, "has_value(name)", "whether the report has this value", guarded<has_value>},
     FunctionEntry{"no_finding", kArea, "no_finding(id, ...)", "whether the document is free of findings",
@@ -309,12 +259,14 @@ bool holds_no_numbers(const nlohmann::json& answer) {
 int answer_of(Call& call) {
     lua_State* L = call.state();
     const std::string name = call.text(2, "name"), run = lua_tostring(L, lua_upvalueindex(2));
-    const nlohmann::json& runs = session_of(call).runs;
+    CheckSession& session = session_of(call);
+    const nlohmann::json& runs = session.runs;
+    const auto refuse = [&session](const std::string& why) { throw InvalidArgument(session.answer_trouble = why); };
     if (!runs.contains(run) || !runs.at(run).contains("answers") || !runs.at(run).at("answers").contains(name))
-        throw InvalidArgument(fmt::format("The answer \"{}\" was not handed in.", name));
+        refuse(fmt::format("The answer \"{}\" was not handed in.", name));
     const nlohmann::json& answer = runs.at(run).at("answers").at(name);
     if (answer.at("kind") != "data" && answer.at("kind") != "text" && holds_no_numbers(answer))
-        throw InvalidArgument(fmt::format("The answer \"{}\" holds NaN or infinite numbers.", name));
+        refuse(fmt::format("The answer \"{}\" holds NaN or infinite numbers.", name));
     push_answer_value(L, answer.dump());
     lua_pushvalue(L, 2);
     lua_pushvalue(L, -2);
@@ -322,11 +274,12 @@ int answer_of(Call& call) {
     return 1;
 }
 
-/// The answers of a run as a table.
+/// The answers of a run as a table, which knows the run.
 void push_answers(const Call& call, const std::string& run) {
     lua_State* L = call.state();
     lua_newtable(L);
-    lua_createtable(L, 0, 1);
+    lua_createtable(L, 0, 2);
+    set_text(call, kRunOfAnswers, run);
     lua_pushlightuserdata(L, const_cast<char*>("_"));
     call.give(run);
     lua_pushcclosure(L, guarded<answer_of>, 2);
@@ -356,12 +309,24 @@ std::optional<std::string> mistake_made(const Call& call, const DeclaredCheck& c
     return said;
 }
 
+/// On a record that students must not learn anything about, what an error says may quote it, and so may a number in
+/// what the test says: these words are the instructor's.
+void keep_secret(const CheckSession& session, bool ended, Verdict& verdict) {
+    const bool has_number = verdict.message.find_first_of("0123456789") != std::string::npos;
+    if (ended ? !has_number : verdict.message == session.answer_trouble) return;
+    verdict.for_instructor = std::move(verdict.message);
+    verdict.message = ended ? "On a record that you have not seen, it falls short of full points."
+                            : "On a record that you have not seen, the check ended with an error: what it looked at is "
+                              "not of the kind or size that was asked for.";
+}
+
 int verdict(Call& call) {
     CheckSession& session = session_of(call);
     lua_State* L = call.state();
     const DeclaredCheck& check = session.checks.at(static_cast<std::size_t>(call.size(1, "number")));
     session.current = &check;
     session.took_hidden = false;
+    session.answer_trouble.clear();
     const int answers = lua_gettop(L) + 1;
     push_answers(call, "main");
     push_answers(call, check.rerun.empty() ? "main" : check.rerun);
@@ -378,6 +343,7 @@ int verdict(Call& call) {
         // Where in the checks it happened is nothing to the student.
         found.message = lua_type(L, -1) == LUA_TSTRING ? take_apart(lua_tostring(L, -1)).text : "The check failed.";
     }
+    if (found.share < 1 && on_secret_record(call)) keep_secret(session, ended, found);
     if (found.share < 1)
         if (auto said = mistake_made(call, check, answers)) found.message = *std::move(said);
     session.verdict = std::move(found);

@@ -1,6 +1,7 @@
 #include "course/check_run.h"
 
 #include "course/check_functions.h"
+#include "course/check_records.h"
 #include "course/check_session.h"
 #include "documents/text_lines.h"
 #include "figures/gnuplot_renderer.h"
@@ -14,7 +15,7 @@ using nlohmann::json;
 
 constexpr std::size_t kLongestMessage = 400;
 
-std::string shortened(std::string message) {
+std::string shortened_message(std::string message) {
     message = replaced(message, "\n", " ");
     return message.size() > kLongestMessage ? message.substr(0, kLongestMessage) + " ..." : message;
 }
@@ -34,10 +35,11 @@ json verdicts(Runtime& runtime, CheckSession& session, const json& only) {
         json one = description(session.checks[k]);
         if (session.verdict && !record.error) {
             one["share"] = session.verdict->share;
-            one["message"] = shortened(session.verdict->message);
+            one["message"] = shortened_message(session.verdict->message);
+            one["for_instructor"] = shortened_message(session.verdict->for_instructor);
         } else {
             one["share"] = nullptr;
-            one["message"] = record.error ? shortened(record.error->message) : "it gave no verdict";
+            one["message"] = record.error ? shortened_message(record.error->message) : "it gave no verdict";
         }
         all.push_back(std::move(one));
     }
@@ -50,7 +52,7 @@ json try_checks(const json& job) {
     confine_process({});
     CheckSession session;
     session.hidden_folder = job.at("hidden_folder").get<std::string>();
-    session.specimens = job.at("specimens").get<std::map<std::string, std::uint32_t>>();
+    session.specimens = job.at("specimens").get<std::map<std::string, Specimens>>();
     const bool tries = !job.at("submission").is_null();
     if (tries) {
         session.runs = job.at("submission").at("runs");
@@ -62,6 +64,7 @@ json try_checks(const json& job) {
     Runtime runtime(options, renderer);
     runtime.set_service(&session);
     runtime.add_functions(check_functions());
+    runtime.add_functions(check_record_functions());
     runtime.add_functions(verdict_function());
     for (const json& file : job.at("files")) {
         session.visible_file = file.at("visible");

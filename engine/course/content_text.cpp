@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "course/byte_text.h"
+#include "course/letters.h"
 
 namespace dynlab {
 namespace {
@@ -11,12 +12,12 @@ namespace {
 constexpr double kSpace = -180;  ///< thousandths of the font's size: moved on as far as a space
 constexpr std::uint32_t kLongestRange = 65536;
 
-bool is_blank(char c) {
+bool is_white_space(char c) {
     return c == ' ' || c == '\n' || c == '\r' || c == '\t' || c == '\f' || c == '\0';
 }
 
 bool ends_word(char c) {
-    return is_blank(c) || std::string_view("()<>[]{}/%").find(c) != std::string_view::npos;
+    return is_white_space(c) || std::string_view("()<>[]{}/%").find(c) != std::string_view::npos;
 }
 
 int hex_value(char c) {
@@ -37,7 +38,12 @@ class Scanner {
         if (rest_.empty()) return Kind::kEnd;
         const char c = rest_.front();
         if (c == '(') return literal();
-        if (c == '<' && !rest_.starts_with("<<")) return hexadecimal();
+        if (rest_.starts_with("<<") || rest_.starts_with(">>")) {
+            take();
+            take();
+            return Kind::kOther;
+        }
+        if (c == '<') return hexadecimal();
         if (c == '/') rest_.remove_prefix(1);
         while (!rest_.empty() && !ends_word(rest_.front())) take();
         if (c == '/') return Kind::kOther;
@@ -53,7 +59,7 @@ class Scanner {
         rest_.remove_prefix(1);
     }
     void skip_blanks() {
-        while (!rest_.empty() && (is_blank(rest_.front()) || rest_.front() == '%')) {
+        while (!rest_.empty() && (is_white_space(rest_.front()) || rest_.front() == '%')) {
             if (rest_.front() == '%')
                 rest_.remove_prefix(std::min(rest_.find_first_of("\r\n"), rest_.size()));
             else
@@ -120,7 +126,7 @@ std::uint32_t number_of(const std::string& code) {
     return number;
 }
 
-std::string utf8_of(const std::string& utf16) {
+std::string text_of_units(const std::string& utf16) {
     return text_in("\xFE\xFF" + utf16);
 }
 
@@ -139,18 +145,24 @@ void add_range(CodeMap& map, const std::vector<std::string>& codes) {
         const std::uint32_t first = number_of(codes[i]), last = number_of(codes[i + 1]);
         map.bytes = codes[i].size();
         for (std::uint32_t code = first; code <= last && code - first < kLongestRange; ++code)
-            map.text[code] = utf8_of(raised(codes[i + 2], code - first));
+            map.text[code] = text_of_units(raised(codes[i + 2], code - first));
     }
+}
+
+/// A range whose texts are a list, <01> <03> [<0041> <00C9> <0042>], from `list` on; takes it off the codes.
+void add_list(CodeMap& map, std::vector<std::string>& codes, std::size_t list) {
+    if (list < 2 || list > codes.size()) return;
+    const std::uint32_t first = number_of(codes[list - 2]);
+    map.bytes = codes[list - 2].size();
+    for (std::size_t i = list; i < codes.size(); ++i)
+        map.text[first + static_cast<std::uint32_t>(i - list)] = text_of_units(codes[i]);
+    codes.resize(list - 2);
 }
 
 std::string decoded(const std::string& bytes, const CodeMap* map) {
     std::string text;
     if (map == nullptr) {
-        for (const char c : bytes) {
-            const auto code = static_cast<unsigned char>(c);
-            if (code >= 0x80) text += {static_cast<char>(0xC0 | code >> 6), static_cast<char>(0x80 | (code & 0x3F))};
-            if (code < 0x80) text += c;
-        }
+        for (const char c : bytes) text += utf8_of(static_cast<unsigned char>(c));
         return text;
     }
     for (std::size_t i = 0; i + map->bytes <= bytes.size(); i += map->bytes) {
@@ -166,13 +178,16 @@ CodeMap code_map(const std::string& to_unicode) {
     CodeMap map;
     Scanner scanner(to_unicode);
     std::vector<std::string> codes;
+    std::size_t list = 0;  // where it begins among the codes
     for (Scanner::Kind kind = scanner.next(); kind != Scanner::Kind::kEnd; kind = scanner.next()) {
         if (kind == Scanner::Kind::kString) codes.push_back(scanner.token());
+        if (kind == Scanner::Kind::kOther && scanner.token() == "[") list = codes.size();
+        if (kind == Scanner::Kind::kOther && scanner.token() == "]") add_list(map, codes, list);
         if (kind != Scanner::Kind::kWord) continue;
         if (scanner.token() == "endbfchar") {
             for (std::size_t i = 0; i + 1 < codes.size(); i += 2) {
                 map.bytes = codes[i].size();
-                map.text[number_of(codes[i])] = utf8_of(codes[i + 1]);
+                map.text[number_of(codes[i])] = text_of_units(codes[i + 1]);
             }
         } else if (scanner.token() == "endbfrange") {
             add_range(map, codes);
@@ -189,24 +204,33 @@ bool shows_text(std::string_view stream) {
            is_text(stream.substr(0, 200));
 }
 
-std::string content_text(std::string_view stream, const CodeMap* map) {
-    std::string text;
+std::vector<ShownPiece> shown_pieces(std::string_view stream) {
+    std::vector<ShownPiece> pieces;
+    const auto move = [&pieces](const char* space) { pieces.push_back({space, false}); };
     Scanner scanner(stream);
     bool in_array = false;
     for (Scanner::Kind kind = scanner.next(); kind != Scanner::Kind::kEnd; kind = scanner.next()) {
         const std::string& token = scanner.token();
         if (kind == Scanner::Kind::kString) {
-            text += token.starts_with("\xFE\xFF") ? text_in(token) : decoded(token, map);
+            const bool coded = !token.starts_with("\xFE\xFF");
+            pieces.push_back({coded ? token : text_in(token), coded});
         } else if (kind == Scanner::Kind::kOther) {
             if (token == "[") in_array = true;
             if (token == "]") in_array = false;
+            if (token == "<<" || token == ">>") move("\n");
         } else if (in_array) {
-            if (std::strtod(token.c_str(), nullptr) < kSpace) text += ' ';
+            if (std::strtod(token.c_str(), nullptr) < kSpace) move(" ");
         } else if (token == "Td" || token == "TD" || token == "Tm" || token == "T*" || token == "ET" ||
                    token == "BDC") {
-            text += '\n';
+            move("\n");
         }
     }
+    return pieces;
+}
+
+std::string shown_text(const std::vector<ShownPiece>& pieces, const CodeMap* map) {
+    std::string text;
+    for (const ShownPiece& piece : pieces) text += piece.coded ? decoded(piece.bytes, map) : piece.bytes;
     return text;
 }
 

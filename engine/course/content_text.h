@@ -2,6 +2,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace dynlab {
 
@@ -16,8 +17,16 @@ CodeMap code_map(const std::string& to_unicode);
 /// Whether a stream is a page's content, or a part of one: it shows text.
 bool shows_text(std::string_view stream);
 
-/// The strings that a content stream shows, in its own order, with the spaces its kerning makes; visible or not. Codes
-/// are read with the map, or as Latin letters without one.
-std::string content_text(std::string_view stream, const CodeMap* map = nullptr);
+/// A string of a content stream in the codes of some font, or the white space that kerning and moves make, in UTF-8.
+struct ShownPiece {
+    std::string bytes;
+    bool coded = true;
+};
+
+/// What a content stream shows, visible or not, and the strings of the dictionaries in it, in its own order.
+std::vector<ShownPiece> shown_pieces(std::string_view stream);
+
+/// The pieces as UTF-8: codes are read with the map, or as Latin letters without one.
+std::string shown_text(const std::vector<ShownPiece>& pieces, const CodeMap* map = nullptr);
 
 }  // namespace dynlab

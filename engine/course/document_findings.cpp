@@ -14,8 +14,8 @@
 #include "course/name_findings.h"
 #include "course/section_findings.h"
 #include "documents/template_file.h"
-#include "platform/atomic_file.h"
 #include "platform/program_lookup.h"
+#include "platform/text_file.h"
 
 namespace dynlab {
 namespace {
@@ -49,7 +49,7 @@ std::vector<std::string> installed_templates() {
     return names;
 }
 
-std::string joined(const std::vector<std::string>& words) {
+std::string listed(const std::vector<std::string>& words) {
     return fmt::format("{}", fmt::join(words, ", "));
 }
 
@@ -140,8 +140,8 @@ DocumentStandard standard_of(const std::string& name) {
     const fs::path file = is_file ? fs::path(name) : shared_folder() / "report_templates" / (name + ".md");
     const std::vector<std::string> known = installed_templates();
     if (!is_file && std::find(known.begin(), known.end(), name) == known.end())
-        throw EnvironmentError("there is no template '" + name + "'; the templates are " + joined(known));
-    return {fs::path(name).stem(), document_rules(read_template(file)), guidance_of(read_file(file)), std::nullopt};
+        throw EnvironmentError("there is no template '" + name + "'; the templates are " + listed(known));
+    return {fs::path(name).stem(), document_rules(read_template(file)), guidance_of(read_text(file)), std::nullopt};
 }
 
 CheckResult check_pdf(const fs::path& file, const CheckWishes& wishes, const PdfLimits& limits) {

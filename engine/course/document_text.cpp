@@ -79,7 +79,7 @@ bool is_page_number(const TextLine& line, const PdfPage& page) {
 }
 
 /// A word that holds no-break spaces is several.
-std::vector<std::string> parts_of(const std::string& text) {
+std::vector<std::string> parts_of_word(const std::string& text) {
     std::vector<std::string> parts(1);
     for (std::size_t i = 0; i < text.size(); ++i) {
         if (text.compare(i, 2, "\u00A0") == 0) {
@@ -99,7 +99,7 @@ std::vector<TextLine> lines_of_page(const PdfPage& page, int number) {
     for (const PdfWord& word : page.words) {
         if (word.rotated) continue;
         if (!line.takes(word)) line.finish(lines);
-        const std::vector<std::string> parts = parts_of(word.text);
+        const std::vector<std::string> parts = parts_of_word(word.text);
         for (std::size_t i = 0; i < parts.size(); ++i) {
             PdfWord part = word;
             part.space_after = word.space_after || i + 1 < parts.size();

@@ -57,7 +57,7 @@ std::string markdown_of(const json& grade) {
     return text;
 }
 
-RunRecord record_of(const json& grade) {
+RunRecord feedback_record(const json& grade) {
     RunRecord record;
     record.script = "feedback";
     for (const char* name : {"submission", "lesson", "points", "possible", "lateness"})
@@ -121,7 +121,7 @@ std::string escaped_markdown(const std::string& text) {
 void write_feedback(const Grade& grade, const fs::path& folder, const BoxedDocuments* documents) {
     const json text = json_of(grade);
     write_file_atomically(folder / "feedback.md", markdown_of(text));
-    if (documents) documents->make("feedback.md", record_of(text), folder / "feedback.pdf");
+    if (documents) documents->make("feedback.md", feedback_record(text), folder / "feedback.pdf");
 }
 
 }  // namespace dynlab

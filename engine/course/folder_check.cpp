@@ -18,6 +18,7 @@
 #include "platform/child_process.h"
 #include "platform/error.h"
 #include "platform/temporary_folder.h"
+#include "workflow/specimen_record.h"
 
 namespace dynlab {
 namespace {
@@ -25,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kMissingProgramCode = 3;  ///< dynlab's exit code when pandoc or the like is not installed
-constexpr std::uint64_t kMostOutput = 16u << 20;
+constexpr std::uint64_t kMostCheckOutput = 16u << 20;
 
 /// One folder's check: a clean copy, what runs in it, and what is found.
 class FolderCheck {
@@ -108,7 +109,7 @@ class FolderCheck {
         child.environment = {{"XDG_CACHE_HOME", (work_.path() / "cache").string()},
                              {"XDG_STATE_HOME", (work_.path() / "state").string()}};
         child.timeout = limits_.time;
-        child.output_bytes = kMostOutput;
+        child.output_bytes = kMostCheckOutput;
         return run_child(child, "dynlab");
     }
 
@@ -179,7 +180,8 @@ class FolderCheck {
         setup.isolation = strongest_isolation();
         setup.timeout = limits_.time;
         setup.program = program_;
-        const Grade grade = GradingRules(setup).grade(folder_.filename().string(), copy());
+        const GradingRules::GroupSeed own = group_seed_of(copy() / "data");
+        const Grade grade = GradingRules(setup).grade(folder_.filename().string(), copy(), own);
         result_.checked.push_back(fmt::format("checks of lesson {}: {} of {} points", slug, points_text(grade.earned()),
                                               points_text(grade.possible())));
         for (const CheckGrade& check : grade.checks) {

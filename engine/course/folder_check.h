@@ -19,7 +19,7 @@ struct FolderLimits {
 /// report there with `program` (dynlab), in a process with a time limit and without caches; then checks that report.
 /// Nothing is written into the folder. Findings besides those of check_pdf: analysis-missing, folder-too-large,
 /// analysis-fails, answer-open, answer-missing (rules), pdf-outdated, pdf-differs, link-left-out, and check-failed, by
-/// the lesson's own checks (hints). The standard
+/// the lesson's own checks (hints), which are tried on the group's own records where the folder has such. The standard
 /// is the template that the header of analysis.lua names, or report.md's own header when that demands nothing. Throws
 /// MissingProgram when something is missing on this machine rather than in the folder.
 CheckResult check_folder(const std::filesystem::path& folder, const std::filesystem::path& program,

@@ -8,11 +8,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kDeepest = 20;  ///< folders within folders
+constexpr int kDeepestFolder = 20;  ///< folders within folders
 
-class Copying {
+class FolderCopying {
   public:
-    Copying(std::uint64_t bytes_left, int files_left) : bytes_left_(bytes_left), files_left_(files_left) {}
+    FolderCopying(std::uint64_t bytes_left, int files_left) : bytes_left_(bytes_left), files_left_(files_left) {}
 
     void copy(const fs::path& from, const fs::path& to, const fs::path& place, int depth) {
         for (const auto& entry : fs::directory_iterator(from)) {
@@ -23,7 +23,7 @@ class Copying {
             if (type == fs::file_type::symlink && place.empty() && name == "data") {
                 fs::create_directory_symlink(shared_folder() / "data", to / name);
             } else if (type == fs::file_type::directory) {
-                result_.too_large = depth == kDeepest;
+                result_.too_large = depth == kDeepestFolder;
                 fs::create_directory(to / name);
                 if (!result_.too_large) copy(entry.path(), to / name, place / name, depth + 1);
             } else if (type == fs::file_type::regular) {
@@ -54,7 +54,7 @@ class Copying {
 
 FolderCopy copy_folder(const fs::path& from, const fs::path& to, std::uint64_t most_bytes, int most_files) {
     try {
-        Copying copying(most_bytes, most_files);
+        FolderCopying copying(most_bytes, most_files);
         copying.copy(from, to, {}, 0);
         return copying.result();
     } catch (const fs::filesystem_error& error) {

@@ -10,8 +10,9 @@ namespace dynlab {
 struct CheckGrade {
     std::string id, about, hint, message;
     double points = 0, earned = 0;
-    bool visible = true;  ///< the student may see the message
-    bool graded = true;   ///< false: the check itself is broken, or could not be run
+    bool visible = true;              ///< the student may see the message
+    bool graded = true;               ///< false: the check itself is broken, or could not be run
+    std::string for_instructor = {};  ///< what the message must not say of secret records; not part of the result
 };
 
 /// A submission's result.

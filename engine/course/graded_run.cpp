@@ -1,15 +1,11 @@
 #include "course/graded_run.h"
 
-#include <fmt/format.h>
-
 #include <chrono>
-#include <cstdlib>
 
 #include "documents/error.h"
 #include "documents/percent_script.h"
 #include "figures/gnuplot_renderer.h"
 #include "platform/confinement.h"
-#include "platform/guarded_call.h"
 #include "scripting/report_language.h"
 #include "scripting/runtime.h"
 
@@ -21,8 +17,6 @@ using nlohmann::json;
 constexpr std::size_t kPrinted = 4000;         // characters that are kept of the end
 constexpr std::size_t kMostOutput = 4u << 20;  // of printed text
 constexpr int kOpenFiles = 64;
-constexpr auto kMargin = std::chrono::milliseconds(300);  // the script's own limit comes first: its answers are kept
-constexpr std::uint64_t kMostAnswers = 4ull << 20;
 
 /// The script as the lesson wants it: its own promises of answers do not count.
 PercentScript read_for_grading(const json& job) {
@@ -66,14 +60,6 @@ json json_of(const RunRecord& record, const PercentScript& script) {
     return result;
 }
 
-/// What the end of a copy means for the student; nothing when it ended well.
-std::string failure_of(const ChildResult& copy, long time_ms) {
-    if (copy.timed_out) return fmt::format("it took more than {} s", static_cast<double>(time_ms) / 1000);
-    if (copy.output_exceeded) return "its answers are too large";
-    if (copy.exit_code > 128) return fmt::format("it crashed (signal {})", copy.exit_code - 128);
-    return copy.exit_code == 0 ? "" : copy.error_output;
-}
-
 }  // namespace
 
 json run_for_grading(const json& job) {
@@ -95,27 +81,6 @@ json run_for_grading(const json& job) {
     } catch (const DocumentError& error) {
         return {{"error", error.what()}};
     }
-}
-
-json run_all_for_grading(const json& job) {
-    json results = json::object();
-    for (const json& run : job.at("runs")) {
-        const long time_ms = run.at("time_ms");
-        GuardLimits limits;
-        limits.timeout = std::chrono::milliseconds(time_ms) + kMargin;
-        limits.memory_bytes = run.at("memory_bytes").get<std::uint64_t>() + (2ull << 30);
-        limits.output_bytes = kMostAnswers;
-        ::setenv("DYNLAB_HOME", run.at("home").get<std::string>().c_str(), 1);
-        const ChildResult copy = run_guarded(
-            [&run] { return run_for_grading(run).dump(-1, ' ', false, json::error_handler_t::replace); }, limits);
-        const std::string failure = failure_of(copy, time_ms + kMargin.count());
-        json result = failure.empty() ? json::parse(copy.output, nullptr, false) : json();
-        if (!result.is_object())
-            result = {{"error", fmt::format("The script was ended: {}.",
-                                            failure.empty() ? "its result cannot be read" : failure)}};
-        results[run.at("name").get<std::string>()] = std::move(result);
-    }
-    return results;
 }
 
 }  // namespace dynlab

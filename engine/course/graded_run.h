@@ -3,7 +3,8 @@
 
 namespace dynlab {
 
-/// Runs a student's script for grading, in this process, which should be in a box and is confined here. `job`:
+/// Runs a student's script for grading, in this process, which should be in a box and is confined here. The data are
+/// those of DYNLAB_HOME. `job`:
 ///   {"script": place, "seed": whole number, "answers": [[name, kind], ...] as the lesson declares them,
 ///    "time_ms": most milliseconds, "memory_bytes": most bytes of the script}
 /// Returns what the checks may see:
@@ -13,10 +14,5 @@ namespace dynlab {
 ///    "seconds": that the script took}
 /// A script that cannot be read at all has an "error" and nothing else.
 nlohmann::json run_for_grading(const nlohmann::json& job);
-
-/// Runs a student's script several times, each in a confined copy of this process that is ended after its time. `job`:
-/// {"runs": [{"name": text, "home": folder with data/, ...run_for_grading's job}, ...]}. Returns {name: result}; a copy
-/// that came to no end has {"error": sentence}.
-nlohmann::json run_all_for_grading(const nlohmann::json& job);
 
 }  // namespace dynlab

@@ -66,9 +66,7 @@ class ClassGrading {
         if (request.deadlines) deadlines_ = Deadlines(*request.deadlines);
         if (request.roster) roster_.emplace(*request.roster);
         outcome_.complaints = rules_.try_solution();
-        for (const std::string& name : left_out_)
-            outcome_.complaints.push_back(
-                fmt::format("\"{}\" is left out: it is neither a folder nor an archive (.zip, .tar.gz)", name));
+        for (const std::string& clause : left_out_) outcome_.complaints.push_back(clause + "; it is left out");
         grades_.resize(submissions_.size());
         chosen_ = chosen();
     }
@@ -226,7 +224,11 @@ class ClassGrading {
             const std::lock_guard lock(mutex_);
             outcome_.complaints.push_back(fmt::format("\"{}\": {}", submission.name, error.what()));
         }
-        if (!grade.log.empty()) write_file_atomically(folder / "log.txt", terminal_text(grade.log));
+        if (!grade.log.empty()) {
+            const fs::path log = request_.out / "logs" / submission.name / "log.txt";
+            fs::create_directories(log.parent_path());
+            write_file_atomically(log, terminal_text(grade.log));
+        }
         write_file_atomically(folder / "results.json", results);
     }
 

@@ -23,10 +23,11 @@ struct GradingOutcome {
     std::vector<std::string> complaints;                     ///< whole sentences for the instructor
 };
 
-/// Grades a class. In `out`: results/NAME/ with results.json, log.txt and feedback.md and .pdf for each submission,
-/// gradebook.csv, summary.md or .pdf, manual.csv. Each submission is graded alone, in boxes; a result whose inputs are
-/// unchanged is kept, so that a run that was ended goes on where it was. Marks depend on neither the order nor `jobs`.
-/// Throws EnvironmentError for what must be mended first, Interrupted after Ctrl-C.
+/// Grades a class. In `out`: results/NAME/ with results.json and feedback.md and .pdf for each submission,
+/// logs/NAME/log.txt, which may quote hidden records, gradebook.csv, summary.md or .pdf, manual.csv. Each submission is
+/// graded alone, in boxes; a result whose inputs are unchanged is kept, so that a run that was ended goes on where it
+/// was. Marks depend on neither the order nor `jobs`. Throws EnvironmentError for what must be mended first,
+/// Interrupted after Ctrl-C.
 GradingOutcome grade_class(const GradingRequest& request);
 
 }  // namespace dynlab

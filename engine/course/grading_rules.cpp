@@ -6,11 +6,11 @@
 
 #include "course/document_findings.h"
 #include "data_io/dataset_index.h"
-#include "platform/atomic_file.h"
 #include "platform/content_hash.h"
 #include "platform/error.h"
 #include "platform/program_identity.h"
 #include "platform/program_lookup.h"
+#include "platform/text_file.h"
 #include "workflow/specimen_record.h"
 
 namespace dynlab {
@@ -25,12 +25,13 @@ constexpr auto kCheckTime = std::chrono::milliseconds(10000);     // of one chec
 constexpr auto kSingleTime = std::chrono::milliseconds(60000);    // of all, where each needs a box of its own
 constexpr auto kDocumentTime = std::chrono::milliseconds(15000);  // beyond the script's own
 constexpr std::size_t kLongestTrouble = 2000;
-constexpr auto kMargin = std::chrono::milliseconds(300);  // the script's copy is ended before its box
+constexpr auto kMargin = std::chrono::milliseconds(300);  // the script's own limit comes first: its answers are kept
 constexpr auto kStartTime = std::chrono::milliseconds(500);
 constexpr std::uint64_t kScriptMemory = 1ull << 30;
+constexpr std::uint64_t kMostAnswers = 4ull << 20;  // bytes of a run's result
 
 /// What an error says, however long.
-std::string shortened(const std::string& trouble) {
+std::string shortened_trouble(const std::string& trouble) {
     return trouble.size() > kLongestTrouble ? trouble.substr(0, kLongestTrouble) + " ..." : trouble;
 }
 
@@ -47,6 +48,7 @@ std::string standard_for(const Lesson& lesson, const PercentScript& script) {
 GradingRules::GradingRules(GradingSetup setup) : setup_(std::move(setup)) {
     const PercentScript lesson = read_percent_script(setup_.lesson.script());
     seed_ = lesson.header.seed;
+    simulated_ = simulated_data_of(lesson.source);
     standard_ = standard_for(setup_.lesson, lesson);
     for (const ExpectedAnswer& answer : lesson.header.answers) answers_.push_back({answer.name, answer.kind});
     read_checks();
@@ -57,7 +59,7 @@ void GradingRules::read_checks() {
     const fs::path own = setup_.lesson.folder / "checks.lua";
     if (!fs::is_regular_file(own))
         throw EnvironmentError(fmt::format("lesson {} has no checks.lua", setup_.lesson.slug));
-    files_.push_back({{"name", "checks.lua"}, {"source", read_file(own)}, {"visible", true}});
+    files_.push_back({{"name", "checks.lua"}, {"source", read_text(own)}, {"visible", true}});
     if (setup_.more_checks) {
         std::vector<fs::path> more;
         if (!fs::is_directory(*setup_.more_checks))
@@ -66,7 +68,7 @@ void GradingRules::read_checks() {
             if (entry.path().extension() == ".lua") more.push_back(entry.path());
         std::sort(more.begin(), more.end());
         for (const fs::path& file : more)
-            files_.push_back({{"name", file.filename().string()}, {"source", read_file(file)}, {"visible", false}});
+            files_.push_back({{"name", file.filename().string()}, {"source", read_text(file)}, {"visible", false}});
     }
     const BoxedResult listed = checked(nullptr, {});
     if (!listed.output) throw EnvironmentError("the checks cannot be read: " + listed.reason);
@@ -94,9 +96,12 @@ std::uint32_t GradingRules::drawn(const std::string& what) const {
 void GradingRules::make_records() {
     std::string sources;
     for (const json& file : files_) sources += file.at("source").get<std::string>();
-    fs::create_directories(records_.path() / "hidden");
+    const auto named = [&sources](const std::string& name, char quote) {
+        return sources.find(quote + name + quote) != std::string::npos;
+    };
+    fs::create_directories(records_.path() / kHiddenRecords);
     for (const std::string& name : simulated_data_sets())
-        if (sources.find('"' + name + '"') != std::string::npos) make_record(name, name, records_.path() / "hidden");
+        if (named(name, '"') || named(name, '\'')) make_record(name, kHiddenRecords, records_.path() / kHiddenRecords);
     const auto own = fs::copy_options::recursive;
     for (const std::string& rerun : reruns_) {
         if (rerun == kSeedOnly) continue;
@@ -105,13 +110,16 @@ void GradingRules::make_records() {
         fs::copy(shared_folder() / "data", data, own);
         for (const auto& entry : fs::directory_iterator(data / rerun))
             if (entry.path().extension() == ".csv" || entry.path().extension() == ".mat") fs::remove(entry.path());
-        make_record(rerun, "rerun:" + rerun, data / rerun);
+        make_record(rerun, rerun, data / rerun);
     }
 }
 
-void GradingRules::make_record(const std::string& data_set, const std::string& key, const fs::path& folder) {
-    specimens_[key] = drawn(data_set);  // hidden records are further experiments with the apparatus of the rerun
-    write_specimen_record(data_set, specimens_[key], drawn("noise:" + key), folder);
+void GradingRules::make_record(const std::string& data_set, const std::string& run, const fs::path& folder) {
+    // Without the run: hidden records are further experiments with the apparatus of the rerun.
+    const std::uint32_t specimen = drawn(data_set);
+    specimens_[run][data_set] = specimen;
+    write_specimen_record(data_set, specimen, drawn((run == kHiddenRecords ? "noise:" : "noise:rerun:") + data_set),
+                          folder);
 }
 
 /// The official data, a group's own records among them, as groups have them.
@@ -123,9 +131,8 @@ fs::path GradingRules::data_of(const GroupSeed& group_seed) const {
     const fs::path growing = data.parent_path() / "growing";
     fs::create_directories(growing.parent_path());
     fs::copy(shared_folder() / "data", growing, fs::copy_options::recursive);
-    const std::vector<std::string> own = simulated_data_of(read_file(setup_.lesson.script()));
-    for (const std::string& name : own) fs::remove_all(growing / name);
-    write_group_data(own, *group_seed, growing);
+    for (const std::string& name : simulated_) fs::remove_all(growing / name);
+    write_group_data(simulated_, *group_seed, growing);
     fs::rename(growing, data);
     return data;
 }
@@ -133,33 +140,34 @@ fs::path GradingRules::data_of(const GroupSeed& group_seed) const {
 fs::path GradingRules::add_home(Box& box, const std::string& run, const GroupSeed& group_seed) const {
     const bool own = run != kMain && run != kSeedOnly;
     const fs::path data = own ? records_.path() / run / "data" : data_of(group_seed);
-    return box.add(data, own ? "/box/" + run + "/data" : "/box/home/data").parent_path();
+    return box.add(data, "/box/home/data").parent_path();
 }
 
-json GradingRules::run(const fs::path& folder, const GroupSeed& group_seed, std::string& log) const {
+/// One run of the script, in a box of its own: there are neither records of other runs nor what they left behind.
+json GradingRules::run(const std::string& name, const fs::path& folder, const GroupSeed& group_seed,
+                       std::string& log) const {
     Box box(setup_.isolation);
-    const fs::path script = box.add(folder, "/box/submission") / "analysis.lua";
-    json job = {{"work", "run"}, {"runs", json::array()}};
-    const auto add = [&](const std::string& name) {
-        job["runs"].push_back({{"name", name},
-                               {"home", add_home(box, name, group_seed).string()},
-                               {"script", script.string()},
-                               {"seed", name == kSeedOnly ? drawn("seed") : seed_},
-                               {"answers", answers_},
-                               {"memory_bytes", kScriptMemory},
-                               {"time_ms", (setup_.timeout - kMargin).count()}});
-    };
-    add(kMain);
-    for (const std::string& rerun : reruns_) add(rerun);
-    const BoxedResult result = run_boxed(box, setup_.program, job, (reruns_.size() + 1) * setup_.timeout + kStartTime);
-    log += fmt::format("runs: {:.3f} s in their box\n", result.seconds);
-    const bool ended = result.output && result.output->contains(kMain);
-    const json runs =
-        ended ? *result.output : json{{kMain, {{"error", fmt::format("The script was ended: {}.", result.reason)}}}};
-    for (const auto& [name, run] : runs.items())
-        log += fmt::format("run {}: {:.3f} s of the script\n{}", name, run.value("seconds", 0.0),
-                           run.contains("error") ? "  " + shortened(run.at("error")) + "\n" : "");
-    return runs;
+    box.set_environment("DYNLAB_HOME", add_home(box, name, group_seed).string());
+    const json job = {{"work", "run"},
+                      {"script", (box.add(folder, "/box/submission") / "analysis.lua").string()},
+                      {"seed", name == kSeedOnly ? drawn("seed") : seed_},
+                      {"answers", answers_},
+                      {"memory_bytes", kScriptMemory},
+                      {"time_ms", (setup_.timeout - kMargin).count()}};
+    const BoxedResult result = run_boxed(box, setup_.program, job, setup_.timeout + kStartTime, kMostAnswers);
+    const std::chrono::duration<double> most = setup_.timeout;
+    const std::string reason = result.timed_out ? fmt::format("it took more than {} s", most.count()) : result.reason;
+    json run = result.output ? *result.output : json{{"error", fmt::format("The script was ended: {}.", reason)}};
+    log += fmt::format("run {}: {:.3f} s of the script, {:.3f} s in its box\n{}", name, run.value("seconds", 0.0),
+                       result.seconds, run.contains("error") ? "  " + shortened_trouble(run.at("error")) + "\n" : "");
+    return run;
+}
+
+/// The run on the official data and the reruns, by name.
+json GradingRules::runs(const fs::path& folder, const GroupSeed& group_seed, std::string& log) const {
+    json all = {{kMain, run(kMain, folder, group_seed, log)}};
+    for (const std::string& rerun : reruns_) all[rerun] = run(rerun, folder, group_seed, log);
+    return all;
 }
 
 json GradingRules::findings(const fs::path& folder, const GroupSeed& group_seed) const {
@@ -188,10 +196,14 @@ BoxedResult GradingRules::checked(json submission, const GroupSeed& group_seed, 
     Box box(setup_.isolation);
     box.set_environment("DYNLAB_HOME", add_home(box, kMain, group_seed).string());
     const bool tries = !submission.is_null();
+    auto specimens = specimens_;
+    if (group_seed)
+        for (const std::string& name : simulated_)
+            for (const char* run : {kMain, kSeedOnly}) specimens[run][name] = *group_seed;
     const json job = {{"work", "checks"},
                       {"files", files_},
-                      {"hidden_folder", tries ? box.add(records_.path() / "hidden", "/box/hidden").string() : ""},
-                      {"specimens", specimens_},
+                      {"hidden_folder", tries ? box.add(records_.path() / kHiddenRecords, "/box/hidden").string() : ""},
+                      {"specimens", std::move(specimens)},
                       {"time_ms", kCheckTime.count()},
                       {"only", only ? json(*only) : json()},
                       {"submission", std::move(submission)}};
@@ -199,7 +211,8 @@ BoxedResult GradingRules::checked(json submission, const GroupSeed& group_seed, 
 }
 
 /// A verdict for each check. Answers that crash one check, or hold it up, take the others with them; then each is tried
-/// in a box of its own, and only those stay without a verdict that come to no end there: "lost" says why.
+/// in a box of its own, and only those stay without a verdict that come to no end there: they are "lost", and
+/// "for_instructor" says why.
 json GradingRules::verdicts(const json& submission, const GroupSeed& group_seed, std::string& log) const {
     const auto usable = [](const BoxedResult& result, std::size_t count) {
         return result.output && result.output->contains("checks") && result.output->at("checks").size() == count;
@@ -214,7 +227,8 @@ json GradingRules::verdicts(const json& submission, const GroupSeed& group_seed,
         if (usable(alone, 1))
             all.push_back(alone.output->at("checks").at(0));
         else
-            all.push_back({{"lost", alone.output ? "its result cannot be read" : alone.reason}});
+            all.push_back(
+                {{"lost", true}, {"for_instructor", alone.output ? "its result cannot be read" : alone.reason}});
     }
     return all;
 }
@@ -240,25 +254,26 @@ Grade GradingRules::without_checks(const std::string& name, const std::string& t
 
 Grade GradingRules::grade(const std::string& name, const fs::path& folder, const GroupSeed& group_seed) const {
     Grade grade = without_checks(name, "");
-    json submission = {{"runs", run(folder, group_seed, grade.log)}};
+    json submission = {{"runs", runs(folder, group_seed, grade.log)}};
     const json& main = submission.at("runs").at(kMain);
-    if (main.contains("error")) grade.trouble = shortened(main.at("error"));
+    if (main.contains("error")) grade.trouble = shortened_trouble(main.at("error"));
     if (main.contains("printed")) grade.printed = main.at("printed");
     submission["findings"] = document_ ? findings(folder, group_seed) : json::array();
     const json found = verdicts(submission, group_seed, grade.log);
-    if (!grade.printed.empty()) grade.log += "\nprinted by the script, at its end:\n" + grade.printed;
     for (std::size_t k = 0; k < grade.checks.size(); ++k) {
         CheckGrade& check = grade.checks[k];
         const json& verdict = found.at(k);
-        if (verdict.contains("lost")) {
+        check.for_instructor = verdict.value("for_instructor", "");
+        if (!check.for_instructor.empty()) grade.log += fmt::format("check {}: {}\n", check.id, check.for_instructor);
+        if (verdict.value("lost", false)) {
             check.graded = false;
-            check.message =
-                fmt::format("The check could not be run on these answers: {}.", verdict.at("lost").get<std::string>());
+            check.message = "The check could not be run on these answers.";
             continue;
         }
         if (verdict.at("share").is_number()) check.earned = check.points * verdict.at("share").get<double>();
         check.message = verdict.at("message");
     }
+    if (!grade.printed.empty()) grade.log += "\nprinted by the script, at its end:\n" + grade.printed;
     return grade;
 }
 
@@ -274,9 +289,10 @@ std::vector<std::string> GradingRules::try_solution() {
     for (const CheckGrade& check : solution.checks) {
         if (check.graded && check.earned == check.points) continue;
         broken_.insert(check.id);
+        const std::string& told = check.for_instructor.empty() ? check.message : check.for_instructor;
         complaints.push_back(
             fmt::format("the worked solution does not pass the check \"{}\", which is left ungraded: {}", check.id,
-                        check.message.empty() ? "it returned false" : check.message));
+                        told.empty() ? "it returned false" : told));
     }
     return complaints;
 }

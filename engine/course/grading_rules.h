@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "course/boxed_work.h"
+#include "course/check_session.h"
 #include "course/grade.h"
 #include "platform/temporary_folder.h"
 #include "workflow/lesson_catalogue.h"
@@ -52,8 +53,10 @@ class GradingRules {
   private:
     void read_checks();
     void make_records();
-    void make_record(const std::string& data_set, const std::string& key, const std::filesystem::path& folder);
-    nlohmann::json run(const std::filesystem::path& folder, const GroupSeed& group_seed, std::string& log) const;
+    void make_record(const std::string& data_set, const std::string& run, const std::filesystem::path& folder);
+    nlohmann::json run(const std::string& name, const std::filesystem::path& folder, const GroupSeed& group_seed,
+                       std::string& log) const;
+    nlohmann::json runs(const std::filesystem::path& folder, const GroupSeed& group_seed, std::string& log) const;
     nlohmann::json findings(const std::filesystem::path& folder, const GroupSeed& group_seed) const;
     BoxedResult checked(nlohmann::json submission, const GroupSeed& group_seed, std::optional<std::size_t> only = {},
                         std::chrono::milliseconds timeout = std::chrono::seconds(60)) const;
@@ -65,8 +68,9 @@ class GradingRules {
     GradingSetup setup_;
     nlohmann::json files_ = nlohmann::json::array(), answers_ = nlohmann::json::array(), checks_;
     std::uint32_t seed_ = 1;
-    std::string standard_;  ///< the template, or the file of one, whose rules a document must keep
-    std::map<std::string, std::uint32_t> specimens_;
+    std::string standard_;                ///< the template, or the file of one, whose rules a document must keep
+    std::vector<std::string> simulated_;  ///< data sets of the lesson that groups may have for themselves
+    std::map<std::string, Specimens> specimens_;  ///< of hidden records and reruns (CheckSession)
     std::set<std::string> reruns_, broken_;
     bool document_ = false;
     TemporaryFolder records_;

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kMostBytes = 200ull << 20;
+constexpr std::uint64_t kMostPackedBytes = 200ull << 20;
 constexpr int kMostFiles = 2000;
 constexpr char kManifest[] = "MANIFEST.json";
 
@@ -44,10 +44,10 @@ Pack pack_folder(const fs::path& folder, const fs::path& file) {
         throw EnvironmentError(
             fmt::format("{} has no analysis.lua; pack the folder that dynlab new made", folder.string()));
     const TemporaryFolder copy;
-    const FolderCopy copied = copy_folder(folder, copy.path(), kMostBytes, kMostFiles);
+    const FolderCopy copied = copy_folder(folder, copy.path(), kMostPackedBytes, kMostFiles);
     if (copied.too_large)
         throw EnvironmentError(fmt::format("{} is too large: at most {} files and {} MB are handed in", folder.string(),
-                                           kMostFiles, kMostBytes >> 20));
+                                           kMostFiles, kMostPackedBytes >> 20));
     std::map<std::string, std::string> contents = contents_of(copy.path());
     std::erase_if(contents,
                   [](const auto& entry) { return entry.first.ends_with(".zip") || entry.first == kManifest; });

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kWindow = 30;  ///< words that are looked at together
 constexpr int kForeign = 6;          ///< so many function words of the other language among them are a passage
 constexpr int kEnough = 15;          ///< function words a document needs for its language to be known
-constexpr std::size_t kMostPassages = 5;
+constexpr std::size_t kMostForeignPassages = 5;
 
 // Words that both languages have ("on", "or", "son", "a", "plus"...) are left out.
 const std::set<std::string> kEnglishWords = {
@@ -28,15 +28,15 @@ const std::set<std::string> kFrenchWords = {
     "elle", "ne",    "pas",  "se",   "ses",  "leur", "dont", "comme", "entre", "aussi", "ainsi", "mais", "donc",
     "ete",  "avons", "deux", "etre", "sans", "sous", "ou",   "nos",   "notre", "cela",  "tres",  "meme", "chaque"};
 
-enum class Tongue { kNone, kEnglish, kFrench };
+enum class Language { kUnknown, kEnglish, kFrench };
 
-Tongue tongue_of(const std::string& word) {
-    Tongue tongue = Tongue::kNone;
+Language language_of(const std::string& word) {
+    Language language = Language::kUnknown;
     for (const std::string& part : plain_words(word)) {
-        if (kEnglishWords.contains(part)) tongue = Tongue::kEnglish;
-        if (kFrenchWords.contains(part)) tongue = Tongue::kFrench;
+        if (kEnglishWords.contains(part)) language = Language::kEnglish;
+        if (kFrenchWords.contains(part)) language = Language::kFrench;
     }
-    return tongue;
+    return language;
 }
 
 const char* name_of(const std::string& language) {
@@ -51,20 +51,20 @@ std::string quote(const DocumentText& text, std::size_t from, std::size_t count)
 }
 
 /// Passages whose function words are those of `other`, one a page.
-Findings passages(const DocumentText& text, const std::vector<Tongue>& tongues, Tongue other,
+Findings passages(const DocumentText& text, const std::vector<Language>& languages, Language other,
                   const std::string& other_name, const std::string& main_name) {
     Findings findings;
     int foreign = 0, own = 0, last_page = 0;
     const auto count = [&](std::size_t i, int change) {
-        foreign += tongues[i] == other ? change : 0;
-        own += tongues[i] != other && tongues[i] != Tongue::kNone ? change : 0;
+        foreign += languages[i] == other ? change : 0;
+        own += languages[i] != other && languages[i] != Language::kUnknown ? change : 0;
     };
-    for (std::size_t end = 0; end < tongues.size(); ++end) {
+    for (std::size_t end = 0; end < languages.size(); ++end) {
         count(end, 1);
         if (end >= kWindow) count(end - kWindow, -1);
-        if (foreign < kForeign || foreign < 3 * own || findings.size() >= kMostPassages) continue;
+        if (foreign < kForeign || foreign < 3 * own || findings.size() >= kMostForeignPassages) continue;
         std::size_t start = end + 1 - std::min(end + 1, kWindow);
-        while (tongues[start] != other) ++start;
+        while (languages[start] != other) ++start;
         if (text.words[start].page == last_page) continue;
         last_page = text.words[start].page;
         findings.push_back({"language-mixed", Severity::kHint, last_page, "",
@@ -78,10 +78,10 @@ Findings passages(const DocumentText& text, const std::vector<Tongue>& tongues, 
 }  // namespace
 
 LanguageFindings language_findings(const DocumentText& text, const std::optional<std::string>& declared) {
-    std::vector<Tongue> tongues;
-    for (const TextWord& word : text.words) tongues.push_back(tongue_of(word.text));
-    const auto english = std::count(tongues.begin(), tongues.end(), Tongue::kEnglish);
-    const auto french = std::count(tongues.begin(), tongues.end(), Tongue::kFrench);
+    std::vector<Language> languages;
+    for (const TextWord& word : text.words) languages.push_back(language_of(word.text));
+    const auto english = std::count(languages.begin(), languages.end(), Language::kEnglish);
+    const auto french = std::count(languages.begin(), languages.end(), Language::kFrench);
     if (english + french < kEnough) return {};
     const bool is_french = french > english;
     LanguageFindings result{is_french ? "fr" : "en", {}};
@@ -94,7 +94,7 @@ LanguageFindings language_findings(const DocumentText& text, const std::optional
                          "words for figure and table fit.",
                          result.language)});
     }
-    const Findings mixed = passages(text, tongues, is_french ? Tongue::kEnglish : Tongue::kFrench, name_of(other),
+    const Findings mixed = passages(text, languages, is_french ? Language::kEnglish : Language::kFrench, name_of(other),
                                     name_of(result.language));
     result.findings.insert(result.findings.end(), mixed.begin(), mixed.end());
     return result;

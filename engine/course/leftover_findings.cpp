@@ -11,7 +11,7 @@ namespace dynlab {
 namespace {
 
 constexpr std::size_t kWordsToKnow = 6;  ///< a shorter sentence may stand in a report by chance
-constexpr std::size_t kMostFindings = 10;
+constexpr std::size_t kMostLeftovers = 10;
 
 struct Sign {
     const char *text, *id, *what, *remedy;
@@ -64,7 +64,7 @@ void check_line(const TextLine& line, Findings& findings) {
                                 "Do what it says, then take it out."));
 }
 
-std::string joined(const std::vector<std::string>& words) {
+std::string spaced(const std::vector<std::string>& words) {
     std::string text = " ";
     for (const std::string& word : words) text += word + " ";
     return text;
@@ -79,7 +79,7 @@ void check_guidance(const DocumentText& text, const std::vector<std::string>& gu
         for (const std::string& plain : plain_words(word.text)) all += plain + " ";
     }
     for (const std::string& sentence : guidance) {
-        const std::size_t at = all.find(joined(plain_words(sentence)));
+        const std::size_t at = all.find(spaced(plain_words(sentence)));
         if (at == std::string::npos) continue;
         int page = 1;
         for (const auto& [start, number] : page_starts) page = start <= at + 1 ? number : page;
@@ -112,10 +112,10 @@ std::vector<std::string> guidance_of(const std::string& markdown) {
 Findings leftover_findings(const DocumentText& text, const std::vector<std::string>& guidance) {
     Findings findings;
     for (const TextLine& line : text.lines) {
-        if (!line.fixed_width && findings.size() < kMostFindings) check_line(line, findings);
+        if (!line.fixed_width && findings.size() < kMostLeftovers) check_line(line, findings);
     }
     check_guidance(text, guidance, findings);
-    if (findings.size() > kMostFindings) findings.resize(kMostFindings);
+    if (findings.size() > kMostLeftovers) findings.resize(kMostLeftovers);
     return findings;
 }
 

@@ -33,14 +33,6 @@ constexpr Several kSeveral[] = {{0xC6, "ae"},   {0xE6, "ae"},   {0xDF, "ss"},   
 constexpr std::u32string_view kGreekAccented = U"ΆΈΉΊΌΎΏάέήίόύώςϊϋ", kGreekPlain = U"αεηιουωαεηιουωσιυ";
 static_assert(kGreekAccented.size() == kGreekPlain.size());
 
-std::string utf8_of(char32_t c) {
-    const auto tail = [c](int shift) { return static_cast<char>(0x80 | ((c >> shift) & 0x3F)); };
-    if (c < 0x80) return {static_cast<char>(c)};
-    if (c < 0x800) return {static_cast<char>(0xC0 | (c >> 6)), tail(0)};
-    if (c < 0x10000) return {static_cast<char>(0xE0 | (c >> 12)), tail(6), tail(0)};
-    return {static_cast<char>(0xF0 | (c >> 18)), tail(12), tail(6), tail(0)};
-}
-
 /// Greek and Cyrillic in small letters; other scripts as they are.
 char32_t small_letter(char32_t c) {
     const auto accented = kGreekAccented.find(c);
@@ -68,6 +60,14 @@ bool is_sign(char32_t c) {
 }
 
 }  // namespace
+
+std::string utf8_of(char32_t c) {
+    const auto tail = [c](int shift) { return static_cast<char>(0x80 | ((c >> shift) & 0x3F)); };
+    if (c < 0x80) return {static_cast<char>(c)};
+    if (c < 0x800) return {static_cast<char>(0xC0 | (c >> 6)), tail(0)};
+    if (c < 0x10000) return {static_cast<char>(0xE0 | (c >> 12)), tail(6), tail(0)};
+    return {static_cast<char>(0xF0 | (c >> 18)), tail(12), tail(6), tail(0)};
+}
 
 std::string folded_letter(char32_t given) {
     const char32_t c = plain_form(given);

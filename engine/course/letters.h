@@ -6,6 +6,8 @@
 
 namespace dynlab {
 
+std::string utf8_of(char32_t c);  ///< of U+0000 to U+10FFFF
+
 /// A letter without accent, in lower case: "É" -> "e", "Ł" -> "l", "Æ" -> "ae", a ligature -> its letters, full-width
 /// and mathematical letters -> plain ones, Greek and Cyrillic capitals -> small ones (UTF-8). Other letters and digits
 /// as they are; "" for what is no letter and no digit.

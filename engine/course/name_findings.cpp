@@ -8,6 +8,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <tuple>
 
 #include "course/pdf_places.h"
 #include "course/plain_words.h"
@@ -22,7 +23,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr std::size_t kMostNested = 5, kMostVersions = 5, kMostFindings = 40;
-constexpr double kWordGap = 0.2;  ///< of the size: more is a space
+constexpr double kNameGap = 0.2;  ///< of the size: more is a space
 constexpr const char* kEndMark = "%%EOF";
 
 struct PlaceWords {
@@ -126,9 +127,12 @@ class NameSearch {
     Findings findings() {
         drop_echoes();
         Findings result;
-        for (const Found& found : found_) {
-            if (result.size() < kMostFindings) result.push_back(finding_of(found));
-        }
+        for (std::size_t i = 0; i < found_.size() && i < kMostFindings; ++i) result.push_back(finding_of(found_[i]));
+        if (found_.size() > kMostFindings)
+            result.push_back({"names-not-listed", Severity::kRule, 0, "",
+                              fmt::format("{} further places that name somebody, or may do so, are not listed here.",
+                                          found_.size() - kMostFindings),
+                              "Mend what is listed and check the document again."});
         if (!trouble_.empty())
             result.push_back({"not-searched", Severity::kRule, 0, "",
                               "The inside of the file cannot be searched for names. " + trouble_,
@@ -158,7 +162,11 @@ class NameSearch {
             for (const json& one : read.at("found")) found_.push_back(found_of(one));
             for (const json& author : read.at("authors")) authors_.insert(author.get<std::string>());
             search_all_shown(file, read.at("shown").get<std::string>());
-            for (const json& nested : read.at("nested")) search_nested(nested.get_binary(), PdfPlace::kAttachment);
+            const json& nested = read.at("nested");
+            for (std::size_t i = 0; i < nested.size() && i < kMostNested; ++i)
+                search_nested(nested[i].get_binary(), PdfPlace::kAttachment);
+            if (nested.size() > kMostNested)
+                trouble_ = fmt::format("More than {} PDFs are embedded in it.", kMostNested);
         } catch (const PdfRefusal& refusal) {
             trouble_ = refusal.what();
         }
@@ -193,7 +201,7 @@ class NameSearch {
                     authors.push_back(printable(placed.text, 200));
             },
             [&](const std::string&, const std::string& pdf) {
-                if (nested.size() < kMostNested) nested.push_back(json::binary({pdf.begin(), pdf.end()}));
+                if (nested.size() <= kMostNested) nested.push_back(json::binary({pdf.begin(), pdf.end()}));
             });
         return {{"found", std::move(found)},
                 {"nested", std::move(nested)},
@@ -238,24 +246,23 @@ class NameSearch {
             search_nested(bytes.substr(0, ends[ends.size() - 1 - i]), PdfPlace::kRemains);
     }
 
-    /// Each person once at each place of each page, and in the nets below only who was not found above.
+    /// Each person once at each place of each page, and in the nets only who was not found elsewhere. What is certain
+    /// comes first, so that no number of hints can push it off the list.
     void drop_echoes() {
         const auto is_net = [](const Found& found) {
             return found.place == PdfPlace::kHidden || found.place == PdfPlace::kRemains ||
                    found.place == PdfPlace::kInside;
         };
         std::stable_sort(found_.begin(), found_.end(), [&](const Found& a, const Found& b) {
-            return std::pair(is_net(a), !a.hit.certain) < std::pair(is_net(b), !b.hit.certain);
+            return std::pair(!a.hit.certain, is_net(a)) < std::pair(!b.hit.certain, is_net(b));
         });
+        std::set<std::string> named;
+        std::set<std::tuple<std::string, PdfPlace, int, NameKind>> placed;
         std::vector<Found> kept;
         for (Found& found : found_) {
-            const bool known = std::any_of(kept.begin(), kept.end(), [&](const Found& other) {
-                const bool same =
-                    other.hit.who == found.hit.who && (other.hit.certain || other.hit.certain == found.hit.certain);
-                return same && (is_net(found) || (other.place == found.place && other.page == found.page &&
-                                                  other.hit.kind == found.hit.kind));
-            });
-            if (!known) kept.push_back(std::move(found));
+            const bool first = named.insert(found.hit.who).second;
+            const bool first_here = placed.emplace(found.hit.who, found.place, found.page, found.hit.kind).second;
+            if (is_net(found) ? first : first_here) kept.push_back(std::move(found));
         }
         found_ = std::move(kept);
     }
@@ -278,7 +285,7 @@ std::string page_text(const PdfPage& page) {
             const double height = std::max(last->bottom - last->top, 1.0);
             const bool new_line = !word.rotated && std::abs(word.bottom - last->bottom) > 0.7 * height;
             const bool apart = last->space_after || word.rotated ||
-                               std::abs(word.left - last->right) > kWordGap * std::max(word.size, 1.0);
+                               std::abs(word.left - last->right) > kNameGap * std::max(word.size, 1.0);
             text += new_line ? "\n" : apart ? " " : "";
         }
         text += word.text;

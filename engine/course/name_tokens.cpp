@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t kNarrowest = 3;  ///< signs
 
-bool is_blank(char32_t c) {
+bool is_unseen(char32_t c) {
     return c == ' ' || (c >= '\t' && c <= '\r') || c == 0xA0 || (c >= 0x2000 && c <= 0x200A) || c == 0x202F ||
            c == 0x3000;
 }
@@ -20,7 +20,7 @@ bool is_hyphen(char32_t c) {
 class GapMeter {
   public:
     void add(char32_t c) {
-        if (is_blank(c)) {
+        if (is_unseen(c)) {
             blank_ = true;
             new_line_ = new_line_ || c == '\n' || c == '\r';
             return;

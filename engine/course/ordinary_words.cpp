@@ -6,7 +6,7 @@ namespace {
 
 /// Words that are surnames or given names as well, names of the field (methods, units, authors that reports cite), and
 /// of programs that write themselves into documents; folded.
-constexpr std::string_view kWords =
+constexpr std::string_view kOrdinaryWords =
     "abel able ackermann acre acrobat admin adobe akaike alder alpha america ampere anderson ange angel anonymous "
     "apple "
     "april arbre arch archer arnoldi ash astrom auger august austin author authors avril azur back backlund bacon "
@@ -91,7 +91,7 @@ constexpr std::string_view kWords =
 }  // namespace
 
 bool is_ordinary_word(const std::string& folded) {
-    static const std::unordered_set<std::string_view> words = word_set(kWords);
+    static const std::unordered_set<std::string_view> words = word_set(kOrdinaryWords);
     return words.contains(folded);
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kDeepest = 200;
+constexpr int kDeepestObject = 600;  ///< qpdf reads 500 levels
 constexpr std::uint64_t kGuardMemory = 6ull << 30;
 
 /// Entries of any dictionary that speak of people, programs and dates, not of what is printed.
@@ -27,6 +27,7 @@ const std::set<std::string>& private_entries() {
                                                   "/AcroForm",
                                                   "/OpenAction",
                                                   "/AA",
+                                                  "/PresSteps",
                                                   "/URI_Base",
                                                   "/SpiderInfo",
                                                   "/PTEX.Fullbanner",
@@ -37,9 +38,13 @@ const std::set<std::string>& private_entries() {
     return entries;
 }
 
-std::string name_in(const json& dictionary, const char* key) {
-    const auto found = dictionary.find(key);
-    return found != dictionary.end() && found->is_string() ? found->get<std::string>() : "";
+/// Kinds of actions that run or load something, or change what is shown (ISO 32000-2, table 201).
+const std::set<std::string>& active_kinds() {
+    static const std::set<std::string> kinds = {
+        "/GoToR",     "/GoToE",      "/GoToDp",     "/Launch",    "/Thread",          "/Sound",
+        "/Movie",     "/Hide",       "/SubmitForm", "/ResetForm", "/ImportData",      "/SetOCGState",
+        "/Rendition", "/GoTo3DView", "/JavaScript", "/Trans",     "/RichMediaExecute"};
+    return kinds;
 }
 
 class Cleaning {
@@ -63,26 +68,57 @@ class Cleaning {
 
   private:
     void clean(json& value, int depth) {
-        if (depth > kDeepest) return;
+        if (depth > kDeepestObject) value = nullptr;
         if (value.is_array()) {
-            for (json& entry : value) clean(entry, depth + 1);
+            for (json& entry : value) {
+                if (is_active("", entry)) entry = nullptr;
+                clean(entry, depth + 1);
+            }
             return;
         }
         if (!value.is_object()) return;
         for (const std::string& key : private_entries()) value.erase(key);
         if (value.contains("/Annots")) keep_links(value.at("/Annots"));
-        if (name_in(value, "/Subtype") == "/Link") {
-            for (const char* key : {"/T", "/Contents", "/NM", "/M", "/CreationDate", "/RC", "/Subj"}) value.erase(key);
-            if (value.contains("/A") && !is_plain_action(value.at("/A"))) value.erase("/A");
+        if (name_at(value, "/Subtype") == "/Link") clean_link(value);
+        if (is_plain_action(value)) value.erase("/Next");
+        for (auto entry = value.begin(); entry != value.end();) {
+            const bool active = is_active(entry.key(), entry.value());
+            if (!active) clean(entry.value(), depth + 1);
+            entry = active ? value.erase(entry) : std::next(entry);
         }
-        for (auto& [key, entry] : value.items()) clean(entry, depth + 1);
     }
 
-    /// The value a reference leads to, once.
+    void clean_link(json& link) const {
+        for (const char* key : {"/T", "/Contents", "/NM", "/M", "/CreationDate", "/RC", "/Subj", "/PA"})
+            link.erase(key);
+        if (link.contains("/A") && !is_plain_action(link.at("/A"))) link.erase("/A");
+    }
+
+    /// What stands in the object that a reference leads to, at last; null for none.
+    const json* object_at(const json& value) const {
+        const json* object = nullptr;
+        const json* reference = &value;
+        for (int i = 0; i < kDeepestObject && reference->is_string(); ++i) {
+            const auto found = all_.find("obj:" + reference->get<std::string>());
+            if (found == all_.end()) break;
+            object = &*found;
+            if (!object->contains("value")) break;
+            reference = &object->at("value");
+        }
+        return object;
+    }
+
+    /// The value itself or the one that a reference leads to.
     const json& resolved(const json& value) const {
-        if (!value.is_string()) return value;
-        const auto found = all_.find("obj:" + value.get<std::string>());
-        return found != all_.end() && found->contains("value") ? found->at("value") : value;
+        const json* const object = object_at(value);
+        return object && object->contains("value") ? object->at("value") : value;
+    }
+
+    std::string name_at(const json& dictionary, const char* key) const {
+        const auto found = dictionary.find(key);
+        if (found == dictionary.end()) return "";
+        const json& name = resolved(*found);
+        return name.is_string() ? name.get<std::string>() : "";
     }
 
     void keep_links(json& annotations) const {
@@ -91,17 +127,31 @@ class Cleaning {
         if (list.is_array()) {
             for (const json& one : list) {
                 const json& annotation = resolved(one);
-                if (annotation.is_object() && name_in(annotation, "/Subtype") == "/Link") kept.push_back(one);
+                if (annotation.is_object() && name_at(annotation, "/Subtype") == "/Link") kept.push_back(one);
             }
         }
         annotations = std::move(kept);
     }
 
+    /// An action that shows a place in the document or opens an address.
     bool is_plain_action(const json& action) const {
+        static const std::set<std::string> pages = {"/NextPage", "/PrevPage", "/FirstPage", "/LastPage"};
         const json& value = resolved(action);
         if (!value.is_object()) return false;
-        const std::string kind = name_in(value, "/S");
-        return kind == "/GoTo" || kind == "/URI" || kind == "/Named";
+        const std::string kind = name_at(value, "/S");
+        return kind == "/GoTo" || kind == "/URI" || (kind == "/Named" && pages.contains(name_at(value, "/N")));
+    }
+
+    /// Whether an entry leads to an action of another kind: of any kind where viewers look for one, else of a known
+    /// kind, as roles in the structure and styles of lines have their /S, too.
+    bool is_active(const std::string& key, const json& entry) const {
+        const json* const object = object_at(entry);
+        const json& value = object && object->contains("stream") ? object->at("stream").at("dict") : resolved(entry);
+        if (!value.is_object() || is_plain_action(value)) return false;
+        const std::string kind = name_at(value, "/S");
+        if (kind.empty()) return false;
+        return key == "/A" || key == "/Next" || kind == "/Named" || active_kinds().contains(kind) ||
+               name_at(value, "/Type") == "/Action";
     }
 
     static void clean_jpeg(std::string& bytes) {
@@ -127,11 +177,13 @@ class Cleaning {
 
     void clean_stream(json& stream) {
         json& dict = stream.at("dict");
-        const std::string type = name_in(dict, "/Type");
+        const std::string type = name_at(dict, "/Type");
+        // Viewers would fetch them from elsewhere.
+        for (const char* key : {"/F", "/FFilter", "/FDecodeParms", "/Ref", "/OPI"}) dict.erase(key);
         clean(dict, 0);
         if (type == "/Metadata" || type == "/EmbeddedFile") stream["data"] = "";
         if (type == "/Metadata" || type == "/EmbeddedFile") dict = json::object();
-        if (name_in(dict, "/Subtype") != "/Image" || !stream.contains("data")) return;
+        if (name_at(dict, "/Subtype") != "/Image" || !stream.contains("data")) return;
         std::string bytes = bytes_of_base64(stream.at("data").get_ref<const std::string&>());
         if (!bytes.starts_with("\xFF\xD8")) return;
         clean_jpeg(bytes);

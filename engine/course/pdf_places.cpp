@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kDeepest = 200;
+constexpr int kDeepestPlace = 600;  ///< qpdf reads 500 levels
 constexpr std::size_t kMostMaps = 40, kMostContent = 4u << 20, kMostInflated = 64u << 20;
 
 std::string unicode_of(const std::string& value) {
@@ -121,7 +121,7 @@ class Places {
 
     /// What a page refers to belongs to it, the first page first.
     void mark(const json& value, int page, int depth) {
-        if (depth > kDeepest) return;
+        if (depth > kDeepestPlace) return;
         if (is_reference(value)) {
             const std::string name = "obj:" + value.get<std::string>();
             const json* const target = object(value.get<std::string>());
@@ -139,7 +139,7 @@ class Places {
 
     /// Streams whose kind only the dictionary says that refers to them.
     void note_kinds(const json& value, int depth) {
-        if (depth > kDeepest) return;
+        if (depth > kDeepestPlace) return;
         if (value.is_array())
             for (const json& entry : value) note_kinds(entry, depth + 1);
         if (!value.is_object()) return;
@@ -170,7 +170,7 @@ class Places {
     }
 
     void walk(const json& value, PdfPlace place, const std::string& key, int depth) {
-        if (depth > kDeepest) return;
+        if (depth > kDeepestPlace) return;
         if (value.is_string()) {
             if (is_reference(value)) return walk_string_at(value.get<std::string>(), place, key, depth);
             say(place, key.empty() ? "" : key.substr(1), unicode_of(value.get<std::string>()),
@@ -208,7 +208,7 @@ class Places {
             return say(PdfPlace::kMetadata, "XMP", without_references(text_in(data)));
         if (fonts_.contains(name)) return say(PdfPlace::kInside, "font", text_in(data), TextManner::kBytes);
         if (type == "ObjStm") return say(PdfPlace::kRemains, "", text_in(data));
-        if (data.size() <= kMostContent && shows_text(data)) return visit_content(name, dict, data);
+        if (data.size() <= kMostContent && shows_text(data)) return visit_content(name, data);
         say(PdfPlace::kInside, "", text_in(data), TextManner::kBytes);
     }
 
@@ -229,12 +229,12 @@ class Places {
         for (const std::string& piece : compressed_inside(data)) say(PdfPlace::kAttachment, "", text_in(piece));
     }
 
-    /// Poppler reads the pages themselves with their fonts; here is what it may not have been shown.
-    void visit_content(const std::string& name, const json& dict, const std::string& data) {
+    /// What poppler may not have been shown, or not as words: it reads a line of text in four directions only.
+    void visit_content(const std::string& name, const std::string& data) {
         const PdfPlace place = page_of(name) > 0 ? PdfPlace::kHidden : PdfPlace::kRemains;
-        say(place, "", content_text(data), TextManner::kProse);
-        if (page_of(name) > 0 && text_of(dict, "/Subtype") != "Form") return;
-        for (const CodeMap& map : maps_) say(place, "", content_text(data, &map), TextManner::kProse);
+        const std::vector<ShownPiece> pieces = shown_pieces(data);
+        say(place, "", shown_text(pieces), TextManner::kProse);
+        for (const CodeMap& map : maps_) say(place, "", shown_text(pieces, &map), TextManner::kProse);
     }
 
     /// Bytes that no object holds: comments between objects, earlier versions, what stands behind the end.
@@ -262,7 +262,7 @@ class Places {
         if (data.empty()) data = std::string(stored);
         if (!seen_.insert(std::hash<std::string>()(data)).second) return;
         if (data.size() <= kMostContent && shows_text(data))
-            say(PdfPlace::kRemains, "", content_text(data), TextManner::kProse);
+            say(PdfPlace::kRemains, "", shown_text(shown_pieces(data)), TextManner::kProse);
         else
             say(PdfPlace::kRemains, "", without_references(text_in(data)),
                 is_text(data) ? TextManner::kData : TextManner::kBytes);

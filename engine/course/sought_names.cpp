@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "course/letters.h"
-#include "platform/atomic_file.h"
+#include "platform/text_file.h"
 
 namespace dynlab {
 namespace {
@@ -270,7 +270,7 @@ std::vector<NameHit> SoughtNames::find(std::string_view text, TextManner manner)
 std::vector<Student> members_of(const fs::path& group_file) {
     std::vector<Student> members;
     if (!fs::is_regular_file(fs::symlink_status(group_file))) return members;
-    const std::string text = read_file(group_file);
+    const std::string text = read_text(group_file);
     try {
         const toml::table group = toml::parse(text);
         const toml::array* const names = group["members"].as_array();

@@ -93,7 +93,7 @@ std::vector<Submission> submissions_in(const fs::path& folder, std::vector<std::
             submission.name = *stem;
             submission.archive = true;
         } else {
-            left_out.push_back(name);
+            left_out.push_back(fmt::format("\"{}\" is neither a folder nor an archive (.zip, .tar.gz)", name));
             continue;
         }
         read_lms_name(submission);

@@ -20,9 +20,9 @@ struct Submission {
 };
 
 /// What stands in `folder`: folders and archives (.zip, .tar, .tar.gz, .tgz, .tar.xz), sorted by name. Hidden entries
-/// and Moodle's folders of typed text are passed over; the names of links and other files go to `left_out`. Moodle's
-/// "Name_ID_assignsubmission_file_..." and Canvas's "name_LATE_ID_ID_file.zip" are recognised. Throws EnvironmentError
-/// where there is none.
+/// and Moodle's folders of typed text are passed over; links and other files go to `left_out`, each as a clause.
+/// Moodle's "Name_ID_assignsubmission_file_..." and Canvas's "name_LATE_ID_ID_file.zip" are recognised. Throws
+/// EnvironmentError where there is none.
 std::vector<Submission> submissions_in(const std::filesystem::path& folder, std::vector<std::string>& left_out);
 
 /// What a submission may take when it is copied or unpacked.
@@ -32,14 +32,14 @@ struct SubmissionLimits {
     bool keep_times = false;  ///< of the files in an archive
 };
 
-/// Unpacks a submission's archive into `to`, which is made, in a box by `program`. Returns the names of what was left
-/// out. Throws SubmissionError.
+/// Unpacks a submission's archive into `to`, which is made, in a box by `program`. Returns what was left out, each
+/// as a clause ("\"../x\" leads outside of the archive"). Throws SubmissionError.
 std::vector<std::string> unpack_submission(const std::filesystem::path& archive, const std::filesystem::path& to,
                                            Isolation level, const std::filesystem::path& program,
                                            const SubmissionLimits& limits = {});
 
 /// Unpacks the one zip in which an LMS exports all submissions into `to`, an empty folder, in a box.
-/// Returns the names of what was left out: links, and what is absolute or would lead outside. Throws EnvironmentError.
+/// Returns what was left out as unpack_submission does. Throws EnvironmentError.
 std::vector<std::string> unpack_export(const std::filesystem::path& archive, const std::filesystem::path& to,
                                        Isolation level, const std::filesystem::path& program);
 

@@ -4,12 +4,14 @@
 #include <archive_entry.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <chrono>
 #include <fstream>
 #include <memory>
 
 #include "platform/confinement.h"
+#include "platform/utf8_locale.h"
 
 namespace dynlab {
 namespace {
@@ -19,26 +21,24 @@ using nlohmann::json;
 
 using Archive = std::unique_ptr<archive, int (*)(archive*)>;
 
-constexpr std::size_t kBlock = 64u << 10;
-constexpr int kDeepest = 20;
+constexpr std::size_t kReadBlock = 64u << 10;
+constexpr int kDeepestArchive = 20;
 
-/// The place of a name in the folder; nothing for names that are absolute, lead outside or are too deep.
-std::optional<fs::path> safe_place(const char* name) {
-    if (name == nullptr) return {};
-    std::string text = name;
-    for (char& c : text)
-        if (c == '\\') c = '/';
-    const fs::path path(text);
+/// Why an entry of this name has no place in a folder; nothing where it has one.
+std::optional<std::string> objection_to(const fs::path& path) {
     constexpr std::size_t kLongestName = 255;  // of a file system
+    const std::string& text = path.native();
     const bool on_a_drive = text.size() > 1 && std::isalpha(static_cast<unsigned char>(text[0])) && text[1] == ':';
-    if (path.empty() || path.is_absolute() || on_a_drive) return {};
+    if (path.is_absolute() || on_a_drive) return "leads outside of the archive";
     int depth = 0;
     for (const fs::path& part : path) {
-        if (part == ".." || ++depth > kDeepest || part.native().size() > kLongestName) return {};
-        for (const unsigned char c : part.string())
-            if (c < 0x20 || c == 0x7F) return {};
+        if (part == "..") return "leads outside of the archive";
+        if (++depth > kDeepestArchive) return fmt::format("lies deeper than {} folders", kDeepestArchive);
+        if (part.native().size() > kLongestName) return "has a name that is too long";
+        for (const unsigned char c : part.native())
+            if (c < 0x20 || c == 0x7F) return "has a name with control characters";
     }
-    return path;
+    return {};
 }
 
 class Unpacking {
@@ -55,7 +55,7 @@ class Unpacking {
         archive_read_support_format_zip(archive_.get());
         archive_read_support_format_tar(archive_.get());
         const std::string file = job.at("archive");
-        if (archive_read_open_filename(archive_.get(), file.c_str(), kBlock) != ARCHIVE_OK) fail();
+        if (archive_read_open_filename(archive_.get(), file.c_str(), kReadBlock) != ARCHIVE_OK) fail();
     }
 
     json unpack() {
@@ -74,28 +74,32 @@ class Unpacking {
     }
 
     void take(archive_entry* entry) {
-        const char* const name =
-            archive_entry_pathname_utf8(entry) ? archive_entry_pathname_utf8(entry) : archive_entry_pathname(entry);
-        const auto place = safe_place(name);
-        const auto type = archive_entry_filetype(entry);
-        const bool ordinary = type == AE_IFREG || type == AE_IFDIR;
         if (--files_left_ < 0) throw std::runtime_error("the archive holds too many files");
-        if (!place || !ordinary || archive_entry_hardlink(entry) != nullptr) {
-            left_out_.push_back(name ? name : "a name that cannot be read");
-            // What is passed over has to be unpacked as well.
-            if (archive_entry_size_is_set(entry)) use(static_cast<std::uint64_t>(archive_entry_size(entry)));
-            return;
-        }
+        const char* const name = archive_entry_pathname(entry);
+        if (name == nullptr || *name == '\0') return leave_out(entry, "the name of a file in it cannot be read");
+        std::string text = name;
+        std::replace(text.begin(), text.end(), '\\', '/');
+        const fs::path place(text);
+        const auto type = archive_entry_filetype(entry);
+        const bool ordinary = (type == AE_IFREG || type == AE_IFDIR) && archive_entry_hardlink(entry) == nullptr;
+        const std::optional<std::string> objection = ordinary ? objection_to(place) : "is a link or no ordinary file";
+        if (objection) return leave_out(entry, fmt::format("\"{}\" {}", name, *objection));
         if (type == AE_IFDIR) {
-            fs::create_directories(to_ / *place);
+            fs::create_directories(to_ / place);
             return;
         }
-        fs::create_directories((to_ / *place).parent_path());
-        write(to_ / *place);
+        fs::create_directories((to_ / place).parent_path());
+        write(to_ / place);
         if (keep_times_ && archive_entry_mtime_is_set(entry)) {
             const auto time = std::chrono::system_clock::from_time_t(archive_entry_mtime(entry));
-            fs::last_write_time(to_ / *place, std::chrono::file_clock::from_sys(time));
+            fs::last_write_time(to_ / place, std::chrono::file_clock::from_sys(time));
         }
+    }
+
+    /// What is passed over has to be unpacked as well.
+    void leave_out(archive_entry* entry, const std::string& clause) {
+        left_out_.push_back(clause);
+        if (archive_entry_size_is_set(entry)) use(static_cast<std::uint64_t>(archive_entry_size(entry)));
     }
 
     void use(std::uint64_t bytes) {
@@ -105,7 +109,7 @@ class Unpacking {
 
     void write(const fs::path& file) {
         std::ofstream out(file, std::ios::binary | std::ios::trunc);
-        char block[kBlock];
+        char block[kReadBlock];
         la_ssize_t count = 0;
         while ((count = archive_read_data(archive_.get(), block, sizeof block)) > 0) {
             use(static_cast<std::uint64_t>(count));
@@ -119,6 +123,7 @@ class Unpacking {
     std::uint64_t bytes_left_;
     int files_left_;
     bool keep_times_;
+    Utf8Locale names_;  // libarchive gives names in the character set of the locale
     Archive archive_;
     std::vector<std::string> left_out_;
 };

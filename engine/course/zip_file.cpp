@@ -12,7 +12,7 @@
 namespace dynlab {
 namespace {
 
-constexpr long kTime = 315619200;  // 1 January 1980, the first that zip knows, with a day's margin for time zones
+constexpr long kEntryTime = 315619200;  // 1 January 1980, the first that zip knows, with a day's margin for time zones
 
 la_ssize_t append(archive*, void* text, const void* bytes, std::size_t count) {
     static_cast<std::string*>(text)->append(static_cast<const char*>(bytes), count);
@@ -39,7 +39,7 @@ void write_zip(const std::filesystem::path& file, const std::map<std::string, st
         archive_entry_set_size(entry.get(), static_cast<la_int64_t>(content.size()));
         archive_entry_set_filetype(entry.get(), AE_IFREG);
         archive_entry_set_perm(entry.get(), 0644);
-        archive_entry_set_mtime(entry.get(), kTime, 0);
+        archive_entry_set_mtime(entry.get(), kEntryTime, 0);
         check(archive_write_header(zip.get(), entry.get()));
         if (archive_write_data(zip.get(), content.data(), content.size()) < 0) check(ARCHIVE_FATAL);
     }

@@ -10,11 +10,10 @@
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
+#include "platform/text_file.h"
 
 namespace dynlab {
 namespace {
-
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 std::string_view trimmed(std::string_view text) {
     const auto begin = text.find_first_not_of(" \t\r");
@@ -70,7 +69,6 @@ class CsvReader {
         if (text_.substr(0, 2) == "\xFF\xFE" || text_.substr(0, 2) == "\xFE\xFF") {
             fail("the text is in UTF-16; save it as UTF-8");
         }
-        if (text_.substr(0, 3) == kByteOrderMark) at_ = 3;
         read_comments();
         read_header();
         read_rows();
@@ -320,7 +318,7 @@ void append_comments(std::string& out, const CsvTable& table) {
 }  // namespace
 
 CsvTable read_csv_file(const std::filesystem::path& file) {
-    const std::string text = read_file(file);
+    const std::string text = read_text(file);
     return CsvReader(file, text).read();
 }
 

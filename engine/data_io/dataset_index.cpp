@@ -71,12 +71,31 @@ std::vector<std::string> words_after(const std::string& key, const fs::path& dat
     return words;
 }
 
-std::vector<std::string> course_files(const fs::path& data_set) {
-    return words_after(kCourseFileKey, data_set);
+/// Whether `path`, links resolved, is `folder` or lies below it.
+bool lies_in(const fs::path& folder, const fs::path& path) {
+    const fs::path whole = fs::weakly_canonical(folder), inside = fs::weakly_canonical(path);
+    return std::mismatch(whole.begin(), whole.end(), inside.begin(), inside.end()).first == whole.end();
 }
 
-/// What `Package: NAME FILE SAMPLES samples TS s` says, if the data set has that line.
+/// Whether the path belongs to what ships with dynlab, so that its maker is known.
+bool is_installed_data(const fs::path& path) {
+    return lies_in(shared_folder() / "data", path);
+}
+
+/// Names of files in the data set's own folder. Whoever hands in a data set must not name the files of others.
+std::vector<std::string> course_files(const fs::path& data_set) {
+    std::vector<std::string> names = words_after(kCourseFileKey, data_set);
+    for (const std::string& name : names)
+        if (fs::path(name).has_parent_path())
+            throw EnvironmentError(
+                fmt::format("{}: after \"{}\" stand names of files in that folder, but the path \"{}\" was given",
+                            (data_set / kSourceFile).string(), kCourseFileKey, name));
+    return names;
+}
+
+/// What `Package: NAME FILE SAMPLES samples TS s` says, if an installed data set has that line.
 std::optional<PackagedRecord> packaged_record(const fs::path& data_set) {
+    if (!is_installed_data(data_set)) return std::nullopt;
     std::istringstream words(fmt::format("{}", fmt::join(words_after(kPackageKey, data_set), " ")));
     PackagedRecord record;
     std::string file, unit;
@@ -151,10 +170,8 @@ std::optional<Source> installed_source(const fs::path& path) {
     return source_in_data_folder(shared_folder() / "data", path.filename().string());
 }
 
-Source find_source(const std::string& name_or_path, const fs::path& script_folder, bool installed_first) {
+Source find_source(const std::string& name_or_path, const fs::path& script_folder) {
     const fs::path path = name_or_path;
-    if (installed_first)
-        if (const auto source = installed_source(path)) return *source;
     if (path.has_parent_path()) {
         const fs::path file = script_folder / path;
         if (!is_file(file)) throw EnvironmentError(fmt::format("there is no file {}", fs::absolute(file).string()));
@@ -167,10 +184,15 @@ Source find_source(const std::string& name_or_path, const fs::path& script_folde
     fail_unknown(name_or_path, script_folder);
 }
 
-/// Whether the file ships with dynlab, so that its maker is known.
-bool is_installed_data(const fs::path& file) {
-    const fs::path folder = fs::weakly_canonical(shared_folder() / "data"), inside = fs::weakly_canonical(file);
-    return std::mismatch(folder.begin(), folder.end(), inside.begin(), inside.end()).first == folder.end();
+/// Of a script that is graded: installed data come first, and no link leads from its folder to files of others.
+Source find_graded_source(const std::string& name_or_path, const fs::path& script_folder) {
+    if (const auto source = installed_source(name_or_path)) return *source;
+    Source source = find_source(name_or_path, script_folder);
+    if (!lies_in(script_folder, source.file))
+        throw EnvironmentError(fmt::format(
+            "{} leads outside the folder; where scripts are graded, files of {} itself and installed data are read",
+            source.file.string(), fs::absolute(script_folder).string()));
+    return source;
 }
 
 LoadedData from_csv(CsvTable table) {
@@ -193,8 +215,9 @@ LoadedData from_csv(CsvTable table) {
 
 }  // namespace
 
-LoadedData load_data(const std::string& name_or_path, const fs::path& script_folder, bool installed_first) {
-    const auto [file, record] = find_source(name_or_path, script_folder, installed_first);
+LoadedData load_data(const std::string& name_or_path, const fs::path& script_folder, bool graded) {
+    const auto [file, record] =
+        graded ? find_graded_source(name_or_path, script_folder) : find_source(name_or_path, script_folder);
     LoadedData data;
     if (record) {
         data.variables = read_packaged_record(*record);

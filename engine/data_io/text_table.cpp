@@ -6,13 +6,12 @@
 #include <array>
 #include <charconv>
 
-#include "platform/atomic_file.h"
 #include "platform/error.h"
+#include "platform/text_file.h"
 
 namespace dynlab {
 namespace {
 
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr std::string_view kBlanks = " \t\r";
 
 std::string trimmed_cell(std::string_view text) {
@@ -22,7 +21,7 @@ std::string trimmed_cell(std::string_view text) {
 }
 
 /// The separator that the first line has most of.
-char separator_of(std::string_view text) {
+char table_separator_of(std::string_view text) {
     const std::string_view header = text.substr(0, text.find('\n'));
     char best = ',';
     for (const char c : {';', '\t'})
@@ -33,8 +32,7 @@ char separator_of(std::string_view text) {
 class Reader {
   public:
     Reader(const std::filesystem::path& file, std::string_view text) : file_(file), text_(text) {
-        if (text_.starts_with(kByteOrderMark)) text_.remove_prefix(kByteOrderMark.size());
-        separator_ = separator_of(text_);
+        separator_ = table_separator_of(text_);
     }
 
     TextTable read() {
@@ -160,7 +158,7 @@ std::optional<std::size_t> TextTable::column(std::string_view name) const {
 }
 
 TextTable read_text_table(const std::filesystem::path& file) {
-    const std::string text = read_file(file);
+    const std::string text = read_text(file);
     if (text.find('\0') != std::string::npos)
         throw EnvironmentError(fmt::format("{}: this is not UTF-8 text; save it as CSV in UTF-8", file.string()));
     return Reader(file, text).read();

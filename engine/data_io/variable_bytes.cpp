@@ -9,9 +9,9 @@
 namespace dynlab {
 namespace {
 
-constexpr int kDeepest = 100;
+constexpr int kDeepestVariable = 100;
 
-class Writer {
+class VariableWriter {
   public:
     void table(const VariableTable& variables) {
         number(variables.size());
@@ -57,9 +57,9 @@ class Writer {
     std::string bytes_;
 };
 
-class Reader {
+class VariableReader {
   public:
-    explicit Reader(std::string_view bytes) : left_(bytes) {}
+    explicit VariableReader(std::string_view bytes) : left_(bytes) {}
 
     VariableTable whole_table() {
         VariableTable variables = table(0);
@@ -118,7 +118,7 @@ class Reader {
     }
 
     Variable value(int depth) {
-        if (depth > kDeepest) fail();
+        if (depth > kDeepestVariable) fail();
         switch (number()) {
             case 0:
                 return {plain<double>()};
@@ -148,13 +148,13 @@ class Reader {
 }  // namespace
 
 std::string bytes_of(const VariableTable& variables) {
-    Writer writer;
+    VariableWriter writer;
     writer.table(variables);
     return writer.take();
 }
 
 VariableTable variables_of(std::string_view bytes) {
-    return Reader(bytes).whole_table();
+    return VariableReader(bytes).whole_table();
 }
 
 }  // namespace dynlab

@@ -8,7 +8,7 @@
 namespace dynlab {
 namespace {
 
-constexpr const char* kKeys[] = {"sections", "pages", "appendix_pages", "least_pages", "layout"};
+constexpr const char* kRuleKeys[] = {"sections", "pages", "appendix_pages", "least_pages", "layout"};
 
 SectionRule section_rule(const std::string& line, const std::string& where) {
     std::vector<std::string> parts;
@@ -42,7 +42,7 @@ bool is_slides(const std::string& value, const std::string& where) {
 }  // namespace
 
 bool is_document_rule(const std::string& key) {
-    for (const char* known : kKeys)
+    for (const char* known : kRuleKeys)
         if (key == known) return true;
     return false;
 }

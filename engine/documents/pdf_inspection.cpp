@@ -16,12 +16,12 @@ std::string utf8(const poppler::ustring& text) {
     return {bytes.begin(), bytes.end()};
 }
 
-void ignore_message(const std::string&, void*) {}
+void ignore_poppler_message(const std::string&, void*) {}
 
 }  // namespace
 
 PdfContent inspect_pdf(const std::filesystem::path& file) {
-    poppler::set_debug_error_function(ignore_message, nullptr);
+    poppler::set_debug_error_function(ignore_poppler_message, nullptr);
     const std::unique_ptr<poppler::document> document(poppler::document::load_from_file(file.string()));
     if (!document) throw EnvironmentError(file.string() + " cannot be read as a PDF: it is missing or damaged");
     if (document->is_locked())

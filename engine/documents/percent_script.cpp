@@ -9,8 +9,8 @@
 #include "documents/script_header.h"
 #include "documents/solutions.h"
 #include "documents/text_lines.h"
-#include "platform/atomic_file.h"
 #include "platform/spelling.h"
+#include "platform/text_file.h"
 
 namespace dynlab {
 namespace {
@@ -129,7 +129,7 @@ PercentScript parse_percent_script(const std::string& source, const std::filesys
 }
 
 PercentScript read_percent_script(const std::filesystem::path& file) {
-    return parse_percent_script(read_file(file), file);
+    return parse_percent_script(read_text(file), file);
 }
 
 }  // namespace dynlab

@@ -13,7 +13,7 @@
 namespace dynlab {
 namespace {
 
-constexpr std::size_t kMostInside = 64u << 20, kEnd = 1024, kMostEntries = 1u << 20;
+constexpr std::size_t kMostInside = 64u << 20, kLastBytes = 1024, kMostEntries = 1u << 20;
 
 /// A stream as it stands in the file.
 struct Stream {
@@ -31,7 +31,7 @@ class PlainStreams {
     explicit PlainStreams(std::string_view pdf) : pdf_(pdf) {
         if (!pdf.starts_with("%PDF-")) throw UnusualPdf();
         const std::size_t last = pdf.rfind("startxref");
-        if (last == pdf.npos || pdf.size() - last > kEnd) throw UnusualPdf();
+        if (last == pdf.npos || pdf.size() - last > kLastBytes) throw UnusualPdf();
         PdfScanner scanner(pdf, last);
         scanner.expect("startxref");
         table_ = scanner.number();
@@ -39,6 +39,10 @@ class PlainStreams {
         trailer_ = at_table.takes("xref") ? read_table(at_table) : read_table_stream();
         for (const char* unusual : {"/Prev", "/Encrypt", "/XRefStm"})
             if (trailer_.contains(unusual)) throw UnusualPdf();
+        // A reader that finds a wrong place searches the file for its objects; the new table must not keep it from
+        // that.
+        for (std::size_t number = 0; number < rows_.size(); ++number)
+            if (rows_[number].kind == Row::kPlaced) object_at(number, rows_[number]);
     }
 
     /// What must stand behind the file: objects unpacked, streams written out, and a table of all.

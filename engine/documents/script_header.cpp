@@ -12,7 +12,7 @@
 namespace dynlab {
 namespace {
 
-const std::vector<std::string> kKeys = {"title", "subtitle", "lesson", "template", "language", "seed", "answers"};
+const std::vector<std::string> kHeaderKeys = {"title", "subtitle", "lesson", "template", "language", "seed", "answers"};
 
 /// Lines of the header, their comment signs taken off, read into a ScriptHeader: scalars and one level of names.
 class HeaderReader {
@@ -96,9 +96,9 @@ class HeaderReader {
 
     [[noreturn]] void unknown(const std::string& key) const {
         std::string message = "unknown key \"" + key + "\"";
-        if (const auto near = nearest_word(key, kKeys)) fail(message + "; did you mean \"" + *near + "\"?");
+        if (const auto near = nearest_word(key, kHeaderKeys)) fail(message + "; did you mean \"" + *near + "\"?");
         message += "; known are";
-        for (const std::string& known : kKeys) message += (known == kKeys.front() ? " " : ", ") + known;
+        for (const std::string& known : kHeaderKeys) message += (known == kHeaderKeys.front() ? " " : ", ") + known;
         fail(message);
     }
 

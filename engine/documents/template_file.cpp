@@ -7,8 +7,8 @@
 #include "documents/document_rules.h"
 #include "documents/error.h"
 #include "documents/text_lines.h"
-#include "platform/atomic_file.h"
 #include "platform/spelling.h"
+#include "platform/text_file.h"
 
 namespace dynlab {
 namespace {
@@ -117,7 +117,7 @@ void check_metadata(const std::string& key, const std::string& value, const std:
 TemplateFile read_template(const std::filesystem::path& file) {
     TemplateFile result;
     result.file = file;
-    const std::vector<std::string> lines = lines_of(read_file(file));
+    const std::vector<std::string> lines = lines_of(read_text(file));
     std::size_t first = 0;
     if (!lines.empty() && trimmed(lines[0]) == "---") {
         const std::size_t end = end_of_metadata(lines, file);

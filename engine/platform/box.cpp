@@ -23,12 +23,14 @@ void append(Words& words, std::initializer_list<std::string> more) {
     words.insert(words.end(), more);
 }
 
-/// A file system of its own that holds /usr and nothing else of the machine.
+/// A file system of its own that holds /usr and nothing else of the machine. Whoever calls as root has no more rights
+/// in it than others: with root's, what is mounted to be read could be mounted anew to be written.
 Words bare_box() {
     Words words = {kBubblewrap,     "--unshare-all", "--die-with-parent",
-                   "--new-session", "--clearenv",    "--ro-bind",
-                   "/usr",          "/usr",          "--proc",
-                   "/proc",         "--dev",         "/dev"};
+                   "--new-session", "--clearenv",    "--cap-drop",
+                   "ALL",           "--ro-bind",     "/usr",
+                   "/usr",          "--proc",        "/proc",
+                   "--dev",         "/dev"};
     for (const char* name : {"lib", "lib32", "lib64", "bin", "sbin"}) {
         const fs::path at_root = fs::path("/") / name;
         if (fs::is_symlink(at_root)) append(words, {"--symlink", fs::read_symlink(at_root).string(), at_root.string()});

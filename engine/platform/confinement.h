@@ -12,9 +12,9 @@ struct ProcessLimits {
 };
 
 /// Gives up, for good, what untrusted scripts, archives and answers could abuse: starting processes (threads remain),
-/// the network, signals to others, tracing, mounting, kernel interfaces; and sets the limits. Uses seccomp and
-/// setrlimit; seccomp answers EPERM. Call it when all programs that are needed are running. Throws EnvironmentError
-/// where the kernel refuses.
+/// the network, signals to others, tracing, mounting, other users' rights, memory and messages shared with others,
+/// kernel interfaces; and sets the limits. Uses seccomp and setrlimit; seccomp answers EPERM. Call it when all programs
+/// that are needed are running. Throws EnvironmentError where the kernel refuses.
 void confine_process(const ProcessLimits& limits);
 
 /// Whether this process gave up starting others.

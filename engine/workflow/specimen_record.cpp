@@ -3,15 +3,33 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 
+#include "documents/text_lines.h"
 #include "figures/gnuplot_renderer.h"
+#include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
+#include "platform/text_file.h"
 #include "scripting/runtime.h"
 
 namespace dynlab {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+constexpr char kSourceFile[] = "SOURCE.md";
+constexpr std::string_view kSpecimenKey = "Specimen:";
+constexpr char kOwnRecord[] = R"(
+**Your group's own record.** It was made as is said above, but on another specimen of the apparatus, whose parameters
+are others, and with other noise: `rig("{name}", {{specimen = {seed}, seed = {seed}}})` makes it again, and
+`rig_truth("{name}", {{specimen = {seed}}})` tells what theory says of it.
+
+{key} {seed}
+)";
+
+}  // namespace
 
 const std::vector<std::string>& simulated_data_sets() {
     static const std::vector<std::string> names = {"crane",         "heat_exchanger", "heat_transfer", "linear_system",
@@ -47,10 +65,27 @@ void write_specimen_record(const std::string& data_set, std::uint32_t specimen, 
 void write_group_data(const std::vector<std::string>& data_sets, std::uint32_t group_seed, const fs::path& folder) {
     for (const std::string& name : data_sets) {
         fs::create_directories(folder / name);
-        fs::copy_file(shared_folder() / "data" / name / "SOURCE.md", folder / name / "SOURCE.md",
-                      fs::copy_options::overwrite_existing);
+        const std::string source = read_text(shared_folder() / "data" / name / kSourceFile);
+        const std::string own = fmt::format(kOwnRecord, fmt::arg("name", name), fmt::arg("seed", group_seed),
+                                            fmt::arg("key", kSpecimenKey));
+        write_file_atomically(folder / name / kSourceFile, source + own);
         write_specimen_record(name, group_seed, group_seed, folder / name);
     }
+}
+
+std::optional<std::uint32_t> group_seed_of(const fs::path& data_folder) {
+    for (const std::string& name : simulated_data_sets()) {
+        const fs::path source = data_folder / name / kSourceFile;
+        if (!fs::is_regular_file(source)) continue;
+        for (const std::string& line : lines_of(read_text(source))) {
+            if (!line.starts_with(kSpecimenKey)) continue;
+            const std::string number = trimmed(std::string_view(line).substr(kSpecimenKey.size()));
+            std::uint32_t seed = 0;
+            const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), seed);
+            if (error == std::errc() && end == number.data() + number.size()) return seed;
+        }
+    }
+    return {};
 }
 
 }  // namespace dynlab

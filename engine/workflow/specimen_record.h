@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,8 +20,11 @@ void write_specimen_record(const std::string& data_set, std::uint32_t specimen, 
                            const std::filesystem::path& folder);
 
 /// Makes `folder`/NAME with SOURCE.md and such a record for each of the data sets, as a group finds its own data:
-/// specimen and noise are the group's seed's.
+/// specimen and noise are the group's seed's, which SOURCE.md tells.
 void write_group_data(const std::vector<std::string>& data_sets, std::uint32_t group_seed,
                       const std::filesystem::path& folder);
+
+/// The seed of the group whose records write_group_data made in this folder; nothing where there are none.
+std::optional<std::uint32_t> group_seed_of(const std::filesystem::path& data_folder);
 
 }  // namespace dynlab

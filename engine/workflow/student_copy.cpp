@@ -6,6 +6,7 @@
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
+#include "platform/text_file.h"
 #include "workflow/specimen_record.h"
 
 namespace dynlab {
@@ -29,7 +30,7 @@ fs::path template_file(const std::string& name) {
 
 /// The template's text with the lesson's title and language in its header.
 std::string report_for(const ScriptHeader& header, const fs::path& file, const std::string& language) {
-    std::string text = read_file(file);
+    std::string text = read_text(file);
     put(text, "title: My work", "title: \"" + header.title + "\"");
     put(text, "lang: en", "lang: " + (language.empty() ? header.language : language));
     return text;
@@ -50,13 +51,13 @@ void fill_lesson(const fs::path& folder, const Lesson& lesson, const std::option
 }
 
 void fill_review(const fs::path& folder, const std::string& language) {
-    std::string text = read_file(template_file("peer_review.md"));
+    std::string text = read_text(template_file("peer_review.md"));
     if (language == "fr") {
         put(text, "title: Review of a report", "title: Relecture d'un rapport");
         put(text, "lang: en", "lang: fr");
     }
     write_file_atomically(folder / "report.md", text);
-    write_file_atomically(folder / "analysis.lua", read_file(template_file("peer_review.lua")));
+    write_file_atomically(folder / "analysis.lua", read_text(template_file("peer_review.lua")));
     write_file_atomically(folder / "group.toml", fmt::format(kGroupFile, 1));
 }
 

@@ -163,18 +163,18 @@ check { id = "fits", points = 2, about = "How well the models simulate the valid
     },
     hint = "fit(data, G) simulates the validation record, levels taken off, from rest." }
 
-local natural = rig_truth("crane").natural_frequency
+local function natural(a) return truth(a, "crane").natural_frequency end
 check { id = "free_swing", points = 2, about = "The frequency of the load while the motor rests",
     -- At 0.3 rad the swing is 0.6 % slower than at small angles.
-    test = function(a) return near(a.free_swing, natural, {rel = 0.015, half = 0.04}) end,
+    test = function(a) return near(a.free_swing, natural(a), {rel = 0.015, half = 0.04}) end,
     mistakes = {
-        {when = function(a) return near(a.free_swing, natural/(2*math.pi), {rel = 0.03}) end,
+        {when = function(a) return near(a.free_swing, natural(a)/(2*math.pi), {rel = 0.03}) end,
          say = "This is in Hz; rad/s are wanted."},
-        {when = function(a) return near(a.free_swing, 2*math.pi/natural, {rel = 0.03}) end,
+        {when = function(a) return near(a.free_swing, 2*math.pi/natural(a), {rel = 0.03}) end,
          say = "This is the period; the frequency in rad/s is wanted."},
-        {when = function(a) return near(a.free_swing, natural*180/math.pi, {rel = 0.03}) end,
+        {when = function(a) return near(a.free_swing, natural(a)*180/math.pi, {rel = 0.03}) end,
          say = "This is in degrees per second; rad/s are wanted."},
-        {when = function(a) return near(a.free_swing, natural*Ts, {rel = 0.03}) end,
+        {when = function(a) return near(a.free_swing, natural(a)*Ts, {rel = 0.03}) end,
          say = "This is in rad per sample; rad/s are wanted."},
     },
     hint = "Count the swings of free_swing and divide by the time they take; 2 pi in each." }

@@ -7,8 +7,10 @@ local function judge(message) return {share = 0, message = message} end
 local linear = load("linear_system")
 local Ts = linear.t[2] - linear.t[1]
 local est, val = iddata(linear.y, linear.u, Ts), iddata(linear.y_val, linear.u_val, Ts)
-local true_G = rig_truth("linear_system").G
-local orders = vector{#pole(true_G), #zero(true_G)}
+local function true_orders(a)
+    local G = truth(a, "linear_system").G
+    return vector{#pole(G), #zero(G)}
+end
 local from_first, from_second = srivc(est, {2, 3, 0}), srivc(val, {2, 3, 0})
 
 -- How far two models are apart on an input: the size of the difference of their outputs, in parts of the swing of the first.
@@ -19,15 +21,15 @@ end
 local function fit_to(data, G) return fit(data, G, {InitialState = "zero", Offset = "none"}) end
 
 check { id = "linear_orders", points = 1, about = "Simulated system: how many poles and zeros",
-    test = function(a) return near(a.linear_orders, orders, {abs = 0, half = 1}) end,
+    test = function(a) return near(a.linear_orders, true_orders(a), {abs = 0, half = 1}) end,
     mistakes = {
-        {when = function(a) return a.linear_orders[1] == orders[1] and a.linear_orders[2] == orders[2] + 1 end,
+        {when = function(a) return a.linear_orders[1] == true_orders(a)[1] and a.linear_orders[2] == true_orders(a)[2] + 1 end,
          say = "The second number is that of the zeros, one less than the coefficients of B; a further zero finds nothing to do."},
-        {when = function(a) return near(a.linear_orders, vector{orders[2], orders[1]}, {abs = 0}) end,
+        {when = function(a) return near(a.linear_orders, vector{true_orders(a)[2], true_orders(a)[1]}, {abs = 0}) end,
          say = "The order is poles, zeros."},
-        {when = function(a) return a.linear_orders[1] < orders[1] end,
+        {when = function(a) return a.linear_orders[1] < true_orders(a)[1] end,
          say = "Too simple: on the second record a larger model is clearly ahead."},
-        {when = function(a) return a.linear_orders[1] > orders[1] end,
+        {when = function(a) return a.linear_orders[1] > true_orders(a)[1] end,
          say = "Too many: the second record cannot tell this model from a simpler one."},
     },
     hint = "The simplest structure that the second record cannot tell from larger ones." }

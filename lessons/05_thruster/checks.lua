@@ -1,7 +1,7 @@
 -- The checks of lesson 5. `a` holds the answers, `b` those of a run on the records of another thruster.
 
 local Ts, neutral, rest, amplitudes = 0.002, 1500, 250, {100, 200, 300}
-local fact = rig_truth("thruster")
+local function fact(a) return truth(a, "thruster") end
 
 local function judge(message) return {share = 0, message = message} end
 local function low_pass(v) return idfilt(v, {0, 2*math.pi*8}, {zero_phase = true, Ts = Ts}) end
@@ -37,9 +37,9 @@ end
 
 check { id = "ring_frequency", points = 1, about = "What the square chirp makes ring",
     -- A smoothed spectrum has lines 0.1 Hz apart; the beam's resonance is 2 Hz wide.
-    test = function(a) return near(a.ring_frequency, fact.cell_frequency, {rel = 0.05, half = 0.1}) end,
+    test = function(a) return near(a.ring_frequency, fact(a).cell_frequency, {rel = 0.05, half = 0.1}) end,
     mistakes = {
-        {when = function(a) return near(a.ring_frequency, 2*math.pi*fact.cell_frequency, {rel = 0.06}) end,
+        {when = function(a) return near(a.ring_frequency, 2*math.pi*fact(a).cell_frequency, {rel = 0.06}) end,
          say = "This is in rad/s; Hz is wanted."},
     },
     hint = "etfe of a square chirp with some smoothing: the peak above the thruster's own frequencies." }
@@ -48,7 +48,7 @@ check { id = "dead_band", points = 2, about = "The ends of the dead band",
     -- A parabola through noisy bins of 10 µs is right within some 3 µs, reading off a figure within a bin.
     test = function(a)
         if #a.dead_band ~= 2 then return judge("Wanted are two numbers: the forward and the reverse end.") end
-        return near(a.dead_band, vector{fact.dead_band, -fact.dead_band}, {abs = 8, half = 15})
+        return near(a.dead_band, vector{fact(a).dead_band, -fact(a).dead_band}, {abs = 8, half = 15})
     end,
     mistakes = {
         {when = function(a) return min(a.dead_band) > 1000 end, say = "Neutral is not taken off: widths count from 1500 µs."},
@@ -61,10 +61,10 @@ check { id = "dead_band", points = 2, about = "The ends of the dead band",
 
 check { id = "delay", points = 2, about = "The thruster's delay",
     -- Static curve and one lag, estimated from the sine chirps, found it within 4 ms on six thrusters.
-    test = function(a) return near(a.delay, fact.delay, {abs = 0.006, half = 0.01}) end,
+    test = function(a) return near(a.delay, fact(a).delay, {abs = 0.006, half = 0.01}) end,
     mistakes = {
-        {when = function(a) return near(a.delay, 1000*fact.delay, {rel = 0.35}) end, say = "This is in ms; seconds are wanted."},
-        {when = function(a) return near(a.delay, fact.delay/Ts, {rel = 0.35}) end,
+        {when = function(a) return near(a.delay, 1000*fact(a).delay, {rel = 0.35}) end, say = "This is in ms; seconds are wanted."},
+        {when = function(a) return near(a.delay, fact(a).delay/Ts, {rel = 0.35}) end,
          say = "This is counted in samples; seconds are wanted."},
         {when = function(a) return a.delay < 0.024 end,
          say = "Too short: a linear model of the sine chirps starts early because it has no dead band to wait for."},
@@ -74,13 +74,13 @@ check { id = "delay", points = 2, about = "The thruster's delay",
 check { id = "thrust_300", points = 2, about = "Steady thrust forwards and in reverse",
     test = function(a)
         if #a.thrust_300 ~= 2 then return judge("Wanted are two numbers: the thrust at +300 µs and that at -300 µs.") end
-        return near(a.thrust_300/static_at_300(fact), ones(2), {rel = 0.08, half = 0.16})
+        return near(a.thrust_300/static_at_300(fact(a)), ones(2), {rel = 0.08, half = 0.16})
     end,
     mistakes = {
         {when = function(a) return a.thrust_300[2] > 0 and a.thrust_300[1] > 0 end, say = "Reverse thrust is negative."},
         {when = function(a) return near(a.thrust_300[1], -a.thrust_300[2], {rel = 0.02}) end,
          say = "Forward and reverse are the same: the propeller is better forwards."},
-        {when = function(a) return near(a.thrust_300*abs(a.thrust_300)/static_at_300(fact), ones(2), {rel = 0.2}) end,
+        {when = function(a) return near(a.thrust_300*abs(a.thrust_300)/static_at_300(fact(a)), ones(2), {rel = 0.2}) end,
          say = "These are the roots of the thrust: square them."},
     },
     hint = "What the load cell reads once a switching has died away, or the ends of the static curve." }

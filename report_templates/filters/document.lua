@@ -291,6 +291,8 @@ local function division(element)
 end
 
 local function check_code(element)
+  local attribute = safety.unknown_attribute(element.attributes, {})
+  if attribute then report("attribute", attribute, attribute, "code") end
   if element.classes:includes("value") then return nil end
   local bad = safety.unknown_code_class(element.classes, false)
   if bad then report("code-class", "." .. bad, bad, element.text) end
@@ -339,8 +341,10 @@ end
 
 local function link(element)
   if not safety.link_allowed(element.target) then report("link", element.target, element.target) end
-  element.attributes = {}
+  local bad = safety.unknown_attribute(element.attributes, {})
+  if bad then report("attribute", bad, bad, "a link") end
   element.classes = {}
+  return element
 end
 
 local function plain_image(blocks_content)

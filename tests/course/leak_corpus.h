@@ -73,6 +73,23 @@ class LeakCorpus : public CheckTest {
         return result;
     }
 
+    /// A PDF of these objects, from 1 on, the catalogue first.
+    static std::string pdf_of(const std::vector<std::string>& objects) {
+        std::string pdf = "%PDF-1.4\n";
+        std::string table = "xref\n0 " + std::to_string(objects.size() + 1) + "\n0000000000 65535 f \n";
+        for (std::size_t i = 0; i < objects.size(); ++i) {
+            char line[32];
+            std::snprintf(line, sizeof line, "%010zu 00000 n \n", pdf.size());
+            table += line;
+            pdf += std::to_string(i + 1) + " 0 obj\n" + objects[i] + "\nendobj\n";
+        }
+        return pdf + table + "trailer<</Size " + std::to_string(objects.size() + 1) + "/Root 1 0 R>>\nstartxref\n" +
+               std::to_string(pdf.size()) + "\n%%EOF\n";
+    }
+    static std::string stream_of(const std::string& data, const std::string& entries = "") {
+        return "<<" + entries + "/Length " + std::to_string(data.size()) + ">>\nstream\n" + data + "\nendstream";
+    }
+
     /// An update appended to a file, in which object `number` is `object`; the old one stays in the file.
     static std::string updated(const std::string& pdf, int number, const std::string& object) {
         const std::string start = pdf.substr(pdf.rfind("startxref") + 10);

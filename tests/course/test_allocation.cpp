@@ -10,8 +10,7 @@
 #include "numerics/error.h"
 
 namespace dynlab::test {
-namespace {
-
+namespace test_allocation {
 /// How many reviews each group writes and gets.
 struct Loads {
     std::vector<int> writes, gets;
@@ -159,5 +158,5 @@ TEST(allocation, is_quick) {
     EXPECT_LT(seconds, 2.0);  // 0.2 s are meant; instrumented builds are slower
 }
 
-}  // namespace
+}  // namespace test_allocation
 }  // namespace dynlab::test

@@ -5,8 +5,7 @@
 #include "course/grading_bench.h"
 
 namespace dynlab::test {
-namespace {
-
+namespace test_attacks {
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
 
@@ -266,5 +265,5 @@ TEST(attacks, names_and_messages_of_students_reach_no_terminal_as_commands) {
          "two?[31m");
 }
 
-}  // namespace
+}  // namespace test_attacks
 }  // namespace dynlab::test

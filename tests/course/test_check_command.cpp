@@ -9,8 +9,7 @@
 #include "support/program.h"
 
 namespace dynlab::test {
-namespace {
-
+namespace test_check_command {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -188,5 +187,5 @@ TEST(check_command, misuse_ends_with_two) {
     EXPECT_EQ(bench.dynlab({"check", "a.pdf"}).exit_code, 1);
 }
 
-}  // namespace
+}  // namespace test_check_command
 }  // namespace dynlab::test

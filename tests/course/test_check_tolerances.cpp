@@ -5,8 +5,7 @@
 #include "course/grading_bench.h"
 
 namespace dynlab::test {
-namespace {
-
+namespace test_check_tolerances {
 namespace fs = std::filesystem;
 
 /// How the answers of a lesson's worked solution are moved: Lua that fills `move[name]`, functions of an answer. `e` is
@@ -139,5 +138,5 @@ INSTANTIATE_TEST_SUITE_P(all, check_tolerances,
                                     (std::get<1>(test.param) > 0 ? "_up" : "_down");
                          });
 
-}  // namespace
+}  // namespace test_check_tolerances
 }  // namespace dynlab::test

@@ -8,8 +8,7 @@
 #include "platform/temporary_folder.h"
 
 namespace dynlab::test {
-namespace {
-
+namespace test_course_faults {
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 
@@ -226,5 +225,5 @@ TEST(course_migration, of_a_first_version_keeps_its_students) {
     EXPECT_EQ(rows.text(0), "Ada King");
 }
 
-}  // namespace
+}  // namespace test_course_faults
 }  // namespace dynlab::test

@@ -5,8 +5,7 @@
 #include "course/course_bench.h"
 
 namespace dynlab::test {
-namespace {
-
+namespace test_course_marks {
 using ::testing::AllOf;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
@@ -148,5 +147,5 @@ TEST(course_marks, of_a_presentation_come_from_the_sheet_of_the_oral) {
                 HasSubstr("content must be a number from 0 to 10, but \"11\" was given"));
 }
 
-}  // namespace
+}  // namespace test_course_marks
 }  // namespace dynlab::test

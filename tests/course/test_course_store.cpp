@@ -6,8 +6,7 @@
 #include "numerics/error.h"
 
 namespace dynlab::test {
-namespace {
-
+namespace test_course_store {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -187,7 +186,7 @@ TEST(course_store, takes_a_platform_s_zip_and_leaves_out_what_leads_outside) {
     EXPECT_EQ(taken.exit_code, 1);
     EXPECT_THAT(taken.output, AllOf(HasSubstr("2 files taken, 0 late"), HasSubstr("group-01"), HasSubstr("group-03")));
     EXPECT_THAT(taken.error_output,
-                AllOf(HasSubstr("\"../../escaped.pdf\" is a link or leads outside"), HasSubstr("called \"elsenobody\""),
+                AllOf(HasSubstr("\"../../escaped.pdf\" leads outside"), HasSubstr("called \"elsenobody\""),
                       HasSubstr("group-04/notes.txt: this is no PDF")));
     EXPECT_FALSE(std::filesystem::exists(bench.bench().path("escaped.pdf")));
     EXPECT_FALSE(std::filesystem::exists("/tmp/escaped.pdf"));
@@ -210,5 +209,5 @@ TEST(course_store, refuses_other_versions_of_the_store) {
     EXPECT_THAT(bench.bench().dynlab({"course", "status"}).error_output, HasSubstr("there is no course in"));
 }
 
-}  // namespace
+}  // namespace test_course_store
 }  // namespace dynlab::test

@@ -6,7 +6,7 @@
 #include "documents/pdf_inspection.h"
 
 namespace dynlab {
-namespace {
+namespace test_document_findings {
 
 using testing::Contains;
 using testing::ElementsAre;
@@ -254,5 +254,5 @@ TEST_F(document_findings, without_a_wish_pages_and_headings_tell_the_kind) {
     EXPECT_EQ(check_pdf(file("own.pdf")).template_name, known("slides"));
 }
 
-}  // namespace
+}  // namespace test_document_findings
 }  // namespace dynlab

@@ -4,8 +4,7 @@
 #include "course/course_bench.h"
 
 namespace dynlab::test {
-namespace {
-
+namespace test_final_changes {
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -179,5 +178,5 @@ TEST_F(final_changes, knows_when_nothing_can_be_compared) {
                 HasSubstr("talk is a presentation: it has no final version"));
 }
 
-}  // namespace
+}  // namespace test_final_changes
 }  // namespace dynlab::test

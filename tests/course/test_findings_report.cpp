@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 namespace dynlab {
-namespace {
+namespace test_findings_report {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -71,5 +71,5 @@ TEST(findings_report, json_holds_everything_and_null_where_nothing_is_known) {
     EXPECT_TRUE(nlohmann::json::parse(findings_as_json(CheckResult())).at("pages").is_null());
 }
 
-}  // namespace
+}  // namespace test_findings_report
 }  // namespace dynlab

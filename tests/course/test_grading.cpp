@@ -4,8 +4,7 @@
 #include "course/grading_bench.h"
 
 namespace dynlab::test {
-namespace {
-
+namespace test_grading {
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Key;
@@ -300,5 +299,5 @@ TEST(grading, packs_are_whole_repeatable_and_can_be_graded) {
     EXPECT_THAT(starter, HasSubstr("99_small/checks.lua"));
 }
 
-}  // namespace
+}  // namespace test_grading
 }  // namespace dynlab::test

@@ -9,7 +9,7 @@
 #include "platform/program_lookup.h"
 
 namespace dynlab {
-namespace {
+namespace test_hostile_pdfs {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -112,5 +112,5 @@ TEST_F(hostile_pdfs, nothing_from_a_file_reaches_the_terminal_as_a_command) {
     EXPECT_EQ(nlohmann::json::parse(findings_as_json(result)).at("findings").at(0).at("id"), "not-pdf");
 }
 
-}  // namespace
+}  // namespace test_hostile_pdfs
 }  // namespace dynlab

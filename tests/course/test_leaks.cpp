@@ -6,7 +6,7 @@
 #include "leak_corpus.h"
 
 namespace dynlab {
-namespace {
+namespace test_leaks {
 
 using testing::Contains;
 using testing::ElementsAre;
@@ -215,6 +215,56 @@ TEST_F(leaks, cited_authors_and_given_names_are_hints) {
     EXPECT_THAT(found(latex("", std::string(kProse) + "Clotilde measured it.")), ElementsAre("(name-in-text 1)"));
 }
 
+/// "Quandtlaaasen (1999), ..." for so many classmates, whom it adds to those looked for.
+std::string citations(SoughtNames& names, int count) {
+    std::string text;
+    for (int i = 0; i < count; ++i) {
+        Student classmate;
+        classmate.name = "Vera Quandtla" + std::string(1, static_cast<char>('a' + i % 26)) +
+                         std::string(1, static_cast<char>('a' + i / 26)) + "sen";
+        names.add(classmate);
+        text += classmate.name.substr(5) + " (1999), ";
+    }
+    return text;
+}
+
+// Oracle: how many are cited, and who is named once.
+TEST_F(leaks, hints_hide_no_name_however_many_they_are) {
+    const std::string many = kProse + citations(*names_, 45);
+    const auto hidden = prose_with(many + "\\pdfliteral{/Span << /ActualText (Brandtner) >> BDC}x\\pdfliteral{EMC}");
+    const std::vector<std::string> ids = found(hidden);
+    ASSERT_EQ(ids.size(), 40u);
+    EXPECT_EQ(std::count(ids.begin(), ids.end(), "name-hidden 1"), 1);
+    EXPECT_EQ(std::count(ids.begin(), ids.end(), "(name-in-text 1)"), 39);
+
+    AnonymousCopySetup setup;
+    setup.names = *names_;
+    const AnonymousCopy copy = anonymous_copy(prose_with(many), file("copy.pdf"), setup);
+    EXPECT_FALSE(copy.made) << "not all that was found can be looked at";
+    ASSERT_EQ(copy.findings.size(), 41u);
+    EXPECT_EQ(copy.findings.back().id, "names-not-listed");
+    EXPECT_THAT(copy.findings.back().what, HasSubstr("5 further places"));
+    EXPECT_FALSE(std::filesystem::exists(file("copy.pdf")));
+    EXPECT_TRUE(anonymous_copy(prose_with(kProse + citations(*names_, 40)), file("copy.pdf"), setup).made);
+}
+
+// Oracle: how many PDFs are embedded, of which only some are searched.
+TEST_F(leaks, embedded_documents_that_are_not_searched_are_told) {
+    const std::vector<std::string> blank = {"<</Type/Catalog/Pages 2 0 R>>", "<</Type/Pages/Kids[3 0 R]/Count 1>>",
+                                            "<</Type/Page/Parent 2 0 R/MediaBox[0 0 99 99]>>"};
+    write("own.pdf", pdf_of(blank));
+    for (int i = 1; i <= 6; ++i) {
+        const std::string name = "part" + std::to_string(i) + ".pdf";
+        write(name, pdf_of(blank) + "\n% " + name + "\n");
+        run({"pdfattach", "own.pdf", name, "with.pdf"});
+        std::filesystem::rename(file("with.pdf"), file("own.pdf"));
+        if (i == 5) {
+            EXPECT_THAT(found(file("own.pdf")), IsEmpty());
+        }
+    }
+    EXPECT_THAT(found(file("own.pdf")), ElementsAre("not-searched 0"));
+}
+
 // Oracle: qpdf and pdftotext read the copy; the search finds nothing in it.
 TEST_F(leaks, copies_are_cleaned_and_what_cannot_be_cleaned_stops_them) {
     AnonymousCopySetup setup;
@@ -297,5 +347,5 @@ TEST_F(leaks, a_report_made_again_fills_no_disk) {
     EXPECT_THAT(copy.trouble, HasSubstr("read-only file system (in /box/submission)"));
 }
 
-}  // namespace
+}  // namespace test_leaks
 }  // namespace dynlab

@@ -6,8 +6,7 @@
 #include "course/grading_bench.h"
 
 namespace dynlab::test {
-namespace {
-
+namespace test_lesson_checks {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
@@ -111,5 +110,5 @@ INSTANTIATE_TEST_SUITE_P(all, lesson_checks,
                                            "04_estimators", "05_thruster"),
                          [](const auto& lesson) { return lesson.param; });
 
-}  // namespace
+}  // namespace test_lesson_checks
 }  // namespace dynlab::test

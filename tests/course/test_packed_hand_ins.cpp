@@ -4,8 +4,7 @@
 #include "course/course_bench.h"
 
 namespace dynlab::test {
-namespace {
-
+namespace test_packed_hand_ins {
 using ::testing::AllOf;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
@@ -175,5 +174,5 @@ TEST(packed_hand_ins, takes_folders_as_students_keep_them) {
                                           Not(HasSubstr("filesystem")), Not(HasSubstr("data"))));
 }
 
-}  // namespace
+}  // namespace test_packed_hand_ins
 }  // namespace dynlab::test

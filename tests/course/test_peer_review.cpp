@@ -5,8 +5,7 @@
 #include "course/store/review_marks.h"
 
 namespace dynlab::test {
-namespace {
-
+namespace test_peer_review {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -209,5 +208,5 @@ TEST(peer_review, keeps_two_writers_apart) {
     EXPECT_THAT(blocked.error_output, HasSubstr("another dynlab is writing to this course; nothing was changed"));
 }
 
-}  // namespace
+}  // namespace test_peer_review
 }  // namespace dynlab::test

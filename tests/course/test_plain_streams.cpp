@@ -9,7 +9,7 @@
 #include "leak_corpus.h"
 
 namespace dynlab {
-namespace {
+namespace test_plain_streams {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -32,6 +32,21 @@ class plain_streams : public LeakCorpus {
         write("boxes.pdf", pdf);
         run({"pdftotext", "-bbox-layout", "boxes.pdf", "boxes.html"});
         return read(file("boxes.html"));
+    }
+    /// What poppler reads in a file that need not be sound.
+    std::string boxes_if_any(const std::string& pdf) {
+        std::filesystem::remove(file("boxes.html"));
+        write("boxes.pdf", pdf);
+        ChildOptions child;
+        child.command = {"pdftotext", "-bbox-layout", "boxes.pdf", "boxes.html"};
+        child.folder = folder_.path();
+        return std::to_string(run_child(child, "pdftotext").exit_code) + read(file("boxes.html"));
+    }
+    /// A PDF of one page whose content is the stream.
+    static std::string page_of(const std::string& dictionary, const std::string& data) {
+        return pdf_of({"<</Type/Catalog/Pages 2 0 R>>", "<</Type/Pages/Kids[3 0 R]/Count 1>>",
+                       "<</Type/Page/Parent 2 0 R/MediaBox[0 0 9 9]/Contents 4 0 R>>",
+                       "<<" + dictionary + ">>\nstream\n" + data + "\nendstream"});
     }
     void expect_plain_and_equal(const std::string& pdf) {
         const std::string plain = with_plain_streams(pdf);
@@ -63,20 +78,6 @@ TEST_F(plain_streams, unusual_files_stay_as_they_are) {
         EXPECT_EQ(with_plain_streams(unusual), unusual);
 }
 
-/// A PDF of one page whose content is `stream`, without a right table of offsets but for that stream.
-std::string page_of(const std::string& dictionary, const std::string& data) {
-    std::string pdf = "%PDF-1.4\n", table = "xref\n0 5\n0000000000 65535 f \n";
-    const std::vector<std::string> objects = {"<</Type/Catalog/Pages 2 0 R>>", "<</Type/Pages/Kids[3 0 R]/Count 1>>",
-                                              "<</Type/Page/Parent 2 0 R/MediaBox[0 0 9 9]/Contents 4 0 R>>",
-                                              "<<" + dictionary + ">>\nstream\n" + data + "\nendstream"};
-    for (std::size_t i = 0; i < objects.size(); ++i) {
-        const std::string offset = std::to_string(pdf.size());
-        table += std::string(10 - offset.size(), '0') + offset + " 00000 n \n";
-        pdf += std::to_string(i + 1) + " 0 obj\n" + objects[i] + "\nendobj\n";
-    }
-    return pdf + table + "trailer<</Size 5/Root 1 0 R>>\nstartxref\n" + std::to_string(pdf.size()) + "\n%%EOF\n";
-}
-
 // oracle: RFC 1950 for the eleven bytes, ISO 32000-1 7.3.8 for the dictionary
 TEST_F(plain_streams, streams_of_unusual_form_stay_compressed) {
     const std::string data("\x78\x9c\x4b\x4c\x4a\x06\x00\x02\x4d\x01\x27", 11);  // "abc"
@@ -97,20 +98,25 @@ TEST_F(plain_streams, streams_of_unusual_form_stay_compressed) {
     EXPECT_FALSE(inflates("/Length 4 0 R/Filter/FlateDecode", data));
 }
 
-// oracle: the promise that nothing is taken away, for three thousand damaged files
-TEST_F(plain_streams, damage_harms_nobody) {
+// Oracle: what poppler reads in three hundred of three thousand damaged files, with their streams written out or not.
+TEST_F(plain_streams, damage_is_read_as_it_was) {
     const std::string sound = by_qpdf(made(), {"--object-streams=disable"});
     const std::size_t table = sound.rfind("xref", sound.rfind("startxref") - 1);
     std::mt19937 random(5);
+    int compared = 0;
     for (int round = 0; round < 3000; ++round) {
         std::string pdf = sound;
         for (int i = 0; i < 3; ++i) {
             const std::size_t from = random() % 2 == 0 ? 0 : table;
             pdf[from + random() % (pdf.size() - from)] = "0123456789<>[]()/% Rn\xff"[random() % 22];
         }
-        EXPECT_TRUE(with_plain_streams(pdf).starts_with(pdf));
+        const std::string plain = with_plain_streams(pdf);
+        if (plain == pdf || round % 10 != 0) continue;
+        EXPECT_EQ(boxes_if_any(plain), boxes_if_any(pdf)) << round;
+        ++compared;
     }
+    EXPECT_GT(compared, 20);
 }
 
-}  // namespace
+}  // namespace test_plain_streams
 }  // namespace dynlab

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace dynlab {
-namespace {
+namespace test_plain_words {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -30,5 +30,5 @@ TEST(plain_words, broken_utf8_is_no_word_and_not_printed) {
     EXPECT_EQ(printable("\xE2\x82"), "??");
 }
 
-}  // namespace
+}  // namespace test_plain_words
 }  // namespace dynlab

@@ -6,8 +6,7 @@
 #include "documents/document_rules.h"
 
 namespace dynlab::test {
-namespace {
-
+namespace test_remark_traces {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
@@ -75,7 +74,7 @@ TEST(remark_traces, knows_forms_of_a_word) {
         EXPECT_TRUE(words_agree(a, b) && words_agree(b, a)) << a << " " << b;
     for (const auto& [a, b] : std::vector<std::pair<std::string, std::string>>{
              {"constant", "constraint"}, {"model", "mode"}, {"12", "120"}, {"position", "possible"}, {"", "s"}})
-        EXPECT_FALSE(words_agree(a, b) && a != "") << a << " " << b;
+        EXPECT_FALSE(words_agree(a, b) || words_agree(b, a)) << a << " " << b;
 }
 
 // oracle: a sentence that answers the remark came, and one that does not
@@ -164,5 +163,5 @@ TEST(remark_traces, bears_hostile_texts) {
     }
 }
 
-}  // namespace
+}  // namespace test_remark_traces
 }  // namespace dynlab::test

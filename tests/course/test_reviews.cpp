@@ -8,8 +8,7 @@
 #include "course/findings_report.h"
 
 namespace dynlab::test {
-namespace {
-
+namespace test_reviews {
 using ::testing::AllOf;
 using ::testing::ContainsRegex;
 using ::testing::ElementsAre;
@@ -151,5 +150,5 @@ TEST(reviews, check_looks_for_the_people_of_a_roster) {
     EXPECT_EQ(bench.dynlab({"check", "a.pdf", "--roster", "none.csv"}).exit_code, 2);
 }
 
-}  // namespace
+}  // namespace test_reviews
 }  // namespace dynlab::test

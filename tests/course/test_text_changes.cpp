@@ -9,8 +9,7 @@
 #include "course/final/value_changes.h"
 
 namespace dynlab::test {
-namespace {
-
+namespace test_text_changes {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using Words = std::vector<std::string>;
@@ -197,5 +196,5 @@ TEST(text_changes, compares_the_values_of_run_records) {
                     ::testing::Le(1u));
 }
 
-}  // namespace
+}  // namespace test_text_changes
 }  // namespace dynlab::test

@@ -3,8 +3,7 @@
 #include "course/grading_bench.h"
 
 namespace dynlab::test {
-namespace {
-
+namespace test_unfair_submissions {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -227,5 +226,5 @@ TEST(unfair_submissions, the_instructor_is_told_of_slips_and_of_scripts_without_
     EXPECT_NE(other.exit_code, 0);
 }
 
-}  // namespace
+}  // namespace test_unfair_submissions
 }  // namespace dynlab::test

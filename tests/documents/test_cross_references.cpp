@@ -3,7 +3,7 @@
 #include "document_fixture.h"
 
 namespace dynlab {
-namespace {
+namespace test_cross_references {
 
 using cross_references = DocumentTest;
 using testing::HasSubstr;
@@ -81,5 +81,5 @@ TEST_F(cross_references, what_is_no_reference_stays_as_it_was_written) {
     EXPECT_THAT(html("Write to me@example.org or @someone.\n"), HasSubstr("@someone."));
 }
 
-}  // namespace
+}  // namespace test_cross_references
 }  // namespace dynlab

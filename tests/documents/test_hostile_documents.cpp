@@ -8,7 +8,7 @@
 #include "documents/pdf_inspection.h"
 
 namespace dynlab {
-namespace {
+namespace test_hostile_documents {
 
 using hostile_documents = DocumentTest;
 using testing::HasSubstr;
@@ -170,6 +170,29 @@ TEST_F(hostile_documents, raw_output_html_and_metadata_are_refused) {
     EXPECT_THAT(refusal("[a](file:///etc/passwd)\n"), HasSubstr("file:///etc/passwd"));
 }
 
+// Oracle: HTML's attributes of events, which run scripts, and which no Markdown needs.
+TEST_F(hostile_documents, attributes_are_refused_wherever_markdown_knows_them) {
+    const std::pair<const char*, const char*> elements[] = {
+        {"[x](https://example.org){onfocus=\"f()\"}", "a link"},
+        {"<https://example.org>{onfocus=\"f()\"}", "a link"},
+        {"`c`{.lua onfocus=\"f()\"}", "code"},
+        {"`v`{.value onfocus=\"f()\"}", "code"},
+        {"``` {.lua onfocus=\"f()\"}\nx\n```", "a code block"},
+        {"[x]{onfocus=\"f()\"}", "a span"},
+        {"![p](p.svg){onfocus=\"f()\"}", "a picture"},
+        {"# H {onfocus=\"f()\"}", "a heading"},
+        {"::: {.note onfocus=\"f()\"}\nx\n:::", "a block of class note"}};
+    write("p.svg", small_svg());
+    record_.values["v"] = {1.0, "1"};
+    for (const auto& [text, element] : elements)
+        for (const char* output : {"out.html", "out.pdf", "out.md"})
+            EXPECT_THAT(refusal("A\n\n" + std::string(text) + "\n", output),
+                        HasSubstr(std::string("report.md:3: the attribute \"onfocus\" is not possible on ") + element))
+                << text << " " << output;
+    record_.texts["end"] = {"[x](https://example.org){onfocus=\"f()\"}"};
+    EXPECT_THAT(refusal("::: {.text name=end}\n:::\n"), HasSubstr("\"onfocus\" is not possible on a link"));
+}
+
 TEST_F(hostile_documents, metadata_in_the_middle_of_the_text_is_text) {
     const std::string text = html("A\n\n---\ntitle: SECRETTITLE\nheader-includes: x\n---\n\nB\n");
     EXPECT_THAT(text, Not(HasSubstr("<title>SECRETTITLE")));
@@ -208,5 +231,5 @@ TEST_F(hostile_documents, pictures_stay_inside_the_folder) {
     EXPECT_THAT(html("![a](inside/picture.svg)\n"), HasSubstr("data:image/svg+xml"));
 }
 
-}  // namespace
+}  // namespace test_hostile_documents
 }  // namespace dynlab

@@ -3,7 +3,7 @@
 #include "document_fixture.h"
 
 namespace dynlab {
-namespace {
+namespace test_html_documents {
 
 using html_documents = DocumentTest;
 using testing::HasSubstr;
@@ -22,6 +22,20 @@ TEST_F(html_documents, the_file_needs_nothing_but_itself) {
         EXPECT_THAT(text, Not(HasSubstr(outside)));
     EXPECT_THAT(text, Not(HasSubstr("dynlab-picture")));
     EXPECT_THAT(text, Not(HasSubstr(folder_.path().string())));
+}
+
+// Oracle: Content Security Policy Level 3; a browser asked so runs no script and asks no server.
+TEST_F(html_documents, browsers_are_told_to_run_and_load_nothing) {
+    const std::string text = html("[a](https://example.org){.wide} <https://example.org>\n");
+    const std::string policy =
+        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src "
+        "'unsafe-inline'; base-uri 'none'; form-action 'none'\">";
+    ASSERT_THAT(text, HasSubstr(policy));
+    const std::size_t head = text.find("<head>");
+    EXPECT_EQ(text.find(policy), text.find("<meta", text.find("<meta", head) + 1))
+        << "only the encoding stands before it";
+    EXPECT_THAT(text, HasSubstr("<a href=\"https://example.org\">a</a>"));
+    EXPECT_THAT(text, HasSubstr("<a href=\"https://example.org\">https://example.org</a>"));
 }
 
 TEST_F(html_documents, pictures_are_inlined_byte_for_byte) {
@@ -85,5 +99,5 @@ TEST_F(html_documents, the_students_template_renders_without_its_guidance) {
     EXPECT_THAT(text, Not(HasSubstr("three-line")));
 }
 
-}  // namespace
+}  // namespace test_html_documents
 }  // namespace dynlab

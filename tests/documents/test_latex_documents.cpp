@@ -11,7 +11,7 @@
 #include "platform/program_lookup.h"
 
 namespace dynlab {
-namespace {
+namespace test_latex_documents {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -304,5 +304,5 @@ TEST_F(latex_documents, damaged_and_missing_pdfs_are_refused_when_inspected) {
     EXPECT_THROW(inspect_pdf(file("none.pdf")), EnvironmentError);
 }
 
-}  // namespace
+}  // namespace test_latex_documents
 }  // namespace dynlab

@@ -6,7 +6,7 @@
 #include "platform/child_process.h"
 
 namespace dynlab {
-namespace {
+namespace test_slides {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -100,5 +100,5 @@ TEST_F(slides, of_a_script_that_stopped_begin_with_the_error) {
     EXPECT_THAT(content.pages[1], HasSubstr("[fit]"));
 }
 
-}  // namespace
+}  // namespace test_slides
 }  // namespace dynlab

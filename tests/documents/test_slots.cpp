@@ -4,7 +4,7 @@
 #include "documents/pdf_inspection.h"
 
 namespace dynlab {
-namespace {
+namespace test_slots {
 
 using slots = DocumentTest;
 using testing::HasSubstr;
@@ -130,5 +130,5 @@ TEST_F(slots, boxes_hold_figures_and_tables) {
     }
 }
 
-}  // namespace
+}  // namespace test_slots
 }  // namespace dynlab

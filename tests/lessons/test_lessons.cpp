@@ -19,8 +19,7 @@
 #include "workflow/lesson_catalogue.h"
 
 namespace dynlab::test {
-namespace {
-
+namespace test_lessons {
 using testing::HasSubstr;
 using testing::Not;
 
@@ -341,5 +340,5 @@ TEST(lesson_05_copy, makes_slides_with_the_points_and_no_guidance) {
     EXPECT_EQ(std::count(text.begin(), text.end(), '\f'), 9) << "the title and eight points";
 }
 
-}  // namespace
+}  // namespace test_lessons
 }  // namespace dynlab::test

@@ -5,8 +5,7 @@
 #include "support/program.h"
 
 namespace dynlab::test {
-namespace {
-
+namespace test_answers {
 using ::testing::HasSubstr;
 
 constexpr const char* kHeader = "-- ---\n-- title: A\n-- answers:\n--   gain: number\n--   G: model\n-- ---\n";
@@ -53,5 +52,5 @@ TEST(answers, of_an_unknown_kind_are_refused_in_the_header) {
                 HasSubstr("unknown kind \"numbre\"; known are number, text"));
 }
 
-}  // namespace
+}  // namespace test_answers
 }  // namespace dynlab::test

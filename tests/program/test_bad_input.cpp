@@ -6,8 +6,7 @@
 #include "support/program.h"
 
 namespace dynlab::test {
-namespace {
-
+namespace test_bad_input {
 using testing::ContainsRegex;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -221,5 +220,5 @@ TEST(bad_input, group_file_errors_are_told) {
     expect_failure(bench.dynlab({"report", "mine"}), 1, "group.toml:2");
 }
 
-}  // namespace
+}  // namespace test_bad_input
 }  // namespace dynlab::test

@@ -10,8 +10,7 @@
 #include "support/terminal.h"
 
 namespace dynlab::test {
-namespace {
-
+namespace test_demo {
 namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
@@ -162,5 +161,5 @@ TEST(demo, control_d_and_control_c_leave_the_menu) {
     EXPECT_EQ(interrupted.wait_for_end(), 130);
 }
 
-}  // namespace
+}  // namespace test_demo
 }  // namespace dynlab::test

@@ -7,8 +7,7 @@
 #include "support/terminal.h"
 
 namespace dynlab::test {
-namespace {
-
+namespace test_identify {
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -171,5 +170,5 @@ TEST_F(identify, wrong_options_are_wrong_usage) {
                 HasSubstr(".pdf"));
 }
 
-}  // namespace
+}  // namespace test_identify
 }  // namespace dynlab::test

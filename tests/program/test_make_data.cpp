@@ -7,8 +7,7 @@
 #include "support/program.h"
 
 namespace dynlab::test {
-namespace {
-
+namespace test_make_data {
 namespace fs = std::filesystem;
 
 std::vector<std::string> made_sets() {
@@ -45,5 +44,5 @@ TEST(make_data, writes_tables_as_structs_that_load_gives_back) {
     EXPECT_NE(result.output.find("to 16 levels only"), std::string::npos) << result.output;
 }
 
-}  // namespace
+}  // namespace test_make_data
 }  // namespace dynlab::test

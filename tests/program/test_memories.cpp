@@ -7,8 +7,7 @@
 #include "support/terminal.h"
 
 namespace dynlab::test {
-namespace {
-
+namespace test_memories {
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
@@ -49,8 +48,6 @@ std::string calls(int computed, int recalled) {
 std::string figures(int drawn, int recalled) {
     return " " + std::to_string(drawn) + "  figures drawn, " + std::to_string(recalled) + " recalled\n";
 }
-
-}  // namespace
 
 TEST_F(memories, a_changed_late_cell_computes_and_draws_nothing_else) {
     EXPECT_THAT(weave(kStudy + kSearch + kLate), AllOf(HasSubstr(calls(3, 0)), HasSubstr(figures(3, 0))));
@@ -150,4 +147,5 @@ TEST_F(memories, a_loop_of_the_script_shows_its_cell_too) {
     EXPECT_EQ(terminal.wait_for_end(), 130);
 }
 
+}  // namespace test_memories
 }  // namespace dynlab::test

@@ -6,8 +6,7 @@
 #include "support/program.h"
 
 namespace dynlab::test {
-namespace {
-
+namespace test_program {
 using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
@@ -175,5 +174,5 @@ TEST(program, every_command_has_help_and_doctor_is_content) {
     EXPECT_EQ(bench.dynlab({"help", "no_such_thing"}).exit_code, 1);
 }
 
-}  // namespace
+}  // namespace test_program
 }  // namespace dynlab::test

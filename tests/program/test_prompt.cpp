@@ -9,8 +9,7 @@
 #include "support/terminal.h"
 
 namespace dynlab::test {
-namespace {
-
+namespace test_prompt {
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -209,5 +208,5 @@ TEST(prompt, gives_the_terminal_back_when_a_signal_ends_it) {
     EXPECT_TRUE(terminal.modes_are_as_before());
 }
 
-}  // namespace
+}  // namespace test_prompt
 }  // namespace dynlab::test

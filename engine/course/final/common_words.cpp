@@ -4,7 +4,7 @@
 namespace dynlab {
 namespace {
 
-constexpr std::string_view kWords =
+constexpr std::string_view kCommonWords =
     // English
     "able about above according across actually after again against agree agreed agrees almost along already also "
     "although always among amount another answer answered answers anyone anything appear appears around aspect aspects "
@@ -53,7 +53,7 @@ constexpr std::string_view kWords =
 }  // namespace
 
 bool is_common_word(const std::string& folded) {
-    static const std::unordered_set<std::string_view> words = word_set(kWords);
+    static const std::unordered_set<std::string_view> words = word_set(kCommonWords);
     return words.contains(folded);
 }
 

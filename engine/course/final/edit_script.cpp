@@ -12,7 +12,7 @@ namespace dynlab {
 namespace {
 
 constexpr std::size_t kFewLines = 5000;  ///< of so many the shortest script is looked for
-constexpr auto kTime = std::chrono::seconds(30);
+constexpr auto kDiffTime = std::chrono::seconds(30);
 
 bool is_letter(char c) {
     const auto byte = static_cast<unsigned char>(c);
@@ -63,7 +63,7 @@ std::string edit_script(const std::vector<std::string>& before, const std::vecto
     options.command.insert(options.command.end(), {"before", "after"});
     options.folder = folder.path();
     options.environment = {{"LC_ALL", "C"}};
-    options.timeout = kTime;
+    options.timeout = kDiffTime;
     const ChildResult result = run_child(options, "diffutils");
     if (result.timed_out || result.exit_code > 1)
         throw EnvironmentError("diff cannot compare the texts: " +

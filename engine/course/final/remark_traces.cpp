@@ -82,7 +82,8 @@ bool words_agree(const std::string& a, const std::string& b) {
     if (is_number(a) || is_number(b)) return false;
     const std::size_t shorter = std::min(a.size(), b.size()), longer = std::max(a.size(), b.size());
     const std::string_view plural = a.size() > b.size() ? a : b;
-    if (longer == shorter + 1 && plural.back() == 's' && plural.starts_with(a.size() > b.size() ? b : a)) return true;
+    if (shorter > 0 && longer == shorter + 1 && plural.back() == 's' && plural.starts_with(a.size() > b.size() ? b : a))
+        return true;
     const std::size_t common =
         static_cast<std::size_t>(std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first - a.begin());
     return common >= 5 && 5 * common >= 3 * longer;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kMostSentences = 20'000;
 
-bool is_digit(char c) {
+bool is_decimal_digit(char c) {
     return std::isdigit(static_cast<unsigned char>(c));
 }
 
@@ -34,7 +34,7 @@ std::string without_space_before(std::string_view text) {
 /// "2.1" of "2.1 Raw data"; empty where the title begins with no number.
 std::string number_before_title(const std::string& line) {
     std::size_t end = 0;
-    while (end < line.size() && (is_digit(line[end]) || (end > 0 && line[end] == '.'))) ++end;
+    while (end < line.size() && (is_decimal_digit(line[end]) || (end > 0 && line[end] == '.'))) ++end;
     while (end > 0 && line[end - 1] == '.') --end;
     const std::string rest = without_space_before(std::string_view(line).substr(end));
     const bool parted = rest.size() < line.size() - end;
@@ -178,7 +178,7 @@ class MarkdownReader {
     static std::size_t item_mark(const std::string& line) {
         if (line.starts_with("- ") || line.starts_with("* ") || line.starts_with("+ ")) return 1;
         std::size_t end = 0;
-        while (end < line.size() && is_digit(line[end])) ++end;
+        while (end < line.size() && is_decimal_digit(line[end])) ++end;
         const bool number = end > 0 && end + 1 < line.size() && (line[end] == '.' || line[end] == ')');
         return number && line[end + 1] == ' ' ? end + 1 : 0;
     }
@@ -215,7 +215,7 @@ bool is_scrap(const std::string& text) {
     if (text.find('=') != std::string::npos) return false;
     const std::vector<std::string> words = plain_words(text);
     const auto real = std::count_if(words.begin(), words.end(), [](const std::string& word) {
-        return word.size() >= 3 && std::none_of(word.begin(), word.end(), is_digit);
+        return word.size() >= 3 && std::none_of(word.begin(), word.end(), is_decimal_digit);
     });
     return 4 * real < static_cast<long>(words_between_spaces(text).size());
 }
@@ -232,7 +232,7 @@ bool is_abbreviation(const std::string& word) {
 
 /// "K." in a name; "V." behind a number is a unit.
 bool is_initial(const std::string& word, const std::string& before) {
-    const bool unit = !before.empty() && (is_digit(before.back()) || before.back() == '$');
+    const bool unit = !before.empty() && (is_decimal_digit(before.back()) || before.back() == '$');
     return word.size() == 2 && std::isupper(static_cast<unsigned char>(word.front())) && !unit;
 }
 
@@ -251,10 +251,10 @@ int formula_signs(const std::string& text) {
 bool is_caption_label(const std::string& sentence) {
     const std::vector<std::string> words = plain_words(sentence);
     return words.size() == 2 && (words[0] == "figure" || words[0] == "table" || words[0] == "tableau") &&
-           is_digit(words[1].front());
+           is_decimal_digit(words[1].front());
 }
 
-bool ends_sentence(std::string word) {
+bool word_ends_sentence(std::string word) {
     while (!word.empty() && (word.back() == ')' || word.back() == '"' || word.back() == '\'')) word.pop_back();
     if (word.ends_with("”") || word.ends_with("’") || word.ends_with("»")) return true;
     if (word.empty() || (word.back() != '.' && word.back() != '!' && word.back() != '?')) return false;
@@ -263,7 +263,7 @@ bool ends_sentence(std::string word) {
 
 /// "1." at the beginning of an item.
 bool is_list_number(const std::string& word) {
-    return word.size() <= 3 && std::all_of(word.begin(), word.end() - 1, is_digit);
+    return word.size() <= 3 && std::all_of(word.begin(), word.end() - 1, is_decimal_digit);
 }
 
 bool may_begin_sentence(const std::string& word) {
@@ -304,7 +304,7 @@ std::vector<std::string> sentences_of(const std::string& paragraph) {
         dollars += formula_signs(words[i]);
         const bool number = sentence == words[i] && is_list_number(words[i]);
         const bool open = dollars % 2 != 0 && dollars < all_dollars;
-        const bool ends = !open && !number && i + 1 < words.size() && ends_sentence(words[i]) &&
+        const bool ends = !open && !number && i + 1 < words.size() && word_ends_sentence(words[i]) &&
                           !is_initial(words[i], i > 0 ? words[i - 1] : "") && !is_caption_label(sentence);
         if (ends && may_begin_sentence(words[i + 1])) {
             sentences.push_back(std::move(sentence));

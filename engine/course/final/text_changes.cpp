@@ -15,7 +15,7 @@ constexpr std::size_t kShortestKept = 2;   ///< words: fewer between two changes
 
 using Words = std::vector<std::string>;
 
-std::string joined(const Words& words) {
+std::string sentence_of(const Words& words) {
     std::string text;
     for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
     return text;
@@ -61,8 +61,8 @@ std::vector<MarkedWords> readable(const std::vector<Run>& runs) {
     std::vector<MarkedWords> pieces;
     Words removed, added;
     const auto flush = [&] {
-        if (!removed.empty()) pieces.push_back({'-', joined(removed)});
-        if (!added.empty()) pieces.push_back({'+', joined(added)});
+        if (!removed.empty()) pieces.push_back({'-', sentence_of(removed)});
+        if (!added.empty()) pieces.push_back({'+', sentence_of(added)});
         removed.clear(), added.clear();
     };
     for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -70,7 +70,7 @@ std::vector<MarkedWords> readable(const std::vector<Run>& runs) {
         const bool lone = run.mark == '=' && run.words.size() < kShortestKept && i > 0 && i + 1 < runs.size();
         if (run.mark == '=' && !lone) {
             flush();
-            pieces.push_back({'=', joined(run.words)});
+            pieces.push_back({'=', sentence_of(run.words)});
             continue;
         }
         if (run.mark != '+') removed.insert(removed.end(), run.words.begin(), run.words.end());
@@ -157,7 +157,7 @@ class Comparison {
         const Words old_words = words_of(before_, b, b_), new_words = words_of(after_, a, a_);
         std::vector<Run> runs;
         if (!old_words.empty() && !new_words.empty()) {
-            runs = runs_of(edit_script(words_between_spaces(numbers_.renumbered(joined(old_words))), new_words),
+            runs = runs_of(edit_script(words_between_spaces(numbers_.renumbered(sentence_of(old_words))), new_words),
                            old_words, new_words);
             const auto shorter = static_cast<double>(std::min(old_words.size(), new_words.size()));
             if (static_cast<double>(kept_words(runs)) < kEdited * shorter) runs.clear();

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr auto kTime = std::chrono::seconds(120);
+constexpr auto kReadingTime = std::chrono::seconds(120);
 constexpr std::uintmax_t kMostText = 4u << 20;
 
 std::string first_line(const std::string& text) {
@@ -78,7 +78,7 @@ class VersionReader {
         json job = {{"work", "version"}, {"pdf", !files_.pdf}};
         job["folder"] = box.add_writable(folder, "/box/submission").string();
         job["to"] = box.add_writable(made, "/box/made").string();
-        const BoxedResult result = run_boxed(box, program_, job, kTime);
+        const BoxedResult result = run_boxed(box, program_, job, kReadingTime);
         std::string reason = result.reason;
         if (result.output && result.output->contains("error") && result.output->at("error").is_string())
             reason = replaced(first_line(result.output->at("error")), job.at("folder").get<std::string>() + "/", "");

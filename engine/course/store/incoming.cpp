@@ -11,12 +11,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_folder(const fs::path& path) {
+bool is_folder_itself(const fs::path& path) {
     return fs::symlink_status(path).type() == fs::file_type::directory;
 }
 
 /// Entries that a person put there, sorted; not what macOS or the platform adds.
-std::vector<fs::path> entries_of(const fs::path& folder) {
+std::vector<fs::path> entries_of_a_person(const fs::path& folder) {
     std::vector<fs::path> entries;
     for (const auto& entry : fs::directory_iterator(folder)) {
         const std::string name = entry.path().filename();
@@ -55,9 +55,8 @@ void Incoming::add(const fs::path& given) {
     }
     const fs::path to = scratch_.path() / std::to_string(++unpacked_);
     fs::create_directories(to);
-    for (const std::string& outside : unpack_export(given, to, way_.level, way_.program))
-        left_out_.push_back(
-            fmt::format("{}: \"{}\" is a link or leads outside of the archive; it was left out", source, outside));
+    for (const std::string& clause : unpack_export(given, to, way_.level, way_.program))
+        left_out_.push_back(fmt::format("{}: {}; it was left out", source, clause));
     add_batch(to, source);
 }
 
@@ -78,8 +77,8 @@ void Incoming::add_found(const fs::path& file, const std::string& source) {
 
 void Incoming::add_batch(const fs::path& folder, const std::string& source) {
     batch_ = true;
-    const std::vector<fs::path> entries = entries_of(folder);
-    const bool wrapped = entries.size() == 1 && is_folder(entries.front()) &&
+    const std::vector<fs::path> entries = entries_of_a_person(folder);
+    const bool wrapped = entries.size() == 1 && is_folder_itself(entries.front()) &&
                          !way_.knows(sender_of(entries.front().filename())) &&
                          sender_of(entries.front().filename()).lms_id.empty();
     if (wrapped) {
@@ -88,7 +87,7 @@ void Incoming::add_batch(const fs::path& folder, const std::string& source) {
     }
     for (const fs::path& entry : entries) {
         const std::string name = entry.filename(), place = source + "/" + name;
-        if (is_folder(entry)) {
+        if (is_folder_itself(entry)) {
             Submission sender;
             sender.name = name;
             read_lms_name(sender);
@@ -101,10 +100,10 @@ void Incoming::add_batch(const fs::path& folder, const std::string& source) {
 
 void Incoming::add_folder_of(const Submission& sender, const fs::path& folder, const std::string& source,
                              const std::string& own) {
-    for (const fs::path& entry : entries_of(folder)) {
+    for (const fs::path& entry : entries_of_a_person(folder)) {
         const std::string place = source + "/" + entry.filename().string();
         if (entry.filename() == "data") continue;  // the course's records, or a link to them
-        if (is_folder(entry)) {
+        if (is_folder_itself(entry)) {
             add_folder_of(sender, entry, place, own);
             continue;
         }

@@ -13,7 +13,7 @@
 #include "platform/temporary_folder.h"
 
 namespace dynlab {
-namespace {
+namespace test_csv_file {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -190,5 +190,5 @@ TEST_F(csv_file, reads_a_million_rows) {
     EXPECT_EQ(table.columns[2][999999], -0.0999999);
 }
 
-}  // namespace
+}  // namespace test_csv_file
 }  // namespace dynlab

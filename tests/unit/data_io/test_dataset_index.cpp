@@ -13,7 +13,7 @@
 #include "sample_variables.h"
 
 namespace dynlab {
-namespace {
+namespace test_dataset_index {
 
 namespace fs = std::filesystem;
 using testing::ElementsAre;
@@ -47,10 +47,10 @@ class dataset_index : public testing::Test {
         variables["y"] = {marker};
         write_mat_file(file, variables);
     }
-    LoadedData load(const std::string& name) { return load_data(name, scripts_.path()); }
-    std::string complaint(const std::string& name) {
+    LoadedData load(const std::string& name, bool graded = false) { return load_data(name, scripts_.path(), graded); }
+    std::string complaint(const std::string& name, bool graded = false) {
         try {
-            load(name);
+            load(name, graded);
         } catch (const EnvironmentError& error) {
             return error.what();
         }
@@ -158,6 +158,62 @@ TEST_F(dataset_index, says_how_to_get_a_record_of_a_package) {
     EXPECT_EQ(missing_package("kiln"), std::nullopt);
 }
 
+// oracle: a file elsewhere, which must not be read
+TEST_F(dataset_index, course_files_lie_in_the_data_sets_own_folder) {
+    write_mat(project_.path() / "elsewhere.mat", 9);
+    const fs::path data = scripts_.path() / "data";
+    fs::create_directories(data / "mine/deeper");
+    write_mat(data / "mine/deeper/elsewhere.mat", 9);
+    for (const std::string& path :
+         {(project_.path() / "elsewhere.mat").string(),
+          "../../../" + project_.path().filename().string() + "/elsewhere.mat", std::string("deeper/elsewhere.mat")}) {
+        write_file_atomically(data / "mine/SOURCE.md", "Mine.\nCourse file: " + path + "\n");
+        for (const char* name : {"mine", "elsewhere.mat", "elsewhere"})
+            EXPECT_EQ(complaint(name),
+                      (data / "mine/SOURCE.md").string() +
+                          ": after \"Course file:\" stand names of files in that folder, but the path \"" + path +
+                          "\" was given");
+    }
+    write_file_atomically(data / "mine/SOURCE.md", "Mine.\nCourse file: elsewhere.mat\n");
+    write_mat(data / "mine/elsewhere.mat", 8);
+    EXPECT_EQ(std::get<double>(load("mine").variables.at("y").value), 8);
+}
+
+// oracle: definition; whether a file is there must not be found out by naming it as a package's
+TEST_F(dataset_index, packages_are_named_by_the_installation_only) {
+    const auto source = [](const fs::path& file) {
+        return "A kiln\n\nPackage: no-kilns-here " + file.string() + " 10 samples 0.5 s\n";
+    };
+    const fs::path mine = scripts_.path() / "data/kiln", there = project_.path() / "there.gz";
+    write_file_atomically(there, "title\nsettings\n1\n2\n");
+    fs::create_directories(mine);
+    for (const fs::path& file : {there, project_.path() / "not_there.gz"}) {
+        write_file_atomically(mine / "SOURCE.md", source(file));
+        EXPECT_THAT(complaint("kiln"), HasSubstr("there is no data set \"kiln\""));
+    }
+    // A copy of an installed data set, as a lesson's bundle holds it, still stands for the installed one.
+    fs::create_directories(home_.path() / "data/kiln");
+    write_file_atomically(home_.path() / "data/kiln/SOURCE.md", source("/nowhere/kiln.gz"));
+    EXPECT_THAT(complaint("kiln"), HasSubstr("this record comes with the Debian package no-kilns-here"));
+}
+
+// oracle: the file that the links lead to, which can be read where nobody is graded
+TEST_F(dataset_index, links_lead_a_graded_script_nowhere) {
+    write_mat(project_.path() / "elsewhere.mat", 9);
+    fs::create_symlink(project_.path() / "elsewhere.mat", scripts_.path() / "link.mat");
+    fs::create_directory_symlink(project_.path(), scripts_.path() / "records");
+    fs::create_directories(scripts_.path() / "data/mine");
+    write_file_atomically(scripts_.path() / "data/mine/SOURCE.md", "Mine.\n");
+    fs::create_symlink(project_.path() / "elsewhere.mat", scripts_.path() / "data/mine/mine.mat");
+    for (const char* name : {"link", "link.mat", "records/elsewhere.mat", "mine", "mine.mat"}) {
+        EXPECT_EQ(std::get<double>(load(name).variables.at("y").value), 9) << name;
+        EXPECT_THAT(complaint(name, true), HasSubstr("leads outside the folder")) << name;
+    }
+    write_mat(scripts_.path() / "own.mat", 7);
+    fs::create_symlink("own.mat", scripts_.path() / "own_link.mat");
+    for (const char* name : {"own", "own_link.mat", "heat_exchanger"}) EXPECT_EQ(complaint(name, true), "no error");
+}
+
 TEST_F(dataset_index, refuses_damaged_records_of_packages) {
     const fs::path folder = home_.path() / "data/kiln", file = folder / "kiln.gz";
     fs::create_directories(folder);
@@ -227,5 +283,5 @@ TEST(winning_times, are_the_same_in_both_files) {
     EXPECT_TRUE(equal(mat.variables, csv.variables));
 }
 
-}  // namespace
+}  // namespace test_dataset_index
 }  // namespace dynlab

@@ -17,7 +17,7 @@
 #include "sample_variables.h"
 
 namespace dynlab {
-namespace {
+namespace test_mat_file {
 
 using testing::HasSubstr;
 
@@ -309,5 +309,5 @@ TEST_F(mat_file, guarded_reading_costs_a_few_milliseconds) {
     EXPECT_LT(taken.count() / 20, 0.05);
 }
 
-}  // namespace
+}  // namespace test_mat_file
 }  // namespace dynlab

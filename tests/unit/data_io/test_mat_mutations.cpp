@@ -12,7 +12,7 @@
 #include "sample_variables.h"
 
 namespace dynlab {
-namespace {
+namespace test_mat_mutations {
 
 // Oracle: the contract. Whatever the bytes, reading gives variables or an EnvironmentError, and this process lives on.
 void read_mutations(mat_ft version, matio_compression compression, const VariableTable& variables, int trials) {
@@ -63,5 +63,5 @@ TEST(mat_mutations, level_7_3) {
     read_mutations(MAT_FT_MAT73, MAT_COMPRESSION_NONE, sample_variables(), 300);
 }
 
-}  // namespace
+}  // namespace test_mat_mutations
 }  // namespace dynlab

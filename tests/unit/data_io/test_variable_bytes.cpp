@@ -8,7 +8,7 @@
 #include "sample_variables.h"
 
 namespace dynlab {
-namespace {
+namespace test_variable_bytes {
 
 // Oracle: the variables that went in.
 TEST(variable_bytes, carry_every_kind) {
@@ -41,5 +41,5 @@ TEST(variable_bytes, wrong_bytes_give_variables_or_an_error) {
     EXPECT_GT(refused, 1000);
 }
 
-}  // namespace
+}  // namespace test_variable_bytes
 }  // namespace dynlab

@@ -4,7 +4,7 @@
 #include "documents/characters.h"
 
 namespace dynlab {
-namespace {
+namespace test_characters {
 
 using testing::HasSubstr;
 
@@ -33,5 +33,5 @@ TEST(characters, broken_text_and_control_characters_are_named) {
     EXPECT_FALSE(PrintableCharacters::of_html().complaint("你好 😀"));
 }
 
-}  // namespace
+}  // namespace test_characters
 }  // namespace dynlab

@@ -10,7 +10,7 @@
 #include "platform/temporary_folder.h"
 
 namespace dynlab {
-namespace {
+namespace test_document_rules {
 
 using testing::HasSubstr;
 
@@ -66,5 +66,5 @@ TEST(document_rules, of_the_lab_report_are_its_headings_in_order) {
     }
 }
 
-}  // namespace
+}  // namespace test_document_rules
 }  // namespace dynlab

@@ -6,7 +6,7 @@
 #include "documents/solutions.h"
 
 namespace dynlab {
-namespace {
+namespace test_percent_script {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -141,5 +141,5 @@ TEST(percent_script, a_file_that_is_not_there_is_named) {
     }
 }
 
-}  // namespace
+}  // namespace test_percent_script
 }  // namespace dynlab

@@ -6,7 +6,7 @@
 #include "documents/run_record.h"
 
 namespace dynlab {
-namespace {
+namespace test_run_record {
 
 RunRecord sample() {
     RunRecord record;
@@ -58,5 +58,5 @@ TEST(run_record, numbers_read_back_exactly) {
     }
 }
 
-}  // namespace
+}  // namespace test_run_record
 }  // namespace dynlab

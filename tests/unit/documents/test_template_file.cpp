@@ -8,7 +8,7 @@
 #include "platform/temporary_folder.h"
 
 namespace dynlab {
-namespace {
+namespace test_template_file {
 
 using testing::HasSubstr;
 
@@ -67,5 +67,5 @@ TEST(template_file, cells_take_the_place_of_their_block) {
     EXPECT_THROW(with_cells(read("::: cells\n:::\n\n::: cells\n:::\n"), cells), DocumentError);
 }
 
-}  // namespace
+}  // namespace test_template_file
 }  // namespace dynlab

@@ -5,7 +5,7 @@
 #include "documents/weave.h"
 
 namespace dynlab {
-namespace {
+namespace test_weave {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -78,5 +78,5 @@ TEST(weave, a_recorded_error_stands_at_its_cell) {
               text.find("after"));
 }
 
-}  // namespace
+}  // namespace test_weave
 }  // namespace dynlab

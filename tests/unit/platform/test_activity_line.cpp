@@ -8,7 +8,7 @@
 #include "support/pseudo_terminal.h"
 
 namespace dynlab {
-namespace {
+namespace test_activity_line {
 
 using namespace std::chrono_literals;
 using testing::EndsWith;
@@ -61,5 +61,5 @@ TEST(activity_line, does_not_touch_text_whose_line_is_not_over) {
     EXPECT_THAT(shown, HasSubstr("over ..."));
 }
 
-}  // namespace
+}  // namespace test_activity_line
 }  // namespace dynlab

@@ -14,7 +14,7 @@
 #include "platform/temporary_folder.h"
 
 namespace dynlab {
-namespace {
+namespace test_atomic_file {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
@@ -178,5 +178,5 @@ TEST(atomic_file, reading_names_the_reason) {
               "cannot read " + folder.path().string() + ": is a directory");
 }
 
-}  // namespace
+}  // namespace test_atomic_file
 }  // namespace dynlab

@@ -8,8 +8,7 @@
 #include "platform/temporary_folder.h"
 
 namespace dynlab::test {
-namespace {
-
+namespace test_box {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -37,6 +36,16 @@ TEST_F(full_box, holds_nothing_but_what_was_put_in) {
     EXPECT_NE(shell(box_, "echo x > /usr/never").exit_code, 0);
     EXPECT_EQ(shell(box_, "ls -A /tmp; pwd").output, "/tmp\n");
     EXPECT_EQ(shell(box_, "env | grep -c HOME=").output, "1\n");
+}
+
+// oracle: what the kernel says of a process inside, and what it lets it do
+TEST_F(full_box, gives_nobody_the_rights_of_root) {
+    box_.add(folder_.path(), "/box/files");
+    EXPECT_EQ(shell(box_, "grep -E '^Cap(Prm|Eff|Bnd)' /proc/self/status | tr -d '0\\n\\t'").output,
+              "CapPrm:CapEff:CapBnd:");
+    EXPECT_NE(shell(box_, "mount -o remount,bind,rw /box/files && echo x > /box/files/b.txt").exit_code, 0);
+    EXPECT_NE(shell(box_, "mount -t tmpfs none /tmp").exit_code, 0);
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "b.txt"));
 }
 
 TEST_F(full_box, has_a_writable_place_of_limited_size) {
@@ -78,5 +87,5 @@ TEST(process_box, keeps_the_places_and_empties_the_environment) {
     EXPECT_EQ(obstacle_to(Isolation::kProcess), std::nullopt);
 }
 
-}  // namespace
+}  // namespace test_box
 }  // namespace dynlab::test

@@ -11,7 +11,7 @@
 #include "platform/temporary_folder.h"
 
 namespace dynlab {
-namespace {
+namespace test_cache {
 
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
@@ -140,5 +140,5 @@ TEST_F(cache, keys_are_plain_names) {
     for (const char* key : {"", "..", "a/b", ".hidden"}) EXPECT_THROW(store.find(key), std::invalid_argument) << key;
 }
 
-}  // namespace
+}  // namespace test_cache
 }  // namespace dynlab

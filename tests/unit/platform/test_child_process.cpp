@@ -15,7 +15,7 @@
 #include "platform/temporary_folder.h"
 
 namespace dynlab {
-namespace {
+namespace test_child_process {
 
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
@@ -206,5 +206,5 @@ TEST(child_process, dropped_without_waiting_is_killed) {
     EXPECT_TRUE(ends_soon(process.substr(0, process.size() - 1)));
 }
 
-}  // namespace
+}  // namespace test_child_process
 }  // namespace dynlab

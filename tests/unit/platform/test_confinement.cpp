@@ -1,7 +1,9 @@
 #include "platform/confinement.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,8 +14,7 @@
 #include "platform/guarded_call.h"
 
 namespace dynlab::test {
-namespace {
-
+namespace test_confinement {
 /// What `work` says in a confined copy of this process; -1 when it crashed.
 int confined(const std::function<int()>& work, const ProcessLimits& limits = {}) {
     const pid_t child = ::fork();
@@ -38,6 +39,39 @@ TEST(confinement, refuses_processes_network_and_signals) {
     EXPECT_EQ(confined([] { return refused(::kill(::getppid(), SIGTERM)); }), 0);
     EXPECT_EQ(confined([] { return refused(::chroot("/")); }), 0);
     EXPECT_EQ(confined([] { return refused(::symlink("/etc/passwd", "/tmp/never")); }), 0);
+}
+
+// oracle: the kernel's answers; without the filter each of these calls ends otherwise, at least for root
+TEST(confinement, refuses_mounts_rights_of_others_and_what_outlives_the_process) {
+    const std::pair<const char*, std::function<long()>> calls[] = {
+        {"fsopen", [] { return ::syscall(SYS_fsopen, "tmpfs", 0); }},
+        {"fsconfig", [] { return ::syscall(SYS_fsconfig, -1, 0, nullptr, nullptr, 0); }},
+        {"fsmount", [] { return ::syscall(SYS_fsmount, -1, 0, 0); }},
+        {"fspick", [] { return ::syscall(SYS_fspick, AT_FDCWD, "/", 0); }},
+        {"move_mount", [] { return ::syscall(SYS_move_mount, -1, "", -1, "", 0); }},
+        {"open_tree", [] { return ::syscall(SYS_open_tree, AT_FDCWD, "/", 0); }},
+        {"mount_setattr", [] { return ::syscall(SYS_mount_setattr, -1, "", 0, nullptr, 0); }},
+        {"chown", [] { return ::chown("/nowhere", 0, 0); }},
+        {"lchown", [] { return ::lchown("/nowhere", 0, 0); }},
+        {"fchown", [] { return ::fchown(-1, 0, 0); }},
+        {"fchownat", [] { return ::fchownat(AT_FDCWD, "/nowhere", 0, 0, 0); }},
+        {"setfsuid", [] { return ::syscall(SYS_setfsuid, -1); }},
+        {"setfsgid", [] { return ::syscall(SYS_setfsgid, -1); }},
+        {"setresgid", [] { return ::syscall(SYS_setresgid, -1, -1, -1); }},
+        {"setregid", [] { return ::syscall(SYS_setregid, -1, -1); }},
+        {"capset", [] { return ::syscall(SYS_capset, nullptr, nullptr); }},
+        {"kcmp", [] { return ::syscall(SYS_kcmp, ::getpid(), ::getpid(), 0, 0, 0); }},
+        {"shmget", [] { return ::syscall(SYS_shmget, 1, 0, 0); }},
+        {"semget", [] { return ::syscall(SYS_semget, 1, 0, 0); }},
+        {"msgget", [] { return ::syscall(SYS_msgget, 1, 0); }},
+        {"mq_open", [] { return ::syscall(SYS_mq_open, "nowhere", 0, 0, nullptr); }},
+        {"personality", [] { return ::syscall(SYS_personality, 0xffffffff); }},
+        {"ioprio_set", [] { return ::syscall(SYS_ioprio_set, 1, 0, 0); }},
+#ifdef SYS_modify_ldt
+        {"modify_ldt", [] { return ::syscall(SYS_modify_ldt, 0, nullptr, 0); }},
+#endif
+    };
+    for (const auto& [name, call] : calls) EXPECT_EQ(confined([&call = call] { return refused(call()); }), 0) << name;
 }
 
 TEST(confinement, leaves_threads_and_ordinary_work) {
@@ -81,5 +115,5 @@ TEST(confinement, guarded_work_is_done_in_place) {
               0);
 }
 
-}  // namespace
+}  // namespace test_confinement
 }  // namespace dynlab::test

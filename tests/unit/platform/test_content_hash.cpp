@@ -7,7 +7,7 @@
 #include "platform/temporary_folder.h"
 
 namespace dynlab {
-namespace {
+namespace test_content_hash {
 
 // Oracle: the examples NIST publishes with FIPS 180-4 (one block, two blocks, the empty message, a million a's).
 TEST(content_hash, gives_the_digests_published_with_the_standard) {
@@ -38,5 +38,5 @@ TEST(content_hash, of_a_file_is_that_of_its_bytes) {
     EXPECT_THROW(hash_of_file(folder.path()), EnvironmentError);
 }
 
-}  // namespace
+}  // namespace test_content_hash
 }  // namespace dynlab

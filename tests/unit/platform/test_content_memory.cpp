@@ -11,7 +11,7 @@
 #include "platform/temporary_folder.h"
 
 namespace dynlab {
-namespace {
+namespace test_content_memory {
 
 namespace fs = std::filesystem;
 
@@ -102,5 +102,5 @@ TEST_F(content_memory, is_bounded) {
     EXPECT_FALSE(memory.recall(memory.key({"0"})));
 }
 
-}  // namespace
+}  // namespace test_content_memory
 }  // namespace dynlab

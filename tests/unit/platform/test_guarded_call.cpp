@@ -12,7 +12,7 @@
 #include "platform/temporary_folder.h"
 
 namespace dynlab {
-namespace {
+namespace test_guarded_call {
 
 using namespace std::chrono_literals;
 using testing::HasSubstr;
@@ -71,5 +71,5 @@ TEST(guarded_call, prints_nowhere) {
     EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
 }
 
-}  // namespace
+}  // namespace test_guarded_call
 }  // namespace dynlab

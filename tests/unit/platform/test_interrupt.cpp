@@ -9,7 +9,7 @@
 #include "platform/error.h"
 
 namespace dynlab {
-namespace {
+namespace test_interrupt {
 
 TEST(interrupt, sets_the_flag_within_a_scope_only) {
     EXPECT_FALSE(interrupted());
@@ -77,5 +77,5 @@ TEST(interrupt, after_the_scope_the_program_ends_as_usual) {
     EXPECT_EQ(WTERMSIG(status), SIGINT);
 }
 
-}  // namespace
+}  // namespace test_interrupt
 }  // namespace dynlab

@@ -10,7 +10,7 @@
 #include "platform/temporary_folder.h"
 
 namespace dynlab {
-namespace {
+namespace test_program_lookup {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
@@ -79,5 +79,5 @@ TEST(program_lookup, every_needed_program_has_a_package_and_a_purpose) {
     }
 }
 
-}  // namespace
+}  // namespace test_program_lookup
 }  // namespace dynlab

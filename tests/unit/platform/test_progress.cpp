@@ -8,7 +8,7 @@
 #include "support/pseudo_terminal.h"
 
 namespace dynlab {
-namespace {
+namespace test_progress {
 
 using namespace std::chrono_literals;
 using testing::EndsWith;
@@ -42,5 +42,5 @@ TEST(progress, appears_on_a_terminal_and_clears_its_line) {
     EXPECT_THAT(shown, EndsWith("\r\033[K"));
 }
 
-}  // namespace
+}  // namespace test_progress
 }  // namespace dynlab

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace dynlab {
-namespace {
+namespace test_spelling {
 
 const std::vector<std::string> kNames = {"heat_exchanger", "suspension", "winning_times", "step", "bode"};
 
@@ -28,5 +28,5 @@ TEST(spelling, takes_the_nearest_of_several) {
     EXPECT_EQ(nearest_word("n4sidd", {"n4sid2x", "n4sid", "nsid"}), "n4sid");
 }
 
-}  // namespace
+}  // namespace test_spelling
 }  // namespace dynlab

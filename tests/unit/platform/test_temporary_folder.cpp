@@ -9,7 +9,7 @@
 #include "platform/error.h"
 
 namespace dynlab {
-namespace {
+namespace test_temporary_folder {
 
 namespace fs = std::filesystem;
 
@@ -42,5 +42,5 @@ TEST(temporary_folder, lies_below_tmpdir) {
     before ? setenv("TMPDIR", kept.c_str(), 1) : unsetenv("TMPDIR");
 }
 
-}  // namespace
+}  // namespace test_temporary_folder
 }  // namespace dynlab

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace dynlab {
-namespace {
+namespace test_terminal_text {
 
 // Oracle: what ECMA-48 and Unicode's bidirectional algorithm have terminals obey, by code point.
 TEST(terminal_text, shows_what_a_terminal_would_obey) {
@@ -19,5 +19,5 @@ TEST(terminal_text, keeps_all_else) {
     EXPECT_EQ(terminal_text(""), "");
 }
 
-}  // namespace
+}  // namespace test_terminal_text
 }  // namespace dynlab

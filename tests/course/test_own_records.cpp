@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <regex>
+
+#include "course/grading_bench.h"
+
+namespace dynlab::test {
+namespace test_own_records {
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+struct GroupsOfLesson {
+    std::string lesson;
+    std::vector<int> seeds;
+};
+
+class own_records : public ::testing::TestWithParam<GroupsOfLesson> {};
+
+/// The worked solution, whose repeated experiments take most of its time and lead to no answer, with two of them.
+std::string solution_of(const std::string& lesson) {
+    static const std::regex repetitions("\nlocal repetitions = \\d+\n");
+    const std::string script = read_file(fs::path(DYNLAB_SOURCE_DIR) / "lessons" / lesson / "lesson.lua");
+    EXPECT_TRUE(std::regex_search(script, repetitions));
+    return std::regex_replace(script, repetitions, "\nlocal repetitions = 2\n");
+}
+
+// oracle: the worked solution is right on whatever records it is given
+TEST_P(own_records, cost_the_worked_solution_no_points) {
+    const auto& [lesson, seeds] = GetParam();
+    const Workbench bench;
+    std::string roster = "id,group,seed\n";
+    for (const int seed : seeds) {
+        roster += fmt::format("{0},group-{0},{0}\n", seed);
+        bench.write(fmt::format("in/group-{}/analysis.lua", seed), solution_of(lesson));
+    }
+    bench.write("roster.csv", roster);
+    bench.write("secret", "chosen by a test");
+    const ChildResult graded =
+        bench.dynlab({"grade", "in", "--lesson", lesson, "--out", "out", "--roster", "roster.csv", "--secret", "secret",
+                      "--isolation", GradingBench::level(), "--no-pdf"});
+    ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
+    for (const int seed : seeds) {
+        const auto result = nlohmann::json::parse(bench.read(fmt::format("out/results/group-{}/results.json", seed)));
+        EXPECT_EQ(GradingBench::trouble(result), "") << "seed " << seed;
+        for (const auto& test : result.at("tests"))
+            EXPECT_EQ(test.value("score", -1.0), test.at("max_score"))
+                << "seed " << seed << ", " << test.at("name") << ": " << test.value("output", "");
+    }
+}
+
+// Cranes whose pendulums swing 6 % slower and 7 and 8 % faster than that of all, thrusters with 8 % more reverse thrust
+// and with a dead band that is a fifth narrower.
+INSTANTIATE_TEST_SUITE_P(all, own_records,
+                         ::testing::Values(GroupsOfLesson{"03_crane", {4, 7, 9}},
+                                           GroupsOfLesson{"05_thruster", {7, 9}}),
+                         [](const auto& groups) { return groups.param.lesson; });
+
+constexpr const char* kGainAnswer = "--   K: number\n";
+const std::string kComputesGain = "local d = load(\"suspension\")\nanswer('K', mean(d.y:range(300, #d.y)))\n";
+
+// oracle: rig_truth of the specimen that each script names
+TEST(own_records, truth_is_that_of_the_record_which_the_answers_came_from) {
+    const char* checks =
+        "local function gain(seed) return rig_truth('suspension', {specimen = seed}).gain end\n"
+        "local function says(words, ...)\n"
+        "  local ended, message = pcall(truth, ...)\n"
+        "  return not ended and tostring(message):find(words, 1, true) ~= nil\n"
+        "end\n"
+        "check{id = 'near', test = function(a) return near(a.K, truth(a, 'suspension').gain, {rel = 0.02}) end}\n"
+        "check{id = 'own', test = function(a) return truth(a, 'suspension').gain == gain(a.specimen) end}\n"
+        "check{id = 'again', rerun = 'seed', test = function(a, b)\n"
+        "  return truth(b, 'suspension').gain == gain(a.specimen) end}\n"
+        "check{id = 'other', rerun = 'suspension', test = function(a, b)\n"
+        "  return truth(a, 'suspension').gain == gain(a.specimen) and truth(b).gain ~= gain(a.specimen)\n"
+        "    and truth(b, 'suspension').gain == truth(b).gain and truth(b).gain == truth('suspension').gain end}\n"
+        "check{id = 'not_own', test = function(a)\n"
+        "  return truth(a, 'thruster').delay == rig_truth('thruster').delay end}\n"
+        "check{id = 'refusals', test = function(a)\n"
+        "  return says('name the data set', a) and says('answers', {}, 'suspension') and says('thrusters', a, "
+        "'thrusters') end}\n";
+    const auto script = [](int specimen) { return kComputesGain + fmt::format("answer('specimen', {})\n", specimen); };
+    GradingBench bench("--   K: number\n--   specimen: number\n", checks, script(0));
+    bench.hand_in("group-7", script(7));
+    bench.hand_in("group-8", script(7));
+    bench.hand_in("others", script(0));
+    bench.bench().write("roster.csv", "id,group,seed\n1,group-7,7\n2,group-8,8\n3,others,\n");
+    const ChildResult graded = bench.grade({"--roster", "roster.csv"});
+    ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
+    EXPECT_EQ(bench.result("group-7").at("score"), 6);
+    EXPECT_EQ(bench.result("group-8").at("score"), 3);
+    EXPECT_EQ(bench.result("others").at("score"), 6);
+}
+
+// oracle: the points that grade gives the same work, and the record that dynlab new wrote
+TEST(own_records, check_promises_the_points_that_grade_gives) {
+    const char* checks =
+        "local y = load('suspension').y\n"
+        "check{id = 'truth', test = function(a) return near(a.K, truth(a, 'suspension').gain, {rel = 0.02}) end}\n"
+        "check{id = 'record', test = function(a) return near(a.K, mean(y:range(300, #y)), {rel = 1e-9}) end}\n";
+    GradingBench bench(kGainAnswer, checks, kComputesGain);
+    const Workbench& work = bench.bench();
+    work.write("roster.csv", "id,group,seed\n1,group-7,7\n2,all,\n");
+    ASSERT_EQ(work.dynlab({"new", "99", "in/group-7", "--group-seed", "7"}).exit_code, 0);
+    ASSERT_EQ(work.dynlab({"new", "99", "in/all"}).exit_code, 0);
+    for (const char* name : {"group-7", "all"}) {
+        bench.hand_in(name, GradingBench::header(kGainAnswer) + kComputesGain);
+        work.write(std::string("in/") + name + "/report.md", "The gain was read off the record of the experiment.\n");
+        // The seed of the random numbers may be changed; the record does not change with it.
+        work.write(std::string("in/") + name + "/group.toml", "seed = 4\n");
+        EXPECT_THAT(work.dynlab({"check", std::string("in/") + name}).output,
+                    HasSubstr("checks of lesson 99_small: 2 of 2 points"));
+    }
+    ASSERT_EQ(bench.grade({"--roster", "roster.csv"}).exit_code, 0);
+    EXPECT_EQ(bench.result("group-7").at("score"), 2);
+    EXPECT_EQ(bench.result("all").at("score"), 2);
+    EXPECT_NE(work.read("in/group-7/data/suspension/SOURCE.md").find("\nSpecimen: 7\n"), std::string::npos);
+    const char* repeated =
+        "print(max(abs(rig('suspension', {specimen = 7, seed = 7}).y - load('suspension').y)) < 1e-5)";
+    EXPECT_EQ(work.shell(std::string("cd in/group-7 && $DYNLAB run -e \"") + repeated + "\"").output, "true\n");
+}
+
+}  // namespace test_own_records
+}  // namespace dynlab::test

@@ -1,0 +1,176 @@
+#include <gmock/gmock.h>
+
+#include "course/grading_bench.h"
+#include "course/grading_rules.h"
+
+namespace dynlab::test {
+namespace test_secret_records {
+namespace fs = std::filesystem;
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr const char* kDigits = "0123456789";
+constexpr const char* kOfficialMat = "/data/suspension/suspension.mat";
+
+/// Isolation levels that this machine can have.
+std::vector<std::string> levels() {
+    std::vector<std::string> all = {"process"};
+    if (!obstacle_to(Isolation::kFull)) all.push_back("full");
+    return all;
+}
+
+// oracle: numbers that stand in a file which the script must not read, and in the records of this and the other run
+TEST(secret_records, a_data_set_that_was_handed_in_names_no_files_of_others) {
+    for (const std::string& level : levels()) {
+        GradingBench bench("--   x: number\n",
+                           "check{id = 'x', rerun = 'suspension', test = function(a, b) return b.x == 42 end}\n",
+                           "local d = load('suspension')\nanswer('x', 42)\n");
+        const Workbench& work = bench.bench();
+        work.write("secret.csv", "y\n4711\n");
+        const std::pair<const char*, std::string> places[] = {
+            {"of_the_instructor", work.path("secret.csv").string()},
+            {"of_the_rerun", "/box/suspension" + std::string(kOfficialMat)},
+            {"of_this_run", "/box/home" + std::string(kOfficialMat)},
+            {"upwards", "../../../home" + std::string(kOfficialMat)},
+        };
+        for (const auto& [name, place] : places) {
+            bench.hand_in(name, "error('it was read: ' .. load('mine').y[1])\n");
+            work.write("in/" + std::string(name) + "/data/mine/SOURCE.md", "Mine.\nCourse file: " + place + "\n");
+        }
+        const ChildResult graded =
+            work.dynlab({"grade", "in", "--lesson", "99", "--out", "out", "--isolation", level, "--no-pdf"});
+        ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
+        for (const auto& [name, place] : places) {
+            const std::string trouble = GradingBench::trouble(bench.result(name));
+            EXPECT_THAT(trouble, Not(HasSubstr("it was read"))) << level;
+            EXPECT_THAT(trouble,
+                        HasSubstr("mine/SOURCE.md: after \"Course file:\" stand names of files in that folder, "
+                                  "but the path \"" +
+                                  place + "\" was given"))
+                << level;
+        }
+    }
+}
+
+// oracle: digits, of which a message that gives nothing away has none, and words that only the answers hold
+TEST(secret_records, messages_quote_neither_hidden_records_nor_answers_of_reruns) {
+    const std::string computes = "local d = load('suspension')\nlocal text = string.format('sample %.4f', d.y[9])\n";
+    const std::string solution = computes + "answer('t', {right = true})\n";
+    GradingBench bench(
+        "--   t: table\n",
+        "check{id = 'error', rerun = 'suspension', test = function(a, b)\n"
+        "  return b.t.right or near(dcgain(b.t.text), 1) end}\n"
+        "check{id = 'joined', rerun = 'suspension', test = function(a, b)\n"
+        "  if b.t.right then return true end return false, 'This is no model: ' .. b.t.text end}\n"
+        "check{id = 'returned', rerun = 'suspension', test = function(a, b) return b.t.right or b.t.judgement end}\n"
+        "check{id = 'hidden', test = function(a)\n"
+        "  return a.t.right or near(dcgain('sample ' .. hidden('suspension').y[9]), 1) end}\n"
+        "check{id = 'missing', rerun = 'suspension', test = function(a, b) return b.t.right or b.u end}\n",
+        solution);
+    bench.hand_in("quoting", computes + "answer('t', {text = text, judgement = {share = 0, message = text}})\n");
+    const ChildResult graded = bench.grade();
+    ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
+    const auto result = bench.result("quoting");
+    EXPECT_EQ(GradingBench::score(result), 0);
+    const auto& checks = result.at("extra_data").at("dynlab").at("checks");
+    ASSERT_EQ(checks.size(), 5u);
+    for (const auto& check : checks) {
+        const std::string message = check.at("message");
+        EXPECT_FALSE(message.empty()) << check;
+        EXPECT_EQ(message.find_first_of(kDigits), std::string::npos) << check;
+    }
+    EXPECT_EQ(checks[4].at("message"), "The answer \"u\" was not handed in.");
+    const Workbench& work = bench.bench();
+    EXPECT_EQ(work.shell("grep -rl 'sample' out/results out/summary.md out/gradebook.csv").output, "");
+    // The instructor reads what it was.
+    const std::string log = work.read("out/logs/quoting/log.txt");
+    for (const char* id : {"error", "hidden"})
+        EXPECT_THAT(log, HasSubstr("check " + std::string(id) +
+                                   ": dcgain: argument 1 (G) must be a model, but the text \"sample "));
+}
+
+// oracle: the rule that what is secret is known to be so
+TEST(secret_records, are_asked_for_inside_the_test_that_looks_at_them) {
+    for (const char* use : {"hidden('suspension')", "truth('suspension')"}) {
+        GradingBench bench("--   x: number\n",
+                           "local secret = " + std::string(use) + "\ncheck{id = 'x', test = function() end}\n", "");
+        bench.hand_in("a", "answer('x', 42)\n");
+        const ChildResult graded = bench.grade();
+        EXPECT_EQ(graded.exit_code, 1);
+        EXPECT_THAT(graded.error_output, HasSubstr("inside the test")) << use;
+    }
+}
+
+/// Graded by a program that tells what it finds in its box and leaves something behind.
+class boxes_of_runs : public ::testing::Test {
+  protected:
+    static constexpr const char* kProgram =
+        "#!/bin/sh\n"
+        "job=$(cat)\n"
+        "case $job in\n"
+        "*'\"submission\":null'*)\n"
+        "  echo '{\"checks\": [{\"id\": \"x\", \"about\": \"x\", \"hint\": \"\", \"points\": 1, \"visible\": true,\n"
+        "          \"rerun\": \"suspension\", \"document\": false}]}' ;;\n"
+        "*'\"work\":\"checks\"'*)\n"
+        "  echo 'sample 30.78' >&2\n"
+        "  exit 1 ;;\n"
+        "*)\n"
+        "  left=$(ls -A \"$TMPDIR\" | tr '\\n' ' ')\n"
+        "  records=$(find /box -name 'suspension.*' | sort | while read -r file; do\n"
+        "    echo \"$file $(cksum < \"$file\")\"; done | tr '\\n' ';')\n"
+        "  touch \"$TMPDIR/was_here\"\n"
+        "  echo \"{\\\"error\\\": \\\"records: $records left: $left.\\\"}\" ;;\n"
+        "esac\n";
+
+    Grade graded(Isolation level) {
+        const Workbench& work = bench_.bench();
+        work.write("program", kProgram);
+        work.shell("chmod +x program");
+        bench_.hand_in("a", "answer('x', 42)\n");
+        GradingSetup setup;
+        setup.lesson = {"99_small", work.path("home/lessons/99_small")};
+        setup.secret = "chosen by a test";
+        setup.isolation = level;
+        setup.program = work.path("program");
+        return GradingRules(setup).grade("a", work.path("in/a"));
+    }
+    std::string sum_of(const std::string& name) {
+        const std::string file = std::string(DYNLAB_SOURCE_DIR) + "/data/suspension/" + name;
+        const std::string sum = bench_.bench().shell("cksum < '" + file + "'").output;
+        return "/box/home/data/suspension/" + name + " " + sum.substr(0, sum.find('\n')) + ";";
+    }
+
+    GradingBench bench_{"--   x: number\n", "", ""};
+};
+
+// oracle: the programs inside; the official files' checksums
+TEST_F(boxes_of_runs, hold_the_data_of_that_run_alone) {
+    if (const auto obstacle = obstacle_to(Isolation::kFull)) GTEST_SKIP() << *obstacle;
+    const Grade grade = graded(Isolation::kFull);
+    EXPECT_EQ(grade.trouble, "records: " + sum_of("suspension.csv") + sum_of("suspension.mat") + " left: .");
+    EXPECT_THAT(grade.log, HasSubstr("  records: /box/home/data/suspension/suspension.mat "));
+    EXPECT_THAT(grade.log, Not(HasSubstr("/box/suspension")));
+}
+
+TEST_F(boxes_of_runs, begin_with_an_empty_scratch_folder) {
+    for (const std::string& level : levels()) {
+        const Grade grade = graded(level == "full" ? Isolation::kFull : Isolation::kProcess);
+        EXPECT_THAT(grade.trouble, HasSubstr(" left: ."));
+        EXPECT_THAT(grade.log, HasSubstr("run suspension: ")) << level;
+        EXPECT_THAT(grade.log, Not(HasSubstr("was_here"))) << level;
+    }
+}
+
+// oracle: digits, of which a message that gives nothing away has none
+TEST_F(boxes_of_runs, checks_that_fail_altogether_quote_nothing) {
+    const Grade grade = graded(Isolation::kProcess);
+    ASSERT_EQ(grade.checks.size(), 1u);
+    EXPECT_FALSE(grade.checks[0].graded);
+    EXPECT_FALSE(grade.checks[0].message.empty());
+    EXPECT_EQ(grade.checks[0].message.find_first_of(kDigits), std::string::npos) << grade.checks[0].message;
+    EXPECT_THAT(grade.log, HasSubstr("check x: it ended with code 1: sample 30.78"));
+}
+
+}  // namespace test_secret_records
+}  // namespace dynlab::test
