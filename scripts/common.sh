@@ -11,22 +11,70 @@ as_root() {
   fi
 }
 
-# install_packages PURPOSE...: the packages of scripts/packages.txt for these purposes, those only that are missing.
+# duration SECONDS: "1 min 20 s".
+duration() {
+  if [ "$1" -ge 60 ]; then printf '%d min %d s' $(($1 / 60)) $(($1 % 60)); else printf '%d s' "$1"; fi
+}
+
+# tell_progress WHAT: reads numbers from 0 to 100, one a line, and says every ten seconds how far WHAT is.
+tell_progress() {
+  local what=$1 start=$SECONDS next=$((SECONDS + 10)) percent=0 line status
+  while true; do
+    status=0
+    read -r -t 2 line || status=$?
+    if [ "$status" = 0 ]; then percent=${line%%.*}
+    elif [ "$status" -le 128 ]; then return
+    fi
+    [ "$SECONDS" -lt "$next" ] && continue
+    next=$((SECONDS + 10))
+    local elapsed=$((SECONDS - start)) left=""
+    [ "${percent:-0}" -gt 0 ] && left=", about $(duration $((elapsed * (100 - percent) / percent))) left"
+    say "$what: ${percent:-0} % after $(duration "$elapsed")$left"
+  done
+}
+
+# purpose_text PURPOSE: why the packages of this purpose are wanted.
+purpose_text() {
+  case $1 in
+    build) echo "to build dynlab" ;;
+    run) echo "to draw figures, make documents and keep strangers' scripts apart" ;;
+    test) echo "to test it" ;;
+    *) echo "for its $1" ;;
+  esac
+}
+
+# missing_packages PURPOSE: the packages of scripts/packages.txt for this purpose that are not installed.
+missing_packages() {
+  comm -23 <(awk -v purpose="$1" '$1 == purpose {for (i = 2; i <= NF; i++) print $i}' "$project/scripts/packages.txt" | sort -u) \
+    <(dpkg-query -W -f '${db:Status-Status} ${Package}\n' 2>/dev/null | awk '$1 == "installed" {print $2}' | sort -u)
+}
+
+# install_packages PURPOSE...: the packages for these purposes, those only that are missing.
 # Container images are often told to leave out /usr/share/doc, where the measured records of libslicot-doc lie.
 install_packages() {
-  local wanted missing
-  wanted=$(awk -v purposes=" $* " '!/^#/ && index(purposes, " " $1 " ") {for (i = 2; i <= NF; i++) print $i}' \
-    "$project/scripts/packages.txt")
-  missing=$(comm -23 <(sort -u <<<"$wanted") \
-    <(dpkg-query -W -f '${db:Status-Status} ${Package}\n' 2>/dev/null | awk '$1 == "installed" {print $2}' | sort -u))
-  [ -z "$missing" ] && return
+  local purpose missing all=""
+  for purpose in "$@"; do
+    missing=$(missing_packages "$purpose" | tr '\n' ' ')
+    [ -z "${missing// /}" ] && continue
+    [ -z "$all" ] && say "Installing from Debian"
+    say "  $(purpose_text "$purpose"): $missing"
+    all+=" $missing"
+  done
+  [ -z "$all" ] && return
   command -v apt-get >/dev/null ||
-    { say "dynlab installs its parts with apt-get, which this system does not have. Wanted:" $missing; return 1; }
-  say "Installing from Debian:" $missing
+    { say "dynlab installs its parts with apt-get, which this system does not have."; return 1; }
   local log; log=$(mktemp)
-  if ! { as_root apt-get update && as_root env DEBIAN_FRONTEND=noninteractive \
-         apt-get install -y --no-install-recommends \
-         -o Dpkg::Options::=--path-include='/usr/share/doc/libslicot-doc/*' $missing; } >"$log" 2>&1; then
+  # apt-get tells how far it is on descriptor 3: first what is fetched, then what is set up.
+  if ! { as_root apt-get update >"$log" 2>&1 &&
+         { as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends \
+             -o APT::Status-Fd=3 -o Dpkg::Options::=--path-include='/usr/share/doc/libslicot-doc/*' $all \
+             3>&1 >>"$log" 2>&1 |
+           while IFS=: read -r kind _ percent _; do
+             case $kind in
+               dlstatus) echo $((${percent%.*} / 2)) ;;
+               pmstatus) echo $((50 + ${percent%.*} / 2)) ;;
+             esac
+           done | tell_progress "Installing"; [ "${PIPESTATUS[0]}" = 0 ]; }; }; then
     tail -n 15 "$log" >&2; rm -f "$log"
     say "The packages could not be installed; the last lines of apt-get stand above."
     return 1
@@ -34,13 +82,19 @@ install_packages() {
   rm -f "$log"
 }
 
-# build FOLDER CMAKE-OPTION...: configures and builds below build/; quiet unless something fails or a terminal watches.
+# build FOLDER CMAKE-OPTION...: configures and builds below build/; says how far it is, all else only when something fails.
 build() {
   local folder=$project/build/$1 log; shift
   mkdir -p "$folder"
   log=$folder/build.log
   cmake -S "$project" -B "$folder" -G Ninja "$@" >"$log" 2>&1 || { cat "$log" >&2; return 1; }
-  if [ -t 2 ]; then cmake --build "$folder" >&2
-  else cmake --build "$folder" >"$log" 2>&1 || { cat "$log" >&2; return 1; }
-  fi
+  if [ -t 2 ]; then cmake --build "$folder" ${targets:+--target $targets} >&2; return; fi
+  # Ninja's lines begin with what is done in percent.
+  NINJA_STATUS='%p ' cmake --build "$folder" ${targets:+--target $targets} 2>&1 | tee "$log" |
+    sed -u -n 's/^ *\([0-9]*\)% .*/\1/p' | tell_progress "Building"
+  [ "${PIPESTATUS[0]}" = 0 ] || { grep -v '^ *[0-9]*% ' "$log" | tail -n 200 >&2; return 1; }
 }
+
+# What scripts/start and scripts/test build: fast as a whole, for this machine's processor.
+release_options=(-DCMAKE_BUILD_TYPE=Release -DDYNLAB_NATIVE=ON -DDYNLAB_UNITY=ON)
+sanitize_options=(-DCMAKE_BUILD_TYPE=Debug -DDYNLAB_SANITIZE=ON -DDYNLAB_UNITY=ON)
