@@ -3,13 +3,13 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
-#include "course/boxed_document.h"
-#include "course/check_run.h"
-#include "course/final/version_reading.h"
-#include "course/graded_run.h"
-#include "course/unpack.h"
+#include "course/grading/boxed_document.h"
+#include "course/grading/check_run.h"
+#include "course/grading/graded_run.h"
+#include "course/grading/unpack.h"
+#include "course/review/version_reading.h"
 
-namespace dynlab {
+namespace dynlab::inline cli {
 namespace {
 
 /// One piece of work on what is not trusted: a job as JSON on standard input, its result as JSON on standard output.
@@ -41,4 +41,4 @@ void add_boxed(CLI::App& app, Action& action) {
     command->callback([&action] { action = boxed; });
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline cli

@@ -3,11 +3,11 @@
 
 #include "cli/commands.h"
 #include "cli/terminal_colour.h"
-#include "course/findings_report.h"
-#include "course/folder_check.h"
+#include "course/findings/findings_report.h"
+#include "course/findings/folder_check.h"
 #include "platform/error.h"
 
-namespace dynlab {
+namespace dynlab::inline cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -83,4 +83,4 @@ void add_check(CLI::App& app, Action& action) {
     command->callback([words, &action] { action = [words] { return check(*words); }; });
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline cli

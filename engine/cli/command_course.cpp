@@ -9,9 +9,9 @@
 #include "course/store/course_status.h"
 #include "course/store/groups.h"
 #include "numerics/error.h"
-#include "platform/terminal_text.h"
+#include "platform/terminal/terminal_text.h"
 
-namespace dynlab {
+namespace dynlab::inline cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -91,7 +91,7 @@ const auto add_move = [&](const char* name, const char* about, bool left) {
 };
 add_move("drop", "A group has dropped out", true);
 add_move("return", "A group that had dropped out is back", false);
-}  // namespace dynlab
+}  // namespace dynlab::inline cli
 
 struct AssignmentWords {
     std::string name, kind = "report", lesson, first, review, final, grace = "0",
@@ -221,4 +221,4 @@ void add_course(CLI::App& app, Action& action) {
         "Exit codes: 0 done, 1 something failed or was not taken, 2 wrong usage.");
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline cli

@@ -4,12 +4,12 @@
 #include <iostream>
 
 #include "cli/course_commands.h"
-#include "course/store/final_changes.h"
-#include "course/store/final_changes_document.h"
+#include "course/review/final_changes.h"
+#include "course/review/final_changes_document.h"
 #include "platform/error.h"
-#include "platform/terminal_text.h"
+#include "platform/terminal/terminal_text.h"
 
-namespace dynlab {
+namespace dynlab::inline cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -68,4 +68,4 @@ void add_final_changes(CLI::App& final, CourseWords& where, Action& action) {
     command->callback([&where, words, &action] { action = [&where, words] { return changes(where, *words); }; });
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline cli

@@ -4,11 +4,11 @@
 
 #include "cli/course_commands.h"
 #include "cli/terminal_colour.h"
-#include "course/findings_report.h"
+#include "course/findings/findings_report.h"
 #include "course/store/stored_findings.h"
 #include "numerics/error.h"
 
-namespace dynlab {
+namespace dynlab::inline cli {
 namespace {
 
 struct FindingsWords {
@@ -58,4 +58,4 @@ void add_findings_command(CLI::App& course, CourseWords& where, Action& action) 
     command->callback([&where, words, &action] { action = [&where, words] { return show_findings(where, *words); }; });
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline cli

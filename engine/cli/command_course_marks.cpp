@@ -4,14 +4,14 @@
 #include <iostream>
 
 #include "cli/course_commands.h"
+#include "course/review/review_marks.h"
 #include "course/store/aligned_table.h"
 #include "course/store/course_export.h"
 #include "course/store/groups.h"
-#include "course/store/review_marks.h"
 #include "platform/atomic_file.h"
-#include "platform/terminal_text.h"
+#include "platform/terminal/terminal_text.h"
 
-namespace dynlab {
+namespace dynlab::inline cli {
 namespace {
 
 struct MarkWords {
@@ -167,4 +167,4 @@ void add_mark_commands(CLI::App& course, CourseWords& where, Action& action) {
     taken.app->footer("Example:  dynlab course import course.json copy --from signals-2026");
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline cli

@@ -3,12 +3,12 @@
 #include <iostream>
 
 #include "cli/course_commands.h"
-#include "course/anonymous_copy.h"
+#include "course/names/anonymous_copy.h"
+#include "course/review/peer_review.h"
 #include "course/store/aligned_table.h"
-#include "course/store/peer_review.h"
-#include "platform/terminal_text.h"
+#include "platform/terminal/terminal_text.h"
 
-namespace dynlab {
+namespace dynlab::inline cli {
 namespace {
 
 struct PeerWords {
@@ -119,4 +119,4 @@ void add_peer_commands(CLI::App& course, CourseWords& where, Action& action) {
         ->footer("Example:  dynlab course peer show crane");
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline cli

@@ -10,9 +10,9 @@
 #include "course/store/store_check.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
-#include "platform/terminal_text.h"
+#include "platform/terminal/terminal_text.h"
 
-namespace dynlab {
+namespace dynlab::inline cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -156,4 +156,4 @@ void add_receive_commands(CLI::App& course, CourseWords& where, Action& action) 
     add_verify(course, where, action);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline cli

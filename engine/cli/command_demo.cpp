@@ -13,7 +13,7 @@
 #include "workflow/memories.h"
 #include "workflow/run_script.h"
 
-namespace dynlab {
+namespace dynlab::inline cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -124,4 +124,4 @@ void add_demo(CLI::App& app, Action& action) {
     });
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline cli

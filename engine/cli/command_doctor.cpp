@@ -11,7 +11,7 @@
 #include "platform/program_lookup.h"
 #include "workflow/lesson_catalogue.h"
 
-namespace dynlab {
+namespace dynlab::inline cli {
 namespace {
 
 /// One line of the report; `remedy` is empty when all is well.
@@ -108,4 +108,4 @@ void add_doctor(CLI::App& app, Action& action) {
     command->callback([&action] { action = examine; });
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline cli

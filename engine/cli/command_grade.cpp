@@ -6,12 +6,12 @@
 #include <thread>
 
 #include "cli/commands.h"
-#include "course/grading.h"
+#include "course/grading/grading.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
-#include "platform/terminal_text.h"
+#include "platform/terminal/terminal_text.h"
 
-namespace dynlab {
+namespace dynlab::inline cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -104,4 +104,4 @@ void add_grade(CLI::App& app, Action& action) {
     command->callback([words, &action] { action = [words] { return grade(*words); }; });
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline cli

@@ -1,9 +1,9 @@
 #include <iostream>
 
 #include "cli/commands.h"
-#include "scripting/help.h"
+#include "scripting/runtime/help.h"
 
-namespace dynlab {
+namespace dynlab::inline cli {
 
 void add_help(CLI::App& app, Action& action) {
     auto name = std::make_shared<std::string>();
@@ -22,4 +22,4 @@ void add_help(CLI::App& app, Action& action) {
     });
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline cli

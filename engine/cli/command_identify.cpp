@@ -7,7 +7,7 @@
 #include "numerics/error.h"
 #include "workflow/identify.h"
 
-namespace dynlab {
+namespace dynlab::inline cli {
 namespace {
 
 struct IdentifyWords {
@@ -87,4 +87,4 @@ void add_identify(CLI::App& app, Action& action) {
     });
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline cli

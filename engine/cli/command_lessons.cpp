@@ -5,7 +5,7 @@
 #include "cli/commands.h"
 #include "workflow/lesson_catalogue.h"
 
-namespace dynlab {
+namespace dynlab::inline cli {
 namespace {
 
 int list_lessons() {
@@ -25,4 +25,4 @@ void add_lessons(CLI::App& app, Action& action) {
     command->callback([&action] { action = list_lessons; });
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline cli

@@ -4,7 +4,7 @@
 #include "cli/commands.h"
 #include "workflow/student_copy.h"
 
-namespace dynlab {
+namespace dynlab::inline cli {
 namespace {
 
 struct NewWords {
@@ -45,4 +45,4 @@ void add_new(CLI::App& app, Action& action) {
     command->callback([words, &action] { action = [words] { return make_new(*words); }; });
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline cli

@@ -4,10 +4,10 @@
 #include <memory>
 
 #include "cli/commands.h"
-#include "course/hand_in.h"
-#include "platform/terminal_text.h"
+#include "course/grading/hand_in.h"
+#include "platform/terminal/terminal_text.h"
 
-namespace dynlab {
+namespace dynlab::inline cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -62,4 +62,4 @@ void add_bundle(CLI::App& app, Action& action) {
     command->callback([words, &action] { action = [words] { return bundle(*words); }; });
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline cli

@@ -3,9 +3,9 @@
 #include <iostream>
 
 #include "cli/commands.h"
-#include "scripting/console.h"
+#include "scripting/prompt/console.h"
 
-namespace dynlab {
+namespace dynlab::inline cli {
 namespace {
 
 constexpr const char* kFigureFolder = "dynlab_out";
@@ -24,4 +24,4 @@ int open_prompt() {
     return run_statements_of(std::cin, kFigureFolder) ? kDone : kFailed;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline cli

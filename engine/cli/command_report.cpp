@@ -2,7 +2,7 @@
 #include "cli/document_command.h"
 #include "cli/seed_option.h"
 
-namespace dynlab {
+namespace dynlab::inline cli {
 namespace {
 
 struct ReportWords {
@@ -34,4 +34,4 @@ void add_report(CLI::App& app, Action& action) {
     command->callback([words, &action] { action = [words] { return report(*words); }; });
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline cli

@@ -3,13 +3,13 @@
 
 #include "cli/commands.h"
 #include "cli/seed_option.h"
-#include "platform/activity_line.h"
 #include "platform/atomic_file.h"
-#include "platform/terminal_text.h"
+#include "platform/terminal/activity_line.h"
+#include "platform/terminal/terminal_text.h"
 #include "workflow/memories.h"
 #include "workflow/run_script.h"
 
-namespace dynlab {
+namespace dynlab::inline cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -87,4 +87,4 @@ void add_run(CLI::App& app, Action& action) {
     });
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline cli

@@ -2,7 +2,7 @@
 #include "cli/document_command.h"
 #include "cli/seed_option.h"
 
-namespace dynlab {
+namespace dynlab::inline cli {
 namespace {
 
 struct WeaveWords {
@@ -32,4 +32,4 @@ void add_weave(CLI::App& app, Action& action) {
     command->callback([words, &action] { action = [words] { return weave(*words); }; });
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline cli

@@ -2,7 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
-namespace dynlab {
+namespace dynlab::inline cli {
 
 /// Exit codes of every command.
 enum ExitCode { kDone = 0, kFailed = 1, kUsage = 2, kMissingProgram = 3, kInterrupted = 130 };
@@ -30,4 +30,4 @@ void add_boxed(CLI::App& app, Action& action);
 /// What `dynlab` without a command does: the prompt on a terminal, statements from a pipe or file otherwise.
 int open_prompt();
 
-}  // namespace dynlab
+}  // namespace dynlab::inline cli

@@ -5,9 +5,9 @@
 
 #include "cli/commands.h"
 #include "course/store/course_store.h"
-#include "platform/progress.h"
+#include "platform/terminal/progress.h"
 
-namespace dynlab {
+namespace dynlab::inline cli {
 
 /// What all commands of `dynlab course` share.
 struct CourseWords {
@@ -49,4 +49,4 @@ void add_findings_command(CLI::App& course, CourseWords& where, Action& action);
 /// scores, oral, marks, override, export, import.
 void add_mark_commands(CLI::App& course, CourseWords& where, Action& action);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline cli

@@ -6,10 +6,10 @@
 #include <iostream>
 
 #include "cli/commands.h"
-#include "platform/activity_line.h"
-#include "platform/terminal_text.h"
+#include "platform/terminal/activity_line.h"
+#include "platform/terminal/terminal_text.h"
 
-namespace dynlab {
+namespace dynlab::inline cli {
 namespace {
 
 constexpr double kWorthTelling = 0.01;  // s
@@ -63,4 +63,4 @@ int make_document(ReportRequest request, bool show_timings) {
     return result.error ? kFailed : kDone;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline cli

@@ -8,7 +8,7 @@
 #include "platform/error.h"
 #include "platform/interrupt.h"
 #include "platform/memory.h"
-#include "platform/terminal_text.h"
+#include "platform/terminal/terminal_text.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <iostream>
 #include <random>
 
-namespace dynlab {
+namespace dynlab::inline cli {
 namespace {
 
 std::optional<std::uint32_t> parse_seed(const std::string& text) {
@@ -34,4 +34,4 @@ std::optional<std::uint32_t> SeedOption::value() const {
     return seed;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline cli

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-namespace dynlab {
+namespace dynlab::inline cli {
 
 /// The option `--seed N|random`.
 struct SeedOption {
@@ -15,4 +15,4 @@ struct SeedOption {
     std::optional<std::uint32_t> value() const;
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline cli

@@ -4,11 +4,11 @@
 
 #include <cstdlib>
 
-namespace dynlab {
+namespace dynlab::inline cli {
 
 bool in_colour() {
     const char* no_colour = std::getenv("NO_COLOR");
     return ::isatty(STDOUT_FILENO) != 0 && (no_colour == nullptr || *no_colour == '\0');
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline cli

@@ -12,7 +12,7 @@
 #include "platform/error.h"
 #include "platform/text_file.h"
 
-namespace dynlab {
+namespace dynlab::inline data_io {
 namespace {
 
 std::string_view trimmed(std::string_view text) {
@@ -349,4 +349,4 @@ void write_csv_file(const std::filesystem::path& file, const CsvTable& table, in
     write_file_atomically(file, out);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline data_io

@@ -7,7 +7,7 @@
 
 #include "numerics/linalg/types.h"
 
-namespace dynlab {
+namespace dynlab::inline data_io {
 
 /// A table of columns with a name each. In the file: optional `# key: value` lines (units as `# unit
 /// <column>: s`, sampling time as `# Ts: 0.01`), one line of column names, then rows. Separators: comma,
@@ -31,4 +31,4 @@ CsvTable read_csv_file(const std::filesystem::path& file);
 /// bit).
 void write_csv_file(const std::filesystem::path& file, const CsvTable& table, int digits = 7);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline data_io

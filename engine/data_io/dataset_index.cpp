@@ -14,7 +14,7 @@
 #include "platform/program_lookup.h"
 #include "platform/spelling.h"
 
-namespace dynlab {
+namespace dynlab::inline data_io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -246,4 +246,4 @@ std::optional<std::string> missing_package(const std::string& name) {
     return source->record->package;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline data_io

@@ -7,7 +7,7 @@
 
 #include "data_io/variable.h"
 
-namespace dynlab {
+namespace dynlab::inline data_io {
 
 /// A loaded data set: its variables, the file they came from, and the units a CSV file states (by variable).
 /// Columns of a CSV file are Vectors, text columns lists of strings, a stated sampling time the number Ts.
@@ -36,4 +36,4 @@ std::vector<std::string> dataset_names();
 /// The Debian package an installed data set is read from, when that package's file is not there.
 std::optional<std::string> missing_package(const std::string& name);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline data_io

@@ -12,7 +12,7 @@
 #include "platform/guarded_call.h"
 #include "platform/temporary_folder.h"
 
-namespace dynlab {
+namespace dynlab::inline data_io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -124,4 +124,4 @@ void write_mat_file(const fs::path& file, const VariableTable& variables) {
     place_file_atomically(draft, file);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline data_io

@@ -3,7 +3,7 @@
 
 #include "data_io/variable.h"
 
-namespace dynlab {
+namespace dynlab::inline data_io {
 
 /// Reads a MATLAB file (v4, v5, v7, v7.3): numeric arrays of every class, logical, complex, char, struct, cell.
 /// Integers and single precision become double (64-bit integers beyond 2^53 are rounded), a logical scalar a bool,
@@ -22,4 +22,4 @@ VariableTable read_mat_file(const std::filesystem::path& file, bool guarded = tr
 /// letters, digits and _, at most 63), EnvironmentError when the file cannot be written.
 void write_mat_file(const std::filesystem::path& file, const VariableTable& variables);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline data_io

@@ -9,7 +9,7 @@
 #include "numerics/error.h"
 #include "platform/error.h"
 
-namespace dynlab {
+namespace dynlab::inline data_io {
 namespace {
 
 void check_name(const std::string& name) {
@@ -101,4 +101,4 @@ MatVariable to_mat(const Variable& variable, const std::string& name) {
     return std::visit(ToMat(name.c_str()), variable.value);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline data_io

@@ -12,7 +12,7 @@
 #include "platform/error.h"
 #include "platform/file_blocks.h"
 
-namespace dynlab {
+namespace dynlab::inline data_io {
 namespace {
 
 static_assert(std::endian::native == std::endian::little);
@@ -149,4 +149,4 @@ MatLayout check_mat_layout(const std::filesystem::path& file) {
     return MatFileSkeleton(file).layout();
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline data_io

@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <filesystem>
 
-namespace dynlab {
+namespace dynlab::inline data_io {
 
 enum class MatVersion { k4, k5, k73 };
 
@@ -16,4 +16,4 @@ struct MatLayout {
 /// Format (R2022b), chapters 1 (level 5) and 2 (level 4).
 MatLayout check_mat_layout(const std::filesystem::path& file);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline data_io

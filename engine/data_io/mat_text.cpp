@@ -5,7 +5,7 @@
 
 #include "platform/error.h"
 
-namespace dynlab {
+namespace dynlab::inline data_io {
 namespace {
 
 constexpr char32_t kReplacement = 0xFFFD;
@@ -106,4 +106,4 @@ std::u16string utf16_of(const std::string& text) {
     return units;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline data_io

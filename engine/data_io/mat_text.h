@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace dynlab {
+namespace dynlab::inline data_io {
 
 /// Rows of a MATLAB char array (rows x columns, stored column by column) as UTF-8. Throws EnvironmentError when
 /// there are fewer characters than the size says.
@@ -13,4 +13,4 @@ std::vector<std::string> text_rows(const matvar_t& variable, std::size_t rows, s
 /// UTF-8 as the UTF-16 units MATLAB stores; bytes that are not UTF-8 become U+FFFD.
 std::u16string utf16_of(const std::string& text);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline data_io

@@ -7,7 +7,7 @@
 #include "data_io/mat_variable.h"
 #include "platform/error.h"
 
-namespace dynlab {
+namespace dynlab::inline data_io {
 namespace {
 
 constexpr int kDeepest = 50;  // levels of structs and cells
@@ -240,4 +240,4 @@ Variable from_mat(const matvar_t& variable, const std::string& name) {
     return Converter(variable, name, 0).convert();
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline data_io

@@ -6,7 +6,7 @@
 
 #include "data_io/variable.h"
 
-namespace dynlab {
+namespace dynlab::inline data_io {
 
 struct MatVariableDeleter {
     void operator()(matvar_t* variable) const { Mat_VarFree(variable); }
@@ -30,4 +30,4 @@ Variable from_mat(const matvar_t& variable, const std::string& name);
 /// The other way; lists become cell columns. Throws InvalidArgument for a name MATLAB does not allow.
 MatVariable to_mat(const Variable& variable, const std::string& name);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline data_io

@@ -9,7 +9,7 @@
 
 #include "platform/error.h"
 
-namespace dynlab {
+namespace dynlab::inline data_io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -55,4 +55,4 @@ VariableTable read_packaged_record(const PackagedRecord& record) {
     return variables;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline data_io

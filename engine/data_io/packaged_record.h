@@ -4,7 +4,7 @@
 
 #include "data_io/variable.h"
 
-namespace dynlab {
+namespace dynlab::inline data_io {
 
 /// A measured record of one input and one output that a Debian package brings as the input of an example program of the
 /// SLICOT library: gzipped text with a line of title and a line of settings, then the inputs, then the outputs, then
@@ -20,4 +20,4 @@ struct PackagedRecord {
 /// there, and for a file that is damaged or too short.
 VariableTable read_packaged_record(const PackagedRecord& record);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline data_io

@@ -9,7 +9,7 @@
 #include "platform/error.h"
 #include "platform/text_file.h"
 
-namespace dynlab {
+namespace dynlab::inline data_io {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r";
@@ -171,4 +171,4 @@ std::string csv_text(const TextTable& table) {
     return text;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline data_io

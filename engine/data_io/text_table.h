@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace dynlab {
+namespace dynlab::inline data_io {
 
 /// A table of texts: rosters, deadlines, mark lists. Nothing is taken for a number, so that "007" stays what it is.
 struct TextTable {
@@ -25,4 +25,4 @@ TextTable read_text_table(const std::filesystem::path& file);
 /// gets an apostrophe in front, plain numbers excepted.
 std::string csv_text(const TextTable& table);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline data_io

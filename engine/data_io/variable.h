@@ -7,7 +7,7 @@
 
 #include "numerics/linalg/types.h"
 
-namespace dynlab {
+namespace dynlab::inline data_io {
 
 struct Variable;
 using VariableTable = std::map<std::string, Variable>;
@@ -21,4 +21,4 @@ struct Variable {
         value;
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline data_io

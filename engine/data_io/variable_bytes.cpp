@@ -6,7 +6,7 @@
 
 #include "platform/error.h"
 
-namespace dynlab {
+namespace dynlab::inline data_io {
 namespace {
 
 constexpr int kDeepestVariable = 100;
@@ -157,4 +157,4 @@ VariableTable variables_of(std::string_view bytes) {
     return VariableReader(bytes).whole_table();
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline data_io

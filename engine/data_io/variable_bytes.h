@@ -4,7 +4,7 @@
 
 #include "data_io/variable.h"
 
-namespace dynlab {
+namespace dynlab::inline data_io {
 
 /// A private binary form that carries variables from one process of this program to another on the same machine.
 std::string bytes_of(const VariableTable& variables);
@@ -12,4 +12,4 @@ std::string bytes_of(const VariableTable& variables);
 /// Throws EnvironmentError when `bytes` are not whole, whatever they are.
 VariableTable variables_of(std::string_view bytes);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline data_io

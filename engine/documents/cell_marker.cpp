@@ -1,6 +1,6 @@
 #include "documents/cell_marker.h"
 
-namespace dynlab {
+namespace dynlab::inline documents {
 namespace {
 
 std::string_view without_leading_blanks(std::string_view text) {
@@ -22,4 +22,4 @@ bool is_text_cell_marker(std::string_view line) {
     return is_cell_marker(line) && cell_marker_options(line).starts_with("[markdown]");
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

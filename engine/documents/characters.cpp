@@ -4,7 +4,7 @@
 
 #include <charconv>
 
-namespace dynlab {
+namespace dynlab::inline documents {
 namespace {
 
 constexpr char32_t kInvalid = 0xFFFFFFFF;
@@ -97,4 +97,4 @@ std::optional<std::string> PrintableCharacters::complaint(std::string_view text)
     return std::nullopt;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace dynlab {
+namespace dynlab::inline documents {
 
 /// What LaTeX can print: ASCII, the letters of the T1 fonts, and the symbols that report_templates/latex/
 /// characters.tex declares. HTML and Markdown take every character except control characters.
@@ -23,4 +23,4 @@ class PrintableCharacters {
     std::set<char32_t> declared_;
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

@@ -5,7 +5,7 @@
 #include "documents/error.h"
 #include "documents/text_lines.h"
 
-namespace dynlab {
+namespace dynlab::inline documents {
 
 void Complaints::add(const SourceLine& where, const std::string& sentence) {
     const std::string line = where.line > 0 ? ":" + std::to_string(where.line) : "";
@@ -40,4 +40,4 @@ SourceLine find_in(const MarkdownText& markdown, const std::string& text, const 
     return found;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

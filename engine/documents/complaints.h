@@ -4,7 +4,7 @@
 
 #include "documents/weave.h"
 
-namespace dynlab {
+namespace dynlab::inline documents {
 
 /// Collects what is wrong with a document, so that its author sees everything at once.
 class Complaints {
@@ -23,4 +23,4 @@ class Complaints {
 SourceLine find_in(const MarkdownText& markdown, const std::string& text, const std::filesystem::path& fallback,
                    int occurrence = 1);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

@@ -16,7 +16,7 @@
 #include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
 
-namespace dynlab {
+namespace dynlab::inline documents {
 namespace {
 
 namespace fs = std::filesystem;
@@ -234,4 +234,4 @@ void DocumentMaker::make(const DocumentSource& source, const fs::path& output, D
     Making(source, output, format, options_).make(wait_for_figures);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

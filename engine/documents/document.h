@@ -8,7 +8,7 @@
 #include "documents/run_record.h"
 #include "documents/weave.h"
 
-namespace dynlab {
+namespace dynlab::inline documents {
 
 enum class DocumentFormat { kPdf, kHtml, kMarkdown };
 DocumentFormat document_format(
@@ -51,4 +51,4 @@ class DocumentMaker {
     Options options_;
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

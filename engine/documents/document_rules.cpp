@@ -5,7 +5,7 @@
 #include "documents/error.h"
 #include "documents/text_lines.h"
 
-namespace dynlab {
+namespace dynlab::inline documents {
 namespace {
 
 constexpr const char* kRuleKeys[] = {"sections", "pages", "appendix_pages", "least_pages", "layout"};
@@ -64,4 +64,4 @@ DocumentRules document_rules(const TemplateFile& source) {
     return rules;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

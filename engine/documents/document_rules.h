@@ -5,7 +5,7 @@
 
 #include "documents/template_file.h"
 
-namespace dynlab {
+namespace dynlab::inline documents {
 
 /// A section that a template asks for, by its heading in English and French.
 struct SectionRule {
@@ -45,4 +45,4 @@ void read_document_rule(const std::string& key, const std::string& value, const 
 
 DocumentRules document_rules(const TemplateFile& source);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

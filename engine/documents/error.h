@@ -1,7 +1,7 @@
 #pragma once
 #include <stdexcept>
 
-namespace dynlab {
+namespace dynlab::inline documents {
 
 /// A script or document cannot be made. The message starts with "file:line: " where a line is known. Exit
 /// code 1.
@@ -10,4 +10,4 @@ class DocumentError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

@@ -7,7 +7,7 @@
 #include "documents/text_lines.h"
 #include "platform/spelling.h"
 
-namespace dynlab {
+namespace dynlab::inline documents {
 namespace {
 
 std::vector<std::string> split_at(const std::string& line, char separator) {
@@ -187,4 +187,4 @@ FilterFindings read_filter_findings(const std::string& error_output, const Markd
     return findings;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

@@ -6,7 +6,7 @@
 #include "documents/complaints.h"
 #include "documents/run_record.h"
 
-namespace dynlab {
+namespace dynlab::inline documents {
 
 /// A picture the document shows: the filter gave it a number and wrote `file_name` into the output.
 struct UsedPicture {
@@ -25,4 +25,4 @@ FilterFindings read_filter_findings(const std::string& error_output, const Markd
                                     const std::filesystem::path& template_file, const RunRecord& record,
                                     Complaints& complaints);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

@@ -14,7 +14,7 @@
 #include "platform/child_process.h"
 #include "platform/content_hash.h"
 
-namespace dynlab {
+namespace dynlab::inline documents {
 namespace {
 
 namespace fs = std::filesystem;
@@ -220,4 +220,4 @@ fs::path run_latex(const LatexJob& job) {
     return LatexRun(job).pdf();
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

@@ -7,7 +7,7 @@
 
 #include "documents/latex_format.h"
 
-namespace dynlab {
+namespace dynlab::inline documents {
 
 struct LatexJob {
     std::string body;  ///< from \begin{document} on
@@ -33,4 +33,4 @@ struct LatexRefusal : std::runtime_error {
 /// the PDF. A slide that has no room for what stands on it is refused. Throws LatexRefusal, MissingProgram.
 std::filesystem::path run_latex(const LatexJob& job);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

@@ -12,7 +12,7 @@
 #include "platform/program_identity.h"
 #include "platform/program_lookup.h"
 
-namespace dynlab {
+namespace dynlab::inline documents {
 namespace {
 
 namespace fs = std::filesystem;
@@ -88,4 +88,4 @@ void make_latex_format(const LatexLayout& layout, const fs::path& folder) {
     compile_format(folder);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <string>
 
-namespace dynlab {
+namespace dynlab::inline documents {
 
 /// The name of the precompiled preamble: pdflatex -fmt=dynlab.
 inline constexpr char kLatexFormatName[] = "dynlab";
@@ -27,4 +27,4 @@ void make_latex_format(const LatexLayout& layout, const std::filesystem::path& f
 /// Throws MissingProgram when a log says that a LaTeX package or the babel language is not installed.
 void check_missing_packages(const std::string& log);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

@@ -7,7 +7,7 @@
 #include "documents/work_file.h"
 #include "platform/child_process.h"
 
-namespace dynlab {
+namespace dynlab::inline documents {
 namespace {
 
 using namespace std::chrono_literals;
@@ -160,4 +160,4 @@ PandocResult run_pandoc(const PandocJob& job, Complaints& complaints) {
     return result;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

@@ -9,7 +9,7 @@
 #include "documents/document_rules.h"
 #include "documents/filter_findings.h"
 
-namespace dynlab {
+namespace dynlab::inline documents {
 
 /// One run of Pandoc with the project's filter (report_templates/filters).
 struct PandocJob {
@@ -35,4 +35,4 @@ PandocResult run_pandoc(const PandocJob& job, Complaints& complaints);
 
 std::string figure_extension(DocumentFormat format);  ///< "pdf" or "svg"
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

@@ -12,7 +12,7 @@
 #include "platform/spelling.h"
 #include "platform/text_file.h"
 
-namespace dynlab {
+namespace dynlab::inline documents {
 namespace {
 
 const std::vector<std::string> kCellOptions = {"id", "echo", "output"};
@@ -132,4 +132,4 @@ PercentScript read_percent_script(const std::filesystem::path& file) {
     return parse_percent_script(read_text(file), file);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

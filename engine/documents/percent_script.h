@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace dynlab {
+namespace dynlab::inline documents {
 
 /// The kind of value a script promises under a name in its header's `answers`.
 struct ExpectedAnswer {
@@ -53,4 +53,4 @@ struct PercentScript {
 PercentScript read_percent_script(const std::filesystem::path& file);
 PercentScript parse_percent_script(const std::string& source, const std::filesystem::path& name);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

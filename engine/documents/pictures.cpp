@@ -7,7 +7,7 @@
 #include "documents/pandoc.h"
 #include "platform/atomic_file.h"
 
-namespace dynlab {
+namespace dynlab::inline documents {
 namespace {
 
 namespace fs = std::filesystem;
@@ -131,4 +131,4 @@ std::string with_inlined_pictures(const std::string& html, const std::vector<Pla
     return result.append(html, at);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

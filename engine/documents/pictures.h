@@ -7,7 +7,7 @@
 #include "documents/document.h"
 #include "documents/filter_findings.h"
 
-namespace dynlab {
+namespace dynlab::inline documents {
 
 /// Where a picture of the document lies and what the writer calls it.
 struct PlacedPicture {
@@ -29,4 +29,4 @@ std::vector<PlacedPicture> find_figures(const std::vector<UsedPicture>& pictures
 /// HTML with every `src="WRITTEN_NAME"` replaced by the picture itself (RFC 2397 data URL).
 std::string with_inlined_pictures(const std::string& html, const std::vector<PlacedPicture>& pictures);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

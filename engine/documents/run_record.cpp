@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace dynlab {
+namespace dynlab::inline documents {
 namespace {
 
 using nlohmann::json;
@@ -74,4 +74,4 @@ std::string timings_to_json(const RunRecord& record) {
     return text_of(json(record.timings));
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

@@ -9,7 +9,7 @@
 
 #include "figures/figure.h"
 
-namespace dynlab {
+namespace dynlab::inline documents {
 
 /// `report.value`: a number with the text that documents show, or a text.
 struct RecordedValue {
@@ -75,4 +75,4 @@ struct RunRecord {
 std::string to_json(const RunRecord& record);
 std::string timings_to_json(const RunRecord& record);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

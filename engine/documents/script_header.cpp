@@ -9,7 +9,7 @@
 #include "documents/text_lines.h"
 #include "platform/spelling.h"
 
-namespace dynlab {
+namespace dynlab::inline documents {
 namespace {
 
 const std::vector<std::string> kHeaderKeys = {"title", "subtitle", "lesson", "template", "language", "seed", "answers"};
@@ -140,4 +140,4 @@ std::size_t read_script_header(const std::vector<std::string>& lines, const std:
                         ": the script header is not closed: a line \"-- ---\" is missing after it");
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

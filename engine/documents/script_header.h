@@ -5,11 +5,11 @@
 
 #include "documents/percent_script.h"
 
-namespace dynlab {
+namespace dynlab::inline documents {
 
 /// Reads the header that starts in the first line (or the second, after `#!`) and returns how many lines were used;
 /// 0 when there is none. Throws DocumentError with file and line.
 std::size_t read_script_header(const std::vector<std::string>& lines, const std::filesystem::path& file,
                                ScriptHeader& header);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

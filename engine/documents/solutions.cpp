@@ -8,7 +8,7 @@
 #include "documents/error.h"
 #include "documents/text_lines.h"
 
-namespace dynlab {
+namespace dynlab::inline documents {
 namespace {
 
 const std::string_view kStarterSign = "STARTER:";
@@ -97,4 +97,4 @@ std::string without_solutions(const std::string& source, const std::filesystem::
     return result;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace dynlab {
+namespace dynlab::inline documents {
 
 /// Worked solutions inside a literate script. In a code or a text cell,
 ///
@@ -26,4 +26,4 @@ SolutionLine solution_line(std::string_view line, const std::filesystem::path& f
 /// markers that do not pair up within one cell, or a STARTER line outside a solution.
 std::string without_solutions(const std::string& source, const std::filesystem::path& name = "script.lua");
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

@@ -10,7 +10,7 @@
 #include "platform/spelling.h"
 #include "platform/text_file.h"
 
-namespace dynlab {
+namespace dynlab::inline documents {
 namespace {
 
 const std::vector<std::string> kAllowedKeys = {"title",       "subtitle",       "date",     "lang",  "abstract",
@@ -165,4 +165,4 @@ MarkdownText with_cells(const TemplateFile& source, const MarkdownText& cells) {
     return result;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

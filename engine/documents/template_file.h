@@ -5,7 +5,7 @@
 
 #include "documents/weave.h"
 
-namespace dynlab {
+namespace dynlab::inline documents {
 
 /// A template: the metadata of its YAML header (scalars and `|` blocks; a white-list of keys, all else is an
 /// error) and its body.
@@ -29,4 +29,4 @@ bool shows_cells(const TemplateFile& source);
 /// content or stands there twice.
 MarkdownText with_cells(const TemplateFile& source, const MarkdownText& cells);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
-namespace dynlab {
+namespace dynlab::inline documents {
 
 std::vector<std::string_view> lines_with_ends(std::string_view text) {
     std::vector<std::string_view> lines;
@@ -49,4 +49,4 @@ std::string replaced(std::string text, std::string_view from, std::string_view t
     return text;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-namespace dynlab {
+namespace dynlab::inline documents {
 
 /// The lines of a text without their ends (\n or \r\n). A last line without an end counts; after a last \n
 /// there is no further line.
@@ -15,4 +15,4 @@ bool is_blank(std::string_view text);
 bool is_name(std::string_view text);  ///< a letter or underscore, then letters, digits, underscores, hyphens
 std::string replaced(std::string text, std::string_view from, std::string_view to);  ///< every occurrence
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

@@ -5,7 +5,7 @@
 #include "documents/solutions.h"
 #include "documents/text_lines.h"
 
-namespace dynlab {
+namespace dynlab::inline documents {
 namespace {
 
 /// A fence longer than any run of back-quotes in the text, so that no text can close it.
@@ -123,4 +123,4 @@ MarkdownText weave_cells(const PercentScript& script, const RunRecord& record) {
     return Weaver(script, record).weave();
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

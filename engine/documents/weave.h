@@ -4,7 +4,7 @@
 #include "documents/percent_script.h"
 #include "documents/run_record.h"
 
-namespace dynlab {
+namespace dynlab::inline documents {
 
 /// Where a line of assembled Markdown came from, for messages.
 struct SourceLine {
@@ -28,4 +28,4 @@ MarkdownText weave_cells(const PercentScript& script, const RunRecord& record);
 /// A block that shows an error's message.
 std::string error_block(const std::string& message);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

@@ -5,7 +5,7 @@
 
 #include "platform/error.h"
 
-namespace dynlab {
+namespace dynlab::inline documents {
 
 void write_work_file(const std::filesystem::path& file, std::string_view content) {
     std::ofstream stream(file, std::ios::binary);
@@ -21,4 +21,4 @@ std::string read_work_file(const std::filesystem::path& file) {
     return content.str();
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline documents

@@ -8,7 +8,7 @@
 
 #include "figures/figure_text.h"
 
-namespace dynlab {
+namespace dynlab::inline figures {
 namespace {
 
 constexpr double kLargestValue = 1e300;  // keeps spans and margins finite
@@ -116,4 +116,4 @@ Axis make_axis(std::pair<double, double> range, bool log, double count, std::opt
     return axis;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline figures

@@ -6,7 +6,7 @@
 
 #include "figures/figure.h"
 
-namespace dynlab {
+namespace dynlab::inline figures {
 
 /// A number written beside an axis.
 struct Tick {
@@ -44,4 +44,4 @@ class Extent {
 /// small magnitudes share a power of ten; logarithmic axes number decades, or 1, 2, 5 when they span less than two.
 Axis make_axis(std::pair<double, double> range, bool log, double count, std::optional<double> step = {});
 
-}  // namespace dynlab
+}  // namespace dynlab::inline figures

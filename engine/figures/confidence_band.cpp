@@ -8,7 +8,7 @@
 
 #include "figures/style.h"
 
-namespace dynlab {
+namespace dynlab::inline figures {
 
 std::string confidence_text(double level) {
     return fmt::format("{:.4g} % confidence", 100 * level);
@@ -60,4 +60,4 @@ double phase_tick_step(const Panel& phase) {
     return high - low <= 200 ? 45 : high - low <= 450 ? 90 : 180 * std::ceil((high - low) / 900);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline figures

@@ -5,7 +5,7 @@
 #include "figures/figure.h"
 #include "figures/named_model.h"
 
-namespace dynlab {
+namespace dynlab::inline figures {
 
 /// "99 % confidence"
 std::string confidence_text(double level);
@@ -24,4 +24,4 @@ double phase_tick_step(const Panel& phase);
 /// Gives every curve of the panel the colour of its place, which bands added later must not move.
 void fix_colours(Panel& panel);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline figures

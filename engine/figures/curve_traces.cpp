@@ -6,7 +6,7 @@
 
 #include "figures/panel_axes.h"
 
-namespace dynlab {
+namespace dynlab::inline figures {
 namespace {
 
 constexpr double kResolution = 2.54 / 300;  // cm
@@ -114,4 +114,4 @@ CurveTraces traces_of(const Curve& curve, const PanelLayout& panel) {
     return traces;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline figures

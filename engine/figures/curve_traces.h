@@ -2,7 +2,7 @@
 #include "figures/decimation.h"
 #include "figures/figure_layout.h"
 
-namespace dynlab {
+namespace dynlab::inline figures {
 
 /// What is drawn of one curve, in cm from the lower left corner of its panel's frame, thinned to what 300 dots per inch
 /// show. Parts that a style does not need stay empty.
@@ -14,4 +14,4 @@ struct CurveTraces {
 };
 CurveTraces traces_of(const Curve& curve, const PanelLayout& panel);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline figures

@@ -7,7 +7,7 @@
 #include <tuple>
 #include <unordered_set>
 
-namespace dynlab {
+namespace dynlab::inline figures {
 namespace {
 
 constexpr std::size_t kMostPoints = 20000;
@@ -117,4 +117,4 @@ std::pair<Trace, Trace> decimate_band(const Trace& lower, const Trace& upper, do
     return kept;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline figures

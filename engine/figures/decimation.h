@@ -2,7 +2,7 @@
 #include <utility>
 #include <vector>
 
-namespace dynlab {
+namespace dynlab::inline figures {
 
 /// A point of the page in cm. A gap in a curve is a point whose y is NaN.
 struct PagePoint {
@@ -24,4 +24,4 @@ Trace decimate_points(const Trace& trace, double cell);
 /// Band between two edges over the same x (first lower, second upper): per column the lowest and the highest.
 std::pair<Trace, Trace> decimate_band(const Trace& lower, const Trace& upper, double cell);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline figures

@@ -1,7 +1,7 @@
 #pragma once
 #include "platform/error.h"
 
-namespace dynlab {
+namespace dynlab::inline figures {
 
 /// A figure could not be drawn: names its file and says what gnuplot complained of.
 class FigureError : public EnvironmentError {
@@ -9,4 +9,4 @@ class FigureError : public EnvironmentError {
     using EnvironmentError::EnvironmentError;
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline figures

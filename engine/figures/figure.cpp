@@ -6,7 +6,7 @@
 
 #include "numerics/error.h"
 
-namespace dynlab {
+namespace dynlab::inline figures {
 namespace {
 
 std::string name_of(const std::string& kind, std::size_t number, const std::string& label) {
@@ -93,4 +93,4 @@ void Figure::validate() const {
     for (std::size_t i = 0; i < panels.size(); ++i) check_panel(panels[i], name_of("panel", i + 1, panels[i].title));
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline figures

@@ -6,7 +6,7 @@
 
 #include "numerics/linalg/types.h"
 
-namespace dynlab {
+namespace dynlab::inline figures {
 
 /// A picture as plain data: rows x columns of panels, each with curves and marks. Nothing here knows how it
 /// is drawn.
@@ -74,4 +74,4 @@ struct Figure {
     void validate() const;
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline figures

@@ -18,7 +18,7 @@
 #include "platform/error.h"
 #include "platform/system_call.h"
 
-namespace dynlab {
+namespace dynlab::inline figures {
 
 FigureFormat figure_format(const std::filesystem::path& file) {
     std::string extension = file.extension().string();
@@ -114,4 +114,4 @@ std::filesystem::path make_temporary_beside(const std::filesystem::path& target)
     return file;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline figures

@@ -3,7 +3,7 @@
 
 #include "figures/gnuplot_renderer.h"
 
-namespace dynlab {
+namespace dynlab::inline figures {
 
 /// Whether a file has the beginning and the end that its format requires; a full disk leaves none.
 bool is_whole(const std::filesystem::path& file, FigureFormat format);
@@ -18,4 +18,4 @@ void blank_creation_date(const std::filesystem::path& pdf);
 /// An empty file beside `target`, to be filled and renamed. Throws EnvironmentError that says why none can be made.
 std::filesystem::path make_temporary_beside(const std::filesystem::path& target);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline figures

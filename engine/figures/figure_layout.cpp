@@ -5,7 +5,7 @@
 #include "figures/panel_axes.h"
 #include "figures/style.h"
 
-namespace dynlab {
+namespace dynlab::inline figures {
 namespace {
 
 using namespace style;
@@ -222,4 +222,4 @@ FigureLayout lay_out(const Figure& figure) {
     return LayoutWork(figure).run();
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline figures

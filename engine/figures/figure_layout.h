@@ -5,7 +5,7 @@
 #include "figures/figure.h"
 #include "figures/figure_text.h"
 
-namespace dynlab {
+namespace dynlab::inline figures {
 
 /// A rectangle of the page, cm from its lower left corner.
 struct Box {
@@ -45,4 +45,4 @@ struct FigureLayout {
 };
 FigureLayout lay_out(const Figure& figure);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline figures

@@ -5,7 +5,7 @@
 
 #include "figures/style.h"
 
-namespace dynlab {
+namespace dynlab::inline figures {
 namespace {
 
 using Level = TextPiece::Level;
@@ -196,4 +196,4 @@ std::string gnuplot_text(std::string_view utf8) {
     return gnuplot_quoted(marked);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline figures

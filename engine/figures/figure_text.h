@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-namespace dynlab {
+namespace dynlab::inline figures {
 
 /// Text of a figure in pieces of one kind. Scripts write plain Unicode; `x_{max}` and `e^{-t}` (with braces) raise and
 /// lower, everything else stands for itself.
@@ -41,4 +41,4 @@ std::string gnuplot_quoted(std::string_view text);
 
 std::string to_utf8(std::u32string_view text);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline figures

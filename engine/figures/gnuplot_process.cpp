@@ -19,7 +19,7 @@
 #include "platform/process_group.h"
 #include "platform/program_lookup.h"
 
-namespace dynlab {
+namespace dynlab::inline figures {
 namespace {
 
 constexpr auto kPatience = std::chrono::minutes(2);
@@ -138,4 +138,4 @@ std::string GnuplotProcess::complaints() const {
     return text_;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline figures

@@ -10,7 +10,7 @@
 
 #include "platform/system_call.h"
 
-namespace dynlab {
+namespace dynlab::inline figures {
 
 /// A running gnuplot. Its complaints are collected by a thread, so that neither side ever waits
 /// for the other to read. It runs in a process group of its own and reads no start-up files.
@@ -44,4 +44,4 @@ class GnuplotProcess {
     bool ended_ = false;  ///< guarded by mutex_
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline figures

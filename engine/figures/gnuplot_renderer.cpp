@@ -21,7 +21,7 @@
 #include "platform/program_lookup.h"
 #include "platform/system_call.h"
 
-namespace dynlab {
+namespace dynlab::inline figures {
 namespace {
 
 namespace fs = std::filesystem;
@@ -213,4 +213,4 @@ void GnuplotRenderer::finish() {
     work_->finish();
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline figures

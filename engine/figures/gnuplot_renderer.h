@@ -7,13 +7,15 @@
 #include "figures/error.h"
 #include "figures/figure.h"
 
-namespace dynlab {
+namespace dynlab::inline platform {
+class ContentMemory;
+}
+
+namespace dynlab::inline figures {
 
 enum class FigureFormat { kPdf, kSvg, kPng };
 FigureFormat figure_format(
     const std::filesystem::path& file);  ///< by extension; throws InvalidArgument naming the three
-
-class ContentMemory;
 
 /// One gnuplot process that draws any number of figures in the house style. Starts with the first figure that must be
 /// drawn: with a `memory`, which must outlive it, figures drawn before are taken from there. All
@@ -34,4 +36,4 @@ class GnuplotRenderer {
     std::unique_ptr<Work> work_;
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline figures

@@ -9,7 +9,7 @@
 #include "figures/label_placement.h"
 #include "figures/style.h"
 
-namespace dynlab {
+namespace dynlab::inline figures {
 namespace {
 
 using namespace style;
@@ -285,4 +285,4 @@ std::string gnuplot_script(const Figure& figure, FigureFormat format) {
     return out;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline figures

@@ -7,7 +7,7 @@
 
 #include "numerics/error.h"
 
-namespace dynlab {
+namespace dynlab::inline figures {
 namespace {
 
 constexpr Index kMostBins = 200;
@@ -91,4 +91,4 @@ Figure histogram(const VectorView& values, const HistogramOptions& options) {
     return Figure(std::move(panel));
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline figures

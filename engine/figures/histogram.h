@@ -4,7 +4,7 @@
 
 #include "figures/figure.h"
 
-namespace dynlab {
+namespace dynlab::inline figures {
 
 /// Bins of equal width; a value on an edge belongs to the bin right of it, the largest value to the last.
 struct HistogramBins {
@@ -30,4 +30,4 @@ struct HistogramOptions {
 /// Throws InvalidArgument for no values without edges, and for values that are not finite.
 Figure histogram(const VectorView& values, const HistogramOptions& options = {});
 
-}  // namespace dynlab
+}  // namespace dynlab::inline figures

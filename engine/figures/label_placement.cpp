@@ -5,7 +5,7 @@
 
 #include "figures/style.h"
 
-namespace dynlab {
+namespace dynlab::inline figures {
 namespace {
 
 constexpr double kCell = 0.04;        // cm
@@ -231,4 +231,4 @@ std::vector<PlacedLabel> place_labels(const Panel& panel, const PanelLayout& lay
     return Placement(panel, layout, curves).run();
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline figures

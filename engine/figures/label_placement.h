@@ -5,7 +5,7 @@
 
 #include "figures/curve_traces.h"
 
-namespace dynlab {
+namespace dynlab::inline figures {
 
 /// A text inside a frame: middle of its line, cm from the frame's lower left corner; with a thin line to the point it
 /// belongs to when it had to move away.
@@ -20,4 +20,4 @@ struct PlacedLabel {
 std::vector<PlacedLabel> place_labels(const Panel& panel, const PanelLayout& layout,
                                       const std::vector<CurveTraces>& curves);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline figures

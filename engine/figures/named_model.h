@@ -5,7 +5,7 @@
 #include "numerics/models/transfer_function.h"
 #include "numerics/validation/uncertainty.h"
 
-namespace dynlab {
+namespace dynlab::inline figures {
 
 /// What is known of an estimated model's uncertainty, and how much of it a figure shows.
 struct ModelConfidence {
@@ -20,4 +20,4 @@ struct NamedModel {
     std::optional<ModelConfidence> confidence = {};  ///< for bands and ellipses
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline figures

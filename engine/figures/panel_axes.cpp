@@ -5,7 +5,7 @@
 
 #include "figures/style.h"
 
-namespace dynlab {
+namespace dynlab::inline figures {
 namespace {
 
 using Range = std::pair<double, double>;
@@ -126,4 +126,4 @@ void choose_axes(const Panel& panel, double width, double height, Axis& x, Axis&
     y = fitted_axis(y_range, panel.log_y, std::max(2.0, height / 0.75), panel.y_tick_step, {height, true});
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline figures

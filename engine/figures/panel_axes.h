@@ -1,7 +1,7 @@
 #pragma once
 #include "figures/figure_layout.h"
 
-namespace dynlab {
+namespace dynlab::inline figures {
 
 /// Left and right edges of a bar (x units): halfway to its neighbours.
 std::pair<double, double> bar_edges(const Vector& centres, Index i);
@@ -11,4 +11,4 @@ std::pair<double, double> bar_edges(const Vector& centres, Index i);
 /// more than one where there is.
 void choose_axes(const Panel& panel, double width, double height, Axis& x, Axis& y);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline figures

@@ -4,7 +4,7 @@
 
 #include "figures/style.h"
 
-namespace dynlab {
+namespace dynlab::inline figures {
 namespace {
 
 Curve line_of(const Vector& x, const Vector& y, const std::string& label, int colour, int dash, double width) {
@@ -91,4 +91,4 @@ Figure step_construction(const StepConstruction& construction) {
     return Construction(construction).draw();
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline figures

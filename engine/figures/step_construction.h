@@ -4,7 +4,7 @@
 
 #include "figures/figure.h"
 
-namespace dynlab {
+namespace dynlab::inline figures {
 
 /// A step response with what was read off it with a ruler. Times in seconds on the record's own axis.
 struct StepConstruction {
@@ -24,4 +24,4 @@ struct StepConstruction {
 /// its time T_1, and points at a part of the change with their lines to both axes.
 Figure step_construction(const StepConstruction& construction);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline figures

@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace dynlab::style {
+namespace dynlab::inline figures::style {
 namespace {
 
 constexpr std::array kPalette = {"#0072B2", "#E69F00", "#202020", "#009E73", "#882255",
@@ -30,4 +30,4 @@ CurveLook look_of(const Curve& curve, int place) {
             pick(kPointTypes, curve.marker.value_or(colour))};
 }
 
-}  // namespace dynlab::style
+}  // namespace dynlab::inline figures::style

@@ -3,7 +3,7 @@
 
 #include "figures/figure.h"
 
-namespace dynlab::style {
+namespace dynlab::inline figures::style {
 
 /// The house style, in one place. Lengths in cm on the page, type sizes and line widths in points.
 
@@ -41,4 +41,4 @@ struct CurveLook {
 CurveLook look_of(const Curve& curve, int place);
 std::string dash_pattern(int dash);
 
-}  // namespace dynlab::style
+}  // namespace dynlab::inline figures::style

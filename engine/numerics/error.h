@@ -1,7 +1,7 @@
 #pragma once
 #include <stdexcept>
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// Misuse of a function: a size, order, option or value that cannot be worked with. The message names the
 /// argument, what was wanted and what was given, in one sentence without a trailing newline; callers add file
@@ -11,4 +11,4 @@ class InvalidArgument : public std::invalid_argument {
     using std::invalid_argument::invalid_argument;
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 std::string number_text(double value, int significant_digits) {
     if (std::isnan(value)) return "NaN";
@@ -16,4 +16,4 @@ std::string number_text(double value, int significant_digits) {
     return {text.data(), end.ptr};
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

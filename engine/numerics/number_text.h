@@ -1,10 +1,10 @@
 #pragma once
 #include <string>
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// A number as messages and displays show it: that many significant digits (at most 17), no trailing zeros ("0.05"),
 /// no sign of a zero, and "NaN", "Inf" or "-Inf" where there is no number.
 std::string number_text(double value, int significant_digits = 5);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

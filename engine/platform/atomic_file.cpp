@@ -12,7 +12,7 @@
 #include "platform/file_blocks.h"
 #include "platform/system_call.h"
 
-namespace dynlab {
+namespace dynlab::inline platform {
 namespace {
 
 namespace fs = std::filesystem;
@@ -134,4 +134,4 @@ std::string read_file(const fs::path& file) {
     return content;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace dynlab {
+namespace dynlab::inline platform {
 
 /// Writes `content` to a temporary file beside `file`, syncs, then renames: `file` appears whole or stays as
 /// it was. Throws EnvironmentError that names the file and the system's reason (no such folder, not writable,
@@ -13,4 +13,4 @@ void write_file_atomically(const std::filesystem::path& file, std::string_view c
 void place_file_atomically(const std::filesystem::path& from, const std::filesystem::path& to);
 std::string read_file(const std::filesystem::path& file);  ///< throws EnvironmentError
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

@@ -8,7 +8,7 @@
 #include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
 
-namespace dynlab {
+namespace dynlab::inline platform {
 namespace {
 
 namespace fs = std::filesystem;
@@ -126,4 +126,4 @@ ChildResult Box::run(const Words& command, const fs::path& folder, const std::st
     return run_child(child, kPackage);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

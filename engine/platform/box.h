@@ -9,7 +9,7 @@
 
 #include "platform/child_process.h"
 
-namespace dynlab {
+namespace dynlab::inline platform {
 
 /// How far untrusted work is kept apart. kFull: bubblewrap gives it its own file system with nothing but /usr, what is
 /// put into the box and an empty scratch folder, its own process numbers, no network. kProcess: a process of its own
@@ -60,4 +60,4 @@ class Box {
     std::vector<std::pair<std::string, std::string>> environment_;
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

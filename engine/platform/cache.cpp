@@ -15,7 +15,7 @@
 #include "platform/system_call.h"
 #include "platform/temporary_folder.h"
 
-namespace dynlab {
+namespace dynlab::inline platform {
 namespace {
 
 namespace fs = std::filesystem;
@@ -187,4 +187,4 @@ void Cache::drop_beyond_limit() const {
     }
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

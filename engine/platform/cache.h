@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace dynlab {
+namespace dynlab::inline platform {
 
 /// The program's caches below $XDG_CACHE_HOME/dynlab (else ~/.cache/dynlab): folders keyed by content, safe
 /// to delete at any time, the least recently used dropped beyond `limit_bytes` unless used within the last minute. One
@@ -37,4 +37,4 @@ class Cache {
     mutable std::atomic<std::uint64_t> unseen_bytes_;  ///< committed since the entries were looked through
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

@@ -11,7 +11,7 @@
 #include "platform/process_group.h"
 #include "platform/program_lookup.h"
 
-namespace dynlab {
+namespace dynlab::inline platform {
 namespace {
 
 /// Everything exec needs, made before the fork: between fork and exec only async-signal-safe calls are allowed.
@@ -131,4 +131,4 @@ ChildResult ChildProcess::wait() {
     return group->wait();
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

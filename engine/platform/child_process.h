@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace dynlab {
+namespace dynlab::inline platform {
 
 struct ChildOptions {
     std::vector<std::string> command;  ///< program (looked up in PATH) and its arguments; no shell
@@ -48,4 +48,4 @@ class ChildProcess {
     std::unique_ptr<State> state_;
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

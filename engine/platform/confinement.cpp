@@ -12,7 +12,7 @@
 #include "platform/error.h"
 #include "platform/system_call.h"
 
-namespace dynlab {
+namespace dynlab::inline platform {
 namespace {
 
 bool confined = false;
@@ -97,7 +97,7 @@ bool is_confined() {
     return confined;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform
 
 #ifdef __SANITIZE_ADDRESS__
 /// Asked by the address sanitizer when the process ends: looking for leaks takes system calls that are refused then.

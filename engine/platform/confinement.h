@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
 
-namespace dynlab {
+namespace dynlab::inline platform {
 
 /// What a process may still take once it is confined.
 struct ProcessLimits {
@@ -20,4 +20,4 @@ void confine_process(const ProcessLimits& limits);
 /// Whether this process gave up starting others.
 bool is_confined();
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

@@ -7,7 +7,7 @@
 
 #include "platform/file_blocks.h"
 
-namespace dynlab {
+namespace dynlab::inline platform {
 namespace {
 
 // FIPS 180-4, section 4.2.2: the first 32 bits of the fractional parts of the cube roots of the first 64 primes.
@@ -95,4 +95,4 @@ std::string hash_of_file(const std::filesystem::path& file) {
     return ContentHash().add_file(file).hex();
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace dynlab {
+namespace dynlab::inline platform {
 
 /// SHA-256 (FIPS 180-4), as 64 lower-case hexadecimal digits.
 class ContentHash {
@@ -23,4 +23,4 @@ class ContentHash {
 std::string hash_of(std::string_view bytes);
 std::string hash_of_file(const std::filesystem::path& file);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

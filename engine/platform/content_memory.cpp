@@ -9,7 +9,7 @@
 #include "platform/error.h"
 #include "platform/program_identity.h"
 
-namespace dynlab {
+namespace dynlab::inline platform {
 namespace {
 
 namespace fs = std::filesystem;
@@ -74,4 +74,4 @@ void ContentMemory::keep(const std::string& key, std::string_view bytes) const {
     cache_.commit(folder, key);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

@@ -8,7 +8,7 @@
 
 #include "platform/cache.h"
 
-namespace dynlab {
+namespace dynlab::inline platform {
 
 /// Keeps what was expensive to make in one of the program's caches, under a key made of all it was made from. Whatever
 /// happens to the disk, work goes on: what cannot be kept is not kept, what is spoilt is not recalled and is forgotten.
@@ -33,4 +33,4 @@ class ContentMemory {
     std::size_t recalled_ = 0, remembered_ = 0;
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

@@ -2,7 +2,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace dynlab {
+namespace dynlab::inline platform {
 
 /// A program that dynlab calls is not installed. The message ends with the apt command that installs it. Exit
 /// code 3.
@@ -25,4 +25,4 @@ class Interrupted : public std::runtime_error {
     Interrupted() : std::runtime_error("interrupted") {}
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

@@ -7,7 +7,7 @@
 
 #include "platform/error.h"
 
-namespace dynlab {
+namespace dynlab::inline platform {
 
 void fail_to_read(const std::filesystem::path& file, int error_number) {
     throw EnvironmentError("cannot read " + file.string() + ": " + system_reason(error_number));
@@ -30,4 +30,4 @@ void for_each_block(const std::filesystem::path& file, const std::function<void(
     }
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

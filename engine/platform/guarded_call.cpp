@@ -9,7 +9,7 @@
 #include "platform/error.h"
 #include "platform/process_group.h"
 
-namespace dynlab {
+namespace dynlab::inline platform {
 namespace {
 
 /// Bytes of address space this process has mapped (Linux: first number of /proc/self/statm, in pages).
@@ -78,4 +78,4 @@ ChildResult run_guarded(const std::function<std::string()>& work, const GuardLim
         .wait();
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

@@ -6,7 +6,7 @@
 
 #include "platform/child_process.h"
 
-namespace dynlab {
+namespace dynlab::inline platform {
 
 /// Limits of run_guarded; memory counts on top of what this process has mapped already.
 struct GuardLimits {
@@ -23,4 +23,4 @@ struct GuardLimits {
 /// run_child.
 ChildResult run_guarded(const std::function<std::string()>& work, const GuardLimits& limits);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

@@ -4,7 +4,7 @@
 
 #include "platform/error.h"
 
-namespace dynlab {
+namespace dynlab::inline platform {
 namespace {
 
 volatile std::sig_atomic_t interrupt_count = 0;
@@ -50,4 +50,4 @@ void forget_interrupts(int count_that_ends) {
     interrupt_count = 0;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace dynlab {
+namespace dynlab::inline platform {
 
 /// Ctrl-C as a flag. While one of these lives, SIGINT sets the flag instead of ending the program; a second
 /// SIGINT within the same scope ends it at once. Long work polls interrupted() (async-signal-safe, cheap).
@@ -19,4 +19,4 @@ void throw_if_interrupted();  ///< throws Interrupted
 /// many SIGINT without another call end the program.
 void forget_interrupts(int count_that_ends = 2);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

@@ -2,7 +2,7 @@
 
 #include <malloc.h>
 
-namespace dynlab {
+namespace dynlab::inline platform {
 
 void keep_freed_memory() {
     constexpr int kLargest = 1 << 30;  // of a piece, and of what is kept
@@ -10,4 +10,4 @@ void keep_freed_memory() {
     mallopt(M_TRIM_THRESHOLD, kLargest);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

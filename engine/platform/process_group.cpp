@@ -14,7 +14,7 @@
 #include "platform/error.h"
 #include "platform/interrupt.h"
 
-namespace dynlab {
+namespace dynlab::inline platform {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -144,4 +144,4 @@ void ProcessGroup::kill_and_reap() {
     leader_ = 0;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

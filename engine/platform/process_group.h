@@ -9,7 +9,7 @@
 #include "platform/child_process.h"
 #include "platform/system_call.h"
 
-namespace dynlab {
+namespace dynlab::inline platform {
 
 struct Pipe {
     Pipe();  ///< throws EnvironmentError
@@ -52,4 +52,4 @@ class ProcessGroup {
     ChildResult result_;
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

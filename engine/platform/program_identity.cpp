@@ -1,6 +1,6 @@
 #include "platform/program_identity.h"
 
-namespace dynlab {
+namespace dynlab::inline platform {
 
 namespace fs = std::filesystem;
 
@@ -17,4 +17,4 @@ std::string program_identity() {
     return file_stamp("/proc/self/exe");
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <string>
 
-namespace dynlab {
+namespace dynlab::inline platform {
 
 /// Path, size and time of writing of an installed file, which stand for its content; empty when there is no such file.
 std::string file_stamp(const std::filesystem::path& file);
@@ -10,4 +10,4 @@ std::string file_stamp(const std::filesystem::path& file);
 /// The running program by its stamp: hashing megabytes would cost more than a whole report.
 std::string program_identity();
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

@@ -7,7 +7,7 @@
 
 #include "platform/error.h"
 
-namespace dynlab {
+namespace dynlab::inline platform {
 namespace {
 
 namespace fs = std::filesystem;
@@ -70,4 +70,4 @@ const std::vector<NeededProgram>& needed_programs() {
     return programs;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

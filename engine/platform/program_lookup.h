@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace dynlab {
+namespace dynlab::inline platform {
 
 std::optional<std::filesystem::path> find_program(const std::string& name);  ///< in PATH, or a path as it is
 
@@ -21,4 +21,4 @@ struct NeededProgram {
 };
 const std::vector<NeededProgram>& needed_programs();
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
-namespace dynlab {
+namespace dynlab::inline platform {
 namespace {
 
 std::string lower_case(std::string text) {
@@ -43,4 +43,4 @@ std::optional<std::string> nearest_word(const std::string& word, const std::vect
     return nearest;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

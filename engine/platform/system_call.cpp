@@ -6,7 +6,7 @@
 #include <cstring>
 #include <utility>
 
-namespace dynlab {
+namespace dynlab::inline platform {
 
 FileDescriptor& FileDescriptor::operator=(FileDescriptor&& other) noexcept {
     if (this != &other) {
@@ -43,4 +43,4 @@ bool write_all(int fd, const char* bytes, std::size_t count) {
     return true;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

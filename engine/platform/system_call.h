@@ -2,7 +2,7 @@
 #include <cerrno>
 #include <string>
 
-namespace dynlab {
+namespace dynlab::inline platform {
 
 /// A file descriptor that closes itself.
 class FileDescriptor {
@@ -34,4 +34,4 @@ auto retry_interrupted(Call call) {
 /// Writes all bytes; false with errno set when that fails.
 bool write_all(int fd, const char* bytes, std::size_t count);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

@@ -7,7 +7,7 @@
 #include "platform/error.h"
 #include "platform/system_call.h"
 
-namespace dynlab {
+namespace dynlab::inline platform {
 
 TemporaryFolder::TemporaryFolder() {
     const char* parent = std::getenv("TMPDIR");
@@ -25,4 +25,4 @@ TemporaryFolder::~TemporaryFolder() {
     std::filesystem::remove_all(path_, ignored);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

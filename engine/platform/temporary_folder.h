@@ -1,7 +1,7 @@
 #pragma once
 #include <filesystem>
 
-namespace dynlab {
+namespace dynlab::inline platform {
 
 /// A private folder below $TMPDIR, removed with everything in it when this object goes.
 class TemporaryFolder {
@@ -16,4 +16,4 @@ class TemporaryFolder {
     std::filesystem::path path_;
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

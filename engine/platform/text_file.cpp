@@ -2,7 +2,7 @@
 
 #include "platform/atomic_file.h"
 
-namespace dynlab {
+namespace dynlab::inline platform {
 
 std::string read_text(const std::filesystem::path& file) {
     std::string text = read_file(file);
@@ -15,4 +15,4 @@ std::string_view without_byte_order_mark(std::string_view text) {
     return text.starts_with(kMark) ? text.substr(kMark.size()) : text;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

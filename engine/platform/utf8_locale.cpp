@@ -5,7 +5,7 @@
 #include "platform/error.h"
 #include "platform/system_call.h"
 
-namespace dynlab {
+namespace dynlab::inline platform {
 
 Utf8Locale::Utf8Locale() : own_(::newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr)), before_(nullptr) {
     if (own_ == nullptr) throw EnvironmentError("the C library has no locale C.UTF-8: " + system_reason(errno));
@@ -17,4 +17,4 @@ Utf8Locale::~Utf8Locale() {
     ::freelocale(own_);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

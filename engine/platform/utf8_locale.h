@@ -1,7 +1,7 @@
 #pragma once
 #include <locale.h>
 
-namespace dynlab {
+namespace dynlab::inline platform {
 
 /// While it lives, the character set of this thread is UTF-8. For libraries that take it from the locale; the C
 /// locale, in which a program starts, knows ASCII only. Nothing else of the locale changes, and no other thread's.
@@ -17,4 +17,4 @@ class Utf8Locale {
     locale_t own_, before_;
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline platform

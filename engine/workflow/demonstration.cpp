@@ -7,7 +7,7 @@
 #include "platform/program_lookup.h"
 #include "platform/spelling.h"
 
-namespace dynlab {
+namespace dynlab::inline workflow {
 namespace {
 
 namespace fs = std::filesystem;
@@ -80,4 +80,4 @@ std::vector<std::string> pages_of(const PercentScript& script, const RunRecord& 
     return pages;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline workflow

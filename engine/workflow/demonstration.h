@@ -5,7 +5,7 @@
 #include "documents/percent_script.h"
 #include "documents/run_record.h"
 
-namespace dynlab {
+namespace dynlab::inline workflow {
 
 /// A short guided demonstration: a literate script lessons/demos/NN_name.lua, told page by page.
 struct Demonstration {
@@ -25,4 +25,4 @@ Demonstration find_demonstration(const std::string& name);
 /// its own. Nothing is told beyond the cell in which an error stopped the run.
 std::vector<std::string> pages_of(const PercentScript& script, const RunRecord& record);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline workflow

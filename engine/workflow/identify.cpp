@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "numerics/error.h"
-#include "scripting/lua_text.h"
+#include "scripting/runtime/lua_text.h"
 #include "workflow/recording.h"
 
-namespace dynlab {
+namespace dynlab::inline workflow {
 namespace {
 
 /// Pieces of the script; {s} is a suffix that tells the outputs apart.
@@ -167,4 +167,4 @@ std::string identification_script(const IdentifyRequest& request) {
     return script;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline workflow

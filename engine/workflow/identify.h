@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace dynlab {
+namespace dynlab::inline workflow {
 
 /// A model wanted from a file: one input, one model for each output.
 struct IdentifyRequest {
@@ -27,4 +27,4 @@ struct IdentifyRequest {
 /// InvalidArgument as validate().
 std::string identification_script(const IdentifyRequest& request);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline workflow

@@ -5,7 +5,7 @@
 
 #include "platform/content_hash.h"
 
-namespace dynlab {
+namespace dynlab::inline workflow {
 namespace {
 
 namespace fs = std::filesystem;
@@ -44,4 +44,4 @@ bool unchanged(const InputsRead& inputs) {
                        [](const auto& input) { return state_of(input.first) == input.second; });
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline workflow

@@ -5,7 +5,7 @@
 
 #include "documents/run_record.h"
 
-namespace dynlab {
+namespace dynlab::inline workflow {
 
 /// What a run read: the data files, by content, and which data files lie beside them and beside the script, since
 /// `load` may prefer a new one. From path to a hash.
@@ -15,4 +15,4 @@ InputsRead inputs_read(const RunRecord& record, const std::filesystem::path& scr
 /// Whether all of it is there as it was.
 bool unchanged(const InputsRead& inputs);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline workflow

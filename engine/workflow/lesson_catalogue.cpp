@@ -5,7 +5,7 @@
 #include "platform/error.h"
 #include "platform/program_lookup.h"
 
-namespace dynlab {
+namespace dynlab::inline workflow {
 namespace {
 
 std::string joined_slugs(const std::vector<Lesson>& found) {
@@ -42,4 +42,4 @@ Lesson find_lesson(const std::string& beginning) {
                            "); give enough of the name to tell them apart");
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline workflow

@@ -5,7 +5,7 @@
 
 #include "documents/percent_script.h"
 
-namespace dynlab {
+namespace dynlab::inline workflow {
 
 /// A lesson of the course: the folder lessons/NN_slug with its master script.
 struct Lesson {
@@ -22,4 +22,4 @@ std::vector<Lesson> lessons();  ///< all that are installed, sorted by slug
 /// when none or several do.
 Lesson find_lesson(const std::string& beginning);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline workflow

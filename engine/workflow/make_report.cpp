@@ -15,7 +15,7 @@
 #include "workflow/run_memory.h"
 #include "workflow/run_script.h"
 
-namespace dynlab {
+namespace dynlab::inline workflow {
 namespace {
 
 namespace fs = std::filesystem;
@@ -195,4 +195,4 @@ ReportResult make_report(const ReportRequest& request) {
     return result;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline workflow

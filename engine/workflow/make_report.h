@@ -10,7 +10,7 @@
 #include "documents/document.h"
 #include "documents/percent_script.h"
 
-namespace dynlab {
+namespace dynlab::inline workflow {
 
 /// What a report is made of and where it goes.
 struct ReportRequest {
@@ -58,4 +58,4 @@ ReportRequest report_of_script(const PercentScript& script, const std::filesyste
 /// Throws DocumentError when no document can be made.
 ReportResult make_report(const ReportRequest& request);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline workflow

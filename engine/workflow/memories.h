@@ -1,7 +1,7 @@
 #pragma once
 #include "platform/content_memory.h"
 
-namespace dynlab {
+namespace dynlab::inline workflow {
 
 /// What runs leave for later ones, besides whole runs: results of long calls and drawn figures.
 struct Memories {
@@ -9,4 +9,4 @@ struct Memories {
     ContentMemory figures{"figures", 64u << 20};
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline workflow

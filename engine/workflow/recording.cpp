@@ -7,9 +7,9 @@
 
 #include "platform/error.h"
 #include "platform/spelling.h"
-#include "scripting/lua_text.h"
+#include "scripting/runtime/lua_text.h"
 
-namespace dynlab {
+namespace dynlab::inline workflow {
 namespace {
 
 constexpr double kUnevenSteps = 1e-3;  // relative; instants are often rounded when they are written
@@ -97,4 +97,4 @@ std::string Recording::unit(const char* option, const std::string& column) const
     return found == loaded_.units.end() ? "" : fmt::format(", {} = {}", option, lua_text(found->second));
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline workflow

@@ -5,7 +5,7 @@
 
 #include "data_io/dataset_index.h"
 
-namespace dynlab {
+namespace dynlab::inline workflow {
 
 /// Signals of a data file and how their samples lie in time, to be written down in Lua.
 class Recording {
@@ -35,4 +35,4 @@ class Recording {
     bool even_ = true;
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline workflow

@@ -9,7 +9,7 @@
 #include "platform/program_lookup.h"
 #include "workflow/inputs_read.h"
 
-namespace dynlab {
+namespace dynlab::inline workflow {
 namespace {
 
 namespace fs = std::filesystem;
@@ -64,4 +64,4 @@ void ReportMemory::remember(const RunRecord& record) const {
     cache_.store(key_, facts.dump());
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline workflow

@@ -5,7 +5,7 @@
 #include "platform/cache.h"
 #include "workflow/make_report.h"
 
-namespace dynlab {
+namespace dynlab::inline workflow {
 
 /// Remembers what a report was made from, so that it is not made again when nothing changed: script, template, all of
 /// report_templates/, seed, program, what the script read, and the output file itself, all by content.
@@ -22,4 +22,4 @@ class ReportMemory {
     std::string key_;  ///< of everything that is known before the run
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline workflow

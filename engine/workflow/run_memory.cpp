@@ -7,7 +7,7 @@
 #include "platform/program_identity.h"
 #include "workflow/inputs_read.h"
 
-namespace dynlab {
+namespace dynlab::inline workflow {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -164,4 +164,4 @@ void RunMemory::keep(const RunRecord& record) const {
     cache_.store(key_, json(inputs).dump(-1, ' ', false, json::error_handler_t::replace));
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline workflow

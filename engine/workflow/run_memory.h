@@ -7,7 +7,7 @@
 #include "figures/gnuplot_renderer.h"
 #include "platform/cache.h"
 
-namespace dynlab {
+namespace dynlab::inline workflow {
 
 /// Remembers what runs produced, figures drawn, so that a script is not run again when only its prose or its template
 /// was edited. A run is known by the script's code (all its code cells), its folder, the seed, the program and what it
@@ -29,4 +29,4 @@ class RunMemory {
     std::string key_;  ///< of everything that is known before the run
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline workflow

@@ -7,10 +7,10 @@
 #include <map>
 
 #include "documents/text_lines.h"
-#include "scripting/report_language.h"
-#include "scripting/runtime.h"
+#include "scripting/runtime/report_language.h"
+#include "scripting/runtime/runtime.h"
 
-namespace dynlab {
+namespace dynlab::inline workflow {
 namespace {
 
 /// A record's name as a file name: letters, digits and dashes only, with its number in front so that no two collide.
@@ -109,4 +109,4 @@ void draw_figures(RunRecord& record, GnuplotRenderer& renderer, const std::files
     }
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline workflow

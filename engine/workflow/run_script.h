@@ -9,9 +9,11 @@
 #include "documents/run_record.h"
 #include "figures/gnuplot_renderer.h"
 
-namespace dynlab {
-
+namespace dynlab::inline platform {
 class ContentMemory;
+}
+
+namespace dynlab::inline workflow {
 
 struct RunRequest {
     PercentScript script;
@@ -37,4 +39,4 @@ std::vector<std::string> figures_in_order(const RunRecord& record);
 void draw_figures(RunRecord& record, GnuplotRenderer& renderer, const std::filesystem::path& folder,
                   FigureFormat format);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline workflow

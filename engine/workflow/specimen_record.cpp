@@ -11,9 +11,9 @@
 #include "platform/error.h"
 #include "platform/program_lookup.h"
 #include "platform/text_file.h"
-#include "scripting/runtime.h"
+#include "scripting/runtime/runtime.h"
 
-namespace dynlab {
+namespace dynlab::inline workflow {
 
 namespace fs = std::filesystem;
 
@@ -88,4 +88,4 @@ std::optional<std::uint32_t> group_seed_of(const fs::path& data_folder) {
     return {};
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline workflow

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace dynlab {
+namespace dynlab::inline workflow {
 
 /// The data sets that a simulator of the project makes.
 const std::vector<std::string>& simulated_data_sets();
@@ -27,4 +27,4 @@ void write_group_data(const std::vector<std::string>& data_sets, std::uint32_t g
 /// The seed of the group whose records write_group_data made in this folder; nothing where there are none.
 std::optional<std::uint32_t> group_seed_of(const std::filesystem::path& data_folder);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline workflow

@@ -9,7 +9,7 @@
 #include "platform/text_file.h"
 #include "workflow/specimen_record.h"
 
-namespace dynlab {
+namespace dynlab::inline workflow {
 namespace {
 
 namespace fs = std::filesystem;
@@ -95,4 +95,4 @@ void make_review_folder(const fs::path& folder, const std::string& language) {
     make_folder(folder, [&](const fs::path& growing) { fill_review(growing, language); });
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline workflow

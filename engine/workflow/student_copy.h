@@ -6,7 +6,7 @@
 
 #include "workflow/lesson_catalogue.h"
 
-namespace dynlab {
+namespace dynlab::inline workflow {
 
 /// Makes a student's folder for a lesson: analysis.lua (the script without its solutions), report.md, group.toml and a
 /// link to the data; with a group's seed a folder `data` with records of the group's own (specimen_record.h). The
@@ -19,4 +19,4 @@ void make_student_copy(const Lesson& lesson, const std::filesystem::path& folder
 /// group.toml. Otherwise as make_student_copy.
 void make_review_folder(const std::filesystem::path& folder, const std::string& language = {});
 
-}  // namespace dynlab
+}  // namespace dynlab::inline workflow

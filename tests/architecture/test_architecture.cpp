@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -11,8 +12,8 @@
 #include <sstream>
 
 #include "numerics/estimators/catalogue.h"
-#include "scripting/function_entry.h"
-#include "scripting/help.h"
+#include "scripting/runtime/function_entry.h"
+#include "scripting/runtime/help.h"
 
 namespace test_architecture {
 
@@ -82,6 +83,28 @@ TEST(architecture, layers_include_only_layers_above_them) {
         }
     }
     EXPECT_THAT(offences, IsEmpty());
+}
+
+TEST(architecture, every_source_is_in_the_namespace_of_its_layer) {
+    std::vector<std::string> offences;
+    for (const auto& [layer, layers] : allowed_layers()) {
+        for (const fs::path& file : sources_below(kRoot / "engine" / layer)) {
+            const std::vector<std::string> names = matches(text_of(file), "\nnamespace dynlab(?:::inline )?([a-z_]*)");
+            if (std::find(names.begin(), names.end(), layer) == names.end())
+                offences.push_back(place_of(file) + " is not in dynlab::" + layer);
+        }
+    }
+    EXPECT_THAT(offences, IsEmpty());
+}
+
+TEST(architecture, folders_are_rooms_one_can_overlook) {
+    std::map<fs::path, int> files;
+    for (const fs::path& file : sources_below(kRoot / "engine")) ++files[file.parent_path()];
+    ASSERT_GE(files.size(), 20u);
+    std::vector<std::string> crowded;
+    for (const auto& [folder, count] : files)
+        if (count > 45) crowded.push_back(place_of(folder) + " has " + std::to_string(count) + " files");
+    EXPECT_THAT(crowded, IsEmpty());
 }
 
 TEST(architecture, numerics_is_pure) {

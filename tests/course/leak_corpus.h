@@ -2,7 +2,7 @@
 #include <functional>
 
 #include "check_fixture.h"
-#include "course/sought_names.h"
+#include "course/names/sought_names.h"
 
 namespace dynlab {
 

@@ -6,7 +6,7 @@
 #include <random>
 #include <set>
 
-#include "course/store/allocation.h"
+#include "course/review/allocation.h"
 #include "numerics/error.h"
 
 namespace dynlab::test {

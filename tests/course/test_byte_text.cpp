@@ -1,6 +1,6 @@
 // Text in bytes of any kind. Oracle: RFC 2781 (UTF-16), RFC 3629 (UTF-8), the XML recommendation 4.1 and 4.6,
 // HTML 4.01 24.
-#include "course/byte_text.h"
+#include "course/names/byte_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "course/folder_check.h"
+#include "course/findings/folder_check.h"
 #include "support/program.h"
 
 namespace dynlab::test {

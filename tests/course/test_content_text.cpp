@@ -1,5 +1,5 @@
 // Text of content streams and the maps of their fonts. Oracle: ISO 32000-1, 7.3.4, 9.10.3 and 14.6.
-#include "course/content_text.h"
+#include "course/names/content_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 
 #include "check_fixture.h"
-#include "course/leftover_findings.h"
-#include "documents/pdf_inspection.h"
+#include "course/findings/leftover_findings.h"
+#include "documents/pdf/pdf_inspection.h"
 
 namespace dynlab {
 namespace test_document_findings {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "check_fixture.h"
-#include "course/findings_report.h"
+#include "course/findings/findings_report.h"
 #include "platform/program_lookup.h"
 
 namespace dynlab {

@@ -2,7 +2,7 @@
 // each was made.
 #include <gmock/gmock.h>
 
-#include "course/anonymous_copy.h"
+#include "course/names/anonymous_copy.h"
 #include "leak_corpus.h"
 
 namespace dynlab {

@@ -3,7 +3,7 @@
 
 #include <regex>
 
-#include "course/anonymous_copy.h"
+#include "course/names/anonymous_copy.h"
 #include "leak_corpus.h"
 
 namespace dynlab {

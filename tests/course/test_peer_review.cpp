@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "course/course_bench.h"
-#include "course/store/review_marks.h"
+#include "course/review/review_marks.h"
 
 namespace dynlab::test {
 namespace test_peer_review {

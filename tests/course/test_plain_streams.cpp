@@ -1,5 +1,5 @@
 // PDFs with their streams written out. Oracle: what poppler and qpdf read in the file as it was.
-#include "documents/plain_streams.h"
+#include "documents/pdf/plain_streams.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

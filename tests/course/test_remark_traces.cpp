@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "course/final/remark_traces.h"
-#include "course/final/text_blocks.h"
+#include "course/review/remark_traces.h"
+#include "course/review/text_blocks.h"
 #include "documents/document_rules.h"
 
 namespace dynlab::test {

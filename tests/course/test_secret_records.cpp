@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
+#include "course/grading/grading_rules.h"
 #include "course/grading_bench.h"
-#include "course/grading_rules.h"
 
 namespace dynlab::test {
 namespace test_secret_records {
@@ -103,7 +103,7 @@ TEST(secret_records, are_asked_for_inside_the_test_that_looks_at_them) {
 }
 
 /// Graded by a program that tells what it finds in its box and leaves something behind.
-class boxes_of_runs : public ::testing::Test {
+class secret_records_box : public ::testing::Test {
   protected:
     static constexpr const char* kProgram =
         "#!/bin/sh\n"
@@ -145,7 +145,7 @@ class boxes_of_runs : public ::testing::Test {
 };
 
 // oracle: the programs inside; the official files' checksums
-TEST_F(boxes_of_runs, hold_the_data_of_that_run_alone) {
+TEST_F(secret_records_box, holds_the_data_of_its_run_alone) {
     if (const auto obstacle = obstacle_to(Isolation::kFull)) GTEST_SKIP() << *obstacle;
     const Grade grade = graded(Isolation::kFull);
     EXPECT_EQ(grade.trouble, "records: " + sum_of("suspension.csv") + sum_of("suspension.mat") + " left: .");
@@ -153,7 +153,7 @@ TEST_F(boxes_of_runs, hold_the_data_of_that_run_alone) {
     EXPECT_THAT(grade.log, Not(HasSubstr("/box/suspension")));
 }
 
-TEST_F(boxes_of_runs, begin_with_an_empty_scratch_folder) {
+TEST_F(secret_records_box, begins_with_an_empty_scratch_folder) {
     for (const std::string& level : levels()) {
         const Grade grade = graded(level == "full" ? Isolation::kFull : Isolation::kProcess);
         EXPECT_THAT(grade.trouble, HasSubstr(" left: ."));
@@ -163,7 +163,7 @@ TEST_F(boxes_of_runs, begin_with_an_empty_scratch_folder) {
 }
 
 // oracle: digits, of which a message that gives nothing away has none
-TEST_F(boxes_of_runs, checks_that_fail_altogether_quote_nothing) {
+TEST_F(secret_records_box, whose_checks_fail_altogether_quotes_nothing) {
     const Grade grade = graded(Isolation::kProcess);
     ASSERT_EQ(grade.checks.size(), 1u);
     EXPECT_FALSE(grade.checks[0].graded);

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <random>
 
-#include "course/final/edit_script.h"
-#include "course/final/text_changes.h"
-#include "course/final/value_changes.h"
+#include "course/review/edit_script.h"
+#include "course/review/text_changes.h"
+#include "course/review/value_changes.h"
 
 namespace dynlab::test {
 namespace test_text_changes {

@@ -3,10 +3,10 @@
 
 #include <map>
 
-#include "course/byte_text.h"
 #include "course/course_bench.h"
+#include "course/grading/submission.h"
 #include "course/grading_bench.h"
-#include "course/submission.h"
+#include "course/names/byte_text.h"
 
 namespace dynlab::test {
 namespace test_unpack {

@@ -5,7 +5,7 @@
 
 #include "document_fixture.h"
 #include "documents/latex.h"
-#include "documents/pdf_inspection.h"
+#include "documents/pdf/pdf_inspection.h"
 
 namespace dynlab {
 namespace test_hostile_documents {

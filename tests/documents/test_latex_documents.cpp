@@ -5,7 +5,7 @@
 #include <regex>
 
 #include "document_fixture.h"
-#include "documents/pdf_inspection.h"
+#include "documents/pdf/pdf_inspection.h"
 #include "platform/child_process.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"

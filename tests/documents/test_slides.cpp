@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "document_fixture.h"
-#include "documents/pdf_inspection.h"
+#include "documents/pdf/pdf_inspection.h"
 #include "platform/child_process.h"
 
 namespace dynlab {

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "document_fixture.h"
-#include "documents/pdf_inspection.h"
+#include "documents/pdf/pdf_inspection.h"
 
 namespace dynlab {
 namespace test_slots {

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "figures/gnuplot_renderer.h"
-#include "scripting/runtime.h"
+#include "scripting/runtime/runtime.h"
 
 namespace dynlab::test {
 

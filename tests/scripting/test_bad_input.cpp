@@ -6,9 +6,9 @@
 #include <map>
 #include <set>
 
+#include "numerics/criteria/process_output.h"
+#include "numerics/criteria/transfer_sensitivity.h"
 #include "numerics/estimators/catalogue.h"
-#include "numerics/kernels/process_output.h"
-#include "numerics/kernels/transfer_sensitivity.h"
 #include "numerics/simulation/lsim.h"
 #include "script_run.h"
 

@@ -1,5 +1,5 @@
 // The kept history. Oracles: the lines that were added, RFC 3629 for what is UTF-8, the stated bounds.
-#include "scripting/command_history.h"
+#include "scripting/prompt/command_history.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,11 +1,11 @@
 // Completion at the prompt. Oracles: the names the session itself defined, the catalogue of functions, and a counter
 // that shows whether a script's function was called.
-#include "scripting/completion.h"
+#include "scripting/prompt/completion.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "scripting/prompt_session.h"
+#include "scripting/prompt/prompt_session.h"
 
 namespace dynlab::test {
 namespace test_completion {

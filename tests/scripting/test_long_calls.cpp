@@ -8,7 +8,7 @@
 #include "platform/content_memory.h"
 #include "platform/temporary_folder.h"
 #include "script_run.h"
-#include "scripting/memo/value_archive.h"
+#include "scripting/remembered_calls/value_archive.h"
 
 namespace test_long_calls {
 

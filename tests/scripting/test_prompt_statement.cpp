@@ -1,13 +1,13 @@
 // What is typed at the prompt. Oracles: Lua's grammar (reference manual 5.4, chapter 9), and for the rewritten locals
 // the definition: every statement gives what one script of all of them would give.
-#include "scripting/prompt_statement.h"
+#include "scripting/prompt/prompt_statement.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "script_run.h"
-#include "scripting/lua_tokens.h"
-#include "scripting/prompt_session.h"
+#include "scripting/prompt/prompt_session.h"
+#include "scripting/runtime/lua_tokens.h"
 
 namespace dynlab::test {
 namespace test_prompt_statement {

@@ -7,7 +7,7 @@
 
 #include "platform/temporary_folder.h"
 #include "script_run.h"
-#include "scripting/help.h"
+#include "scripting/runtime/help.h"
 
 namespace dynlab::test {
 namespace test_reference_pages {

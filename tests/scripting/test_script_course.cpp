@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "script_run.h"
-#include "scripting/help.h"
+#include "scripting/runtime/help.h"
 
 namespace test_script_course {
 

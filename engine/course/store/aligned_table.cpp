@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace dynlab {
+namespace dynlab::inline course {
 namespace {
 
 std::string shown(std::string cell) {
@@ -40,4 +40,4 @@ std::string aligned_table(const std::vector<std::string>& header, const std::vec
     return text;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

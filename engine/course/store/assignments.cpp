@@ -10,7 +10,7 @@
 #include "numerics/error.h"
 #include "platform/spelling.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 namespace {
 
 void refuse_odd_name(const std::string& what, const std::string& name) {
@@ -173,4 +173,4 @@ std::vector<Criterion> criteria_of(const std::string& text) {
     return criteria;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

@@ -5,7 +5,7 @@
 
 #include "course/store/course_store.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 
 struct Criterion {
     std::string name;
@@ -43,4 +43,4 @@ void refuse_without_reviews(const Assignment& assignment);
 /// "clarity:5, methods:10" as criteria. Throws InvalidArgument.
 std::vector<Criterion> criteria_of(const std::string& text);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

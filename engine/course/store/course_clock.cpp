@@ -9,7 +9,7 @@
 
 #include "numerics/error.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 namespace {
 
 std::string formatted(const std::tm& time, const char* format) {
@@ -102,4 +102,4 @@ std::optional<std::int64_t> duration_of(const std::string& text) {
     return {};
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-namespace dynlab {
+namespace dynlab::inline course {
 
 /// Seconds since 1970, UTC.
 using Instant = std::int64_t;
@@ -33,4 +33,4 @@ std::string duration_text(std::int64_t seconds);
 /// Seconds in "90 s", "15 min" or "15m", "2 h", "1 d", "0"; nothing for anything else.
 std::optional<std::int64_t> duration_of(const std::string& text);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

@@ -5,15 +5,15 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "course/review/review_marks.h"
 #include "course/store/course_schema.h"
 #include "course/store/groups.h"
 #include "course/store/newest_versions.h"
-#include "course/store/review_marks.h"
 #include "data_io/text_table.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 namespace {
 
 namespace fs = std::filesystem;
@@ -154,4 +154,4 @@ void import_course(const fs::path& file, const fs::path& from, const fs::path& f
     transaction.commit();
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

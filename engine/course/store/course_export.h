@@ -4,7 +4,7 @@
 
 #include "course/store/assignments.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 
 /// A row a student: identifiers (id, name, mail, Moodle's and Canvas's), group, when the versions came and how late,
 /// reviews written, marks in percent with the reasons of overrides, remarks on reviews that need the instructor's eye.
@@ -19,4 +19,4 @@ std::string course_json(Course& course);
 void import_course(const std::filesystem::path& json, const std::filesystem::path& from,
                    const std::filesystem::path& folder);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

@@ -4,7 +4,7 @@
 
 #include "platform/error.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 namespace {
 
 constexpr std::int64_t kApplicationId = 0x64796E6C;  // "dynl"
@@ -104,4 +104,4 @@ void migrate_course(Database& database, Database::Opening opening, const std::st
     transaction.commit();
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

@@ -4,7 +4,7 @@
 
 #include "course/store/sqlite.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 
 /// The tables, in an order in which each refers only to earlier ones.
 const std::vector<std::string>& course_tables();
@@ -17,4 +17,4 @@ const std::vector<const char*>& course_steps();
 void migrate_course(Database& database, Database::Opening opening, const std::string& place,
                     const std::vector<const char*>& steps = course_steps());
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <map>
 
+#include "course/review/review_pairs.h"
 #include "course/store/aligned_table.h"
 #include "course/store/groups.h"
 #include "course/store/newest_versions.h"
-#include "course/store/review_pairs.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 namespace {
 
 std::string plural(std::int64_t count, const std::string& word) {
@@ -247,4 +247,4 @@ std::string course_summary(Course& course, Instant now) {
     return text + aligned_table({"assignment", "kind", "first version", "reviews", "final version"}, rows);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

@@ -3,7 +3,7 @@
 
 #include "course/store/assignments.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 
 /// The state of an assignment as a table an instructor can act on: deadlines, a row for each group with what came, what
 /// is late, what cannot be read and what is to be done about it, sums, and the next command.
@@ -12,4 +12,4 @@ std::string assignment_status(Course& course, const Assignment& assignment, Inst
 /// The course at a glance: groups, assignments and their deadlines.
 std::string course_summary(Course& course, Instant now);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

@@ -13,7 +13,7 @@
 #include "platform/error.h"
 #include "platform/system_call.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 namespace {
 
 namespace fs = std::filesystem;
@@ -147,4 +147,4 @@ void Course::note(const std::string& what, Instant at) {
     database_.run("INSERT INTO journal (at, what) VALUES (?, ?)", at, what);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

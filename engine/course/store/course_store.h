@@ -7,7 +7,7 @@
 #include "course/store/course_clock.h"
 #include "course/store/sqlite.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 
 /// A course on disk: course.db, the handed-in files under their hashes below files/, and course.key, which signs
 /// receipts. Nothing is ever deleted. A file is on disk before the transaction that speaks of it commits, so that a
@@ -47,4 +47,4 @@ class Course {
     std::string key_;
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

@@ -2,11 +2,11 @@
 
 #include <fstream>
 
-#include "course/submission.h"
+#include "course/grading/submission.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 namespace {
 
 namespace fs = std::filesystem;
@@ -43,4 +43,4 @@ std::string kind_of_file_at(const std::string& name, const fs::path& file) {
     return kind_of_file(name, start_of(name, file));
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

@@ -10,7 +10,7 @@
 #include "platform/error.h"
 #include "platform/spelling.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 namespace {
 
 std::set<std::string> names_in(const std::string& cell) {
@@ -201,4 +201,4 @@ std::vector<std::pair<std::int64_t, std::int64_t>> kindred_groups(Course& course
     return pairs;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "course/roster.h"
+#include "course/grading/roster.h"
 #include "course/store/course_store.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 
 /// Those who hand in together: one student or several.
 struct Group {
@@ -43,4 +43,4 @@ void set_group_left(Course& course, const std::string& name, bool left, const st
 /// Pairs of groups who share a member, or did at any time.
 std::vector<std::pair<std::int64_t, std::int64_t>> kindred_groups(Course& course);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

@@ -7,19 +7,19 @@
 #include <map>
 #include <set>
 
+#include "course/review/review_pairs.h"
+#include "course/review/side_by_side.h"
 #include "course/store/file_kind.h"
 #include "course/store/inspection.h"
 #include "course/store/packed_document.h"
 #include "course/store/receipts.h"
-#include "course/store/review_pairs.h"
 #include "course/store/senders.h"
-#include "course/store/side_by_side.h"
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
 #include "platform/content_hash.h"
 #include "platform/error.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 namespace {
 
 namespace fs = std::filesystem;
@@ -338,4 +338,4 @@ ReceiveOutcome receive(Course& course, const ReceiveRequest& request) {
     return Receiving(course, request).run();
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

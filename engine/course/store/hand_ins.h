@@ -7,7 +7,7 @@
 #include "course/store/groups.h"
 #include "course/store/incoming.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 
 /// What receive is asked to do.
 struct ReceiveRequest {
@@ -50,4 +50,4 @@ ReceiveOutcome receive(Course& course, const ReceiveRequest& request);
 /// Writes a version's receipt into receipts/ASSIGNMENT/; returns the file.
 std::filesystem::path write_receipt(Course& course, std::int64_t version);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

@@ -6,7 +6,7 @@
 
 #include "platform/error.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 namespace {
 
 namespace fs = std::filesystem;
@@ -113,4 +113,4 @@ void Incoming::add_folder_of(const Submission& sender, const fs::path& folder, c
     }
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "course/submission.h"
+#include "course/grading/submission.h"
 #include "platform/temporary_folder.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 
 /// A file as it came.
 struct IncomingFile {
@@ -55,4 +55,4 @@ class Incoming {
 /// What a name tells of its sender: an LMS's pattern, or the name without its ending.
 Submission sender_of(const std::string& name);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

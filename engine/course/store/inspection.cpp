@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "course/findings_report.h"
+#include "course/findings/findings_report.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 
 Inspector::Inspector(std::shared_ptr<const SoughtNames> names) {
     const auto hold_against = [this](const char* part, const char* template_name) {
@@ -40,4 +40,4 @@ Inspection inspection_from(const std::string& json) {
     return inspection;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

@@ -3,9 +3,9 @@
 #include <map>
 #include <string>
 
-#include "course/document_findings.h"
+#include "course/findings/document_findings.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 
 struct Inspection {
     int rules_broken = 0, pages = 0;
@@ -33,4 +33,4 @@ class Inspector {
 /// The same from the JSON that the store holds.
 Inspection inspection_from(const std::string& json);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

@@ -2,7 +2,7 @@
 
 #include "course/store/inspection.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 
 std::map<std::int64_t, std::map<std::string, HandedInParts>> newest_versions(Course& course,
                                                                              const Assignment& assignment) {
@@ -21,4 +21,4 @@ std::map<std::int64_t, std::map<std::string, HandedInParts>> newest_versions(Cou
     return all;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

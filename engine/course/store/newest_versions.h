@@ -4,7 +4,7 @@
 
 #include "course/store/assignments.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 
 /// The newest version of a part that a group handed in.
 struct HandedIn {
@@ -21,4 +21,4 @@ using HandedInParts = std::map<std::string, HandedIn>;  ///< by part: report, sl
 std::map<std::int64_t, std::map<std::string, HandedInParts>> newest_versions(Course& course,
                                                                              const Assignment& assignment);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

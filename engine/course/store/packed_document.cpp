@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <vector>
 
+#include "course/grading/submission.h"
 #include "course/store/file_kind.h"
-#include "course/submission.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 namespace {
 
 namespace fs = std::filesystem;
@@ -50,4 +50,4 @@ std::optional<PackedDocument> document_in_pack(const fs::path& pack, const std::
     return PackedDocument{meant.front(), meant.front().lexically_relative(to).generic_string()};
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

@@ -5,7 +5,7 @@
 
 #include "platform/box.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 
 /// The PDF that a pack brings.
 struct PackedDocument {
@@ -20,4 +20,4 @@ std::optional<PackedDocument> document_in_pack(const std::filesystem::path& pack
                                                const std::filesystem::path& to, Isolation level,
                                                const std::filesystem::path& program);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

@@ -7,7 +7,7 @@
 #include "platform/content_hash.h"
 #include "platform/error.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 namespace {
 
 constexpr std::size_t kBlock = 64;  // bytes that SHA-256 takes at a time
@@ -86,4 +86,4 @@ Receipt receipt_of(Course& course, std::int64_t version) {
             rows.text(5),  rows.integer(6), rows.integer(7), rows.integer(8), rows.integer(9), rows.integer(10)};
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

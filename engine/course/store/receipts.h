@@ -5,7 +5,7 @@
 
 #include "course/store/course_store.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 
 /// HMAC-SHA256 (RFC 2104, FIPS 198-1) as 64 lower-case hexadecimal digits.
 std::string hmac_sha256(std::string_view key, std::string_view message);
@@ -29,4 +29,4 @@ bool receipt_is_genuine(std::string_view text, std::string_view key);
 /// The receipt of a version, from the store. Throws EnvironmentError for an unknown one.
 Receipt receipt_of(Course& course, std::int64_t version);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

@@ -5,13 +5,13 @@
 #include <map>
 #include <set>
 
+#include "course/review/review_marks.h"
 #include "course/store/groups.h"
-#include "course/store/review_marks.h"
 #include "data_io/text_table.h"
 #include "numerics/error.h"
 #include "platform/error.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 namespace {
 
 using Points = std::vector<std::optional<double>>;
@@ -221,4 +221,4 @@ Marks course_marks(Course& course, const Assignment& a) {
     return marks;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

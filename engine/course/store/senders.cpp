@@ -7,7 +7,7 @@
 
 #include "platform/spelling.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 
 Senders::Senders(Course& course) : groups_(groups_of(course)), roster_(students_of(course)) {}
 
@@ -50,4 +50,4 @@ std::string Senders::complaint(const Submission& submission) const {
                        near ? fmt::format(" (the nearest is {})", *near) : "");
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

@@ -5,7 +5,7 @@
 
 #include "course/store/groups.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 
 /// Whose file it is, by its name or its folder's and never by what stands in it.
 class Senders {
@@ -25,4 +25,4 @@ class Senders {
     Roster roster_;
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

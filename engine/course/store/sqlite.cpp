@@ -9,7 +9,7 @@
 
 #include "platform/error.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 namespace {
 
 constexpr int kMillisecondsToWait = 5000;
@@ -183,4 +183,4 @@ void Transaction::commit() {
     open_ = false;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

@@ -10,7 +10,7 @@
 struct sqlite3;
 struct sqlite3_stmt;
 
-namespace dynlab {
+namespace dynlab::inline course {
 
 /// A prepared statement with its values; walks over the rows of its answer: while (rows.next()) rows.text(0).
 class Rows {
@@ -92,4 +92,4 @@ class Transaction {
     bool open_ = true;
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

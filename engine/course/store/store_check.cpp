@@ -5,7 +5,7 @@
 #include "course/store/receipts.h"
 #include "platform/content_hash.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 
 StoreCheck check_store(Course& course) {
     StoreCheck check;
@@ -28,4 +28,4 @@ StoreCheck check_store(Course& course) {
     return check;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

@@ -4,7 +4,7 @@
 
 #include "course/store/course_store.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 
 struct StoreCheck {
     int files = 0, versions = 0;
@@ -15,4 +15,4 @@ struct StoreCheck {
 /// that of its receipt.
 StoreCheck check_store(Course& course);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "course/findings_report.h"
-#include "course/store/review_pairs.h"
+#include "course/findings/findings_report.h"
+#include "course/review/review_pairs.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 
 std::vector<StoredFindings> stored_findings(Course& course, const Assignment& assignment, const Group& group,
                                             const std::string& stage, std::optional<std::int64_t> number) {
@@ -28,4 +28,4 @@ std::vector<StoredFindings> stored_findings(Course& course, const Assignment& as
     return found;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

@@ -3,11 +3,11 @@
 #include <string>
 #include <vector>
 
-#include "course/document_findings.h"
+#include "course/findings/document_findings.h"
 #include "course/store/assignments.h"
 #include "course/store/groups.h"
 
-namespace dynlab {
+namespace dynlab::inline course {
 
 /// What was found in a version when it was received.
 struct StoredFindings {
@@ -23,4 +23,4 @@ struct StoredFindings {
 std::vector<StoredFindings> stored_findings(Course& course, const Assignment& assignment, const Group& group,
                                             const std::string& stage, std::optional<std::int64_t> number = {});
 
-}  // namespace dynlab
+}  // namespace dynlab::inline course

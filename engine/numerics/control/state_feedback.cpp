@@ -7,7 +7,7 @@
 #include "numerics/error.h"
 #include "numerics/linalg/decompositions.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 namespace {
 
 std::string size_text(Index rows, Index columns) {
@@ -129,4 +129,4 @@ StateFeedback pole_placement(const MatrixView& A, const MatrixView& B, const Com
     return result;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -1,7 +1,7 @@
 #pragma once
 #include "numerics/linalg/types.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// u = -K x and what it makes of the system.
 struct StateFeedback {
@@ -25,4 +25,4 @@ StateFeedback linear_quadratic_regulator(const MatrixView& A, const MatrixView& 
 /// Reference: Ackermann (1972), Regelungstechnik 20, 297-300.
 StateFeedback pole_placement(const MatrixView& A, const MatrixView& B, const ComplexVector& poles);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -5,12 +5,12 @@
 
 #include "numerics/error.h"
 #include "numerics/estimators/iv4.h"
-#include "numerics/kernels/discrete_fit.h"
-#include "numerics/kernels/equation_error.h"
-#include "numerics/kernels/prediction_fit.h"
+#include "numerics/fit/discrete_fit.h"
+#include "numerics/fit/equation_error.h"
+#include "numerics/fit/prediction_fit.h"
 #include "numerics/linalg/polynomial.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -93,4 +93,4 @@ PolynomialEstimate armax(const IdData& data, const PolynomialOrders& orders, con
                           starts(data, orders), removed, options);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

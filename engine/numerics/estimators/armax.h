@@ -1,8 +1,8 @@
 #pragma once
-#include "numerics/kernels/polynomial_estimate.h"
+#include "numerics/fit/polynomial_estimate.h"
 #include "numerics/signals/iddata.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// A(q) y(k) = sum_i B_i(q) u_i(k) + C(q) e(k), by the prediction-error method:
 ///     minimise sum_k e(k)^2,   e = (A y - sum_i B_i u_i)/C,
@@ -18,4 +18,4 @@ namespace dynlab {
 /// (1999), sections 4.2, 7.2 and 10.2.
 PolynomialEstimate armax(const IdData& data, const PolynomialOrders& orders, const PolynomialOptions& options = {});
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -1,8 +1,8 @@
 #include "numerics/estimators/arx.h"
 
-#include "numerics/kernels/equation_error.h"
+#include "numerics/fit/equation_error.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 PolynomialEstimate arx(const IdData& data, const PolynomialOrders& orders) {
     check_equation_error("arx", data, orders);
@@ -15,4 +15,4 @@ PolynomialEstimate arx(const IdData& data, const PolynomialOrders& orders) {
     return estimate;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -1,8 +1,8 @@
 #pragma once
-#include "numerics/kernels/polynomial_estimate.h"
+#include "numerics/fit/polynomial_estimate.h"
 #include "numerics/signals/iddata.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// A(q) y(k) = sum_i B_i(q) u_i(k) + e(k): least squares,
 ///     minimise sum_k (y(k) + a_1 y(k-1) + ... - b_nk u(k-nk) - ...)^2,
@@ -17,4 +17,4 @@ namespace dynlab {
 /// results are told in `warnings`. Reference: Ljung (1999), sections 7.3 and 10.1.
 PolynomialEstimate arx(const IdData& data, const PolynomialOrders& orders);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -1,10 +1,10 @@
 #include "numerics/estimators/bj.h"
 
 #include "numerics/error.h"
-#include "numerics/kernels/discrete_fit.h"
-#include "numerics/kernels/prediction_fit.h"
+#include "numerics/fit/discrete_fit.h"
+#include "numerics/fit/prediction_fit.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -39,4 +39,4 @@ PolynomialEstimate bj(const IdData& data, const PolynomialOrders& orders, const 
                           removed, options);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

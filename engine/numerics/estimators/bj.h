@@ -1,8 +1,8 @@
 #pragma once
-#include "numerics/kernels/polynomial_estimate.h"
+#include "numerics/fit/polynomial_estimate.h"
 #include "numerics/signals/iddata.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// y(k) = sum_i B_i(q)/F_i(q) u_i(k) + C(q)/D(q) e(k) (Box and Jenkins), by the prediction-error method:
 ///     minimise sum_k e(k)^2,   e = D/C (y - sum_i B_i/F_i u_i - free motion - offset),
@@ -16,4 +16,4 @@ namespace dynlab {
 /// results are told in `warnings`. Reference: Ljung (1999), sections 4.2 and 10.2; Box and Jenkins (1976), chapter 11.
 PolynomialEstimate bj(const IdData& data, const PolynomialOrders& orders, const PolynomialOptions& options = {});
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 const std::vector<MethodEntry>& method_catalogue() {
     static const std::vector<MethodEntry> kMethods = {
@@ -164,4 +164,4 @@ std::optional<MethodEntry> find_method(const std::string& lua_name) {
     return std::nullopt;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

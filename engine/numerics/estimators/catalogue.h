@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 enum class TimeDomain { kContinuous, kDiscrete, kStatic };
 
@@ -24,4 +24,4 @@ const std::vector<MethodEntry>& method_catalogue();
 /// The entry with this Lua name, or nothing.
 std::optional<MethodEntry> find_method(const std::string& lua_name);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

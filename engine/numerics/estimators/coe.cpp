@@ -1,12 +1,12 @@
 #include "numerics/estimators/coe.h"
 
-#include "numerics/kernels/transfer_search.h"
+#include "numerics/fit/transfer_search.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 TransferEstimate coe(const IdData& data, const TransferStructure& structure, const TransferOptions& options) {
     options.validate();
     return search_transfer("coe", data, structure, options);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -1,7 +1,7 @@
 #pragma once
-#include "numerics/kernels/transfer_estimate.h"
+#include "numerics/fit/transfer_estimate.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// Continuous-time output error, for the COE structure y_i = sum_j B_ij(p)/F_ij(p) u_j(t - delay_ij) + e_i:
 ///     minimise sum_k (y(k) - simulated output(k))^2
@@ -11,4 +11,4 @@ namespace dynlab {
 /// (1999), sections 4.2 and 10.2; Garnier and Wang (2008), chapter 1.
 TransferEstimate coe(const IdData& data, const TransferStructure& structure, const TransferOptions& options = {});
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

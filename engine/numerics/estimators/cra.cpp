@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "numerics/error.h"
-#include "numerics/kernels/spectral_estimate.h"
+#include "numerics/fit/spectral_estimate.h"
 #include "numerics/number_text.h"
 #include "numerics/signals/correlation.h"
 #include "numerics/validation/chi_squared.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -93,4 +93,4 @@ CorrelationAnalysis cra(const IdData& data, const CraOptions& options) {
     return result;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -1,8 +1,8 @@
 #pragma once
-#include "numerics/kernels/impulse_estimate.h"
+#include "numerics/fit/impulse_estimate.h"
 #include "numerics/signals/iddata.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 struct CraOptions {
     Index lags = 0;            ///< 1 or more; the smaller of 70 and N/5 unless given
@@ -27,4 +27,4 @@ struct CorrelationAnalysis {
 /// Ljung (1999), section 6.1; Box, Jenkins and Reinsel (2008), section 12.2.
 CorrelationAnalysis cra(const IdData& data, const CraOptions& options = {});
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

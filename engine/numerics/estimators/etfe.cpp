@@ -7,7 +7,7 @@
 #include "numerics/number_text.h"
 #include "numerics/signals/fourier.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -78,7 +78,8 @@ SpectralEstimate etfe(const IdData& data, const EtfeOptions& options) {
         throw InvalidArgument("etfe: the data must hold one experiment, but they hold " +
                               std::to_string(data.experiments.size()) +
                               "; take one with data:experiment(k), or use spa, which joins them");
-    const Experiment record = nonparametric_data("etfe", data, kFewestSamplesOfEtfe, options.remove_mean).experiments.front();
+    const Experiment record =
+        nonparametric_data("etfe", data, kFewestSamplesOfEtfe, options.remove_mean).experiments.front();
     const ComplexVector U = fourier_transform(record.u.col(0)), Y = fourier_transform(record.y.col(0));
     const Index N = U.size(), lines = N / 2;
     if (2 * options.smooth + 1 > lines)
@@ -107,4 +108,4 @@ SpectralEstimate etfe(const IdData& data, const EtfeOptions& options) {
     return estimate;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

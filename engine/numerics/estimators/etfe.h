@@ -1,7 +1,7 @@
 #pragma once
-#include "numerics/kernels/spectral_estimate.h"
+#include "numerics/fit/spectral_estimate.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 struct EtfeOptions {
     Index smooth = 0;           ///< Hann weights over this many frequencies on either side; 0 leaves the raw ratio
@@ -21,4 +21,4 @@ struct EtfeOptions {
 /// (1999), sections 6.3 and 6.4.
 SpectralEstimate etfe(const IdData& data, const EtfeOptions& options = {});
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

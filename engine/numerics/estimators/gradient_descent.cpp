@@ -8,7 +8,7 @@
 #include "numerics/linalg/decompositions.h"
 #include "numerics/number_text.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -105,4 +105,4 @@ GradientDescentResult gradient_descent(const MatrixView& Phi, const VectorView& 
     return result;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -3,10 +3,10 @@
 #include <optional>
 #include <string>
 
-#include "numerics/kernels/termination.h"
+#include "numerics/fit/termination.h"
 #include "numerics/linalg/types.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 struct GradientDescentOptions {
     std::optional<double> step_size;  ///< 1/lambda_max unless given
@@ -37,4 +37,4 @@ struct GradientDescentResult {
 GradientDescentResult gradient_descent(const MatrixView& Phi, const VectorView& y,
                                        const GradientDescentOptions& options = {});
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

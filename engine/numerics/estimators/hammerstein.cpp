@@ -7,15 +7,16 @@
 #include <optional>
 #include <set>
 
+#include "numerics/criteria/transfer_output.h"
 #include "numerics/error.h"
-#include "numerics/kernels/polynomial_estimate.h"
-#include "numerics/kernels/simulation_report.h"
-#include "numerics/kernels/transfer_data.h"
-#include "numerics/kernels/transfer_output.h"
-#include "numerics/kernels/transfer_search.h"
+#include "numerics/fit/output_error.h"
+#include "numerics/fit/polynomial_estimate.h"
+#include "numerics/fit/simulation_report.h"
+#include "numerics/fit/transfer_data.h"
+#include "numerics/fit/transfer_search.h"
 #include "numerics/number_text.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -323,4 +324,4 @@ HammersteinEstimate hammerstein(const IdData& data, const TransferStructure& str
     return estimate;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

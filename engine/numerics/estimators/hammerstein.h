@@ -1,7 +1,7 @@
 #pragma once
-#include "numerics/kernels/transfer_estimate.h"
+#include "numerics/fit/transfer_estimate.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// Options of the linear part, of which initial_state may be kZero or kSteady and offset must be kNone (a constant is
 /// part of the static characteristic); lambda, Td... as for srivc.
@@ -52,4 +52,4 @@ HammersteinEstimate hammerstein(const IdData& data, const TransferStructure& str
 /// straight lines between; constant outside. Their sum is 1, and their product with `levels` is f(u).
 Matrix hat_functions(const VectorView& edges, const VectorView& u);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

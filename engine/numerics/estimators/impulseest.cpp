@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "numerics/error.h"
-#include "numerics/kernels/spectral_estimate.h"
+#include "numerics/fit/spectral_estimate.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/number_text.h"
 #include "numerics/validation/chi_squared.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -179,4 +179,4 @@ ImpulseEstimate impulseest(const IdData& data, const ImpulseestOptions& options)
     return estimate;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -1,8 +1,8 @@
 #pragma once
-#include "numerics/kernels/impulse_estimate.h"
+#include "numerics/fit/impulse_estimate.h"
 #include "numerics/signals/iddata.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 struct ImpulseestOptions {
     Index lags = 0;            ///< n, 1 to 400; the smaller of 70 and N/5 unless given
@@ -23,4 +23,4 @@ struct ImpulseestOptions {
 /// regularizations and Gaussian processes - revisited, Automatica 48.
 ImpulseEstimate impulseest(const IdData& data, const ImpulseestOptions& options = {});
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

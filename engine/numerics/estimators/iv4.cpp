@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <numeric>
 
+#include "numerics/criteria/discrete_output.h"
 #include "numerics/error.h"
-#include "numerics/kernels/arma_noise.h"
-#include "numerics/kernels/discrete_output.h"
-#include "numerics/kernels/equation_error.h"
-#include "numerics/kernels/prediction_fit.h"
+#include "numerics/fit/arma_noise.h"
+#include "numerics/fit/equation_error.h"
+#include "numerics/fit/prediction_fit.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/polynomial.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -109,4 +109,4 @@ PolynomialEstimate iv4(const IdData& data, const PolynomialOrders& orders) {
     return estimate;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

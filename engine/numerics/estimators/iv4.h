@@ -1,8 +1,8 @@
 #pragma once
-#include "numerics/kernels/polynomial_estimate.h"
+#include "numerics/fit/polynomial_estimate.h"
 #include "numerics/signals/iddata.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// A(q) y(k) = sum_i B_i(q) u_i(k) + v(k) with coloured v, by instrumental variables in four steps:
 ///   1. least squares (arx);
@@ -19,4 +19,4 @@ namespace dynlab {
 /// (15.21-24).
 PolynomialEstimate iv4(const IdData& data, const PolynomialOrders& orders);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "numerics/error.h"
-#include "numerics/kernels/simulation_report.h"
+#include "numerics/fit/simulation_report.h"
 #include "numerics/linalg/decompositions.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 TransferEstimate ivsvf(const IdData& data, const TransferStructure& structure, const SvfOptions& options) {
     options.validate();
@@ -55,4 +55,4 @@ TransferEstimate ivsvf(const IdData& data, const TransferStructure& structure, c
     return estimate;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

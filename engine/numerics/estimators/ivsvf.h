@@ -1,7 +1,7 @@
 #pragma once
 #include "numerics/estimators/lssvf.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// The two-step instrumental-variable method on state-variable filtered signals: lssvf first, whose model (unstable
 /// poles mirrored into the left half plane) is simulated exactly; its output x, filtered as y is, takes the place of y
@@ -12,4 +12,4 @@ namespace dynlab {
 /// ivgpmf. References: Young and Jakeman (1980); Garnier and Wang (2008), section 1.4.
 TransferEstimate ivsvf(const IdData& data, const TransferStructure& structure, const SvfOptions& options);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -12,7 +12,7 @@
 #include "numerics/number_text.h"
 #include "numerics/validation/student_t.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -147,4 +147,4 @@ Forecast forecast(const PolynomialFit& fit, double x, double level) {
     return forecast(fit.regression, powers(Vector::Constant(1, x - fit.centre), fit.degree).row(0).transpose(), level);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

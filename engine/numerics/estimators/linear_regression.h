@@ -3,7 +3,7 @@
 
 #include "numerics/linalg/types.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 enum class RegressionMethod {
     kQr,      ///< "qr": orthogonal factorisation of the column-scaled regressors; accurate, works at any rank
@@ -45,8 +45,7 @@ struct PolynomialFit {
 };
 
 /// Throws InvalidArgument for a negative degree, lengths that differ, or no more distinct x than the degree.
-PolynomialFit fit_polynomial(const VectorView& x, const VectorView& y, int degree,
-                             const PolyfitOptions& options = {});
+PolynomialFit fit_polynomial(const VectorView& x, const VectorView& y, int degree, const PolyfitOptions& options = {});
 
 /// What a model says of one new measurement.
 struct Forecast {
@@ -62,4 +61,4 @@ struct Forecast {
 Forecast forecast(const LinearRegression& regression, const VectorView& phi, double level = 0.95);
 Forecast forecast(const PolynomialFit& fit, double x, double level = 0.95);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

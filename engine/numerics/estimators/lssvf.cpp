@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "numerics/error.h"
-#include "numerics/kernels/simulation_report.h"
+#include "numerics/fit/simulation_report.h"
 #include "numerics/number_text.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 void SvfOptions::validate() const {
     if (!(lambda > 0) || !std::isfinite(lambda))
@@ -71,4 +71,4 @@ TransferEstimate lssvf(const IdData& data, const TransferStructure& structure, c
     return estimate;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

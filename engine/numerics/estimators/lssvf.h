@@ -1,9 +1,9 @@
 #pragma once
 #include <optional>
 
-#include "numerics/kernels/transfer_estimate.h"
+#include "numerics/fit/transfer_estimate.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 struct SvfOptions {
     double lambda = 0;         ///< rad/s, cut-off frequency of the filter; must be given: a bit above the bandwidth
@@ -32,4 +32,4 @@ void check_carx(const char* method, const TransferStructure& structure);
 /// Adds the warning that lambda lies far from the model's band, with the usual choice.
 void warn_of_cutoff(TransferEstimate& estimate, double lambda);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "numerics/error.h"
-#include "numerics/kernels/polynomial_estimate.h"
+#include "numerics/fit/polynomial_estimate.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/triangular_factor.h"
 #include "numerics/number_text.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -274,8 +274,8 @@ SubspaceEstimate n4sid(const IdData& data, int order, const SubspaceOptions& opt
     const auto [directions, singular_values] = observability(R, sizes, options.Weighting);
     const Index shifted = (sizes.s - 1) * sizes.ny;
     bool reflected = false;
-    const Matrix A =
-        with_stable_eigenvalues(solve_by_pivoted_qr(directions.topRows(shifted), directions.bottomRows(shifted)), reflected);
+    const Matrix A = with_stable_eigenvalues(
+        solve_by_pivoted_qr(directions.topRows(shifted), directions.bottomRows(shifted)), reflected);
     const Matrix C = directions.topRows(sizes.ny);
 
     const InputEquations equations(scaled, sizes, A, C, options.Feedthrough);
@@ -300,4 +300,4 @@ SubspaceEstimate n4sid(const IdData& data, int order, const SubspaceOptions& opt
     return estimate;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -6,7 +6,7 @@
 #include "numerics/models/transfer_function.h"
 #include "numerics/signals/iddata.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// How the directions of the state are weighed against the noise.
 enum class SubspaceWeighting {
@@ -55,4 +55,4 @@ struct SubspaceEstimate {
 /// (1992); Verhaegen (1994), Automatica 30, 61-74; Ljung (1999), section 10.6.
 SubspaceEstimate n4sid(const IdData& data, int order, const SubspaceOptions& options = {});
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

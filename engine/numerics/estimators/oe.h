@@ -1,8 +1,8 @@
 #pragma once
-#include "numerics/kernels/polynomial_estimate.h"
+#include "numerics/fit/polynomial_estimate.h"
 #include "numerics/signals/iddata.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// y(k) = sum_i B_i(q)/F_i(q) u_i(k) + e(k), output error:
 ///     minimise sum_k (y(k) - sum_i B_i/F_i u_i(k) - free motion(k) - offset)^2
@@ -15,4 +15,4 @@ namespace dynlab {
 /// told in `warnings`, never thrown. Reference: Ljung (1999), sections 4.2 and 10.2.
 PolynomialEstimate oe(const IdData& data, const PolynomialOrders& orders, const PolynomialOptions& options = {});
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -6,14 +6,15 @@
 #include <numeric>
 #include <sstream>
 
+#include "numerics/criteria/process_output.h"
 #include "numerics/error.h"
-#include "numerics/kernels/polynomial_estimate.h"
-#include "numerics/kernels/process_output.h"
-#include "numerics/kernels/process_start.h"
-#include "numerics/kernels/transfer_data.h"
+#include "numerics/fit/output_error.h"
+#include "numerics/fit/polynomial_estimate.h"
+#include "numerics/fit/process_start.h"
+#include "numerics/fit/transfer_data.h"
 #include "numerics/number_text.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -311,4 +312,4 @@ ProcsrivcResult procsrivc(const IdData& data, const ProcessStructure& structure,
     return result;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

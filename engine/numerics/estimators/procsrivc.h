@@ -5,12 +5,12 @@
 #include <utility>
 #include <vector>
 
-#include "numerics/kernels/initial_conditions.h"
-#include "numerics/kernels/output_error.h"
+#include "numerics/criteria/initial_conditions.h"
+#include "numerics/fit/output_error.h"
 #include "numerics/models/process_model.h"
 #include "numerics/signals/iddata.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 struct ProcsrivcOptions {
     InitialState initial_state = InitialState::kAuto;
@@ -67,4 +67,4 @@ struct ProcsrivcResult {
 /// sections 10.2, 9.4.
 ProcsrivcResult procsrivc(const IdData& data, const ProcessStructure& structure, const ProcsrivcOptions& options = {});
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

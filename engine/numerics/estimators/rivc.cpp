@@ -4,16 +4,16 @@
 #include <cmath>
 #include <limits>
 
+#include "numerics/criteria/transfer_output.h"
 #include "numerics/error.h"
 #include "numerics/estimators/srivc.h"
-#include "numerics/kernels/output_error.h"
-#include "numerics/kernels/simulation_report.h"
-#include "numerics/kernels/transfer_data.h"
-#include "numerics/kernels/transfer_output.h"
-#include "numerics/kernels/transfer_report.h"
+#include "numerics/fit/output_error.h"
+#include "numerics/fit/simulation_report.h"
+#include "numerics/fit/transfer_data.h"
+#include "numerics/fit/transfer_report.h"
 #include "numerics/linalg/polynomial.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -242,4 +242,4 @@ RivcResult rivc(const IdData& data, const TransferStructure& structure, const No
     return result;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

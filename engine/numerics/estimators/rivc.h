@@ -1,8 +1,8 @@
 #pragma once
-#include "numerics/kernels/arma_noise.h"
-#include "numerics/kernels/transfer_estimate.h"
+#include "numerics/fit/arma_noise.h"
+#include "numerics/fit/transfer_estimate.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 struct NoiseOrders {
     int nc = 0, nd = 0;  ///< coefficients of C and D after the leading one
@@ -34,4 +34,4 @@ struct RivcResult : TransferEstimate {
 RivcResult rivc(const IdData& data, const TransferStructure& structure, const NoiseOrders& orders,
                 const TransferOptions& options = {});
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -8,7 +8,7 @@
 #include "numerics/number_text.h"
 #include "numerics/signals/correlation.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -125,4 +125,4 @@ SpectralEstimate spa(const IdData& data, const SpaOptions& options) {
     return estimate;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -1,7 +1,7 @@
 #pragma once
-#include "numerics/kernels/spectral_estimate.h"
+#include "numerics/fit/spectral_estimate.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 struct SpaOptions {
     Index window = 0;         ///< M, lags up to M are used; min(N/10, 30) unless given
@@ -21,4 +21,4 @@ struct SpaOptions {
 /// Ljung (1999), sections 6.4 and 6.5.
 SpectralEstimate spa(const IdData& data, const SpaOptions& options = {});
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -1,8 +1,8 @@
 #include "numerics/estimators/sriv.h"
 
-#include "numerics/kernels/discrete_fit.h"
+#include "numerics/fit/discrete_fit.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 PolynomialEstimate sriv(const IdData& data, const PolynomialOrders& orders, const PolynomialOptions& options) {
     return fit_discrete_output("sriv", data, orders, options, [&](const DiscreteOutput& model, const Vector& y) {
@@ -11,4 +11,4 @@ PolynomialEstimate sriv(const IdData& data, const PolynomialOrders& orders, cons
     });
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -1,8 +1,8 @@
 #pragma once
-#include "numerics/kernels/polynomial_estimate.h"
+#include "numerics/fit/polynomial_estimate.h"
 #include "numerics/signals/iddata.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// y(k) = sum_i B_i(q)/F_i(q) u_i(k) + e(k) by the simplified refined instrumental-variable method in discrete time:
 /// signals are prefiltered by 1/F of the model so far, the instruments come from the output simulated with it, and the
@@ -19,4 +19,4 @@ namespace dynlab {
 /// and Jakeman (1979), Int. J. Control 29, pages 1-30.
 PolynomialEstimate sriv(const IdData& data, const PolynomialOrders& orders, const PolynomialOptions& options = {});
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

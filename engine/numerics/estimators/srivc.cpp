@@ -1,10 +1,10 @@
 #include "numerics/estimators/srivc.h"
 
-#include "numerics/kernels/refined_iteration.h"
-#include "numerics/kernels/simulation_report.h"
-#include "numerics/kernels/transfer_search.h"
+#include "numerics/fit/refined_iteration.h"
+#include "numerics/fit/simulation_report.h"
+#include "numerics/fit/transfer_search.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -104,4 +104,4 @@ TransferEstimate srivc(const IdData& data, const TransferStructure& structure, c
     return settled ? estimate : better_by_search(std::move(estimate), data, options);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -1,7 +1,7 @@
 #pragma once
-#include "numerics/kernels/transfer_estimate.h"
+#include "numerics/fit/transfer_estimate.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// Simplified refined instrumental variables for continuous-time models, for the COE structure
 ///     y_i = sum_j B_ij(p)/F_ij(p) u_j(t - delay_ij) + e_i,  e white.
@@ -18,4 +18,4 @@ namespace dynlab {
 /// options. References: Young and Jakeman (1980); Young, Garnier and Gilson in Garnier and Wang (2008), chapter 4.
 TransferEstimate srivc(const IdData& data, const TransferStructure& structure, const TransferOptions& options = {});
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

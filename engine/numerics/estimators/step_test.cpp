@@ -9,7 +9,7 @@
 #include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/polynomial.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -151,4 +151,4 @@ StepTestResult step_delayed(const IdData& data) {
     return result;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -5,7 +5,7 @@
 #include "numerics/models/transfer_function.h"
 #include "numerics/signals/step_record.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// One point of the graphical construction: where the response was read.
 struct ReadingPoint {
@@ -46,4 +46,4 @@ StepTestResult step_second_order(const IdData& data);
 /// D = t2 - T = (3 t1 - t2)/2, and D = 0 when noise makes it negative.
 StepTestResult step_delayed(const IdData& data);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

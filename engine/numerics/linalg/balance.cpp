@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -37,4 +37,4 @@ Vector balance(Eigen::Ref<Matrix> A) {
     return scale;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

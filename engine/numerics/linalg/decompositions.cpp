@@ -6,7 +6,7 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -106,4 +106,4 @@ std::optional<Eigen::MatrixXcd> inverse_of_regular(const Eigen::MatrixXcd& A) {
     return Eigen::MatrixXcd(factor.inverse());
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

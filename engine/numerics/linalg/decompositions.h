@@ -3,7 +3,7 @@
 
 #include "numerics/linalg/types.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 // Eigen's decompositions of matrices whose size is known at run time only. Their templates take a compiler half a
 // minute each, so they are compiled here and nowhere else. Arguments are finite, and square where that is said.
@@ -69,4 +69,4 @@ SquareSolution solve_by_lu(const MatrixView& A, const MatrixView& B);
 std::optional<Matrix> solve_regular(const MatrixView& A, const MatrixView& B);
 std::optional<Eigen::MatrixXcd> inverse_of_regular(const Eigen::MatrixXcd& A);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

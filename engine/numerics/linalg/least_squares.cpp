@@ -6,7 +6,7 @@
 #include "numerics/error.h"
 #include "numerics/linalg/decompositions.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -51,4 +51,4 @@ LeastSquares solve_least_squares(const MatrixView& A, const VectorView& b) {
     return result;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

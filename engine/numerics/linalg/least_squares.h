@@ -1,7 +1,7 @@
 #pragma once
 #include "numerics/linalg/types.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// The theta that minimises |b - A theta|^2 for an N x d matrix A with N >= d.
 struct LeastSquares {
@@ -17,4 +17,4 @@ struct LeastSquares {
 /// sizes that do not fit, more columns than rows, or values that are not finite.
 LeastSquares solve_least_squares(const MatrixView& A, const VectorView& b);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -9,7 +9,7 @@
 #include "numerics/linalg/balance.h"
 #include "numerics/linalg/short_step.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 Matrix matrix_exponential(const MatrixView& A) {
     if (A.rows() != A.cols())
@@ -78,4 +78,4 @@ StepMatrices exact_step(const MatrixView& A, const MatrixView& B, double h) {
     return step;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

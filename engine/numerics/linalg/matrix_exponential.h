@@ -1,7 +1,7 @@
 #pragma once
 #include "numerics/linalg/types.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// exp(A) of a square matrix: balancing, then scaling and squaring with Pade approximants (Higham 2005). Every
 /// entry is accurate to a few units of rounding when the balanced A is not far from normal. Throws InvalidArgument
@@ -17,4 +17,4 @@ struct StepMatrices {
 /// Exact, by one matrix exponential of a block matrix (Van Loan 1978); B may have any number of columns. h >= 0.
 StepMatrices exact_step(const MatrixView& A, const MatrixView& B, double h);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

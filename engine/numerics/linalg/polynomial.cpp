@@ -7,7 +7,7 @@
 #include "numerics/linalg/balance.h"
 #include "numerics/linalg/decompositions.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -121,4 +121,4 @@ Complex evaluate(const VectorView& p, Complex x) {
     return horner(p, x);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

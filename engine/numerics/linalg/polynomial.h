@@ -1,7 +1,7 @@
 #pragma once
 #include "numerics/linalg/types.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// Polynomials are vectors of coefficients, highest power first; the zero polynomial is one zero.
 
@@ -26,4 +26,4 @@ Complex evaluate(const VectorView& p, Complex x);
 /// characteristic polynomial is p, its state s^(n-i)/p.
 Matrix companion(const VectorView& p);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -3,7 +3,7 @@
 
 #include "numerics/linalg/balance.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// StepMatrices (matrix_exponential.h) of n states and m inputs, sizes that the compiler knows.
 template <int n, int m>
@@ -40,4 +40,4 @@ std::optional<SizedStep<n, m>> short_step(const Eigen::Matrix<double, n, n>& A, 
     return step;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -4,7 +4,7 @@
 
 #include "numerics/linalg/decompositions.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -25,4 +25,4 @@ void TriangularFactor::add(const MatrixView& rows) {
     }
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -1,7 +1,7 @@
 #pragma once
 #include "numerics/linalg/types.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// The triangular factor R of a tall matrix M = QR, made while the rows of M come in, which are not kept: R'R = M'M,
 /// and a least-squares problem over the columns of M is one over those of R. Householder reflections, block by block,
@@ -16,4 +16,4 @@ class TriangularFactor {
     Matrix R_, stack_;
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

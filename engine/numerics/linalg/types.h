@@ -3,7 +3,7 @@
 #include <complex>
 #include <limits>
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
@@ -18,4 +18,4 @@ inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 using VectorView = Eigen::Ref<const Vector>;
 using MatrixView = Eigen::Ref<const Matrix>;
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

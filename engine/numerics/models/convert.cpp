@@ -4,14 +4,14 @@
 #include <string>
 
 #include "numerics/error.h"
-#include "numerics/kernels/tapped_system.h"
+#include "numerics/filters/tapped_system.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/matrix_exponential.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/number_text.h"
 #include "numerics/signals/checks.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -165,4 +165,4 @@ TransferFunction d2c(const TransferFunction& G, Discretisation method) {
     return method == Discretisation::kTustin ? tustin_d2c(G) : exact_d2c(G, hold_of(method));
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

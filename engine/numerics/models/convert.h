@@ -2,7 +2,7 @@
 #include "numerics/models/state_space.h"
 #include "numerics/models/transfer_function.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 enum class Discretisation { kZoh, kFoh, kTustin };
 
@@ -15,4 +15,4 @@ StateSpace c2d(const StateSpace& system, double Ts, Discretisation method = Disc
 /// equal under zoh), naming the pole.
 TransferFunction d2c(const TransferFunction& G, Discretisation method = Discretisation::kZoh);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

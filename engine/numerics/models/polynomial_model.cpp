@@ -7,7 +7,7 @@
 #include "numerics/linalg/polynomial.h"
 #include "numerics/signals/checks.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -141,4 +141,4 @@ TransferFunction PolynomialModel::noise_model() const {
     return in_powers_of_z(C, multiply(A, D), Ts);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

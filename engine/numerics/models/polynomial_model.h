@@ -4,7 +4,7 @@
 
 #include "numerics/models/transfer_function.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// How many coefficients each polynomial of a PolynomialModel has to be estimated, and how they stand in a parameter
 /// vector: a_1..a_na, then for each input f_1..f_nf and b_nk..b_(nk+nb-1), then c_1..c_nc and d_1..d_nd. A b is
@@ -50,4 +50,4 @@ struct PolynomialModel {
     TransferFunction noise_model() const;  ///< C/(A D)
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

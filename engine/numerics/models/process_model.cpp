@@ -6,7 +6,7 @@
 #include "numerics/error.h"
 #include "numerics/linalg/polynomial.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -101,4 +101,4 @@ TransferFunction ProcessModel::transfer_function() const {
     return TransferFunction(parameter("Kp") * num, den, 0, structure.delay ? parameter("Td") : 0);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -4,7 +4,7 @@
 
 #include "numerics/models/transfer_function.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// Structure of a process model, written as in the course: P, number of poles, then D (delay), I
 /// (integrator), Z (zero), U (under-damped pair): "P1", "P2U", "P1D", "P2DU", ... Letters after the digit in
@@ -31,4 +31,4 @@ struct ProcessModel {
     TransferFunction transfer_function() const;
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

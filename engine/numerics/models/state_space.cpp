@@ -11,7 +11,7 @@
 #include "numerics/models/transfer_function.h"
 #include "numerics/number_text.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -99,4 +99,4 @@ TransferFunction to_transfer_function(const StateSpace& system, Index output, In
     return TransferFunction(gain * polynomial_from_roots(zeros), den, system.Ts);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

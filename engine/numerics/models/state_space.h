@@ -1,7 +1,7 @@
 #pragma once
 #include "numerics/linalg/types.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 class TransferFunction;
 
@@ -22,4 +22,4 @@ StateSpace to_state_space(const TransferFunction& G);
 /// pencil.
 TransferFunction to_transfer_function(const StateSpace& system, Index output = 0, Index input = 0);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -7,7 +7,7 @@
 #include "numerics/linalg/polynomial.h"
 #include "numerics/number_text.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -136,4 +136,4 @@ TransferFunction feedback(const TransferFunction& forward, const TransferFunctio
     return TransferFunction(multiply(forward.num(), backward.den()), den, Ts);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -4,7 +4,7 @@
 
 #include "numerics/linalg/types.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// G(s) = num(s)/den(s) exp(-delay s), or with Ts > 0 G(z) = num(z)/den(z) z^-(delay/Ts). One input, one
 /// output. Coefficients highest power first; leading zeros are stripped and den is made monic on
@@ -68,4 +68,4 @@ double bandwidth(const TransferFunction& G);
 /// Three lines, numerator over denominator, as a terminal shows it: names the delay and Ts.
 std::string to_text(const TransferFunction& G, int significant_digits = 5);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

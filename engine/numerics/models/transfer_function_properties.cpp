@@ -5,7 +5,7 @@
 
 #include "numerics/models/transfer_function.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -91,4 +91,4 @@ double bandwidth(const TransferFunction& G) {
     return kInfinity;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

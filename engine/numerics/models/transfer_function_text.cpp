@@ -4,7 +4,7 @@
 #include "numerics/models/transfer_function.h"
 #include "numerics/number_text.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -51,4 +51,4 @@ std::string to_text(const TransferFunction& G, int significant_digits) {
     return centred(num, delay.size(), width) + "\n" + fraction + "\n" + centred(den, delay.size(), width);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

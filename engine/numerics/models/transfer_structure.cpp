@@ -5,7 +5,7 @@
 #include "numerics/error.h"
 #include "numerics/number_text.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -157,4 +157,4 @@ void TransferStructure::validate() const {
     }
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -4,7 +4,7 @@
 
 #include "numerics/models/transfer_function.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// One input-output channel B(p)/A(p) exp(-delay p) of a model.
 struct TransferChannel {
@@ -51,4 +51,4 @@ struct TransferStructure {
     void validate() const;
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

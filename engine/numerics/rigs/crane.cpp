@@ -6,7 +6,7 @@
 #include "numerics/error.h"
 #include "numerics/rigs/sensor.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 namespace {
 
 /// Places in the integrator's state.
@@ -179,4 +179,4 @@ void CraneSimulator::advance(double voltage, double duration) {
     while (solver_.advance(t, x_, duration, [this](double, const OdeState& x) { return guard(x); })) change_form();
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -1,7 +1,7 @@
 #pragma once
 #include "numerics/simulation/ode_solver.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// A trolley crane of laboratory size: a direct-current motor drives a trolley along a rail by a toothed belt; a
 /// pendulum hangs from the trolley. With x the trolley's position, z that of the belt at the motor, phi the pendulum's
@@ -102,4 +102,4 @@ class CraneSimulator {
     OdeSolver solver_;
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

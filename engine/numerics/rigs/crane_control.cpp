@@ -5,7 +5,7 @@
 #include "numerics/error.h"
 #include "numerics/rigs/sensor.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 namespace {
 
 double reading(double truth, double noise_std, double resolution, RandomStream& random) {
@@ -45,4 +45,4 @@ CraneRecord control_crane(const CraneParameters& parameters, const CraneExperime
     return record;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

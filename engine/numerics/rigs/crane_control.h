@@ -3,7 +3,7 @@
 
 #include "numerics/rigs/crane_experiments.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// Asked at every sample: instant (s), measured position (m) and angle (rad, the reading of the hanging pendulum taken
 /// off). Gives the voltage until the next sample.
@@ -25,4 +25,4 @@ struct CraneRun {
 CraneRecord control_crane(const CraneParameters& parameters, const CraneExperiments& plan, const CraneRun& run,
                           const CraneController& controller, std::uint32_t seed);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -6,7 +6,7 @@
 #include "numerics/rigs/seeded_prbs.h"
 #include "numerics/rigs/sensor.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 namespace {
 
 Vector joined(const std::vector<Vector>& parts) {
@@ -119,4 +119,4 @@ std::vector<CraneRecord> simulate_crane(const CraneParameters& parameters, const
     return records;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

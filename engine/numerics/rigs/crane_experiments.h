@@ -5,7 +5,7 @@
 
 #include "numerics/rigs/crane.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// How the crane is driven and measured. Each experiment but the free swing begins with `quiet_time` at 0 V, the load
 /// hanging at rest.
@@ -40,4 +40,4 @@ struct CraneRecord {
 std::vector<CraneRecord> simulate_crane(const CraneParameters& parameters, const CraneExperiments& experiments,
                                         std::uint32_t seed);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -4,7 +4,7 @@
 
 #include "numerics/linalg/types.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// Calls advance(value, duration) for the pieces of sampling interval k, from k Ts to (k + 1) Ts, over which the held
 /// input u, delayed by `delay` (s, any), is constant. Before its first sample u has the value of that sample.
@@ -17,4 +17,4 @@ void over_interval(const Vector& u, Index k, double delay, double Ts, Advance ad
     advance(value(k - whole), Ts - part);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -6,7 +6,7 @@
 #include "numerics/error.h"
 #include "numerics/rigs/sensor.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 void FirstOrderStepParameters::validate() const {
     const char* rig = "first-order step";
@@ -42,4 +42,4 @@ FirstOrderStepRecord simulate_first_order_step(const FirstOrderStepParameters& p
     return record;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -3,7 +3,7 @@
 
 #include "numerics/linalg/types.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// The step response of gain/(1 + time_constant s) from rest at a few instants, with its derivative, for least squares
 /// by hand:
@@ -38,4 +38,4 @@ FirstOrderStepTruth first_order_step_truth(const FirstOrderStepParameters& param
 /// The noise of y is drawn before that of ydot; equal seeds give equal records.
 FirstOrderStepRecord simulate_first_order_step(const FirstOrderStepParameters& parameters, std::uint32_t seed);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -4,7 +4,7 @@
 
 #include "numerics/error.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 void HeatExchangerParameters::validate() const {
     const char* rig = "heat exchanger";
@@ -58,4 +58,4 @@ RigRecord simulate_heat_exchanger(const HeatExchangerParameters& p, std::uint32_
     return record;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -3,7 +3,7 @@
 
 #include "numerics/rigs/sensor.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// A well-mixed water heater: water flows through a vessel of uniform temperature, a heating valve lets power in,
 /// the vessel's wall loses heat to the room:
@@ -45,4 +45,4 @@ HeatExchangerTruth heat_exchanger_truth(const HeatExchangerParameters& parameter
 /// The sampled experiment; equal seeds give equal records.
 RigRecord simulate_heat_exchanger(const HeatExchangerParameters& parameters, std::uint32_t seed);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

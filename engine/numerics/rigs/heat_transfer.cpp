@@ -8,7 +8,7 @@
 #include "numerics/rigs/seeded_prbs.h"
 #include "numerics/simulation/ode_solver.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 namespace {
 
 double heating(const HeatTransferParameters& p, double voltage) {
@@ -110,4 +110,4 @@ HeatTransferRecords simulate_heat_transfer(const HeatTransferParameters& paramet
     return records;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

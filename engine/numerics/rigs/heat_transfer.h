@@ -3,7 +3,7 @@
 
 #include "numerics/rigs/sensor.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// Air blown over an electric heater and through a tube, its temperature measured at the end:
 ///     heater_capacity dT_h/dt = power (u/full_voltage)^2 - transfer (T_h - T_a)
@@ -67,4 +67,4 @@ struct HeatTransferRecords {
 HeatTransferRecords simulate_heat_transfer(const HeatTransferParameters& parameters,
                                            const HeatTransferExperiments& experiments, std::uint32_t seed);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

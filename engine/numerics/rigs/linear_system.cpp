@@ -3,7 +3,7 @@
 #include "numerics/rigs/seeded_prbs.h"
 #include "numerics/simulation/lsim.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 namespace {
 
 RigRecord record_of(const LinearSystemParameters& p, const TransferFunction& G, RandomStream& random) {
@@ -44,4 +44,4 @@ LinearSystemRecords simulate_linear_system(const LinearSystemParameters& paramet
     return records;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

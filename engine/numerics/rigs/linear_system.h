@@ -4,7 +4,7 @@
 #include "numerics/models/transfer_function.h"
 #include "numerics/rigs/sensor.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// The linear system on which the choice of an order is learnt: one real pole, a resonance and a zero,
 ///     X(s) = gain (s/zero + 1)/((s/pole + 1)(s^2/w0^2 + 2 z s/w0 + 1)) U(s),      y = x + white normal noise.
@@ -33,4 +33,4 @@ struct LinearSystemRecords {
 /// Equal seeds give equal records.
 LinearSystemRecords simulate_linear_system(const LinearSystemParameters& parameters, std::uint32_t seed);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

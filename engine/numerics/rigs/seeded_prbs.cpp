@@ -4,7 +4,7 @@
 
 #include "numerics/signals/prbs.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 Vector seeded_prbs(int stages, int hold, double low, double high, RandomStream& random) {
     const Vector bits = prbs(stages, 1, 0, 1);
@@ -20,4 +20,4 @@ Vector seeded_prbs(int stages, int hold, double low, double high, RandomStream& 
     return u;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

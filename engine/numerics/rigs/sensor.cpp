@@ -5,7 +5,7 @@
 
 #include "numerics/error.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -38,4 +38,4 @@ void require_not_negative(const char* rig, const char* name, double value) {
     if (!(value >= 0) || !std::isfinite(value)) refuse(rig, name, "not be negative", value);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -4,7 +4,7 @@
 #include "numerics/linalg/types.h"
 #include "numerics/signals/random.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// What a rig's experiment leaves: instants (s), inputs and measured outputs, N values each.
 struct RigRecord {
@@ -22,4 +22,4 @@ Vector sampling_instants(double duration, double Ts);
 void require_positive(const char* rig, const char* name, double value);
 void require_not_negative(const char* rig, const char* name, double value);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -2,7 +2,7 @@
 
 #include "numerics/signals/random.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 namespace {
 
 /// Changes parameters one after the other; none of specimen 0.
@@ -91,4 +91,4 @@ ThrusterParameters thruster_specimen(std::uint32_t number) {
     return p;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -9,7 +9,7 @@
 #include "numerics/rigs/suspension.h"
 #include "numerics/rigs/thruster.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// Other specimens of the course's apparatus, as a laboratory with several of them has: what a student estimates is
 /// multiplied by factors drawn uniformly, independently, from 1 - d to 1 + d with d between 0.08 and 0.25 as the source
@@ -22,4 +22,4 @@ FirstOrderStepParameters step_response_specimen(std::uint32_t number);  ///< gai
 SuspensionParameters suspension_specimen(std::uint32_t number);         ///< mass, spring, damper
 ThrusterParameters thruster_specimen(std::uint32_t number);             ///< dead band, delay, propeller, load cell
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -5,7 +5,7 @@
 
 #include "numerics/error.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 void SuspensionParameters::validate() const {
     const char* rig = "suspension";
@@ -57,4 +57,4 @@ RigRecord simulate_suspension(const SuspensionParameters& p, std::uint32_t seed)
     return record;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

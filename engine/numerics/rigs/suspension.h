@@ -3,7 +3,7 @@
 
 #include "numerics/rigs/sensor.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// A suspension on its test bench: a mass on a spring and a damper, pushed by an electric actuator:
 ///     mass d2x/dt2 + damping dx/dt + stiffness x = force_per_volt u.
@@ -40,4 +40,4 @@ SuspensionTruth suspension_truth(const SuspensionParameters& parameters);
 /// The sampled experiment; equal seeds give equal records.
 RigRecord simulate_suspension(const SuspensionParameters& parameters, std::uint32_t seed);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

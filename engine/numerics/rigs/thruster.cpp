@@ -11,7 +11,7 @@
 #include "numerics/signals/excitation.h"
 #include "numerics/simulation/ode_solver.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 namespace {
 
 enum : Index { kThrusterSpeed, kReading, kReadingRate, kThrusterStates };
@@ -152,4 +152,4 @@ std::vector<ThrusterRecord> simulate_thruster(const ThrusterParameters& paramete
     return records;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

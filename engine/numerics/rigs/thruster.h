@@ -5,7 +5,7 @@
 
 #include "numerics/linalg/types.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// An underwater thruster on a load cell: a speed controller turns the width p of its pulses into a voltage, after a
 /// delay; a brushless motor drives a propeller; a bending beam that can swing measures the thrust T:
@@ -77,4 +77,4 @@ Vector simulate_thruster(const ThrusterParameters& parameters, const Vector& pwm
 std::vector<ThrusterRecord> simulate_thruster(const ThrusterParameters& parameters,
                                               const ThrusterExperiments& experiments, std::uint32_t seed);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

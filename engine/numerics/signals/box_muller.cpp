@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <numbers>
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -61,4 +61,4 @@ void box_muller(const NormalPairs& u1, const NormalPairs& u2, NormalPairs& cosin
     }
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -1,7 +1,7 @@
 #pragma once
 #include <array>
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// Pairs that are worked on together.
 inline constexpr int kNormalPairs = 8;
@@ -12,4 +12,4 @@ using NormalPairs = std::array<double, kNormalPairs>;
 /// Written without calls of the mathematical library: several pairs at once, and the same on every machine.
 void box_muller(const NormalPairs& u1, const NormalPairs& u2, NormalPairs& cosines, NormalPairs& sines);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

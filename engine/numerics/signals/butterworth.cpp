@@ -8,7 +8,7 @@
 #include "numerics/number_text.h"
 #include "numerics/signals/extension.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -192,4 +192,4 @@ IdData filter_data(const IdData& data, const PassBand& band, const FilterOptions
     return result;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -4,7 +4,7 @@
 
 #include "numerics/signals/iddata.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// Frequencies in radians per time unit (rad/s): 0 to `high` is a low-pass, `low` to infinity a high-pass filter.
 struct PassBand {
@@ -48,4 +48,4 @@ Vector filter_zero_phase(const FilterSections& sections, const VectorView& x);
 /// as it was. Throws as butterworth(), and for irregular sampling.
 IdData filter_data(const IdData& data, const PassBand& band, const FilterOptions& options = {});
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -5,7 +5,7 @@
 #include "numerics/error.h"
 #include "numerics/number_text.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -59,4 +59,4 @@ void check_instants(const std::string& caller, const VectorView& t) {
     }
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -3,7 +3,7 @@
 
 #include "numerics/linalg/types.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// Each throws an InvalidArgument that begins with `caller` and says in one sentence what was wrong.
 
@@ -15,4 +15,4 @@ void check_sampling_time(const std::string& caller, double Ts);
 /// Instants that are not finite or do not increase strictly.
 void check_instants(const std::string& caller, const VectorView& t);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

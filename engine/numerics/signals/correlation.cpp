@@ -7,7 +7,7 @@
 
 #include "numerics/error.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -56,4 +56,4 @@ Vector lagged_products(const VectorView& x, const VectorView& y, Index lags) {
     return lags <= kDirectLags ? direct_products(x, y, lags) : transformed_products(x, y, lags);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

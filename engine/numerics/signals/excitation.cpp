@@ -10,7 +10,7 @@
 #include "numerics/number_text.h"
 #include "numerics/signals/checks.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -105,4 +105,4 @@ Vector rbs(Index count, int hold, RandomStream& random, double low, double high)
     return signal;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

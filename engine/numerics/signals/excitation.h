@@ -2,7 +2,7 @@
 #include "numerics/linalg/types.h"
 #include "numerics/signals/random.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// Input signals for experiments. Frequencies in hertz, times in seconds; samples stand at 0, Ts, 2 Ts, ... and a
 /// signal of `duration` T holds round(T/Ts) of them. All throw InvalidArgument for sizes or times that are
@@ -28,4 +28,4 @@ Vector multisine(const VectorView& frequencies, double duration, double Ts);
 /// Random binary signal: every `hold` samples a fair coin from `random` decides between `low` and `high`.
 Vector rbs(Index count, int hold, RandomStream& random, double low = -1, double high = 1);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -1,6 +1,6 @@
 #include "numerics/signals/extension.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 Vector point_reflected(const VectorView& x, Index margin) {
     const Index N = x.size();
@@ -24,4 +24,4 @@ Vector point_reflected(const VectorView& x, Index margin) {
     return extended;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

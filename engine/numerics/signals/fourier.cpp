@@ -4,7 +4,7 @@
 #include <unsupported/Eigen/FFT>
 #include <vector>
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -57,4 +57,4 @@ ComplexVector fourier_transform(const VectorView& x) {
     return Eigen::Map<const ComplexVector>(X.data(), x.size());
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

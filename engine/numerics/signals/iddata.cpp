@@ -8,7 +8,7 @@
 #include "numerics/number_text.h"
 #include "numerics/signals/checks.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -196,4 +196,4 @@ IdData IdData::merge(const std::vector<IdData>& parts) {
     return merged;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -4,7 +4,7 @@
 
 #include "numerics/linalg/types.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// How a signal behaves between its samples: held (zoh) or on straight lines (foh).
 enum class Hold { kZoh, kFoh };
@@ -54,4 +54,4 @@ struct IdData {
     static IdData merge(const std::vector<IdData>& parts);  ///< several experiments in one object
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -5,7 +5,7 @@
 
 #include "numerics/error.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 namespace {
 
 template <class... Parts>
@@ -38,4 +38,4 @@ Vector interpolate_linearly(const VectorView& x, const VectorView& y, const Vect
     });
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -1,7 +1,7 @@
 #pragma once
 #include "numerics/linalg/types.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// What stands outside the points: nothing (asking for it throws), or the nearest end's value.
 enum class Outside { kRefuse, kHold };
@@ -12,4 +12,4 @@ enum class Outside { kRefuse, kHold };
 Vector interpolate_linearly(const VectorView& x, const VectorView& y, const VectorView& x_new,
                             Outside outside = Outside::kRefuse);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

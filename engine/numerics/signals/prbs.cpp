@@ -6,7 +6,7 @@
 
 #include "numerics/error.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -52,4 +52,4 @@ Vector prbs(int stages, int hold, double low, double high) {
     return signal;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -5,7 +5,7 @@
 
 #include "numerics/error.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -89,4 +89,4 @@ Detrended detrend(const IdData& data, TrendKind kind) {
     return result;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

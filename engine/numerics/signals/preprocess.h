@@ -3,7 +3,7 @@
 
 #include "numerics/signals/iddata.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 enum class TrendKind { kConstant, kLinear };
 
@@ -31,4 +31,4 @@ inline Detrended remove_mean(const IdData& data) {
 /// experiment, and for data without inputs unless `samples` is given.
 Detrended remove_initial_level(const IdData& data, Index samples = 0);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 Quantisation quantisation_of(const VectorView& x) {
     std::vector<double> values(x.begin(), x.end());
@@ -25,4 +25,4 @@ Quantisation quantisation_of(const VectorView& x) {
     return found;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -1,7 +1,7 @@
 #pragma once
 #include "numerics/linalg/types.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// How finely a signal was recorded.
 struct Quantisation {
@@ -13,4 +13,4 @@ struct Quantisation {
 /// multiples of it to within 2 % of a step and the samples are at least twice as many as the different values.
 Quantisation quantisation_of(const VectorView& x);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

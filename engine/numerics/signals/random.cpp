@@ -4,7 +4,7 @@
 
 #include "numerics/signals/box_muller.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -95,4 +95,4 @@ Vector RandomStream::normal(Index count) {
     return values;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -5,7 +5,7 @@
 
 #include "numerics/linalg/types.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// The course's reproducible source of random numbers: the Mersenne twister MT19937 (Matsumoto and Nishimura
 /// 1998), uniforms from 53 bits, normals by Box-Muller in pairs. The same on every machine for equal seeds.
@@ -29,4 +29,4 @@ class RandomStream {
     std::optional<double> second_normal_;
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -9,7 +9,7 @@
 #include "numerics/signals/quantisation.h"
 #include "numerics/signals/robust_statistics.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -116,4 +116,4 @@ RepairedSignal replace_outliers(const VectorView& x, const OutlierOptions& optio
     return bridged(x, counted(x.size()), good);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -3,7 +3,7 @@
 
 #include "numerics/signals/segments.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// A signal with some samples replaced, and which these were.
 struct RepairedSignal {
@@ -34,4 +34,4 @@ struct OutlierOptions {
 /// Transactions on Control Systems Technology 10.
 RepairedSignal replace_outliers(const VectorView& x, const OutlierOptions& options = {});
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

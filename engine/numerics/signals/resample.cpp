@@ -7,7 +7,7 @@
 #include "numerics/error.h"
 #include "numerics/signals/extension.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -95,4 +95,4 @@ IdData resample(const IdData& data, Index up, Index down) {
     return result;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

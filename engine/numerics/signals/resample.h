@@ -1,7 +1,7 @@
 #pragma once
 #include "numerics/signals/iddata.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// The signal at `up`/`down` times its sampling rate: sample m stands at the old sample m down/up, and the last one not
 /// beyond the old last. A linear-phase low-pass filter (Kaiser window, 100 dB) takes out what the lower of the two
@@ -19,4 +19,4 @@ inline constexpr Index kResampleReach = 32;
 /// irregular sampling and when fewer than two samples would be left.
 IdData resample(const IdData& data, Index up, Index down);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

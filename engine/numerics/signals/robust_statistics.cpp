@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 double median(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -24,4 +24,4 @@ double noise_from_differences(const VectorView& x) {
     return median(differences) / (kNormalMedian * std::sqrt(6.0));
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

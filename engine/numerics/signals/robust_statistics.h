@@ -3,7 +3,7 @@
 
 #include "numerics/linalg/types.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// The middle of the values, of an even number the mean of the two in the middle. Needs at least one.
 double median(std::vector<double> values);
@@ -13,4 +13,4 @@ double median(const VectorView& values);
 /// sqrt(6). Slopes and a few outliers do not enter; 0 for fewer than three samples.
 double noise_from_differences(const VectorView& x);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

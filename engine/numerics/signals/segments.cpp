@@ -4,7 +4,7 @@
 
 #include "numerics/error.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -61,4 +61,4 @@ IdData discard_segments(const IdData& data, const std::vector<Segment>& discarde
     return keep_segments(data, kept);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -5,7 +5,7 @@
 
 #include "numerics/signals/iddata.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// Samples first..last of a record, 1-based, inclusive.
 struct Segment {
@@ -23,4 +23,4 @@ IdData discard_segments(const IdData& data, const std::vector<Segment>& discarde
 /// In order, overlapping and touching ones joined.
 std::vector<Segment> joined(std::vector<Segment> segments);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

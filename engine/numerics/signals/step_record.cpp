@@ -9,7 +9,7 @@
 #include "numerics/linalg/decompositions.h"
 #include "numerics/signals/robust_statistics.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -198,4 +198,4 @@ StepRecord read_step_record(const IdData& data, double widest_window) {
     return record;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

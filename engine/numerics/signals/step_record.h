@@ -4,7 +4,7 @@
 #include "numerics/linalg/types.h"
 #include "numerics/signals/iddata.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// A plateau of a signal: its robust mean (a fifth of the values dropped at either side) over [from, to] seconds.
 struct Level {
@@ -39,4 +39,4 @@ struct StepRecord {
 /// says why a record is no step experiment.
 StepRecord read_step_record(const IdData& data, double widest_window = 2);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

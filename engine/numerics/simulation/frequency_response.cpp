@@ -6,7 +6,7 @@
 
 #include "numerics/error.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 ComplexVector frequency_response(const TransferFunction& G, const VectorView& w) {
     if (!w.allFinite()) throw InvalidArgument("frequency response: the frequencies hold a value that is not finite");
@@ -54,4 +54,4 @@ Vector natural_frequency_grid(const TransferFunction& G, Index count) {
     return grid;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -5,14 +5,14 @@
 #include <string>
 
 #include "numerics/error.h"
-#include "numerics/kernels/exact_filter.h"
-#include "numerics/kernels/irregular_filter.h"
-#include "numerics/kernels/tapped_system.h"
+#include "numerics/filters/exact_filter.h"
+#include "numerics/filters/irregular_filter.h"
+#include "numerics/filters/tapped_system.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/number_text.h"
 #include "numerics/signals/checks.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -122,4 +122,4 @@ Matrix state_variable_filter(const VectorView& x, int n, double lambda, double T
     return ExactFilter(derivative_filter(power(Eigen::Vector2d(1, lambda), n), Ts, hold)).run(x);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

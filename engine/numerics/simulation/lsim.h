@@ -3,7 +3,7 @@
 #include "numerics/models/transfer_function.h"
 #include "numerics/signals/iddata.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// Response of G to `u` (N samples every Ts seconds, held as `hold` says), exact at the sampling instants:
 /// state-space recursion with matrix exponentials, delays that are not a multiple of Ts
@@ -24,4 +24,4 @@ Matrix lsim(const StateSpace& system, const MatrixView& u, double Ts, Hold hold 
 /// (Garnier and Wang 2008, chapter 1.) n from 1 to 50, lambda in rad/s.
 Matrix state_variable_filter(const VectorView& x, int n, double lambda, double Ts, Hold hold = Hold::kFoh);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -9,7 +9,7 @@
 #include "numerics/error.h"
 #include "numerics/number_text.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 void OdeOptions::validate() const {
     const auto check = [](const char* name, double value) {
@@ -91,4 +91,4 @@ bool OdeSolver::advance(double& t, OdeState& x, double t_end, const OdeGuard& gu
     return false;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

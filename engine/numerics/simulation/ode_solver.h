@@ -3,7 +3,7 @@
 
 #include "numerics/linalg/types.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// The state of an ordinary differential equation, at most 8 values, kept without heap memory.
 using OdeState = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 8, 1>;
@@ -53,4 +53,4 @@ class OdeSolver {
     double next_step_;
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -10,7 +10,7 @@
 #include "numerics/signals/checks.h"
 #include "numerics/simulation/lsim.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -114,4 +114,4 @@ Vector natural_time_grid(const TransferFunction& G, Index count) {
     return G.Ts() * Vector::LinSpaced(static_cast<Index>(samples) + 1, 0, samples);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -1,7 +1,7 @@
 #pragma once
 #include "numerics/models/transfer_function.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// y at the instants t (s) after a unit step, or a unit impulse, at time zero.
 struct TimeResponse {
@@ -18,4 +18,4 @@ TimeResponse impulse_response(const TransferFunction& G, const VectorView& t);
 /// one grows about a hundredfold. `count` instants, for a discrete G the multiples of Ts up to T (at most 10000).
 Vector natural_time_grid(const TransferFunction& G, Index count = 400);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -47,4 +47,4 @@ Advice advise(const IdData& data, const std::function<bool()>& cancel) {
     return advice;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

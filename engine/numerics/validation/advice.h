@@ -5,7 +5,7 @@
 
 #include "numerics/signals/segments.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// Whether a finding only describes a record, or asks for something to be done before a model is fitted.
 enum class Weight { kNote, kWarning };
@@ -46,4 +46,4 @@ std::vector<RecordFinding> model_findings(const IdData& data, const std::functio
 /// Both, in the order of weight. A record with several outputs and one input is judged output by output.
 Advice advise(const IdData& data, const std::function<bool()>& cancel = {});
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -3,17 +3,17 @@
 #include <cmath>
 #include <span>
 
+#include "numerics/criteria/process_output.h"
+#include "numerics/criteria/transfer_sensitivity.h"
 #include "numerics/error.h"
-#include "numerics/kernels/discrete_fit.h"
-#include "numerics/kernels/prediction_model.h"
-#include "numerics/kernels/process_output.h"
-#include "numerics/kernels/transfer_sensitivity.h"
+#include "numerics/fit/discrete_fit.h"
+#include "numerics/fit/prediction_model.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/simulation/time_response.h"
 #include "numerics/validation/robust_covariance.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -274,4 +274,4 @@ Assessment assess(const IdData& data, const PolynomialEstimate& estimate, Offset
     return assessment;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -3,12 +3,12 @@
 #include <vector>
 
 #include "numerics/estimators/procsrivc.h"
-#include "numerics/kernels/polynomial_estimate.h"
-#include "numerics/kernels/transfer_estimate.h"
+#include "numerics/fit/polynomial_estimate.h"
+#include "numerics/fit/transfer_estimate.h"
 #include "numerics/signals/iddata.h"
 #include "numerics/validation/residual_tests.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// Whether the plain standard errors of an output-error estimate, which take its errors as white, can be trusted, and
 /// those to use when they cannot.
@@ -37,4 +37,4 @@ Assessment assess(const IdData& data, const ProcsrivcResult& estimate, const Res
 Assessment assess(const IdData& data, const PolynomialEstimate& estimate, Offset offset,
                   const ResidualOptions& options = {});
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

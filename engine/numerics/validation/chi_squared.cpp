@@ -8,7 +8,7 @@
 
 #include "numerics/error.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -46,4 +46,4 @@ double normal_half_width(double probability) {
     return std::numbers::sqrt2 * boost::math::erf_inv(probability, Policy());
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

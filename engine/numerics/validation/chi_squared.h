@@ -1,6 +1,6 @@
 #pragma once
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// P(X > x) for X chi-squared with `degrees` > 0 degrees of freedom (need not be whole). Throws InvalidArgument for
 /// degrees that are not positive or an x that is not a number.
@@ -13,4 +13,4 @@ double chi_squared_quantile(double probability, double degrees);
 /// 2.576 for 0.99. Throws InvalidArgument unless 0 < probability < 1.
 double normal_half_width(double probability);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

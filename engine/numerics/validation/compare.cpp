@@ -11,7 +11,7 @@
 #include "numerics/simulation/lsim.h"
 #include "numerics/validation/fit_measures.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -170,4 +170,4 @@ CompareResult compare(const IdData& data, const TransferFunction& G, const Compa
     return compare_all(data, {G}, options).results.front().front();
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

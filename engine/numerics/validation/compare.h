@@ -2,11 +2,11 @@
 #include <string>
 #include <vector>
 
-#include "numerics/kernels/initial_conditions.h"
+#include "numerics/criteria/initial_conditions.h"
 #include "numerics/models/transfer_function.h"
 #include "numerics/signals/iddata.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 struct CompareOptions {
     InitialState initial_state = InitialState::kAuto;
@@ -43,4 +43,4 @@ struct Comparison {
 Comparison compare_all(const IdData& data, const std::vector<TransferFunction>& channels,
                        const CompareOptions& options = {});
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -4,12 +4,12 @@
 #include <limits>
 
 #include "numerics/error.h"
-#include "numerics/kernels/exact_filter.h"
-#include "numerics/kernels/sensitivity_system.h"
-#include "numerics/kernels/tapped_system.h"
+#include "numerics/filters/exact_filter.h"
+#include "numerics/filters/sensitivity_system.h"
+#include "numerics/filters/tapped_system.h"
 #include "numerics/linalg/least_squares.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 namespace {
 
 struct ParameterNumbers {
@@ -89,4 +89,4 @@ Matrix cramer_rao_bound(const TransferFunction& system, const VectorView& u, dou
     return sigma * sigma * solved.inverse_gram;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -5,7 +5,7 @@
 #include "numerics/models/transfer_function.h"
 #include "numerics/signals/iddata.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// Names of a continuous-time system's parameters: a1 .. an, b0 .. bm, and Td when it has a delay.
 std::vector<std::string> system_parameter_names(const TransferFunction& system);
@@ -23,4 +23,4 @@ Vector true_parameters(const TransferFunction& system, const std::vector<std::st
 Matrix cramer_rao_bound(const TransferFunction& system, const VectorView& u, double Ts, Hold hold, double sigma,
                         const std::vector<std::string>& names);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -6,7 +6,7 @@
 #include "numerics/error.h"
 #include "numerics/number_text.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -119,4 +119,4 @@ CrossValidation cross_validate(const IdData& data, const ModelFitter& fit, const
     return result;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -7,7 +7,7 @@
 #include "numerics/signals/iddata.h"
 #include "numerics/validation/compare.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 struct CrossValidationOptions {
     int folds = 5;               ///< contiguous segments of about equal length; not used with `by_experiment`
@@ -44,4 +44,4 @@ using ModelFitter = std::function<std::vector<TransferFunction>(const IdData&)>;
 /// two folds, folds of fewer than ten samples, or by_experiment with a single experiment.
 CrossValidation cross_validate(const IdData& data, const ModelFitter& fit, const CrossValidationOptions& options = {});
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -6,7 +6,7 @@
 #include "numerics/error.h"
 #include "numerics/number_text.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 namespace {
 
 constexpr double kChance = 6.635;  // 99 % quantile of chi-square with one degree of freedom
@@ -93,4 +93,4 @@ DelaySearch search_delay(const IdData& data, const DelaySearchOptions& options) 
     return search;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

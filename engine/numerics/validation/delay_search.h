@@ -5,7 +5,7 @@
 
 #include "numerics/validation/order_selection.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 struct DelaySearchOptions {
     std::pair<int, int> poles{1, 3}, zeros{0, 1};         ///< structures among which the recommended one is taken
@@ -37,4 +37,4 @@ struct DelaySearch {
 /// data, empty ranges, TdMax not above TdMin, and when no structure could be estimated.
 DelaySearch search_delay(const IdData& data, const DelaySearchOptions& options = {});
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

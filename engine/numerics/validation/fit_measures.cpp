@@ -5,7 +5,7 @@
 
 #include "numerics/error.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -79,4 +79,4 @@ InformationCriteria information_criteria(double mean_square, Index samples, Inde
     return criteria;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

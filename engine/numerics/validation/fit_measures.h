@@ -4,7 +4,7 @@
 
 #include "numerics/linalg/types.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// Measures of how well a simulated output `y_sim` follows the measured `y` (N values each). All throw InvalidArgument
 /// for lengths that differ or fewer than two samples.
@@ -32,4 +32,4 @@ struct InformationCriteria {
 /// Throws InvalidArgument unless V >= 0 and N > d + 1.
 InformationCriteria information_criteria(double mean_square, Index samples, Index parameters);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -12,7 +12,7 @@
 #include "numerics/validation/compare.h"
 #include "numerics/validation/delay_search.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -243,4 +243,4 @@ std::vector<RecordFinding> model_findings(const IdData& data, const std::functio
     return findings;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

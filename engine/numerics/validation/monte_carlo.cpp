@@ -11,14 +11,14 @@
 #include <mutex>
 
 #include "numerics/error.h"
-#include "numerics/kernels/thread_count.h"
+#include "numerics/filters/thread_count.h"
 #include "numerics/number_text.h"
 #include "numerics/signals/random.h"
 #include "numerics/signals/robust_statistics.h"
 #include "numerics/simulation/lsim.h"
 #include "numerics/validation/cramer_rao.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
@@ -269,4 +269,4 @@ MonteCarlo monte_carlo(const MonteCarloStudy& study, const std::vector<MonteCarl
     return all;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -8,7 +8,7 @@
 #include "numerics/models/transfer_function.h"
 #include "numerics/signals/iddata.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// What one estimation gives to a study.
 struct MonteCarloEstimate {
@@ -75,4 +75,4 @@ struct MonteCarlo {
 /// an unsuitable study, for methods with equal labels, and when every run of a method failed.
 MonteCarlo monte_carlo(const MonteCarloStudy& study, const std::vector<MonteCarloMethod>& methods);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -5,7 +5,7 @@
 #include "numerics/number_text.h"
 #include "numerics/validation/order_selection.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 namespace {
 
 constexpr double kSlightEvidence = 2;  // difference of N BIC that is not worth a mention
@@ -180,4 +180,4 @@ OrderChoice choose_order(const OrderSelection& selection, OrderCriterion criteri
     return choice;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

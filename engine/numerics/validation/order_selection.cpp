@@ -10,12 +10,12 @@
 
 #include "numerics/error.h"
 #include "numerics/estimators/srivc.h"
-#include "numerics/kernels/thread_count.h"
+#include "numerics/filters/thread_count.h"
 #include "numerics/validation/compare.h"
 #include "numerics/validation/fit_measures.h"
 #include "numerics/validation/uncertainty.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 namespace {
 
 constexpr int kMostCandidates = 2000;
@@ -207,4 +207,4 @@ OrderSelection select_order(const IdData& data, const std::vector<TransferStruct
     return selection;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "numerics/kernels/transfer_estimate.h"
+#include "numerics/fit/transfer_estimate.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 enum class OrderCriterion { kRecommended, kRSquared, kYic, kAic, kBic, kFpe, kFit, kValidationFit };
 
@@ -72,4 +72,4 @@ struct OrderChoice {
 /// the best value among all estimates. Throws InvalidArgument for kValidationFit without a second record.
 OrderChoice choose_order(const OrderSelection& selection, OrderCriterion criterion = OrderCriterion::kRecommended);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

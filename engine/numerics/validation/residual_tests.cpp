@@ -9,7 +9,7 @@
 #include "numerics/signals/correlation.h"
 #include "numerics/validation/chi_squared.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -287,4 +287,4 @@ ResidualTests residual_tests(const IdData& data, const std::vector<TransferFunct
     return residual_tests(data, simulated, options);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

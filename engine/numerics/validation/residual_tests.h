@@ -5,7 +5,7 @@
 #include "numerics/signals/iddata.h"
 #include "numerics/validation/compare.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 struct ResidualOptions {
     Index lags = 25;
@@ -74,4 +74,4 @@ ResidualTests residual_tests(const IdData& data, const std::vector<TransferFunct
 /// the lags fewer are tested.
 WhitenessTest whiteness_test(const std::vector<Vector>& errors, const ResidualOptions& options = {});
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

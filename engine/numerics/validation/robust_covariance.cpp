@@ -8,7 +8,7 @@
 #include "numerics/error.h"
 #include "numerics/linalg/least_squares.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -105,4 +105,4 @@ RobustCovariance robust_covariance(const MatrixView& Psi, const VectorView& e, c
     return robust_covariance(solve_least_squares(Psi, e).inverse_gram, Psi, e, lengths, outputs);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

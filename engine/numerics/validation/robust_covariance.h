@@ -3,7 +3,7 @@
 
 #include "numerics/linalg/types.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// The covariance of an estimate whose errors are coloured, or of changing size.
 struct RobustCovariance {
@@ -34,4 +34,4 @@ RobustCovariance robust_covariance(const MatrixView& H, const MatrixView& Z, con
 RobustCovariance robust_covariance(const MatrixView& Psi, const VectorView& e, const std::vector<Index>& lengths = {},
                                    Index outputs = 1);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

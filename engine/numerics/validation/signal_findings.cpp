@@ -11,7 +11,7 @@
 #include "numerics/signals/robust_statistics.h"
 #include "numerics/validation/advice.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -241,7 +241,7 @@ void find_excitation(const Channel& channel, const Quantisation& grid, std::vect
                               " only. Excite with a prbs, a chirp or a multisine that covers the plant's bandwidth."
                         : " is rich enough for models with " +
                               (order >= kHighestExcitation ? std::string("20 parameters or more")
-                                                      : std::to_string(order) + " parameters") +
+                                                           : std::to_string(order) + " parameters") +
                               "."),
               static_cast<double>(order)));
 }
@@ -315,4 +315,4 @@ std::vector<RecordFinding> signal_findings(const IdData& data) {
     return findings;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

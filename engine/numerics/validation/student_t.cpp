@@ -6,7 +6,7 @@
 
 #include "numerics/error.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -24,4 +24,4 @@ double student_t_quantile(double probability, double degrees) {
     return quantile(StudentT(degrees), probability);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -5,15 +5,15 @@
 #include <limits>
 #include <numbers>
 
+#include "numerics/criteria/process_output.h"
 #include "numerics/error.h"
-#include "numerics/kernels/process_output.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/number_text.h"
 #include "numerics/simulation/time_response.h"
 #include "numerics/validation/chi_squared.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 namespace {
 
@@ -196,4 +196,4 @@ ModelUncertainty describe_uncertainty(const UncertainModel& model) {
     return result;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

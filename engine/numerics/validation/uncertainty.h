@@ -6,7 +6,7 @@
 #include "numerics/models/process_model.h"
 #include "numerics/models/transfer_function.h"
 
-namespace dynlab {
+namespace dynlab::inline numerics {
 
 /// A continuous-time model with the covariance of theta = [a_1..a_n b_0..b_m], or of [a_1..a_n b_0..b_m delay]. What
 /// follows is first-order (delta-method) uncertainty with exact derivatives: good while standard errors are small
@@ -62,4 +62,4 @@ ModelUncertainty describe_uncertainty(const UncertainModel& model);
 /// The transfer functions dG/da_1..dG/da_n, dG/db_0..dG/db_m, each with G's delay: -s^(n-i) B/A^2 and s^(m-j)/A.
 std::vector<TransferFunction> coefficient_derivatives(const TransferFunction& G);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline numerics

@@ -2,10 +2,10 @@
 #include <new>
 #include <utility>
 
-#include "scripting/arguments.h"
+#include "scripting/arguments/arguments.h"
 #include "scripting/objects/object_type.h"
 
-namespace dynlab {
+namespace dynlab::inline scripting {
 
 /// Each boxed C++ class says which object type it is and how many bytes it holds outside Lua:
 ///   template <> struct Boxed<IdData> { static const ObjectType type; static std::size_t outside_bytes(const IdData&);
@@ -70,4 +70,4 @@ T& object_argument(const Call& call, int index, const char* what) {
     return *object;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline scripting

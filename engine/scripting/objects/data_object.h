@@ -2,7 +2,7 @@
 #include "numerics/signals/iddata.h"
 #include "scripting/objects/boxed.h"
 
-namespace dynlab {
+namespace dynlab::inline scripting {
 
 template <>
 struct Boxed<IdData> {
@@ -12,4 +12,4 @@ struct Boxed<IdData> {
 
 int give_data(const Call& call, IdData data);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline scripting

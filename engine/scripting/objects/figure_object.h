@@ -1,8 +1,8 @@
 #pragma once
 #include "scripting/objects/boxed.h"
-#include "scripting/recorder.h"
+#include "scripting/runtime/recorder.h"
 
-namespace dynlab {
+namespace dynlab::inline scripting {
 
 template <>
 struct Boxed<FigurePointer> {
@@ -16,4 +16,4 @@ int give_figure(const Call& call, Figure figure);
 /// The figure of an argument that puts it somewhere: it no longer belongs to its cell alone.
 ScriptFigure& used_figure(const Call& call, int index, const char* what);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline scripting

@@ -1,6 +1,6 @@
 #include "scripting/objects/model.h"
 
-namespace dynlab {
+namespace dynlab::inline scripting {
 
 std::size_t Boxed<Model>::outside_bytes(const Model& model) {
     std::size_t numbers = static_cast<std::size_t>(model.G.num().size() + model.G.den().size());
@@ -80,4 +80,4 @@ ModelParameters parameters_of(const Model& model) {
     return result;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline scripting

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "numerics/estimators/step_test.h"
-#include "numerics/kernels/termination.h"
+#include "numerics/fit/termination.h"
 #include "numerics/models/polynomial_model.h"
 #include "numerics/models/process_model.h"
 #include "numerics/models/state_space.h"
@@ -15,7 +15,7 @@
 #include "numerics/validation/uncertainty.h"
 #include "scripting/objects/boxed.h"
 
-namespace dynlab {
+namespace dynlab::inline scripting {
 
 /// Noise v = C(q^-1)/D(q^-1) e of an estimated model, monic, with standard errors (zero for the leading ones).
 struct NoiseModel {
@@ -127,4 +127,4 @@ struct ModelParameters {
 };
 ModelParameters parameters_of(const Model& model);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline scripting

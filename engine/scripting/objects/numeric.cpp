@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include "numerics/error.h"
-#include "scripting/context.h"
 #include "scripting/objects/boxed.h"
 #include "scripting/objects/numeric_types.h"
+#include "scripting/runtime/context.h"
 
-namespace dynlab {
+namespace dynlab::inline scripting {
 namespace {
 
 template <class Block>
@@ -81,4 +81,4 @@ MaskBlock* to_mask(lua_State* L, int index) {
     return block_at<MaskBlock>(L, index, mask_type());
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline scripting

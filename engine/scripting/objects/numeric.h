@@ -3,7 +3,7 @@
 
 #include "numerics/linalg/types.h"
 
-namespace dynlab {
+namespace dynlab::inline scripting {
 
 using VectorMap = Eigen::Map<const Vector>;
 using MatrixMap = Eigen::Map<const Matrix>;
@@ -36,4 +36,4 @@ MaskBlock* to_mask(lua_State* L, int index);
 /// Throws InvalidArgument, naming size and limit, when `bytes` cannot be had.
 void need_memory(lua_State* L, double bytes, const char* what);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline scripting

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "numerics/error.h"
-#include "scripting/arguments.h"
+#include "scripting/arguments/arguments.h"
 
-namespace dynlab {
+namespace dynlab::inline scripting {
 namespace {
 
 /// Numbers that the entry on top of the stack stands for: one, or a vector's; -1 for anything else.
@@ -103,4 +103,4 @@ void make_matrix_of_table(lua_State* L, int index, const std::string& label) {
     lua_replace(L, index);
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline scripting

@@ -4,7 +4,7 @@
 
 #include "numerics/linalg/types.h"
 
-namespace dynlab {
+namespace dynlab::inline scripting {
 
 /// Replaces a table of numbers at stack place `index` by a vector; entries may also be vectors, which are joined.
 /// `label` names the table in messages.
@@ -13,4 +13,4 @@ void make_vector_of_table(lua_State* L, int index, const std::string& label);
 /// Replaces a table at `index` by a matrix: plain tables of numbers are its rows, vectors its columns.
 void make_matrix_of_table(lua_State* L, int index, const std::string& label);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline scripting

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "platform/spelling.h"
-#include "scripting/context.h"
+#include "scripting/runtime/context.h"
 
-namespace dynlab {
+namespace dynlab::inline scripting {
 namespace {
 
 char type_key;  // its address is the key of the type in its metatable
@@ -126,4 +126,4 @@ std::string object_name(lua_State* L, int index) {
     return name;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline scripting

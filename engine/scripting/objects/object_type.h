@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-namespace dynlab {
+namespace dynlab::inline scripting {
 
 struct Member {
     const char* name;
@@ -28,4 +28,4 @@ const ObjectType* object_type(lua_State* L, int index);
 /// Name of the object at `index` ("vector"); empty for anything else.
 std::string object_name(lua_State* L, int index);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline scripting

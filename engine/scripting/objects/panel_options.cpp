@@ -4,7 +4,7 @@
 #include <array>
 #include <functional>
 
-namespace dynlab {
+namespace dynlab::inline scripting {
 namespace {
 
 constexpr std::array kStyleNames = {"line", "points", "line_points", "stairs", "stems", "bars", "band"};
@@ -122,4 +122,4 @@ Panel read_panel(const Call& call, int index) {
     return panel;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline scripting

@@ -2,9 +2,9 @@
 #include <initializer_list>
 
 #include "figures/figure.h"
-#include "scripting/arguments.h"
+#include "scripting/arguments/arguments.h"
 
-namespace dynlab {
+namespace dynlab::inline scripting {
 
 /// Options that describe a panel (axes and marks), a curve and a whole figure; the names scripts use.
 inline constexpr std::initializer_list<const char*> kCurveOptions = {"x",      "y",    "y_upper",    "label", "style",
@@ -23,4 +23,4 @@ CurveStyle parse_curve_style(const std::string& name);
 /// A panel from its table.
 Panel read_panel(const Call& call, int index);
 
-}  // namespace dynlab
+}  // namespace dynlab::inline scripting

@@ -3,7 +3,7 @@
 #include "numerics/validation/order_selection.h"
 #include "scripting/objects/boxed.h"
 
-namespace dynlab {
+namespace dynlab::inline scripting {
 
 /// What srivcstruc gives: all candidates and the recommended one.
 struct OrderTable {
@@ -23,4 +23,4 @@ struct Boxed<MonteCarlo> {
     static std::size_t outside_bytes(const MonteCarlo& study);
 };
 
-}  // namespace dynlab
+}  // namespace dynlab::inline scripting

@@ -8,9 +8,9 @@ foreach(page IN LISTS pages)
   file(READ ${page} text)
   string(APPEND entries "    HelpPage{\"${name}\", R\"-page-(${text})-page-\"},\n")
 endforeach()
-file(WRITE ${OUTPUT} "#include \"scripting/help.h\"
+file(WRITE ${OUTPUT} "#include \"scripting/runtime/help.h\"
 
-namespace dynlab {
+namespace dynlab::inline scripting {
 namespace {
 
 constexpr HelpPage kPages[] = {
@@ -22,5 +22,5 @@ std::span<const HelpPage> help_pages() {
     return kPages;
 }
 
-}  // namespace dynlab
+}  // namespace dynlab::inline scripting
 ")

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "numerics/criteria/discrete_output.h"
 #include "numerics/estimators/oe.h"
-#include "numerics/kernels/discrete_output.h"
 #include "support/difference_equation.h"
 #include "support/thrown_message.h"
 

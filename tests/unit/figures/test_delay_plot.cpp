@@ -1,4 +1,4 @@
-#include "figures/delay_plot.h"
+#include "figures/plots/delay_plot.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

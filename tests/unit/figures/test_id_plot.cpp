@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "figures/id_plot.h"
+#include "figures/plots/id_plot.h"
 #include "numerics/error.h"
 
 namespace test_id_plot {

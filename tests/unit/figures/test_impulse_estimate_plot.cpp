@@ -1,5 +1,5 @@
 // Oracles: the header's definitions, exp(-t) by hand, the normal distribution's quantiles.
-#include "figures/impulse_estimate_plot.h"
+#include "figures/plots/impulse_estimate_plot.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

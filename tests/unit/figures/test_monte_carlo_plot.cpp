@@ -1,4 +1,4 @@
-#include "figures/monte_carlo_plot.h"
+#include "figures/plots/monte_carlo_plot.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

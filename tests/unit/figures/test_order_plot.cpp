@@ -1,4 +1,4 @@
-#include "figures/order_plot.h"
+#include "figures/plots/order_plot.h"
 
 #include <gtest/gtest.h>
 

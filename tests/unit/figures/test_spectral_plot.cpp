@@ -1,5 +1,5 @@
 // Oracles: decibels and degrees of a first-order lag by hand, the normal distribution's 99 % quantile.
-#include "figures/spectral_plot.h"
+#include "figures/plots/spectral_plot.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

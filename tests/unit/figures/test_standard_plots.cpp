@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "figures/pole_zero_map.h"
-#include "figures/regression_plot.h"
+#include "figures/plots/pole_zero_map.h"
+#include "figures/plots/regression_plot.h"
 #include "figures/step_construction.h"
 #include "numerics/error.h"
 

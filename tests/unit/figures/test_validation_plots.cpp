@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "figures/bode_plot.h"
-#include "figures/cross_validation_plot.h"
-#include "figures/pole_zero_map.h"
-#include "figures/residual_plot.h"
-#include "figures/step_plot.h"
+#include "figures/plots/bode_plot.h"
+#include "figures/plots/cross_validation_plot.h"
+#include "figures/plots/pole_zero_map.h"
+#include "figures/plots/residual_plot.h"
+#include "figures/plots/step_plot.h"
 #include "numerics/error.h"
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random.h"

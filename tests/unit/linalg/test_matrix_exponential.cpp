@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "numerics/kernels/sensitivity_system.h"
+#include "numerics/filters/sensitivity_system.h"
 #include "numerics/linalg/polynomial.h"
 #include "support/thrown_message.h"
 

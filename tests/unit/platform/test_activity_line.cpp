@@ -1,10 +1,10 @@
 // Oracle: what a terminal is to show at which time, and that a pipe gets nothing.
-#include "platform/activity_line.h"
+#include "platform/terminal/activity_line.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "platform/progress.h"
+#include "platform/terminal/progress.h"
 #include "support/pseudo_terminal.h"
 
 namespace dynlab {

@@ -1,4 +1,4 @@
-#include "platform/progress.h"
+#include "platform/terminal/progress.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "platform/terminal_text.h"
+#include "platform/terminal/terminal_text.h"
 
 #include <gtest/gtest.h>
 

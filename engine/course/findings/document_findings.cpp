@@ -1,0 +1,179 @@
+#include "course/findings/document_findings.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "course/findings/document_text.h"
+#include "course/findings/figure_findings.h"
+#include "course/findings/language_findings.h"
+#include "course/findings/layout_findings.h"
+#include "course/findings/leftover_findings.h"
+#include "course/findings/section_findings.h"
+#include "course/names/name_findings.h"
+#include "documents/template_file.h"
+#include "platform/program_lookup.h"
+#include "platform/text_file.h"
+
+namespace dynlab::inline course {
+namespace {
+
+namespace fs = std::filesystem;
+
+Finding file_finding(const PdfRefusal& refusal) {
+    switch (refusal.fault()) {
+        case PdfFault::kNotPdf:
+            return {"not-pdf", Severity::kRule, 0, "", refusal.what(), "Hand in the PDF that dynlab report writes."};
+        case PdfFault::kEncrypted:
+            return {"encrypted", Severity::kRule, 0, "", refusal.what(), "Save it again without a password."};
+        case PdfFault::kTooLarge:
+            return {
+                "too-large", Severity::kRule, 0,
+                "",          refusal.what(),  "Make it smaller: draw figures as lines, not as pictures of the screen."};
+        case PdfFault::kNotThere:
+        case PdfFault::kDamaged:
+            break;
+    }
+    return {"damaged", Severity::kRule, 0,
+            "",        refusal.what(),  "Make it again, or copy it again from where it was made."};
+}
+
+std::vector<std::string> installed_templates() {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(shared_folder() / "report_templates")) {
+        if (entry.path().extension() == ".md") names.push_back(entry.path().stem());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+std::string listed(const std::vector<std::string>& words) {
+    return fmt::format("{}", fmt::join(words, ", "));
+}
+
+/// Of a template that may not be installed.
+DocumentStandard known_standard(const char* name) {
+    const std::vector<std::string> known = installed_templates();
+    return std::find(known.begin(), known.end(), name) == known.end() ? DocumentStandard() : standard_of(name);
+}
+
+/// How many of the demanded sections a document has.
+std::ptrdiff_t sections_in(const DocumentText& text, const DocumentStandard& standard) {
+    const Findings found = section_findings(text, standard.rules, "en");
+    const auto demanded = [](const SectionRule& section) { return !section.optional; };
+    return std::count_if(standard.rules.sections.begin(), standard.rules.sections.end(), demanded) -
+           std::count_if(found.begin(), found.end(), [](const Finding& f) { return f.id == "section-missing"; });
+}
+
+DocumentStandard usual_standard(const DocumentText& text) {
+    if (text.is_slides()) return known_standard("slides");
+    DocumentStandard report = known_standard("lab_report"), review = known_standard("peer_review");
+    return sections_in(text, review) > sections_in(text, report) ? review : report;
+}
+
+DocumentStandard standard_for(const DocumentText& text, const CheckWishes& wishes) {
+    DocumentStandard standard = wishes.standard ? *wishes.standard : usual_standard(text);
+    if (wishes.pages) {
+        standard.rules.pages = *wishes.pages;
+        standard.rules.appendix_pages.reset();
+    }
+    return standard;
+}
+
+std::string page_summary(const DocumentText& text, int pages, const DocumentRules& rules) {
+    const char* unit = text.is_slides() ? "slide" : "page";
+    std::string summary = fmt::format("{} {}{}", pages, unit, pages == 1 ? "" : "s");
+    if (rules.pages) summary += fmt::format(" of at most {}", *rules.pages);
+    if (rules.pages && rules.appendix_pages) summary += fmt::format(" + {} of appendix", *rules.appendix_pages);
+    return summary;
+}
+
+/// Checks what can be read; `result` knows the file already.
+void check_text(const PdfLayout& layout, const DocumentText& text, const DocumentStandard& standard,
+                CheckResult& result) {
+    const LanguageFindings language = language_findings(text, standard.language);
+    result.language = language.language;
+    const bool is_report = !standard.rules.sections.empty() && !text.is_slides();
+    const FigureFindings figures = figure_findings(text, is_report ? Severity::kRule : Severity::kHint);
+    const std::string titles = standard.language ? *standard.language : language.language == "fr" ? "fr" : "en";
+    for (const Findings& found :
+         {page_findings(text, result.pages, standard.rules), section_findings(text, standard.rules, titles),
+          figures.findings, leftover_findings(text, standard.guidance), language.findings,
+          layout_findings(text, layout)}) {
+        result.findings.insert(result.findings.end(), found.begin(), found.end());
+    }
+    result.checked.push_back(page_summary(text, result.pages, standard.rules));
+    if (!standard.rules.sections.empty())
+        result.checked.push_back(fmt::format("{} sections", standard.rules.sections.size()));
+    result.checked.push_back(fmt::format("{} numbered figure{}", figures.figures, figures.figures == 1 ? "" : "s"));
+    result.checked.push_back("unfilled slots");
+    if (!result.language.empty()) result.checked.push_back(result.language == "fr" ? "French only" : "English only");
+    result.checked.push_back(text.is_slides() ? "text size" : "text size and margins");
+}
+
+void check_names(const fs::path& file, const PdfLayout& layout, const SoughtNames& names, const PdfLimits& limits,
+                 CheckResult& result) {
+    NameSearchLimits search;
+    search.pdf = limits;
+    result.findings = name_findings(file, layout, names, search);
+    if (names.empty()) return;
+    result.checked.push_back(fmt::format("names of {} {}", names.people(), names.people() == 1 ? "person" : "people"));
+}
+
+}  // namespace
+
+bool CheckResult::passed() const {
+    return std::none_of(findings.begin(), findings.end(),
+                        [](const Finding& finding) { return finding.severity == Severity::kRule; });
+}
+
+void sort_findings(Findings& findings) {
+    std::stable_sort(findings.begin(), findings.end(), [](const Finding& a, const Finding& b) {
+        return std::tie(a.severity, a.page) < std::tie(b.severity, b.page);
+    });
+}
+
+DocumentStandard standard_of(const std::string& name) {
+    const bool is_file = name.ends_with(".md");
+    const fs::path file = is_file ? fs::path(name) : shared_folder() / "report_templates" / (name + ".md");
+    const std::vector<std::string> known = installed_templates();
+    if (!is_file && std::find(known.begin(), known.end(), name) == known.end())
+        throw EnvironmentError("there is no template '" + name + "'; the templates are " + listed(known));
+    return {fs::path(name).stem(), document_rules(read_template(file)), guidance_of(read_text(file)), std::nullopt};
+}
+
+CheckResult check_pdf(const fs::path& file, const CheckWishes& wishes, const PdfLimits& limits) {
+    CheckResult result;
+    result.subject = file.string();
+    try {
+        const PdfLayout layout = read_pdf_layout(file, limits);
+        const DocumentText text = text_of_layout(layout);
+        const DocumentStandard standard = standard_for(text, wishes);
+        result.template_name = standard.template_name;
+        result.pages = static_cast<int>(layout.pages.size());
+        if (wishes.names) check_names(file, layout, *wishes.names, limits, result);
+        if (text.words.empty()) {
+            result.findings.push_back(
+                {"scanned", Severity::kRule, 0, "",
+                 "The document has no text: its pages are pictures, such as a scan or photographs.",
+                 "Hand in the PDF that dynlab report writes, not a scan of its print."});
+            sort_findings(result.findings);
+            return result;
+        }
+        check_text(layout, text, standard, result);
+        if (layout.protected_by_password) {
+            result.findings.push_back({"protected", Severity::kHint, 0, "",
+                                       "A password guards the file against changes.",
+                                       "Save it again without protection, so that review copies can be made."});
+        }
+    } catch (const PdfRefusal& refusal) {
+        if (refusal.fault() == PdfFault::kNotThere) throw;
+        result.findings.push_back(file_finding(refusal));
+    }
+    sort_findings(result.findings);
+    return result;
+}
+
+}  // namespace dynlab::inline course

@@ -1,0 +1,56 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "course/findings/finding.h"
+#include "course/names/sought_names.h"
+#include "documents/document_rules.h"
+#include "documents/pdf/pdf_layout.h"
+
+namespace dynlab::inline course {
+
+/// What a document is held against.
+struct DocumentStandard {
+    std::string template_name;            ///< for the summary; empty when nothing is known of the document's kind
+    DocumentRules rules;                  ///< pages and sections
+    std::vector<std::string> guidance;    ///< sentences of the template that must not be printed
+    std::optional<std::string> language;  ///< as the header declares it
+};
+
+/// The standard of an installed template ("lab_report") or of a template file ("mine.md"). Throws EnvironmentError that
+/// lists the templates when there is none of that name, DocumentError for one that cannot be read.
+DocumentStandard standard_of(const std::string& template_name_or_file);
+
+/// What is asked for instead of what the document's kind demands.
+struct CheckWishes {
+    std::optional<DocumentStandard> standard;
+    std::optional<int> pages;   ///< at most so many altogether
+    bool lesson_checks = true;  ///< of a folder: try the lesson's checks on its answers too
+    /// Who must not be named; of a folder its members are added. Nobody: of a PDF, names are not looked for.
+    std::shared_ptr<const SoughtNames> names = nullptr;
+};
+
+/// The outcome of a check.
+struct CheckResult {
+    std::string subject;               ///< the file or folder, as it was named
+    std::string template_name;         ///< empty when pages and sections were not checked
+    std::string language;              ///< "en", "fr", or empty
+    int pages = 0;                     ///< 0 when the document could not be read
+    std::vector<std::string> checked;  ///< what was looked at, in words
+    Findings findings;                 ///< in page order, rules first
+    bool passed() const;               ///< no rule is broken
+};
+
+/// Checks a PDF from anybody. Findings about the file itself: not-pdf, encrypted, damaged, too-large, scanned (rules),
+/// protected (hint); further ones in section_findings.h, name_findings.h, figure_findings.h, language_findings.h,
+/// layout_findings.h and leftover_findings.h. Without a standard, slides (landscape) are held against the template
+/// "slides", documents with more headings of the form "peer_review" than of "lab_report" against that, and others
+/// against "lab_report". Throws PdfRefusal when there is no such file or it may not be read.
+CheckResult check_pdf(const std::filesystem::path& file, const CheckWishes& wishes = {}, const PdfLimits& limits = {});
+
+void sort_findings(Findings& findings);  ///< rules first, then by page
+
+}  // namespace dynlab::inline course

@@ -1,0 +1,21 @@
+#pragma once
+#include <string>
+#include <vector>
+
+namespace dynlab::inline course {
+
+enum class Severity { kRule, kHint };  ///< a rule of the course is broken; something worth a look
+
+/// Something that is wrong with a document and how to mend it. Ids are stable: programs may rely on them.
+struct Finding {
+    std::string id;  ///< such as "figure-not-mentioned"
+    Severity severity = Severity::kRule;
+    int page = 0;        ///< 1-based; 0 concerns the whole document
+    std::string place;   ///< "analysis.lua:12" when a source file is concerned, else empty
+    std::string what;    ///< one sentence
+    std::string remedy;  ///< one sentence
+};
+
+using Findings = std::vector<Finding>;
+
+}  // namespace dynlab::inline course

@@ -1,0 +1,24 @@
+#pragma once
+#include <string>
+
+#include "course/findings/document_findings.h"
+
+namespace dynlab::inline course {
+
+/// The outcome for a reader: rules broken, then hints, each with its place and remedy; one line when there is nothing
+/// to mend. Text from the document is shown without control characters.
+std::string findings_in_words(const CheckResult& result, bool in_colour);
+
+/// The outcome for a program, as JSON in UTF-8:
+///
+///     {"subject": "report.pdf", "template": "lab_report", "language": "en", "pages": 7, "passed": false,
+///      "checked": ["7 pages of at most 6 + 1 of appendix", ...],
+///      "findings": [{"id": "pages", "severity": "rule", "page": 7, "place": null, "what": "...", "remedy": "..."}]}
+///
+/// severity is "rule" or "hint"; template, language, pages, page and place are null where nothing is known.
+std::string findings_as_json(const CheckResult& result);
+
+/// The outcome that findings_as_json wrote.
+CheckResult findings_from_json(const std::string& json);
+
+}  // namespace dynlab::inline course

@@ -1,0 +1,275 @@
+#include "course/findings/folder_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "course/findings/leftover_findings.h"
+#include "course/grading/feedback.h"
+#include "course/grading/folder_copy.h"
+#include "course/grading/grading_rules.h"
+#include "documents/error.h"
+#include "documents/percent_script.h"
+#include "documents/template_file.h"
+#include "documents/text_lines.h"
+#include "platform/atomic_file.h"
+#include "platform/child_process.h"
+#include "platform/error.h"
+#include "platform/temporary_folder.h"
+#include "workflow/specimen_record.h"
+
+namespace dynlab::inline course {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMissingProgramCode = 3;  ///< dynlab's exit code when pandoc or the like is not installed
+constexpr std::uint64_t kMostCheckOutput = 16u << 20;
+
+/// One folder's check: a clean copy, what runs in it, and what is found.
+class FolderCheck {
+  public:
+    FolderCheck(const fs::path& folder, const fs::path& program, const FolderLimits& limits)
+        : folder_(folder), program_(program), limits_(limits) {
+        result_.subject = folder.string();
+        fs::create_directory(copy());
+        fs::create_directory(out());
+    }
+
+    CheckResult check(CheckWishes wishes) {
+        if (!has_its_files() || !copied()) return result_;
+        const std::optional<PercentScript> script = readable_script();
+        const bool made = script && makes_report();
+        if (script) {
+            check_blanks(*script);
+            if (made) check_answers(*script);
+            if (wishes.lesson_checks) try_lesson_checks(script->header.lesson);
+        }
+        if (!wishes.standard) wishes.standard = own_standard(script);
+        add_members(wishes);
+        const std::optional<fs::path> handed_in = pdf_in_folder();
+        if (made || fs::exists(report()))
+            check_report(report(), wishes);
+        else if (handed_in)
+            check_report(*handed_in, wishes);
+        if (made && handed_in) compare_with(*handed_in);
+        sort_findings(result_.findings);
+        return std::move(result_);
+    }
+
+  private:
+    fs::path copy() const { return work_.path() / "folder"; }
+    fs::path out() const { return work_.path() / "made"; }
+    fs::path report() const { return out() / "report.pdf"; }
+
+    void add(const std::string& id, Severity severity, const std::string& place, const std::string& what,
+             const std::string& remedy) {
+        result_.findings.push_back({id, severity, 0, place, what, remedy});
+    }
+
+    bool has_its_files() {
+        for (const char* needed : {"analysis.lua", "report.md"}) {
+            if (fs::is_regular_file(fs::symlink_status(folder_ / needed))) continue;
+            add("analysis-missing", Severity::kRule, needed, fmt::format("The folder has no file {}.", needed),
+                "Hand in the whole folder that dynlab new made, with analysis.lua and report.md directly in it.");
+        }
+        return result_.findings.empty();
+    }
+
+    bool copied() {
+        const FolderCopy outcome = copy_folder(folder_, copy(), limits_.folder_bytes, limits_.files);
+        for (const std::string& name : outcome.left_out) {
+            add("link-left-out", Severity::kHint, name, "This is a link or no ordinary file; it is not handed in.",
+                "Put the file itself there.");
+        }
+        if (!outcome.too_large) return true;
+        add("folder-too-large", Severity::kRule, "",
+            fmt::format("The folder is too large: at most {} files and {} MB are looked at.", limits_.files,
+                        limits_.folder_bytes >> 20),
+            "Take out what the report does not need.");
+        return false;
+    }
+
+    std::optional<PercentScript> readable_script() {
+        try {
+            return read_percent_script(copy() / "analysis.lua");
+        } catch (const DocumentError& error) {
+            add_failure(error.what());
+            return std::nullopt;
+        }
+    }
+
+    ChildResult run(std::vector<std::string> words) const {
+        ChildOptions child;
+        words.insert(words.begin(), program_.string());
+        child.command = std::move(words);
+        child.folder = out();
+        child.environment = {{"XDG_CACHE_HOME", (work_.path() / "cache").string()},
+                             {"XDG_STATE_HOME", (work_.path() / "state").string()}};
+        child.timeout = limits_.time;
+        child.output_bytes = kMostCheckOutput;
+        return run_child(child, "dynlab");
+    }
+
+    /// The message as if the student's own folder had been used.
+    std::string in_folder(std::string message) const {
+        message = replaced(message, copy().string() + "/", "");
+        message = replaced(message, "../folder/", "");
+        const std::string prefix = "dynlab: ";
+        return replaced(trimmed(message.starts_with(prefix) ? message.substr(prefix.size()) : message), "\n", " ");
+    }
+
+    void add_failure(const std::string& message) {
+        add("analysis-fails", Severity::kRule, "",
+            "From a clean copy of the folder no report comes out: " + in_folder(message),
+            "Mend it and try \"dynlab report FOLDER\"; every file the analysis reads must lie in the folder or in "
+            "data.");
+    }
+
+    bool makes_report() {
+        const ChildResult made = run({"report", copy().string(), "-o", report().string()});
+        if (made.exit_code == 0) return true;
+        if (made.exit_code == kMissingProgramCode) throw MissingProgram(in_folder(made.error_output));
+        if (made.timed_out)
+            add_failure(fmt::format("it takes more than {} s.", limits_.time.count()));
+        else if (made.output_exceeded)
+            add_failure("it prints more than 16 MB.");
+        else if (made.error_output.empty())
+            add_failure(fmt::format("it ends with code {} and without a message.", made.exit_code));
+        else
+            add_failure(made.error_output);
+        return false;
+    }
+
+    void check_blanks(const PercentScript& script) {
+        int number = 0;
+        for (const std::string& line : lines_of(script.source)) {
+            ++number;
+            const std::string text = trimmed(line);
+            const bool code = text == "-- YOUR CODE HERE";
+            if (!code && text != "-- *Your answer:*") continue;
+            add("answer-open", Severity::kRule, fmt::format("analysis.lua:{}", number),
+                fmt::format("The line \"{}\" still stands there.", code ? "YOUR CODE HERE" : "Your answer:"),
+                "Write your own there and take the line out.");
+        }
+    }
+
+    /// Every answer that the script's header declares is given; of the right kind it is, or the script stops.
+    void check_answers(const PercentScript& script) {
+        if (script.header.answers.empty()) return;
+        const ChildResult ran = run({"run", (copy() / "analysis.lua").string(), "--out", (out() / "run").string()});
+        if (ran.exit_code != 0) return add_failure(ran.error_output);
+        const auto record = nlohmann::json::parse(read_file(out() / "run" / "record.json"));
+        for (const ExpectedAnswer& answer : script.header.answers) {
+            if (record.at("answers").contains(answer.name)) continue;
+            add("answer-missing", Severity::kRule, "analysis.lua",
+                fmt::format("The answer \"{}\" ({}) is not given.", answer.name, answer.kind),
+                fmt::format("Give it: answer(\"{}\", ...).", answer.name));
+        }
+    }
+
+    /// The checks of the lesson that students may read; what falls short is a hint, as marks are given elsewhere.
+    void try_lesson_checks(const std::string& slug) {
+        const std::vector<Lesson> all = lessons();
+        const auto lesson = std::find_if(all.begin(), all.end(), [&](const Lesson& l) { return l.slug == slug; });
+        if (lesson == all.end() || !fs::exists(lesson->folder / "checks.lua")) return;
+        GradingSetup setup;
+        setup.lesson = *lesson;
+        setup.isolation = strongest_isolation();
+        setup.timeout = limits_.time;
+        setup.program = program_;
+        const GradingRules::GroupSeed own = group_seed_of(copy() / "data");
+        const Grade grade = GradingRules(setup).grade(folder_.filename().string(), copy(), own);
+        result_.checked.push_back(fmt::format("checks of lesson {}: {} of {} points", slug, points_text(grade.earned()),
+                                              points_text(grade.possible())));
+        for (const CheckGrade& check : grade.checks) {
+            if (check.earned >= check.points) continue;
+            add("check-failed", Severity::kHint, "",
+                fmt::format("{}: {} of {} points. {}", check.about, points_text(check.earned),
+                            points_text(check.points), check.message),
+                check.hint.empty() ? "See checks.lua of the lesson." : check.hint);
+        }
+    }
+
+    DocumentStandard own_standard(const std::optional<PercentScript>& script) const {
+        DocumentStandard standard;
+        try {
+            if (script) standard = standard_of(script->header.template_name);
+            const TemplateFile own = read_template(copy() / "report.md");
+            const bool demands_nothing = !standard.rules.pages && standard.rules.sections.empty();
+            if (demands_nothing) {
+                standard.rules = document_rules(own);
+                if (standard.rules.pages || !standard.rules.sections.empty()) standard.template_name.clear();
+            }
+            const auto language = own.metadata.find("lang");
+            standard.language = language == own.metadata.end() ? "en" : language->second;
+        } catch (const std::runtime_error&) {
+            // A template or header that cannot be read is a finding of its own: the report was not made.
+        }
+        return standard;
+    }
+
+    /// The authors themselves are looked for, whoever else is.
+    void add_members(CheckWishes& wishes) const {
+        SoughtNames names = wishes.names ? *wishes.names : SoughtNames();
+        for (const Student& member : members_of(copy() / "group.toml")) names.add(member, true);
+        wishes.names = std::make_shared<const SoughtNames>(std::move(names));
+    }
+
+    void check_report(const fs::path& file, const CheckWishes& wishes) {
+        const CheckResult found = check_pdf(file, wishes, limits_.pdf);
+        result_.template_name = found.template_name;
+        result_.language = found.language;
+        result_.pages = found.pages;
+        result_.checked.insert(result_.checked.begin(), found.checked.begin(), found.checked.end());
+        result_.checked.insert(result_.checked.begin(),
+                               file == report() ? "run from a clean copy" : file.filename().string());
+        result_.findings.insert(result_.findings.end(), found.findings.begin(), found.findings.end());
+    }
+
+    /// report.pdf, or the only PDF in the folder.
+    std::optional<fs::path> pdf_in_folder() const {
+        std::vector<fs::path> found;
+        for (const auto& entry : fs::directory_iterator(copy())) {
+            if (entry.is_regular_file() && entry.path().extension() == ".pdf") found.push_back(entry.path());
+        }
+        const auto usual = std::find(found.begin(), found.end(), copy() / "report.pdf");
+        if (usual != found.end()) return *usual;
+        return found.size() == 1 ? std::optional(found.front()) : std::nullopt;
+    }
+
+    void compare_with(const fs::path& handed_in) {
+        const std::string name = handed_in.filename().string();
+        if (read_file(handed_in) == read_file(report())) {
+            result_.checked.push_back(name + " is up to date");
+            return;
+        }
+        const auto written = fs::last_write_time(folder_ / name);
+        const bool outdated = written < fs::last_write_time(folder_ / "analysis.lua") ||
+                              written < fs::last_write_time(folder_ / "report.md");
+        if (outdated) {
+            add("pdf-outdated", Severity::kHint, name,
+                "The PDF is older than the analysis or the text it was made from.",
+                fmt::format("Make it again: dynlab report FOLDER -o FOLDER/{}", name));
+        } else {
+            add("pdf-differs", Severity::kHint, name, "The PDF is not what the folder gives now.",
+                fmt::format("Make it again: dynlab report FOLDER -o FOLDER/{}", name));
+        }
+    }
+
+    fs::path folder_, program_;
+    FolderLimits limits_;
+    TemporaryFolder work_;
+    CheckResult result_;
+};
+
+}  // namespace
+
+CheckResult check_folder(const fs::path& folder, const fs::path& program, const CheckWishes& wishes,
+                         const FolderLimits& limits) {
+    return FolderCheck(folder, program, limits).check(wishes);
+}
+
+}  // namespace dynlab::inline course

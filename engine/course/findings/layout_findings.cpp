@@ -1,0 +1,134 @@
+#include "course/findings/layout_findings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "course/names/plain_words.h"
+
+namespace dynlab::inline course {
+namespace {
+
+constexpr double kPointsPerMm = 72 / 25.4;
+constexpr double kSmallestText = 9.5, kRounding = 0.05;  ///< points
+constexpr double kSlideHeight = 96 * kPointsPerMm;
+constexpr double kSide = 15 * kPointsPerMm, kTopAndBottom = 12 * kPointsPerMm;
+constexpr int kManyAtSides = 5, kManyAtTop = 3;
+constexpr std::size_t kEnoughLetters = 300;  ///< of prose on a page, for its size to be judged
+
+double scale_of(const DocumentText& text) {
+    return text.is_slides() && text.height > 0 ? kSlideHeight / text.height : 1;
+}
+
+/// Median size of a page's prose; 0 when it has next to none.
+double prose_size(const DocumentText& text, int page) {
+    std::vector<std::pair<double, std::size_t>> sizes;
+    std::size_t letters = 0, passed = 0;
+    for (const TextLine& line : text.lines) {
+        if (line.page != page || !line.is_prose()) continue;
+        sizes.emplace_back(line.size, line.text().size());
+        letters += sizes.back().second;
+    }
+    if (letters < kEnoughLetters) return 0;
+    std::sort(sizes.begin(), sizes.end());
+    for (const auto& [size, count] : sizes) {
+        passed += count;
+        if (2 * passed >= letters) return size;
+    }
+    return 0;
+}
+
+std::string list_of(const std::vector<int>& pages) {
+    std::string list;
+    for (const int page : pages) list += (list.empty() ? "" : ", ") + std::to_string(page);
+    return list;
+}
+
+void check_size(const DocumentText& text, int pages, Findings& findings) {
+    std::vector<int> small;
+    double smallest = kSmallestText;
+    for (int page = 1; page <= pages; ++page) {
+        const double size = prose_size(text, page) * scale_of(text);
+        if (size == 0 || size >= kSmallestText - kRounding) continue;
+        small.push_back(page);
+        smallest = std::min(smallest, size);
+    }
+    if (small.empty()) return;
+    findings.push_back(
+        {"text-small", Severity::kRule, small.front(), "",
+         fmt::format("The text is too small to read with ease: {:.1f} pt{}{}; at least {} pt are asked for.", smallest,
+                     text.is_slides() ? ", measured as on a slide 96 mm high" : "",
+                     small.size() > 1 ? " (pages " + list_of(small) + ")" : "", kSmallestText),
+         "Set the text in 11 pt, as the template does, and shorten it instead."});
+}
+
+struct Strays {
+    int at_sides = 0, at_top = 0;
+    const TextLine* first = nullptr;
+};
+
+Strays strays_on(const DocumentText& text, const PdfPage& page, int number) {
+    Strays strays;
+    for (const TextLine& line : text.lines) {
+        if (line.page != number) continue;
+        const bool at_side = line.words.size() >= 3 && (line.left < kSide || line.right > page.width - kSide);
+        const bool at_top = line.is_prose() && (line.top < kTopAndBottom || line.bottom > page.height - kTopAndBottom);
+        strays.at_sides += at_side;
+        strays.at_top += at_top;
+        if (!strays.first && (at_side || at_top)) strays.first = &line;
+    }
+    return strays;
+}
+
+void check_margins(const DocumentText& text, const PdfLayout& layout, Findings& findings) {
+    std::vector<int> narrow;
+    Findings overflows;
+    for (std::size_t i = 0; i < layout.pages.size(); ++i) {
+        const int page = static_cast<int>(i) + 1;
+        const Strays strays = strays_on(text, layout.pages[i], page);
+        if (strays.at_sides >= kManyAtSides || strays.at_top >= kManyAtTop) {
+            narrow.push_back(page);
+        } else if (strays.at_sides > 0) {
+            overflows.push_back(
+                {"text-overflow", Severity::kHint, page, "",
+                 fmt::format("A line runs into the margin: \"{}\".", printable(strays.first->text(), 60)),
+                 "Break the formula, the table or the long word in it."});
+        }
+    }
+    if (!narrow.empty()) {
+        findings.push_back(
+            {"margins", Severity::kRule, narrow.front(), "",
+             fmt::format("The margins are too narrow{}: text stands nearer than 15 mm to the sides or 12 mm "
+                         "to the top or bottom.",
+                         narrow.size() > 1 ? " (pages " + list_of(narrow) + ")" : ""),
+             "Use the template's margins of 25 mm and shorten the text instead."});
+    }
+    findings.insert(findings.end(), overflows.begin(), overflows.end());
+}
+
+void check_edges(const PdfLayout& layout, Findings& findings) {
+    for (std::size_t i = 0; i < layout.pages.size(); ++i) {
+        const PdfPage& page = layout.pages[i];
+        const auto cut = std::find_if(page.words.begin(), page.words.end(), [&page](const PdfWord& word) {
+            return word.left < -1 || word.top < -1 || word.right > page.width + 1 || word.bottom > page.height + 1;
+        });
+        if (cut == page.words.end()) continue;
+        findings.push_back(
+            {"text-cut-off", Severity::kRule, static_cast<int>(i) + 1, "",
+             fmt::format("Text runs over the edge of the page and is cut off near \"{}\".", printable(cut->text, 40)),
+             "Break or shorten what is too long there."});
+    }
+}
+
+}  // namespace
+
+Findings layout_findings(const DocumentText& text, const PdfLayout& layout) {
+    Findings findings;
+    check_size(text, static_cast<int>(layout.pages.size()), findings);
+    if (!text.is_slides()) check_margins(text, layout, findings);
+    check_edges(layout, findings);
+    return findings;
+}
+
+}  // namespace dynlab::inline course

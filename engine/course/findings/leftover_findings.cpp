@@ -1,0 +1,122 @@
+#include "course/findings/leftover_findings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "course/names/plain_words.h"
+
+namespace dynlab::inline course {
+namespace {
+
+constexpr std::size_t kWordsToKnow = 6;  ///< a shorter sentence may stand in a report by chance
+constexpr std::size_t kMostLeftovers = 10;
+
+struct Sign {
+    const char *text, *id, *what, *remedy;
+};
+constexpr const char* kFill = "Report the value, table or figure in analysis.lua and make the PDF with dynlab report.";
+constexpr Sign kSigns[] = {
+    {"{.value}", "slot-unfilled", "A slot for a value was not filled", kFill},
+    {"{.table", "slot-unfilled", "A slot for a table was not filled", kFill},
+    {"{.text", "slot-unfilled", "A slot for a text was not filled", kFill},
+    {"(figure:", "slot-unfilled", "A slot for a figure was not filled", kFill},
+    {"{#fig:", "slot-unfilled", "A figure's label stands in print", kFill},
+    {"{#tbl:", "slot-unfilled", "A table's label stands in print", kFill},
+    {"{#eq:", "slot-unfilled", "An equation's label stands in print", kFill},
+    {"@fig:", "slot-unfilled", "A reference to a figure was not resolved", kFill},
+    {"@tbl:", "slot-unfilled", "A reference to a table was not resolved", kFill},
+    {"@eq:", "slot-unfilled", "A reference to an equation was not resolved", kFill},
+    {"<!--", "guidance-left", "A comment stands in print", "Close it with --> or take it out."},
+    {"??", "reference-unresolved", "A reference was not resolved", "Give the label that it names, or correct it."},
+    {"____", "placeholder-left", "A blank was not filled in", "Fill it in."},
+    {"lorem ipsum", "placeholder-left", "Filling text was left in", "Replace it by your own text."},
+};
+
+bool is_placeholder(const std::string& word) {
+    static const std::set<std::string> placeholders = {"TODO", "FIXME", "TBD", "XXX"};
+    std::string letters;
+    for (const char c : word) {
+        if (c >= 'A' && c <= 'z') letters += c;
+    }
+    return placeholders.contains(letters);
+}
+
+Finding leftover(const char* id, int page, const std::string& what, const std::string& remedy) {
+    return {id, Severity::kRule, page, "", what, remedy};
+}
+
+void check_line(const TextLine& line, Findings& findings) {
+    const std::string text = line.text();
+    std::string lower = text;
+    std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+    for (const Sign& sign : kSigns) {
+        if (lower.find(sign.text) == std::string::npos) continue;
+        findings.push_back(
+            leftover(sign.id, line.page, fmt::format("{}: \"{}\".", sign.what, printable(text, 60)), sign.remedy));
+        return;
+    }
+    const auto found = std::find_if(line.words.begin(), line.words.end(), is_placeholder);
+    if (found == line.words.end()) return;
+    findings.push_back(leftover("placeholder-left", line.page,
+                                fmt::format("A note to yourself was left in: \"{}\".", printable(text, 60)),
+                                "Do what it says, then take it out."));
+}
+
+std::string spaced(const std::vector<std::string>& words) {
+    std::string text = " ";
+    for (const std::string& word : words) text += word + " ";
+    return text;
+}
+
+void check_guidance(const DocumentText& text, const std::vector<std::string>& guidance, Findings& findings) {
+    std::string all = " ";
+    std::vector<std::pair<std::size_t, int>> page_starts;
+    for (const TextWord& word : text.words) {
+        if (page_starts.empty() || page_starts.back().second != word.page)
+            page_starts.emplace_back(all.size(), word.page);
+        for (const std::string& plain : plain_words(word.text)) all += plain + " ";
+    }
+    for (const std::string& sentence : guidance) {
+        const std::size_t at = all.find(spaced(plain_words(sentence)));
+        if (at == std::string::npos) continue;
+        int page = 1;
+        for (const auto& [start, number] : page_starts) page = start <= at + 1 ? number : page;
+        findings.push_back(
+            leftover("guidance-left", page,
+                     fmt::format("Guidance of the template stands in print: \"{}\".", printable(sentence, 60)),
+                     "Take it out; between <!-- and --> it is never printed."));
+    }
+}
+
+}  // namespace
+
+std::vector<std::string> guidance_of(const std::string& markdown) {
+    std::vector<std::string> sentences;
+    for (std::size_t start = markdown.find("<!--"); start != std::string::npos;) {
+        const std::size_t end = std::min(markdown.find("-->", start + 4), markdown.size());
+        std::string sentence;
+        for (const char c : markdown.substr(start + 4, end - start - 4) + ".") {
+            sentence += c == '\n' ? ' ' : c;
+            if (c != '.' && c != ':' && c != ';' && c != '?') continue;
+            if (plain_words(sentence).size() >= kWordsToKnow)
+                sentences.push_back(sentence.substr(std::min(sentence.find_first_not_of(' '), sentence.size())));
+            sentence.clear();
+        }
+        start = markdown.find("<!--", end);
+    }
+    return sentences;
+}
+
+Findings leftover_findings(const DocumentText& text, const std::vector<std::string>& guidance) {
+    Findings findings;
+    for (const TextLine& line : text.lines) {
+        if (!line.fixed_width && findings.size() < kMostLeftovers) check_line(line, findings);
+    }
+    check_guidance(text, guidance, findings);
+    if (findings.size() > kMostLeftovers) findings.resize(kMostLeftovers);
+    return findings;
+}
+
+}  // namespace dynlab::inline course

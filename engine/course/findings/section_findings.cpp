@@ -1,0 +1,167 @@
+#include "course/findings/section_findings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "course/names/plain_words.h"
+
+namespace dynlab::inline course {
+namespace {
+
+constexpr std::size_t kEmpty = 5, kShort = 25, kShortOnSlides = 8;  ///< words below a heading
+constexpr double kMarginOfPage = 0.25;                              ///< what a page may stay short of
+
+bool is_filler(const std::string& word) {
+    static const std::set<std::string> fillers = {"the", "of", "and", "a",   "an", "in", "on", "for", "de",  "du",
+                                                  "des", "la", "le",  "les", "l",  "d",  "et", "un",  "une", "en"};
+    return fillers.contains(word);
+}
+
+/// Words that carry the meaning of a heading; a number before it does not.
+std::vector<std::string> key_words(const std::string& title) {
+    std::vector<std::string> words = plain_words(title);
+    std::erase_if(words, [](const std::string& word) {
+        return is_filler(word) || word.find_first_not_of("0123456789") == std::string::npos;
+    });
+    return words;
+}
+
+/// "conclusion" and "conclusions", "data" and "dataset".
+bool same_word(const std::string& wanted, const std::string& given) {
+    for (const char* ending : {"", "s", "es", "x", "set", "sets"}) {
+        if (given == wanted + ending || wanted == given + ending) return true;
+    }
+    return false;
+}
+
+/// How well a heading fits a title, 0 to 1: most of the title's words must be there, the fewer others the better.
+double likeness(const std::string& title, const std::string& heading) {
+    const std::vector<std::string> wanted = key_words(title), given = key_words(heading);
+    const auto found = std::count_if(wanted.begin(), wanted.end(), [&](const std::string& word) {
+        return std::any_of(given.begin(), given.end(),
+                           [&](const std::string& other) { return same_word(word, other); });
+    });
+    if (2 * found <= static_cast<std::ptrdiff_t>(wanted.size())) return 0;
+    return 2 * static_cast<double>(found) / static_cast<double>(wanted.size() + given.size());
+}
+
+double likeness(const SectionRule& section, const std::string& heading) {
+    return std::max(likeness(section.english, heading), likeness(section.french, heading));
+}
+
+std::optional<std::size_t> find_section(const SectionRule& section, const std::vector<Heading>& headings) {
+    std::optional<std::size_t> found;
+    double best = 0;
+    for (std::size_t i = 0; i < headings.size(); ++i) {
+        const double like = likeness(section, headings[i].text);
+        if (like > best) {
+            best = like;
+            found = i;
+        }
+    }
+    return found;
+}
+
+/// Words below a heading, down to the next one that is not smaller.
+std::size_t words_below(const DocumentText& text, std::size_t index) {
+    const Heading& heading = text.headings[index];
+    std::size_t end = text.lines.size();
+    for (std::size_t i = index + 1; i < text.headings.size(); ++i) {
+        if (text.headings[i].size > heading.size - 0.3) {
+            end = text.headings[i].first_line;
+            break;
+        }
+    }
+    std::size_t words = 0;
+    for (std::size_t i = heading.last_line + 1; i < end; ++i) {
+        for (const std::string& word : text.lines[i].words) words += !plain_words(word).empty();
+    }
+    return words;
+}
+
+bool opens_appendix(const Heading& heading, const DocumentRules& rules) {
+    const std::vector<std::string> words = plain_words(heading.text);
+    for (const char* sign : {"appendix", "appendices", "annex", "annexe", "annexes"}) {
+        if (std::find(words.begin(), words.end(), sign) != words.end()) return true;
+    }
+    return std::any_of(rules.sections.begin(), rules.sections.end(), [&](const SectionRule& section) {
+        return section.optional && likeness(section, heading.text) > 0.6;
+    });
+}
+
+std::string counted(int count, const std::string& one, const std::string& many) {
+    return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+/// Pages that the text fills, the last one up to its lowest line.
+double filled_pages(const DocumentText& text, int pages) {
+    double lowest = 0;
+    for (const TextLine& line : text.lines)
+        if (line.page == pages) lowest = std::max(lowest, line.bottom);
+    return pages - 1 + (text.height > 0 ? lowest / text.height : 1);
+}
+
+Findings too_few_pages(const DocumentText& text, int pages, const DocumentRules& rules) {
+    if (!rules.least_pages || filled_pages(text, pages) > *rules.least_pages - kMarginOfPage) return {};
+    return {{"pages-few", Severity::kHint, pages, "",
+             fmt::format("The text fills {:.1f} pages; at least {} {} asked for.", filled_pages(text, pages),
+                         counted(*rules.least_pages, "page", "pages"), *rules.least_pages == 1 ? "is" : "are"),
+             "Give reasons, places in the report, and for each weakness a way to mend it."}};
+}
+
+}  // namespace
+
+Findings section_findings(const DocumentText& text, const DocumentRules& rules, const std::string& language) {
+    Findings findings;
+    for (const SectionRule& section : rules.sections) {
+        const std::string title = section.title(language);
+        const auto found = find_section(section, text.headings);
+        if (!found) {
+            if (section.optional) continue;
+            findings.push_back({"section-missing", Severity::kRule, 0, "",
+                                fmt::format("The section \"{}\" is missing: no heading has these words.", title),
+                                "Add a heading with these words and your text below it."});
+            continue;
+        }
+        const Heading& heading = text.headings[*found];
+        const std::string shown = printable(heading.text, 60);
+        const std::size_t words = words_below(text, *found);
+        if (words < kEmpty) {
+            findings.push_back({"section-empty", Severity::kRule, heading.page, "",
+                                fmt::format("The section \"{}\" is empty.", shown),
+                                section.optional ? "Write it, or take its heading out: it is optional."
+                                                 : "Write what you did and found there."});
+        } else if (words < (text.is_slides() ? kShortOnSlides : kShort)) {
+            findings.push_back({"section-short", Severity::kHint, heading.page, "",
+                                fmt::format("The section \"{}\" has {} words only.", shown, words),
+                                "Say what was done, why, and what came out."});
+        }
+    }
+    return findings;
+}
+
+Findings page_findings(const DocumentText& text, int pages, const DocumentRules& rules) {
+    if (!rules.pages) return {};
+    const int allowed = *rules.pages, in_appendix = rules.appendix_pages.value_or(0);
+    int appendix = 0;  // the page on which it begins
+    for (const Heading& heading : text.headings) {
+        if (appendix == 0 && in_appendix > 0 && opens_appendix(heading, rules)) appendix = heading.page;
+    }
+    const int most = allowed + (appendix > 0 ? in_appendix : 0);
+    if (pages <= most) return too_few_pages(text, pages, rules);
+    const char *one = text.is_slides() ? "slide" : "page", *many = text.is_slides() ? "slides" : "pages";
+    std::string limit = counted(allowed, one, many);
+    std::string remedy = "Shorten the text, or drop figures that show nothing of their own.";
+    if (in_appendix > 0) {
+        limit += fmt::format(" and {} of appendix", counted(in_appendix, one, many));
+        if (appendix == 0)
+            remedy = "Shorten the text; a part beyond the limit must stand below a heading \"Appendix\".";
+    }
+    return {{"pages", Severity::kRule, most + 1, "",
+             fmt::format("The document has {}; at most {} are allowed.", counted(pages, one, many), limit), remedy}};
+}
+
+}  // namespace dynlab::inline course

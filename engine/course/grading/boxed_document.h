@@ -1,0 +1,38 @@
+#pragma once
+#include <filesystem>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "documents/run_record.h"
+#include "platform/box.h"
+#include "platform/temporary_folder.h"
+
+namespace dynlab::inline course {
+
+/// Makes documents about students' work, each in a box, as their texts come from students. The layout is compiled once,
+/// outside and before any of these texts is read; the boxes only read it. Threads may share one.
+class BoxedDocuments {
+  public:
+    /// `program`: dynlab.
+    BoxedDocuments(Isolation isolation, std::filesystem::path program)
+        : isolation_(isolation), program_(std::move(program)) {}
+
+    /// Sets report_templates/`template_name`, filled from the record's values, texts, tables and figures (drawn
+    /// already, see draw_figures), and writes `output` (.pdf or .md, with its pictures beside it). Letters that LaTeX
+    /// does not have become question marks. Throws EnvironmentError when it cannot be made.
+    void make(const std::string& template_name, const RunRecord& record, const std::filesystem::path& output) const;
+
+  private:
+    const std::filesystem::path& latex_format() const;
+
+    Isolation isolation_;
+    std::filesystem::path program_;
+    TemporaryFolder format_;
+    mutable std::once_flag format_made_;
+};
+
+/// The part of it inside the box. Returns {}.
+nlohmann::json make_boxed_document(const nlohmann::json& job);
+
+}  // namespace dynlab::inline course

@@ -1,0 +1,367 @@
+#include "course/grading/check_functions.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "course/grading/check_session.h"
+#include "numerics/number_text.h"
+#include "scripting/answers/answer_value.h"
+#include "scripting/arguments/arguments.h"
+#include "scripting/arguments/table_fields.h"
+#include "scripting/runtime/context.h"
+#include "scripting/runtime/errors.h"
+
+namespace dynlab::inline course {
+namespace {
+
+CheckSession& session_of(const Call& call) {
+    return service<CheckSession>(call.state());
+}
+
+/// A judgement: {share =, message =}.
+int give_judgement(const Call& call, double share, const std::string& message) {
+    lua_createtable(call.state(), 0, 2);
+    set_number(call.state(), "share", share);
+    set_text(call, "message", message);
+    return 1;
+}
+
+std::string percent_of_share(double share) {
+    return number_text(100 * share, 3) + " %";
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// check{...}
+
+bool plain_id(const std::string& id) {
+    return !id.empty() &&
+           std::all_of(id.begin(), id.end(), [](unsigned char c) { return std::isalnum(c) || c == '_'; });
+}
+
+int check(Call& call) {
+    call.at_most(1);
+    CheckSession& session = session_of(call);
+    const Options options(call, 1, {"id", "points", "about", "test", "hint", "rerun", "document", "mistakes"});
+    DeclaredCheck check;
+    check.id = options.text("id", "");
+    if (!plain_id(check.id)) throw InvalidArgument("a check needs an id of letters, digits and _");
+    for (const DeclaredCheck& other : session.checks)
+        if (other.id == check.id) throw InvalidArgument(fmt::format("there are two checks \"{}\"", check.id));
+    check.points = options.number("points", 1);
+    if (!(check.points > 0) || check.points > 1000)
+        throw InvalidArgument(fmt::format("the points of \"{}\" must be a number above 0, at most 1000", check.id));
+    check.about = options.text("about", check.id);
+    check.hint = options.text("hint", "");
+    check.rerun = options.text("rerun", "");
+    check.document = options.flag("document", false);
+    check.visible = session.visible_file;
+    lua_State* L = call.state();
+    const auto kept = [&](const char* name, int type, const char* wanted, bool needed) {
+        const int place = options.push(name);
+        if (lua_isnil(L, place) && !needed) return 0;
+        if (lua_type(L, place) != type)
+            throw InvalidArgument(fmt::format("\"{}\" of the check \"{}\" must be {}", name, check.id, wanted));
+        lua_pushvalue(L, place);
+        return luaL_ref(L, LUA_REGISTRYINDEX);
+    };
+    check.test = kept("test", LUA_TFUNCTION, "a function", true);
+    check.mistakes = kept("mistakes", LUA_TTABLE, "a list of {when = function, say = text}", false);
+    session.checks.push_back(std::move(check));
+    return 0;
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Helpers that explain themselves
+
+/// Largest distance of a number or vector from what is wanted, relative to the largest wanted value unless `absolute`.
+double distance(const Call& call, bool absolute) {
+    Vector given, wanted;
+    if (call.type(1) == LUA_TNUMBER && call.type(2) == LUA_TNUMBER) {
+        given = Vector::Constant(1, lua_tonumber(call.state(), 1));
+        wanted = Vector::Constant(1, lua_tonumber(call.state(), 2));
+    } else {
+        given = call.vector(1, "x");
+        wanted = call.vector(2, "wanted");
+        if (given.size() != wanted.size()) return std::numeric_limits<double>::infinity();
+        if (wanted.size() == 0) return 0;
+    }
+    const double apart = (given - wanted).cwiseAbs().maxCoeff(), size = wanted.cwiseAbs().maxCoeff();
+    if (!given.allFinite()) return std::numeric_limits<double>::infinity();
+    if (absolute) return apart;
+    return apart == 0 ? 0 : apart / size;
+}
+
+/// Whether this check looks at records that students must not learn anything about: how far away an answer is would
+/// tell the truth to whoever hands in twice.
+bool on_secret_record(const Call& call) {
+    const CheckSession& session = session_of(call);
+    if (!session.current) return false;
+    const std::string& rerun = session.current->rerun;
+    return session.took_hidden || (!rerun.empty() && rerun != "seed");
+}
+
+int near(Call& call) {
+    call.at_most(3);
+    const Options options(call, 3, {"rel", "abs", "half"});
+    const bool absolute = options.has("abs");
+    if (absolute && options.has("rel")) throw InvalidArgument("give rel or abs, not both");
+    const double most = absolute ? options.number("abs", 0) : options.number("rel", 0.05);
+    const double half = options.number("half", most);  // this far away earns half the points
+    if (!(most >= 0) || !(half >= most)) throw InvalidArgument("the tolerance must not be negative, nor half below it");
+    const double apart = distance(call, absolute);
+    const auto measured = [&](double x) { return absolute ? number_text(x, 3) : percent_of_share(x); };
+    if (apart <= most) return give_judgement(call, 1, "");
+    if (!std::isfinite(apart)) return give_judgement(call, 0, "It is not a finite number, or not as many as wanted.");
+    if (on_secret_record(call))
+        return give_judgement(call, apart <= half ? 0.5 : 0, "On a record that you have not seen, it is too far away.");
+    return give_judgement(
+        call, apart <= half ? 0.5 : 0,
+        fmt::format("It is {} away from what was expected; at most {} was wanted.", measured(apart), measured(most)));
+}
+
+int points_between(Call& call) {
+    call.at_most(3);
+    const double x = call.number(1, "x"), low = call.number(2, "low"), high = call.number(3, "high");
+    if (!(low != high)) throw InvalidArgument("low and high must differ");
+    const double share = std::isfinite(x) ? std::clamp((x - low) / (high - low), 0.0, 1.0) : 0;
+    if (share == 1) return give_judgement(call, 1, "");
+    if (on_secret_record(call))
+        return give_judgement(call, share, "On a record that you have not seen, it falls short of full points.");
+    return give_judgement(call, share,
+                          fmt::format("It comes to {}; full points are from {} on, none at {}.", number_text(x, 3),
+                                      number_text(high, 3), number_text(low, 3)));
+}
+
+/// What a test may return at a stack place: true or false, a share, a judgement.
+Verdict verdict_at(const Call& call, int index) {
+    lua_State* L = call.state();
+    Verdict verdict;
+    switch (lua_type(L, index)) {
+        case LUA_TNIL:
+        case LUA_TNONE:
+            break;
+        case LUA_TBOOLEAN:
+            verdict.share = lua_toboolean(L, index) ? 1 : 0;
+            break;
+        case LUA_TNUMBER: {
+            const double share = lua_tonumber(L, index);
+            verdict.share = std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 0;
+            break;
+        }
+        case LUA_TTABLE:
+            lua_getfield(L, index, "share");
+            verdict = verdict_at(call, lua_gettop(L));
+            lua_getfield(L, index, "message");
+            if (lua_type(L, -1) == LUA_TSTRING) verdict.message = lua_tostring(L, -1);
+            lua_pop(L, 2);
+            break;
+        default:
+            throw InvalidArgument(
+                "a test must return true, false, a share from 0 to 1 or what near and its like return");
+    }
+    return verdict;
+}
+
+/// The least share, with the messages of what falls short.
+int all_of(Call& call) {
+    Verdict all{1, ""};
+    for (int i = 1; i <= call.count(); ++i) {
+        const Verdict one = verdict_at(call, i);
+        const bool new_words =
+            one.share < 1 && !one.message.empty() && all.message.find(one.message) == std::string::npos;
+        if (new_words) all.message += (all.message.empty() ? "" : " ") + one.message;
+        all.share = std::min(all.share, one.share);
+    }
+    return give_judgement(call, all.share, all.message);
+}
+
+int any_of(Call& call) {
+    Verdict best;
+    for (int i = 1; i <= call.count(); ++i) {
+        const Verdict one = verdict_at(call, i);
+        if (i == 1 || one.share > best.share) best = one;
+    }
+    return give_judgement(call, best.share, best.message);
+}
+
+/// Whether two answers differ by more than rounding: what is computed from another record does.
+int differs(Call& call) {
+    call.at_most(2);
+    constexpr double kEqual = 1e-9;
+    if (distance(call, false) > kEqual) return give_judgement(call, 1, "");
+    return give_judgement(call, 0, "It is the same on another record: it must be computed from the data.");
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Facts
+
+int has(Call& call, const char* group, const char* words) {
+    call.at_most(1);
+    const std::string name = call.text(1, "name");
+    const nlohmann::json& main = session_of(call).runs.at("main");
+    if (main.contains(group) && main.at(group).contains(name)) return give_judgement(call, 1, "");
+    return give_judgement(call, 0, fmt::format("There is no {} \"{}\" in the report.", words, name));
+}
+
+int has_figure(Call& call) {
+    return has(call, "figures", "figure");
+}
+
+int has_value(Call& call) {
+    return has(call, "values", "value");
+}
+
+/// no_finding(id, ...): none of these findings of the document, or none at all that breaks a rule.
+int no_finding(Call& call) {
+    std::vector<std::string> ids;
+    for (int i = 1; i <= call.count(); ++i) ids.push_back(call.text(i, "id"));
+    static const std::set<std::string> no_document = {"document-fails", "analysis-fails", "analysis-missing",
+                                                      "folder-too-large"};
+    for (const nlohmann::json& finding : session_of(call).findings) {
+        const bool concerned = no_document.contains(finding.at("id")) || ids.empty()
+                                   ? finding.at("severity") == "rule"
+                                   : std::find(ids.begin(), ids.end(), finding.at("id")) != ids.end();
+        if (concerned) return give_judgement(call, 0, finding.at("what"));
+    }
+    return give_judgement(call, 1, "");
+}
+
+constexpr const char* kArea = "checks";
+constexpr std::array kFunctions = {
+    FunctionEntry{"check", kArea, "check{id =, points =, about =, test =, hint =, rerun =, document =, mistakes =}",
+                  "declares a check", guarded<check>},
+    FunctionEntry{"near", kArea, "near(x, wanted, {rel = | abs =, half =})", "judges a number or vector",
+                  guarded<near>},
+    FunctionEntry{"points_between", kArea, "points_between(x, low, high)", "a share that grows from low to high",
+                  guarded<points_between>},
+    FunctionEntry{"all_of", kArea, "all_of(judgement, ...)", "the least of several judgements", guarded<all_of>},
+    FunctionEntry{"any_of", kArea, "any_of(judgement, ...)", "the best of several judgements", guarded<any_of>},
+    FunctionEntry{"differs", kArea, "differs(x, y)", "whether an answer was computed from the data", guarded<differs>},
+    FunctionEntry{"has_figure", kArea, "has_figure(name)", "whether the report has this figure", guarded<has_figure>},
+    FunctionEntry{"has_value", kArea, "has_value(name)", "whether the report has this value", guarded<has_value>},
+    FunctionEntry{"no_finding", kArea, "no_finding(id, ...)", "whether the document is free of findings",
+                  guarded<no_finding>},
+};
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Trying a check
+
+/// Whether NaN or an infinite number stands in an answer (see json_of_number).
+bool holds_no_numbers(const nlohmann::json& answer) {
+    if (answer.is_string()) return answer == "NaN" || answer == "Infinity" || answer == "-Infinity";
+    return answer.is_structured() && std::any_of(answer.begin(), answer.end(), holds_no_numbers);
+}
+
+/// Reads an answer when it is first asked for; upvalue 2 is the name of the run. One that is not there fails the check,
+/// in words for the student.
+int answer_of(Call& call) {
+    lua_State* L = call.state();
+    const std::string name = call.text(2, "name"), run = lua_tostring(L, lua_upvalueindex(2));
+    CheckSession& session = session_of(call);
+    const nlohmann::json& runs = session.runs;
+    const auto refuse = [&session](const std::string& why) { throw InvalidArgument(session.answer_trouble = why); };
+    if (!runs.contains(run) || !runs.at(run).contains("answers") || !runs.at(run).at("answers").contains(name))
+        refuse(fmt::format("The answer \"{}\" was not handed in.", name));
+    const nlohmann::json& answer = runs.at(run).at("answers").at(name);
+    if (answer.at("kind") != "data" && answer.at("kind") != "text" && holds_no_numbers(answer))
+        refuse(fmt::format("The answer \"{}\" holds NaN or infinite numbers.", name));
+    push_answer_value(L, answer.dump());
+    lua_pushvalue(L, 2);
+    lua_pushvalue(L, -2);
+    lua_rawset(L, 1);
+    return 1;
+}
+
+/// The answers of a run as a table, which knows the run.
+void push_answers(const Call& call, const std::string& run) {
+    lua_State* L = call.state();
+    lua_newtable(L);
+    lua_createtable(L, 0, 2);
+    set_text(call, kRunOfAnswers, run);
+    lua_pushlightuserdata(L, const_cast<char*>("_"));
+    call.give(run);
+    lua_pushcclosure(L, guarded<answer_of>, 2);
+    lua_setfield(L, -2, "__index");
+    lua_setmetatable(L, -2);
+}
+
+/// The sentence of the first typical mistake that was made.
+std::optional<std::string> mistake_made(const Call& call, const DeclaredCheck& check, int answers) {
+    if (check.mistakes == 0) return {};
+    lua_State* L = call.state();
+    const int top = lua_gettop(L);
+    lua_rawgeti(L, LUA_REGISTRYINDEX, check.mistakes);
+    std::optional<std::string> said;
+    for (lua_Integer i = 1; !said && lua_rawgeti(L, top + 1, i) == LUA_TTABLE; ++i, lua_settop(L, top + 1)) {
+        lua_getfield(L, -1, "say");
+        lua_getfield(L, -2, "when");
+        if (lua_type(L, -1) != LUA_TFUNCTION || lua_type(L, -2) != LUA_TSTRING)
+            throw InvalidArgument(fmt::format("entry {} of the mistakes must be {{when = function, say = text}}", i));
+        lua_pushvalue(L, answers);
+        lua_pushvalue(L, answers + 1);
+        // A mistake that cannot be looked for was not made.
+        const bool made = lua_pcall(L, 2, 1, 0) == LUA_OK && verdict_at(call, lua_gettop(L)).share == 1;
+        if (made) said = lua_tostring(L, -2);
+    }
+    lua_settop(L, top);
+    return said;
+}
+
+/// On a record that students must not learn anything about, what an error says may quote it, and so may a number in
+/// what the test says: these words are the instructor's.
+void keep_secret(const CheckSession& session, bool ended, Verdict& verdict) {
+    const bool has_number = verdict.message.find_first_of("0123456789") != std::string::npos;
+    if (ended ? !has_number : verdict.message == session.answer_trouble) return;
+    verdict.for_instructor = std::move(verdict.message);
+    verdict.message = ended ? "On a record that you have not seen, it falls short of full points."
+                            : "On a record that you have not seen, the check ended with an error: what it looked at is "
+                              "not of the kind or size that was asked for.";
+}
+
+int verdict(Call& call) {
+    CheckSession& session = session_of(call);
+    lua_State* L = call.state();
+    const DeclaredCheck& check = session.checks.at(static_cast<std::size_t>(call.size(1, "number")));
+    session.current = &check;
+    session.took_hidden = false;
+    session.answer_trouble.clear();
+    const int answers = lua_gettop(L) + 1;
+    push_answers(call, "main");
+    push_answers(call, check.rerun.empty() ? "main" : check.rerun);
+    lua_rawgeti(L, LUA_REGISTRYINDEX, check.test);
+    lua_pushvalue(L, answers);
+    lua_pushvalue(L, answers + 1);
+    const bool ended = lua_pcall(L, 2, 2, 0) == LUA_OK;
+    Verdict found;
+    if (ended) {
+        found = verdict_at(call, answers + 2);
+        if (lua_type(L, answers + 3) == LUA_TSTRING && found.share < 1) found.message = lua_tostring(L, answers + 3);
+    } else {
+        pass_stop_on(L);
+        // Where in the checks it happened is nothing to the student.
+        found.message = lua_type(L, -1) == LUA_TSTRING ? take_apart(lua_tostring(L, -1)).text : "The check failed.";
+    }
+    if (found.share < 1 && on_secret_record(call)) keep_secret(session, ended, found);
+    if (found.share < 1)
+        if (auto said = mistake_made(call, check, answers)) found.message = *std::move(said);
+    session.verdict = std::move(found);
+    return 0;
+}
+
+constexpr std::array kVerdict = {
+    FunctionEntry{"_verdict", kArea, "", "", guarded<verdict>},
+};
+
+}  // namespace
+
+FunctionEntries check_functions() {
+    return kFunctions;
+}
+
+FunctionEntries verdict_function() {
+    return kVerdict;
+}
+
+}  // namespace dynlab::inline course

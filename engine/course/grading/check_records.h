@@ -1,0 +1,10 @@
+#pragma once
+#include "scripting/runtime/function_entry.h"
+
+namespace dynlab::inline course {
+
+/// What checks.lua may call to see other records than those that load() gives, and what theory says of a record:
+/// hidden, truth. Their state is the service CheckSession.
+FunctionEntries check_record_functions();
+
+}  // namespace dynlab::inline course

@@ -1,0 +1,50 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dynlab::inline course {
+
+/// A check as its file declares it.
+struct DeclaredCheck {
+    std::string id, about, hint;
+    double points = 1;
+    std::string rerun;      ///< a data set's name, "seed", or empty
+    bool document = false;  ///< it asks for findings of the document
+    int test = 0;           ///< place of the function in Lua's registry
+    int mistakes = 0;       ///< place of the list of typical mistakes, 0 for none
+    bool visible = true;    ///< students may read the file it stands in
+};
+
+/// What a check says of a submission.
+struct Verdict {
+    double share = 0;                 ///< of the points, 0 to 1
+    std::string message;              ///< one or two sentences for the student; may be empty
+    std::string for_instructor = {};  ///< what it said before where that may quote a secret record
+};
+
+/// Specimens of the apparatus by data set.
+using Specimens = std::map<std::string, std::uint32_t>;
+inline constexpr char kHiddenRecords[] = "hidden";  ///< stands for a run where specimens are told
+inline constexpr char kRunOfAnswers[] = "run";      ///< field of a metatable: from which run the answers came
+
+/// What the functions of checks.lua share while a submission is checked.
+struct CheckSession {
+    std::vector<DeclaredCheck> checks;
+    nlohmann::json runs = nlohmann::json::object();     ///< run_for_grading's results: "main", and one for each rerun
+    nlohmann::json findings = nlohmann::json::array();  ///< of `dynlab check --json`
+    std::map<std::string, Specimens> specimens;  ///< whose records each run read, "hidden" those of hidden(); the data
+                                                 ///< sets that are not named are those of all, specimen 0
+    std::filesystem::path hidden_folder;         ///< holds NAME.mat
+    bool visible_file = true;                    ///< of the file that is being read
+    const DeclaredCheck* current = nullptr;
+    bool took_hidden = false;    ///< the current check asked for a hidden record or what theory says of one
+    std::string answer_trouble;  ///< why an answer that the current check asked for cannot be had; quotes no record
+    std::optional<Verdict> verdict;
+};
+
+}  // namespace dynlab::inline course

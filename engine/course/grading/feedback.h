@@ -1,0 +1,19 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "course/grading/boxed_document.h"
+#include "course/grading/grade.h"
+
+namespace dynlab::inline course {
+
+std::string points_text(double points);  ///< "3", "2.5", "0.33"
+
+/// Text of anybody's as Markdown that means nothing but itself.
+std::string escaped_markdown(const std::string& text);
+
+/// Writes what the student gets into `folder`: feedback.md, and with `documents` feedback.pdf, set from
+/// report_templates/feedback.md. Of hidden checks it has points and hint only.
+void write_feedback(const Grade& grade, const std::filesystem::path& folder, const BoxedDocuments* documents);
+
+}  // namespace dynlab::inline course

@@ -1,0 +1,39 @@
+#pragma once
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dynlab::inline course {
+
+/// What one check gave a submission.
+struct CheckGrade {
+    std::string id, about, hint, message;
+    double points = 0, earned = 0;
+    bool visible = true;              ///< the student may see the message
+    bool graded = true;               ///< false: the check itself is broken, or could not be run
+    std::string for_instructor = {};  ///< what the message must not say of secret records; not part of the result
+};
+
+/// A submission's result.
+struct Grade {
+    std::string submission, lesson, isolation;
+    std::string fingerprint;  ///< of all that it depends on: an equal one need not be made again
+    std::string trouble;      ///< why the whole submission could not be run, in a sentence for the student
+    std::string printed;      ///< end of what the script printed
+    std::vector<CheckGrade> checks;
+    double late_hours = 0, penalty = 0;  ///< penalty in points
+    std::string log;                     ///< what was run and how long it took; not part of the result
+
+    double earned() const;    ///< of graded checks, less the penalty, not below 0
+    double possible() const;  ///< of graded checks
+    bool whole() const;       ///< every check is graded
+};
+
+/// Gradescope's results.json of `marked`, which is `grade` with the instructor's own marks; `grade` itself and what
+/// that format does not know stand in extra_data.
+std::string to_results_json(const Grade& grade, const Grade& marked);
+/// The `grade` of that text. Throws EnvironmentError for a text that to_results_json did not make.
+Grade from_results_json(const std::string& text);
+
+}  // namespace dynlab::inline course

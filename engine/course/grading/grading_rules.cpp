@@ -1,0 +1,310 @@
+#include "course/grading/grading_rules.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "course/findings/document_findings.h"
+#include "data_io/dataset_index.h"
+#include "platform/content_hash.h"
+#include "platform/error.h"
+#include "platform/program_identity.h"
+#include "platform/program_lookup.h"
+#include "platform/text_file.h"
+#include "workflow/specimen_record.h"
+
+namespace dynlab::inline course {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr char kSeedOnly[] = "seed";
+constexpr char kMain[] = "main";
+constexpr auto kCheckTime = std::chrono::milliseconds(10000);     // of one check
+constexpr auto kSingleTime = std::chrono::milliseconds(60000);    // of all, where each needs a box of its own
+constexpr auto kDocumentTime = std::chrono::milliseconds(15000);  // beyond the script's own
+constexpr std::size_t kLongestTrouble = 2000;
+constexpr auto kMargin = std::chrono::milliseconds(300);  // the script's own limit comes first: its answers are kept
+constexpr auto kStartTime = std::chrono::milliseconds(500);
+constexpr std::uint64_t kScriptMemory = 1ull << 30;
+constexpr std::uint64_t kMostAnswers = 4ull << 20;  // bytes of a run's result
+
+/// What an error says, however long.
+std::string shortened_trouble(const std::string& trouble) {
+    return trouble.size() > kLongestTrouble ? trouble.substr(0, kLongestTrouble) + " ..." : trouble;
+}
+
+/// The lesson's template where it demands something, else its report.
+std::string standard_for(const Lesson& lesson, const PercentScript& script) {
+    const DocumentStandard named = standard_of(script.header.template_name);
+    const fs::path report = lesson.report("en");
+    const bool demands = named.rules.pages || !named.rules.sections.empty();
+    return demands || !fs::exists(report) ? script.header.template_name : report.string();
+}
+
+}  // namespace
+
+GradingRules::GradingRules(GradingSetup setup) : setup_(std::move(setup)) {
+    const PercentScript lesson = read_percent_script(setup_.lesson.script());
+    seed_ = lesson.header.seed;
+    simulated_ = simulated_data_of(lesson.source);
+    standard_ = standard_for(setup_.lesson, lesson);
+    for (const ExpectedAnswer& answer : lesson.header.answers) answers_.push_back({answer.name, answer.kind});
+    read_checks();
+    make_records();
+}
+
+void GradingRules::read_checks() {
+    const fs::path own = setup_.lesson.folder / "checks.lua";
+    if (!fs::is_regular_file(own))
+        throw EnvironmentError(fmt::format("lesson {} has no checks.lua", setup_.lesson.slug));
+    files_.push_back({{"name", "checks.lua"}, {"source", read_text(own)}, {"visible", true}});
+    if (setup_.more_checks) {
+        std::vector<fs::path> more;
+        if (!fs::is_directory(*setup_.more_checks))
+            throw EnvironmentError(fmt::format("there is no folder '{}'", setup_.more_checks->string()));
+        for (const auto& entry : fs::directory_iterator(*setup_.more_checks))
+            if (entry.path().extension() == ".lua") more.push_back(entry.path());
+        std::sort(more.begin(), more.end());
+        for (const fs::path& file : more)
+            files_.push_back({{"name", file.filename().string()}, {"source", read_text(file)}, {"visible", false}});
+    }
+    const BoxedResult listed = checked(nullptr, {});
+    if (!listed.output) throw EnvironmentError("the checks cannot be read: " + listed.reason);
+    if (listed.output->contains("error")) throw EnvironmentError(listed.output->at("error").get<std::string>());
+    checks_ = listed.output->at("checks");
+    if (checks_.empty()) throw EnvironmentError(fmt::format("lesson {} declares no check", setup_.lesson.slug));
+    for (const json& check : checks_) {
+        const std::string rerun = check.at("rerun");
+        document_ = document_ || check.at("document").get<bool>();
+        if (rerun.empty()) continue;
+        if (rerun != kSeedOnly && !is_simulated(rerun))
+            throw EnvironmentError(
+                fmt::format("the check \"{}\" wants a rerun on \"{}\", but records are made of {}, or "
+                            "the seed changed with \"seed\"",
+                            check.at("id").get<std::string>(), rerun, fmt::join(simulated_data_sets(), ", ")));
+        reruns_.insert(rerun);
+    }
+}
+
+std::uint32_t GradingRules::drawn(const std::string& what) const {
+    const std::string hash = hash_of(setup_.secret + "\n" + setup_.lesson.slug + "\n" + what);
+    return static_cast<std::uint32_t>(std::stoul(hash.substr(0, 8), nullptr, 16)) | 1u;
+}
+
+void GradingRules::make_records() {
+    std::string sources;
+    for (const json& file : files_) sources += file.at("source").get<std::string>();
+    const auto named = [&sources](const std::string& name, char quote) {
+        return sources.find(quote + name + quote) != std::string::npos;
+    };
+    fs::create_directories(records_.path() / kHiddenRecords);
+    for (const std::string& name : simulated_data_sets())
+        if (named(name, '"') || named(name, '\'')) make_record(name, kHiddenRecords, records_.path() / kHiddenRecords);
+    const auto own = fs::copy_options::recursive;
+    for (const std::string& rerun : reruns_) {
+        if (rerun == kSeedOnly) continue;
+        const fs::path data = records_.path() / rerun / "data";
+        fs::create_directories(data.parent_path());
+        fs::copy(shared_folder() / "data", data, own);
+        for (const auto& entry : fs::directory_iterator(data / rerun))
+            if (entry.path().extension() == ".csv" || entry.path().extension() == ".mat") fs::remove(entry.path());
+        make_record(rerun, rerun, data / rerun);
+    }
+}
+
+void GradingRules::make_record(const std::string& data_set, const std::string& run, const fs::path& folder) {
+    // Without the run: hidden records are further experiments with the apparatus of the rerun.
+    const std::uint32_t specimen = drawn(data_set);
+    specimens_[run][data_set] = specimen;
+    write_specimen_record(data_set, specimen, drawn((run == kHiddenRecords ? "noise:" : "noise:rerun:") + data_set),
+                          folder);
+}
+
+/// The official data, a group's own records among them, as groups have them.
+fs::path GradingRules::data_of(const GroupSeed& group_seed) const {
+    if (!group_seed) return shared_folder() / "data";
+    const std::lock_guard lock(*making_);
+    const fs::path data = records_.path() / fmt::format("group-{}", *group_seed) / "data";
+    if (fs::exists(data)) return data;
+    const fs::path growing = data.parent_path() / "growing";
+    fs::create_directories(growing.parent_path());
+    fs::copy(shared_folder() / "data", growing, fs::copy_options::recursive);
+    for (const std::string& name : simulated_) fs::remove_all(growing / name);
+    write_group_data(simulated_, *group_seed, growing);
+    fs::rename(growing, data);
+    return data;
+}
+
+fs::path GradingRules::add_home(Box& box, const std::string& run, const GroupSeed& group_seed) const {
+    const bool own = run != kMain && run != kSeedOnly;
+    const fs::path data = own ? records_.path() / run / "data" : data_of(group_seed);
+    return box.add(data, "/box/home/data").parent_path();
+}
+
+/// One run of the script, in a box of its own: there are neither records of other runs nor what they left behind.
+json GradingRules::run(const std::string& name, const fs::path& folder, const GroupSeed& group_seed,
+                       std::string& log) const {
+    Box box(setup_.isolation);
+    box.set_environment("DYNLAB_HOME", add_home(box, name, group_seed).string());
+    const json job = {{"work", "run"},
+                      {"script", (box.add(folder, "/box/submission") / "analysis.lua").string()},
+                      {"seed", name == kSeedOnly ? drawn("seed") : seed_},
+                      {"answers", answers_},
+                      {"memory_bytes", kScriptMemory},
+                      {"time_ms", (setup_.timeout - kMargin).count()}};
+    const BoxedResult result = run_boxed(box, setup_.program, job, setup_.timeout + kStartTime, kMostAnswers);
+    const std::chrono::duration<double> most = setup_.timeout;
+    const std::string reason = result.timed_out ? fmt::format("it took more than {} s", most.count()) : result.reason;
+    json run = result.output ? *result.output : json{{"error", fmt::format("The script was ended: {}.", reason)}};
+    log += fmt::format("run {}: {:.3f} s of the script, {:.3f} s in its box\n{}", name, run.value("seconds", 0.0),
+                       result.seconds, run.contains("error") ? "  " + shortened_trouble(run.at("error")) + "\n" : "");
+    return run;
+}
+
+/// The run on the official data and the reruns, by name.
+json GradingRules::runs(const fs::path& folder, const GroupSeed& group_seed, std::string& log) const {
+    json all = {{kMain, run(kMain, folder, group_seed, log)}};
+    for (const std::string& rerun : reruns_) all[rerun] = run(rerun, folder, group_seed, log);
+    return all;
+}
+
+json GradingRules::findings(const fs::path& folder, const GroupSeed& group_seed) const {
+    Box box(setup_.isolation);
+    box.add_document_programs();
+    const fs::path home = box.add(data_of(group_seed), "/box/home/data").parent_path();
+    box.add(shared_folder() / "report_templates", "/box/home/report_templates");
+    box.set_environment("DYNLAB_HOME", home.string());
+    const fs::path inside = box.add(folder, "/box/submission"), program = box.add(setup_.program, "/box/dynlab");
+    const bool file = standard_.ends_with(".md");
+    const std::string standard = file ? box.add(standard_, "/box/standard/report.md").string() : standard_;
+    Box::Limits limits;
+    limits.timeout = setup_.timeout + kDocumentTime;
+    const ChildResult child =
+        box.run({program.string(), "check", "--json", "--document-only", "--template", standard, inside.string()}, {},
+                "", limits);
+    const json found = json::parse(child.output, nullptr, false);
+    if (!found.is_discarded() && found.contains("findings")) return found.at("findings");
+    return json::array({{{"id", "document-fails"},
+                         {"severity", "rule"},
+                         {"what", child.timed_out ? "The report takes too long." : "The report cannot be made."}}});
+}
+
+BoxedResult GradingRules::checked(json submission, const GroupSeed& group_seed, std::optional<std::size_t> only,
+                                  std::chrono::milliseconds timeout) const {
+    Box box(setup_.isolation);
+    box.set_environment("DYNLAB_HOME", add_home(box, kMain, group_seed).string());
+    const bool tries = !submission.is_null();
+    auto specimens = specimens_;
+    if (group_seed)
+        for (const std::string& name : simulated_)
+            for (const char* run : {kMain, kSeedOnly}) specimens[run][name] = *group_seed;
+    const json job = {{"work", "checks"},
+                      {"files", files_},
+                      {"hidden_folder", tries ? box.add(records_.path() / kHiddenRecords, "/box/hidden").string() : ""},
+                      {"specimens", std::move(specimens)},
+                      {"time_ms", kCheckTime.count()},
+                      {"only", only ? json(*only) : json()},
+                      {"submission", std::move(submission)}};
+    return run_boxed(box, setup_.program, job, timeout);
+}
+
+/// A verdict for each check. Answers that crash one check, or hold it up, take the others with them; then each is tried
+/// in a box of its own, and only those stay without a verdict that come to no end there: they are "lost", and
+/// "for_instructor" says why.
+json GradingRules::verdicts(const json& submission, const GroupSeed& group_seed, std::string& log) const {
+    const auto usable = [](const BoxedResult& result, std::size_t count) {
+        return result.output && result.output->contains("checks") && result.output->at("checks").size() == count;
+    };
+    const BoxedResult together = checked(submission, group_seed);
+    log += fmt::format("checks: {:.3f} s in their box{}\n", together.seconds,
+                       together.output ? "" : "; " + together.reason);
+    if (usable(together, checks_.size())) return together.output->at("checks");
+    json all = json::array();
+    for (std::size_t k = 0; k < checks_.size(); ++k) {
+        const BoxedResult alone = checked(submission, group_seed, k, kSingleTime / static_cast<int>(checks_.size()));
+        if (usable(alone, 1))
+            all.push_back(alone.output->at("checks").at(0));
+        else
+            all.push_back(
+                {{"lost", true}, {"for_instructor", alone.output ? "its result cannot be read" : alone.reason}});
+    }
+    return all;
+}
+
+Grade GradingRules::without_checks(const std::string& name, const std::string& trouble) const {
+    Grade grade;
+    grade.submission = name;
+    grade.lesson = setup_.lesson.slug;
+    grade.isolation = name_of(setup_.isolation);
+    grade.trouble = trouble;
+    for (const json& check : checks_) {
+        CheckGrade one;
+        one.id = check.at("id");
+        one.about = check.at("about");
+        one.hint = check.at("hint");
+        one.points = check.at("points");
+        one.visible = check.at("visible");
+        one.graded = !broken_.contains(one.id);
+        grade.checks.push_back(std::move(one));
+    }
+    return grade;
+}
+
+Grade GradingRules::grade(const std::string& name, const fs::path& folder, const GroupSeed& group_seed) const {
+    Grade grade = without_checks(name, "");
+    json submission = {{"runs", runs(folder, group_seed, grade.log)}};
+    const json& main = submission.at("runs").at(kMain);
+    if (main.contains("error")) grade.trouble = shortened_trouble(main.at("error"));
+    if (main.contains("printed")) grade.printed = main.at("printed");
+    submission["findings"] = document_ ? findings(folder, group_seed) : json::array();
+    const json found = verdicts(submission, group_seed, grade.log);
+    for (std::size_t k = 0; k < grade.checks.size(); ++k) {
+        CheckGrade& check = grade.checks[k];
+        const json& verdict = found.at(k);
+        check.for_instructor = verdict.value("for_instructor", "");
+        if (!check.for_instructor.empty()) grade.log += fmt::format("check {}: {}\n", check.id, check.for_instructor);
+        if (verdict.value("lost", false)) {
+            check.graded = false;
+            check.message = "The check could not be run on these answers.";
+            continue;
+        }
+        if (verdict.at("share").is_number()) check.earned = check.points * verdict.at("share").get<double>();
+        check.message = verdict.at("message");
+    }
+    if (!grade.printed.empty()) grade.log += "\nprinted by the script, at its end:\n" + grade.printed;
+    return grade;
+}
+
+std::vector<std::string> GradingRules::try_solution() {
+    const TemporaryFolder work;
+    fs::copy_file(setup_.lesson.script(), work.path() / "analysis.lua");
+    if (const fs::path report = setup_.lesson.report("en"); fs::exists(report))
+        fs::copy_file(report, work.path() / "report.md");
+    std::vector<std::string> complaints;
+    const Grade solution = grade("solution", work.path());
+    if (!solution.trouble.empty())
+        complaints.push_back("the worked solution did not run to its end: " + solution.trouble);
+    for (const CheckGrade& check : solution.checks) {
+        if (check.graded && check.earned == check.points) continue;
+        broken_.insert(check.id);
+        const std::string& told = check.for_instructor.empty() ? check.message : check.for_instructor;
+        complaints.push_back(
+            fmt::format("the worked solution does not pass the check \"{}\", which is left ungraded: {}", check.id,
+                        told.empty() ? "it returned false" : told));
+    }
+    return complaints;
+}
+
+std::string GradingRules::fingerprint(const std::string& content_hash, const GroupSeed& group_seed) const {
+    ContentHash hash;
+    for (const std::string& part :
+         {content_hash, program_identity(), setup_.lesson.slug, hash_of_file(setup_.lesson.script()), setup_.secret,
+          files_.dump(), std::to_string(setup_.timeout.count()), name_of(setup_.isolation),
+          fmt::format("{}", fmt::join(broken_, " ")), group_seed ? std::to_string(*group_seed) : ""})
+        hash.add(std::to_string(part.size()) + ":").add(part);
+    return hash.hex();
+}
+
+}  // namespace dynlab::inline course

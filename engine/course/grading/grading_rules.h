@@ -1,0 +1,80 @@
+#pragma once
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "course/grading/boxed_work.h"
+#include "course/grading/check_session.h"
+#include "course/grading/grade.h"
+#include "platform/temporary_folder.h"
+#include "workflow/lesson_catalogue.h"
+
+namespace dynlab::inline course {
+
+struct GradingSetup {
+    Lesson lesson;
+    std::optional<std::filesystem::path> more_checks;  ///< the instructor's own folder of *.lua
+    std::string secret;                                ///< of the course: what the hidden records are drawn from
+    Isolation isolation = Isolation::kFull;
+    std::chrono::milliseconds timeout{60000};  ///< of each run of a student's script
+    std::filesystem::path program;             ///< dynlab
+};
+
+/// What all submissions of a lesson are held against: the checks, the hidden records, and the check of the checks
+/// themselves, which are tried on the lesson's worked solution first.
+class GradingRules {
+  public:
+    /// Makes the records. Throws EnvironmentError for a lesson without checks.lua, check files that cannot be read, a
+    /// rerun of a data set that no simulator makes.
+    explicit GradingRules(GradingSetup setup);
+
+    /// Of a group that has records of its own (dynlab new --group-seed); nothing for the data of all.
+    using GroupSeed = std::optional<std::uint32_t>;
+
+    /// Runs and checks the submission whose script stands in `folder`.
+    Grade grade(const std::string& name, const std::filesystem::path& folder, const GroupSeed& group_seed = {}) const;
+    Grade without_checks(const std::string& name, const std::string& trouble) const;  ///< no points at all
+
+    /// Tries the worked solution. Checks that it does not pass are broken: from now on they are left ungraded. Returns
+    /// a sentence for each.
+    std::vector<std::string> try_solution();
+
+    std::string fingerprint(const std::string& content_hash, const GroupSeed& group_seed) const;
+    const GradingSetup& setup() const { return setup_; }
+    const nlohmann::json& checks() const { return checks_; }
+
+  private:
+    void read_checks();
+    void make_records();
+    void make_record(const std::string& data_set, const std::string& run, const std::filesystem::path& folder);
+    nlohmann::json run(const std::string& name, const std::filesystem::path& folder, const GroupSeed& group_seed,
+                       std::string& log) const;
+    nlohmann::json runs(const std::filesystem::path& folder, const GroupSeed& group_seed, std::string& log) const;
+    nlohmann::json findings(const std::filesystem::path& folder, const GroupSeed& group_seed) const;
+    BoxedResult checked(nlohmann::json submission, const GroupSeed& group_seed, std::optional<std::size_t> only = {},
+                        std::chrono::milliseconds timeout = std::chrono::seconds(60)) const;
+    nlohmann::json verdicts(const nlohmann::json& submission, const GroupSeed& group_seed, std::string& log) const;
+    std::filesystem::path data_of(const GroupSeed& group_seed) const;
+    std::filesystem::path add_home(Box& box, const std::string& run, const GroupSeed& group_seed) const;
+    std::uint32_t drawn(const std::string& what) const;
+
+    GradingSetup setup_;
+    nlohmann::json files_ = nlohmann::json::array(), answers_ = nlohmann::json::array(), checks_;
+    std::uint32_t seed_ = 1;
+    std::string standard_;                ///< the template, or the file of one, whose rules a document must keep
+    std::vector<std::string> simulated_;  ///< data sets of the lesson that groups may have for themselves
+    std::map<std::string, Specimens> specimens_;  ///< of hidden records and reruns (CheckSession)
+    std::set<std::string> reruns_, broken_;
+    bool document_ = false;
+    TemporaryFolder records_;
+    std::unique_ptr<std::mutex> making_ = std::make_unique<std::mutex>();  ///< of groups' records
+};
+
+}  // namespace dynlab::inline course

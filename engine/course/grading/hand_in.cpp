@@ -1,0 +1,87 @@
+#include "course/grading/hand_in.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "course/grading/folder_copy.h"
+#include "course/grading/zip_file.h"
+#include "data_io/dataset_index.h"
+#include "platform/atomic_file.h"
+#include "platform/content_hash.h"
+#include "platform/error.h"
+#include "platform/program_lookup.h"
+#include "platform/temporary_folder.h"
+#include "workflow/student_copy.h"
+
+namespace dynlab::inline course {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kMostPackedBytes = 200ull << 20;
+constexpr int kMostFiles = 2000;
+constexpr char kManifest[] = "MANIFEST.json";
+
+/// All files below, by their place there.
+std::map<std::string, std::string> contents_of(const fs::path& folder) {
+    std::map<std::string, std::string> contents;
+    for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::recursive_directory_iterator(); ++entry) {
+        if (entry->is_symlink()) {
+            entry.disable_recursion_pending();
+        } else if (entry->is_regular_file()) {
+            contents[entry->path().lexically_relative(folder).generic_string()] = read_file(entry->path());
+        }
+    }
+    return contents;
+}
+
+}  // namespace
+
+Pack pack_folder(const fs::path& folder, const fs::path& file) {
+    if (!fs::is_regular_file(fs::symlink_status(folder / "analysis.lua")))
+        throw EnvironmentError(
+            fmt::format("{} has no analysis.lua; pack the folder that dynlab new made", folder.string()));
+    const TemporaryFolder copy;
+    const FolderCopy copied = copy_folder(folder, copy.path(), kMostPackedBytes, kMostFiles);
+    if (copied.too_large)
+        throw EnvironmentError(fmt::format("{} is too large: at most {} files and {} MB are handed in", folder.string(),
+                                           kMostFiles, kMostPackedBytes >> 20));
+    std::map<std::string, std::string> contents = contents_of(copy.path());
+    std::erase_if(contents,
+                  [](const auto& entry) { return entry.first.ends_with(".zip") || entry.first == kManifest; });
+    Pack pack;
+    pack.left_out = copied.left_out;
+    nlohmann::json manifest = {{"format", 1}, {"files", nlohmann::json::object()}};
+    for (const auto& [name, content] : contents) {
+        pack.files.push_back(name);
+        manifest["files"][name] = {{"bytes", content.size()}, {"sha256", hash_of(content)}};
+    }
+    contents[kManifest] = manifest.dump(2) + "\n";
+    write_zip(file, contents);
+    pack.hash = hash_of_file(file);
+    return pack;
+}
+
+std::vector<std::string> bundle_lesson(const Lesson& lesson, const fs::path& file) {
+    const TemporaryFolder work;
+    const fs::path starter = work.path() / lesson.slug;
+    make_student_copy(lesson, starter);
+    std::map<std::string, std::string> contents;
+    for (const auto& [name, content] : contents_of(starter)) contents[lesson.slug + "/" + name] = content;
+    if (fs::exists(lesson.folder / "checks.lua"))
+        contents[lesson.slug + "/checks.lua"] = read_file(lesson.folder / "checks.lua");
+    const std::string script = read_file(lesson.script());
+    for (const std::string& data_set : dataset_names()) {
+        if (script.find("load(\"" + data_set + "\")") == std::string::npos) continue;
+        for (const auto& [name, content] : contents_of(shared_folder() / "data" / data_set))
+            contents[lesson.slug + "/data/" + data_set + "/" + name] = content;
+    }
+    write_zip(file, contents);
+    std::vector<std::string> names;
+    for (const auto& [name, content] : contents) names.push_back(name);
+    return names;
+}
+
+}  // namespace dynlab::inline course

@@ -1,0 +1,59 @@
+#include "course/grading/manual_marks.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "data_io/text_table.h"
+#include "platform/atomic_file.h"
+#include "platform/error.h"
+
+namespace dynlab::inline course {
+
+ManualMarks::ManualMarks(const std::filesystem::path& file) {
+    if (!std::filesystem::exists(file))
+        write_file_atomically(file, csv_text({{"submission", "check", "points", "reason"}, {}, {}}));
+    const TextTable table = read_text_table(file);
+    const auto submission = table.column("submission"), check = table.column("check"), points = table.column("points"),
+               reason = table.column("reason");
+    if (!submission || !check || !points)
+        throw EnvironmentError(fmt::format("{}: the columns submission, check and points are needed", file.string()));
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+        const auto& row = table.rows[i];
+        const std::string& text = row[*points];
+        Mark mark{0, reason ? row[*reason] : ""};
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), mark.points);
+        if (error != std::errc() || end != text.data() + text.size() || !(mark.points >= 0 && mark.points <= 1000))
+            throw EnvironmentError(
+                fmt::format("{}, line {}: points must be a number from 0 to 1000, but \"{}\" was given", file.string(),
+                            table.lines[i], text));
+        marks_[{row[*submission], row[*check]}] = std::move(mark);
+    }
+}
+
+Grade ManualMarks::applied(Grade grade) const {
+    for (CheckGrade& check : grade.checks) {
+        const auto found = marks_.find({grade.submission, check.id});
+        if (found == marks_.end()) continue;
+        check.earned = found->second.points;
+        check.graded = true;
+        check.message = found->second.reason.empty() ? "Marked by the instructor." : found->second.reason;
+        check.visible = true;
+    }
+    return grade;
+}
+
+std::vector<std::string> ManualMarks::strays(const std::set<std::string>& submissions,
+                                             const std::set<std::string>& checks) const {
+    std::vector<std::string> sentences;
+    for (const auto& [place, mark] : marks_) {
+        const auto& [submission, check] = place;
+        if (!submissions.contains(submission))
+            sentences.push_back(fmt::format("manual.csv: there is no submission \"{}\"", submission));
+        else if (!checks.contains(check))
+            sentences.push_back(fmt::format("manual.csv: there is no check \"{}\" (for \"{}\")", check, submission));
+    }
+    return sentences;
+}
+
+}  // namespace dynlab::inline course

@@ -1,0 +1,32 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "course/grading/grade.h"
+
+namespace dynlab::inline course {
+
+/// The instructor's own marks, manual.csv in the folder of results: columns submission, check, points, reason. They
+/// replace what the check gave and survive every regrade.
+class ManualMarks {
+  public:
+    /// Writes an empty table with its header where there is none. Throws EnvironmentError with file and line.
+    explicit ManualMarks(const std::filesystem::path& file);
+    Grade applied(Grade grade) const;
+    /// A sentence for each mark whose submission or check is not among these.
+    std::vector<std::string> strays(const std::set<std::string>& submissions,
+                                    const std::set<std::string>& checks) const;
+
+  private:
+    struct Mark {
+        double points;
+        std::string reason;
+    };
+    std::map<std::pair<std::string, std::string>, Mark> marks_;
+};
+
+}  // namespace dynlab::inline course

@@ -1,0 +1,144 @@
+#include "course/grading/unpack.h"
+
+#include <archive.h>
+#include <archive_entry.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <fstream>
+#include <memory>
+
+#include "platform/confinement.h"
+#include "platform/utf8_locale.h"
+
+namespace dynlab::inline course {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+using Archive = std::unique_ptr<archive, int (*)(archive*)>;
+
+constexpr std::size_t kReadBlock = 64u << 10;
+constexpr int kDeepestArchive = 20;
+
+/// Why an entry of this name has no place in a folder; nothing where it has one.
+std::optional<std::string> objection_to(const fs::path& path) {
+    constexpr std::size_t kLongestName = 255;  // of a file system
+    const std::string& text = path.native();
+    const bool on_a_drive = text.size() > 1 && std::isalpha(static_cast<unsigned char>(text[0])) && text[1] == ':';
+    if (path.is_absolute() || on_a_drive) return "leads outside of the archive";
+    int depth = 0;
+    for (const fs::path& part : path) {
+        if (part == "..") return "leads outside of the archive";
+        if (++depth > kDeepestArchive) return fmt::format("lies deeper than {} folders", kDeepestArchive);
+        if (part.native().size() > kLongestName) return "has a name that is too long";
+        for (const unsigned char c : part.native())
+            if (c < 0x20 || c == 0x7F) return "has a name with control characters";
+    }
+    return {};
+}
+
+class Unpacking {
+  public:
+    explicit Unpacking(const json& job)
+        : to_(job.at("to").get<std::string>()),
+          bytes_left_(job.at("bytes").get<std::uint64_t>()),
+          files_left_(job.at("files").get<int>()),
+          keep_times_(job.at("keep_times").get<bool>()),
+          archive_(archive_read_new(), archive_read_free) {
+        archive_read_support_filter_gzip(archive_.get());
+        archive_read_support_filter_xz(archive_.get());
+        archive_read_support_filter_bzip2(archive_.get());
+        archive_read_support_format_zip(archive_.get());
+        archive_read_support_format_tar(archive_.get());
+        const std::string file = job.at("archive");
+        if (archive_read_open_filename(archive_.get(), file.c_str(), kReadBlock) != ARCHIVE_OK) fail();
+    }
+
+    json unpack() {
+        archive_entry* entry = nullptr;
+        int status = ARCHIVE_OK;
+        while ((status = archive_read_next_header(archive_.get(), &entry)) == ARCHIVE_OK || status == ARCHIVE_WARN)
+            take(entry);
+        if (status != ARCHIVE_EOF) fail();
+        return {{"left_out", left_out_}};
+    }
+
+  private:
+    [[noreturn]] void fail() const {
+        const char* const reason = archive_error_string(archive_.get());
+        throw std::runtime_error(fmt::format("the archive cannot be read: {}", reason ? reason : "it is damaged"));
+    }
+
+    void take(archive_entry* entry) {
+        if (--files_left_ < 0) throw std::runtime_error("the archive holds too many files");
+        const char* const name = archive_entry_pathname(entry);
+        if (name == nullptr || *name == '\0') return leave_out(entry, "the name of a file in it cannot be read");
+        std::string text = name;
+        std::replace(text.begin(), text.end(), '\\', '/');
+        const fs::path place(text);
+        const auto type = archive_entry_filetype(entry);
+        const bool ordinary = (type == AE_IFREG || type == AE_IFDIR) && archive_entry_hardlink(entry) == nullptr;
+        const std::optional<std::string> objection = ordinary ? objection_to(place) : "is a link or no ordinary file";
+        if (objection) return leave_out(entry, fmt::format("\"{}\" {}", name, *objection));
+        if (type == AE_IFDIR) {
+            fs::create_directories(to_ / place);
+            return;
+        }
+        fs::create_directories((to_ / place).parent_path());
+        write(to_ / place);
+        if (keep_times_ && archive_entry_mtime_is_set(entry)) {
+            const auto time = std::chrono::system_clock::from_time_t(archive_entry_mtime(entry));
+            fs::last_write_time(to_ / place, std::chrono::file_clock::from_sys(time));
+        }
+    }
+
+    /// What is passed over has to be unpacked as well.
+    void leave_out(archive_entry* entry, const std::string& clause) {
+        left_out_.push_back(clause);
+        if (archive_entry_size_is_set(entry)) use(static_cast<std::uint64_t>(archive_entry_size(entry)));
+    }
+
+    void use(std::uint64_t bytes) {
+        if (bytes > bytes_left_) throw std::runtime_error("the archive is too large once unpacked");
+        bytes_left_ -= bytes;
+    }
+
+    void write(const fs::path& file) {
+        std::ofstream out(file, std::ios::binary | std::ios::trunc);
+        char block[kReadBlock];
+        la_ssize_t count = 0;
+        while ((count = archive_read_data(archive_.get(), block, sizeof block)) > 0) {
+            use(static_cast<std::uint64_t>(count));
+            out.write(block, count);
+        }
+        if (count < 0) fail();
+        if (!out) throw std::runtime_error("the archive cannot be unpacked: " + file.filename().string());
+    }
+
+    fs::path to_;
+    std::uint64_t bytes_left_;
+    int files_left_;
+    bool keep_times_;
+    Utf8Locale names_;  // libarchive gives names in the character set of the locale
+    Archive archive_;
+    std::vector<std::string> left_out_;
+};
+
+}  // namespace
+
+json unpack_archive(const json& job) {
+    ProcessLimits limits;
+    limits.file_bytes = job.at("bytes");
+    confine_process(limits);
+    try {
+        return Unpacking(job).unpack();
+    } catch (const std::runtime_error& error) {
+        return {{"error", error.what()}};
+    }
+}
+
+}  // namespace dynlab::inline course

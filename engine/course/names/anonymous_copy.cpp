@@ -1,0 +1,148 @@
+#include "course/names/anonymous_copy.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <csignal>
+
+#include "course/grading/submission.h"
+#include "course/names/name_findings.h"
+#include "documents/work_file.h"
+#include "platform/atomic_file.h"
+#include "platform/content_hash.h"
+#include "platform/error.h"
+#include "platform/program_lookup.h"
+#include "platform/temporary_folder.h"
+#include "platform/terminal/terminal_text.h"
+
+namespace dynlab::inline course {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kLargestFile = 64ull << 20, kMostMade = 200ull << 20;
+
+std::uint64_t bytes_below(const fs::path& folder) {
+    std::uint64_t bytes = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (fs::is_regular_file(entry.symlink_status())) bytes += entry.file_size();
+    return bytes;
+}
+
+bool is_pdf(const fs::path& file) {
+    std::string ending = file.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    return ending == ".pdf";
+}
+
+/// report.pdf in the folder or below, else the only PDF.
+std::optional<fs::path> pdf_below(const fs::path& folder) {
+    std::vector<fs::path> found;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (fs::is_regular_file(entry.symlink_status()) && is_pdf(entry.path())) found.push_back(entry.path());
+    std::sort(found.begin(), found.end());
+    const auto usual =
+        std::find_if(found.begin(), found.end(), [](const fs::path& file) { return file.filename() == "report.pdf"; });
+    if (usual != found.end()) return *usual;
+    return found.size() == 1 ? std::optional(found.front()) : std::nullopt;
+}
+
+/// The making of one copy.
+class CopyingAnonymously {
+  public:
+    CopyingAnonymously(const fs::path& handed_in, const AnonymousCopySetup& setup)
+        : handed_in_(handed_in), setup_(setup) {}
+
+    AnonymousCopy make(const fs::path& copy) {
+        const std::optional<fs::path> original = found_original();
+        if (!original) return std::move(result_);
+        try {
+            const std::string bytes = clean_pdf(*original, setup_.objects);
+            const fs::path cleaned = work_.path() / "clean.pdf";
+            write_work_file(cleaned, bytes);
+            NameSearchLimits limits;
+            limits.objects = setup_.objects;
+            result_.findings = name_findings(cleaned, read_pdf_layout(cleaned), setup_.names, limits);
+            result_.made = std::none_of(result_.findings.begin(), result_.findings.end(),
+                                        [](const Finding& finding) { return finding.severity == Severity::kRule; });
+            if (!result_.made) return std::move(result_);
+            write_file_atomically(copy, bytes);
+            result_.hash = hash_of(bytes);
+        } catch (const PdfRefusal& refusal) {
+            result_.made = false;
+            result_.trouble = refusal.what();
+        }
+        return std::move(result_);
+    }
+
+  private:
+    /// The PDF made again or handed in; says in the result which, or why there is none.
+    std::optional<fs::path> found_original() {
+        if (fs::is_regular_file(handed_in_) && is_pdf(handed_in_)) return handed_in_;
+        Submission submission;
+        submission.path = handed_in_;
+        submission.archive = !fs::is_directory(handed_in_);
+        const fs::path staged = work_.path() / "staged";
+        fs::create_directories(staged);
+        std::optional<fs::path> source;
+        try {
+            source = stage_submission(submission, staged, setup_.isolation, setup_.program);
+        } catch (const SubmissionError& error) {
+            result_.trouble = error.what();
+        }
+        if (source && setup_.rebuild && fs::is_regular_file(*source / "report.md") && makes_report(*source)) {
+            result_.rebuilt = true;
+            result_.trouble.clear();
+            return report();
+        }
+        const std::optional<fs::path> pdf = pdf_below(staged);
+        if (pdf)
+            result_.trouble.clear();
+        else if (result_.trouble.empty())
+            result_.trouble = "There is neither a report that can be made again nor one PDF.";
+        return pdf;
+    }
+
+    fs::path report() const { return work_.path() / "made" / "report.pdf"; }
+
+    bool makes_report(const fs::path& folder) {
+        fs::create_directories(report().parent_path());
+        Box box(setup_.isolation);
+        box.add_document_programs();
+        const fs::path home = box.add(shared_folder() / "data", "/box/home/data").parent_path();
+        box.add(shared_folder() / "report_templates", "/box/home/report_templates");
+        box.set_environment("DYNLAB_HOME", home.string());
+        const fs::path inside = box.add(folder, "/box/submission");
+        const fs::path out = box.add_writable(report().parent_path(), "/box/made");
+        const fs::path program = box.add(setup_.program, "/box/dynlab");
+        Box::Limits limits;
+        limits.timeout = setup_.report_time;
+        limits.file_bytes = kLargestFile;
+        const ChildResult child =
+            box.run({program.string(), "report", inside.string(), "-o", (out / "report.pdf").string()}, {}, "", limits);
+        const bool made = child.exit_code == 0 && fs::is_regular_file(report());
+        if (made && bytes_below(report().parent_path()) <= kMostMade) return true;
+        result_.trouble = "The report cannot be made again: " + (made ? "it is too large" : reason_of(child)) + ".";
+        return false;
+    }
+
+    std::string reason_of(const ChildResult& child) const {
+        if (child.timed_out) return fmt::format("it takes more than {} s", setup_.report_time.count());
+        if (child.exit_code == 128 + SIGXFSZ)
+            return fmt::format("it writes a file of more than {} MB", kLargestFile >> 20);
+        return terminal_text(child.error_output.substr(0, child.error_output.find('\n')));
+    }
+
+    fs::path handed_in_;
+    const AnonymousCopySetup& setup_;
+    AnonymousCopy result_;
+    TemporaryFolder work_;
+};
+
+}  // namespace
+
+AnonymousCopy anonymous_copy(const fs::path& handed_in, const fs::path& copy, const AnonymousCopySetup& setup) {
+    return CopyingAnonymously(handed_in, setup).make(copy);
+}
+
+}  // namespace dynlab::inline course

@@ -1,0 +1,304 @@
+#include "course/names/name_findings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <tuple>
+
+#include "course/names/pdf_places.h"
+#include "course/names/plain_words.h"
+#include "documents/work_file.h"
+#include "platform/guarded_call.h"
+#include "platform/temporary_folder.h"
+
+namespace dynlab::inline course {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr std::size_t kMostNested = 5, kMostVersions = 5, kMostFindings = 40;
+constexpr double kNameGap = 0.2;  ///< of the size: more is a space
+constexpr const char* kEndMark = "%%EOF";
+
+struct PlaceWords {
+    const char *id, *where, *remedy;
+};
+/// By PdfPlace.
+constexpr std::array<PlaceWords, 13> kPlaces = {{
+    {"name-in-text", "in the text", "Take it out: reports are read anonymously."},
+    {"name-hidden", "where no reader sees it (outside of the page, in a hidden layer or in a part not shown)",
+     "Take it out of the source; what is cut away or covered is still in the file."},
+    {"name-in-metadata", "in the metadata",
+     "Make the PDF with dynlab report, or empty author, title and keywords in the properties of the document and of "
+     "its "
+     "figures."},
+    {"name-in-attachment", "in an embedded file", "Save the PDF without embedded files."},
+    {"name-in-annotation", "in a comment", "Delete the comments, or print them away into a new PDF."},
+    {"name-in-form", "in a form's field", "Empty the field, or print the document into a new PDF."},
+    {"name-in-link", "in the target of a link", "Take the link out or let it lead elsewhere."},
+    {"name-in-bookmark", "in a bookmark", "Change the heading, or save the PDF without bookmarks."},
+    {"name-in-layer", "in the name of a layer", "Rename the layer or save the figure without layers."},
+    {"name-in-image", "in the metadata of a picture",
+     "Save the picture without metadata, such as by exporting it as PNG, and make the PDF again."},
+    {"name-in-figure-file", "in the path of a figure's file",
+     "Give the figure's file another name or place and make the PDF again, best with dynlab report."},
+    {"name-in-remains", "in what remains of an earlier state of the file, or behind its end",
+     "Make the PDF anew instead of changing it, best with dynlab report."},
+    {"name-inside", "inside the file, in a part that is never printed",
+     "Make the PDF anew with dynlab report, or print it into a new PDF."},
+}};
+
+/// Something found, still without words.
+struct Found {
+    PdfPlace place = PdfPlace::kText;
+    int page = 0;
+    std::string detail, excerpt;
+    NameHit hit;
+};
+
+json json_of(const Found& found) {
+    return {found.place, found.page, found.detail, found.excerpt, found.hit.who, found.hit.kind, found.hit.certain};
+}
+
+Found found_of(const json& value) {
+    Found found;
+    found.place = value[0];
+    found.page = value[1];
+    found.detail = value[2];
+    found.excerpt = value[3];
+    found.hit.who = value[4];
+    found.hit.kind = value[5];
+    found.hit.certain = value[6];
+    return found;
+}
+
+std::string what_is_named(const NameHit& hit) {
+    const std::string who = printable(hit.who, 80);
+    switch (hit.kind) {
+        case NameKind::kNumber:
+            return "The number of " + who;
+        case NameKind::kMail:
+            return "The mail address or account of " + who;
+        case NameKind::kGroup:
+            return "The group " + who;
+        case NameKind::kHome:
+            return "A home folder";
+        case NameKind::kName:
+            break;
+    }
+    return "The name of " + who;
+}
+
+Finding finding_of(const Found& found) {
+    const PlaceWords& words = kPlaces[static_cast<std::size_t>(found.place)];
+    const std::string detail = found.detail.empty() ? "" : fmt::format(" ({})", printable(found.detail, 40));
+    const std::string doubt = found.hit.certain ? "" : "; somebody else may be meant";
+    return {words.id,
+            found.hit.certain ? Severity::kRule : Severity::kHint,
+            found.page,
+            "",
+            fmt::format("{} stands {}{}: \"{}\"{}.", what_is_named(found.hit), words.where, detail,
+                        printable(found.excerpt, 60), doubt),
+            words.remedy};
+}
+
+std::string excerpt_of(const std::string& text, const NameHit& hit) {
+    std::string excerpt = text.substr(hit.begin, hit.end - hit.begin);
+    std::replace(excerpt.begin(), excerpt.end(), '\n', ' ');
+    return printable(excerpt, 80);
+}
+
+/// One file's search: its pages, its objects, its earlier versions and the PDFs in it.
+class NameSearch {
+  public:
+    NameSearch(const SoughtNames& sought, const NameSearchLimits& limits) : sought_(sought), limits_(limits) {}
+
+    void search(const fs::path& file, const PdfLayout& layout) {
+        search_pages(layout, PdfPlace::kText);
+        search_inside(file, true);
+    }
+
+    Findings findings() {
+        drop_echoes();
+        Findings result;
+        for (std::size_t i = 0; i < found_.size() && i < kMostFindings; ++i) result.push_back(finding_of(found_[i]));
+        if (found_.size() > kMostFindings)
+            result.push_back({"names-not-listed", Severity::kRule, 0, "",
+                              fmt::format("{} further places that name somebody, or may do so, are not listed here.",
+                                          found_.size() - kMostFindings),
+                              "Mend what is listed and check the document again."});
+        if (!trouble_.empty())
+            result.push_back({"not-searched", Severity::kRule, 0, "",
+                              "The inside of the file cannot be searched for names. " + trouble_,
+                              "Make the PDF anew, best with dynlab report."});
+        for (const std::string& author : authors_)
+            result.push_back({"author-named", Severity::kHint, 0, "",
+                              fmt::format("The metadata name an author: \"{}\".", printable(author, 60)),
+                              "Leave the author empty: reports are read anonymously."});
+        return result;
+    }
+
+  private:
+    void search_pages(const PdfLayout& layout, PdfPlace place) {
+        int number = 0;
+        for (const PdfPage& page : layout.pages) {
+            const std::string text = page_text(page);
+            ++number;
+            for (NameHit& hit : sought_.find(text, TextManner::kProse))
+                found_.push_back({place, number, "", excerpt_of(text, hit), std::move(hit)});
+        }
+    }
+
+    void search_inside(const fs::path& file, bool versions) {
+        try {
+            const std::string objects = pdf_objects(file, StreamForm::kDecoded, limits_.objects);
+            const json read = searched_objects(file, objects);
+            for (const json& one : read.at("found")) found_.push_back(found_of(one));
+            for (const json& author : read.at("authors")) authors_.insert(author.get<std::string>());
+            search_all_shown(file, read.at("shown").get<std::string>());
+            const json& nested = read.at("nested");
+            for (std::size_t i = 0; i < nested.size() && i < kMostNested; ++i)
+                search_nested(nested[i].get_binary(), PdfPlace::kAttachment);
+            if (nested.size() > kMostNested)
+                trouble_ = fmt::format("More than {} PDFs are embedded in it.", kMostNested);
+        } catch (const PdfRefusal& refusal) {
+            trouble_ = refusal.what();
+        }
+        if (versions) search_versions(file);
+    }
+
+    /// In a guarded process: objects of a hostile file may take any form.
+    json searched_objects(const fs::path& file, const std::string& objects) const {
+        const ChildResult result = run_guarded(
+            [&] {
+                const std::vector<std::uint8_t> packed = json::to_msgpack(found_in(objects, read_work_file(file)));
+                return std::string(packed.begin(), packed.end());
+            },
+            {limits_.pdf.time, 2 * limits_.objects.memory_bytes, limits_.objects.output_bytes});
+        if (result.exit_code != 0 || result.timed_out || result.output_exceeded)
+            throw PdfRefusal(PdfFault::kTooLarge, "Searching it takes too long or too much memory.");
+        return json::from_msgpack(result.output);
+    }
+
+    json found_in(const std::string& text, const std::string& bytes) const {
+        const json objects = json::parse(text);
+        json found = json::array(), nested = json::array(), authors = json::array();
+        visit_places(
+            objects, bytes,
+            [&](const PlacedText& placed) {
+                const std::vector<NameHit> hits = sought_.find(placed.text, placed.manner);
+                for (const NameHit& hit : hits)
+                    found.push_back(
+                        json_of({placed.place, placed.page, placed.detail, excerpt_of(placed.text, hit), hit}));
+                const bool author = placed.place == PdfPlace::kMetadata && placed.detail == "Author";
+                if (author && hits.empty() && !plain_words(placed.text).empty())
+                    authors.push_back(printable(placed.text, 200));
+            },
+            [&](const std::string&, const std::string& pdf) {
+                if (nested.size() <= kMostNested) nested.push_back(json::binary({pdf.begin(), pdf.end()}));
+            });
+        return {{"found", std::move(found)},
+                {"nested", std::move(nested)},
+                {"authors", std::move(authors)},
+                {"shown", with_everything_shown(objects).dump()}};
+    }
+
+    void search_all_shown(const fs::path& file, const std::string& changes) {
+        write_work_file(work_.path() / "shown.pdf", pdf_with_objects(file, changes, limits_.objects));
+        search_pages(read_pdf_layout(work_.path() / "shown.pdf", limits_.pdf), PdfPlace::kHidden);
+    }
+
+    /// A PDF inside of this one, or an earlier version of it: all that is found there counts as `place`.
+    template <class Bytes>
+    void search_nested(const Bytes& bytes, PdfPlace place) {
+        const fs::path file = work_.path() / "nested.pdf";
+        write_work_file(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+        NameSearch inner(sought_, limits_);
+        try {
+            inner.search_pages(read_pdf_layout(file, limits_.pdf), PdfPlace::kText);
+        } catch (const PdfRefusal&) {
+            // A piece of a file need not be one; what can be read in it is searched below and with the whole file.
+        }
+        inner.search_inside(file, false);
+        for (Found& one : inner.found_) {
+            one.place = place;
+            one.page = 0;
+            found_.push_back(std::move(one));
+        }
+    }
+
+    /// Programs that change a PDF append to it: each end mark is the end of an earlier version.
+    void search_versions(const fs::path& file) {
+        const std::string bytes = read_work_file(file);
+        std::vector<std::size_t> ends;
+        for (std::size_t at = bytes.find(kEndMark); at != std::string::npos; at = bytes.find(kEndMark, at + 1))
+            ends.push_back(at + std::char_traits<char>::length(kEndMark));
+        if (!ends.empty()) ends.pop_back();
+        const bool linearised = bytes.substr(0, 1024).find("/Linearized") != std::string::npos;
+        if (linearised && !ends.empty()) ends.erase(ends.begin());
+        for (std::size_t i = 0; i < ends.size() && i < kMostVersions; ++i)
+            search_nested(bytes.substr(0, ends[ends.size() - 1 - i]), PdfPlace::kRemains);
+    }
+
+    /// Each person once at each place of each page, and in the nets only who was not found elsewhere. What is certain
+    /// comes first, so that no number of hints can push it off the list.
+    void drop_echoes() {
+        const auto is_net = [](const Found& found) {
+            return found.place == PdfPlace::kHidden || found.place == PdfPlace::kRemains ||
+                   found.place == PdfPlace::kInside;
+        };
+        std::stable_sort(found_.begin(), found_.end(), [&](const Found& a, const Found& b) {
+            return std::pair(!a.hit.certain, is_net(a)) < std::pair(!b.hit.certain, is_net(b));
+        });
+        std::set<std::string> named;
+        std::set<std::tuple<std::string, PdfPlace, int, NameKind>> placed;
+        std::vector<Found> kept;
+        for (Found& found : found_) {
+            const bool first = named.insert(found.hit.who).second;
+            const bool first_here = placed.emplace(found.hit.who, found.place, found.page, found.hit.kind).second;
+            if (is_net(found) ? first : first_here) kept.push_back(std::move(found));
+        }
+        found_ = std::move(kept);
+    }
+
+    const SoughtNames& sought_;
+    const NameSearchLimits& limits_;
+    std::vector<Found> found_;
+    std::set<std::string> authors_;
+    std::string trouble_;
+    TemporaryFolder work_;
+};
+
+}  // namespace
+
+std::string page_text(const PdfPage& page) {
+    std::string text;
+    const PdfWord* last = nullptr;
+    for (const PdfWord& word : page.words) {
+        if (last) {
+            const double height = std::max(last->bottom - last->top, 1.0);
+            const bool new_line = !word.rotated && std::abs(word.bottom - last->bottom) > 0.7 * height;
+            const bool apart = last->space_after || word.rotated ||
+                               std::abs(word.left - last->right) > kNameGap * std::max(word.size, 1.0);
+            text += new_line ? "\n" : apart ? " " : "";
+        }
+        text += word.text;
+        last = &word;
+    }
+    return text;
+}
+
+Findings name_findings(const fs::path& file, const PdfLayout& layout, const SoughtNames& sought,
+                       const NameSearchLimits& limits) {
+    NameSearch search(sought, limits);
+    search.search(file, layout);
+    return search.findings();
+}
+
+}  // namespace dynlab::inline course

@@ -1,0 +1,213 @@
+#include "course/names/name_patterns.h"
+
+#include <algorithm>
+
+#include "course/names/letters.h"
+
+namespace dynlab::inline course {
+namespace {
+
+constexpr std::size_t kShortestName = 4;    ///< letters of a surname or given name alone
+constexpr std::size_t kShortestNumber = 6;  ///< digits
+constexpr std::size_t kShortestMixed = 5;   ///< letters and digits
+
+/// A word of a name: "O'Brien" has two tokens.
+struct Part {
+    std::string letters;
+    std::vector<std::size_t> breaks;
+    bool capitals = false;  ///< written in capitals throughout
+};
+
+struct FullName {
+    std::vector<Part> given;
+    Part surname;
+};
+
+Part part_of(const std::string& word) {
+    Part part;
+    for (const NameToken& token : name_tokens(word)) {
+        if (!part.letters.empty()) part.breaks.push_back(part.letters.size());
+        part.letters += token.letters;
+    }
+    std::size_t large = 0, letters = 0;
+    for (std::string_view rest = word; !rest.empty();) {
+        const char32_t c = next_character(rest);
+        large += is_capital(c);
+        letters += !folded_letter(c).empty();
+    }
+    part.capitals = letters > 1 && large == letters;
+    return part;
+}
+
+std::vector<Part> parts_of(const std::string& text) {
+    std::vector<Part> parts;
+    std::string word;
+    for (const char c : text + " ") {
+        if (c != ' ' && c != '\t') {
+            word += c;
+            continue;
+        }
+        Part part = part_of(word);
+        if (!part.letters.empty()) parts.push_back(std::move(part));
+        word.clear();
+    }
+    return parts;
+}
+
+/// The surname is what stands before a comma, is written in capitals, or stands last.
+FullName full_name(const std::string& name) {
+    FullName result;
+    const auto comma = name.find(',');
+    if (comma != std::string::npos) {
+        std::vector<Part> surname = parts_of(name.substr(0, comma));
+        result.given = parts_of(name.substr(comma + 1));
+        for (const Part& part : surname) {
+            if (!result.surname.letters.empty()) result.surname.breaks.push_back(result.surname.letters.size());
+            for (const std::size_t at : part.breaks)
+                result.surname.breaks.push_back(at + result.surname.letters.size());
+            result.surname.letters += part.letters;
+        }
+        return result;
+    }
+    std::vector<Part> parts = parts_of(name);
+    if (parts.empty()) return result;
+    const auto is_large = [](const Part& part) { return part.capitals; };
+    auto surname = parts.end() - 1;
+    if (std::count_if(parts.begin(), parts.end(), is_large) == 1)
+        surname = std::find_if(parts.begin(), parts.end(), is_large);
+    result.surname = *surname;
+    parts.erase(surname);
+    result.given = std::move(parts);
+    return result;
+}
+
+void append(NamePattern& pattern, const Part& part) {
+    if (!pattern.letters.empty()) pattern.breaks.insert(pattern.letters.size());
+    for (const std::size_t at : part.breaks) pattern.breaks.insert(at + pattern.letters.size());
+    pattern.letters += part.letters;
+}
+
+NamePattern whole_name(const std::string& who, const std::vector<Part>& parts, bool reversed = false) {
+    NamePattern pattern;
+    pattern.reversed = reversed;
+    pattern.who = who;
+    pattern.capital = true;
+    for (const Part& part : parts) {
+        append(pattern, part);
+        pattern.capital = pattern.capital && (part.letters.size() < kShortestName || is_ordinary_word(part.letters));
+    }
+    return pattern;
+}
+
+bool may_stand_alone(const Part& part) {
+    return part.letters.size() >= kShortestName && !is_ordinary_word(part.letters);
+}
+
+void add_names(const std::string& who, const FullName& name, bool own, std::vector<NamePattern>& patterns) {
+    if (!name.given.empty() && !name.surname.letters.empty()) {
+        std::vector<Part> forward = name.given, backward = {name.surname};
+        forward.push_back(name.surname);
+        backward.insert(backward.end(), name.given.begin(), name.given.end());
+        patterns.push_back(whole_name(who, forward));
+        patterns.push_back(whole_name(who, backward, true));
+        if (name.given.size() > 1) {
+            patterns.push_back(whole_name(who, {name.given.front(), name.surname}));
+            patterns.push_back(whole_name(who, {name.surname, name.given.front()}, true));
+        }
+    }
+    NamePattern alone;
+    alone.who = who;
+    alone.whole = false;
+    alone.capital = true;
+    for (const Part& part : name.given) alone.initials += part.letters.front();
+    if (may_stand_alone(name.surname)) {
+        append(alone, name.surname);
+        patterns.push_back(alone);
+    }
+    if (!own) return;
+    for (const Part& part : name.given) {
+        if (!may_stand_alone(part)) continue;
+        NamePattern given = alone;
+        given.letters.clear();
+        given.breaks.clear();
+        given.initials.clear();
+        given.given_only = true;
+        append(given, part);
+        patterns.push_back(given);
+    }
+}
+
+/// "Müller" may be written "Mueller".
+std::string umlauts_written_out(const std::string& name) {
+    std::string result;
+    for (std::string_view rest = name; !rest.empty();) {
+        const std::string_view before = rest;
+        const char32_t c = next_character(rest);
+        switch (c) {
+            case U'ä':
+            case U'Ä':
+                result += "ae";
+                break;
+            case U'ö':
+            case U'Ö':
+            case U'ø':
+            case U'Ø':
+                result += "oe";
+                break;
+            case U'ü':
+            case U'Ü':
+                result += "ue";
+                break;
+            case U'å':
+            case U'Å':
+                result += "aa";
+                break;
+            default:
+                result += before.substr(0, before.size() - rest.size());
+        }
+    }
+    return result;
+}
+
+/// A number, an account's name, a group's name with a number in it.
+void add_number(NameKind kind, const std::string& who, const std::string& text, std::vector<NamePattern>& patterns) {
+    NamePattern pattern;
+    pattern.kind = kind;
+    pattern.who = who;
+    bool digits = false, letters = false;
+    for (const NameToken& token : name_tokens(text)) {
+        if (!pattern.letters.empty()) pattern.breaks.insert(pattern.letters.size());
+        pattern.letters += token.letters;
+        (token.digits ? digits : letters) = true;
+        if (token.digits && token.letters.size() == 1) pattern.spaced = false;
+    }
+    if (!digits) return;
+    pattern.labelled = pattern.letters.size() < (letters ? kShortestMixed : kShortestNumber);
+    patterns.push_back(pattern);
+}
+
+}  // namespace
+
+std::vector<NamePattern> patterns_of(const Student& student, bool own) {
+    const std::string& who = student.name.empty() ? student.id : student.name;
+    std::vector<NamePattern> patterns;
+    add_names(who, full_name(student.name), own, patterns);
+    const std::string written_out = umlauts_written_out(student.name);
+    if (written_out != student.name) add_names(who, full_name(written_out), own, patterns);
+    add_number(NameKind::kNumber, who, student.id, patterns);
+    if (!student.group.empty()) add_number(NameKind::kGroup, student.group, student.group, patterns);
+    for (const std::string& group : student.other_groups) add_number(NameKind::kGroup, group, group, patterns);
+    const std::string account = student.mail.substr(0, student.mail.find('@'));
+    if (account != student.id) add_number(NameKind::kMail, who, account, patterns);
+    Part letters = part_of(account);
+    if (letters.letters.size() >= kShortestNumber && !is_ordinary_word(letters.letters)) {
+        NamePattern pattern = whole_name(who, {letters});
+        pattern.kind = NameKind::kMail;
+        pattern.capital = false;
+        patterns.push_back(pattern);
+    }
+    std::erase_if(patterns, [](const NamePattern& pattern) { return pattern.letters.empty(); });
+    return patterns;
+}
+
+}  // namespace dynlab::inline course

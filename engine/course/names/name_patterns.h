@@ -1,0 +1,34 @@
+#pragma once
+#include <set>
+#include <string>
+#include <vector>
+
+#include "course/grading/roster.h"
+#include "course/names/name_tokens.h"
+
+namespace dynlab::inline course {
+
+enum class NameKind { kName, kNumber, kMail, kGroup, kHome };
+
+/// One way in which a person's name or number may be written.
+struct NamePattern {
+    NameKind kind = NameKind::kName;
+    std::string who;
+    std::string letters;           ///< of all parts, joined
+    std::set<std::size_t> breaks;  ///< places in `letters` between parts
+    bool whole = true;             ///< all of the name: not a surname or given name alone
+    bool given_only = false;
+    bool reversed = false;  ///< surname first
+    bool capital = false;   ///< in prose, each part begins with a capital
+    bool labelled = false;  ///< counts behind "student", "ID" and their like only
+    bool spaced = true;     ///< parts may stand apart: "group 01", but not "group 1", which counts something
+    std::string initials;   ///< of the given names, for a surname alone
+};
+
+/// All ways in which the student's name, number, group and the account in the mail address are looked for.
+std::vector<NamePattern> patterns_of(const Student& student, bool own);
+
+/// A name that stands in documents with another meaning: an ordinary word in English or French, a name of the field.
+bool is_ordinary_word(const std::string& folded);
+
+}  // namespace dynlab::inline course

@@ -1,0 +1,27 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dynlab::inline course {
+
+/// What stands between a token and the one before it.
+enum class Gap {
+    kNone,    ///< nothing: "Ada2024", ideographs
+    kBreak,   ///< a hyphen and the end of the line
+    kSpace,   ///< white space
+    kNarrow,  ///< up to three signs: "Lovelace, Ada", "ada.lovelace"
+    kWide
+};
+
+/// A run of letters, a run of digits, or one ideograph of a text, as names are compared.
+struct NameToken {
+    std::string letters;         ///< folded_letter of each character (letters.h)
+    std::size_t begin, end = 0;  ///< bytes of the text
+    bool digits = false, capital = false;
+    Gap gap = Gap::kWide;
+};
+
+std::vector<NameToken> name_tokens(std::string_view utf8);
+
+}  // namespace dynlab::inline course

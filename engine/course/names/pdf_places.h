@@ -1,0 +1,47 @@
+#pragma once
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "course/names/sought_names.h"
+
+namespace dynlab::inline course {
+
+/// Where in a PDF something stands.
+enum class PdfPlace {
+    kText,        ///< what is printed, seen or not
+    kHidden,      ///< outside of the page, in a layer that is off, in a part that is never shown
+    kMetadata,    ///< document information, XMP, also of a figure
+    kAttachment,  ///< an embedded file, its name, or what is in it
+    kAnnotation,  ///< a comment: its author, its text
+    kForm,        ///< a form's field
+    kLink,        ///< the target of a link or another action
+    kBookmark,
+    kLayer,       ///< the name of one
+    kImage,       ///< metadata of a picture
+    kFigureFile,  ///< the name of the file that a figure was read from
+    kRemains,     ///< an earlier state of the file, what nothing refers to, what stands behind its end
+    kInside       ///< any other object
+};
+
+struct PlacedText {
+    PdfPlace place = PdfPlace::kInside;
+    int page = 0;        ///< 1-based; 0 when it belongs to no page
+    std::string detail;  ///< "Author", a file's name; may be empty
+    std::string text;
+    TextManner manner = TextManner::kData;
+};
+
+using PlaceVisitor = std::function<void(const PlacedText&)>;
+/// Takes an embedded file that is a PDF itself.
+using NestedVisitor = std::function<void(const std::string& name, const std::string& bytes)>;
+
+/// Everything in a PDF that may hold a name, besides what poppler reads on its pages. `objects` as pdf_objects gives
+/// them, decoded; `file` the bytes themselves, for what no object holds. Meant for a guarded process.
+void visit_places(const nlohmann::json& objects, const std::string& file, const PlaceVisitor& visit,
+                  const NestedVisitor& nested);
+
+/// Changes (for pdf_with_objects) with which poppler reads what lies outside of the pages and in layers that are off.
+nlohmann::json with_everything_shown(const nlohmann::json& objects);
+
+}  // namespace dynlab::inline course

@@ -1,0 +1,55 @@
+#include "course/names/plain_words.h"
+
+#include <cctype>
+
+#include "course/names/letters.h"
+#include "platform/terminal/terminal_text.h"
+
+namespace dynlab::inline course {
+namespace {
+
+std::string folded_character(char32_t c) {
+    if (c < 0x80) return {static_cast<char>(std::isalpha(static_cast<int>(c)) ? std::tolower(static_cast<int>(c)) : c)};
+    if (c == 0x2018 || c == 0x2019) return "'";
+    if (c >= 0x2010 && c <= 0x2015) return "-";
+    if (c == 0xAD || (c >= 0x300 && c < 0x370)) return "";  // soft hyphen, combining accents
+    const std::string letters = folded_letter(c);
+    if (!letters.empty() && static_cast<unsigned char>(letters.front()) < 0x80) return letters;
+    return " ";
+}
+
+}  // namespace
+
+std::string folded(std::string_view utf8) {
+    std::string result;
+    while (!utf8.empty()) result += folded_character(next_character(utf8));
+    return result;
+}
+
+std::vector<std::string> plain_words(std::string_view utf8) {
+    std::vector<std::string> words;
+    std::string word;
+    for (const char c : folded(utf8) + " ") {
+        if (std::isalnum(static_cast<unsigned char>(c))) {
+            word += c;
+        } else if (c != '-' && !word.empty()) {
+            words.push_back(std::move(word));
+            word.clear();
+        }
+    }
+    return words;
+}
+
+std::string printable(std::string_view utf8, std::size_t most) {
+    std::string result;
+    std::size_t count = 0;
+    while (!utf8.empty()) {
+        if (count++ == most) return result + "…";
+        const std::string_view before = utf8;
+        const char32_t c = next_character(utf8);
+        result += is_obeyed(c) ? "?" : std::string(before.substr(0, before.size() - utf8.size()));
+    }
+    return result;
+}
+
+}  // namespace dynlab::inline course

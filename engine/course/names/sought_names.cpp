@@ -1,0 +1,290 @@
+#include "course/names/sought_names.h"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "course/names/letters.h"
+#include "platform/text_file.h"
+
+namespace dynlab::inline course {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kShortestJoined = 7;  ///< letters of a whole name written as one word
+constexpr std::size_t kSureInBytes = 8;     ///< letters that bytes do not spell by chance
+constexpr std::size_t kShortestAddress = 6;
+
+using Tokens = std::vector<NameToken>;
+
+bool is_one_of(const std::string& word, std::initializer_list<const char*> words) {
+    return std::any_of(words.begin(), words.end(), [&word](const char* one) { return word == one; });
+}
+
+/// One try to read a pattern at a token.
+class Reading {
+  public:
+    Reading(const NamePattern& pattern, const Tokens& tokens, std::size_t first, TextManner manner)
+        : pattern_(pattern), tokens_(tokens), first_(first), next_(first), prose_(manner == TextManner::kProse) {}
+
+    bool succeeds() {
+        while (read_ < pattern_.letters.size()) {
+            if (next_ == tokens_.size()) return false;
+            if (skips_initial()) ++next_;
+            if (next_ == tokens_.size() || !takes(tokens_[next_])) return false;
+        }
+        return pattern_.kind == NameKind::kName || stands_apart();
+    }
+    std::size_t end() const { return next_; }  ///< one past the last token
+
+  private:
+    bool at_break() const { return pattern_.breaks.contains(read_); }
+
+    /// "Ada M. Lovelace".
+    bool skips_initial() const {
+        if (pattern_.kind != NameKind::kName || read_ == 0 || !at_break() || next_ + 1 >= tokens_.size()) return false;
+        const NameToken& token = tokens_[next_];
+        return token.letters.size() == 1 && !token.digits && token.capital && token.gap != Gap::kWide &&
+               pattern_.letters[read_] != token.letters.front();
+    }
+
+    bool gap_fits(const NameToken& token) const {
+        if (next_ == first_) return true;
+        if (at_break()) return token.gap != Gap::kWide && (pattern_.spaced || token.gap != Gap::kSpace);
+        if (token.gap == Gap::kNone || token.gap == Gap::kBreak) return true;
+        // Letters set apart: "L O V E L A C E".
+        return token.gap == Gap::kSpace && token.letters.size() == 1 && tokens_[next_ - 1].letters.size() == 1 &&
+               pattern_.letters.size() >= kShortestJoined;
+    }
+
+    bool takes(const NameToken& token) {
+        if (pattern_.letters.compare(read_, token.letters.size(), token.letters) != 0 || !gap_fits(token)) return false;
+        const bool begins_part = read_ == 0 || at_break();
+        if (prose_ && pattern_.capital && begins_part && !token.capital && !token.digits) return false;
+        const auto inside = pattern_.breaks.upper_bound(read_);
+        const bool joined = inside != pattern_.breaks.end() && *inside < read_ + token.letters.size();
+        if (joined && pattern_.letters.size() < kShortestJoined) return false;
+        read_ += token.letters.size();
+        ++next_;
+        return true;
+    }
+
+    /// A number is no part of a longer one, nor has it decimals.
+    bool stands_apart() const {
+        const bool joined_before = first_ > 0 && tokens_[first_].gap == Gap::kNone;
+        const bool joined_behind = next_ < tokens_.size() && tokens_[next_].gap == Gap::kNone;
+        return !joined_before && !joined_behind;
+    }
+
+    const NamePattern& pattern_;
+    const Tokens& tokens_;
+    std::size_t first_, next_, read_ = 0;
+    bool prose_;
+};
+
+bool is_label(const NameToken& token) {
+    return is_one_of(token.letters, {"student", "students", "id", "number", "nr", "no", "etudiant", "etudiants",
+                                     "etudiante", "numero", "matricule", "author", "author", "group", "groupe"});
+}
+
+bool is_labelled(const Tokens& tokens, std::size_t first) {
+    for (std::size_t back = 1; back <= 2 && back <= first; ++back)
+        if (is_label(tokens[first - back])) return true;
+    return false;
+}
+
+/// 20214711.5 is no student's number.
+bool has_decimals(const Tokens& tokens, std::size_t end, std::string_view text) {
+    const std::size_t point = tokens[end - 1].end;
+    return end < tokens.size() && tokens[end].digits && text[point] == '.' && tokens[end].begin == point + 1;
+}
+
+/// "May, Park's method", "mark, young": a name of ordinary words, neither written as names are nor joined to one word.
+bool may_be_words(const NamePattern& pattern, const Tokens& tokens, std::size_t first, std::size_t end,
+                  std::string_view written) {
+    if (!pattern.whole || !pattern.capital) return false;
+    const bool comma = written.find(',') != std::string_view::npos;
+    if (comma && !pattern.reversed) return true;
+    const bool capitals = std::all_of(tokens.begin() + static_cast<std::ptrdiff_t>(first),
+                                      tokens.begin() + static_cast<std::ptrdiff_t>(end),
+                                      [](const NameToken& token) { return token.capital || token.digits; });
+    return !capitals && written.find_first_of(" ,\n") != std::string_view::npos;
+}
+
+bool is_year(const NameToken& token) {
+    return token.digits && token.letters.size() == 4 &&
+           (token.letters.starts_with("19") || token.letters.starts_with("20"));
+}
+
+/// A surname alone that a citation gives: "Lovelace et al.", "Lovelace (2008)", "P. Lovelace", "Lovelace, P.".
+bool looks_cited(const NamePattern& pattern, const Tokens& tokens, std::size_t first, std::size_t end) {
+    const auto is_foreign_initial = [&](const NameToken& token) {
+        return token.letters.size() == 1 && !token.digits && token.capital &&
+               pattern.initials.find(token.letters) == std::string::npos;
+    };
+    if (end < tokens.size() && tokens[end].gap != Gap::kWide) {
+        const NameToken& behind = tokens[end];
+        if (behind.letters == "et" && end + 1 < tokens.size() && tokens[end + 1].letters == "al") return true;
+        if (is_year(behind) || is_foreign_initial(behind)) return true;
+    }
+    return first > 0 && tokens[first].gap != Gap::kWide && is_foreign_initial(tokens[first - 1]);
+}
+
+/// Lower case, without white space, accents kept.
+std::string squeezed(std::string_view text, std::vector<std::size_t>* places) {
+    std::string result;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const unsigned char c = static_cast<unsigned char>(text[i]);
+        if (c <= ' ') continue;
+        result += static_cast<char>(c < 0x80 ? std::tolower(c) : c);
+        if (places) places->push_back(i);
+    }
+    return result;
+}
+
+/// The path of a page on the web is nobody's home.
+bool is_in_address(std::string_view text, std::size_t at) {
+    const std::size_t blank = text.substr(0, at).find_last_of(" \n\t(<\"");
+    const std::string_view word = text.substr(blank == std::string_view::npos ? 0 : blank + 1, at - (blank + 1));
+    return word.find("http://") != std::string_view::npos || word.find("https://") != std::string_view::npos;
+}
+
+/// Folders that are nobody's, and names that stand in instructions.
+bool is_nobodys(const std::string& user) {
+    return user.size() < 2 || is_one_of(user, {"user", "users", "username", "name", "you", "your", "me", "student",
+                                               "students", "shared", "public", "default", "guest", "runner", "home"});
+}
+
+}  // namespace
+
+SoughtNames::SoughtNames(const Roster& roster) {
+    for (const Student& student : roster.students()) add(student);
+}
+
+void SoughtNames::add(const Student& student, bool own) {
+    ++people_;
+    add_writings(student, own);
+    for (const FormerName& former : student.former) {
+        Student before = student;
+        if (!former.name.empty()) before.name = former.name;
+        before.mail = former.mail;
+        add_writings(before, own);
+    }
+}
+
+void SoughtNames::add_writings(const Student& student, bool own) {
+    for (NamePattern& pattern : patterns_of(student, own)) index(std::move(pattern));
+    const std::string address = squeezed(student.mail, nullptr);
+    if (address.find('@') != std::string::npos && address.size() >= kShortestAddress)
+        addresses_.emplace_back(address, student.name.empty() ? student.id : student.name);
+}
+
+void SoughtNames::add_account(const fs::path& home) {
+    const std::string folder = home.lexically_normal().string();
+    if (std::count(folder.begin(), folder.end(), '/') >= 2 && !is_nobodys(home.filename().string()))
+        homes_.push_back(folder);
+}
+
+void SoughtNames::index(NamePattern pattern) {
+    std::vector<NamePattern>& row = patterns_[static_cast<unsigned char>(pattern.letters.front())];
+    const auto same = [&pattern](const NamePattern& other) {
+        return other.who == pattern.who && other.letters == pattern.letters && other.kind == pattern.kind;
+    };
+    if (std::none_of(row.begin(), row.end(), same)) row.push_back(std::move(pattern));
+}
+
+void SoughtNames::find_patterns(const Tokens& tokens, std::string_view text, TextManner manner,
+                                std::vector<NameHit>& hits) const {
+    for (std::size_t i = 0; i < tokens.size(); ++i) {
+        for (const NamePattern& pattern : patterns_[static_cast<unsigned char>(tokens[i].letters.front())]) {
+            if (manner == TextManner::kBytes && (!pattern.whole || pattern.letters.size() < kSureInBytes)) continue;
+            Reading reading(pattern, tokens, i, manner);
+            if (!reading.succeeds()) continue;
+            const bool whole_text = manner == TextManner::kData && i == 0 && reading.end() == tokens.size();
+            if (pattern.labelled && !whole_text && !is_labelled(tokens, i)) continue;
+            const NameToken& last = tokens[reading.end() - 1];
+            if (pattern.kind == NameKind::kNumber && has_decimals(tokens, reading.end(), text)) continue;
+            const std::string_view written = text.substr(tokens[i].begin, last.end - tokens[i].begin);
+            if (!whole_text && may_be_words(pattern, tokens, i, reading.end(), written)) continue;
+            const bool certain =
+                !pattern.given_only && (pattern.whole || !looks_cited(pattern, tokens, i, reading.end()));
+            hits.push_back({pattern.who, pattern.kind, certain, tokens[i].begin, last.end});
+        }
+    }
+}
+
+void SoughtNames::find_addresses(std::string_view text, std::vector<NameHit>& hits) const {
+    if (addresses_.empty() || text.find('@') == std::string_view::npos) return;
+    std::vector<std::size_t> places;
+    const std::string bare = squeezed(text, &places);
+    for (const auto& [address, who] : addresses_) {
+        const std::size_t at = bare.find(address);
+        if (at != std::string::npos)
+            hits.push_back({who, NameKind::kMail, true, places[at], places[at + address.size() - 1] + 1});
+    }
+}
+
+void SoughtNames::find_paths(std::string_view text, std::vector<NameHit>& hits) const {
+    constexpr std::string_view kRoots[] = {"/home/", "/Users/", "\\Users\\", "\\users\\"};
+    for (const std::string_view root : kRoots) {
+        for (std::size_t at = text.find(root); at != std::string_view::npos; at = text.find(root, at + 1)) {
+            const std::size_t begin = at + root.size();
+            std::size_t end = begin;
+            while (end < text.size() && static_cast<unsigned char>(text[end]) > ' ' &&
+                   std::string_view("/\\()<>\"':;,").find(text[end]) == std::string_view::npos)
+                ++end;
+            if (is_in_address(text, at)) continue;
+            const std::string user = squeezed(text.substr(begin, end - begin), nullptr);
+            if (!is_nobodys(user))
+                hits.push_back({std::string(text.substr(at, end - at)), NameKind::kHome, true, at, end});
+        }
+    }
+    for (const std::string& home : homes_) {
+        const std::size_t at = text.find(home);
+        if (at != std::string_view::npos) hits.push_back({home, NameKind::kHome, true, at, at + home.size()});
+    }
+}
+
+std::vector<NameHit> SoughtNames::find(std::string_view text, TextManner manner) const {
+    std::vector<NameHit> hits;
+    if (people_ > 0) find_patterns(name_tokens(text), text, manner, hits);
+    find_addresses(text, hits);
+    find_paths(text, hits);
+    std::stable_sort(hits.begin(), hits.end(), [](const NameHit& a, const NameHit& b) {
+        return std::make_tuple(!a.certain, a.begin, b.end) < std::make_tuple(!b.certain, b.begin, a.end);
+    });
+    std::vector<NameHit> first;
+    for (const NameHit& hit : hits) {
+        const bool known = std::any_of(first.begin(), first.end(), [&hit](const NameHit& other) {
+            return other.who == hit.who &&
+                   (other.kind == hit.kind || (other.begin <= hit.begin && hit.end <= other.end));
+        });
+        if (!known) first.push_back(hit);
+    }
+    std::stable_sort(first.begin(), first.end(), [](const NameHit& a, const NameHit& b) { return a.begin < b.begin; });
+    return first;
+}
+
+std::vector<Student> members_of(const fs::path& group_file) {
+    std::vector<Student> members;
+    if (!fs::is_regular_file(fs::symlink_status(group_file))) return members;
+    const std::string text = read_text(group_file);
+    try {
+        const toml::table group = toml::parse(text);
+        const toml::array* const names = group["members"].as_array();
+        if (names == nullptr) return members;
+        for (const toml::node& name : *names)
+            if (const auto value = name.value<std::string>()) {
+                Student member;
+                member.name = *value;
+                members.push_back(std::move(member));
+            }
+    } catch (const toml::parse_error&) {
+        // What is wrong with the file is said where the report is made from it.
+    }
+    return members;
+}
+
+}  // namespace dynlab::inline course

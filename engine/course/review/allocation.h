@@ -1,0 +1,38 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dynlab::inline course {
+
+/// Reviewer and author, as places in AllocationProblem::groups.
+using ReviewEdge = std::pair<int, int>;
+
+/// Who is to review whom. Groups are 0 .. groups - 1.
+struct AllocationProblem {
+    int groups = 0;
+    int reviews = 1;                ///< that each active group should write and each of their reports get
+    std::vector<bool> active;       ///< hands in and reviews; false: dropped out, or has handed in nothing
+    std::vector<ReviewEdge> kin;    ///< groups who share a member, in either order
+    std::vector<ReviewEdge> fixed;  ///< reviews that are written, or sent to an active reviewer of an active author
+    std::vector<ReviewEdge> loose;  ///< allotted before, nobody knows of it yet: kept where possible
+    std::uint32_t seed = 1;
+};
+
+struct Allocation {
+    std::vector<ReviewEdge> pairs;     ///< all that hold now: the fixed ones first, then the others, sorted
+    int open_reviews = 0;              ///< that active groups should write and for which nobody could be found
+    int swapped = 0;                   ///< couples who review each other
+    std::vector<std::string> remarks;  ///< whole sentences: what could not be had, and why
+};
+
+/// Allots reviews at random: no group its own report, none twice the same, none of a group with a common member. Active
+/// groups write, and their reports get, `reviews` each, or one more where what is fixed leaves no other way; couples
+/// who review each other are avoided where exchanges of two can. Equal problems give equal results. Starts from a
+/// random circle (reviewer i takes the next ones), which has no such couples while 2 reviews < groups; what kin and
+/// fixed pairs forbid is repaired by augmenting paths (Berge 1957; each hands loose reviews on along a shortest chain).
+/// Throws InvalidArgument where there are too few active groups for so many reviews and nothing is fixed or loose.
+Allocation allocate_reviews(const AllocationProblem& problem);
+
+}  // namespace dynlab::inline course

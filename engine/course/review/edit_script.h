@@ -1,0 +1,15 @@
+#pragma once
+#include <string>
+#include <vector>
+
+namespace dynlab::inline course {
+
+/// What a comparison of two texts goes by: without spaces, the hyphens inside words (a line's end may have put them
+/// there) and the kinds of quotation marks. Never holds a line end.
+std::string comparison_key(const std::string& text);
+
+/// How to get from one list to the other, a letter a step: '=' an item that both have, '-' one of `before` only, '+'
+/// one of `after` only. Made by the diff of this machine; throws EnvironmentError when that fails.
+std::string edit_script(const std::vector<std::string>& before, const std::vector<std::string>& after);
+
+}  // namespace dynlab::inline course

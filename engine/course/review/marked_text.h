@@ -1,0 +1,35 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "course/review/text_changes.h"
+
+namespace dynlab::inline course {
+
+/// Texts of anybody's as Markdown that means nothing but itself and can be printed: characters that LaTeX lacks become
+/// ?, long words get places where a line may break.
+class MarkedText {
+  public:
+    MarkedText();
+    ~MarkedText();
+    MarkedText(const MarkedText&) = delete;
+    MarkedText& operator=(const MarkedText&) = delete;
+
+    std::string plain(const std::string& text) const;
+    std::string emphasised(const std::string& text) const;
+    /// Removed words struck out, added ones bold, long unchanged stretches shortened; at most about so many words.
+    std::string marked(const Passage& passage, std::size_t most_words) const;
+    /// For the cell of a table: not escaped, at most so many characters, words not longer than `longest`.
+    std::string cell(const std::string& text, std::size_t most, std::size_t longest) const;
+
+  private:
+    struct Printable;
+    std::string printable_words(const std::string& text) const;
+    std::unique_ptr<Printable> printable_;
+};
+
+/// The last words of a text, "… so many of them".
+std::string last_words(const std::string& text, std::size_t count);
+
+}  // namespace dynlab::inline course

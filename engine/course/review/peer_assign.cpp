@@ -1,0 +1,133 @@
+#include <fmt/format.h>
+
+#include <map>
+#include <random>
+#include <set>
+
+#include "course/review/allocation.h"
+#include "course/review/peer_review.h"
+#include "numerics/error.h"
+
+namespace dynlab::inline course {
+namespace {
+
+class Assigning {
+  public:
+    Assigning(Course& course, const Assignment& assignment, Instant now)
+        : course_(course), db_(course.database()), assignment_(assignment), now_(now), groups_(groups_of(course)) {
+        for (std::size_t i = 0; i < groups_.size(); ++i) place_[groups_[i].id] = static_cast<int>(i);
+    }
+
+    AssignOutcome run() {
+        read();
+        const Allocation allocation = allocate_reviews(problem_);
+        outcome_.remarks = allocation.remarks;
+        give_pseudonyms();
+        write(allocation);
+        return outcome_;
+    }
+
+  private:
+    void read() {
+        problem_.groups = static_cast<int>(groups_.size());
+        problem_.reviews = assignment_.reviews;
+        problem_.seed = assignment_.seed;
+        problem_.active.assign(groups_.size(), false);
+        for (Rows rows = db_.query(
+                 "SELECT DISTINCT group_id FROM versions WHERE assignment = ? AND stage = 'first' AND part = 'report'",
+                 assignment_.id);
+             rows.next();) {
+            const auto place = static_cast<std::size_t>(place_.at(rows.integer(0)));
+            problem_.active[place] = !groups_[place].left;
+            outcome_.groups += problem_.active[place];
+        }
+        for (const auto& [a, b] : kindred_groups(course_))
+            if (place_.contains(a) && place_.contains(b)) problem_.kin.emplace_back(place_[a], place_[b]);
+        for (const ReviewPair& pair : review_pairs(course_, assignment_)) {
+            if (pair.ended) continue;
+            const ReviewEdge edge(place_.at(pair.reviewer), place_.at(pair.author));
+            const bool both = problem_.active[static_cast<std::size_t>(edge.first)] &&
+                              problem_.active[static_cast<std::size_t>(edge.second)];
+            (pair.written || (pair.sent && both) ? problem_.fixed : problem_.loose).push_back(edge);
+            known_[edge] = pair;
+        }
+    }
+
+    /// Numbers that tell nothing of the group: drawn for each assignment and role, never given twice.
+    void give_pseudonyms() {
+        const int most = std::max(99, 3 * problem_.groups);
+        std::mt19937 random(assignment_.seed ^ 0x9E3779B9u);
+        for (const char* role : {"author", "reviewer"}) {
+            std::map<std::int64_t, std::int64_t> given;
+            std::set<std::int64_t> taken;
+            for (Rows rows = db_.query("SELECT group_id, number FROM pseudonyms WHERE assignment = ? AND role = ?",
+                                       assignment_.id, role);
+                 rows.next();) {
+                given[rows.integer(0)] = rows.integer(1);
+                taken.insert(rows.integer(1));
+            }
+            for (std::size_t i = 0; i < groups_.size(); ++i) {
+                if (!problem_.active[i] || given.contains(groups_[i].id)) continue;
+                std::int64_t number = 0;
+                do number = 1 + static_cast<std::int64_t>(random() % static_cast<unsigned>(most));
+                while (!taken.insert(number).second);
+                db_.run("INSERT INTO pseudonyms VALUES (?, ?, ?, ?)", assignment_.id, groups_[i].id, role, number);
+            }
+        }
+    }
+
+    void write(const Allocation& allocation) {
+        const std::set<ReviewEdge> wanted(allocation.pairs.begin(), allocation.pairs.end());
+        outcome_.pairs = static_cast<int>(wanted.size());
+        for (const auto& [edge, pair] : known_) {
+            if (wanted.contains(edge)) continue;
+            const auto gone = [&](int place) { return !problem_.active[static_cast<std::size_t>(place)]; };
+            const std::string reason = gone(edge.first)    ? "the reviewer dropped out"
+                                       : gone(edge.second) ? "the author dropped out"
+                                                           : "handed on to another group";
+            db_.run("UPDATE pairs SET ended_at = ?, ended_reason = ? WHERE id = ?", now_, reason, pair.id);
+            ++outcome_.ended;
+        }
+        std::vector<ReviewEdge> fresh;
+        for (const ReviewEdge& edge : wanted)
+            if (!known_.contains(edge)) fresh.push_back(edge);
+        outcome_.fresh = static_cast<int>(fresh.size());
+        if (outcome_.fresh + outcome_.ended == 0) return;
+        db_.run("INSERT INTO allocations (assignment, seed, made_at, explanation) VALUES (?, ?, ?, ?)", assignment_.id,
+                std::int64_t{assignment_.seed}, now_, fmt::format("{}", fmt::join(allocation.remarks, "\n")));
+        const std::int64_t id = db_.last_id();
+        for (const auto& [reviewer, author] : fresh)
+            db_.run("INSERT INTO pairs (allocation, assignment, reviewer, author) VALUES (?, ?, ?, ?)", id,
+                    assignment_.id, groups_[static_cast<std::size_t>(reviewer)].id,
+                    groups_[static_cast<std::size_t>(author)].id);
+        course_.note(fmt::format("{}: reviews allotted, {} new, {} taken back", assignment_.name, outcome_.fresh,
+                                 outcome_.ended),
+                     now_);
+    }
+
+    Course& course_;
+    Database& db_;
+    const Assignment& assignment_;
+    Instant now_;
+    std::vector<Group> groups_;
+    std::map<std::int64_t, int> place_;
+    std::map<ReviewEdge, ReviewPair> known_;
+    AllocationProblem problem_;
+    AssignOutcome outcome_;
+};
+
+}  // namespace
+
+AssignOutcome assign_reviews(Course& course, const Assignment& assignment, Instant now, bool early) {
+    refuse_without_reviews(assignment);
+    if (!early && now <= assignment.first_due + assignment.grace)
+        throw InvalidArgument(fmt::format("the first versions of {} may still come until {}; wait, or say --early",
+                                          assignment.name,
+                                          course.clock().show(assignment.first_due + assignment.grace)));
+    Transaction transaction(course.database());
+    AssignOutcome outcome = Assigning(course, assignment, now).run();
+    transaction.commit();
+    return outcome;
+}
+
+}  // namespace dynlab::inline course

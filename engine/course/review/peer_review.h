@@ -1,0 +1,53 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "course/review/review_pairs.h"
+#include "course/store/assignments.h"
+#include "course/store/groups.h"
+
+namespace dynlab::inline course {
+
+struct AssignOutcome {
+    int pairs = 0, fresh = 0, ended = 0, groups = 0;
+    std::vector<std::string> remarks;
+};
+/// Allots the reviews of an assignment, or mends the allotment after late-comers and drop-outs: what is written stays,
+/// and what is sent as long as both are in the course. Repeating it changes nothing. Throws InvalidArgument before the
+/// deadline of the first version (unless `early`), for a presentation, and where there are too few groups.
+AssignOutcome assign_reviews(Course& course, const Assignment& assignment, Instant now, bool early);
+
+/// A copy that must not tell whose it is. Only `copy`, one PDF, leaves the course: a pack's text and script stay, so
+/// that names in their comments reach nobody and are not looked for; what the PDF made from them holds is searched.
+struct CopyRequest {
+    std::filesystem::path pdf;    ///< as it was handed in
+    std::filesystem::path pack;   ///< its source, where the group handed one in; else empty
+    std::filesystem::path copy;   ///< where the clean copy is to be written
+    std::string pseudonym;        ///< "report-17", "reviewer-05"
+    std::vector<Student> people;  ///< all of the course, with group, name, id and mail address
+};
+struct CopyOutcome {
+    bool made = false;
+    std::vector<std::string> hits;  ///< why there is no copy: sentences with page and remedy
+};
+/// Makes a clean copy and searches it for names; never gives one in which it found any.
+using AnonymousCopier = std::function<CopyOutcome(const CopyRequest&)>;
+
+enum class Way {
+    kToReviewers,
+    kToAuthors
+};  ///< reports to those who review them, reviews to those who wrote the report
+
+struct SendOutcome {
+    int sent = 0, before = 0, stopped = 0, waiting = 0;  ///< copies: now; earlier; with hits; of what has not come
+    std::vector<std::string> hits;                       ///< a line for each document that was stopped
+    std::filesystem::path folder;                        ///< FOR/NAME.pdf for each receiver
+};
+/// Makes the copies that have not been made yet and puts them into outbox/ASSIGNMENT/WAY/GROUP/. A hit stops that copy
+/// only. Copies are kept in the store like all that is handed in. Throws InvalidArgument for a presentation, and for
+/// reviews that may still come (unless `early`).
+SendOutcome send_copies(Course& course, const Assignment& assignment, Way way, Instant now,
+                        const AnonymousCopier& copier, bool early = false);
+
+}  // namespace dynlab::inline course

@@ -1,0 +1,60 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "course/review/review_pairs.h"
+#include "course/store/assignments.h"
+
+namespace dynlab::inline course {
+
+/// The scores that one review gave, a number a criterion; missing ones are not there.
+struct ScoredReview {
+    std::int64_t pair = 0, reviewer = 0, author = 0;
+    std::vector<std::optional<double>> points;
+};
+
+struct ReviewMark {
+    std::int64_t pair = 0;
+    std::optional<double> distance;  ///< mean over the criteria of |points - median of the others| / most
+    bool outlier = false;            ///< far below the others: mean of (median of the others - points)/most above 0.35
+    bool retaliation = false;        ///< an outlier against a group that had reviewed this reviewer's report badly
+};
+
+struct GroupMark {
+    std::int64_t group = 0;
+    std::vector<std::optional<double>> medians;  ///< a criterion, over the reviews of its report
+    std::optional<double> work, reviews;         ///< percent, from scores
+    std::optional<double> work_override, reviews_override;
+    std::string work_reason, reviews_reason;
+    std::optional<double> work_mark() const { return work_override ? work_override : work; }
+    std::optional<double> reviews_mark() const { return reviews_override ? reviews_override : reviews; }
+};
+
+struct Marks {
+    std::vector<GroupMark> groups;
+    std::vector<ReviewMark> reviews;
+};
+
+/// Marks from scores. A report's mark is 100 sum of medians / sum of most. A reviewer's is the mean over the reviews of
+/// 100 max(0, 1 - 2 d), d the distance to the median of the others' scores; one whose scores nobody else's can be held
+/// against (a report with a single scored review) is not marked. `authors`: groups to be marked.
+Marks marks_of(const std::vector<Criterion>& criteria, const std::vector<ScoredReview>& reviews,
+               const std::vector<std::int64_t>& groups);
+
+/// The same from the store: the newest scores and overrides. Oral scores mark a presentation's work.
+Marks course_marks(Course& course, const Assignment& assignment);
+
+/// Reads scores, whole or not at all. Columns: reviewer (a group), report (report-NN; may miss where the group has one)
+/// and the criteria; for the oral: group and the criteria. Empty cells are no scores. Returns how many are new. Throws
+/// EnvironmentError with file, line and column.
+int import_review_scores(Course& course, const Assignment& assignment, const std::filesystem::path& file, Instant now);
+int import_oral_scores(Course& course, const Assignment& assignment, const std::filesystem::path& file, Instant now);
+/// The sheet for the oral: a row a group, a column a criterion with what was given so far, as CSV.
+std::string oral_sheet(Course& course, const Assignment& assignment);
+
+/// The instructor's word, which always wins; the newest holds. `what`: "work" or "reviews".
+void override_mark(Course& course, const Assignment& assignment, const std::string& group, const std::string& what,
+                   double percent, const std::string& reason, Instant now);
+
+}  // namespace dynlab::inline course

@@ -1,0 +1,68 @@
+#include "course/review/review_pairs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "platform/error.h"
+
+namespace dynlab::inline course {
+
+std::string ReviewPair::report_pseudonym() const {
+    return fmt::format("report-{:02}", report_number);
+}
+std::string ReviewPair::reviewer_pseudonym() const {
+    return fmt::format("reviewer-{:02}", reviewer_number);
+}
+
+std::vector<ReviewPair> review_pairs(Course& course, const Assignment& assignment) {
+    std::vector<ReviewPair> pairs;
+    for (Rows rows = course.database().query(
+             "SELECT p.id, p.reviewer, p.author, r.name, w.name, pw.number, pr.number, p.ended_at IS NOT NULL, "
+             "EXISTS (SELECT 1 FROM sendings WHERE pair = p.id AND way = 'to reviewer'), "
+             "EXISTS (SELECT 1 FROM versions WHERE pair = p.id AND part = 'review'), "
+             "EXISTS (SELECT 1 FROM sendings WHERE pair = p.id AND way = 'to author'), "
+             "EXISTS (SELECT 1 FROM versions WHERE pair = p.id AND part = 'review' AND late = 0) "
+             "FROM pairs p JOIN groups r ON r.id = p.reviewer JOIN groups w ON w.id = p.author "
+             "JOIN pseudonyms pw ON pw.assignment = p.assignment AND pw.group_id = p.author AND pw.role = 'author' "
+             "JOIN pseudonyms pr ON pr.assignment = p.assignment AND pr.group_id = p.reviewer AND pr.role = 'reviewer' "
+             "WHERE p.assignment = ? ORDER BY r.name, w.name, p.id",
+             assignment.id);
+         rows.next();) {
+        ReviewPair pair;
+        pair.id = rows.integer(0), pair.reviewer = rows.integer(1), pair.author = rows.integer(2);
+        pair.reviewer_name = rows.text(3), pair.author_name = rows.text(4);
+        pair.report_number = rows.integer(5), pair.reviewer_number = rows.integer(6);
+        pair.ended = rows.integer(7) != 0, pair.sent = rows.integer(8) != 0;
+        pair.written = rows.integer(9) != 0, pair.released = rows.integer(10) != 0;
+        pair.late = pair.written && rows.integer(11) == 0;
+        pairs.push_back(std::move(pair));
+    }
+    return pairs;
+}
+
+ReviewPair reviewed_pair(const std::vector<ReviewPair>& pairs, const Group& reviewer, const std::string& name) {
+    std::vector<const ReviewPair*> given;
+    std::vector<std::string> reports;
+    for (const ReviewPair& pair : pairs) {
+        if (pair.reviewer != reviewer.id || pair.ended) continue;
+        given.push_back(&pair);
+        reports.push_back(pair.report_pseudonym());
+    }
+    if (given.empty())
+        throw EnvironmentError(
+            fmt::format("{} was given no report to review; see dynlab course peer assign", reviewer.name));
+    for (const ReviewPair* pair : given) {
+        const std::string pseudonym = pair->report_pseudonym();
+        const std::size_t at = name.find(pseudonym), end = at + pseudonym.size();
+        const bool whole =
+            at != std::string::npos && (end >= name.size() || !std::isdigit(static_cast<unsigned char>(name[end])));
+        if (whole) return *pair;
+    }
+    if (given.size() == 1 && name.find("report-") == std::string::npos) return *given.front();
+    throw EnvironmentError(fmt::format(
+        "it does not tell which report it reviews; {} was given {}: name the file review-{}.pdf or say --of {}",
+        reviewer.name, fmt::join(reports, " and "), reports.front(), reports.front()));
+}
+
+}  // namespace dynlab::inline course

@@ -1,0 +1,167 @@
+#include "course/review/version_reading.h"
+
+#include <fmt/format.h>
+
+#include "course/grading/boxed_work.h"
+#include "course/grading/submission.h"
+#include "documents/text_lines.h"
+#include "documents/work_file.h"
+#include "figures/gnuplot_renderer.h"
+#include "platform/program_lookup.h"
+#include "platform/temporary_folder.h"
+#include "workflow/make_report.h"
+#include "workflow/run_script.h"
+
+namespace dynlab::inline course {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr auto kReadingTime = std::chrono::seconds(120);
+constexpr std::uintmax_t kMostText = 4u << 20;
+
+std::string first_line(const std::string& text) {
+    return text.substr(0, text.find('\n'));
+}
+
+/// A small ordinary file, or nothing.
+std::optional<std::string> text_of_file(const fs::path& file) {
+    std::error_code error;
+    if (fs::symlink_status(file, error).type() != fs::file_type::regular) return {};
+    if (fs::file_size(file, error) > kMostText || error) return {};
+    return read_work_file(file);
+}
+
+std::optional<json> record_in(const fs::path& file) {
+    const auto text = text_of_file(file);
+    if (!text) return {};
+    json record = json::parse(*text, nullptr, false);
+    if (!record.is_object()) return {};
+    return record;
+}
+
+class VersionReader {
+  public:
+    VersionReader(const VersionFiles& files, Isolation level, const fs::path& program)
+        : files_(files), level_(level), program_(program) {}
+
+    ReadVersion run() {
+        if (files_.pack) read_pack();
+        if (files_.pdf) read_pdf(*files_.pdf, "The PDF");
+        return std::move(version_);
+    }
+
+  private:
+    void read_pack() {
+        Submission submission;
+        submission.path = *files_.pack;
+        submission.archive = true;
+        const fs::path staged = work_.path() / "staged", made = work_.path() / "made";
+        fs::create_directories(staged);
+        fs::create_directories(made);
+        try {
+            const fs::path folder = stage_submission(submission, staged, level_, program_);
+            make(folder, made);
+            read_made(folder, made);
+        } catch (const SubmissionError& error) {
+            version_.troubles.push_back(std::string("The pack: ") + error.what());
+        }
+    }
+
+    void make(const fs::path& folder, const fs::path& made) {
+        Box box(level_);
+        box.add_document_programs();
+        const fs::path home = box.add(shared_folder() / "data", "/box/home/data").parent_path();
+        box.add(shared_folder() / "report_templates", "/box/home/report_templates");
+        box.set_environment("DYNLAB_HOME", home.string());
+        json job = {{"work", "version"}, {"pdf", !files_.pdf}};
+        job["folder"] = box.add_writable(folder, "/box/submission").string();
+        job["to"] = box.add_writable(made, "/box/made").string();
+        const BoxedResult result = run_boxed(box, program_, job, kReadingTime);
+        std::string reason = result.reason;
+        if (result.output && result.output->contains("error") && result.output->at("error").is_string())
+            reason = replaced(first_line(result.output->at("error")), job.at("folder").get<std::string>() + "/", "");
+        while (reason.ends_with('.')) reason.pop_back();
+        if (!reason.empty())
+            version_.troubles.push_back(fmt::format("The pack's report could not be made again: {}.", reason));
+    }
+
+    void read_made(const fs::path& folder, const fs::path& made) {
+        version_.record = record_in(made / "record.json");
+        if (!version_.record || version_.record->contains("error")) {
+            if (auto own = record_in(folder / "record.json")) {
+                version_.record = std::move(own);
+                version_.record_found = true;
+            }
+        }
+        if (const auto text = text_of_file(made / "report.md")) version_.source = report_text_of_markdown(*text);
+        if (files_.pdf) return;
+        for (const fs::path& pdf : {made / "report.pdf", folder / "report.pdf"}) {
+            if (fs::symlink_status(pdf).type() != fs::file_type::regular) continue;
+            read_pdf(pdf, "The pack's PDF");
+            return;
+        }
+    }
+
+    void read_pdf(const fs::path& file, const std::string& what) {
+        try {
+            const PdfLayout layout = read_pdf_layout(file);
+            version_.pages = static_cast<int>(layout.pages.size());
+            ReportText text = report_text_of_pdf(text_of_layout(layout));
+            if (text.sentences.empty())
+                version_.troubles.push_back(fmt::format("{} holds no text that can be read.", what));
+            else
+                version_.printed = std::move(text);
+        } catch (const PdfRefusal& refusal) {
+            version_.troubles.push_back(fmt::format("{} cannot be read: {}.", what, refusal.what()));
+        }
+    }
+
+    const VersionFiles& files_;
+    Isolation level_;
+    const fs::path& program_;
+    TemporaryFolder work_;
+    ReadVersion version_;
+};
+
+void make_document(const ReportRequest& request, RunRecord record, const fs::path& output, FigureFormat figures) {
+    GnuplotRenderer renderer;
+    const TemporaryFolder drawn;
+    draw_figures(record, renderer, drawn.path(), figures);
+    DocumentSource source;
+    source.template_file = request.template_file;
+    source.record = &record;
+    DocumentMaker::Options options;
+    options.use_cache = false;
+    DocumentMaker(options).make(source, output, document_format(output), [&] { renderer.finish(); });
+}
+
+}  // namespace
+
+json make_version(const json& job) {
+    const fs::path folder = job.at("folder").get<std::string>(), to = job.at("to").get<std::string>();
+    try {
+        const ReportRequest request = report_of(folder.string(), to / "report.md");
+        GnuplotRenderer renderer;
+        const TemporaryFolder saved;
+        RunRequest run;
+        run.script = request.script;
+        run.seed = request.seed;
+        run.out_folder = saved.path();
+        const RunRecord record = run_script(run, renderer);
+        write_work_file(to / "record.json", to_json(record));
+        make_document(request, record, to / "report.md", FigureFormat::kSvg);
+        if (job.at("pdf").get<bool>()) make_document(request, record, to / "report.pdf", FigureFormat::kPdf);
+        if (record.error) return {{"error", record.error->message}};
+        return json::object();
+    } catch (const std::runtime_error& error) {
+        return {{"error", error.what()}};
+    }
+}
+
+ReadVersion read_version(const VersionFiles& files, Isolation level, const fs::path& program) {
+    return VersionReader(files, level, program).run();
+}
+
+}  // namespace dynlab::inline course

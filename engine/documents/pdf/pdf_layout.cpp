@@ -1,0 +1,172 @@
+#include "documents/pdf/pdf_layout.h"
+
+#include <fmt/format.h>
+#include <poppler/cpp/poppler-document.h>
+#include <poppler/cpp/poppler-global.h>
+#include <poppler/cpp/poppler-page.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <fstream>
+#include <memory>
+#include <new>
+#include <nlohmann/json.hpp>
+
+#include "documents/pdf/plain_streams.h"
+#include "documents/work_file.h"
+#include "platform/guarded_call.h"
+
+namespace dynlab::inline documents {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr std::size_t kEnd = 2048;  ///< bytes at the end of a file within which its last mark stands
+
+std::string bytes_at(const fs::path& file, std::uint64_t from, std::size_t count) {
+    std::ifstream in(file, std::ios::binary);
+    in.seekg(static_cast<std::streamoff>(from));
+    std::string bytes(count, '\0');
+    in.read(bytes.data(), static_cast<std::streamsize>(count));
+    bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(in.gcount(), 0)));
+    return bytes;
+}
+
+/// What can be said without reading the file as a PDF.
+void check_outside(const fs::path& file, const PdfLimits& limits) {
+    std::error_code error;
+    if (!fs::is_regular_file(file, error)) throw PdfRefusal(PdfFault::kNotThere, "There is no such file.");
+    const std::uint64_t size = fs::file_size(file);
+    if (size == 0) throw PdfRefusal(PdfFault::kNotPdf, "The file is empty.");
+    if (size > limits.file_bytes) {
+        throw PdfRefusal(PdfFault::kTooLarge, fmt::format("The file has {} MB; at most {} MB are looked at.",
+                                                          size >> 20, limits.file_bytes >> 20));
+    }
+    const std::string start = bytes_at(file, 0, 1024);
+    if (start.empty()) throw PdfRefusal(PdfFault::kNotThere, "The file cannot be read: permission is denied.");
+    if (start.find("%PDF-") == std::string::npos)
+        throw PdfRefusal(PdfFault::kNotPdf, "The file is not a PDF, whatever its name says.");
+    if (bytes_at(file, size > kEnd ? size - kEnd : 0, kEnd).find("%%EOF") == std::string::npos)
+        throw PdfRefusal(PdfFault::kDamaged, "The file is damaged: its end is missing.");
+}
+
+bool contains_any(const std::string& text, std::initializer_list<const char*> parts) {
+    return std::any_of(parts.begin(), parts.end(),
+                       [&](const char* part) { return text.find(part) != std::string::npos; });
+}
+
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
+json word_of(const poppler::text_box& box) {
+    const poppler::rectf at = box.bbox();
+    const poppler::byte_array bytes = box.text().to_utf8();
+    const std::string font = lower(box.get_font_name());
+    return {at.left(),
+            at.top(),
+            at.right(),
+            at.bottom(),
+            box.get_font_size(),
+            contains_any(font, {"bold", "bx", "heavy", "black"}),
+            contains_any(font, {"mono", "courier", "cmtt", "consol", "typewriter"}),
+            box.rotation() != 0,
+            box.has_space_after(),
+            std::string(bytes.begin(), bytes.end())};
+}
+
+json fault(PdfFault kind, const std::string& sentence) {
+    return {{"fault", kind}, {"sentence", sentence}};
+}
+
+void ignore_message(const std::string&, void*) {}
+
+/// Runs in the guarded copy.
+json read_all(const fs::path& file, const PdfLimits& limits) {
+    poppler::set_debug_error_function(ignore_message, nullptr);
+    const std::string pdf = with_plain_streams(read_work_file(file));
+    const std::unique_ptr<poppler::document> document(
+        poppler::document::load_from_raw_data(pdf.data(), static_cast<int>(pdf.size())));
+    if (!document) return fault(PdfFault::kDamaged, "The file is damaged: no page can be found in it.");
+    if (document->is_locked())
+        return fault(PdfFault::kEncrypted, "The file is encrypted: it opens only with a password.");
+    const int count = document->pages();
+    if (count < 1) return fault(PdfFault::kDamaged, "The file is damaged: no page can be found in it.");
+    if (count > limits.pages) {
+        return fault(PdfFault::kTooLarge,
+                     fmt::format("The file has {} pages; at most {} are looked at.", count, limits.pages));
+    }
+    json pages = json::array();
+    int words = 0;
+    for (int i = 0; i < count; ++i) {
+        const std::unique_ptr<poppler::page> page(document->create_page(i));
+        if (!page) return fault(PdfFault::kDamaged, fmt::format("The file is damaged: page {} cannot be read.", i + 1));
+        json list = json::array();
+        for (const poppler::text_box& box : page->text_list(poppler::page::text_list_include_font)) {
+            if (++words > limits.words) {
+                return fault(
+                    PdfFault::kTooLarge,
+                    fmt::format("The file has more than {} words, more than a report can have.", limits.words));
+            }
+            list.push_back(word_of(box));
+        }
+        const poppler::rectf size = page->page_rect();
+        pages.push_back({{"width", size.width()}, {"height", size.height()}, {"words", std::move(list)}});
+    }
+    return {{"protected", document->is_encrypted()}, {"pages", std::move(pages)}};
+}
+
+PdfWord word_from(const json& value) {
+    return {value[0], value[1], value[2], value[3], value[4], value[5], value[6], value[7], value[8], value[9]};
+}
+
+bool is_placed(const PdfWord& word) {
+    const double numbers[] = {word.left, word.top, word.right, word.bottom, word.size};
+    return std::all_of(std::begin(numbers), std::end(numbers), [](double x) { return std::abs(x) < 1e6; });
+}
+
+PdfLayout layout_from(const json& read) {
+    PdfLayout layout;
+    layout.protected_by_password = read.at("protected");
+    for (const json& page : read.at("pages")) {
+        PdfPage& added = layout.pages.emplace_back(PdfPage{page.at("width"), page.at("height"), {}});
+        for (const json& value : page.at("words")) {
+            PdfWord word = word_from(value);
+            if (is_placed(word)) added.words.push_back(std::move(word));
+        }
+    }
+    return layout;
+}
+
+}  // namespace
+
+PdfLayout read_pdf_layout(const fs::path& file, const PdfLimits& limits) {
+    check_outside(file, limits);
+    const ChildResult result = run_guarded(
+        [&] {
+            try {
+                const std::vector<std::uint8_t> packed = json::to_msgpack(read_all(file, limits));
+                return std::string(packed.begin(), packed.end());
+            } catch (const std::bad_alloc&) {
+                return std::string();
+            }
+        },
+        {limits.time, limits.memory_bytes, limits.memory_bytes});
+    if (result.timed_out) {
+        throw PdfRefusal(PdfFault::kTooLarge,
+                         fmt::format("Reading the file takes more than {} s.", limits.time.count() / 1000));
+    }
+    if (result.output_exceeded || (result.exit_code == 0 && result.output.empty())) {
+        throw PdfRefusal(PdfFault::kTooLarge,
+                         fmt::format("Reading the file takes more than {} MB of memory.", limits.memory_bytes >> 20));
+    }
+    if (result.exit_code != 0) throw PdfRefusal(PdfFault::kDamaged, "The file is damaged: reading it ends in a crash.");
+    const json read = json::from_msgpack(result.output);
+    if (read.contains("fault")) throw PdfRefusal(read.at("fault"), read.at("sentence"));
+    return layout_from(read);
+}
+
+}  // namespace dynlab::inline documents

@@ -1,0 +1,54 @@
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "platform/error.h"
+
+namespace dynlab::inline documents {
+
+/// A word where it stands on the page: points from the upper left corner.
+struct PdfWord {
+    double left = 0, top = 0, right = 0, bottom = 0;
+    double size = 0;  ///< of the font, in points
+    bool bold = false, fixed_width = false, rotated = false;
+    bool space_after = true;
+    std::string text;  ///< UTF-8
+};
+
+struct PdfPage {
+    double width = 0, height = 0;  ///< points
+    std::vector<PdfWord> words;    ///< in reading order
+};
+
+struct PdfLayout {
+    bool protected_by_password = false;  ///< readable, but a password guards changes
+    std::vector<PdfPage> pages;
+};
+
+/// Why a file cannot be looked at.
+enum class PdfFault { kNotThere, kNotPdf, kEncrypted, kDamaged, kTooLarge };
+
+class PdfRefusal : public EnvironmentError {
+  public:
+    PdfRefusal(PdfFault fault, const std::string& sentence) : EnvironmentError(sentence), fault_(fault) {}
+    PdfFault fault() const { return fault_; }
+
+  private:
+    PdfFault fault_;
+};
+
+/// What a file from somebody else may cost.
+struct PdfLimits {
+    std::uint64_t file_bytes = 100u << 20, memory_bytes = 1u << 30;
+    int pages = 200, words = 200'000;
+    std::chrono::milliseconds time{20'000};
+};
+
+/// Words and fonts of a PDF, as poppler finds them. A forked copy of this process with limits reads the file, so that a
+/// hostile one can neither crash nor hang the caller. Throws PdfRefusal; its sentence does not name the file.
+PdfLayout read_pdf_layout(const std::filesystem::path& file, const PdfLimits& limits = {});
+
+}  // namespace dynlab::inline documents

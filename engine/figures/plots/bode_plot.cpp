@@ -1,0 +1,98 @@
+#include "figures/plots/bode_plot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "figures/confidence_band.h"
+#include "numerics/error.h"
+#include "numerics/simulation/frequency_response.h"
+#include "numerics/validation/chi_squared.h"
+
+namespace dynlab::inline figures {
+namespace {
+
+constexpr Index kBodePoints = 800;
+
+Vector below_nyquist(const TransferFunction& G, const Vector& w) {
+    if (G.continuous()) return w;
+    const double end = std::numbers::pi / G.Ts() * (1 + 1e-9);
+    std::vector<double> kept;
+    std::copy_if(w.begin(), w.end(), std::back_inserter(kept), [end](double value) { return value <= end; });
+    if (kept.empty())
+        throw InvalidArgument(
+            fmt::format("all frequencies lie above pi/Ts = {:.4g} rad/s, where a discrete model ends", end));
+    return Eigen::Map<const Vector>(kept.data(), static_cast<Index>(kept.size()));
+}
+
+void add_bands(Panel& magnitude, Panel& phase, const std::vector<NamedModel>& models) {
+    constexpr double kLeastDecibels = 20, kLeastDegrees = 90;
+    for (std::size_t i = 0; i < models.size(); ++i) {
+        if (!models[i].confidence) continue;
+        const auto& [model, level] = *models[i].confidence;
+        const FrequencyUncertainty spread = frequency_response_std(model, magnitude.curves[i].x);
+        const double width = normal_half_width(level);
+        add_confidence_band(magnitude, i, width * spread.magnitude_std, level);
+        add_confidence_band(phase, i, width * spread.phase_std, level);
+    }
+    limit_to_readable(magnitude, models.size(), kLeastDecibels);
+    limit_to_readable(phase, models.size(), kLeastDegrees);
+}
+
+}  // namespace
+
+Vector joint_frequency_grid(const std::vector<NamedModel>& models, Index count) {
+    double low = std::numeric_limits<double>::infinity(), high = 0;
+    for (const NamedModel& model : models) {
+        const Vector grid = natural_frequency_grid(model.G);
+        low = std::min(low, grid[0]);
+        high = std::max(high, grid[grid.size() - 1]);
+    }
+    return Vector::LinSpaced(count, std::log(low), std::log(high)).array().exp();
+}
+
+FrequencyPanels frequency_panels() {
+    FrequencyPanels panels;
+    panels.magnitude.log_x = panels.phase.log_x = true;
+    panels.magnitude.y_label = "magnitude (dB)";
+    panels.phase.y_label = "phase (°)";
+    panels.phase.x_label = "frequency (rad/s)";
+    panels.phase.legend = LegendPlace::kNone;
+    return panels;
+}
+
+Figure bode_plot(const std::vector<NamedModel>& models, const Vector& w) {
+    if (models.empty()) throw InvalidArgument("there are no models to plot");
+    if (w.size() > 0 && !(w.minCoeff() > 0))
+        throw InvalidArgument(fmt::format("frequencies must be positive, but the smallest is {}", w.minCoeff()));
+    const Vector grid = w.size() > 0 ? w : joint_frequency_grid(models, kBodePoints);
+    auto [magnitude, phase] = frequency_panels();
+    for (const NamedModel& model : models) {
+        Curve curve;
+        curve.x = below_nyquist(model.G, grid);
+        const ComplexVector response = frequency_response(model.G, curve.x);
+        curve.label = model.name;
+        curve.y = magnitude_db(response);
+        magnitude.curves.push_back(curve);
+        curve.y = phase_degrees_unwrapped(response);
+        phase.curves.push_back(std::move(curve));
+        if (model.G.continuous()) continue;
+        const ReferenceLine end{false, std::numbers::pi / model.G.Ts(), "", 2};
+        if (end.at <= grid.maxCoeff() * 1.001) magnitude.references.push_back(end), phase.references.push_back(end);
+    }
+    phase.y_tick_step = phase_tick_step(phase);
+    fix_colours(magnitude);
+    fix_colours(phase);
+    add_bands(magnitude, phase, models);
+    const std::pair<double, double> range{grid.minCoeff(), grid.maxCoeff()};
+    if (range.first < range.second) magnitude.x_range = phase.x_range = range;
+    Figure figure;
+    figure.rows = 2;
+    figure.panels = {std::move(magnitude), std::move(phase)};
+    return figure;
+}
+
+}  // namespace dynlab::inline figures

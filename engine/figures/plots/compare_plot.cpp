@@ -1,0 +1,64 @@
+#include "figures/plots/compare_plot.h"
+
+#include <fmt/format.h>
+
+#include "figures/plots/id_plot.h"
+#include "figures/style.h"
+#include "numerics/error.h"
+
+namespace dynlab::inline figures {
+namespace {
+
+void check(const ModelOutput& model, const Matrix& measured) {
+    if (model.y.rows() == measured.rows() && model.y.cols() == measured.cols() &&
+        model.fit_percent.size() == measured.cols())
+        return;
+    throw InvalidArgument(fmt::format(
+        "the output of model \"{}\" must be {} x {} with {} fits, as the data, but it is {} x {} with {}", model.name,
+        measured.rows(), measured.cols(), measured.cols(), model.y.rows(), model.y.cols(), model.fit_percent.size()));
+}
+
+Curve model_curve(const ModelOutput& model, Index output, const Vector& t, int place) {
+    static constexpr int kColours[] = {0, 6, 3, 4, 1, 7, 5};  // apart from the grey of the data
+    Curve curve;
+    curve.x = t;
+    curve.y = model.y.col(output);
+    curve.label = fmt::format("{}: {:.1f} %", model.name, model.fit_percent[output]);
+    curve.colour = kColours[place % 7];
+    curve.dash = place % 4;
+    return curve;
+}
+
+}  // namespace
+
+Figure compare_plot(const IdData& data, const std::vector<ModelOutput>& models, std::size_t experiment) {
+    if (experiment >= data.experiments.size())
+        throw InvalidArgument(
+            fmt::format("there is no experiment {}; the data hold {}", experiment + 1, data.experiments.size()));
+    const Matrix& measured = data.experiments[experiment].y;
+    for (const ModelOutput& model : models) check(model, measured);
+    const Vector t = data.time(experiment);
+    Figure figure;
+    figure.rows = static_cast<int>(measured.cols());
+    for (Index output = 0; output < measured.cols(); ++output) {
+        Panel panel;
+        const auto place = static_cast<std::size_t>(output);
+        panel.y_label = axis_label(
+            place < data.output_names.size() ? data.output_names[place] : fmt::format("y_{{{}}}", output + 1),
+            place < data.output_units.size() ? data.output_units[place] : "");
+        Curve curve;
+        curve.x = t;
+        curve.y = measured.col(output);
+        curve.label = "measured";
+        curve.colour = style::kGreyColour;
+        curve.dash = 0;
+        panel.curves.push_back(std::move(curve));
+        int number = 0;
+        for (const ModelOutput& model : models) panel.curves.push_back(model_curve(model, output, t, number++));
+        figure.panels.push_back(std::move(panel));
+    }
+    figure.panels.back().x_label = axis_label("time", data.time_unit);
+    return figure;
+}
+
+}  // namespace dynlab::inline figures

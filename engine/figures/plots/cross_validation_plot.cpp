@@ -1,0 +1,46 @@
+#include "figures/plots/cross_validation_plot.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "numerics/error.h"
+
+namespace dynlab::inline figures {
+
+Figure cross_validation_plot(const CrossValidation& result, const std::vector<std::string>& output_names) {
+    const Index folds = result.fit_percent.rows(), outputs = result.fit_percent.cols();
+    if (folds == 0) throw InvalidArgument("there is nothing to draw: no part was validated");
+    Panel panel;
+    panel.x_label = "part left out";
+    panel.y_label = "fit of the simulation (%)";
+    const auto end = static_cast<double>(folds);
+    panel.x_range = {0.5, end + 0.5};
+    if (!result.fit_percent.array().isFinite().any())
+        throw InvalidArgument("there is nothing to draw: the models are unstable on every part");
+    for (Index i = 0; i < outputs; ++i) {
+        if (!result.fit_percent.col(i).array().isFinite().any()) continue;
+        Curve points;
+        points.x = Vector::LinSpaced(folds, 1, end);
+        points.y = result.fit_percent.col(i);
+        points.style = CurveStyle::kPoints;
+        points.colour = static_cast<int>(i);
+        points.line_width = 1.4;
+        if (outputs > 1) points.label = output_names[static_cast<std::size_t>(i)];
+        panel.curves.push_back(std::move(points));
+    }
+    for (Index i = 0; i < outputs; ++i) {
+        if (!std::isfinite(result.mean[i])) continue;
+        Curve mean;
+        mean.x = Vector{{0.5, end + 0.5}};
+        mean.y = Vector::Constant(2, result.mean[i]);
+        mean.colour = static_cast<int>(i);
+        mean.dash = 1;
+        mean.line_width = 0.7;
+        mean.label = fmt::format("mean {:.1f} %", result.mean[i]);
+        panel.curves.push_back(std::move(mean));
+    }
+    return Figure(std::move(panel));
+}
+
+}  // namespace dynlab::inline figures

@@ -1,0 +1,117 @@
+#include "figures/plots/id_plot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "figures/style.h"
+#include "numerics/error.h"
+
+namespace dynlab::inline figures {
+namespace {
+
+struct Channel {
+    bool output;
+    Index number;
+};
+
+std::string label_of(const Channel& channel, const IdData& data) {
+    const auto& names = channel.output ? data.output_names : data.input_names;
+    const auto& units = channel.output ? data.output_units : data.input_units;
+    const auto place = static_cast<std::size_t>(channel.number);
+    const std::string name = place < names.size() && !names[place].empty()
+                                 ? names[place]
+                                 : fmt::format("{}_{{{}}}", channel.output ? "y" : "u", channel.number + 1);
+    return axis_label(name, place < units.size() ? units[place] : "");
+}
+
+void check(const std::vector<const IdData*>& data, const std::vector<std::string>& labels) {
+    if (data.empty()) throw InvalidArgument("there are no data to plot");
+    if (!labels.empty() && labels.size() != data.size())
+        throw InvalidArgument(fmt::format("{} data objects need as many labels, not {}", data.size(), labels.size()));
+    for (const IdData* object : data)
+        if (object->output_count() != data.front()->output_count() ||
+            object->input_count() != data.front()->input_count())
+            throw InvalidArgument(
+                fmt::format("data drawn over one another need the same channels, but one object has {} outputs and {} "
+                            "inputs and another has {} and {}",
+                            data.front()->output_count(), data.front()->input_count(), object->output_count(),
+                            object->input_count()));
+}
+
+bool draws_the_same(const Curve& a, const Curve& b) {
+    return a.style == b.style && a.x.size() == b.x.size() && a.x == b.x && a.y == b.y;
+}
+
+/// Puts a curve into the panel, but an input that stands there already only once, in grey as it belongs to several.
+void add_curve(Panel& panel, Curve curve, bool output) {
+    const auto same = std::find_if(panel.curves.begin(), panel.curves.end(),
+                                   [&](const Curve& other) { return !output && draws_the_same(curve, other); });
+    if (same == panel.curves.end())
+        panel.curves.push_back(std::move(curve));
+    else
+        same->colour = style::kGreyColour;
+}
+
+Panel panel_of(const Channel& channel, const std::vector<const IdData*>& data, const std::vector<std::string>& labels) {
+    Panel panel;
+    panel.y_label = label_of(channel, *data.front());
+    int place = 0;
+    for (std::size_t i = 0; i < data.size(); ++i)
+        for (std::size_t k = 0; k < data[i]->experiments.size(); ++k) {
+            const Experiment& experiment = data[i]->experiments[k];
+            Curve curve;
+            curve.x = data[i]->time(k);
+            curve.y = (channel.output ? experiment.y : experiment.u).col(channel.number);
+            if (!channel.output && data[i]->hold == Hold::kZoh) curve.style = CurveStyle::kStairs;
+            if (!labels.empty())
+                curve.label = labels[i];
+            else if (data.size() > 1)
+                curve.label = fmt::format("data {}", i + 1);
+            if (data[i]->experiments.size() > 1) {
+                const std::string name =
+                    experiment.name.empty() ? fmt::format("experiment {}", k + 1) : experiment.name;
+                curve.label += (curve.label.empty() ? "" : ", ") + name;
+            }
+            curve.colour = place++;
+            curve.dash = 0;
+            add_curve(panel, std::move(curve), channel.output);
+        }
+    return panel;
+}
+
+std::pair<double, double> common_time_range(const std::vector<const IdData*>& data) {
+    std::pair<double, double> range{1e300, -1e300};
+    for (const IdData* object : data)
+        for (std::size_t k = 0; k < object->experiments.size(); ++k) {
+            const Vector t = object->time(k);
+            range = {std::min(range.first, t[0]), std::max(range.second, t[t.size() - 1])};
+        }
+    return range;
+}
+
+}  // namespace
+
+std::string axis_label(const std::string& name, const std::string& unit) {
+    return unit.empty() ? name : fmt::format("{} ({})", name, unit);
+}
+
+Figure id_plot(const std::vector<const IdData*>& data, const std::vector<std::string>& labels) {
+    check(data, labels);
+    std::vector<Channel> channels;
+    for (Index i = 0; i < data.front()->output_count(); ++i) channels.push_back({true, i});
+    for (Index i = 0; i < data.front()->input_count(); ++i) channels.push_back({false, i});
+    Figure figure;
+    figure.rows = static_cast<int>(channels.size());
+    const auto range = common_time_range(data);
+    for (const Channel& channel : channels) {
+        figure.panels.push_back(panel_of(channel, data, labels));
+        Panel& panel = figure.panels.back();
+        if (range.first < range.second) panel.x_range = range;
+        if (figure.panels.size() > 1) panel.legend = LegendPlace::kNone;  // the uppermost panel's holds for all
+    }
+    figure.panels.back().x_label = axis_label("time", data.front()->time_unit);
+    return figure;
+}
+
+}  // namespace dynlab::inline figures

@@ -1,0 +1,20 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "figures/figure.h"
+#include "numerics/signals/iddata.h"
+
+namespace dynlab::inline figures {
+
+/// Text of an axis: "name (unit)", or the name alone when the unit is empty.
+std::string axis_label(const std::string& name, const std::string& unit);
+
+/// Outputs above inputs over time, one panel per channel with its name and unit; inputs held between samples are drawn
+/// as stairs, an input that several curves share once, in grey. Several data objects lie over one another, told apart
+/// by `labels` (one each; "data 1".. unless given); a single object has a legend only when its label is given; several
+/// experiments of one object follow one another as curves of their own. Throws InvalidArgument for no data, another
+/// number of labels, or objects whose channels differ in number.
+Figure id_plot(const std::vector<const IdData*>& data, const std::vector<std::string>& labels = {});
+
+}  // namespace dynlab::inline figures

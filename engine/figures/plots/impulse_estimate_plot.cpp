@@ -1,0 +1,75 @@
+#include "figures/plots/impulse_estimate_plot.h"
+
+#include <fmt/format.h>
+
+#include "figures/style.h"
+#include "numerics/error.h"
+#include "numerics/simulation/time_response.h"
+#include "numerics/validation/chi_squared.h"
+
+namespace dynlab::inline figures {
+namespace {
+
+constexpr Index kModelPoints = 500;
+
+Curve stems_of(const ImpulseEstimate& estimate, double Ts) {
+    Curve stems;
+    stems.x = estimate.t;
+    stems.y = estimate.response / Ts;
+    stems.style = CurveStyle::kStems;
+    stems.colour = 0;
+    stems.dash = 0;
+    stems.marker = 0;
+    stems.label = "estimate";
+    return stems;
+}
+
+Curve band_of(const ImpulseEstimate& estimate, double Ts, double level) {
+    Curve band;
+    band.x = estimate.t;
+    band.y_upper = normal_half_width(level) * estimate.null_std / Ts;
+    band.y = -band.y_upper;
+    band.style = CurveStyle::kBand;
+    band.colour = style::kGreyColour;
+    band.label = fmt::format("{:.4g} % of chance", 100 * level);
+    return band;
+}
+
+/// A discrete model's response to a unit sample is divided by its sampling time like the estimate.
+Curve curve_of(const NamedModel& model, double end, int colour) {
+    Vector t = Vector::LinSpaced(kModelPoints, 0, end);
+    if (!model.G.continuous()) {
+        const Index count = static_cast<Index>(end / model.G.Ts() + 1e-9) + 1;
+        t = Vector::LinSpaced(count, 0, static_cast<double>(count - 1) * model.G.Ts());
+    }
+    const TimeResponse response = impulse_response(model.G, t);
+    Curve curve;
+    curve.x = response.t;
+    curve.y = response.y;
+    curve.label = model.name;
+    curve.colour = colour;
+    return curve;
+}
+
+}  // namespace
+
+Figure impulse_estimate_plot(const ImpulseEstimate& estimate, double Ts, const std::vector<NamedModel>& models,
+                             double level) {
+    if (estimate.t.size() == 0) throw InvalidArgument("there is no impulse response to draw");
+    Panel panel;
+    panel.x_label = "time (s)";
+    panel.y_label = "impulse response (per s)";
+    panel.curves = {band_of(estimate, Ts, level), stems_of(estimate, Ts)};
+    const double end = estimate.t[estimate.t.size() - 1];
+    int colour = 1;
+    for (const NamedModel& model : models) panel.curves.push_back(curve_of(model, end, colour++));
+    panel.references = {{true, 0, "", 0}};
+    panel.x_range = {-0.02 * end, 1.02 * end};
+    if (estimate.first && *estimate.first > 1)
+        panel.references.push_back({false, static_cast<double>(*estimate.first - 1) * Ts,
+                                    fmt::format("dead time {:.4g} s", static_cast<double>(*estimate.first - 1) * Ts),
+                                    1});
+    return Figure(std::move(panel));
+}
+
+}  // namespace dynlab::inline figures

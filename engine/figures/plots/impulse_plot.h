@@ -1,0 +1,13 @@
+#pragma once
+#include <vector>
+
+#include "figures/figure.h"
+#include "figures/named_model.h"
+
+namespace dynlab::inline figures {
+
+/// Responses of models to a unit impulse at time zero, over `t` (s) or a window chosen from the slowest model.
+/// Discrete models are drawn as stems. Throws InvalidArgument for no models.
+Figure impulse_plot(const std::vector<NamedModel>& models, const Vector& t = Vector());
+
+}  // namespace dynlab::inline figures

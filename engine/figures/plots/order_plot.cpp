@@ -1,0 +1,116 @@
+#include "figures/plots/order_plot.h"
+
+#include <cmath>
+#include <map>
+
+#include "figures/axis.h"
+#include "figures/style.h"
+#include "numerics/error.h"
+
+namespace dynlab::inline figures {
+namespace {
+
+struct Quantity {
+    const char* label;
+    bool larger_is_better;
+    double (*value)(const OrderCandidate&);
+};
+
+Quantity quantity_of(OrderCriterion criterion, bool validated) {
+    switch (criterion) {
+        case OrderCriterion::kRSquared:
+            return {"R_T^2", true, [](const OrderCandidate& c) { return c.r_squared; }};
+        case OrderCriterion::kYic:
+            return {"YIC", false, [](const OrderCandidate& c) { return c.yic; }};
+        case OrderCriterion::kAic:
+            return {"AIC", false, [](const OrderCandidate& c) { return c.aic; }};
+        case OrderCriterion::kBic:
+            return {"BIC", false, [](const OrderCandidate& c) { return c.bic; }};
+        case OrderCriterion::kFpe:
+            return {"FPE", false, [](const OrderCandidate& c) { return c.fpe; }};
+        case OrderCriterion::kFit:
+            return {"fit (%)", true, [](const OrderCandidate& c) { return c.fit_percent; }};
+        case OrderCriterion::kRecommended:
+            if (!validated) return quantity_of(OrderCriterion::kBic, false);
+            break;
+        case OrderCriterion::kValidationFit:
+            if (!validated) throw InvalidArgument("there is no validation fit to draw: no second record was given");
+            break;
+    }
+    return {"validation fit (%)", true,
+            [](const OrderCandidate& c) { return c.validation_fit.value_or(std::nan("")); }};
+}
+
+bool only_delays_differ(const OrderSelection& selection) {
+    const OrderCandidate& first = selection.candidates.front();
+    for (const OrderCandidate& candidate : selection.candidates)
+        if (candidate.poles != first.poles || candidate.zeros != first.zeros) return false;
+    return selection.candidates.size() > 1;
+}
+
+/// For each curve (number of zeros) the best value at each place of x.
+std::map<int, std::map<double, double>> best_values(const OrderSelection& selection, const Quantity& quantity,
+                                                    bool over_delay) {
+    std::map<int, std::map<double, double>> curves;
+    for (const OrderCandidate& candidate : selection.candidates) {
+        if (!candidate.failure.empty()) continue;
+        const double value = quantity.value(candidate), x = over_delay ? candidate.delay : candidate.poles;
+        if (!std::isfinite(value)) continue;
+        auto [place, is_new] = curves[candidate.zeros].try_emplace(x, value);
+        if (!is_new && (quantity.larger_is_better ? value > place->second : value < place->second))
+            place->second = value;
+    }
+    return curves;
+}
+
+Curve curve_of(const std::map<double, double>& values, int zeros, int place) {
+    Curve curve;
+    curve.x.resize(static_cast<Index>(values.size()));
+    curve.y.resize(curve.x.size());
+    Index i = 0;
+    for (const auto& [x, y] : values) curve.x[i] = x, curve.y[i++] = y;
+    curve.style = CurveStyle::kLinePoints;
+    curve.colour = place;
+    curve.label = zeros == 0 ? "no zero" : std::to_string(zeros) + (zeros == 1 ? " zero" : " zeros");
+    return curve;
+}
+
+Curve mark_at(double x, double y) {
+    Curve mark;
+    mark.x = Vector::Constant(1, x);
+    mark.y = Vector::Constant(1, y);
+    mark.style = CurveStyle::kPoints;
+    mark.marker = style::kOpenCircle;
+    mark.colour = 6;
+    mark.line_width = 3;
+    mark.label = "chosen";
+    return mark;
+}
+
+}  // namespace
+
+Figure order_plot(const OrderSelection& selection, OrderCriterion criterion, const OrderChoice& choice) {
+    const Quantity quantity = quantity_of(criterion, selection.validated);
+    const bool over_delay = only_delays_differ(selection);
+    Panel panel;
+    Extent x_extent(false), y_extent(false);
+    int place = 0;
+    for (const auto& [zeros, values] : best_values(selection, quantity, over_delay)) {
+        if (values.empty()) continue;
+        panel.curves.push_back(curve_of(values, zeros, place++));
+        x_extent.include(panel.curves.back().x);
+        y_extent.include(panel.curves.back().y);
+    }
+    if (panel.curves.empty()) throw InvalidArgument("there is nothing to draw: no structure could be estimated");
+    const OrderCandidate& chosen = selection.candidates.at(choice.place);
+    if (const double value = quantity.value(chosen); std::isfinite(value))
+        panel.curves.push_back(mark_at(over_delay ? chosen.delay : chosen.poles, value));
+    panel.x_range = x_extent.padded(0.08);
+    panel.y_range = y_extent.padded(0.1);
+    if (!over_delay) panel.x_tick_step = 1;
+    panel.x_label = over_delay ? "delay (s)" : "number of poles";
+    panel.y_label = quantity.label;
+    return Figure(std::move(panel));
+}
+
+}  // namespace dynlab::inline figures

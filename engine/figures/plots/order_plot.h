@@ -1,0 +1,13 @@
+#pragma once
+#include "figures/figure.h"
+#include "numerics/validation/order_selection.h"
+
+namespace dynlab::inline figures {
+
+/// A criterion over the number of poles, one curve for each number of zeros (the best of several delays), the chosen
+/// structure marked; with one pair of poles and zeros over the delay instead. kRecommended draws the validation fit
+/// where there is one and BIC otherwise. Candidates without an estimate are left out. Throws InvalidArgument when
+/// nothing is left, and for kValidationFit without a second record.
+Figure order_plot(const OrderSelection& selection, OrderCriterion criterion, const OrderChoice& choice);
+
+}  // namespace dynlab::inline figures

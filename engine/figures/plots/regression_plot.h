@@ -1,0 +1,30 @@
+#pragma once
+#include <optional>
+#include <string>
+
+#include "figures/figure.h"
+
+namespace dynlab::inline figures {
+
+/// A forecast with its interval.
+struct ForecastPoint {
+    double x, y, lower, upper;
+    std::string text;  ///< written beside it
+};
+
+/// What a regression plot shows; empty vectors leave a part out.
+struct RegressionPicture {
+    Vector x, y;                                ///< the data
+    Vector line_x, line_y;                      ///< the fitted line
+    Vector confidence_lower, confidence_upper;  ///< over line_x, of the line
+    Vector prediction_lower, prediction_upper;  ///< over line_x, of a new observation
+    std::optional<ForecastPoint> forecast;
+    std::string x_label, y_label;
+    std::string data_label = "data", line_label = "fitted line";
+    std::string confidence_label = "95 % confidence band", prediction_label = "95 % prediction band";
+};
+
+/// Throws InvalidArgument for a band whose length differs from the line's.
+Figure regression_plot(const RegressionPicture& picture);
+
+}  // namespace dynlab::inline figures

@@ -1,0 +1,14 @@
+#pragma once
+#include <vector>
+
+#include "figures/figure.h"
+#include "figures/named_model.h"
+
+namespace dynlab::inline figures {
+
+/// Responses of models to a unit step at time zero, over `t` (s) or a window chosen from the slowest model.
+/// Discrete models are drawn as stairs; models that carry their confidence have a band. Throws InvalidArgument for no
+/// models.
+Figure step_plot(const std::vector<NamedModel>& models, const Vector& t = Vector());
+
+}  // namespace dynlab::inline figures

@@ -1,0 +1,192 @@
+#include "numerics/criteria/denominator_group.h"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <limits>
+
+#include "numerics/linalg/decompositions.h"
+#include "numerics/linalg/polynomial.h"
+
+namespace dynlab::inline numerics {
+
+DenominatorGroup::DenominatorGroup(const IdData& data, const TransferStructure& structure, Index group, Hold hold_y)
+    : n_(structure.poles[static_cast<std::size_t>(group)]), place_(structure.a_place(group)), count_(n_) {
+    const auto view = [](const auto& column) { return SampleView(column.data(), column.size()); };
+    for (Index output = 0; output < structure.outputs; ++output) {
+        std::vector<Index> places(static_cast<std::size_t>(n_));
+        for (Index i = 0; i < n_; ++i) places[static_cast<std::size_t>(i)] = i;
+        std::vector<Index> inputs;
+        for (Index input = 0; input < structure.inputs; ++input) {
+            if (structure.channel(output, input).denominator != group) continue;
+            inputs.push_back(input);
+            const Index b = structure.b_place(output, input) - place_, m = structure.channel(output, input).zeros;
+            for (Index j = 0; j <= m; ++j) places.push_back(b + j);
+            count_ += m + 1;
+        }
+        if (inputs.empty()) continue;
+        for (const Experiment& experiment : data.experiments) {
+            RegressionRecord record{view(experiment.y.col(output)), {},        {},    {},
+                                    {data.Ts, view(experiment.t)},  data.hold, hold_y};
+            for (const Index input : inputs) {
+                record.u.push_back(view(experiment.u.col(input)));
+                record.zeros.push_back(structure.channel(output, input).zeros);
+                record.delays.push_back(structure.channel(output, input).delay);
+            }
+            members_.push_back({std::move(record), places, outputs_.size()});
+        }
+        outputs_.push_back(output);
+    }
+    weights_.assign(outputs_.size(), 1);
+    targets_.resize(members_.size());
+}
+
+Index DenominatorGroup::sample_count() const {
+    Index count = 0;
+    for (const Member& member : members_) count += member.record.y.size();
+    return count;
+}
+
+void DenominatorGroup::set_target(std::size_t record, const Vector& y) {
+    targets_[record] = y;
+    new (&members_[record].record.y) SampleView(targets_[record].data(), y.size());
+}
+
+void DenominatorGroup::set_weight(Index output, double weight) {
+    for (std::size_t i = 0; i < outputs_.size(); ++i)
+        if (outputs_[i] == output) weights_[i] = weight;
+}
+
+Vector DenominatorGroup::denominator(const VectorView& theta) const {
+    Vector den(n_ + 1);
+    den << 1, theta.head(n_);
+    return den;
+}
+
+std::vector<Vector> DenominatorGroup::numerators(const Member& member, const VectorView& theta) const {
+    std::vector<Vector> B;
+    std::size_t place = static_cast<std::size_t>(n_);
+    for (const int m : member.record.zeros) {
+        Vector b(m + 1);
+        for (double& value : b) value = theta[member.places[place++]];
+        B.push_back(std::move(b));
+    }
+    return B;
+}
+
+template <class Moments>
+RegressionMoments DenominatorGroup::sum_over_records(const Moments& moments_of) const {
+    if (members_.size() == 1 && weights_[0] == 1) return moments_of(members_.front());
+    RegressionMoments sum{Matrix::Zero(count_, count_), Vector::Zero(count_), Matrix(), 0};
+    for (const Member& member : members_) {
+        const double weight = weights_[member.output];
+        const RegressionMoments own = moments_of(member);
+        sum.z_phi(member.places, member.places) += weight * own.z_phi;
+        sum.z_y(member.places) += weight * own.z_y;
+        if (own.z_z.size() > 0) {
+            if (sum.z_z.size() == 0) sum.z_z = Matrix::Zero(count_, count_);
+            sum.z_z(member.places, member.places) += weight * own.z_z;
+        }
+        sum.y_y += weight * own.y_y;
+    }
+    return sum;
+}
+
+RegressionMoments DenominatorGroup::svf(const VectorView& E, double gain) const {
+    return sum_over_records([&](const Member& member) { return svf_moments(member.record, E, gain); });
+}
+
+RegressionMoments DenominatorGroup::auxiliary(const VectorView& E, const VectorView& theta, double gain) const {
+    const Vector A = denominator(theta);
+    return sum_over_records(
+        [&](const Member& member) { return auxiliary_moments(member.record, E, A, numerators(member, theta), gain); });
+}
+
+RegressionMoments DenominatorGroup::refined(const VectorView& theta, bool with_gram) const {
+    const Vector A = denominator(theta);
+    return sum_over_records(
+        [&](const Member& member) { return refined_moments(member.record, A, numerators(member, theta), with_gram); });
+}
+
+Matrix DenominatorGroup::sensitivity_gram(const VectorView& theta) const {
+    const Vector A = denominator(theta);
+    Matrix sum = Matrix::Zero(count_, count_);
+    for (const Member& member : members_)
+        sum(member.places, member.places) +=
+            weights_[member.output] * sensitivity_moments(member.record, A, numerators(member, theta));
+    return sum;
+}
+
+Vector DenominatorGroup::reflected(const VectorView& theta, bool* any) const {
+    Vector result = theta;
+    result.head(n_) = reflect_unstable_roots(denominator(theta), any).tail(n_);
+    return result;
+}
+
+namespace {
+
+/// With the size known to the compiler where it is small.
+template <int d>
+Vector solve_moments_of(const RegressionMoments& moments, double* condition_number) {
+    using Square = Eigen::Matrix<double, d, d>;
+    using Column = Eigen::Matrix<double, d, 1>;
+    const Vector unsolvable = Vector::Constant(moments.z_y.size(), std::numeric_limits<double>::quiet_NaN());
+    if (condition_number) *condition_number = std::numeric_limits<double>::infinity();
+    // Rows and columns are brought to a common size; a Gram matrix then has a diagonal of ones.
+    Square scaled = moments.z_phi;
+    const Column known = moments.z_y, columns = scaled.colwise().norm().transpose();
+    if (!scaled.allFinite() || !known.allFinite() || !(columns.minCoeff() > 0)) return unsolvable;
+    scaled = (scaled * columns.cwiseInverse().asDiagonal()).eval();
+    const Column rows = scaled.rowwise().norm();
+    if (!(rows.minCoeff() > 0)) return unsolvable;
+    scaled = (rows.cwiseInverse().asDiagonal() * scaled).eval();
+    const Eigen::PartialPivLU<Square> decomposition(scaled);
+    const double reciprocal = decomposition.rcond();
+    if (!(reciprocal > 0)) return unsolvable;
+    if (condition_number) *condition_number = 1 / reciprocal;
+    return Column(decomposition.solve(known.cwiseQuotient(rows))).cwiseQuotient(columns);
+}
+
+}  // namespace
+
+Vector solve_moments(const RegressionMoments& moments, double* condition_number) {
+    switch (moments.z_y.size()) {
+        case 2:
+            return solve_moments_of<2>(moments, condition_number);
+        case 3:
+            return solve_moments_of<3>(moments, condition_number);
+        case 4:
+            return solve_moments_of<4>(moments, condition_number);
+        default:
+            return solve_moments_of<Eigen::Dynamic>(moments, condition_number);
+    }
+}
+
+Matrix inverse_gram(const Matrix& gram, double* condition_number) {
+    const Vector scale = gram.diagonal().cwiseSqrt().cwiseInverse();
+    const Matrix scaled = scale.asDiagonal() * gram * scale.asDiagonal();
+    const auto [inverse, reciprocal] = solve_by_lu(scaled, Matrix::Identity(scaled.rows(), scaled.cols()));
+    if (condition_number) *condition_number = 1 / reciprocal;
+    return scale.asDiagonal() * inverse * scale.asDiagonal();
+}
+
+Vector reflect_unstable_roots(const VectorView& den, bool* any) {
+    if (any) *any = false;
+    const Index n = den.size() - 1;
+    // Orders one and two need no roots.
+    if (den.allFinite() && n <= 2 && (den.tail(n).array() > 0).all()) return den;
+    ComplexVector poles = roots(den);
+    bool changed = false;
+    for (Complex& pole : poles) {
+        if (pole.real() <= 0) continue;
+        pole = Complex(-pole.real(), pole.imag());
+        changed = true;
+    }
+    if (any) *any = changed;
+    return changed ? polynomial_from_roots(poles) : Vector(den);
+}
+
+Vector filter_denominator(double lambda, Index n) {
+    return power(Eigen::Vector2d(1, lambda), static_cast<int>(n));
+}
+
+}  // namespace dynlab::inline numerics

@@ -1,0 +1,64 @@
+#pragma once
+#include <vector>
+
+#include "numerics/filters/regression_moments.h"
+#include "numerics/models/transfer_structure.h"
+
+namespace dynlab::inline numerics {
+
+/// The channels of a model that share one denominator, with the records they are to explain: the part of the problem
+/// that is one linear regression once the filters are chosen. Its parameters are a contiguous piece of the structure's
+/// theta (fixed delays): [a_1..a_n, b of each channel]. Signals are looked at where they lie; the data must outlive it.
+class DenominatorGroup {
+  public:
+    DenominatorGroup(const IdData& data, const TransferStructure& structure, Index group, Hold hold_y);
+
+    Index order() const { return n_; }
+    Index place() const { return place_; }  ///< of its parameters in theta
+    Index parameter_count() const { return count_; }
+    Index sample_count() const;  ///< over all records
+    /// Another output for record r (experiments of the first output, then of the next) in the place of the measured
+    /// one: what is left for this group to explain.
+    void set_target(std::size_t record, const Vector& y);
+    void set_weight(Index output, double weight);                   ///< of an output's squares; 1 unless set
+    const std::vector<Index>& outputs() const { return outputs_; }  ///< the model's outputs it bears on
+
+    RegressionMoments svf(const VectorView& E, double gain = 1) const;
+    RegressionMoments auxiliary(const VectorView& E, const VectorView& theta, double gain = 1) const;
+    RegressionMoments refined(const VectorView& theta, bool with_gram = false) const;
+    Matrix sensitivity_gram(const VectorView& theta) const;  ///< weighted sum z z' of the refined instruments
+    Vector denominator(const VectorView& theta) const;       ///< theta of the group
+    /// theta with unstable poles mirrored (real part to its negative); tells whether there were any.
+    Vector reflected(const VectorView& theta, bool* any = nullptr) const;
+
+  private:
+    struct Member {
+        RegressionRecord record;
+        std::vector<Index> places;  // in the group's theta, of each value of the record's own theta
+        std::size_t output;         // in outputs_
+    };
+    std::vector<Vector> numerators(const Member& member, const VectorView& theta) const;
+    template <class Moments>
+    RegressionMoments sum_over_records(const Moments& moments_of) const;
+
+    Index n_, place_, count_;
+    std::vector<Member> members_;
+    std::vector<Index> outputs_;
+    std::vector<double> weights_;
+    std::vector<Vector> targets_;
+};
+
+/// theta of z_phi theta = z_y, columns and rows scaled; NaN when it cannot be solved. `condition_number` of the scaled
+/// equations.
+Vector solve_moments(const RegressionMoments& moments, double* condition_number = nullptr);
+
+/// Inverse of a Gram matrix by way of its rows and columns scaled to a diagonal of ones; `condition_number` of that.
+Matrix inverse_gram(const Matrix& gram, double* condition_number = nullptr);
+
+/// The monic polynomial whose roots are those of `den` with positive real parts made negative.
+Vector reflect_unstable_roots(const VectorView& den, bool* any = nullptr);
+
+/// (s + lambda)^n
+Vector filter_denominator(double lambda, Index n);
+
+}  // namespace dynlab::inline numerics

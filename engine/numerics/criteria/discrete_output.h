@@ -1,0 +1,69 @@
+#pragma once
+#include <vector>
+
+#include "numerics/criteria/initial_conditions.h"
+#include "numerics/criteria/output_error_model.h"
+#include "numerics/models/polynomial_model.h"
+
+namespace dynlab::inline numerics {
+
+struct SampledExperiment {
+    Matrix u;  ///< N x inputs
+    Vector y;  ///< N
+};
+
+/// The signal divided by 1 + f_1 q^-1 + ..., with `f` = [f_1 ...], from the zero state.
+Vector all_pole_filter(const VectorView& f, const VectorView& signal);
+
+/// Poles outside the unit circle are mirrored into it: the coefficients f_1 ... of the stable polynomial with equal
+/// magnitude but for a gain. Returns `f` itself when there are none.
+Vector reflect_into_unit_circle(const VectorView& f);
+
+/// The output sum_i B_i/F_i u_i of a discrete-time model in all experiments, one after the other, as a function of
+/// [the parameters of the orders; for each experiment its initial values; for each experiment its offset], for the
+/// output-error search and for the instruments of SRIV. Start conditions: zero: inputs and outputs are zero before the
+/// record; steady: at rest with the first input values; estimate: the unknown past acts through nf initial values for
+/// each input (which drive 1/F_i as pulses do), and the first head() samples, where unrecorded inputs act directly, are
+/// left out of output and target. Exact for any past. Sensitivities are exact: with x = B/F u
+///     dx/df_j = -q^-j/F x,   dx/db_j = q^-j/F u.
+class DiscreteOutput : public OutputErrorModel {
+  public:
+    /// Keeps a reference to the experiments. `orders` hold nb, nf and nk only.
+    DiscreteOutput(const PolynomialOrders& orders, const StartCondition& condition,
+                   const std::vector<SampledExperiment>& experiments);
+
+    Index parameter_count() const override { return lower_.size(); }
+    const Vector& lower() const override { return lower_; }
+    const Vector& upper() const override { return upper_; }
+    void simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const override;
+
+    /// The sensitivities with the measured outputs in the place of the simulated ones, as the regressors of the
+    /// equation F (y/F) = B (u/F): column j of F_i less q^-j/F_i of the errors y - output.
+    void regressors(const Vector& theta, const Matrix& sensitivities, const Vector& errors, Matrix& Phi) const;
+    /// `theta` with every F reflected into the unit circle.
+    Vector stabilised(Vector theta) const;
+
+    Vector target() const;                ///< measured outputs, in the rows of output
+    double target_variation() const;      ///< sum of squares about the mean of each experiment, same rows
+    Index head() const { return head_; }  ///< samples left out of each experiment
+    Index left_out() const;               ///< of all experiments
+    Index offset_place(std::size_t experiment) const;
+    const PolynomialOrders& orders() const { return orders_; }
+    const StartCondition& condition() const { return condition_; }
+    const std::vector<SampledExperiment>& experiments() const { return experiments_; }
+
+  private:
+    bool free_state() const { return condition_.state == InitialState::kEstimate; }
+    bool steady() const { return condition_.state == InitialState::kSteady; }
+    Index rows(const SampledExperiment& experiment) const;
+    Index values_place(std::size_t experiment, std::size_t input) const;
+    Vector channel(const Vector& theta, std::size_t experiment, std::size_t input, Eigen::Ref<Matrix>* part) const;
+
+    PolynomialOrders orders_;
+    StartCondition condition_;
+    const std::vector<SampledExperiment>& experiments_;
+    Index head_ = 0, values_ = 0;  // values_: initial values of one experiment
+    Vector lower_, upper_;
+};
+
+}  // namespace dynlab::inline numerics

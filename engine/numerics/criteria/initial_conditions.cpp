@@ -1,0 +1,111 @@
+#include "numerics/criteria/initial_conditions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "numerics/error.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+bool constant(const MatrixView& u) {
+    return (u.rowwise() - u.row(0)).isZero(0);
+}
+
+struct Changes {
+    Index count = 0, last = 0;  // last: the sample of the last change
+};
+
+Changes changes_of(const VectorView& u) {
+    Changes changes;
+    for (Index k = 1; k < u.size(); ++k) {
+        if (u[k] == u[k - 1]) continue;
+        ++changes.count;
+        changes.last = k;
+    }
+    return changes;
+}
+
+}  // namespace
+
+InitialState parse_initial_state(const std::string& text) {
+    if (text == "zero") return InitialState::kZero;
+    if (text == "steady") return InitialState::kSteady;
+    if (text == "estimate") return InitialState::kEstimate;
+    if (text == "auto") return InitialState::kAuto;
+    throw InvalidArgument("InitialState is \"zero\", \"steady\", \"estimate\" or \"auto\", and not \"" + text + "\"");
+}
+
+Offset parse_offset(const std::string& text) {
+    if (text == "none") return Offset::kNone;
+    if (text == "remove") return Offset::kRemove;
+    if (text == "estimate") return Offset::kEstimate;
+    if (text == "auto") return Offset::kAuto;
+    throw InvalidArgument("Offset is \"none\", \"remove\", \"estimate\" or \"auto\", and not \"" + text + "\"");
+}
+
+JointOperatingPoint joint_operating_point(const MatrixView& u, const VectorView& y) {
+    Index most = 0, first_step = u.rows();
+    for (Index j = 0; j < u.cols(); ++j) {
+        const Changes changes = changes_of(u.col(j));
+        most = std::max(most, changes.count);
+        if (changes.count == 1) first_step = std::min(first_step, changes.last);
+    }
+    if (most == 0) return {Vector::Zero(u.cols()), 0};
+    if (most == 1) return {u.row(0).transpose(), y.head(first_step + 1).mean()};
+    return {u.colwise().mean().transpose(), y.mean()};
+}
+
+OperatingPoint operating_point(const VectorView& u, const VectorView& y) {
+    const JointOperatingPoint joint = joint_operating_point(u, y);
+    return {joint.inputs[0], joint.output};
+}
+
+std::vector<StartCondition> start_conditions(const MatrixView& u, InitialState state, Offset offset) {
+    const bool flat = constant(u), zero_first = u.row(0).isZero(0);
+    if (flat && state == InitialState::kSteady)
+        throw InvalidArgument(
+            "InitialState \"steady\" needs an input that changes, and this one is constant: use \"zero\"");
+    if (flat && state == InitialState::kEstimate && offset == Offset::kEstimate)
+        throw InvalidArgument(
+            "With a constant input, InitialState \"estimate\" and Offset \"estimate\" together leave the gain unknown: "
+            "estimate one of them");
+    std::vector<StartCondition> conditions;
+    const auto add = [&](InitialState candidate, bool with_offset) {
+        const bool free_state = state == InitialState::kAuto;
+        if (!free_state && candidate != state) return;
+        if (with_offset ? (offset == Offset::kNone || offset == Offset::kRemove) : offset == Offset::kEstimate) return;
+        if (candidate == InitialState::kSteady && free_state && (flat || zero_first)) return;
+        if (candidate == InitialState::kEstimate && flat && with_offset) return;
+        conditions.push_back({candidate, with_offset});
+    };
+    for (InitialState candidate : {InitialState::kZero, InitialState::kSteady, InitialState::kEstimate})
+        for (bool with_offset : {false, true}) add(candidate, with_offset);
+    return conditions;
+}
+
+std::string description(const StartCondition& condition) {
+    const std::string tail = condition.offset ? ", with an estimated offset" : "";
+    if (condition.state == InitialState::kZero) return "from rest at zero input" + tail;
+    if (condition.state == InitialState::kSteady) return "from rest at the first input value" + tail;
+    return "from an estimated initial state" + tail;
+}
+
+double bic_of_loss(double mean_square, double output_power, Index samples, Index parameters) {
+    constexpr double kRounding = 1e3 * std::numeric_limits<double>::epsilon();
+    const double least = std::max(kRounding * kRounding * output_power, std::numeric_limits<double>::min());
+    const double N = static_cast<double>(samples);
+    return std::log(std::max(mean_square, least)) + static_cast<double>(parameters) * std::log(N) / N;
+}
+
+void require_transient(const std::string& caller, const StepFit& fit) {
+    const double constant = bic_of_loss(fit.spread, fit.output_power, fit.samples, fit.experiments);
+    if (bic_of_loss(fit.loss, fit.output_power, fit.samples, fit.parameters) < constant) return;
+    throw InvalidArgument(caller +
+                          ": the input never changes and the output shows no transient, so there is no excitation to "
+                          "learn from: let the input vary, for instance as a prbs");
+}
+
+}  // namespace dynlab::inline numerics

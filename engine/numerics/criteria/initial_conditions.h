@@ -1,0 +1,74 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "numerics/linalg/types.h"
+
+namespace dynlab::inline numerics {
+
+/// What a simulated system did before its record begins.
+enum class InitialState {
+    kZero,      ///< "zero": at rest with zero input
+    kSteady,    ///< "steady": at rest with the record's first input value
+    kEstimate,  ///< "estimate": as steady, plus a free motion whose initial values are estimated
+    kAuto,      ///< "auto": whichever of these explains the output best (smallest BIC)
+};
+
+/// A constant that is no answer to the input.
+enum class Offset {
+    kNone,      ///< "none"
+    kRemove,    ///< "remove": input and output are counted from the operating point, see operating_point
+    kEstimate,  ///< "estimate": a constant is added to the model's output and estimated
+    kAuto,      ///< "auto": none or estimate, by BIC
+};
+
+/// Throw InvalidArgument that lists the words.
+InitialState parse_initial_state(const std::string& text);
+Offset parse_offset(const std::string& text);
+
+/// Where a record's signals rest. A step experiment (the input changes once) rests where it was before the step:
+/// the first input value, and the mean output up to the sample of the step. An input that never changes is a
+/// step from zero at the first sample: zero, zero. Any other record swings about its means.
+struct OperatingPoint {
+    double input = 0, output = 0;
+};
+OperatingPoint operating_point(const VectorView& u, const VectorView& y);
+
+/// The same for several inputs (N x nu): a step experiment is one whose inputs change at most once each, and its output
+/// rests up to the first change.
+struct JointOperatingPoint {
+    Vector inputs;  ///< nu
+    double output = 0;
+};
+JointOperatingPoint joint_operating_point(const MatrixView& u, const VectorView& y);
+
+/// One way a model may start: what "auto" chooses among.
+struct StartCondition {
+    InitialState state;  ///< never kAuto
+    bool offset;         ///< a constant is estimated
+};
+
+/// The conditions that the options allow and the inputs (N x nu) can tell apart, with few parameters first: with a
+/// constant input a steady start is no experiment at all, and a free motion with an offset would hide the gain. Throws
+/// InvalidArgument when the options ask for such a one.
+std::vector<StartCondition> start_conditions(const MatrixView& u, InitialState state, Offset offset);
+
+/// "from rest at zero input, with an estimated offset" and the like, for messages.
+std::string description(const StartCondition& condition);
+
+/// ln V + d ln(N)/N for the mean square V, which is counted as no less than rounding leaves of outputs of mean
+/// square `output_power`.
+double bic_of_loss(double mean_square, double output_power, Index samples, Index parameters);
+
+/// A fit to data whose inputs never change: they teach only through the transient after a step at the first sample.
+struct StepFit {
+    double loss;          ///< mean square of its errors
+    double spread;        ///< mean square of the outputs about each experiment's mean
+    double output_power;  ///< mean square of the outputs
+    Index samples, parameters, experiments;
+};
+/// Throws InvalidArgument that begins with `caller` and names the poor excitation when the fit explains the outputs no
+/// better, by BIC, than one constant per experiment does.
+void require_transient(const std::string& caller, const StepFit& fit);
+
+}  // namespace dynlab::inline numerics

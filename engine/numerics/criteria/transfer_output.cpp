@@ -1,0 +1,227 @@
+#include "numerics/criteria/transfer_output.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "numerics/criteria/transfer_sensitivity.h"
+#include "numerics/error.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+constexpr double kFastest = 1e5;  // per time unit: no record tells faster motions from none
+
+std::vector<Index> denominators_of(const TransferStructure& structure, Index output) {
+    std::vector<Index> different;
+    for (Index input = 0; input < structure.inputs; ++input) {
+        const Index denominator = structure.channel(output, input).denominator;
+        if (std::find(different.begin(), different.end(), denominator) == different.end())
+            different.push_back(denominator);
+    }
+    return different;
+}
+
+}  // namespace
+
+struct TransferOutput::Block {
+    const Record& record;
+    Eigen::Ref<Vector> output;
+    Matrix* sensitivities;
+    Index row;
+
+    Eigen::Block<Matrix> columns(Index first, Index count) {
+        return sensitivities->block(row, first, output.size(), count);
+    }
+};
+
+TransferOutput::TransferOutput(const TransferStructure& structure, const StartCondition& condition, const IdData& data,
+                               double least_delay, double largest_delay)
+    : structure_(structure), condition_(condition), hold_(data.hold), time_unit_(data.mean_step()) {
+    if (data.output_count() != structure.outputs || data.input_count() != structure.inputs)
+        throw InvalidArgument("The model has " + std::to_string(structure.inputs) + " input(s) and " +
+                              std::to_string(structure.outputs) + " output(s), and the data have " +
+                              std::to_string(data.input_count()) + " and " + std::to_string(data.output_count()));
+    for (Index output = 0; output < structure.outputs; ++output)
+        denominators_.push_back(denominators_of(structure, output));
+    Index row = 0;
+    for (const Experiment& experiment : data.experiments) {
+        Record record{experiment.u, experiment.y, Vector::Zero(structure.inputs), {}, row};
+        if (condition.state != InitialState::kZero) record.resting = record.u.row(0).transpose();
+        record.u.rowwise() -= record.resting.transpose();
+        if (!data.regular()) record.t = (experiment.t.array() - experiment.t[0]) / time_unit_;
+        row += record.y.size();
+        samples_ += record.y.rows();
+        experiments_.push_back(std::move(record));
+    }
+    weights_ = Vector::Ones(structure.outputs);
+    set_parameter_count();
+    for (Index output = 0; output < structure.outputs; ++output) {
+        for (Index input = 0; input < structure.inputs; ++input) set_channel(output, input, least_delay, largest_delay);
+        for (std::size_t e = 0; e < experiments_.size(); ++e) set_initial_units(e, output);
+    }
+}
+
+void TransferOutput::set_parameter_count() {
+    const Index experiments = static_cast<Index>(experiments_.size());
+    Index count = structure_.parameter_count() + (condition_.offset ? experiments * structure_.outputs : 0);
+    for (Index output = 0; output < structure_.outputs; ++output) count += experiments * initial_count(output);
+    lower_ = Vector::Constant(count, -kInfinity);
+    upper_ = Vector::Constant(count, kInfinity);
+    seconds_ = Vector::Ones(count);
+}
+
+void TransferOutput::set_channel(Index output, Index input, double least_delay, double largest_delay) {
+    const TransferChannel& channel = structure_.channel(output, input);
+    const int n = structure_.poles[static_cast<std::size_t>(channel.denominator)];
+    for (int i = 1; i <= n; ++i) seconds_[structure_.a_place(channel.denominator) + i - 1] = std::pow(time_unit_, -i);
+    for (int j = 0; j <= channel.zeros; ++j)
+        seconds_[structure_.b_place(output, input) + j] = std::pow(time_unit_, channel.zeros - j - n);
+    if (!structure_.free_delays) return;
+    const Index place = structure_.delay_place(output, input);
+    lower_[place] = least_delay / time_unit_;
+    upper_[place] = largest_delay / time_unit_;
+    seconds_[place] = time_unit_;
+}
+
+void TransferOutput::set_initial_units(std::size_t experiment, Index output) {
+    if (condition_.state != InitialState::kEstimate) return;
+    Index place = initial_place(experiment, output);
+    for (const Index denominator : denominators_[static_cast<std::size_t>(output)])
+        for (int j = 0; j < structure_.poles[static_cast<std::size_t>(denominator)]; ++j)
+            seconds_[place++] = std::pow(time_unit_, -j);
+}
+
+Index TransferOutput::initial_count(Index output) const {
+    if (condition_.state != InitialState::kEstimate) return 0;
+    Index count = 0;
+    for (const Index denominator : denominators_[static_cast<std::size_t>(output)])
+        count += structure_.poles[static_cast<std::size_t>(denominator)];
+    return count;
+}
+
+Index TransferOutput::initial_place(std::size_t experiment, Index output) const {
+    Index of_all = 0, before = 0;
+    for (Index o = 0; o < structure_.outputs; ++o) {
+        if (o < output) before += initial_count(o);
+        of_all += initial_count(o);
+    }
+    return structure_.parameter_count() + static_cast<Index>(experiment) * of_all + before;
+}
+
+Index TransferOutput::offset_place(std::size_t experiment, Index output) const {
+    return initial_place(experiments_.size(), 0) + static_cast<Index>(experiment) * structure_.outputs + output;
+}
+
+Index TransferOutput::row(std::size_t experiment, Index output) const {
+    return experiments_[experiment].row + output * rows(experiment);
+}
+
+std::vector<bool> TransferOutput::bears_on(Index output) const {
+    std::vector<bool> bears(static_cast<std::size_t>(parameter_count()), false);
+    const auto mark = [&](Index first, Index count) { std::fill_n(bears.begin() + first, count, true); };
+    for (Index input = 0; input < structure_.inputs; ++input) {
+        const TransferChannel& channel = structure_.channel(output, input);
+        mark(structure_.a_place(channel.denominator), structure_.poles[static_cast<std::size_t>(channel.denominator)]);
+        mark(structure_.b_place(output, input), channel.zeros + 1 + (structure_.free_delays ? 1 : 0));
+    }
+    for (std::size_t e = 0; e < experiments_.size(); ++e) {
+        mark(initial_place(e, output), initial_count(output));
+        if (condition_.offset) mark(offset_place(e, output), 1);
+    }
+    return bears;
+}
+
+void TransferOutput::set_weights(const Vector& weights) {
+    weights_ = weights;
+}
+
+Vector TransferOutput::target() const {
+    Vector y(samples_ * structure_.outputs);
+    for (std::size_t e = 0; e < experiments_.size(); ++e)
+        for (Index output = 0; output < structure_.outputs; ++output)
+            y.segment(row(e, output), rows(e)) = weights_[output] * experiments_[e].y.col(output);
+    return y;
+}
+
+bool TransferOutput::usable(const Vector& theta) const {
+    for (std::size_t d = 0; d < structure_.poles.size(); ++d) {
+        const Index place = structure_.a_place(static_cast<Index>(d));
+        for (int i = 1; i <= structure_.poles[d]; ++i)
+            if (!(std::abs(theta[place + i - 1]) <= std::pow(kFastest, i))) return false;
+    }
+    return true;
+}
+
+void TransferOutput::simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const {
+    output.setZero(samples_ * structure_.outputs);
+    if (sensitivities) sensitivities->setZero(output.size(), parameter_count());
+    if (!usable(theta)) {
+        output.setConstant(kInfinity);
+        return;
+    }
+    for (std::size_t e = 0; e < experiments_.size(); ++e) {
+        for (Index o = 0; o < structure_.outputs; ++o) {
+            Block block{experiments_[e], output.segment(row(e, o), rows(e)), sensitivities, row(e, o)};
+            for (Index input = 0; input < structure_.inputs; ++input) add_channel(theta, o, input, block);
+            if (condition_.state == InitialState::kEstimate) {
+                Index place = initial_place(e, o);
+                for (const Index denominator : denominators_[static_cast<std::size_t>(o)]) {
+                    add_free_motion(theta, denominator, place, block);
+                    place += structure_.poles[static_cast<std::size_t>(denominator)];
+                }
+            }
+            if (condition_.offset) {
+                block.output.array() += theta[offset_place(e, o)];
+                if (sensitivities) block.columns(offset_place(e, o), 1).setOnes();
+            }
+            if (weights_[o] == 1) continue;
+            block.output *= weights_[o];
+            if (sensitivities) block.columns(0, parameter_count()) *= weights_[o];
+        }
+    }
+}
+
+void TransferOutput::add_channel(const Vector& theta, Index output, Index input, Block& block) const {
+    const Vector num = structure_.numerator(theta, output, input), den = structure_.denominator(theta, output, input);
+    const TransferChannel& channel = structure_.channel(output, input);
+    const double delay =
+        structure_.free_delays ? theta[structure_.delay_place(output, input)] : channel.delay / time_unit_;
+    const Index n = den.size() - 1, m = num.size() - 1;
+    const Index a = structure_.a_place(channel.denominator), b = structure_.b_place(output, input);
+    const Vector& t = block.record.t;
+    const auto u = block.record.u.col(input);
+    const double resting = block.record.resting[input], gain = num[m] / den[n];
+    if (resting != 0) block.output.array() += gain * resting;
+    if (!block.sensitivities) {
+        block.output += t.size() == 0 ? transfer_response(num, den, delay, u, 1, hold_)
+                                      : transfer_response(num, den, delay, u, t, hold_);
+        return;
+    }
+    const Matrix all = t.size() == 0 ? transfer_sensitivities(num, den, delay, u, 1, hold_)
+                                     : transfer_sensitivities(num, den, delay, u, t, hold_);
+    block.output += all.col(0);
+    block.columns(a, n) += all.middleCols(1, n);
+    block.columns(b, m + 1) = all.middleCols(n + 1, m + 1);
+    if (structure_.free_delays) block.columns(structure_.delay_place(output, input), 1) = all.rightCols(1);
+    if (resting == 0) return;
+    block.columns(a + n - 1, 1).array() -= gain / den[n] * resting;
+    block.columns(b + m, 1).array() += resting / den[n];
+}
+
+void TransferOutput::add_free_motion(const Vector& theta, Index denominator, Index place, Block& block) const {
+    const Index n = structure_.poles[static_cast<std::size_t>(denominator)], a = structure_.a_place(denominator);
+    Vector den(n + 1);
+    den << 1, theta.segment(a, n);
+    const Vector initial = theta.segment(place, n);
+    const Vector& t = block.record.t;
+    const Index N = block.output.size();
+    const Matrix motions = t.size() == 0 ? free_responses(den, N, 1) : free_responses(den, t);
+    block.output += motions * initial;
+    if (!block.sensitivities) return;
+    block.columns(place, n) = motions;
+    block.columns(a, n) += t.size() == 0 ? free_sensitivities(den, initial, N, 1) : free_sensitivities(den, initial, t);
+}
+
+}  // namespace dynlab::inline numerics

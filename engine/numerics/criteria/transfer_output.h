@@ -1,0 +1,78 @@
+#pragma once
+#include <vector>
+
+#include "numerics/criteria/initial_conditions.h"
+#include "numerics/criteria/output_error_model.h"
+#include "numerics/models/transfer_structure.h"
+#include "numerics/signals/iddata.h"
+
+namespace dynlab::inline numerics {
+
+/// The outputs of a continuous-time model in all experiments as a function of [parameters of the structure; for each
+/// experiment and output the initial values of its free motions, when estimated; for each experiment and output its
+/// offset, when estimated], for the output-error search. The rows are stacked experiment by experiment, in each output
+/// by output. TIMES ARE COUNTED IN time_unit() HERE, the sampling time or the mean step, so that numbers stay near one;
+/// seconds() leads back. Regular and irregular sampling, zoh and foh, any delay, all exact, sensitivities included.
+///
+/// With a start other than zero each channel rests at the first value of its input, so that it adds
+/// B(0)/A(0) u(0) + B/A (u - u(0)); with an estimated state each different denominator of an output adds a free
+/// motion of n initial values (of y, dy/dt, ... in the deviation from rest).
+class TransferOutput : public OutputErrorModel {
+  public:
+    /// `least_delay` and `largest_delay` (s) bound free delays. Throws InvalidArgument when the data have other numbers
+    /// of inputs or outputs than the structure.
+    TransferOutput(const TransferStructure& structure, const StartCondition& condition, const IdData& data,
+                   double least_delay, double largest_delay);
+
+    Index parameter_count() const override { return lower_.size(); }
+    const Vector& lower() const override { return lower_; }
+    const Vector& upper() const override { return upper_; }
+    /// Not finite where a coefficient is beyond all use, instead of failing there.
+    void simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const override;
+
+    /// Multiplies each output's rows, in target() too; ones at first.
+    void set_weights(const Vector& weights);
+    const Vector& weights() const { return weights_; }
+    Vector target() const;  ///< the measured outputs, weighted
+
+    double time_unit() const { return time_unit_; }     ///< s
+    const Vector& seconds() const { return seconds_; }  ///< factors that bring each parameter back to seconds
+    Index linear_count() const { return parameter_count() - structure_.parameter_count(); }
+    Index sample_count() const { return samples_; }  ///< over all experiments, of each output
+
+    std::size_t experiment_count() const { return experiments_.size(); }
+    Index row(std::size_t experiment, Index output) const;  ///< the first of its N
+    Index rows(std::size_t experiment) const { return experiments_[experiment].y.rows(); }
+    /// Where an output's initial values of one experiment lie among the parameters, and how many they are.
+    Index initial_place(std::size_t experiment, Index output) const;
+    Index initial_count(Index output) const;
+    Index offset_place(std::size_t experiment, Index output) const;  ///< with estimated offsets only
+    /// Which parameters the rows of an output depend on.
+    std::vector<bool> bears_on(Index output) const;
+
+  private:
+    struct Record {
+        Matrix u, y;     // the inputs counted from where they rest
+        Vector resting;  // first inputs, or zeros
+        Vector t;        // in time units; empty with regular sampling
+        Index row = 0;   // the first of its stacked rows
+    };
+    struct Block;  // the rows of one output in one experiment
+    void set_parameter_count();
+    void set_channel(Index output, Index input, double least_delay, double largest_delay);
+    void set_initial_units(std::size_t experiment, Index output);
+    bool usable(const Vector& theta) const;
+    void add_channel(const Vector& theta, Index output, Index input, Block& block) const;
+    void add_free_motion(const Vector& theta, Index denominator, Index place, Block& block) const;
+
+    TransferStructure structure_;
+    StartCondition condition_;
+    Hold hold_;
+    double time_unit_ = 1;
+    std::vector<Record> experiments_;
+    std::vector<std::vector<Index>> denominators_;  // the different ones of each output
+    Index samples_ = 0;
+    Vector lower_, upper_, seconds_, weights_;
+};
+
+}  // namespace dynlab::inline numerics

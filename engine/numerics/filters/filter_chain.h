@@ -1,0 +1,53 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "numerics/filters/filter_moments.h"
+#include "numerics/filters/sensitivity_system.h"
+#include "numerics/signals/iddata.h"
+
+namespace dynlab::inline numerics {
+
+using SampleView = Eigen::Map<const Vector>;  ///< samples that somebody else owns
+
+/// When the samples of a record were taken: every Ts seconds, or (Ts = 0) at the instants t.
+struct Sampling {
+    double Ts = 0;
+    SampleView t{nullptr, 0};
+};
+
+/// A model in front of a filter, sampled in between: its first output becomes the filter's input.
+struct FrontModel {
+    SingleInputSystem system;
+    Hold hold = Hold::kZoh;  ///< of the signal
+    double delay = 0;        ///< s
+};
+
+/// A signal and the continuous-time filter it runs through, whose outputs are looked at.
+struct FilterChain {
+    SampleView signal;
+    SingleInputSystem filter;
+    Hold hold = Hold::kZoh;  ///< of what enters the filter
+    double delay = 0;        ///< s, before the filter; 0 with a front model, which has its own
+    std::optional<FrontModel> front = {};
+};
+
+/// The filter whose outputs are the derivatives p^highest ... p^0 of the signal, divided by the monic `den` of degree
+/// n >= highest (the n-th by identity).
+SingleInputSystem derivatives_filter(const VectorView& den, Index highest);
+
+/// M(i, j) = sum over all samples of output_left[i] output_right[j], the outputs of all chains numbered through in
+/// order and after them the sums, all filters at rest at the first sample: exactly, regularly sampled records without
+/// storing any output (filter_moments.h), irregular ones by IrregularFilter.
+Matrix chain_moments(const std::vector<FilterChain>& chains, const Sampling& sampling, const std::vector<Index>& left,
+                     const std::vector<Index>& right, const std::vector<OutputSum>& sums = {});
+
+/// The outputs of one chain themselves, N x p.
+Matrix chain_outputs(const FilterChain& chain, const Sampling& sampling);
+
+/// B/A as a system; A monic, B of no higher degree.
+SingleInputSystem transfer_system(const VectorView& B, const VectorView& A);
+/// A signal as it is: a filter with the output 1 u and no state.
+SingleInputSystem no_filter();
+
+}  // namespace dynlab::inline numerics

@@ -1,0 +1,185 @@
+#include "numerics/filters/regression_moments.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "numerics/filters/two_pole_moments.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+constexpr Index kStoredSamples = 50'000;  // so few outputs are stored: quicker for short records
+
+/// The chains of one record, their outputs numbered through, and which of them stand for what.
+class Equation {
+  public:
+    Equation(const RegressionRecord& record, Index n) : record_(record), n_(n) {}
+
+    /// Outputs first, first + 1, ... of a new chain.
+    Index add(FilterChain chain) {
+        const Index first = outputs_;
+        outputs_ += chain.filter.C.rows();
+        chains_.push_back(std::move(chain));
+        return first;
+    }
+    /// p^n y_f ... y_f.
+    void add_output(const VectorView& filter) { y_ = add({record_.y, derivatives_filter(filter, n_), record_.hold_y}); }
+    void add_inputs(const VectorView& filter) {
+        for (std::size_t j = 0; j < record_.u.size(); ++j) {
+            const Index m = record_.zeros[j];
+            set_input(add({record_.u[j], derivatives_filter(filter, m), record_.hold, record_.delays[j]}), m);
+        }
+    }
+    /// The derivatives of input j begin at this output.
+    void set_input(Index first, Index m) {
+        for (Index l = 0; l <= m; ++l) inputs_.push_back(first + l);
+    }
+
+    Index parameters() const { return n_ + static_cast<Index>(inputs_.size()); }
+    const std::vector<Index>& inputs() const { return inputs_; }
+
+    /// phi and p^n y_f; the first n of them still lack their sign.
+    std::vector<Index> right() const {
+        std::vector<Index> outputs(static_cast<std::size_t>(n_));
+        std::iota(outputs.begin(), outputs.end(), y_ + 1);
+        outputs.insert(outputs.end(), inputs_.begin(), inputs_.end());
+        outputs.push_back(y_);
+        return outputs;
+    }
+    Matrix moments(const std::vector<Index>& left, const std::vector<Index>& right) const {
+        return chain_moments(chains_, record_.sampling, left, right, sums_);
+    }
+    /// Outputs for the n first instruments: sums over the inputs, where there are several. `firsts` are the places
+    /// where the n outputs of each input begin.
+    std::vector<Index> summed_over_inputs(const std::vector<Index>& firsts) {
+        std::vector<Index> places;
+        for (Index i = 0; i < n_; ++i) {
+            if (firsts.size() == 1) {
+                places.push_back(firsts[0] + i);
+                continue;
+            }
+            OutputSum sum;
+            for (const Index first : firsts) sum.terms.push_back({first + i, 1});
+            places.push_back(outputs_ + static_cast<Index>(sums_.size()));
+            sums_.push_back(std::move(sum));
+        }
+        return places;
+    }
+    /// sum z [phi' p^n y_f] for z = sign (n first) and input derivatives; and sum z z' in the same run when wanted.
+    RegressionMoments with_instruments(const std::vector<Index>& z, double sign, bool with_gram) const {
+        std::vector<Index> columns = right();
+        if (with_gram) columns.insert(columns.end(), z.begin(), z.end());
+        Matrix all = moments(z, columns);
+        const Index d = parameters();
+        all.leftCols(n_) *= -1;
+        all.topRows(n_) *= sign;
+        if (with_gram) all.middleCols(d + 1, n_) *= sign;
+        return {all.leftCols(d), all.col(d), with_gram ? Matrix(all.rightCols(d)) : Matrix(), 0};
+    }
+
+  private:
+    const RegressionRecord& record_;
+    Index n_, outputs_ = 0, y_ = 0;
+    std::vector<FilterChain> chains_;
+    std::vector<Index> inputs_;
+    std::vector<OutputSum> sums_;
+};
+
+}  // namespace
+
+RegressionMoments svf_moments(const RegressionRecord& record, const VectorView& E, double gain) {
+    if (auto moments = two_pole_svf_moments(record, E, gain)) return *std::move(moments);
+    const Index n = E.size() - 1;
+    Equation equation(record, n);
+    equation.add_output(E);
+    equation.add_inputs(E);
+    const std::vector<Index> columns = equation.right();
+    Matrix all = gain * gain * equation.moments(columns, columns);
+    const Index d = equation.parameters();
+    all.leftCols(n) *= -1;
+    all.topRows(n) *= -1;
+    return {all.topLeftCorner(d, d), all.col(d).head(d), all.topLeftCorner(d, d), all(d, d)};
+}
+
+RegressionMoments auxiliary_moments(const RegressionRecord& record, const VectorView& E, const VectorView& A,
+                                    const std::vector<Vector>& B, double gain) {
+    if (auto moments = two_pole_auxiliary_moments(record, E, A, B[0], gain)) return *std::move(moments);
+    const Index n = E.size() - 1;
+    Equation equation(record, n);
+    equation.add_output(E);
+    equation.add_inputs(E);
+    std::vector<Index> firsts;
+    for (std::size_t j = 0; j < record.u.size(); ++j) {
+        FilterChain chain{record.u[j], derivatives_filter(E, n - 1), record.hold_y};
+        chain.front = FrontModel{transfer_system(B[j], A), record.hold, record.delays[j]};
+        firsts.push_back(equation.add(std::move(chain)));
+    }
+    std::vector<Index> z = equation.summed_over_inputs(firsts);
+    z.insert(z.end(), equation.inputs().begin(), equation.inputs().end());
+    const RegressionMoments sums = equation.with_instruments(z, -1, true);
+    return {gain * gain * sums.z_phi, gain * gain * sums.z_y, gain * gain * sums.z_z, 0};
+}
+
+namespace {
+
+/// The outputs for SRIVC's z, of chains that this adds.
+std::vector<Index> add_sensitivities(Equation& equation, const RegressionRecord& record, const VectorView& A,
+                                     const std::vector<Vector>& B) {
+    const Index n = A.size() - 1;
+    std::vector<Index> firsts;
+    for (std::size_t j = 0; j < record.u.size(); ++j) {
+        SingleInputSystem system = sensitivity_system(B[j], A);
+        const Index m = B[j].size() - 1;
+        system.C = system.C.middleRows(1, n + m + 1).eval();
+        system.D = system.D.segment(1, n + m + 1).eval();
+        firsts.push_back(equation.add({record.u[j], std::move(system), record.hold, record.delays[j]}));
+        equation.set_input(firsts.back() + n, m);
+    }
+    std::vector<Index> z = equation.summed_over_inputs(firsts);
+    z.insert(z.end(), equation.inputs().begin(), equation.inputs().end());
+    return z;
+}
+
+}  // namespace
+
+RegressionMoments refined_moments(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B,
+                                  bool with_gram) {
+    if (auto moments = two_pole_refined_moments(record, A, B[0], with_gram)) return *std::move(moments);
+    Equation equation(record, A.size() - 1);
+    equation.add_output(A);
+    const std::vector<Index> z = add_sensitivities(equation, record, A, B);
+    return equation.with_instruments(z, 1, with_gram);
+}
+
+Matrix sensitivity_moments(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B) {
+    Equation equation(record, A.size() - 1);
+    const std::vector<Index> z = add_sensitivities(equation, record, A, B);
+    return equation.moments(z, z);
+}
+
+double output_error_squares(const RegressionRecord& record, const std::vector<Vector>& A,
+                            const std::vector<Vector>& B) {
+    std::vector<FilterChain> chains{{record.y, no_filter(), record.hold_y}};
+    for (std::size_t j = 0; j < record.u.size(); ++j)
+        chains.push_back({record.u[j], transfer_system(B[j], A[j]), record.hold, record.delays[j]});
+    if (record.sampling.Ts > 0 && chains.size() == 2) {
+        // The quickest, where enough digits are left: nearly noise-free data go the long way.
+        constexpr double kLeft = 1e-4;
+        const std::optional<Eigen::Matrix2d> own = two_pole_output_moments(record, A[0], B[0]);
+        const Matrix sums = own ? Matrix(*own) : chain_moments(chains, record.sampling, {0, 1}, {0, 1});
+        const double squares = sums(0, 0) - 2 * sums(0, 1) + sums(1, 1);
+        if (squares > kLeft * std::max(sums(0, 0), sums(1, 1))) return squares;
+    }
+    if (record.sampling.Ts > 0 && record.y.size() <= kStoredSamples) {
+        Vector error = record.y;
+        for (std::size_t j = 1; j < chains.size(); ++j) error -= chain_outputs(chains[j], record.sampling).col(0);
+        return error.squaredNorm();
+    }
+    OutputSum error{{{0, 1}}};
+    for (std::size_t j = 1; j < chains.size(); ++j) error.terms.push_back({static_cast<Index>(j), -1});
+    const Index place = static_cast<Index>(chains.size());
+    return chain_moments(chains, record.sampling, {place}, {place}, {error})(0, 0);
+}
+
+}  // namespace dynlab::inline numerics

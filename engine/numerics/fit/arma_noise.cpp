@@ -1,0 +1,191 @@
+#include "numerics/fit/arma_noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "numerics/error.h"
+#include "numerics/fit/output_error.h"
+#include "numerics/linalg/least_squares.h"
+#include "numerics/linalg/polynomial.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+constexpr double kLargestRoot = 0.98;  // of a start whose root lies on the unit circle
+
+/// w/C of one signal, from rest.
+void divide(const Vector& C, Eigen::Ref<Vector> w) {
+    for (Index k = 1; k < w.size(); ++k)
+        for (Index j = 1; j < std::min(C.size(), k + 1); ++j) w[k] -= C[j] * w[k - j];
+}
+
+/// x late by `lag` samples, zero up to the sample `first`.
+Vector lagged(const Vector& x, Index lag, Index first) {
+    Vector late = Vector::Zero(x.size());
+    const Index from = std::max(lag, first);
+    if (from < x.size()) late.tail(x.size() - from) = x.segment(from - lag, x.size() - from);
+    return late;
+}
+
+/// The one-step prediction of v as a function of [c d], for the output-error search: v minus it is e.
+class Prediction : public OutputErrorModel {
+  public:
+    Prediction(const std::vector<Vector>& records, int nc, int nd)
+        : records_(records),
+          nc_(nc),
+          nd_(nd),
+          lower_(Vector::Constant(nc + nd, -std::numeric_limits<double>::infinity())),
+          upper_(-lower_) {
+        for (const Vector& record : records) samples_ += record.size();
+    }
+
+    Index parameter_count() const override { return lower_.size(); }
+    const Vector& lower() const override { return lower_; }
+    const Vector& upper() const override { return upper_; }
+
+    ArmaNoise noise(const Vector& theta) const {
+        ArmaNoise noise;
+        noise.C = monic(theta.head(nc_));
+        noise.D = monic(theta.tail(nd_));
+        return noise;
+    }
+
+    void simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const override {
+        output = Vector::Constant(samples_, std::numeric_limits<double>::quiet_NaN());
+        if (sensitivities != nullptr) *sensitivities = Matrix::Zero(samples_, theta.size());
+        if (!theta.allFinite()) return;
+        const ArmaNoise at = noise(theta);
+        if (!inside_unit_circle(at.C) || !inside_unit_circle(at.D)) return;
+        Index row = 0;
+        for (const Vector& v : records_) {
+            const Vector e = whitened(at, v);
+            output.segment(row, v.size()) = v - e;
+            if (sensitivities != nullptr) sensitivities->middleRows(row, v.size()) = noise_sensitivities(at, v, e);
+            row += v.size();
+        }
+    }
+
+  private:
+    const std::vector<Vector>& records_;
+    Index nc_, nd_, samples_ = 0;
+    Vector lower_, upper_;
+};
+
+/// Regression of v(k) on its own past (`nd` lags) and that of e (`nc` lags), from sample `first` of each record on.
+Vector regress(const std::vector<Vector>& v, const std::vector<Vector>& e, Index nc, Index nd, Index first) {
+    Index rows = 0;
+    for (const Vector& record : v) rows += std::max<Index>(0, record.size() - first);
+    if (rows <= nc + nd)
+        throw InvalidArgument("the noise model needs longer records: " + std::to_string(nc + nd + 1) +
+                              " samples are wanted after the first " + std::to_string(first) + " of each, and " +
+                              std::to_string(rows) + " are left");
+    Matrix Phi(rows, nc + nd);
+    Vector target(rows);
+    Index row = 0;
+    for (std::size_t r = 0; r < v.size(); ++r) {
+        const Index N = v[r].size() - first;
+        if (N <= 0) continue;
+        for (Index j = 1; j <= nc; ++j) Phi.col(j - 1).segment(row, N) = e[r].segment(first - j, N);
+        for (Index i = 1; i <= nd; ++i) Phi.col(nc + i - 1).segment(row, N) = -v[r].segment(first - i, N);
+        target.segment(row, N) = v[r].tail(N);
+        row += N;
+    }
+    return solve_least_squares(Phi, target).solution;
+}
+
+/// Hannan and Rissanen: e from a long autoregression, then v on the past of both.
+Vector regression_start(const std::vector<Vector>& records, Index nc, Index nd) {
+    std::vector<Vector> e = records;
+    Index first = nd;
+    if (nc > 0) {
+        Index longest = 0;
+        for (const Vector& record : records) longest = std::max(longest, record.size());
+        const Index wanted = std::max<Index>(2 * (nc + nd), static_cast<Index>(10 * std::log10(longest)));
+        const Index order = std::min(wanted, longest / 4);
+        ArmaNoise autoregression = ArmaNoise::white(0, static_cast<int>(order));
+        autoregression.D = monic(regress(records, records, 0, order, order));
+        for (std::size_t r = 0; r < records.size(); ++r) e[r] = whitened(autoregression, records[r]);
+        first = std::max(nd, order + nc);
+    }
+    Vector theta = regress(records, e, nc, nd, first);
+    theta.head(nc) = mirrored_inside(monic(theta.head(nc))).tail(nc);
+    theta.tail(nd) = mirrored_inside(monic(theta.tail(nd))).tail(nd);
+    return theta;
+}
+
+}  // namespace
+
+bool inside_unit_circle(const Vector& p) {
+    return p.size() == 1 || roots(p).cwiseAbs().maxCoeff() < 1;
+}
+
+Vector mirrored_inside(const Vector& p) {
+    if (inside_unit_circle(p)) return p;
+    ComplexVector z = roots(p);
+    for (Complex& root : z) {
+        if (std::abs(root) > 1) root = 1.0 / std::conj(root);
+        if (std::abs(root) > kLargestRoot) root *= kLargestRoot / std::abs(root);
+    }
+    return polynomial_from_roots(z);
+}
+
+ArmaNoise ArmaNoise::white(int nc, int nd) {
+    return {Vector::Unit(nc + 1, 0), Vector::Unit(nd + 1, 0), Matrix::Zero(nc + nd, nc + nd), 0,
+            Termination::kConverged};
+}
+
+Matrix whitened(const ArmaNoise& noise, const MatrixView& v) {
+    const Index N = v.rows(), nd = noise.D.size() - 1;
+    Matrix e = Matrix::Zero(N, v.cols());
+    if (N <= nd) return e;
+    for (Index column = 0; column < v.cols(); ++column) {
+        for (Index i = 0; i <= nd; ++i)
+            e.col(column).tail(N - nd) += noise.D[i] * v.col(column).segment(nd - i, N - nd);
+        divide(noise.C, e.col(column));
+    }
+    return e;
+}
+
+Matrix noise_sensitivities(const ArmaNoise& noise, const VectorView& v, const VectorView& e) {
+    const Index nc = noise.C.size() - 1, nd = noise.D.size() - 1;
+    Matrix J(v.size(), nc + nd);
+    for (Index j = 1; j <= nc; ++j) J.col(j - 1) = lagged(e, j, nd);
+    for (Index i = 1; i <= nd; ++i) J.col(nc + i - 1) = -lagged(v, i, nd);
+    for (Index i = 0; i < J.cols(); ++i) divide(noise.C, J.col(i));
+    return J;
+}
+
+ArmaNoise estimate_arma(const std::vector<Vector>& records, int nc, int nd, double tolerance, const ArmaNoise* start) {
+    if (nc < 0 || nd < 0) throw InvalidArgument("nc and nd, the orders of the noise model, must not be negative");
+    double squares = 0;
+    Index used = 0;
+    Vector v(0);
+    for (const Vector& record : records) {
+        used += std::max<Index>(0, record.size() - nd);
+        v.conservativeResize(v.size() + record.size());
+        v.tail(record.size()) = record;
+    }
+    ArmaNoise noise = ArmaNoise::white(nc, nd);
+    OutputErrorSolution solution;
+    if (nc + nd > 0) {
+        const Prediction prediction(records, nc, nd);
+        Vector first(nc + nd);
+        if (start != nullptr)
+            first << start->C.tail(nc), start->D.tail(nd);
+        else
+            first = regression_start(records, nc, nd);
+        solution = minimise_output_error(prediction, v, first, {100, tolerance, {}});
+        noise = prediction.noise(solution.theta);
+        noise.termination = solution.termination;
+    }
+    for (const Vector& record : records) squares += whitened(noise, record).squaredNorm();
+    noise.variance = squares / static_cast<double>(used - nc - nd);
+    noise.covariance = Matrix::Zero(nc + nd, nc + nd);
+    if (nc + nd > 0 && solution.noise_variance > 0)
+        noise.covariance = noise.variance / solution.noise_variance * solution.covariance;
+    return noise;
+}
+
+}  // namespace dynlab::inline numerics

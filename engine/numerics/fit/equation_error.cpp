@@ -1,0 +1,93 @@
+#include "numerics/fit/equation_error.h"
+
+#include <algorithm>
+
+#include "numerics/error.h"
+#include "numerics/linalg/least_squares.h"
+#include "numerics/number_text.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+constexpr double kPoorCondition = 1e8;  // beyond it a poor input may be the reason
+
+void require_rich_inputs(const std::string& method, const MatrixView& R, const PolynomialOrders& orders,
+                         const IdData& data) {
+    for (std::size_t input = 0; input < orders.inputs(); ++input) {
+        const Matrix columns = R.middleCols(orders.b_place(input), orders.nb[input]);
+        if (solve_least_squares(columns, Vector::Zero(R.rows())).condition_number < kAmbiguousCondition) continue;
+        throw InvalidArgument(
+            method + ": the input " + data.input_names[input] +
+            " is too poor to tell nb = " + std::to_string(orders.nb[input]) +
+            " coefficients apart (as a constant or a single sine is): excite the system with an input "
+            "that changes more, or lower nb");
+    }
+}
+
+struct Sums {
+    double variation = 0, prediction_error = 0, simulation_error = 0;
+};
+
+Sums sums_of_squares(const IdData& data, const ArxEquations& equations, const PolynomialEstimate& estimate) {
+    Sums sums;
+    for (const Vector& errors : equations.errors(estimate.theta)) sums.prediction_error += errors.squaredNorm();
+    for (const Experiment& experiment : data.experiments) {
+        const Index past = estimate.orders.past(), rows = experiment.y.rows() - past;
+        if (rows <= 0) continue;
+        const auto y = experiment.y.col(0).tail(rows);
+        const Vector simulated = free_run(estimate.model.A.tail(estimate.orders.na),
+                                          driven_part(estimate.model, experiment.u), experiment.y.col(0), past);
+        sums.variation += (y.array() - y.mean()).matrix().squaredNorm();
+        sums.simulation_error += (simulated.tail(rows) - y).squaredNorm();
+    }
+    return sums;
+}
+
+}  // namespace
+
+void check_equation_error(const std::string& method, const IdData& data, const PolynomialOrders& orders) {
+    orders.validate();
+    if (orders.nc + orders.nd > 0 || std::any_of(orders.nf.begin(), orders.nf.end(), [](int nf) { return nf > 0; }))
+        throw InvalidArgument(method + " has the orders na, nb and nk only: nc, nd and nf must be zero");
+    check_polynomial_data(method, data, orders);
+    const Index d = orders.parameter_count(), equations = ArxEquations(data, orders).count();
+    if (equations > d) return;
+    throw InvalidArgument(method + " needs more equations than its " + std::to_string(d) +
+                          " parameters, and the record gives " + std::to_string(equations) + ": of its " +
+                          std::to_string(data.sample_count()) + " samples the first " + std::to_string(orders.past()) +
+                          " of each experiment are needed as the past");
+}
+
+ArxSolution solve_rich_arx(const std::string& method, const IdData& data, const PolynomialOrders& orders) {
+    const ArxEquations equations(data, orders);
+    ArxSolution solution = solve_arx(equations);
+    if (!(solution.condition_number < kPoorCondition))
+        require_rich_inputs(method, equations.triangular_factor(), orders, data);
+    return solution;
+}
+
+void report_equation_error(PolynomialEstimate& estimate, const IdData& data) {
+    const ArxEquations equations(data, estimate.orders);
+    const Index count = equations.count(), d = estimate.theta.size();
+    const Sums sums = sums_of_squares(data, equations, estimate);
+    estimate.loss = sums.prediction_error / static_cast<double>(count);
+    estimate.noise_variance = sums.prediction_error / static_cast<double>(count - d);
+    estimate.fit_percent = fit_percent_of_sums(sums.simulation_error, sums.variation);
+    estimate.prediction_fit_percent = fit_percent_of_sums(sums.prediction_error, sums.variation);
+    estimate.start = {InitialState::kEstimate, false};
+    estimate.offsets = Vector::Zero(static_cast<Index>(data.experiments.size()));
+}
+
+void describe_equation_error(PolynomialEstimate& estimate, const std::string& how, Index equations) {
+    estimate.std = estimate.covariance.diagonal().cwiseMax(0).cwiseSqrt();
+    warn_of_doubtful_parameters(estimate);
+    if (!estimate.model.noise_model().stable())
+        estimate.warnings.push_back("The model is unstable, so its simulation grows without bound.");
+    estimate.message = how + " over " + std::to_string(equations) + " equations: fit " +
+                       number_text(estimate.prediction_fit_percent, 4) + " % predicting one step, " +
+                       number_text(estimate.fit_percent, 4) + " % simulating from the recorded past.";
+    for (const std::string& warning : estimate.warnings) estimate.message += ' ' + warning;
+}
+
+}  // namespace dynlab::inline numerics

@@ -1,0 +1,25 @@
+#pragma once
+#include <string>
+
+#include "numerics/criteria/arx_equations.h"
+#include "numerics/fit/polynomial_estimate.h"
+
+namespace dynlab::inline numerics {
+
+/// What the methods for A y = B u + e that solve its equations, arx and iv4, have in common. `method` begins messages.
+
+/// Throws InvalidArgument for data check_polynomial_data() refuses, orders other than na, nb and nk, and no more
+/// equations than parameters.
+void check_equation_error(const std::string& method, const IdData& data, const PolynomialOrders& orders);
+
+/// Least squares. Throws InvalidArgument for an input too poor to tell the coefficients of its B apart.
+ArxSolution solve_rich_arx(const std::string& method, const IdData& data, const PolynomialOrders& orders);
+
+/// Fills loss, noise variance, fits and offsets from the errors of the equations and a simulation that begins with the
+/// recorded past of the first sample.
+void report_equation_error(PolynomialEstimate& estimate, const IdData& data);
+
+/// Standard errors from the covariance, warnings and message, whose first words are `how`.
+void describe_equation_error(PolynomialEstimate& estimate, const std::string& how, Index equations);
+
+}  // namespace dynlab::inline numerics

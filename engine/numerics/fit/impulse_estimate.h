@@ -1,0 +1,32 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "numerics/linalg/types.h"
+
+namespace dynlab::inline numerics {
+
+/// Impulse response g_0 .. g_n of y(k) = sum_i g_i u(k - i) + noise; its sum is the static gain (once it has died out),
+/// g_i/Ts approximates the continuous impulse response.
+struct ImpulseEstimate {
+    Vector t;         ///< lags i Ts
+    Vector response;  ///< g_i
+    Vector std;       ///< standard errors
+    Vector null_std;  ///< what they would be if g were zero: a band around zero that only a real response leaves
+    double noise_variance = 0;
+    std::optional<Index> first;  ///< lag of the first response that is no chance
+    std::string message;
+    std::vector<std::string> warnings;
+};
+
+/// Finds the first lag that together with the next lies beyond `half_width` of its null_std on the same side, and
+/// completes the message by what it says of the dead time: a held input needs one lag to act, so the dead time is about
+/// first - 1 samples.
+void read_dead_time(ImpulseEstimate& estimate, double Ts, double half_width);
+
+/// `lags` when positive, else the smaller of 70 and a fifth of the shortest record. Throws InvalidArgument, beginning
+/// with `caller`, when three times as many samples as lags are not there.
+Index lags_or_default(const std::string& caller, Index lags, Index shortest);
+
+}  // namespace dynlab::inline numerics

@@ -1,0 +1,41 @@
+#include "numerics/fit/integrated_input.h"
+
+#include "numerics/error.h"
+#include "numerics/linalg/polynomial.h"
+
+namespace dynlab::inline numerics {
+
+IdData integrated_inputs(const IdData& data) {
+    if (data.hold != Hold::kZoh)
+        throw InvalidArgument(
+            "Integration needs a held input (InterSample zoh), whose integral runs on straight lines");
+    IdData integrated = data;
+    integrated.hold = Hold::kFoh;
+    for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+        const Matrix& u = data.experiments[e].u;
+        const Vector t = data.regular() ? Vector() : data.time(e);
+        Matrix& sum = integrated.experiments[e].u;
+        sum.setZero();
+        for (Index k = 1; k < u.rows(); ++k)
+            sum.row(k) = sum.row(k - 1) + (data.regular() ? data.Ts : t[k] - t[k - 1]) * u.row(k - 1);
+    }
+    return integrated;
+}
+
+void append_integrator(TransferEstimate& estimate) {
+    const TransferFunction integrator(Vector::Ones(1), Vector::Unit(2, 0));
+    for (TransferFunction& G : estimate.models) G = G * integrator;
+}
+
+IdData summed_inputs(const IdData& data) {
+    IdData summed = data;
+    for (Experiment& experiment : summed.experiments)
+        for (Index k = 1; k < experiment.u.rows(); ++k) experiment.u.row(k) += experiment.u.row(k - 1);
+    return summed;
+}
+
+void append_integrator(PolynomialEstimate& estimate) {
+    for (Vector& F : estimate.model.F) F = multiply(F, Eigen::Vector2d(1, -1));
+}
+
+}  // namespace dynlab::inline numerics

@@ -1,0 +1,196 @@
+#include "numerics/fit/output_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "numerics/error.h"
+#include "numerics/linalg/decompositions.h"
+#include "numerics/linalg/least_squares.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+constexpr int kRoughIterations = 15;
+constexpr double kRoughTolerance = 1e-3;
+constexpr double kFirstDamping = 1e-3, kLeastDamping = 1e-14, kLargestDamping = 1e12;
+
+class Search {
+  public:
+    Search(const OutputErrorModel& model, const VectorView& y, const OutputErrorOptions& options)
+        : model_(model), y_(y), options_(options) {
+        spread_ = (y.array() - y.mean()).matrix().norm();
+        if (spread_ == 0) spread_ = y.norm();
+        rounding_ = std::pow(std::numeric_limits<double>::epsilon() * y.norm(), 2);
+    }
+
+    OutputErrorSolution run(const Vector& start) {
+        theta_ = start.cwiseMax(model_.lower()).cwiseMin(model_.upper());
+        evaluate_here();
+        Termination termination = Termination::kIterationLimit;
+        for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
+            if (options_.cancel && options_.cancel()) {
+                termination = Termination::kCancelled;
+                break;
+            }
+            const double change = improve();
+            if (change < 0) {
+                termination = Termination::kNoProgress;
+                break;
+            }
+            trace_.push_back({square_sum_ / samples(), used_damping_, change, theta_});
+            if (change <= options_.tolerance) {
+                termination = Termination::kConverged;
+                break;
+            }
+        }
+        return solution(termination);
+    }
+
+  private:
+    double samples() const { return static_cast<double>(y_.size()); }
+
+    void evaluate_here() {
+        model_.simulate(theta_, output_, &sensitivities_);
+        residuals_ = y_ - output_;
+        square_sum_ = residuals_.squaredNorm();
+        scale_ = sensitivities_.colwise().norm().transpose();
+        for (double& value : scale_)
+            if (!(value > 0)) value = 1;
+        const auto scaling = scale_.cwiseInverse().asDiagonal();
+        gram_ = scaling * (sensitivities_.transpose() * sensitivities_) * scaling;
+        descent_ = scaling * (sensitivities_.transpose() * residuals_);
+        hold_at_bounds();
+    }
+
+    void hold_at_bounds() {
+        held_.assign(static_cast<std::size_t>(theta_.size()), false);
+        for (Index i = 0; i < theta_.size(); ++i) {
+            const bool outwards = (theta_[i] <= model_.lower()[i] && descent_[i] < 0) ||
+                                  (theta_[i] >= model_.upper()[i] && descent_[i] > 0);
+            held_[static_cast<std::size_t>(i)] = outwards;
+        }
+    }
+
+    // The damped Gauss-Newton point, cut back to the bounds.
+    Vector candidate() const {
+        Matrix system = gram_;
+        Vector right = descent_;
+        system.diagonal().array() += damping_;
+        for (Index i = 0; i < theta_.size(); ++i) {
+            if (!held_[static_cast<std::size_t>(i)]) continue;
+            system.row(i).setZero();
+            system.col(i).setZero();
+            system(i, i) = 1;
+            right[i] = 0;
+        }
+        const Vector step = solve_semidefinite(system, right).cwiseQuotient(scale_);
+        return (theta_ + step).cwiseMax(model_.lower()).cwiseMin(model_.upper());
+    }
+
+    double relative_change(const Vector& next) const {
+        const Vector size = theta_.cwiseAbs() + spread_ * scale_.cwiseInverse();
+        return (next - theta_).cwiseAbs().cwiseQuotient(size).maxCoeff();
+    }
+
+    // One accepted step; returns the largest relative change, or -1 when no damping helps.
+    double improve() {
+        Vector output;
+        while (damping_ <= kLargestDamping) {
+            const Vector next = candidate();
+            const double change = relative_change(next);
+            used_damping_ = damping_;
+            if (next.allFinite()) {
+                model_.simulate(next, output, nullptr);
+                const double square_sum = (y_ - output).squaredNorm();
+                // Close to the solution the decrease drowns in rounding, and the step is right all the same.
+                if (square_sum <= square_sum_ * (1 + 1e-12) + rounding_) {
+                    theta_ = next;
+                    evaluate_here();
+                    damping_ = std::max(kLeastDamping, damping_ / 10);
+                    return change;
+                }
+                if (change <= 1e-3 * options_.tolerance) return change;
+            }
+            damping_ = std::max(kFirstDamping, damping_ * 8);
+        }
+        return -1;
+    }
+
+    OutputErrorSolution solution(Termination termination) const {
+        OutputErrorSolution result;
+        const Index count = theta_.size();
+        std::vector<Index> free;
+        for (Index i = 0; i < count; ++i)
+            if (!held_[static_cast<std::size_t>(i)]) free.push_back(i);
+        result.theta = theta_;
+        result.at_bound = held_;
+        result.output = output_;
+        result.loss = square_sum_ / samples();
+        result.noise_variance = square_sum_ / (samples() - static_cast<double>(free.size()));
+        result.covariance = Matrix::Zero(count, count);
+        if (!free.empty() && sensitivities_.allFinite()) {
+            const LeastSquares fit = solve_least_squares(sensitivities_(Eigen::all, free), residuals_);
+            result.covariance(free, free) = result.noise_variance * fit.inverse_gram;
+            result.condition_number = fit.condition_number;
+        }
+        result.termination = termination;
+        result.trace = trace_;
+        return result;
+    }
+
+    const OutputErrorModel& model_;
+    const VectorView& y_;
+    const OutputErrorOptions& options_;
+    double spread_ = 0, rounding_ = 0, square_sum_ = 0, damping_ = kFirstDamping, used_damping_ = 0;
+    Vector theta_, output_, residuals_, scale_, descent_;
+    Matrix sensitivities_, gram_;
+    std::vector<bool> held_;
+    std::vector<OutputErrorIteration> trace_;
+};
+
+}  // namespace
+
+void OutputErrorOptions::validate() const {
+    std::ostringstream text;
+    if (max_iterations < 0)
+        text << "MaxIter must not be negative, and is " << max_iterations;
+    else if (!(tolerance > 0) || !std::isfinite(tolerance))
+        text << "Tol must be positive, and is " << tolerance;
+    else
+        return;
+    throw InvalidArgument(text.str());
+}
+
+OutputErrorSolution minimise_output_error(const OutputErrorModel& model, const VectorView& y, const Vector& start,
+                                          const OutputErrorOptions& options) {
+    options.validate();
+    const Index count = model.parameter_count();
+    std::ostringstream text;
+    if (start.size() != count)
+        text << "The search needs " << count << " start values, and " << start.size() << " were given";
+    else if (y.size() <= count)
+        text << "The record holds " << y.size() << " samples, and more than " << count
+             << " are needed for as many parameters";
+    else
+        return Search(model, y, options).run(start);
+    throw InvalidArgument(text.str());
+}
+
+OutputErrorSolution minimise_output_error(const OutputErrorModel& model, const VectorView& y,
+                                          const std::vector<Vector>& starts, const OutputErrorOptions& options) {
+    const OutputErrorOptions rough{std::min(kRoughIterations, options.max_iterations),
+                                   std::max(kRoughTolerance, options.tolerance), options.cancel};
+    OutputErrorSolution best = minimise_output_error(model, y, starts.front(), rough);
+    for (std::size_t i = 1; i < starts.size() && best.termination != Termination::kCancelled; ++i) {
+        OutputErrorSolution other = minimise_output_error(model, y, starts[i], rough);
+        if (other.loss < (1 - kRoughTolerance) * best.loss) best = std::move(other);
+    }
+    OutputErrorSolution end = minimise_output_error(model, y, best.theta, options);
+    end.trace.insert(end.trace.begin(), best.trace.begin(), best.trace.end());
+    return end;
+}
+
+}  // namespace dynlab::inline numerics

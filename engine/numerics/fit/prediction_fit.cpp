@@ -1,0 +1,97 @@
+#include "numerics/fit/prediction_fit.h"
+
+#include "numerics/error.h"
+#include "numerics/fit/output_error.h"
+#include "numerics/number_text.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+constexpr double kPredictionRounding = 1e-24;  // of the output's mean square: smaller errors hold no noise
+
+/// Sum of squares about the mean of each experiment.
+double variation_of(const Vector& y, const std::vector<Index>& lengths) {
+    double sum = 0;
+    Index first = 0;
+    for (const Index length : lengths) {
+        if (length == 0) continue;
+        const auto part = y.segment(first, length);
+        sum += (part.array() - part.mean()).square().sum();
+        first += length;
+    }
+    return sum;
+}
+
+void add_warnings(PolynomialEstimate& estimate, const PolynomialOptions& options) {
+    warn_of_termination(estimate, options.MaxIter);
+    warn_of_doubtful_parameters(estimate);
+    bool stable = true;
+    for (std::size_t input = 0; input < estimate.orders.inputs(); ++input)
+        stable = stable && estimate.model.transfer_function(input).stable();
+    if (!stable) estimate.warnings.push_back("The model has a pole outside or on the unit circle.");
+}
+
+std::string message_of(const PolynomialEstimate& estimate) {
+    std::string text = ending_text(estimate) + ": fit " + number_text(estimate.prediction_fit_percent, 4) +
+                       " % predicting one step, " + number_text(estimate.fit_percent, 4) + " % simulating.";
+    for (const std::string& warning : estimate.warnings) text += ' ' + warning;
+    return text;
+}
+
+}  // namespace
+
+double output_power(const IdData& data) {
+    double squares = 0;
+    for (const Experiment& experiment : data.experiments) squares += experiment.y.squaredNorm();
+    return squares / static_cast<double>(data.sample_count() * data.output_count());
+}
+
+ArmaNoise start_noise(const std::vector<Vector>& errors, int nc, int nd, double output_power) {
+    double squares = 0;
+    Index count = 0;
+    for (const Vector& record : errors) {
+        squares += record.squaredNorm();
+        count += record.size();
+    }
+    if (squares <= kPredictionRounding * output_power * static_cast<double>(count)) return ArmaNoise::white(nc, nd);
+    return estimate_arma(errors, nc, nd, 1e-3);
+}
+
+PolynomialEstimate fit_prediction(const std::string& method, const PredictionModel& model, const StartCondition& start,
+                                  double Ts, const std::vector<Vector>& starts, const Vector& removed_outputs,
+                                  const PolynomialOptions& options) {
+    const Vector y = model.target();
+    if (y.size() <= model.parameter_count())
+        throw InvalidArgument(method + " needs more samples than the " + std::to_string(model.parameter_count()) +
+                              " values it estimates, and the record leaves " + std::to_string(y.size()) +
+                              " after those without a recorded past");
+    std::vector<Vector> complete;
+    for (const Vector& values : starts) complete.push_back(model.completed(values));
+    const OutputErrorSolution solution =
+        minimise_output_error(model, y, complete, {options.MaxIter, options.Tol, options.cancel});
+
+    const Index d = model.orders().parameter_count();
+    PolynomialEstimate estimate(model.orders(), solution.theta.head(d), Ts);
+    const double variation = variation_of(y, model.lengths()), N = static_cast<double>(y.size());
+    estimate.loss = solution.loss;
+    estimate.noise_variance = solution.noise_variance;
+    estimate.prediction_fit_percent = fit_percent_of_sums(N * solution.loss, variation);
+    estimate.fit_percent = fit_percent_of_sums((y - model.simulated(solution.theta)).squaredNorm(), variation);
+    estimate.covariance = solution.covariance.topLeftCorner(d, d);
+    estimate.std = estimate.covariance.diagonal().cwiseMax(0).cwiseSqrt();
+    estimate.condition_number = solution.condition_number;
+    estimate.start = start;
+    estimate.offsets = removed_outputs;
+    if (start.offset)
+        for (Index e = 0; e < removed_outputs.size(); ++e)
+            estimate.offsets[e] += solution.theta[model.offset_place(static_cast<std::size_t>(e))];
+    estimate.termination = solution.termination;
+    for (const OutputErrorIteration& iteration : solution.trace)
+        estimate.trace.push_back({iteration.loss, iteration.change});
+    add_warnings(estimate, options);
+    estimate.message = message_of(estimate);
+    return estimate;
+}
+
+}  // namespace dynlab::inline numerics

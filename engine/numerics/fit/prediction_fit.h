@@ -1,0 +1,25 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "numerics/fit/polynomial_estimate.h"
+#include "numerics/fit/prediction_model.h"
+
+namespace dynlab::inline numerics {
+
+/// What armax and bj have in common: minimises the prediction error from the `starts` (values of the orders'
+/// parameters; each is followed a little way, the best to the end) by damped Gauss-Newton with exact sensitivities, and
+/// describes the result. `removed_outputs` stands in `offsets`. Throws InvalidArgument, which begins with `method`,
+/// when there are no more samples than values to estimate.
+PolynomialEstimate fit_prediction(const std::string& method, const PredictionModel& model, const StartCondition& start,
+                                  double Ts, const std::vector<Vector>& starts, const Vector& removed_outputs,
+                                  const PolynomialOptions& options);
+
+/// The noise model of the errors of a first model, for a start; white when they are nothing but rounding against
+/// outputs of mean square `output_power`.
+ArmaNoise start_noise(const std::vector<Vector>& errors, int nc, int nd, double output_power);
+
+/// Mean square of all outputs.
+double output_power(const IdData& data);
+
+}  // namespace dynlab::inline numerics

@@ -1,0 +1,315 @@
+#include "numerics/fit/process_start.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "numerics/criteria/transfer_sensitivity.h"
+#include "numerics/linalg/decompositions.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+constexpr Index kRows = 800;
+constexpr std::size_t kStarts = 4;
+
+struct GridPoint {
+    std::size_t shape, shift;  // positions on the two grids
+    double loss;
+};
+
+std::vector<double> logarithmic_grid(double from, double to, double ratio) {
+    std::vector<double> grid;
+    for (double value = from; value < to * ratio; value *= ratio) grid.push_back(value);
+    return grid;
+}
+
+std::vector<Vector> real_lags(int count, const std::vector<double>& times) {
+    std::vector<Vector> all = {Vector()};
+    for (int pole = 0; pole < count; ++pole) {
+        std::vector<Vector> longer;
+        for (const Vector& shape : all)
+            for (const double T : times) {
+                if (pole > 0 && T > shape[pole - 1]) continue;
+                longer.push_back(Vector(pole + 1));
+                longer.back() << shape, T;
+            }
+        all = std::move(longer);
+    }
+    return all;
+}
+
+// Everything between gain and zero: {T1, T2, T3} in falling order, or {T3, Tw, Zeta}.
+std::vector<Vector> shapes(const ProcessStructure& structure, Index N) {
+    constexpr double kFastest = 1.0 / 3;
+    const double slowest = 3 * static_cast<double>(N);
+    constexpr double kRatios[] = {1.5, 2, 2.5};  // the more time constants, the fewer of each
+    const double ratio = kRatios[structure.poles - 1];
+    if (!structure.underdamped) return real_lags(structure.poles, logarithmic_grid(kFastest, slowest, ratio));
+    std::vector<Vector> all;
+    const bool alone = structure.poles == 2;
+    for (const Vector& lag : real_lags(structure.poles - 2, logarithmic_grid(kFastest, slowest, 4)))
+        for (const double T : logarithmic_grid(kFastest, slowest, alone ? 1.25 : 1.5))
+            for (const double zeta : {0.05, 0.2, 0.5, 1.0}) {
+                all.push_back(Vector(lag.size() + 2));
+                all.back() << lag, T, zeta;
+            }
+    return all;
+}
+
+// Whole samples to add to the least delay.
+std::vector<Index> delay_shifts(const ProcessOutput& model, int count) {
+    if (!model.structure().delay) return {0};
+    const Index last = model.model_parameters() - 1;
+    const double range = std::floor(model.upper()[last] - model.lower()[last] + 1e-9);
+    const double spacing = std::max(1.0, std::ceil(range / std::max(1, count - 1)));
+    std::vector<Index> shifts;
+    for (double shift = 0; shift <= range; shift += spacing) shifts.push_back(static_cast<Index>(shift));
+    return shifts;
+}
+
+// What B/A alone makes of the input, seen at any delay, and the free motions: as they are with regular sampling and
+// whole samples, otherwise on a fine even grid, the input held or drawn between its samples, and interpolated.
+class Responses {
+  public:
+    Responses(const ProcessInput& input, const Vector& den, const std::vector<Vector>& nums, double least_delay) {
+        regular_ = input.t.size() == 0;
+        const Vector u = regular_ ? input.u : even_input(input);
+        columns_.resize(u.size(), static_cast<Index>(nums.size()));
+        for (std::size_t i = 0; i < nums.size(); ++i)
+            columns_.col(static_cast<Index>(i)) =
+                transfer_response(nums[i], den, regular_ ? least_delay : 0, u, regular_ ? 1 : kFineStep, input.hold);
+        if (!regular_) later_ = least_delay;
+    }
+
+    // The motions from unit values of y, dy/dt, ... at the rows 0, stride, ...
+    static Matrix motions(const ProcessInput& input, const Vector& den, Index stride) {
+        const auto chosen = Eigen::seq(0, input.u.size() - 1, stride);
+        if (input.t.size() == 0) return free_responses(den, input.u.size(), 1)(chosen, Eigen::all);
+        const Matrix even = free_responses(den, even_count(input), kFineStep);
+        const Vector t = input.t(chosen);
+        Matrix rows(t.size(), even.cols());
+        for (Index j = 0; j < even.cols(); ++j)
+            for (Index i = 0; i < t.size(); ++i) rows(i, j) = interpolated(even.col(j), t[i]);
+        return rows;
+    }
+
+    // The rows 0, stride, 2 stride, ... for `shift` samples more than the least delay.
+    void rows(Index column, Index stride, const Vector& t, Index shift, Eigen::Ref<Vector> out) const {
+        if (regular_) {
+            using Thinned = Eigen::Map<const Vector, 0, Eigen::InnerStride<>>;
+            const Index silent = std::min(out.size(), (shift + stride - 1) / stride), rest = out.size() - silent;
+            out.head(silent).setZero();
+            const double* first = columns_.col(column).data() + silent * stride - shift;
+            if (rest > 0) out.tail(rest) = Thinned(first, rest, Eigen::InnerStride<>(stride));
+            return;
+        }
+        for (Index i = 0; i < out.size(); ++i)
+            out[i] = interpolated(columns_.col(column), t[i * stride] - later_ - static_cast<double>(shift));
+    }
+
+  private:
+    static constexpr double kFineStep = 0.25;  // of the mean step
+
+    static Index even_count(const ProcessInput& input) {
+        return static_cast<Index>(std::ceil(input.t[input.t.size() - 1] / kFineStep)) + 2;
+    }
+
+    static Vector even_input(const ProcessInput& input) {
+        const Index N = input.u.size(), count = even_count(input);
+        Vector u(count);
+        Index now = 0;
+        for (Index i = 0; i < count; ++i) {
+            const double time = static_cast<double>(i) * kFineStep;
+            while (now + 1 < N && input.t[now + 1] <= time) ++now;
+            u[i] = input.u[now];
+            if (input.hold == Hold::kFoh && now + 1 < N)
+                u[i] += (time - input.t[now]) / (input.t[now + 1] - input.t[now]) * (input.u[now + 1] - input.u[now]);
+        }
+        return u;
+    }
+
+    static double interpolated(const VectorView& even, double time) {
+        if (time < 0) return 0;
+        const double position = time / kFineStep;
+        const Index left = std::min(static_cast<Index>(position), even.size() - 2);
+        const double fraction = position - static_cast<double>(left);
+        return even[left] + fraction * (even[left + 1] - even[left]);
+    }
+
+    bool regular_ = true;
+    double later_ = 0;
+    Matrix columns_;
+};
+
+// The part of the problem that is linear once a shape is chosen: gain (and gain times Tz), initial values, offset.
+// Least squares on evenly chosen rows, where only the gain's columns change with the delay.
+class LinearPart {
+  public:
+    LinearPart(const ProcessOutput& model, const VectorView& y, const Vector& shape)
+        : model_(model), shape_(shape), gains_(model.structure().zero ? 2 : 1) {
+        stride_ = (y.size() + kRows - 1) / kRows;
+        Index rows = 0;
+        for (std::size_t e = 0; e < model.experiment_count(); ++e) {
+            first_rows_.push_back(rows);
+            rows += (model.rows(e) + stride_ - 1) / stride_;
+        }
+        first_rows_.push_back(rows);
+        rest_ = Matrix::Zero(rows, model.parameter_count() - model.model_parameters() + 1);
+        varying_.resize(rows, gains_);
+        set_responses();
+        for (std::size_t e = 0; e < model.experiment_count(); ++e) set_rest(e, y);
+        const Index count = gains_ + rest_.cols() - 1;
+        gram_ = Matrix::Zero(count, count);
+        moment_ = Vector::Zero(count);
+        const Matrix products = rest_.transpose() * rest_;
+        gram_.bottomRightCorner(fixed(), fixed()) = products.topLeftCorner(fixed(), fixed());
+        moment_.tail(fixed()) = products.col(fixed()).head(fixed());
+        power_ = products(fixed(), fixed());
+    }
+
+    // Solves for a delay of `shift` samples more than the least one; returns the mean square error.
+    double solve(Index shift) {
+        set_gain_columns(shift);
+        Vector scale = gram_.diagonal().cwiseSqrt();
+        for (double& value : scale)
+            if (!(value > 0)) value = 1;
+        Matrix scaled = scale.cwiseInverse().asDiagonal() * gram_ * scale.cwiseInverse().asDiagonal();
+        scaled.diagonal().array() += 1e-12;  // keeps columns that look alike from cancelling each other at any size
+        solution_ = solve_semidefinite(scaled, moment_.cwiseQuotient(scale)).cwiseQuotient(scale);
+        const double squares = power_ - 2 * moment_.dot(solution_) + solution_.dot(gram_ * solution_);
+        return std::max(0.0, squares) / static_cast<double>(rest_.rows());
+    }
+
+    // All parameters of the model as the last solve found them.
+    Vector theta(Index shift) const {
+        Vector theta = theta_at(shift);
+        theta[0] = solution_[0];
+        if (gains_ == 2 && solution_[0] != 0) theta[zero_place()] = solution_[1] / solution_[0];
+        theta.tail(fixed()) = solution_.tail(fixed());
+        return theta.cwiseMax(model_.lower()).cwiseMin(model_.upper());
+    }
+
+  private:
+    Index fixed() const { return rest_.cols() - 1; }
+    Index row_count(std::size_t experiment) const { return first_rows_[experiment + 1] - first_rows_[experiment]; }
+    Index zero_place() const { return model_.model_parameters() - 1 - (model_.structure().delay ? 1 : 0); }
+
+    Vector theta_at(Index shift) const {
+        Vector theta = Vector::Zero(model_.parameter_count());
+        theta[0] = 1;
+        theta.segment(1, shape_.size()) = shape_;
+        const Index last = model_.model_parameters() - 1;
+        if (model_.structure().delay) theta[last] = model_.lower()[last] + static_cast<double>(shift);
+        return theta;
+    }
+
+    ProcessCoefficients coefficients() const {
+        return process_coefficients(model_.structure(), theta_at(0).head(model_.model_parameters()));
+    }
+
+    // For unit gain; with a zero also the derivative of that response.
+    void set_responses() {
+        const ProcessCoefficients c = coefficients();
+        const double g = c.num.tail(1)[0];
+        std::vector<Vector> nums = {Vector{{g}}};
+        if (gains_ == 2) nums.push_back(Vector{{g, 0.0}});
+        for (std::size_t e = 0; e < model_.experiment_count(); ++e)
+            responses_.emplace_back(model_.input(e), c.den, nums, c.delay);
+    }
+
+    // The chosen rows of what does not change with the delay: free motions and constants, and y.
+    void set_rest(std::size_t experiment, const VectorView& y) {
+        const auto chosen = Eigen::seq(0, model_.rows(experiment) - 1, stride_);
+        auto own = rest_.middleRows(first_rows_[experiment], row_count(experiment));
+        const Index before = model_.model_parameters(), values = model_.initial_values();
+        if (values > 0)
+            own.middleCols(model_.initial_place(experiment) - before, values) =
+                Responses::motions(model_.input(experiment), coefficients().den, stride_);
+        if (model_.has_offset()) own.col(model_.offset_place(experiment) - before).setOnes();
+        own.col(fixed()) = y.segment(model_.row(experiment), model_.rows(experiment))(chosen);
+    }
+
+    void set_gain_columns(Index shift) {
+        for (std::size_t e = 0; e < responses_.size(); ++e)
+            for (Index column = 0; column < gains_; ++column) {
+                auto own = varying_.col(column).segment(first_rows_[e], row_count(e));
+                responses_[e].rows(column, stride_, model_.input(e).t, shift, own);
+                if (column == 0) own.array() += model_.resting_input(e);
+            }
+        for (Index column = 0; column < gains_; ++column) {
+            const Vector products = rest_.transpose() * varying_.col(column);
+            gram_.col(column).tail(fixed()) = products.head(fixed());
+            gram_.row(column).tail(fixed()) = products.head(fixed()).transpose();
+            moment_[column] = products[fixed()];
+            for (Index other = 0; other <= column; ++other)
+                gram_(column, other) = gram_(other, column) = varying_.col(column).dot(varying_.col(other));
+        }
+    }
+
+    const ProcessOutput& model_;
+    Vector shape_;
+    Index gains_, stride_ = 1;
+    std::vector<Responses> responses_;
+    std::vector<Index> first_rows_;  // of the chosen ones of each experiment, and their number
+    Matrix rest_, gram_, varying_;
+    Vector moment_, solution_;
+    double power_ = 0;
+};
+
+bool alike(const Vector& a, const Vector& b) {
+    for (Index i = 0; i < a.size(); ++i)
+        if (std::abs(std::log(a[i] / b[i])) > std::log(2.5)) return false;
+    return true;
+}
+
+// The best points that differ in their shape or by more than two steps of the delay's grid.
+std::vector<GridPoint> best_that_differ(std::vector<GridPoint> points, const std::vector<Vector>& shapes) {
+    std::sort(points.begin(), points.end(), [](const GridPoint& a, const GridPoint& b) { return a.loss < b.loss; });
+    std::vector<GridPoint> chosen;
+    for (const GridPoint& point : points) {
+        if (chosen.size() == kStarts) break;
+        const auto close = [&](const GridPoint& other) {
+            const std::size_t apart = std::max(point.shift, other.shift) - std::min(point.shift, other.shift);
+            return apart <= 2 && alike(shapes[point.shape], shapes[other.shape]);
+        };
+        if (std::none_of(chosen.begin(), chosen.end(), close)) chosen.push_back(point);
+    }
+    return chosen;
+}
+
+}  // namespace
+
+ProcessScan scan_process_grid(const ProcessOutput& model, const VectorView& y, int delay_count) {
+    const std::vector<Vector> all_shapes = shapes(model.structure(), model.longest());
+    const std::vector<Index> shifts = delay_shifts(model, delay_count);
+    Vector losses = Vector::Constant(static_cast<Index>(shifts.size()), std::numeric_limits<double>::infinity());
+    std::vector<GridPoint> points;
+    points.reserve(all_shapes.size() * shifts.size());
+    for (std::size_t shape = 0; shape < all_shapes.size(); ++shape) {
+        LinearPart linear(model, y, all_shapes[shape]);
+        for (std::size_t i = 0; i < shifts.size(); ++i) {
+            const double loss = linear.solve(shifts[i]);
+            if (!std::isfinite(loss)) continue;
+            double& best = losses[static_cast<Index>(i)];
+            best = std::min(best, loss);
+            points.push_back({shape, i, loss});
+        }
+    }
+    ProcessScan scan;
+    for (const GridPoint& point : best_that_differ(std::move(points), all_shapes)) {
+        LinearPart linear(model, y, all_shapes[point.shape]);
+        linear.solve(shifts[point.shift]);
+        scan.starts.push_back(linear.theta(shifts[point.shift]));
+    }
+    if (!model.structure().delay) return scan;
+    const double least_delay = model.lower()[model.model_parameters() - 1];
+    scan.losses = losses;
+    scan.delays.resize(losses.size());
+    for (Index i = 0; i < losses.size(); ++i)
+        scan.delays[i] = least_delay + static_cast<double>(shifts[static_cast<std::size_t>(i)]);
+    return scan;
+}
+
+}  // namespace dynlab::inline numerics

@@ -1,0 +1,283 @@
+#include "numerics/fit/refined_iteration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "numerics/error.h"
+#include "numerics/fit/simulation_report.h"
+#include "numerics/simulation/lsim.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+constexpr int kCutoffs = 8;       // frequencies that find_start tries
+constexpr int kTrialPasses = 4;   // passes after each of them
+constexpr int kMostHalvings = 3;  // of a pass that raises the loss
+constexpr double kHardlyGained = 0.7;
+constexpr double kQuickest = 0.05;  // of a change is trusted to be left after a pass, however little the last one left
+
+Vector simulate(const IdData& data, const Experiment& experiment, const TransferFunction& G, Index input) {
+    const auto u = experiment.u.col(input);
+    return data.regular() ? lsim(G, u, data.Ts, data.hold) : lsim(G, u, experiment.t, data.hold);
+}
+
+/// All denominator groups of a model, and what one leaves for the other to explain.
+class Groups {
+  public:
+    Groups(const IdData& data, const TransferStructure& structure, const RefinedOptions& options)
+        : data_(data), structure_(structure), with_gram_(options.with_gram) {
+        if (with_gram_) gram_ = Matrix::Zero(structure.parameter_count(), structure.parameter_count());
+        for (std::size_t g = 0; g < structure.poles.size(); ++g) {
+            groups_.emplace_back(data, structure, static_cast<Index>(g), options.hold_y);
+            for (Index output = 0; output < options.weights.size(); ++output)
+                groups_.back().set_weight(output, options.weights[output]);
+        }
+        for (Index output = 0; output < structure.outputs; ++output)
+            for (Index input = 1; input < structure.inputs; ++input)
+                shared_outputs_ = shared_outputs_ || structure.channel(output, input).denominator !=
+                                                         structure.channel(output, 0).denominator;
+    }
+
+    /// One pass over all groups, before poles are mirrored.
+    Vector pass(Vector theta) {
+        Vector next = theta;
+        for (std::size_t g = 0; g < groups_.size(); ++g) {
+            DenominatorGroup& group = groups_[g];
+            if (shared_outputs_) set_targets(g, theta);
+            const Vector own = theta.segment(group.place(), group.parameter_count());
+            const RegressionMoments sums = group.refined(own, with_gram_);
+            if (with_gram_) gram_.block(group.place(), group.place(), own.size(), own.size()) = sums.z_z;
+            const Vector solved = solve_moments(sums);
+            next.segment(group.place(), group.parameter_count()) = solved;
+            if (solved.allFinite()) theta.segment(group.place(), group.parameter_count()) = group.reflected(solved);
+        }
+        return next;
+    }
+
+    const Matrix& gram() const { return gram_; }
+
+    Vector mirrored(Vector theta, bool& any) const {
+        for (const DenominatorGroup& group : groups_) {
+            bool here = false;
+            auto own = theta.segment(group.place(), group.parameter_count());
+            own = group.reflected(own, &here);
+            any = any || here;
+        }
+        return theta;
+    }
+
+  private:
+    void set_targets(std::size_t g, const Vector& theta) {
+        std::size_t record = 0;
+        for (const Index output : groups_[g].outputs())
+            for (const Experiment& experiment : data_.experiments) {
+                Vector rest = experiment.y.col(output);
+                for (Index input = 0; input < structure_.inputs; ++input) {
+                    if (structure_.channel(output, input).denominator == static_cast<Index>(g)) continue;
+                    const TransferFunction G(structure_.numerator(theta, output, input),
+                                             structure_.denominator(theta, output, input), 0,
+                                             structure_.channel(output, input).delay);
+                    rest -= simulate(data_, experiment, G, input);
+                }
+                groups_[g].set_target(record++, rest);
+            }
+    }
+
+    const IdData& data_;
+    const TransferStructure& structure_;
+    std::vector<DenominatorGroup> groups_;
+    bool shared_outputs_ = false, with_gram_;
+    Matrix gram_;
+};
+
+double largest_change(const Vector& next, const Vector& theta) {
+    double change = 0;
+    for (Index i = 0; i < theta.size(); ++i)
+        if (next[i] != theta[i]) change = std::max(change, std::abs((next[i] - theta[i]) / next[i]));
+    return change;
+}
+
+/// How far the passes still are from where they lead: the changes shrink by a factor that hardly varies.
+double change_to_come(double change, double last_change) {
+    const double factor = std::max(kQuickest, change / last_change);
+    return factor < kHardlyGained ? change * factor / (1 - factor) : kInfinity;
+}
+
+double longest_record(const IdData& data) {
+    double longest = 0;
+    for (std::size_t e = 0; e < data.experiments.size(); ++e) longest = std::max(longest, data.duration(e));
+    return longest;
+}
+
+/// Part of the data with one output, one input and this output signal in each experiment.
+IdData single_channel(const IdData& data, const std::vector<Vector>& outputs, Index input) {
+    IdData part = data.select({1}, {input + 1});
+    for (std::size_t e = 0; e < outputs.size(); ++e) part.experiments[e].y = outputs[e];
+    return part;
+}
+
+/// Channels with denominators of their own at one output: each fitted to its share of a common model.
+void start_channels(const IdData& data, const TransferStructure& structure, Index output, double lambda, Hold hold_y,
+                    Vector& theta) {
+    constexpr int kMostCommonPoles = 8;
+    int order = 0, zeros = 0;
+    std::vector<double> delays;
+    for (Index input = 0; input < structure.inputs; ++input) {
+        const TransferChannel& channel = structure.channel(output, input);
+        order += structure.poles[static_cast<std::size_t>(channel.denominator)];
+        delays.push_back(channel.delay);
+    }
+    order = std::min(order, kMostCommonPoles);
+    zeros = order - 1;
+    const TransferStructure common =
+        TransferStructure::grid(1, structure.inputs, Denominators::kCommon, {order}, {zeros}, delays);
+    std::vector<Index> inputs;
+    for (Index input = 0; input < structure.inputs; ++input) inputs.push_back(input + 1);
+    const IdData of_output = data.select({output + 1}, inputs);
+    const Vector joint = filtered_start(of_output, common, lambda, hold_y);
+    for (Index input = 0; input < structure.inputs; ++input) {
+        const TransferChannel& channel = structure.channel(output, input);
+        const int n = structure.poles[static_cast<std::size_t>(channel.denominator)];
+        const Index a = structure.a_place(channel.denominator), b = structure.b_place(output, input);
+        Vector own = Vector::Constant(n + channel.zeros + 1, std::numeric_limits<double>::quiet_NaN());
+        if (joint.allFinite()) {
+            const TransferFunction share = common.models(joint)[static_cast<std::size_t>(input)];
+            std::vector<Vector> shares;
+            for (const Experiment& experiment : data.experiments)
+                shares.push_back(simulate(data, experiment, share, input));
+            own = filtered_start(single_channel(of_output, shares, input),
+                                 TransferStructure::single(n, channel.zeros, channel.delay), lambda, hold_y);
+        }
+        theta.segment(a, n) = own.head(n);
+        theta.segment(b, channel.zeros + 1) = own.tail(channel.zeros + 1);
+    }
+}
+
+bool shares_denominators(const TransferStructure& structure, Index output) {
+    for (Index input = 1; input < structure.inputs; ++input)
+        if (structure.channel(output, input).denominator != structure.channel(output, 0).denominator) return false;
+    return true;
+}
+
+}  // namespace
+
+IdData beginning_of(const IdData& data, Index most_samples) {
+    IdData part;
+    part.Ts = data.Ts;
+    part.hold = data.hold;
+    part.input_names = data.input_names;
+    part.output_names = data.output_names;
+    part.input_units = data.input_units;
+    part.output_units = data.output_units;
+    for (const Experiment& experiment : data.experiments) {
+        const Index N = std::min(most_samples, experiment.y.rows());
+        Experiment beginning;
+        beginning.y = experiment.y.topRows(N);
+        beginning.u = experiment.u.topRows(N);
+        if (experiment.t.size() > 0) beginning.t = experiment.t.head(N);
+        part.experiments.push_back(std::move(beginning));
+    }
+    return part;
+}
+
+double simulation_loss(const IdData& data, const TransferStructure& structure, const VectorView& theta) {
+    if (!theta.allFinite()) return kInfinity;
+    double squares = 0;
+    for (Index output = 0; output < structure.outputs; ++output)
+        squares += simulation_squares(data, structure, theta, output);
+    const double loss = squares / static_cast<double>(data.sample_count() * structure.outputs);
+    return std::isfinite(loss) ? loss : kInfinity;
+}
+
+RefinedSolution iterate_refined(const IdData& data, const TransferStructure& structure, const Vector& start,
+                                const RefinedOptions& options) {
+    Groups groups(data, structure, options);
+    RefinedSolution solution;
+    solution.theta = start;
+    double last_change = kInfinity;
+    for (int pass = 0; pass < options.max_iterations; ++pass) {
+        if (options.cancel && options.cancel()) {
+            solution.termination = Termination::kCancelled;
+            break;
+        }
+        const Vector found = groups.pass(solution.theta);
+        if (!found.allFinite()) {
+            solution.termination = Termination::kNoProgress;
+            break;
+        }
+        const double change = largest_change(found, solution.theta);
+        Vector next = groups.mirrored(found, solution.mirrored);
+        const bool settled =
+            change <= options.tolerance || (pass > 0 && change_to_come(change, last_change) <= options.tolerance);
+        if (!settled && change > kHardlyGained * last_change) {
+            const double loss = simulation_loss(data, structure, solution.theta);
+            for (int i = 0; i < kMostHalvings && simulation_loss(data, structure, next) > loss; ++i)
+                next = groups.mirrored(0.5 * (next + solution.theta), solution.mirrored);
+        }
+        last_change = change;
+        solution.theta = next;
+        solution.trace.push_back({next, std::numeric_limits<double>::quiet_NaN(), change});
+        if (settled) {
+            solution.termination = Termination::kConverged;
+            solution.gram = groups.gram();
+            return solution;
+        }
+    }
+    double best = simulation_loss(data, structure, solution.theta);
+    for (const TransferIteration& iteration : solution.trace) {
+        const double loss = simulation_loss(data, structure, iteration.theta);
+        if (loss < best) {
+            best = loss;
+            solution.theta = iteration.theta;
+        }
+    }
+    return solution;
+}
+
+Vector filtered_start(const IdData& data, const TransferStructure& structure, double lambda, Hold hold_y) {
+    Vector theta = Vector::Zero(structure.parameter_count());
+    for (std::size_t g = 0; g < structure.poles.size(); ++g) {
+        const DenominatorGroup group(data, structure, static_cast<Index>(g), hold_y);
+        const bool whole = std::all_of(group.outputs().begin(), group.outputs().end(),
+                                       [&](Index output) { return shares_denominators(structure, output); });
+        if (!whole) continue;
+        const Vector own = solve_moments(group.svf(filter_denominator(lambda, group.order())));
+        theta.segment(group.place(), group.parameter_count()) = own.allFinite() ? group.reflected(own) : own;
+    }
+    for (Index output = 0; output < structure.outputs; ++output)
+        if (!shares_denominators(structure, output)) start_channels(data, structure, output, lambda, hold_y, theta);
+    return theta;
+}
+
+Vector find_start(const IdData& data, const TransferStructure& structure, Hold hold_y,
+                  const std::function<bool()>& cancel) {
+    const double Ts = data.mean_step();
+    const double slowest = 4 / (longest_record(data) + Ts), fastest = 0.6 * std::numbers::pi / Ts;
+    const double ratio = std::pow(fastest / slowest, 1.0 / (kCutoffs - 1));
+    Vector best = Vector::Constant(structure.parameter_count(), std::numeric_limits<double>::quiet_NaN());
+    double best_loss = kInfinity;
+    double lambda = slowest;
+    for (int i = 0; i < kCutoffs; ++i, lambda *= ratio) {
+        if (cancel && cancel() && best.allFinite()) break;
+        const Vector start = filtered_start(data, structure, lambda, hold_y);
+        if (!start.allFinite()) continue;
+        const RefinedSolution trial =
+            iterate_refined(data, structure, start, {kTrialPasses, 1e-3, hold_y, cancel, {}, false});
+        for (const Vector& theta : {start, trial.theta}) {
+            const double loss = simulation_loss(data, structure, theta);
+            if (loss < best_loss) {
+                best_loss = loss;
+                best = theta;
+            }
+        }
+    }
+    if (!best.allFinite())
+        throw InvalidArgument("no first estimate could be found: the input does not excite the system enough for " +
+                              std::to_string(structure.parameter_count()) + " parameters");
+    return best;
+}
+
+}  // namespace dynlab::inline numerics

@@ -1,0 +1,58 @@
+#include "numerics/fit/spectral_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "numerics/error.h"
+#include "numerics/signals/preprocess.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+void check_channels(const std::string& caller, const IdData& data) {
+    if (data.input_count() == 0)
+        throw InvalidArgument(caller + ": the data have no input, so there is nothing that the output could answer to");
+    if (data.input_count() != 1 || data.output_count() != 1)
+        throw InvalidArgument(caller + ": the data must have one input and one output, but they have " +
+                              std::to_string(data.input_count()) + " and " + std::to_string(data.output_count()) +
+                              "; take a pair with data:select(output, input)");
+    if (!data.regular())
+        throw InvalidArgument(caller + ": the data are sampled irregularly; interpolate them to equal steps (interp1)");
+}
+
+bool changes(const Matrix& signal) {
+    return signal.maxCoeff() > signal.minCoeff();
+}
+
+}  // namespace
+
+IdData nonparametric_data(const std::string& caller, const IdData& data, Index fewest, bool remove_means) {
+    check_channels(caller, data);
+    bool input_changes = false, output_changes = false;
+    for (const Experiment& experiment : data.experiments) {
+        if (experiment.y.rows() < fewest)
+            throw InvalidArgument(caller + ": an experiment needs at least " + std::to_string(fewest) +
+                                  " samples, but one has " + std::to_string(experiment.y.rows()));
+        input_changes = input_changes || changes(experiment.u);
+        output_changes = output_changes || changes(experiment.y);
+    }
+    if (!input_changes) throw InvalidArgument(caller + ": the input never changes, so it excites nothing");
+    if (!output_changes) throw InvalidArgument(caller + ": the output never changes, so nothing can be learnt from it");
+    return remove_means ? remove_mean(data).data : data;
+}
+
+SpectralPoint spectral_point(double input, double output, Complex cross, double averages, bool real) {
+    SpectralPoint point;
+    point.response = cross / input;
+    const double explained = std::norm(cross) / input;
+    point.coherence = output > 0 ? std::clamp(explained / output, 0.0, 1.0) : 0;
+    // the response took one of the averages for itself
+    const double degrees = averages > 1 ? averages / (averages - 1) : std::numeric_limits<double>::infinity();
+    point.noise = std::max(output - explained, 0.0) * degrees;
+    point.std = std::sqrt(point.noise / input / averages / (real ? 1 : 2));
+    return point;
+}
+
+}  // namespace dynlab::inline numerics

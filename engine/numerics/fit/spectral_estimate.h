@@ -1,0 +1,34 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "numerics/signals/iddata.h"
+
+namespace dynlab::inline numerics {
+
+/// A frequency response that comes from the data alone, without a model of finite order.
+struct SpectralEstimate {
+    Vector w;                ///< rad per time unit, increasing, at most pi/Ts
+    ComplexVector response;  ///< G(e^(j w Ts)) at each w
+    Vector std;              ///< of its real part, and of its imaginary one; empty when one value is all there is per w
+    Vector coherence;        ///< 0 to 1: part of the output's power that the input explains; empty like std
+    Vector
+        noise_spectrum;  ///< Phi_v(w), power per sample (its mean over -pi..pi is the noise variance); empty like std
+    std::string message;
+    std::vector<std::string> warnings;
+};
+
+/// What these methods can work on: one input, one output, regular sampling, at least `fewest` samples in every
+/// experiment, neither signal constant. Throws InvalidArgument that begins with `caller` and says what to do. Returns
+/// the data with the mean of every experiment removed when that is wanted.
+IdData nonparametric_data(const std::string& caller, const IdData& data, Index fewest, bool remove_means);
+
+/// Turns averaged (cross) spectra at one frequency into response, spread, coherence and noise. `averages` is the number
+/// of independent values that went into each of them; at w = 0 and pi/Ts the response is real and its variance double.
+struct SpectralPoint {
+    Complex response;
+    double std, coherence, noise;
+};
+SpectralPoint spectral_point(double input, double output, Complex cross, double averages, bool real);
+
+}  // namespace dynlab::inline numerics

@@ -1,0 +1,31 @@
+#pragma once
+#include <chrono>
+#include <cstddef>
+#include <string>
+
+namespace dynlab::inline platform {
+
+/// "what  [#####-----]  50/100  3 s left"; with total 0 only "what".
+std::string progress_line(const std::string& what, std::size_t done, std::size_t total, double seconds_so_far);
+
+/// A bar with count and time left on standard error when that is a terminal, behind what an ActivityLine shows there;
+/// silent otherwise. Appears after 0.3 s.
+class ProgressBar {
+  public:
+    ProgressBar(std::string what, std::size_t total);
+    ~ProgressBar();  ///< clears the line
+    ProgressBar(const ProgressBar&) = delete;
+    ProgressBar& operator=(const ProgressBar&) = delete;
+    void advance(std::size_t done);         ///< so many of the total are done now
+    void message(const std::string& text);  ///< replaces the description (for steps instead of counts)
+
+  private:
+    void show_now_and_then();
+    std::string what_;
+    std::size_t total_, done_ = 0;
+    bool on_terminal_;
+    std::chrono::steady_clock::time_point start_, last_shown_;
+    bool visible_ = false;
+};
+
+}  // namespace dynlab::inline platform

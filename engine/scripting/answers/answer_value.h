@@ -1,0 +1,23 @@
+#pragma once
+#include <lua.hpp>
+#include <string>
+
+namespace dynlab::inline scripting {
+
+/// What a script hands in under a name, so that another process can read it: JSON, {"kind": K, ...} with K one of
+/// answer_kinds() (documents/percent_script.h). Numbers have 17 digits; those that JSON has not are the texts "NaN",
+/// "Infinity" and "-Infinity".
+struct AnswerValue {
+    std::string kind, json;
+};
+
+/// The value at stack place `index`. Throws InvalidArgument, in words for the script's writer, for values of other
+/// kinds (functions, figures), tables that contain themselves or are nested deeper than 8, and more than 500,000
+/// numbers.
+AnswerValue answer_value(lua_State* L, int index);
+
+/// Pushes the value again. Throws InvalidArgument where the text is not what answer_value makes: it may come from
+/// anybody.
+void push_answer_value(lua_State* L, const std::string& json);
+
+}  // namespace dynlab::inline scripting

@@ -1,0 +1,343 @@
+#include "scripting/arguments/arguments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+
+#include "numerics/estimators/catalogue.h"
+#include "platform/error.h"
+#include "platform/interrupt.h"
+#include "platform/spelling.h"
+#include "scripting/objects/boxed.h"
+#include "scripting/objects/numeric_tables.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+constexpr double kLargestExactWhole = 9007199254740992.0;  // 2^53
+
+std::string article(const std::string& noun) {
+    const bool vowel = !noun.empty() && std::string_view("aeiou").find(noun.front()) != std::string_view::npos;
+    return (vowel ? "an " : "a ") + noun;
+}
+
+[[noreturn]] void wrong_value(lua_State* L, int index, const std::string& label, const std::string& wanted) {
+    throw InvalidArgument(fmt::format("{} must be {}, but {} was given", label, wanted, given_text(L, index)));
+}
+
+double number_at(lua_State* L, int index, const std::string& label) {
+    if (lua_type(L, index) != LUA_TNUMBER) wrong_value(L, index, label, "a number");
+    return lua_tonumber(L, index);
+}
+
+Index whole_at(lua_State* L, int index, const std::string& label) {
+    const double value = number_at(L, index, label);
+    if (std::floor(value) != value || std::abs(value) > kLargestExactWhole)
+        throw InvalidArgument(fmt::format("{} must be a whole number, but {} was given", label, given_text(L, index)));
+    return static_cast<Index>(value);
+}
+
+Index size_at(lua_State* L, int index, const std::string& label) {
+    const Index value = whole_at(L, index, label);
+    if (value < 0) throw InvalidArgument(fmt::format("{} must not be negative, but {} was given", label, value));
+    return value;
+}
+
+std::string text_at(lua_State* L, int index, const std::string& label) {
+    if (lua_type(L, index) != LUA_TSTRING) wrong_value(L, index, label, "a text in quotes");
+    std::size_t length = 0;
+    const char* text = lua_tolstring(L, index, &length);
+    return {text, length};
+}
+
+VectorMap vector_at(lua_State* L, int index, const std::string& label) {
+    index = lua_absindex(L, index);
+    if (lua_type(L, index) == LUA_TTABLE) make_vector_of_table(L, index, label);
+    if (NumericBlock* block = to_vector(L, index)) return {block->data(), block->rows};
+    if (NumericBlock* block = to_matrix(L, index); block != nullptr && block->columns == 1)
+        return {block->data(), block->rows};
+    wrong_value(L, index, label, "a vector");
+}
+
+std::string argument_label(int index, const char* what) {
+    return fmt::format("argument {} ({})", index, what);
+}
+
+/// A failure told with the called function's name before it, once. Where one method does the work of another, as lssvf
+/// that of lsgpmf, it tells of the one that was called.
+std::string with_name(const std::string& name, const std::string& message) {
+    const std::string first = message.substr(0, message.find_first_of(": "));
+    if (first == name) return message;
+    const bool of_method = message.compare(first.size(), 2, ": ") == 0 && find_method(first) && find_method(name);
+    return name + ": " + (of_method ? message.substr(first.size() + 2) : message);
+}
+
+}  // namespace
+
+std::string given_text(lua_State* L, int index) {
+    switch (lua_type(L, index)) {
+        case LUA_TNONE:
+            return "nothing";
+        case LUA_TNIL:
+            return "nil (no value)";
+        case LUA_TNUMBER:
+            return fmt::format("{:.10g}", lua_tonumber(L, index));
+        case LUA_TSTRING:
+            return fmt::format("the text \"{}\"", lua_tostring(L, index));
+        case LUA_TBOOLEAN:
+            return lua_toboolean(L, index) ? "true" : "false";
+        case LUA_TUSERDATA:
+            break;
+        default:
+            return article(luaL_typename(L, index));
+    }
+    if (NumericBlock* v = to_vector(L, index)) return fmt::format("a vector of {} values", v->rows);
+    if (NumericBlock* m = to_matrix(L, index)) return fmt::format("a {} x {} matrix", m->rows, m->columns);
+    return article(object_name(L, index));
+}
+
+void wrong_argument(lua_State* L, int index, const char* what, const char* wanted) {
+    if (index > lua_gettop(L))
+        throw InvalidArgument(
+            fmt::format("{} is missing; it must be {}", argument_label(index, what), article(wanted)));
+    wrong_value(L, index, argument_label(index, what), article(wanted));
+}
+
+const char* Call::function_name() const {
+    return static_cast<const char*>(lua_touserdata(state_, lua_upvalueindex(1)));
+}
+
+void Call::at_most(int arguments) const {
+    if (arguments_ > arguments)
+        throw InvalidArgument(
+            fmt::format("takes at most {} argument{}, but {} were given; options are written as one table "
+                        "{{name = value}}",
+                        arguments, arguments == 1 ? "" : "s", arguments_));
+}
+
+double Call::number(int index, const char* what) const {
+    if (index > arguments_) wrong_argument(state_, index, what, "number");
+    return number_at(state_, index, argument_label(index, what));
+}
+double Call::number_or(int index, const char* what, double fallback) const {
+    return given(index) ? number(index, what) : fallback;
+}
+Index Call::whole(int index, const char* what) const {
+    if (index > arguments_) wrong_argument(state_, index, what, "whole number");
+    return whole_at(state_, index, argument_label(index, what));
+}
+Index Call::size(int index, const char* what) const {
+    if (index > arguments_) wrong_argument(state_, index, what, "whole number");
+    return size_at(state_, index, argument_label(index, what));
+}
+std::string Call::text(int index, const char* what) const {
+    if (index > arguments_) wrong_argument(state_, index, what, "text in quotes");
+    return text_at(state_, index, argument_label(index, what));
+}
+
+VectorMap Call::vector(int index, const char* what) const {
+    if (index > arguments_) wrong_argument(state_, index, what, "vector");
+    return vector_at(state_, index, argument_label(index, what));
+}
+
+MatrixMap Call::matrix(int index, const char* what) const {
+    if (index > arguments_) wrong_argument(state_, index, what, "matrix");
+    if (NumericBlock* block = to_matrix(state_, index)) return {block->data(), block->rows, block->columns};
+    if (lua_type(state_, index) == LUA_TTABLE && lua_rawgeti(state_, index, 1) != LUA_TNUMBER) {
+        lua_pop(state_, 1);
+        make_matrix_of_table(state_, index, argument_label(index, what));
+        NumericBlock* block = to_matrix(state_, index);
+        return {block->data(), block->rows, block->columns};
+    }
+    lua_settop(state_, std::max(arguments_, index));
+    const VectorMap column = vector(index, what);
+    return {column.data(), column.size(), 1};
+}
+
+bool Call::holds_vector(int index) const {
+    if (index > arguments_) return false;
+    if (to_vector(state_, index) != nullptr) return true;
+    if (type(index) != LUA_TTABLE) return false;
+    const bool numbers = lua_rawgeti(state_, index, 1) == LUA_TNUMBER;
+    lua_pop(state_, 1);
+    return numbers;
+}
+
+std::function<bool()> Call::cancel() const {
+    return [deadline = context().deadline] {
+        return interrupted() || (deadline && std::chrono::steady_clock::now() > *deadline);
+    };
+}
+
+void Call::print(const std::string& text) const {
+    RuntimeContext& context = this->context();
+    if (context.recorder.printed_bytes() + text.size() > context.options.output_limit_bytes)
+        raise_stop(state_, StopReason::kOutputLimit);
+    context.recorder.print(text);
+    if (context.printed_by_call) *context.printed_by_call += text;
+    if (context.options.print) context.options.print(text);
+}
+
+int Call::give(double value) const {
+    return lua_pushnumber(state_, value), 1;
+}
+int Call::give_whole(Index value) const {
+    return lua_pushinteger(state_, value), 1;
+}
+int Call::give(bool value) const {
+    return lua_pushboolean(state_, value), 1;
+}
+int Call::give(const std::string& value) const {
+    return lua_pushlstring(state_, value.data(), value.size()), 1;
+}
+
+int Call::give_vector(const VectorView& v) const {
+    push_vector(state_, v.size()).vector() = v;
+    return 1;
+}
+int Call::give_matrix(const MatrixView& m) const {
+    push_matrix(state_, m.rows(), m.cols()).matrix() = m;
+    return 1;
+}
+
+Options::Options(const Call& call, int index, std::initializer_list<const char*> known)
+    : call_(call), index_(lua_absindex(call.state(), index)) {
+    lua_State* L = call.state();
+    if (lua_isnoneornil(L, index_)) {
+        index_ = 0;
+        return;
+    }
+    if (lua_type(L, index_) != LUA_TTABLE)
+        throw InvalidArgument(
+            fmt::format("options are written as a table {{name = value}}, but {} was given", given_text(L, index_)));
+    check_names(known);
+}
+
+void Options::check_names(std::initializer_list<const char*> known) const {
+    lua_State* L = call_.state();
+    lua_pushnil(L);
+    while (lua_next(L, index_)) {
+        lua_pop(L, 1);
+        if (lua_type(L, -1) != LUA_TSTRING)
+            throw InvalidArgument(
+                fmt::format("options are written {{name = value}}; the entry [{}] has no name", given_text(L, -1)));
+        const std::string name = lua_tostring(L, -1);
+        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+        const std::vector<std::string> names(known.begin(), known.end());
+        const auto near = nearest_word(name, names);
+        throw InvalidArgument(
+            near ? fmt::format("option '{}' is unknown; did you mean '{}'?", name, *near)
+                 : fmt::format("option '{}' is unknown; the options are {}", name, fmt::join(names, ", ")));
+    }
+}
+
+int Options::push(const char* name) const {
+    lua_State* L = call_.state();
+    luaL_checkstack(L, 4, "too many options");
+    if (index_ == 0) {
+        lua_pushnil(L);
+    } else {
+        lua_pushstring(L, name);
+        lua_rawget(L, index_);
+    }
+    return lua_gettop(L);
+}
+
+bool Options::has(const char* name) const {
+    const int place = push(name);
+    const bool found = !lua_isnil(call_.state(), place);
+    lua_pop(call_.state(), 1);
+    return found;
+}
+
+std::optional<double> Options::optional_number(const char* name) const {
+    if (!has(name)) return std::nullopt;
+    const double value = number_at(call_.state(), push(name), label(name));
+    lua_pop(call_.state(), 1);
+    return value;
+}
+
+double Options::number(const char* name, double fallback) const {
+    return optional_number(name).value_or(fallback);
+}
+
+Index Options::size(const char* name, Index fallback) const {
+    if (!has(name)) return fallback;
+    const Index value = size_at(call_.state(), push(name), label(name));
+    lua_pop(call_.state(), 1);
+    return value;
+}
+
+bool Options::flag(const char* name, bool fallback) const {
+    if (!has(name)) return fallback;
+    const int place = push(name);
+    if (!lua_isboolean(call_.state(), place)) wrong_value(call_.state(), place, label(name), "true or false");
+    const bool value = lua_toboolean(call_.state(), place) != 0;
+    lua_pop(call_.state(), 1);
+    return value;
+}
+
+std::string Options::text(const char* name, const std::string& fallback) const {
+    if (!has(name)) return fallback;
+    std::string value = text_at(call_.state(), push(name), label(name));
+    lua_pop(call_.state(), 1);
+    return value;
+}
+
+std::vector<std::string> Options::texts(const char* name) const {
+    lua_State* L = call_.state();
+    const int place = push(name);
+    std::vector<std::string> values;
+    if (lua_type(L, place) == LUA_TTABLE) {
+        for (lua_Integer i = 1; lua_rawgeti(L, place, i) != LUA_TNIL; lua_pop(L, 1), ++i)
+            values.push_back(text_at(L, -1, label(name)));
+    } else if (!lua_isnil(L, place)) {
+        values.push_back(text_at(L, place, label(name)));
+    }
+    lua_settop(L, place - 1);
+    return values;
+}
+
+VectorMap Options::vector(const char* name) const {
+    return vector_at(call_.state(), push(name), label(name));
+}
+
+std::optional<std::pair<double, double>> Options::range(const char* name) const {
+    if (!has(name)) return std::nullopt;
+    const VectorMap bounds = vector(name);
+    if (bounds.size() != 2)
+        throw InvalidArgument(
+            fmt::format("{} must be {{low, high}}, but it has {} values", label(name), bounds.size()));
+    return std::pair(bounds[0], bounds[1]);
+}
+
+std::size_t Options::choice(const char* name, std::initializer_list<const char*> choices, std::size_t fallback) const {
+    if (!has(name)) return fallback;
+    const std::string given = text(name, "");
+    const auto found = std::find(choices.begin(), choices.end(), given);
+    if (found == choices.end())
+        throw InvalidArgument(fmt::format("{} must be one of \"{}\", but \"{}\" was given", label(name),
+                                          fmt::join(choices, "\", \""), given));
+    return static_cast<std::size_t>(found - choices.begin());
+}
+
+int run_guarded(lua_State* L, Binding body) {
+    poll_stop(L);  // a loop around long calls counts few instructions
+    std::string message;
+    try {
+        context_of(L).recorder.note_time();
+        Call call(L);
+        return body(call);
+    } catch (const Interrupted&) {
+        message.clear();
+    } catch (const std::bad_alloc&) {
+        message = "there is not enough memory for this";
+    } catch (const std::exception& error) {
+        message = error.what();
+    }
+    if (message.empty()) raise_stop(L, StopReason::kInterrupted);
+    const char* name = static_cast<const char*>(lua_touserdata(L, lua_upvalueindex(1)));
+    raise_error(L, name == nullptr || name[0] == '_' ? message : with_name(name, message));
+}
+
+}  // namespace dynlab::inline scripting

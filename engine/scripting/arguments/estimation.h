@@ -1,0 +1,36 @@
+#pragma once
+#include <functional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "numerics/fit/transfer_estimate.h"
+#include "scripting/arguments/arguments.h"
+
+namespace dynlab::inline scripting {
+
+/// An estimation as a script asked for it, its arguments checked: ready for any data, in any thread.
+using Estimation = std::function<TransferEstimate(const IdData&)>;
+
+/// Reads the arguments of one method from the second on; the first, where the data stand, is not looked at.
+using EstimationReader = Estimation (*)(const Call& call);
+
+/// The readers of a file of bindings, by the methods' Lua names.
+using NamedReader = std::pair<const char*, EstimationReader>;
+using EstimationReaders = std::span<const NamedReader>;
+EstimationReaders transfer_estimation_readers();
+EstimationReaders noise_model_readers();
+
+/// The reader of a method's arguments by its Lua name; nullptr for a method that has none.
+EstimationReader find_estimation_reader(const std::string& method);
+/// Names of all methods that have one.
+std::vector<std::string> estimation_names();
+
+/// Samples: robust errors of longer records would take longer than the fit.
+inline constexpr Index kMostAssessed = 200'000;
+
+/// Pushes an estimate as the model that the method's own function gives, without robust standard errors.
+int give_transfer_estimate(const Call& call, const char* method, const TransferEstimate& estimate);
+
+}  // namespace dynlab::inline scripting

@@ -1,0 +1,83 @@
+#include "scripting/arguments/table_fields.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scripting/runtime/errors.h"
+
+namespace dynlab::inline scripting {
+
+void set_number(lua_State* L, const char* name, double value) {
+    lua_pushnumber(L, value);
+    lua_setfield(L, -2, name);
+}
+void set_whole(lua_State* L, const char* name, Index value) {
+    lua_pushinteger(L, value);
+    lua_setfield(L, -2, name);
+}
+void set_flag(lua_State* L, const char* name, bool value) {
+    lua_pushboolean(L, value);
+    lua_setfield(L, -2, name);
+}
+void set_text(const Call& call, const char* name, const std::string& value) {
+    call.give(value);
+    lua_setfield(call.state(), -2, name);
+}
+void set_texts(const Call& call, const char* name, const std::vector<std::string>& texts) {
+    lua_createtable(call.state(), static_cast<int>(texts.size()), 0);
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        call.give(texts[i]);
+        lua_rawseti(call.state(), -2, static_cast<lua_Integer>(i + 1));
+    }
+    lua_setfield(call.state(), -2, name);
+}
+void set_vector(const Call& call, const char* name, const VectorView& values) {
+    call.give_vector(values);
+    lua_setfield(call.state(), -2, name);
+}
+void set_matrix(const Call& call, const char* name, const MatrixView& values) {
+    call.give_matrix(values);
+    lua_setfield(call.state(), -2, name);
+}
+
+namespace {
+
+/// __index of such a table; upvalue 1 is the name of the data.
+int unknown_field(lua_State* L) {
+    std::vector<std::string> names;
+    lua_pushnil(L);
+    while (lua_next(L, 1)) {
+        lua_pop(L, 1);
+        if (lua_type(L, -1) == LUA_TSTRING) names.emplace_back(lua_tostring(L, -1));
+    }
+    std::sort(names.begin(), names.end());
+    const std::string wanted = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : luaL_typename(L, 2);
+    raise_error(L, fmt::format("the data of '{}' have no variable '{}'; they have {}",
+                               lua_tostring(L, lua_upvalueindex(1)), wanted, fmt::join(names, ", ")));
+}
+
+}  // namespace
+
+void refuse_unknown_fields(lua_State* L, const std::string& name) {
+    lua_createtable(L, 0, 2);
+    lua_pushstring(L, name.c_str());
+    lua_pushcclosure(L, unknown_field, 1);
+    lua_setfield(L, -2, "__index");
+    lua_pushliteral(L, "data");
+    lua_setfield(L, -2, "__metatable");
+    lua_setmetatable(L, -2);
+}
+
+std::optional<std::string> name_of_refusing_table(lua_State* L, int index) {
+    if (luaL_getmetafield(L, index, "__index") == LUA_TNIL) return {};
+    std::optional<std::string> name;
+    if (lua_tocfunction(L, -1) == unknown_field && lua_getupvalue(L, -1, 1) != nullptr) {
+        name = lua_tostring(L, -1);
+        lua_pop(L, 1);
+    }
+    lua_pop(L, 1);
+    return name;
+}
+
+}  // namespace dynlab::inline scripting

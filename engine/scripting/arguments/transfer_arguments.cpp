@@ -1,0 +1,161 @@
+#include "scripting/arguments/transfer_arguments.h"
+
+#include <cmath>
+
+#include "scripting/objects/data_object.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+/// Orders of inputs, repeated for each output.
+template <class Value>
+std::vector<Value> for_channels(const std::vector<Value>& of_inputs, const IdData& data) {
+    if (of_inputs.size() == 1 || data.output_count() == 1) return of_inputs;
+    std::vector<Value> all;
+    for (Index output = 0; output < data.output_count(); ++output)
+        all.insert(all.end(), of_inputs.begin(), of_inputs.end());
+    return all;
+}
+
+/// A whole number, or a list of one for each input.
+std::vector<int> counts_argument(const Call& call, int index, const char* what) {
+    if (call.type(index) != LUA_TTABLE && !call.holds_vector(index)) return {static_cast<int>(call.size(index, what))};
+    const auto values = call.vector(index, what);
+    std::vector<int> counts;
+    for (const double value : values) {
+        if (!(value >= 0) || value != std::floor(value))
+            throw InvalidArgument(fmt::format("argument {} ({}) must hold whole numbers from 0 on", index, what));
+        counts.push_back(static_cast<int>(value));
+    }
+    return counts;
+}
+
+/// IODelay: a number of seconds or one for each input.
+std::vector<double> delays_option(const Options& options) {
+    if (options.push("IODelay") && lua_type(options.call().state(), -1) == LUA_TNUMBER)
+        return {options.number("IODelay", 0)};
+    const auto delays = options.vector("IODelay");
+    return {delays.begin(), delays.end()};
+}
+
+std::size_t place_of(std::span<const OrderEntry> entries, std::string_view name) {
+    std::size_t place = 0;
+    while (place < entries.size() && name != entries[place].name) ++place;
+    return place;
+}
+
+/// At least one pole, and as many coefficients as a proper model has; lists of unequal lengths are paired as
+/// TransferStructure::grid() does or refuses to.
+void check_coefficients(std::span<const OrderEntry> entries, std::string_view poles_name, const std::vector<int>& poles,
+                        const std::vector<int>& coefficients) {
+    for (const int n : poles)
+        if (n < 1) refuse_orders(2, entries, fmt::format("{} is {}, and must be at least 1", poles_name, n));
+    for (std::size_t i = 0; i < coefficients.size(); ++i) {
+        const int nb = coefficients[i];
+        const int n = i < poles.size() ? poles[i] : poles.back();
+        if (nb < 1 || nb > n + 1)
+            refuse_orders(
+                2, entries,
+                fmt::format("nb is {}, and with {} = {} must lie between 1 and {}", nb, poles_name, n, n + 1));
+    }
+}
+
+std::vector<double> delays_of(const std::vector<int>& samples, const IdData& data) {
+    std::vector<double> delays;
+    for (const int nk : samples) {
+        if (nk > 0 && !data.regular())
+            throw InvalidArgument("nk counts samples of delay, which irregularly sampled data do not have: give 0");
+        delays.push_back(nk * data.Ts);
+    }
+    return delays;
+}
+
+TransferStructure structure_for(const IdData& data, Denominators sharing, const std::vector<int>& poles,
+                                const std::vector<int>& zeros, const std::vector<double>& delays) {
+    return TransferStructure::grid(data.output_count(), data.input_count(), sharing, for_channels(poles, data),
+                                   for_channels(zeros, data), for_channels(delays, data));
+}
+
+}  // namespace
+
+StructureMaker structure_of_orders(std::span<const OrderEntry> entries, const std::vector<std::vector<int>>& orders,
+                                   Denominators sharing) {
+    const std::string_view poles_entry = place_of(entries, kNa.name) < entries.size() ? kNa.name : kNf.name;
+    const auto list = [&](std::string_view name) { return orders[place_of(entries, name)]; };
+    check_coefficients(entries, poles_entry, list(poles_entry), list(kNb.name));
+    std::vector<int> zeros = list(kNb.name);
+    for (int& count : zeros) --count;
+    return [poles = list(poles_entry), zeros, samples = list(kNk.name), sharing](const IdData& data) {
+        return structure_for(data, sharing, poles, zeros, delays_of(samples, data));
+    };
+}
+
+StructureMaker structure_of_counts(const Call& call, const Options& options, TransferOptions& wanted) {
+    wanted.TdMin = options.number("TdMin", wanted.TdMin);
+    wanted.TdMax = options.optional_number("TdMax");
+    wanted.NumTd = static_cast<int>(options.size("NumTd", wanted.NumTd));
+    std::vector<double> delays{wanted.TdMin};
+    if (options.has("IODelay")) delays = delays_option(options);
+    const bool free_delays = !options.has("IODelay") && wanted.TdMax.value_or(1) > wanted.TdMin;
+    return [poles = counts_argument(call, 2, "np"), zeros = counts_argument(call, 3, "nz"), delays,
+            sharing = sharing_of(options), free_delays](const IdData& data) {
+        TransferStructure structure = structure_for(data, sharing, poles, zeros, delays);
+        structure.free_delays = free_delays;
+        return structure;
+    };
+}
+
+Denominators sharing_of(const Options& options) {
+    return options.flag("CommonDenominator", false) ? Denominators::kCommon : Denominators::kPerChannel;
+}
+
+Hold hold_y_of(const Options& options) {
+    return options.choice("hold_y", {"foh", "zoh"}, 0) == 0 ? Hold::kFoh : Hold::kZoh;
+}
+
+void read_common_options(const Options& options, TransferOptions& wanted) {
+    wanted.lambda = options.optional_number("lambda");
+    wanted.hold_y = hold_y_of(options);
+    wanted.initial_state = parse_initial_state(options.text("InitialState", "zero"));
+    wanted.offset = parse_offset(options.text("Offset", "none"));
+    wanted.MaxIter = static_cast<int>(options.size("MaxIter", wanted.MaxIter));
+    wanted.Tol = options.number("Tol", wanted.Tol);
+    wanted.cancel = options.call().cancel();
+}
+
+Estimate estimate_of(const char* method, const TransferEstimate& result) {
+    Estimate estimate = common_estimate(method, result);
+    estimate.numbers = {{"fit_percent", result.fit_percent[0]},
+                        {"noise_variance", result.noise_variance[0]},
+                        {"loss", result.loss},
+                        {"condition_number", result.condition_number},
+                        {"iterations", static_cast<double>(result.trace.size())}};
+    estimate.vectors = {{"fits", result.fit_percent},
+                        {"delay_grid", result.delay_grid},
+                        {"delay_loss", result.delay_loss},
+                        {"initial_values", result.initial_values.empty() ? Vector() : result.initial_values.front()},
+                        {"offsets", result.offsets.col(0)}};
+    Vector changes(static_cast<Index>(result.trace.size()));
+    Matrix path(changes.size(), result.theta.size());
+    for (Index i = 0; i < changes.size(); ++i) {
+        const TransferIteration& iteration = result.trace[static_cast<std::size_t>(i)];
+        changes[i] = iteration.change;
+        path.row(i) = iteration.theta.transpose();
+    }
+    estimate.vectors.emplace_back("changes", changes);
+    estimate.matrices = {{"path", path}};
+    return estimate;
+}
+
+int give_estimate(const Call& call, Estimate estimate, const TransferEstimate& result) {
+    Model model{result.models.front()};
+    if (result.models.size() > 1) {
+        model.channels = result.models;
+        model.outputs = static_cast<std::size_t>(result.structure.outputs);
+    }
+    model.estimate = std::make_shared<Estimate>(std::move(estimate));
+    push_object(call.state(), std::move(model));
+    return 1;
+}
+
+}  // namespace dynlab::inline scripting

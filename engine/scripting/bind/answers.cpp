@@ -1,0 +1,53 @@
+#include <algorithm>
+#include <array>
+
+#include "platform/spelling.h"
+#include "scripting/answers/answer_value.h"
+#include "scripting/arguments/arguments.h"
+#include "scripting/bind/bindings.h"
+#include "scripting/runtime/context.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+/// Throws where the script's header declares answers, but none of this name, or of another kind.
+void check_declared(const std::vector<ExpectedAnswer>& expected, const std::string& name, const std::string& kind) {
+    if (expected.empty()) return;
+    std::vector<std::string> names;
+    for (const ExpectedAnswer& answer : expected) {
+        names.push_back(answer.name);
+        if (answer.name == name && answer.kind != kind)
+            throw InvalidArgument(
+                fmt::format("the answer \"{}\" must be of the kind {}, but a {} was given", name, answer.kind, kind));
+    }
+    if (std::find(names.begin(), names.end(), name) != names.end()) return;
+    const auto near = nearest_word(name, names);
+    throw InvalidArgument(fmt::format(
+        "the script's header declares no answer \"{}\"; {}", name,
+        near ? fmt::format("did you mean \"{}\"?", *near) : fmt::format("it declares {}", fmt::join(names, ", "))));
+}
+
+int answer(Call& call) {
+    call.at_most(2);
+    Recorder& recorder = call.context().recorder;
+    const std::string name = call.text(1, "name");
+    if (!call.given(2)) wrong_argument(call.state(), 2, "value", "the answer's value");
+    AnswerValue value = answer_value(call.state(), 2);
+    check_declared(recorder.expected_answers(), name, value.kind);
+    RecordedAnswer& place = recorder.record().answers[name];
+    if (!place.json.empty()) throw InvalidArgument(fmt::format("the answer \"{}\" was given already", name));
+    place = {std::move(value.kind), std::move(value.json)};
+    return 0;
+}
+
+constexpr std::array kAnswersFunctions = {
+    FunctionEntry{"answer", "report", "answer(name, value)", "hands a result in for the checks", guarded<answer>},
+};
+
+}  // namespace
+
+FunctionEntries answer_functions() {
+    return kAnswersFunctions;
+}
+
+}  // namespace dynlab::inline scripting

@@ -1,0 +1,35 @@
+#pragma once
+#include <lua.hpp>
+
+#include "scripting/runtime/function_entry.h"
+
+namespace dynlab::inline scripting {
+
+/// The functions of each area; catalogue_of_functions() joins them in the order of help().
+FunctionEntries vector_functions();
+FunctionEntries vector_comparisons();
+FunctionEntries random_functions();
+FunctionEntries signal_functions();
+FunctionEntries estimator_functions();
+FunctionEntries transfer_estimator_functions();
+FunctionEntries noise_model_functions();
+FunctionEntries discrete_estimator_functions();
+FunctionEntries subspace_functions();
+FunctionEntries hammerstein_functions();
+FunctionEntries nonparametric_functions();
+FunctionEntries regression_functions();
+FunctionEntries validation_functions();
+FunctionEntries residual_functions();
+FunctionEntries model_functions();
+FunctionEntries data_functions();
+FunctionEntries preprocess_functions();
+FunctionEntries advice_functions();
+FunctionEntries saving_functions();
+FunctionEntries rig_functions();
+FunctionEntries simulation_functions();
+FunctionEntries figure_functions();
+FunctionEntries report_functions();
+FunctionEntries answer_functions();
+FunctionEntries help_functions();
+
+}  // namespace dynlab::inline scripting

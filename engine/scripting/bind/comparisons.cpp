@@ -1,0 +1,56 @@
+#include <algorithm>
+#include <array>
+
+#include "scripting/bind/bindings.h"
+#include "scripting/objects/boxed.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+/// One truth value per element of v: does it stand in the relation to x (a number, or a vector of the same length)?
+template <class Relation>
+int compare_elements(Call& call) {
+    call.at_most(2);
+    const VectorMap v = call.vector(1, "v");
+    const bool number = call.type(2) == LUA_TNUMBER;
+    const VectorMap x = number ? v : call.vector(2, "x");
+    if (x.size() != v.size()) throw InvalidArgument(fmt::format("v has {} values, but x has {}", v.size(), x.size()));
+    const double bound = number ? call.number(2, "x") : 0;
+    MaskBlock& mask = push_mask(call.state(), v.size());
+    for (Index i = 0; i < v.size(); ++i) mask.data()[i] = Relation()(v[i], number ? bound : x[i]);
+    return 1;
+}
+
+int find(Call& call) {
+    call.at_most(1);
+    MaskBlock* mask = call.given(1) ? to_mask(call.state(), 1) : nullptr;
+    if (mask == nullptr) wrong_argument(call.state(), 1, "mask", "mask, as gt, lt, ge, le and eq give it");
+    double* place = push_vector(call.state(), std::count(mask->data(), mask->data() + mask->size, true)).data();
+    for (Index i = 0; i < mask->size; ++i)
+        if (mask->data()[i]) *place++ = static_cast<double>(i + 1);
+    return 1;
+}
+
+constexpr const char* kComparisonsArea = "vectors";
+constexpr std::array kComparisonsFunctions = {
+    FunctionEntry{"gt", kComparisonsArea, "gt(v, x) -> mask", "which elements are greater than x",
+                  guarded<compare_elements<std::greater<double>>>},
+    FunctionEntry{"lt", kComparisonsArea, "lt(v, x) -> mask", "which elements are less than x",
+                  guarded<compare_elements<std::less<double>>>},
+    FunctionEntry{"ge", kComparisonsArea, "ge(v, x) -> mask", "which elements are greater than or equal to x",
+                  guarded<compare_elements<std::greater_equal<double>>>},
+    FunctionEntry{"le", kComparisonsArea, "le(v, x) -> mask", "which elements are less than or equal to x",
+                  guarded<compare_elements<std::less_equal<double>>>},
+    FunctionEntry{"eq", kComparisonsArea, "eq(v, x) -> mask", "which elements are equal to x",
+                  guarded<compare_elements<std::equal_to<double>>>},
+    FunctionEntry{"find", kComparisonsArea, "find(mask) -> places",
+                  "places of the elements that are true; v:select(mask) gives the elements", guarded<find>},
+};
+
+}  // namespace
+
+FunctionEntries vector_comparisons() {
+    return kComparisonsFunctions;
+}
+
+}  // namespace dynlab::inline scripting

@@ -1,0 +1,105 @@
+#include <array>
+
+#include "numerics/control/state_feedback.h"
+#include "numerics/rigs/crane_control.h"
+#include "scripting/arguments/arguments.h"
+#include "scripting/bind/control_bindings.h"
+#include "scripting/objects/boxed.h"
+#include "scripting/objects/model.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+int give_feedback(const Call& call, const StateFeedback& feedback) {
+    call.give_matrix(feedback.K);
+    push_object(call.state(), ComplexVector(feedback.poles));
+    return 2;
+}
+
+int lqr(Call& call) {
+    call.at_most(4);
+    return give_feedback(call, linear_quadratic_regulator(call.matrix(1, "A"), call.matrix(2, "B"), call.matrix(3, "Q"),
+                                                          call.matrix(4, "R")));
+}
+
+/// A list of numbers and of pairs {re, im}, each of which stands for re + i im and re - i im.
+ComplexVector listed_poles(const Call& call, int index) {
+    lua_State* L = call.state();
+    if (lua_type(L, index) != LUA_TTABLE)
+        wrong_argument(L, index, "poles", "list of numbers and pairs {re, im}, or complex vector");
+    std::vector<Complex> poles;
+    for (lua_Integer i = 1; lua_rawgeti(L, index, i) != LUA_TNIL; lua_pop(L, 1), ++i) {
+        if (lua_type(L, -1) == LUA_TNUMBER) {
+            poles.emplace_back(lua_tonumber(L, -1));
+            continue;
+        }
+        if (lua_type(L, -1) != LUA_TTABLE || lua_rawlen(L, -1) != 2)
+            throw InvalidArgument("place: poles are numbers, and pairs of complex ones {re, im}");
+        lua_rawgeti(L, -1, 1);
+        lua_rawgeti(L, -2, 2);
+        if (lua_type(L, -1) != LUA_TNUMBER || lua_type(L, -2) != LUA_TNUMBER)
+            throw InvalidArgument("place: the two parts of a complex pole {re, im} are numbers");
+        poles.emplace_back(lua_tonumber(L, -2), lua_tonumber(L, -1));
+        lua_pop(L, 2);
+        poles.push_back(std::conj(poles.back()));
+    }
+    lua_pop(L, 1);
+    return Eigen::Map<ComplexVector>(poles.data(), static_cast<Index>(poles.size()));
+}
+
+int place(Call& call) {
+    call.at_most(3);
+    const ComplexVector* given = to_object<ComplexVector>(call.state(), 3);
+    return give_feedback(
+        call, pole_placement(call.matrix(1, "A"), call.matrix(2, "B"), given ? *given : listed_poles(call, 3)));
+}
+
+/// drive_crane(controller, {...}): the controller is the script's function, called with t, x and theta.
+int drive_crane(Call& call) {
+    call.at_most(2);
+    lua_State* L = call.state();
+    if (call.type(1) != LUA_TFUNCTION) wrong_argument(L, 1, "controller", "function of t, x and theta");
+    const Options options(call, 2, {"duration", "position", "angle", "seed"});
+    CraneRun run;
+    run.duration = options.number("duration", run.duration);
+    run.position = options.number("position", run.position);
+    run.angle = options.number("angle", run.angle);
+    const auto controller = [L](double t, double x, double theta) {
+        lua_pushvalue(L, 1);
+        for (const double value : {t, x, theta}) lua_pushnumber(L, value);
+        lua_call(L, 3, 1);
+        if (lua_type(L, -1) != LUA_TNUMBER)
+            throw InvalidArgument("the controller must return the voltage, a number, but returned " +
+                                  given_text(L, -1));
+        const double voltage = lua_tonumber(L, -1);
+        lua_pop(L, 1);
+        return voltage;
+    };
+    const CraneRecord record =
+        control_crane({}, {}, run, controller, static_cast<std::uint32_t>(options.size("seed", 1)));
+    lua_createtable(L, 0, 4);
+    for (const auto& [name, values] : {std::pair("t", &record.t), std::pair("u", &record.u), std::pair("x", &record.x),
+                                       std::pair("theta", &record.theta)}) {
+        call.give_vector(*values);
+        lua_setfield(L, -2, name);
+    }
+    return 1;
+}
+
+constexpr const char* kControlArea = "control";
+constexpr std::array kControlFunctions = {
+    FunctionEntry{"lqr", kControlArea, "lqr(A, B, Q, R) -> K, poles", "designs a linear-quadratic state feedback",
+                  guarded<lqr>},
+    FunctionEntry{"place", kControlArea, "place(A, B, poles) -> K, poles",
+                  "places the poles of a system with one input", guarded<place>},
+    FunctionEntry{"drive_crane", kControlArea, "drive_crane(controller, {duration =, position =, ...}) -> table",
+                  "tries a controller on the course's simulated crane", guarded<drive_crane>},
+};
+
+}  // namespace
+
+FunctionEntries control_functions() {
+    return kControlFunctions;
+}
+
+}  // namespace dynlab::inline scripting

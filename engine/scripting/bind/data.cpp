@@ -1,0 +1,158 @@
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "data_io/dataset_index.h"
+#include "figures/plots/id_plot.h"
+#include "scripting/arguments/table_fields.h"
+#include "scripting/bind/bindings.h"
+#include "scripting/objects/data_object.h"
+#include "scripting/objects/figure_object.h"
+#include "scripting/objects/model.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+/// `place` is the name by which messages speak of what is pushed, such as crane.steps.
+void push_variable(const Call& call, const Variable& variable, const std::string& place);
+
+void push_variables(const Call& call, const VariableTable& variables, const std::string& place) {
+    luaL_checkstack(call.state(), 8, "the data are nested too deeply");
+    lua_createtable(call.state(), 0, static_cast<int>(variables.size()));
+    for (const auto& [name, variable] : variables) {
+        push_variable(call, variable, place + "." + name);
+        lua_setfield(call.state(), -2, name.c_str());
+    }
+    refuse_unknown_fields(call.state(), place);
+}
+
+void push_list(const Call& call, const VariableList& list, const std::string& place) {
+    luaL_checkstack(call.state(), 8, "the data are nested too deeply");
+    lua_createtable(call.state(), static_cast<int>(list.size()), 0);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        push_variable(call, list[i], fmt::format("{}[{}]", place, i + 1));
+        lua_rawseti(call.state(), -2, static_cast<lua_Integer>(i + 1));
+    }
+}
+
+/// What each kind of variable becomes in Lua.
+struct Pusher {
+    const Call& call;
+    const std::string& place;
+    void operator()(double value) const { call.give(value); }
+    void operator()(bool value) const { call.give(value); }
+    void operator()(const std::string& value) const { call.give(value); }
+    void operator()(const Vector& value) const { call.give_vector(value); }
+    void operator()(const Matrix& value) const { call.give_matrix(value); }
+    void operator()(const Eigen::VectorXcd& value) const { push_object(call.state(), ComplexVector(value)); }
+    void operator()(const Eigen::MatrixXcd& value) const {
+        lua_createtable(call.state(), 0, 2);
+        call.give_matrix(value.real());
+        lua_setfield(call.state(), -2, "re");
+        call.give_matrix(value.imag());
+        lua_setfield(call.state(), -2, "im");
+    }
+    void operator()(const std::shared_ptr<VariableTable>& value) const { push_variables(call, *value, place); }
+    void operator()(const std::shared_ptr<VariableList>& value) const { push_list(call, *value, place); }
+};
+
+void push_variable(const Call& call, const Variable& variable, const std::string& place) {
+    std::visit(Pusher{call, place}, variable.value);
+}
+
+/// Where a script is graded it reads the course's data and what lies in its own folder, and nothing else.
+void check_stays_inside(const std::filesystem::path& path) {
+    const bool leads_out = std::find(path.begin(), path.end(), "..") != path.end();
+    if (path.is_absolute() || leads_out)
+        throw InvalidArgument(fmt::format(
+            "\"{}\" leads outside the folder; where scripts are graded, only the course's data and files of the "
+            "folder itself can be loaded",
+            path.string()));
+}
+
+int load(Call& call) {
+    call.at_most(1);
+    const std::string name = call.text(1, "name or path");
+    if (call.context().options.graded) check_stays_inside(name);
+    const LoadedData loaded = load_data(name, call.context().options.script_folder, call.context().options.graded);
+    call.context().recorder.note_file_read(loaded.file);
+    push_variables(call, loaded.variables, name);
+    return 1;
+}
+
+/// Samples by channels; nothing for data without inputs.
+Matrix signals(const Call& call, int index, const char* what, Index samples) {
+    if (!call.given(index)) return Matrix(samples, 0);
+    return call.matrix(index, what);
+}
+
+/// Names or units for every channel; one text stands for a single channel.
+void set_texts(const Options& options, const char* name, std::vector<std::string>& texts, Index channels) {
+    if (!options.has(name)) return;
+    texts = options.texts(name);
+    if (static_cast<Index>(texts.size()) != channels)
+        throw InvalidArgument(
+            fmt::format("option '{}' has {} texts, but there are {} channels", name, texts.size(), channels));
+}
+
+/// Figures, tables and choices of channels speak of them by name.
+void check_names(const IdData& data) {
+    std::set<std::string> seen;
+    for (const auto* names : {&data.input_names, &data.output_names})
+        for (const std::string& name : *names)
+            if (!seen.insert(name).second)
+                throw InvalidArgument(fmt::format(
+                    "the name '{}' stands for two channels: give each its own InputName or OutputName", name));
+}
+
+int make_iddata(Call& call) {
+    call.at_most(4);
+    const Options options(call, 4,
+                          {"InterSample", "InputName", "OutputName", "InputUnit", "OutputUnit", "TimeUnit", "Tstart",
+                           "SamplingInstants"});
+    if (call.holds_vector(3))
+        throw InvalidArgument(
+            "argument 3 (Ts) must be a number of seconds, but instants were given; where they lie at uneven distances "
+            "write iddata(y, u, nil, {SamplingInstants = t})");
+    const Matrix y = call.matrix(1, "y"), u = signals(call, 2, "u", y.rows());
+    IdData data = options.has("SamplingInstants") ? IdData(y, u, options.vector("SamplingInstants"))
+                                                  : IdData(y, u, call.number_or(3, "Ts", 1));
+    data.hold = options.choice("InterSample", {"zoh", "foh"}, 0) == 0 ? Hold::kZoh : Hold::kFoh;
+    set_texts(options, "InputName", data.input_names, u.cols());
+    set_texts(options, "OutputName", data.output_names, y.cols());
+    set_texts(options, "InputUnit", data.input_units, u.cols());
+    set_texts(options, "OutputUnit", data.output_units, y.cols());
+    check_names(data);
+    data.time_unit = options.text("TimeUnit", data.time_unit);
+    data.experiments.front().start_time = options.number("Tstart", data.experiments.front().start_time);
+    return give_data(call, std::move(data));
+}
+
+/// idplot(data1, data2, ..., {labels = {...}})
+int idplot(Call& call) {
+    std::vector<const IdData*> all;
+    int i = 1;
+    for (; i <= call.count() && to_object<IdData>(call.state(), i) != nullptr; ++i)
+        all.push_back(to_object<IdData>(call.state(), i));
+    if (all.empty()) wrong_argument(call.state(), 1, "data", "iddata");
+    call.at_most(i);
+    return give_figure(call, id_plot(all, Options(call, i, {"labels"}).texts("labels")));
+}
+
+constexpr const char* kDataArea = "data";
+constexpr std::array kDataFunctions = {
+    FunctionEntry{"load", kDataArea, "load(name_or_path) -> table",
+                  "reads a data set of the course, a .mat or a .csv file", guarded<load>},
+    FunctionEntry{"iddata", kDataArea, "iddata(y, u, Ts, {InterSample =, InputName =, OutputName =, ...}) -> data",
+                  "input-output data with their sampling", guarded<make_iddata>},
+    FunctionEntry{"idplot", kDataArea, "idplot(data, ..., {labels =}) -> fig", "outputs above inputs over time",
+                  guarded<idplot>},
+};
+
+}  // namespace
+
+FunctionEntries data_functions() {
+    return kDataFunctions;
+}
+
+}  // namespace dynlab::inline scripting

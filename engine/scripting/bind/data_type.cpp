@@ -1,0 +1,199 @@
+#include <array>
+#include <cmath>
+
+#include "numerics/signals/preprocess.h"
+#include "scripting/bind/preprocess_bindings.h"
+#include "scripting/objects/data_object.h"
+#include "scripting/objects/text_form.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+const IdData& data_self(Call& call) {
+    return object_argument<IdData>(call, 1, "data");
+}
+
+const Experiment& only_experiment(Call& call) {
+    const IdData& data = data_self(call);
+    if (data.experiments.size() != 1)
+        throw InvalidArgument(fmt::format("the data hold {} experiments; take one of them with data:experiment(k)",
+                                          data.experiments.size()));
+    return data.experiments.front();
+}
+
+/// One channel as a vector, several as a matrix with a column each.
+int give_channels(Call& call, const Matrix& channels) {
+    return channels.cols() == 1 ? call.give_vector(channels.col(0)) : call.give_matrix(channels);
+}
+
+int give_texts(Call& call, const std::vector<std::string>& texts) {
+    lua_createtable(call.state(), static_cast<int>(texts.size()), 0);
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        lua_pushstring(call.state(), texts[i].c_str());
+        lua_rawseti(call.state(), -2, static_cast<lua_Integer>(i + 1));
+    }
+    return 1;
+}
+
+int field_y(Call& call) {
+    return give_channels(call, only_experiment(call).y);
+}
+int field_u(Call& call) {
+    return give_channels(call, only_experiment(call).u);
+}
+int field_t(Call& call) {
+    only_experiment(call);
+    return call.give_vector(data_self(call).time());
+}
+int field_Ts(Call& call) {
+    return call.give(data_self(call).Ts);
+}
+int field_N(Call& call) {
+    return call.give_whole(data_self(call).sample_count());
+}
+int field_ny(Call& call) {
+    return call.give_whole(data_self(call).output_count());
+}
+int field_nu(Call& call) {
+    return call.give_whole(data_self(call).input_count());
+}
+int field_experiments(Call& call) {
+    return call.give_whole(static_cast<Index>(data_self(call).experiments.size()));
+}
+int field_hold(Call& call) {
+    return call.give(std::string(data_self(call).hold == Hold::kZoh ? "zoh" : "foh"));
+}
+int field_input_name(Call& call) {
+    return give_texts(call, data_self(call).input_names);
+}
+int field_output_name(Call& call) {
+    return give_texts(call, data_self(call).output_names);
+}
+
+int part(Call& call) {
+    call.at_most(3);
+    return give_data(call, data_self(call).range(call.whole(2, "first"), call.whole(3, "last")));
+}
+
+Index whole_place(double number) {
+    if (number != std::floor(number))
+        throw InvalidArgument(
+            fmt::format("samples and channels are counted in whole numbers, but {} was given", number_text(number)));
+    return static_cast<Index>(number);
+}
+
+/// data[{i, j}]
+int part_by_table(Call& call) {
+    if (call.type(2) != LUA_TTABLE)
+        throw InvalidArgument("the samples i to j are data[{i, j}]; the signals are data.y, data.u and data.t");
+    const VectorMap bounds = call.vector(2, "{first, last}");
+    if (bounds.size() != 2)
+        throw InvalidArgument(
+            fmt::format("the samples i to j are data[{{i, j}}], but {} numbers were given", bounds.size()));
+    return give_data(call, data_self(call).range(whole_place(bounds[0]), whole_place(bounds[1])));
+}
+
+int experiment(Call& call) {
+    call.at_most(2);
+    IdData data = data_self(call);
+    const Index number = call.whole(2, "experiment");
+    if (number < 1 || number > static_cast<Index>(data.experiments.size()))
+        throw InvalidArgument(
+            fmt::format("experiment {} does not exist: there are 1 to {}", number, data.experiments.size()));
+    data.experiments = {data.experiments[static_cast<std::size_t>(number - 1)]};
+    return give_data(call, std::move(data));
+}
+
+/// data:split(0.6) gives two data objects.
+int split(Call& call) {
+    call.at_most(2);
+    auto [first, second] = data_self(call).split(call.number(2, "fraction"));
+    return give_data(call, std::move(first)) + give_data(call, std::move(second));
+}
+
+std::vector<Index> channels(Call& call, int index, const char* what) {
+    if (call.type(index) == LUA_TNUMBER) return {call.whole(index, what)};
+    const VectorMap list = call.vector(index, what);
+    std::vector<Index> places;
+    for (const double number : list) places.push_back(whole_place(number));
+    return places;
+}
+
+/// data:select(outputs, inputs)
+int select(Call& call) {
+    call.at_most(3);
+    const IdData& data = data_self(call);
+    std::vector<Index> inputs;
+    for (Index i = 1; i <= data.input_count(); ++i) inputs.push_back(i);
+    if (call.given(3)) inputs = channels(call, 3, "inputs");
+    return give_data(call, data.select(channels(call, 2, "outputs"), inputs));
+}
+
+int shift(Call& call) {
+    call.at_most(2);
+    return give_data(call, data_self(call).shifted(call.whole(2, "samples")));
+}
+
+int remove_mean_of(Call& call) {
+    call.at_most(1);
+    return give_data(call, remove_mean(data_self(call)).data);
+}
+
+int data_to_text(Call& call) {
+    const IdData& data = data_self(call);
+    const std::string sampling =
+        data.regular() ? "Ts = " + number_text(data.Ts) + " " + data.time_unit : "sampled irregularly";
+    const std::size_t experiments = data.experiments.size();
+    return call.give(fmt::format("iddata: {} samples, {} output{}, {} input{}, {}{}", data.sample_count(),
+                                 data.output_count(), data.output_count() == 1 ? "" : "s", data.input_count(),
+                                 data.input_count() == 1 ? "" : "s", sampling,
+                                 experiments > 1 ? fmt::format(", {} experiments", experiments) : ""));
+}
+
+constexpr std::array kDataTypeFields = {
+    Member{"y", guarded<field_y>},
+    Member{"u", guarded<field_u>},
+    Member{"t", guarded<field_t>},
+    Member{"Ts", guarded<field_Ts>},
+    Member{"N", guarded<field_N>},
+    Member{"ny", guarded<field_ny>},
+    Member{"nu", guarded<field_nu>},
+    Member{"experiments", guarded<field_experiments>},
+    Member{"InterSample", guarded<field_hold>},
+    Member{"InputName", guarded<field_input_name>},
+    Member{"OutputName", guarded<field_output_name>},
+};
+constexpr std::array kDataTypeMethods = {
+    Member{"range", guarded<part>},
+    Member{"experiment", guarded<experiment>},
+    Member{"split", guarded<split>},
+    Member{"select", guarded<select>},
+    Member{"shift", guarded<shift>},
+    Member{"detrend", guarded<detrend_signals>},
+    Member{"remove_mean", guarded<remove_mean_of>},
+    Member{"merge", guarded<merge_data>},
+    Member{"filter", guarded<filter_signals>},
+    Member{"resample", guarded<resample_signals>},
+    Member{"keep", guarded<keep_parts>},
+    Member{"discard", guarded<discard_parts>},
+};
+constexpr std::array kDataTypeOperators = {Member{"__tostring", guarded<data_to_text>}};
+
+}  // namespace
+
+const ObjectType Boxed<IdData>::type{"iddata", kDataTypeFields, kDataTypeMethods, kDataTypeOperators,
+                                     guarded<part_by_table>};
+
+std::size_t Boxed<IdData>::outside_bytes(const IdData& data) {
+    std::size_t numbers = 0;
+    for (const Experiment& experiment : data.experiments)
+        numbers += static_cast<std::size_t>(experiment.y.size() + experiment.u.size() + experiment.t.size());
+    return numbers * sizeof(double) + data.experiments.size() * sizeof(Experiment);
+}
+
+int give_data(const Call& call, IdData data) {
+    push_object(call.state(), std::move(data));
+    return 1;
+}
+
+}  // namespace dynlab::inline scripting

@@ -1,0 +1,167 @@
+#include <array>
+
+#include "numerics/estimators/armax.h"
+#include "numerics/estimators/arx.h"
+#include "numerics/estimators/bj.h"
+#include "numerics/estimators/iv4.h"
+#include "numerics/estimators/oe.h"
+#include "numerics/estimators/sriv.h"
+#include "numerics/fit/integrated_input.h"
+#include "scripting/arguments/estimation.h"
+#include "scripting/arguments/order_vector.h"
+#include "scripting/bind/bindings.h"
+#include "scripting/objects/data_object.h"
+#include "scripting/objects/model.h"
+#include "scripting/remembered_calls/long_call.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+constexpr OrderEntry kDiscreteNb{"nb", "coefficients of B"};
+constexpr OrderEntry kDiscreteNk{"nk", "samples of delay, 1 for no direct term"};
+constexpr OrderEntry kDiscreteNa{"na", "poles"}, kDiscreteNf{"nf", "poles"};
+constexpr OrderEntry kDiscreteNc{"nc", "coefficients of C after the leading one"};
+constexpr OrderEntry kDiscreteNd{"nd", "coefficients of D after the leading one"};
+constexpr std::array kArxOrders = {kDiscreteNa, kDiscreteNb, kDiscreteNk};
+constexpr std::array kArmaxOrders = {kDiscreteNa, kDiscreteNb, kDiscreteNc, kDiscreteNk};
+constexpr std::array kDiscreteOutputErrorOrders = {kDiscreteNb, kDiscreteNf, kDiscreteNk};
+constexpr std::array kBoxJenkinsOrders = {kDiscreteNb, kDiscreteNc, kDiscreteNd, kDiscreteNf, kDiscreteNk};
+
+Estimate estimate_of(const char* method, const PolynomialEstimate& result) {
+    Estimate estimate = common_estimate(method, result);
+    estimate.numbers = {
+        {"fit_percent", result.fit_percent},           {"prediction_fit_percent", result.prediction_fit_percent},
+        {"noise_variance", result.noise_variance},     {"loss", result.loss},
+        {"condition_number", result.condition_number}, {"iterations", static_cast<double>(result.trace.size())}};
+    Vector losses(static_cast<Index>(result.trace.size()));
+    for (Index i = 0; i < losses.size(); ++i) losses[i] = result.trace[static_cast<std::size_t>(i)].loss;
+    estimate.vectors = {{"offsets", result.offsets}, {"losses", losses}};
+    return estimate;
+}
+
+int give_estimate(const Call& call, Estimate estimate, const PolynomialEstimate& result) {
+    Model model{result.model.transfer_function()};
+    model.estimate = std::make_shared<Estimate>(std::move(estimate));
+    model.polynomial = std::make_shared<PolynomialModel>(result.model);
+    push_object(call.state(), std::move(model));
+    return 1;
+}
+
+/// The entry of an order vector that is one number for all inputs.
+int only_value(const std::vector<int>& entry, const OrderEntry& what) {
+    if (entry.size() == 1) return entry.front();
+    throw InvalidArgument(
+        fmt::format("{} is one number of {} for all inputs, but {} were given", what.name, what.meaning, entry.size()));
+}
+
+/// The data of an estimation with an integrator: the running sum of the input stands for the input.
+IdData data_for(const IdData& data, bool integration) {
+    return integration ? summed_inputs(data) : data;
+}
+
+template <auto kMethod>
+int estimate_equation_error(Call& call) {
+    call.at_most(3);
+    const IdData& data = object_argument<IdData>(call, 1, "data");
+    const auto orders = order_lists(call, 2, kArxOrders);
+    const bool integration = Options(call, 3, {"Integration"}).flag("Integration", false);
+    PolynomialEstimate result = kMethod(
+        data_for(data, integration), PolynomialOrders::arx(only_value(orders[0], kDiscreteNa), orders[1], orders[2]));
+    if (integration) append_integrator(result);
+    return give_estimate(call, estimate_of(call.function_name(), result), result);
+}
+
+void read_search_options(const Options& options, PolynomialOptions& wanted) {
+    wanted.MaxIter = static_cast<int>(options.size("MaxIter", wanted.MaxIter));
+    wanted.Tol = options.number("Tol", wanted.Tol);
+    wanted.cancel = options.call().cancel();
+}
+
+PolynomialOptions polynomial_options(const Options& options) {
+    PolynomialOptions wanted;
+    wanted.initial_state = parse_initial_state(options.text("InitialState", "zero"));
+    wanted.offset = parse_offset(options.text("Offset", "none"));
+    read_search_options(options, wanted);
+    return wanted;
+}
+
+/// With robust standard errors, where the record is not too long for them.
+int give_assessed(Call& call, const IdData& data, PolynomialEstimate result, Offset offset, bool integration) {
+    Estimate estimate = estimate_of(call.function_name(), result);
+    if (data.sample_count() <= kMostAssessed && result.std.allFinite())
+        estimate.assessment = std::make_shared<Assessment>(assess(data, result, offset));
+    if (integration) append_integrator(result);
+    return give_estimate(call, std::move(estimate), result);
+}
+
+/// oe, sriv and bj.
+template <auto kMethod>
+int estimate_simulation(Call& call, const PolynomialOrders& orders) {
+    const IdData& data = object_argument<IdData>(call, 1, "data");
+    const Options options(call, 3, {"InitialState", "Offset", "MaxIter", "Tol", "Integration"});
+    const PolynomialOptions wanted = polynomial_options(options);
+    const bool integration = options.flag("Integration", false);
+    const IdData seen = data_for(data, integration);
+    return give_assessed(call, seen, kMethod(seen, orders, wanted), wanted.offset, integration);
+}
+
+template <auto kMethod>
+int estimate_output_error(Call& call) {
+    call.at_most(3);
+    object_argument<IdData>(call, 1, "data");
+    const auto orders = order_lists(call, 2, kDiscreteOutputErrorOrders);
+    return estimate_simulation<kMethod>(call, PolynomialOrders::output_error(orders[0], orders[1], orders[2]));
+}
+
+int estimate_armax(Call& call) {
+    call.at_most(3);
+    const IdData& data = object_argument<IdData>(call, 1, "data");
+    const auto lists = order_lists(call, 2, kArmaxOrders);
+    PolynomialOrders orders = PolynomialOrders::arx(only_value(lists[0], kDiscreteNa), lists[1], lists[3]);
+    orders.nc = only_value(lists[2], kDiscreteNc);
+    const Options options(call, 3, {"MaxIter", "Tol", "Integration"});
+    PolynomialOptions wanted;
+    read_search_options(options, wanted);
+    const bool integration = options.flag("Integration", false);
+    const IdData seen = data_for(data, integration);
+    return give_assessed(call, seen, armax(seen, orders, wanted), Offset::kNone, integration);
+}
+
+int estimate_bj(Call& call) {
+    call.at_most(3);
+    object_argument<IdData>(call, 1, "data");
+    const auto lists = order_lists(call, 2, kBoxJenkinsOrders);
+    PolynomialOrders orders = PolynomialOrders::output_error(lists[0], lists[3], lists[4]);
+    orders.nc = only_value(lists[1], kDiscreteNc);
+    orders.nd = only_value(lists[2], kDiscreteNd);
+    return estimate_simulation<bj>(call, orders);
+}
+
+constexpr const char* kDiscreteEstimatorsArea = "discrete time";
+constexpr std::array kDiscreteEstimatorsFunctions = {
+    FunctionEntry{"arx", kDiscreteEstimatorsArea, "arx(data, {na, nb, nk}, {Integration =}) -> G",
+                  "A y = B u + e by least squares", guarded<estimate_equation_error<arx>>},
+    FunctionEntry{"iv4", kDiscreteEstimatorsArea, "iv4(data, {na, nb, nk}, {Integration =}) -> G",
+                  "A y = B u + v by instrumental variables in four steps",
+                  guarded<long_call<estimate_equation_error<iv4>>>},
+    FunctionEntry{"armax", kDiscreteEstimatorsArea,
+                  "armax(data, {na, nb, nc, nk}, {MaxIter =, Tol =, Integration =}) -> G",
+                  "A y = B u + C e with the smallest prediction error", guarded<long_call<estimate_armax>>},
+    FunctionEntry{"oe", kDiscreteEstimatorsArea,
+                  "oe(data, {nb, nf, nk}, {InitialState =, Offset =, Integration =, ...}) -> G",
+                  "y = B/F u + e with the smallest simulation error", guarded<long_call<estimate_output_error<oe>>>},
+    FunctionEntry{"sriv", kDiscreteEstimatorsArea,
+                  "sriv(data, {nb, nf, nk}, {InitialState =, Offset =, Integration =, ...}) -> G",
+                  "y = B/F u + e by refined instrumental variables", guarded<long_call<estimate_output_error<sriv>>>},
+    FunctionEntry{"bj", kDiscreteEstimatorsArea,
+                  "bj(data, {nb, nc, nd, nf, nk}, {InitialState =, Offset =, Integration =, ...}) -> G",
+                  "y = B/F u + C/D e with the smallest prediction error", guarded<long_call<estimate_bj>>},
+};
+
+}  // namespace
+
+FunctionEntries discrete_estimator_functions() {
+    return kDiscreteEstimatorsFunctions;
+}
+
+}  // namespace dynlab::inline scripting

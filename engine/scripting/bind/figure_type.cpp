@@ -1,0 +1,136 @@
+#include <array>
+
+#include "scripting/objects/figure_object.h"
+#include "scripting/objects/panel_options.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+Figure& figure_self(Call& call) {
+    return object_argument<FigurePointer>(call, 1, "figure")->figure;
+}
+
+Panel& panel_of(Figure& figure, Index number) {
+    if (number < 1 || number > static_cast<Index>(figure.panels.size()))
+        throw InvalidArgument(fmt::format("panel {} does not exist: the figure has {}", number, figure.panels.size()));
+    return figure.panels[static_cast<std::size_t>(number - 1)];
+}
+
+/// The panel that argument `index` numbers, the first one unless given.
+Panel& panel_argument(Call& call, int index) {
+    return panel_of(figure_self(call), call.given(index) ? call.whole(index, "panel") : 1);
+}
+
+/// Methods give the figure back, so that they can be chained.
+int give_self(Call& call) {
+    lua_pushvalue(call.state(), 1);
+    return 1;
+}
+
+/// fig:add(x, y, {label =, style =, panel =, ...})
+int add_curve(Call& call) {
+    call.at_most(4);
+    const Options options(call, 4, {"label", "style", "colour", "dash", "line_width", "marker", "panel"});
+    Curve curve;
+    curve.x = call.vector(2, "x");
+    curve.y = call.vector(3, "y");
+    curve.label = options.text("label", "");
+    read_curve_look(options, curve);
+    panel_of(figure_self(call), options.size("panel", 1)).curves.push_back(std::move(curve));
+    figure_self(call).validate();
+    return give_self(call);
+}
+
+/// fig:mark(x, y, text, panel)
+int add_mark(Call& call) {
+    call.at_most(5);
+    const Annotation mark{call.number(2, "x"), call.number(3, "y"), call.given(4) ? call.text(4, "text") : "", true};
+    panel_argument(call, 5).annotations.push_back(mark);
+    return give_self(call);
+}
+
+template <bool kHorizontal>
+int add_reference(Call& call) {
+    call.at_most(4);
+    const ReferenceLine line{kHorizontal, call.number(2, kHorizontal ? "y" : "x"),
+                             call.given(3) ? call.text(3, "label") : "", 1};
+    panel_argument(call, 4).references.push_back(line);
+    return give_self(call);
+}
+
+/// fig:arrow(x0, y0, x1, y1, text, panel)
+int add_arrow(Call& call) {
+    call.at_most(7);
+    const Arrow arrow{call.number(2, "x0"),
+                      call.number(3, "y0"),
+                      call.number(4, "x1"),
+                      call.number(5, "y1"),
+                      call.given(6) ? call.text(6, "text") : "",
+                      true};
+    panel_argument(call, 7).arrows.push_back(arrow);
+    return give_self(call);
+}
+
+/// fig:set{title =, xlabel =, ..., panel =}
+int set_options(Call& call) {
+    call.at_most(2);
+    const Options options(call, 2,
+                          {"title", "xlabel", "ylabel", "x_range", "y_range", "x_log", "y_log", "equal_axes", "legend",
+                           "width", "height", "panel", "curves", "references", "annotations", "arrows"});
+    Figure& figure = figure_self(call);
+    read_panel_options(call, options, panel_of(figure, options.size("panel", 1)));
+    figure.width_cm = options.number("width", figure.width_cm);
+    figure.height_cm = options.number("height", figure.height_cm);
+    figure.validate();
+    return give_self(call);
+}
+
+int figure_to_text(Call& call) {
+    const Figure& figure = figure_self(call);
+    std::size_t curves = 0;
+    for (const Panel& panel : figure.panels) curves += panel.curves.size();
+    return call.give(fmt::format("figure: {} panel{}, {} curve{}", figure.panels.size(),
+                                 figure.panels.size() == 1 ? "" : "s", curves, curves == 1 ? "" : "s"));
+}
+
+int panel_count(Call& call) {
+    return call.give_whole(static_cast<Index>(figure_self(call).panels.size()));
+}
+
+constexpr std::array kFigureTypeFields = {Member{"panels", guarded<panel_count>}};
+constexpr std::array kFigureTypeMethods = {Member{"add", guarded<add_curve>},
+                                           Member{"mark", guarded<add_mark>},
+                                           Member{"hline", guarded<add_reference<true>>},
+                                           Member{"vline", guarded<add_reference<false>>},
+                                           Member{"arrow", guarded<add_arrow>},
+                                           Member{"set", guarded<set_options>}};
+constexpr std::array kFigureTypeOperators = {Member{"__tostring", guarded<figure_to_text>}};
+
+}  // namespace
+
+const ObjectType Boxed<FigurePointer>::type{"figure", kFigureTypeFields, kFigureTypeMethods, kFigureTypeOperators};
+
+std::size_t Boxed<FigurePointer>::outside_bytes(const FigurePointer& figure) {
+    std::size_t bytes = sizeof(ScriptFigure);
+    for (const Panel& panel : figure->figure.panels)
+        for (const Curve& curve : panel.curves)
+            bytes += sizeof(Curve) +
+                     sizeof(double) * static_cast<std::size_t>(curve.x.size() + curve.y.size() + curve.y_upper.size());
+    return bytes;
+}
+
+int give_figure(const Call& call, Figure figure) {
+    figure.validate();
+    auto pointer = std::make_shared<ScriptFigure>(ScriptFigure{std::move(figure), false, {}});
+    push_object(call.state(), pointer);
+    call.context().recorder.add_figure(pointer);
+    return 1;
+}
+
+ScriptFigure& used_figure(const Call& call, int index, const char* what) {
+    ScriptFigure& figure = *object_argument<FigurePointer>(call, index, what);
+    figure.used = true;
+    return figure;
+}
+
+}  // namespace dynlab::inline scripting

@@ -1,0 +1,204 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "figures/gnuplot_renderer.h"
+#include "numerics/number_text.h"
+#include "scripting/bind/bindings.h"
+#include "scripting/objects/figure_object.h"
+#include "scripting/objects/panel_options.h"
+#include "scripting/runtime/output_path.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+/// Options of plot that hold one value for all curves or one per curve.
+struct CurveLists {
+    std::vector<std::string> labels, styles;
+    std::vector<double> dashes, colours;
+};
+
+std::vector<double> numbers(const Options& options, const char* name) {
+    if (!options.has(name)) return {};
+    lua_State* L = options.call().state();
+    if (lua_type(L, options.push(name)) == LUA_TNUMBER) return {options.number(name, 0)};
+    const VectorMap list = options.vector(name);
+    return {list.begin(), list.end()};
+}
+
+/// The number as a place in a list of looks.
+int place_of_look(double number, const char* name) {
+    if (number < 0 || number != std::floor(number) || number > 1000)
+        throw InvalidArgument(
+            fmt::format("option '{}' must be a whole number from 0 on, but {} was given", name, number_text(number)));
+    return static_cast<int>(number);
+}
+
+/// The value for curve `i` of `count`: the only one, or its own.
+template <class T>
+const T* value_for(const std::vector<T>& values, std::size_t i, std::size_t count, const char* name) {
+    if (values.empty()) return nullptr;
+    if (values.size() == 1) return &values.front();
+    if (values.size() != count)
+        throw InvalidArgument(
+            fmt::format("option '{}' has {} values, but there are {} curves", name, values.size(), count));
+    return &values[i];
+}
+
+void read_curve_lists(const Options& options, std::vector<Curve>& curves) {
+    const CurveLists lists{options.texts("label"), options.texts("style"), numbers(options, "dash"),
+                           numbers(options, "colour")};
+    if (lists.labels.size() > curves.size())
+        throw InvalidArgument(
+            fmt::format("option 'label' has {} texts, but there are {} curves", lists.labels.size(), curves.size()));
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+        Curve& curve = curves[i];
+        if (i < lists.labels.size()) curve.label = lists.labels[i];
+        if (auto style = value_for(lists.styles, i, curves.size(), "style")) curve.style = parse_curve_style(*style);
+        if (auto dash = value_for(lists.dashes, i, curves.size(), "dash")) curve.dash = place_of_look(*dash, "dash");
+        if (auto colour = value_for(lists.colours, i, curves.size(), "colour"))
+            curve.colour = place_of_look(*colour, "colour");
+        curve.line_width = options.number("line_width", curve.line_width);
+    }
+}
+
+/// MATLAB's line specification: "--", "r:", ".-", or a colour with a marker such as "ro".
+bool is_line_specification(const std::string& text) {
+    if (text.empty() || text.size() > 3 || text.find_first_not_of("-:.ox+*sdrgbkmcy") != std::string::npos)
+        return false;
+    if (text.find_first_of("-:.+*") != std::string::npos) return true;
+    const auto is_one_of = [](char letter, std::string_view letters) { return letters.find(letter) != letters.npos; };
+    return text.size() == 2 && is_one_of(text[0], "rgbkmcy") && is_one_of(text[1], "oxsd");
+}
+
+std::string curve_name(const Call& call, int index) {
+    const std::string name = call.text(index, "name of the curve");
+    if (is_line_specification(name))
+        throw InvalidArgument(fmt::format(
+            "a text names the curve; for the look \"{}\" write {{style = \"points\"}} or {{dash = 1}}", name));
+    return name;
+}
+
+/// x1, y1, "name", x2, y2, "name", ... up to the options; a single vector is drawn over 1, 2, 3, ...
+std::vector<Curve> read_curves(const Call& call, int last) {
+    std::vector<Curve> curves;
+    for (int i = 1; i <= last;) {
+        Curve curve;
+        const bool alone = i == last || !call.holds_vector(i + 1);
+        const VectorMap first = call.vector(i, alone ? "y" : "x");
+        curve.y = alone ? first : call.vector(i + 1, "y");
+        curve.x = alone ? Vector(Vector::LinSpaced(first.size(), 1, static_cast<double>(first.size()))) : Vector(first);
+        i += alone ? 1 : 2;
+        if (i <= last && call.type(i) == LUA_TSTRING) curve.label = curve_name(call, i++);
+        curves.push_back(std::move(curve));
+    }
+    if (curves.empty())
+        throw InvalidArgument(
+            "there is nothing to draw; write plot(x, y) or plot(x, y, \"name\", {xlabel = \"time (s)\"})");
+    return curves;
+}
+
+bool holds_options(const Call& call, int index) {
+    return index > 0 && call.type(index) == LUA_TTABLE && !call.holds_vector(index);
+}
+
+int plot(Call& call) {
+    const bool with_options = holds_options(call, call.count());
+    Panel panel;
+    panel.curves = read_curves(call, call.count() - (with_options ? 1 : 0));
+    const Options options(call, with_options ? call.count() : call.count() + 1,
+                          {"title",      "xlabel", "ylabel", "x_range",    "y_range",     "x_log",  "y_log",
+                           "equal_axes", "legend", "curves", "references", "annotations", "arrows", "label",
+                           "style",      "dash",   "colour", "line_width", "width",       "height"});
+    read_curve_lists(options, panel.curves);
+    read_panel_options(call, options, panel);
+    Figure figure(std::move(panel));
+    figure.width_cm = options.number("width", figure.width_cm);
+    figure.height_cm = options.number("height", figure.height_cm);
+    return give_figure(call, std::move(figure));
+}
+
+/// The panels of figure{...}: those under `panels`, or the one the table itself describes.
+std::vector<Panel> described_panels(const Call& call, const Options& options) {
+    lua_State* L = call.state();
+    std::vector<Panel> panels;
+    const int list = options.push("panels");
+    if (lua_isnil(L, list)) {
+        read_panel_options(call, options, panels.emplace_back());
+    } else {
+        for (lua_Integer i = 1; lua_rawgeti(L, list, i) != LUA_TNIL; lua_settop(L, list), ++i)
+            panels.push_back(read_panel(call, lua_gettop(L)));
+    }
+    lua_settop(L, list - 1);
+    return panels;
+}
+
+int figure(Call& call) {
+    call.at_most(1);
+    if (!call.given(1)) return 0;
+    if (call.type(1) == LUA_TNUMBER) {
+        call.context().recorder.set_next_figure_number(call.whole(1, "number"));
+        return 0;
+    }
+    const Options options(
+        call, 1,
+        {"title", "xlabel", "ylabel", "x_range", "y_range", "x_log", "y_log", "equal_axes", "legend", "curves",
+         "references", "annotations", "arrows", "panels", "rows", "columns", "width", "height"});
+    Figure figure;
+    figure.panels = described_panels(call, options);
+    figure.columns = static_cast<int>(options.size("columns", 1));
+    const auto columns = static_cast<std::size_t>(std::max(figure.columns, 1));
+    figure.rows =
+        static_cast<int>(options.size("rows", static_cast<Index>((figure.panels.size() + columns - 1) / columns)));
+    if (options.has("panels")) figure.title = options.text("title", "");
+    figure.width_cm = options.number("width", figure.width_cm);
+    figure.height_cm = options.number("height", figure.height_cm);
+    return give_figure(call, std::move(figure));
+}
+
+int subplot(Call& call) {
+    call.at_most(3);
+    lua_State* L = call.state();
+    Figure figure;
+    figure.rows = static_cast<int>(call.size(1, "rows"));
+    figure.columns = static_cast<int>(call.size(2, "columns"));
+    if (call.type(3) != LUA_TTABLE)
+        throw InvalidArgument("the figures are given as a list: subplot(2, 1, {figure1, figure2})");
+    for (lua_Integer i = 1; lua_rawgeti(L, 3, i) != LUA_TNIL; lua_pop(L, 1), ++i) {
+        const FigurePointer* part = to_object<FigurePointer>(L, -1);
+        if (part == nullptr)
+            throw InvalidArgument(
+                fmt::format("entry {} of the list must be a figure, but it is {}", i, given_text(L, -1)));
+        (*part)->used = true;
+        figure.panels.insert(figure.panels.end(), (*part)->figure.panels.begin(), (*part)->figure.panels.end());
+    }
+    return give_figure(call, std::move(figure));
+}
+
+int save(Call& call) {
+    call.at_most(2);
+    ScriptFigure& figure = used_figure(call, 1, "figure");
+    const std::filesystem::path file = output_path(call.context(), call.text(2, "path"));
+    if (call.context().options.graded) return 0;
+    call.context().renderer.draw(figure.figure, file, figure_format(file));
+    return 0;
+}
+
+constexpr const char* kFiguresArea = "figures";
+constexpr std::array kFiguresFunctions = {
+    FunctionEntry{"plot", kFiguresArea, "plot(x, y, \"name\", ..., {title =, xlabel =, ylabel =, style =, ...}) -> fig",
+                  "draws curves in one panel", guarded<plot>},
+    FunctionEntry{"figure", kFiguresArea, "figure{...} -> fig; figure(n)",
+                  "a figure from its description; or the number of the next figure", guarded<figure>},
+    FunctionEntry{"subplot", kFiguresArea, "subplot(rows, columns, {fig1, fig2, ...}) -> fig",
+                  "puts the panels of figures into one", guarded<subplot>},
+    FunctionEntry{"save", kFiguresArea, "save(fig, path)", "writes a figure as .pdf, .svg or .png", guarded<save>},
+};
+
+}  // namespace
+
+FunctionEntries figure_functions() {
+    return kFiguresFunctions;
+}
+
+}  // namespace dynlab::inline scripting

@@ -1,0 +1,185 @@
+#include <array>
+
+#include "numerics/models/convert.h"
+#include "scripting/bind/bindings.h"
+#include "scripting/objects/model.h"
+#include "scripting/objects/present.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+/// tf("s"), tf("z", Ts), tf(num, den, {Ts =, IODelay =}), tf(system)
+int make_tf(Call& call) {
+    call.at_most(3);
+    if (call.type(1) == LUA_TSTRING) {
+        const std::string name = call.text(1, "variable");
+        if (name == "s") return give_model(call, TransferFunction::variable());
+        if (name == "z" && call.given(2)) return give_model(call, TransferFunction::variable(call.number(2, "Ts")));
+        throw InvalidArgument("the variable is written tf(\"s\"), or tf(\"z\", Ts) with the sampling time in seconds");
+    }
+    if (holds_model(call, 1)) return give_model(call, model_argument(call, 1, "model").G);
+    const Options options(call, 3, {"Ts", "IODelay"});
+    auto coefficients = [&](int index, const char* what) {
+        return call.type(index) == LUA_TNUMBER ? Vector(Vector::Constant(1, call.number(index, what)))
+                                               : Vector(call.vector(index, what));
+    };
+    return give_model(call, TransferFunction(coefficients(1, "num"), coefficients(2, "den"), options.number("Ts", 0),
+                                             options.number("IODelay", 0)));
+}
+
+int make_idproc(Call& call) {
+    call.at_most(2);
+    const ProcessStructure structure = ProcessStructure::parse(call.text(1, "structure"));
+    const Options options(call, 2, {"Kp", "Tp1", "Tp2", "Tp3", "Tw", "Zeta", "Tz", "Td"});
+    const std::vector<std::string> names = structure.parameter_names();
+    Vector parameters(static_cast<Index>(names.size()));
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const auto value = options.optional_number(names[i].c_str());
+        if (!value)
+            throw InvalidArgument(fmt::format("the structure {} needs the parameters {}; {} is missing",
+                                              structure.text(), fmt::join(names, ", "), names[i]));
+        parameters[static_cast<Index>(i)] = *value;
+    }
+    const ProcessModel process(structure, parameters);
+    push_object(call.state(), Model{process.transfer_function(), process, {}});
+    return 1;
+}
+
+/// ss(A, B, C, D, {Ts =}) or ss(G)
+int make_ss(Call& call) {
+    call.at_most(5);
+    if (holds_model(call, 1)) {
+        const Model* model = to_object<Model>(call.state(), 1);
+        if (model != nullptr && model->system) {
+            push_object(call.state(), StateSpace(*model->system));
+            return 1;
+        }
+        push_object(call.state(), to_state_space(model_argument(call, 1, "G").G));
+        return 1;
+    }
+    const Options options(call, 5, {"Ts"});
+    push_object(call.state(), StateSpace(call.matrix(1, "A"), call.matrix(2, "B"), call.matrix(3, "C"),
+                                         call.matrix(4, "D"), options.number("Ts", 0)));
+    return 1;
+}
+
+int connect_series(Call& call) {
+    call.at_most(2);
+    return give_model(call, model_argument(call, 1, "G1").G * model_argument(call, 2, "G2").G);
+}
+int connect_parallel(Call& call) {
+    call.at_most(2);
+    return give_model(call, model_argument(call, 1, "G1").G + model_argument(call, 2, "G2").G);
+}
+int connect_feedback(Call& call) {
+    call.at_most(3);
+    const Index sign = call.given(3) ? call.whole(3, "sign") : -1;
+    if (sign != 1 && sign != -1) throw InvalidArgument("the sign is -1 (negative feedback) or 1 (positive feedback)");
+    return give_model(call, feedback(model_argument(call, 1, "forward").G, model_argument(call, 2, "backward").G,
+                                     static_cast<int>(sign)));
+}
+
+Discretisation method_argument(const Call& call, int index) {
+    const std::string name = call.given(index) ? call.text(index, "method") : "zoh";
+    if (name == "zoh") return Discretisation::kZoh;
+    if (name == "foh") return Discretisation::kFoh;
+    if (name == "tustin") return Discretisation::kTustin;
+    throw InvalidArgument(fmt::format("the method is \"zoh\", \"foh\" or \"tustin\", but \"{}\" was given", name));
+}
+
+int to_discrete(Call& call) {
+    call.at_most(3);
+    const double Ts = call.number(2, "Ts");
+    const Discretisation method = method_argument(call, 3);
+    if (const StateSpace* system = to_object<StateSpace>(call.state(), 1)) {
+        push_object(call.state(), c2d(*system, Ts, method));
+        return 1;
+    }
+    return give_model(call, c2d(model_argument(call, 1, "G").G, Ts, method));
+}
+int to_continuous(Call& call) {
+    call.at_most(2);
+    return give_model(call, d2c(model_argument(call, 1, "G").G, method_argument(call, 2)));
+}
+
+int poles(Call& call) {
+    call.at_most(1);
+    push_object(call.state(), model_argument(call, 1, "G").G.poles());
+    return 1;
+}
+int zeros_of(Call& call) {
+    call.at_most(1);
+    push_object(call.state(), model_argument(call, 1, "G").G.zeros());
+    return 1;
+}
+int dc_gain(Call& call) {
+    call.at_most(1);
+    return call.give(model_argument(call, 1, "G").G.dc_gain());
+}
+int bandwidth_of(Call& call) {
+    call.at_most(1);
+    return call.give(bandwidth(model_argument(call, 1, "G").G));
+}
+int stable(Call& call) {
+    call.at_most(1);
+    return call.give(model_argument(call, 1, "G").G.stable());
+}
+
+/// natural frequencies, damping ratios, time constants
+int damp(Call& call) {
+    call.at_most(1);
+    const auto rows = damping(model_argument(call, 1, "G").G);
+    const auto count = static_cast<Index>(rows.size());
+    Matrix columns(count, 3);
+    for (Index i = 0; i < count; ++i) {
+        const PoleDescription& row = rows[static_cast<std::size_t>(i)];
+        columns.row(i) << row.natural_frequency, row.damping_ratio, row.time_constant;
+    }
+    for (Index j = 0; j < 3; ++j) call.give_vector(columns.col(j));
+    return 3;
+}
+
+int present(Call& call) {
+    if (call.count() == 0) wrong_argument(call.state(), 1, "G", "model");
+    for (int i = 1; i <= call.count(); ++i) {
+        const Model* model = to_object<Model>(call.state(), i);
+        call.print(presentation(model != nullptr ? *model : model_argument(call, i, "G")));
+    }
+    return 0;
+}
+
+constexpr const char* kModelsArea = "models";
+constexpr std::array kModelsFunctions = {
+    FunctionEntry{"tf", kModelsArea, "tf(num, den, {Ts =, IODelay =}) -> G; tf(\"s\"); tf(\"z\", Ts)",
+                  "a transfer function, or its variable to write one with", guarded<make_tf>},
+    FunctionEntry{"idproc", kModelsArea, "idproc(\"P1D\", {Kp =, Tp1 =, Td =}) -> G",
+                  "a process model from its gain, time constants and delay", guarded<make_idproc>},
+    FunctionEntry{"ss", kModelsArea, "ss(A, B, C, D, {Ts =}) -> system; ss(G)", "a state-space model",
+                  guarded<make_ss>},
+    FunctionEntry{"series", kModelsArea, "series(G1, G2) -> G", "one behind the other", guarded<connect_series>},
+    FunctionEntry{"parallel", kModelsArea, "parallel(G1, G2) -> G", "side by side, outputs added",
+                  guarded<connect_parallel>},
+    FunctionEntry{"feedback", kModelsArea, "feedback(forward, backward, sign) -> G",
+                  "a closed loop, negative feedback unless sign is 1", guarded<connect_feedback>},
+    FunctionEntry{"c2d", kModelsArea, "c2d(G, Ts, \"zoh\" | \"foh\" | \"tustin\") -> Gd",
+                  "discrete-time equal of a continuous-time model", guarded<to_discrete>},
+    FunctionEntry{"d2c", kModelsArea, "d2c(Gd, \"zoh\" | \"foh\" | \"tustin\") -> G",
+                  "continuous-time equal of a discrete-time model", guarded<to_continuous>},
+    FunctionEntry{"pole", kModelsArea, "pole(G) -> complex vector", "poles", guarded<poles>},
+    FunctionEntry{"zero", kModelsArea, "zero(G) -> complex vector", "zeros", guarded<zeros_of>},
+    FunctionEntry{"dcgain", kModelsArea, "dcgain(G) -> K", "steady-state gain", guarded<dc_gain>},
+    FunctionEntry{"damp", kModelsArea, "damp(G) -> wn, zeta, T",
+                  "natural frequency, damping ratio and time constant of every pole", guarded<damp>},
+    FunctionEntry{"bandwidth", kModelsArea, "bandwidth(G) -> w",
+                  "frequency (rad/s) at which the gain is 3 dB below its dc value", guarded<bandwidth_of>},
+    FunctionEntry{"stable", kModelsArea, "stable(G) -> true or false", "whether all poles are stable", guarded<stable>},
+    FunctionEntry{"present", kModelsArea, "present(G, ...)", "prints all that is known of models", guarded<present>},
+};
+
+}  // namespace
+
+FunctionEntries model_functions() {
+    return kModelsFunctions;
+}
+
+}  // namespace dynlab::inline scripting

@@ -1,0 +1,108 @@
+#include <array>
+
+#include "numerics/estimators/rivc.h"
+#include "numerics/fit/integrated_input.h"
+#include "scripting/arguments/estimation.h"
+#include "scripting/arguments/transfer_arguments.h"
+#include "scripting/bind/bindings.h"
+#include "scripting/objects/data_object.h"
+#include "scripting/remembered_calls/long_call.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+constexpr OrderEntry kNc{"nc", "coefficients of C after the leading one"};
+constexpr OrderEntry kNd{"nd", "coefficients of D after the leading one"};
+constexpr std::array kNoiseModelOrders = {kNb, kNc, kNd, kNf, kNk};
+
+int noise_order(const std::vector<int>& entry, const OrderEntry& what) {
+    if (entry.size() == 1) return entry.front();
+    throw InvalidArgument(
+        fmt::format("{} is one number for the noise of the output, but {} were given", what.name, entry.size()));
+}
+
+/// An estimation with the options it was asked for.
+struct NoisyReading {
+    bool integration;  ///< the models have an integrator besides
+    std::function<RivcResult(const IdData&)> estimation;
+};
+
+int give_with_noise(Call& call, const IdData& data, const NoisyReading& reading) {
+    const RivcResult result = reading.estimation(data);
+    Estimate estimate = estimate_of(call.function_name(), result);
+    estimate.of_coefficients = !reading.integration;
+    estimate.noise = std::make_shared<NoiseModel>(NoiseModel{result.C, result.D, result.C_std, result.D_std});
+    estimate.vectors.insert(estimate.vectors.end(), {{"C_std", result.C_std}, {"D_std", result.D_std}});
+    estimate.matrices.emplace_back("noise_covariance", result.noise_covariance);
+    return give_estimate(call, std::move(estimate), result);
+}
+
+NoisyReading reading_of(const StructureMaker& structure, const NoiseOrders& noise, const Options& options,
+                        const TransferOptions& wanted) {
+    const bool integration = options.flag("Integration", false);
+    return {integration, [=](const IdData& data) {
+                if (!integration) return rivc(data, structure(data), noise, wanted);
+                RivcResult result = rivc(integrated_inputs(data), structure(data), noise, wanted);
+                append_integrator(result);
+                return result;
+            }};
+}
+
+NoisyReading read_rivc(const Call& call) {
+    call.at_most(3);
+    const auto orders = order_lists(call, 2, kNoiseModelOrders);
+    const Options options(
+        call, 3, {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator", "Integration"});
+    TransferOptions wanted;
+    read_common_options(options, wanted);
+    return reading_of(structure_of_orders(kNoiseModelOrders, orders, sharing_of(options)),
+                      {noise_order(orders[1], kNc), noise_order(orders[2], kNd)}, options, wanted);
+}
+
+NoisyReading read_tfrivc(const Call& call) {
+    call.at_most(4);
+    const Options options(call, 4,
+                          {"nc", "nd", "lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol",
+                           "CommonDenominator", "Integration", "TdMin", "TdMax", "NumTd", "IODelay"});
+    TransferOptions wanted;
+    read_common_options(options, wanted);
+    const StructureMaker structure = structure_of_counts(call, options, wanted);
+    const NoiseOrders noise{static_cast<int>(options.size("nc", 0)), static_cast<int>(options.size("nd", 1))};
+    return reading_of(structure, noise, options, wanted);
+}
+
+template <auto kRead>
+int estimate_with_noise(Call& call) {
+    const IdData& data = object_argument<IdData>(call, 1, "data");
+    return give_with_noise(call, data, kRead(call));
+}
+
+template <auto kRead>
+Estimation read_estimation(const Call& call) {
+    return kRead(call).estimation;
+}
+
+constexpr NamedReader kNoiseModelsReaders[] = {{"rivc", read_estimation<read_rivc>},
+                                               {"tfrivc", read_estimation<read_tfrivc>}};
+
+constexpr const char* kNoiseModelsArea = "continuous time";
+constexpr std::array kNoiseModelsFunctions = {
+    FunctionEntry{"rivc", kNoiseModelsArea, "rivc(data, {nb, nc, nd, nf, nk}, {lambda =, MaxIter =, Tol =, ...}) -> G",
+                  "y = B/F u + C/D e, coloured noise modelled too", guarded<long_call<estimate_with_noise<read_rivc>>>},
+    FunctionEntry{"tfrivc", kNoiseModelsArea,
+                  "tfrivc(data, np, nz, {nc =, nd =, TdMin =, TdMax =, IODelay =, ...}) -> G",
+                  "rivc by numbers of poles and zeros, the delay estimated",
+                  guarded<long_call<estimate_with_noise<read_tfrivc>>>},
+};
+
+}  // namespace
+
+EstimationReaders noise_model_readers() {
+    return kNoiseModelsReaders;
+}
+
+FunctionEntries noise_model_functions() {
+    return kNoiseModelsFunctions;
+}
+
+}  // namespace dynlab::inline scripting

@@ -1,0 +1,166 @@
+#include <array>
+
+#include "figures/plots/impulse_estimate_plot.h"
+#include "figures/plots/spectral_plot.h"
+#include "numerics/estimators/cra.h"
+#include "numerics/estimators/etfe.h"
+#include "numerics/estimators/impulseest.h"
+#include "numerics/estimators/spa.h"
+#include "numerics/simulation/frequency_response.h"
+#include "scripting/arguments/table_fields.h"
+#include "scripting/bind/bindings.h"
+#include "scripting/objects/data_object.h"
+#include "scripting/objects/figure_object.h"
+#include "scripting/objects/model.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+/// (data, G1, G2, ..., {options}): the models to draw over the estimate, and where the options stand.
+struct SpectralModels {
+    const IdData& data;
+    std::vector<NamedModel> models;
+    int options;
+};
+
+SpectralModels comparison_arguments(const Call& call) {
+    SpectralModels read{object_argument<IdData>(call, 1, "data"), {}, 2};
+    for (; holds_model(call, read.options); ++read.options) {
+        const Model* model = to_object<Model>(call.state(), read.options);
+        const std::string name =
+            model != nullptr && model->estimate ? model->estimate->method : fmt::format("model {}", read.options - 1);
+        read.models.push_back({name, model_argument(call, read.options, "G").G});
+    }
+    call.at_most(read.options);
+    return read;
+}
+
+void name_models(const Options& options, std::vector<NamedModel>& models) {
+    const std::vector<std::string> labels = options.texts("labels");
+    if (labels.empty()) return;
+    if (labels.size() != models.size())
+        throw InvalidArgument(
+            fmt::format("option 'labels' has {} texts, but there are {} models", labels.size(), models.size()));
+    for (std::size_t i = 0; i < models.size(); ++i) models[i].name = labels[i];
+}
+
+double confidence_of(const Options& options) {
+    const double level = options.number("confidence", 0.99);
+    if (level > 0 && level < 1) return level;
+    throw InvalidArgument(fmt::format(
+        "option 'confidence' must be a probability between 0 and 1, such as 0.99, but {} was given", level));
+}
+
+void print_message(const Call& call, const std::string& message, const std::vector<std::string>& warnings) {
+    call.print(fmt::format("{}{}{}\n", message, warnings.empty() ? "" : " ", fmt::join(warnings, " ")));
+}
+
+int give_spectral(const Call& call, const Options& options, SpectralModels& read, const SpectralEstimate& estimate,
+                  const char* method) {
+    name_models(options, read.models);
+    print_message(call, estimate.message, estimate.warnings);
+    give_figure(call, spectral_plot(estimate, method, read.models, confidence_of(options)));
+    lua_createtable(call.state(), 0, 8);
+    set_vector(call, "w", estimate.w);
+    push_object(call.state(), estimate.response);
+    lua_setfield(call.state(), -2, "response");
+    set_vector(call, "magnitude", estimate.response.cwiseAbs());
+    set_vector(call, "phase", phase_degrees_unwrapped(estimate.response));
+    if (estimate.std.size() > 0) {
+        set_vector(call, "std", estimate.std);
+        set_vector(call, "coherence", estimate.coherence);
+        set_vector(call, "noise_spectrum", estimate.noise_spectrum);
+    }
+    set_text(call, "message", estimate.message);
+    set_texts(call, "warnings", estimate.warnings);
+    return 2;
+}
+
+int give_impulse(const Call& call, const Options& options, SpectralModels& read, const ImpulseEstimate& estimate) {
+    name_models(options, read.models);
+    print_message(call, estimate.message, estimate.warnings);
+    give_figure(call, impulse_estimate_plot(estimate, read.data.Ts, read.models, confidence_of(options)));
+    lua_State* L = call.state();
+    lua_createtable(L, 0, 8);
+    set_vector(call, "t", estimate.t);
+    set_vector(call, "response", estimate.response);
+    set_vector(call, "std", estimate.std);
+    set_vector(call, "chance", estimate.null_std);
+    set_number(L, "noise_variance", estimate.noise_variance);
+    if (estimate.first) {
+        set_whole(L, "first", *estimate.first);
+        set_number(L, "dead_time", static_cast<double>(std::max<Index>(*estimate.first - 1, 0)) * read.data.Ts);
+    }
+    set_text(call, "message", estimate.message);
+    set_texts(call, "warnings", estimate.warnings);
+    return 2;
+}
+
+int ratio_of_transforms(Call& call) {
+    SpectralModels read = comparison_arguments(call);
+    const Options options(call, read.options, {"smooth", "remove_mean", "confidence", "labels"});
+    EtfeOptions wanted;
+    wanted.smooth = options.size("smooth", 0);
+    wanted.remove_mean = options.flag("remove_mean", true);
+    return give_spectral(call, options, read, etfe(read.data, wanted), "etfe");
+}
+
+int spectral_analysis(Call& call) {
+    SpectralModels read = comparison_arguments(call);
+    const Options options(call, read.options, {"window", "w", "remove_mean", "confidence", "labels"});
+    SpaOptions wanted;
+    wanted.window = options.size("window", 0);
+    if (options.has("w")) wanted.w = options.vector("w");
+    wanted.remove_mean = options.flag("remove_mean", true);
+    return give_spectral(call, options, read, spa(read.data, wanted), "spa");
+}
+
+int regression_on_past_inputs(Call& call) {
+    SpectralModels read = comparison_arguments(call);
+    const Options options(call, read.options, {"lags", "smooth", "confidence", "labels"});
+    ImpulseestOptions wanted;
+    wanted.lags = options.size("lags", 0);
+    wanted.smooth = options.flag("smooth", true);
+    wanted.confidence = confidence_of(options);
+    return give_impulse(call, options, read, impulseest(read.data, wanted));
+}
+
+int correlation_analysis(Call& call) {
+    SpectralModels read = comparison_arguments(call);
+    const Options options(call, read.options, {"lags", "whitening", "confidence", "labels"});
+    CraOptions wanted;
+    wanted.lags = options.size("lags", 0);
+    wanted.whitening = options.size("whitening", wanted.whitening);
+    wanted.confidence = confidence_of(options);
+    const CorrelationAnalysis result = cra(read.data, wanted);
+    give_impulse(call, options, read, result.impulse);
+    set_vector(call, "whitening_filter", result.whitening_filter);
+    set_vector(call, "input_correlation", result.input_correlation);
+    return 2;
+}
+
+constexpr const char* kNonparametricArea = "nonparametric";
+constexpr std::array kNonparametricFunctions = {
+    FunctionEntry{"etfe", kNonparametricArea,
+                  "etfe(data, G1, ..., {smooth =, remove_mean =, confidence =, labels =}) -> fig, table",
+                  "frequency response as the ratio of the Fourier transforms of output and input",
+                  guarded<ratio_of_transforms>},
+    FunctionEntry{"spa", kNonparametricArea,
+                  "spa(data, G1, ..., {window =, w =, remove_mean =, confidence =, labels =}) -> fig, table",
+                  "frequency response with errors, from smoothed correlations", guarded<spectral_analysis>},
+    FunctionEntry{"impulseest", kNonparametricArea,
+                  "impulseest(data, G1, ..., {lags =, smooth =, confidence =, labels =}) -> fig, table",
+                  "impulse response by regression on past inputs, and the dead time it shows",
+                  guarded<regression_on_past_inputs>},
+    FunctionEntry{"cra", kNonparametricArea,
+                  "cra(data, G1, ..., {lags =, whitening =, confidence =, labels =}) -> fig, table",
+                  "impulse response from correlations with the whitened input", guarded<correlation_analysis>},
+};
+
+}  // namespace
+
+FunctionEntries nonparametric_functions() {
+    return kNonparametricFunctions;
+}
+
+}  // namespace dynlab::inline scripting

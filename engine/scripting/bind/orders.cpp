@@ -1,0 +1,219 @@
+#include <array>
+#include <cmath>
+
+#include "figures/plots/delay_plot.h"
+#include "figures/plots/order_plot.h"
+#include "numerics/validation/delay_search.h"
+#include "platform/terminal/progress.h"
+#include "scripting/arguments/estimation.h"
+#include "scripting/arguments/order_vector.h"
+#include "scripting/arguments/table_fields.h"
+#include "scripting/bind/study_bindings.h"
+#include "scripting/objects/data_object.h"
+#include "scripting/objects/figure_object.h"
+#include "scripting/objects/study_objects.h"
+#include "scripting/objects/study_text.h"
+#include "scripting/remembered_calls/long_call.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+constexpr std::array kStructureOrders = {OrderEntry{"nb", "coefficients of B"}, OrderEntry{"nf", "poles"},
+                                         OrderEntry{"nk", "samples of delay"}};
+
+/// {from, to} or a single number.
+std::pair<int, int> range_of(const Options& options, const char* name, std::pair<int, int> fallback) {
+    if (!options.has(name)) return fallback;
+    lua_State* L = options.call().state();
+    const bool single = lua_isnumber(L, options.push(name));
+    lua_pop(L, 1);
+    if (single) {
+        const int value = static_cast<int>(options.size(name, 0));
+        return {value, value};
+    }
+    const auto [from, to] = *options.range(name);
+    if (from != std::floor(from) || to != std::floor(to))
+        throw InvalidArgument(fmt::format("option '{}' must hold whole numbers {{from, to}}", name));
+    return {static_cast<int>(from), static_cast<int>(to)};
+}
+
+/// Seconds for numbers of samples of delay, 0 unless given.
+std::vector<double> delays_of(const Options& options, const IdData& data) {
+    if (!options.has("delays")) return {0.0};
+    lua_State* L = options.call().state();
+    const bool single = lua_isnumber(L, options.push("delays"));
+    lua_pop(L, 1);
+    const Vector samples = single ? Vector::Constant(1, options.number("delays", 0)) : Vector(options.vector("delays"));
+    if (!data.regular()) throw InvalidArgument("delays count samples, which irregularly sampled data do not have");
+    std::vector<double> delays;
+    for (const double k : samples) {
+        if (k < 0 || k != std::floor(k))
+            throw InvalidArgument("option 'delays' must hold whole numbers of samples, such as {0, 1, 2}");
+        delays.push_back(k * data.Ts);
+    }
+    return delays;
+}
+
+/// The ranges of poles and zeros, with fixed delays, or an estimated one when TdMax is given.
+std::vector<TransferStructure> grid_of(const Options& options, const IdData& data) {
+    const bool free_delay = options.has("TdMax");
+    if (free_delay && options.has("delays"))
+        throw InvalidArgument("give either delays, to try those, or TdMax, to have the delay estimated up to it");
+    return order_grid(range_of(options, "poles", {1, 4}), range_of(options, "zeros", {0, 2}),
+                      free_delay ? std::vector{options.number("TdMin", 0)} : delays_of(options, data), free_delay);
+}
+
+/// A list of order vectors {{nb, nf, nk}, ...}, the second argument; each of them stands there while it is read.
+std::vector<TransferStructure> listed_structures(const Call& call, const IdData& data) {
+    lua_State* L = call.state();
+    std::vector<TransferStructure> structures;
+    lua_pushvalue(L, 2);
+    const int list = lua_gettop(L);
+    for (lua_Integer i = 1; lua_rawgeti(L, list, i) != LUA_TNIL; ++i) {
+        lua_replace(L, 2);
+        const auto orders = order_lists(call, 2, kStructureOrders);
+        for (const auto& entry : orders)
+            if (entry.size() != 1) throw InvalidArgument("the orders {nb, nf, nk} must be numbers, not lists");
+        if (orders[0][0] < 1) throw InvalidArgument("nb, the number of coefficients of B, must be at least 1");
+        structures.push_back(TransferStructure::single(orders[1][0], orders[0][0] - 1, orders[2][0] * data.Ts));
+    }
+    lua_settop(L, list);
+    lua_replace(L, 2);
+    return structures;
+}
+
+bool is_list(const Call& call, int index) {
+    const bool found = call.type(index) == LUA_TTABLE && lua_rawgeti(call.state(), index, 1) != LUA_TNIL;
+    lua_settop(call.state(), call.count());
+    return found;
+}
+
+TransferOptions estimation_options(const Options& options) {
+    TransferOptions wanted;
+    wanted.lambda = options.optional_number("lambda");
+    wanted.initial_state = parse_initial_state(options.text("InitialState", "zero"));
+    wanted.offset = parse_offset(options.text("Offset", "none"));
+    wanted.TdMin = options.number("TdMin", wanted.TdMin);
+    wanted.TdMax = options.optional_number("TdMax");
+    wanted.NumTd = static_cast<int>(options.size("NumTd", wanted.NumTd));
+    wanted.MaxIter = static_cast<int>(options.size("MaxIter", wanted.MaxIter));
+    wanted.Tol = options.number("Tol", wanted.Tol);
+    wanted.cancel = options.call().cancel();
+    return wanted;
+}
+
+int try_structures(Call& call) {
+    call.at_most(3);
+    const IdData& data = object_argument<IdData>(call, 1, "data");
+    const bool listed = is_list(call, 2);
+    const Options options =
+        listed ? Options(call, 3, {"validate", "lambda", "InitialState", "Offset", "MaxIter", "Tol", "threads"})
+               : Options(call, 2,
+                         {"poles", "zeros", "delays", "TdMin", "TdMax", "NumTd", "validate", "lambda", "InitialState",
+                          "Offset", "MaxIter", "Tol", "threads"});
+    const std::vector<TransferStructure> structures = listed ? listed_structures(call, data) : grid_of(options, data);
+    OrderSelectionOptions wanted;
+    if (options.has("validate")) {
+        wanted.validation = to_object<IdData>(call.state(), options.push("validate"));
+        if (wanted.validation == nullptr) throw InvalidArgument("option 'validate' must be a data object");
+    }
+    wanted.threads = static_cast<int>(options.size("threads", 0));
+    wanted.cancel = call.cancel();
+    wanted.estimation = estimation_options(options);
+    ProgressBar bar("order search", structures.size());
+    wanted.progress = [&bar](std::size_t done) { bar.advance(done); };
+    OrderTable table{select_order(data, structures, wanted), {}};
+    poll_stop(call.state());
+    table.choice = choose_order(table.selection);
+    push_object(call.state(), std::move(table));
+    return 1;
+}
+
+OrderCriterion criterion_of(const Call& call) {
+    if (!call.given(2)) return OrderCriterion::kRecommended;
+    const std::string text = call.text(2, "criterion");
+    for (const auto& [name, criterion] :
+         {std::pair("recommended", OrderCriterion::kRecommended), std::pair("RT2", OrderCriterion::kRSquared),
+          std::pair("YIC", OrderCriterion::kYic), std::pair("AIC", OrderCriterion::kAic),
+          std::pair("BIC", OrderCriterion::kBic), std::pair("FPE", OrderCriterion::kFpe),
+          std::pair("fit", OrderCriterion::kFit), std::pair("validation", OrderCriterion::kValidationFit)})
+        if (text == name) return criterion;
+    throw InvalidArgument(
+        fmt::format("the criterion must be \"recommended\", \"RT2\", \"YIC\", \"AIC\", \"BIC\", \"FPE\", \"fit\" or "
+                    "\"validation\", but \"{}\" was given",
+                    text));
+}
+
+int select_structure(Call& call) {
+    call.at_most(2);
+    const OrderTable& table = object_argument<OrderTable>(call, 1, "table");
+    const OrderCriterion criterion = criterion_of(call);
+    const OrderChoice choice = choose_order(table.selection, criterion);
+    call.print(order_table_text(table.selection, choice));
+    const OrderCandidate& candidate = table.selection.candidates[choice.place];
+    give_transfer_estimate(call, "srivc", candidate.estimate);
+    give_figure(call, order_plot(table.selection, criterion, choice));
+    return 2;
+}
+
+/// {std =, samples =, delays =, losses =, rival =, poles =, zeros =, model =, message =}
+void push_search(const Call& call, const IdData& data, const DelaySearch& search) {
+    lua_State* L = call.state();
+    lua_createtable(L, 0, 10);
+    set_number(L, "delay", search.delay);
+    set_number(L, "std", search.std);
+    if (data.regular()) set_number(L, "samples", search.delay / data.Ts);
+    if (search.rival) set_number(L, "rival", *search.rival);
+    set_vector(call, "delays", search.grid());
+    set_vector(call, "losses", search.losses());
+    set_whole(L, "poles", search.candidate.poles);
+    set_whole(L, "zeros", search.candidate.zeros);
+    set_text(call, "message", search.explanation);
+    give_transfer_estimate(call, "srivc", search.candidate.estimate);
+    lua_setfield(L, -2, "model");
+}
+
+int estimate_delay(Call& call) {
+    call.at_most(2);
+    const IdData& data = object_argument<IdData>(call, 1, "data");
+    const Options options(
+        call, 2,
+        {"poles", "zeros", "TdMin", "TdMax", "NumTd", "lambda", "InitialState", "Offset", "MaxIter", "Tol", "threads"});
+    DelaySearchOptions wanted;
+    wanted.poles = range_of(options, "poles", wanted.poles);
+    wanted.zeros = range_of(options, "zeros", wanted.zeros);
+    wanted.estimation = estimation_options(options);
+    wanted.threads = static_cast<int>(options.size("threads", 0));
+    wanted.cancel = call.cancel();
+    ProgressBar bar("delay search", order_grid(wanted.poles, wanted.zeros, {0.0}).size());
+    wanted.progress = [&bar](std::size_t done) { bar.advance(done); };
+    const DelaySearch search = search_delay(data, wanted);
+    poll_stop(call.state());
+    call.print(search.explanation + "\n");
+    call.give(search.delay);
+    give_figure(call, delay_plot(search));
+    push_search(call, data, search);
+    return 3;
+}
+
+constexpr const char* kOrdersArea = "structure";
+constexpr std::array kOrdersFunctions = {
+    FunctionEntry{"srivcstruc", kOrdersArea,
+                  "srivcstruc(data, {poles = {1, 4}, zeros = {0, 2}, delays =, validate =, ...}) -> V",
+                  "srivc for many numbers of poles, zeros and samples of delay, with criteria for each",
+                  guarded<long_call<try_structures>>},
+    FunctionEntry{"selcstruc", kOrdersArea, "selcstruc(V, criterion) -> G, fig",
+                  "the structure that a criterion chooses, explained in words", guarded<select_structure>},
+    FunctionEntry{"delayest", kOrdersArea,
+                  "delayest(data, {poles = {1, 3}, zeros = {0, 1}, TdMin =, TdMax =, ...}) -> Td, fig, D",
+                  "the delay between input and output, with its standard error and the loss over the delay",
+                  guarded<long_call<estimate_delay>>},
+};
+
+}  // namespace
+
+FunctionEntries order_functions() {
+    return kOrdersFunctions;
+}
+
+}  // namespace dynlab::inline scripting

@@ -1,0 +1,156 @@
+#include <algorithm>
+#include <array>
+
+#include "numerics/signals/butterworth.h"
+#include "numerics/signals/preprocess.h"
+#include "numerics/signals/repair.h"
+#include "numerics/signals/resample.h"
+#include "scripting/bind/bindings.h"
+#include "scripting/bind/preprocess_bindings.h"
+#include "scripting/objects/data_object.h"
+#include "scripting/objects/text_form.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+/// What a function works on: a data object, or one signal, which becomes the output of one.
+struct Signals {
+    IdData data;
+    bool bare;
+};
+
+Signals signals_argument(const Call& call, double Ts) {
+    if (call.holds_vector(1)) return {IdData(Matrix(call.vector(1, "x")), Matrix(), Ts), true};
+    if (const IdData* data = to_object<IdData>(call.state(), 1)) return {*data, false};
+    wrong_argument(call.state(), 1, "data", "iddata or a vector");
+}
+
+int give_signals(const Call& call, const Signals& kind, IdData result) {
+    if (kind.bare) return call.give_vector(result.experiments.front().y.col(0));
+    return give_data(call, std::move(result));
+}
+
+std::vector<Segment> segments_argument(const Call& call) {
+    const MatrixMap rows = call.matrix(2, "{{first, last}, ...}");
+    if (rows.cols() != 2 || (rows.array() != rows.array().floor()).any() || !(rows.array().abs() < 1e15).all())
+        throw InvalidArgument(
+            "the stretches are lists of two sample numbers, {{1, 200}, {350, 900}}: the first and the last of each");
+    std::vector<Segment> segments;
+    for (const auto row : rows.rowwise()) segments.push_back({static_cast<Index>(row[0]), static_cast<Index>(row[1])});
+    return segments;
+}
+
+/// {lower, upper}; 0 and math.huge are the ends of the axis.
+PassBand band_argument(const Call& call) {
+    const VectorMap edges = call.vector(2, "{lower, upper}");
+    if (edges.size() != 2)
+        throw InvalidArgument(
+            fmt::format("the band is {{lower, upper}} in rad/s ({{0, w}} is a low-pass filter), but {} numbers were "
+                        "given",
+                        edges.size()));
+    return {edges[0], edges[1]};
+}
+
+/// The signal, and the places of what was replaced.
+int give_repaired(const Call& call, const RepairedSignal& repaired) {
+    Vector places(static_cast<Index>(repaired.replaced.size()));
+    std::copy(repaired.replaced.begin(), repaired.replaced.end(), places.begin());
+    return call.give_vector(repaired.signal) + call.give_vector(places);
+}
+
+int fill_gaps(Call& call) {
+    call.at_most(2);
+    const Options options(call, 2, {"t", "longest"});
+    const Vector t = options.has("t") ? Vector(options.vector("t")) : Vector();
+    return give_repaired(call, fill_missing(call.vector(1, "x"), t, options.size("longest", 10)));
+}
+
+int remove_outliers(Call& call) {
+    call.at_most(2);
+    const Options options(call, 2, {"window", "threshold"});
+    OutlierOptions wanted;
+    wanted.window = options.size("window", wanted.window);
+    wanted.threshold = options.number("threshold", wanted.threshold);
+    return give_repaired(call, replace_outliers(call.vector(1, "x"), wanted));
+}
+
+constexpr const char* kPreprocessArea = "data";
+constexpr std::array kPreprocessFunctions = {
+    FunctionEntry{"detrend", kPreprocessArea, "detrend(data, \"linear\" | \"mean\" | \"start\", {samples =}) -> data",
+                  "takes off the straight line, the mean, or the level before the input changes",
+                  guarded<detrend_signals>},
+    FunctionEntry{"idfilt", kPreprocessArea,
+                  "idfilt(data, {lower, upper}, {order =, zero_phase =, stop =, start =}) -> data",
+                  "Butterworth filter over inputs and outputs alike", guarded<filter_signals>},
+    FunctionEntry{"resample", kPreprocessArea, "resample(data, up, down) -> data",
+                  "other sampling rate, by up/down, with a filter against aliasing", guarded<resample_signals>},
+    FunctionEntry{"merge", kPreprocessArea, "merge(data1, data2, ...) -> data",
+                  "several experiments in one data object", guarded<merge_data>},
+    FunctionEntry{"fillmissing", kPreprocessArea, "fillmissing(x, {t =, longest =}) -> filled, places",
+                  "straight lines over samples that are not numbers", guarded<fill_gaps>},
+    FunctionEntry{"filloutliers", kPreprocessArea, "filloutliers(x, {window =, threshold =}) -> cleaned, places",
+                  "straight lines over samples that stand out from their neighbours", guarded<remove_outliers>},
+};
+
+}  // namespace
+
+int detrend_signals(Call& call) {
+    call.at_most(3);
+    const Signals signals = signals_argument(call, 1);
+    const std::string kind = call.given(2) ? call.text(2, "kind") : "linear";
+    const Options options(call, 3, {"samples"});
+    if (kind == "start")
+        return give_signals(call, signals, remove_initial_level(signals.data, options.size("samples", 0)).data);
+    if (kind != "linear" && kind != "mean")
+        throw InvalidArgument(
+            fmt::format("the kind of trend must be \"linear\", \"mean\" or \"start\", but \"{}\" was given", kind));
+    if (options.has("samples"))
+        throw InvalidArgument("option 'samples' belongs to the kind \"start\": how many samples come before the step");
+    return give_signals(call, signals,
+                        detrend(signals.data, kind == "linear" ? TrendKind::kLinear : TrendKind::kConstant).data);
+}
+
+int filter_signals(Call& call) {
+    call.at_most(3);
+    const Options options(call, 3, {"order", "zero_phase", "stop", "start", "Ts"});
+    const Signals signals = signals_argument(call, options.number("Ts", 1));
+    if (!signals.bare && options.has("Ts")) throw InvalidArgument("option 'Ts' is for a vector; data have their own");
+    FilterOptions wanted;
+    wanted.order = static_cast<int>(std::min<Index>(options.size("order", wanted.order), 1000));
+    wanted.zero_phase = options.flag("zero_phase", false);
+    wanted.stop = options.flag("stop", false);
+    wanted.steady_start = options.choice("start", {"zero", "steady"}, 0) == 1;
+    if (wanted.zero_phase && options.has("start"))
+        throw InvalidArgument(
+            "option 'start' is for the causal filter; with zero_phase the record is continued at "
+            "both ends");
+    return give_signals(call, signals, filter_data(signals.data, band_argument(call), wanted));
+}
+
+int resample_signals(Call& call) {
+    call.at_most(3);
+    const Signals signals = signals_argument(call, 1);
+    return give_signals(call, signals, resample(signals.data, call.whole(2, "up"), call.whole(3, "down")));
+}
+
+int keep_parts(Call& call) {
+    call.at_most(2);
+    return give_data(call, keep_segments(object_argument<IdData>(call, 1, "data"), segments_argument(call)));
+}
+
+int discard_parts(Call& call) {
+    call.at_most(2);
+    return give_data(call, discard_segments(object_argument<IdData>(call, 1, "data"), segments_argument(call)));
+}
+
+int merge_data(Call& call) {
+    std::vector<IdData> parts;
+    for (int i = 1; i <= call.count(); ++i) parts.push_back(object_argument<IdData>(call, i, "data"));
+    return give_data(call, IdData::merge(parts));
+}
+
+FunctionEntries preprocess_functions() {
+    return kPreprocessFunctions;
+}
+
+}  // namespace dynlab::inline scripting

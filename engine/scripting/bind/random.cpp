@@ -1,0 +1,47 @@
+#include <array>
+#include <cmath>
+
+#include "scripting/bind/bindings.h"
+#include "scripting/objects/boxed.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+int rng(Call& call) {
+    call.at_most(1);
+    const Index seed = call.whole(1, "seed");
+    if (seed < 0 || seed > 0xFFFFFFFF)
+        throw InvalidArgument(
+            fmt::format("the seed must be a whole number from 0 to 4294967295, but {} was given", seed));
+    call.context().random = RandomStream(static_cast<std::uint32_t>(seed));
+    return 0;
+}
+
+/// Fills a vector of n or a matrix of n x m, or gives a single number.
+template <double (RandomStream::*kDraw)()>
+int draw(Call& call) {
+    call.at_most(2);
+    RandomStream& random = call.context().random;
+    if (call.count() == 0) return call.give((random.*kDraw)());
+    const Index rows = call.size(1, "n"), columns = call.given(2) ? call.size(2, "m") : 1;
+    NumericBlock& block = columns == 1 ? push_vector(call.state(), rows) : push_matrix(call.state(), rows, columns);
+    for (double& value : block.vector()) value = (random.*kDraw)();
+    return 1;
+}
+
+constexpr const char* kRandomArea = "random";
+constexpr std::array kRandomFunctions = {
+    FunctionEntry{"rng", kRandomArea, "rng(seed)", "starts the random numbers afresh from a seed", guarded<rng>},
+    FunctionEntry{"randn", kRandomArea, "randn(n, m) -> v", "normal random numbers with mean 0 and variance 1",
+                  guarded<draw<&RandomStream::normal>>},
+    FunctionEntry{"rand", kRandomArea, "rand(n, m) -> v", "random numbers spread evenly over [0, 1)",
+                  guarded<draw<&RandomStream::uniform>>},
+};
+
+}  // namespace
+
+FunctionEntries random_functions() {
+    return kRandomFunctions;
+}
+
+}  // namespace dynlab::inline scripting

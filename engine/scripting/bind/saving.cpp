@@ -1,0 +1,219 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "data_io/csv_file.h"
+#include "data_io/mat_file.h"
+#include "scripting/bind/bindings.h"
+#include "scripting/objects/boxed.h"
+#include "scripting/objects/data_object.h"
+#include "scripting/runtime/output_path.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+std::filesystem::path file_to_write(const Call& call, const char* extension) {
+    const std::filesystem::path file = output_path(call.context(), call.text(1, "path"));
+    if (file.extension() != extension)
+        throw InvalidArgument(
+            fmt::format("the file name must end in {}, but '{}' does not", extension, file.filename().string()));
+    return file;
+}
+
+int digits_of(const Options& options, int fallback) {
+    const Index digits = options.size("digits", fallback);
+    if (digits < 1 || digits > 17)
+        throw InvalidArgument(fmt::format("option 'digits' must be a whole number from 1 to 17, but it is {}", digits));
+    return static_cast<int>(digits);
+}
+
+/// Names of the table's entries: t first, the others in alphabetical order, or as option 'columns' says.
+std::vector<std::string> names_of_entries(const Call& call, int index, const Options& options) {
+    if (options.has("columns")) return options.texts("columns");
+    lua_State* L = call.state();
+    std::vector<std::string> names;
+    lua_pushnil(L);
+    while (lua_next(L, index)) {
+        lua_pop(L, 1);
+        if (lua_type(L, -1) != LUA_TSTRING) throw InvalidArgument("every entry needs a name: {t = t, y = y}");
+        names.emplace_back(lua_tostring(L, -1));
+    }
+    std::sort(names.begin(), names.end(), [](const std::string& a, const std::string& b) {
+        return std::pair(a != "t", a) < std::pair(b != "t", b);
+    });
+    return names;
+}
+
+bool is_list_of_texts(lua_State* L, int index) {
+    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) == 0) return false;
+    const bool text = lua_rawgeti(L, index, 1) == LUA_TSTRING;
+    lua_pop(L, 1);
+    return text;
+}
+
+std::vector<std::string> list_of_texts(lua_State* L, int index) {
+    std::vector<std::string> texts;
+    for (lua_Unsigned i = 1; i <= lua_rawlen(L, index); ++i) {
+        if (lua_rawgeti(L, index, static_cast<lua_Integer>(i)) != LUA_TSTRING)
+            throw InvalidArgument(fmt::format("entry {} of a list of texts is {}", i, given_text(L, -1)));
+        texts.emplace_back(lua_tostring(L, -1));
+        lua_pop(L, 1);
+    }
+    return texts;
+}
+
+[[noreturn]] void refuse_entry(lua_State* L, const std::string& name) {
+    if (lua_isnil(L, -1)) throw InvalidArgument(fmt::format("the table has no entry '{}'", name));
+    throw InvalidArgument(
+        fmt::format("'{}' must be a vector or a list of texts, but it is {}", name, given_text(L, -1)));
+}
+
+void add_channels(CsvTable& table, const Matrix& channels, const std::vector<std::string>& names,
+                  const std::vector<std::string>& units) {
+    for (Index j = 0; j < channels.cols(); ++j) {
+        const auto place = static_cast<std::size_t>(j);
+        table.names.push_back(names[place]);
+        table.columns.push_back(channels.col(j));
+        if (place < units.size() && !units[place].empty()) table.units[names[place]] = units[place];
+    }
+}
+
+CsvTable table_of_data(const IdData& data) {
+    if (data.experiments.size() != 1)
+        throw InvalidArgument("a CSV file holds one experiment; write each with data:experiment(k)");
+    CsvTable table;
+    table.names.push_back("t");
+    table.columns.push_back(data.time());
+    table.units["t"] = data.time_unit;
+    if (data.regular()) table.Ts = data.Ts;
+    add_channels(table, data.experiments.front().u, data.input_names, data.input_units);
+    add_channels(table, data.experiments.front().y, data.output_names, data.output_units);
+    return table;
+}
+
+CsvTable table_of_columns(const Call& call, int index, const Options& options) {
+    lua_State* L = call.state();
+    CsvTable table;
+    for (const std::string& name : names_of_entries(call, index, options)) {
+        lua_getfield(L, index, name.c_str());
+        table.names.push_back(name);
+        table.columns.emplace_back();
+        if (NumericBlock* column = to_vector(L, -1)) {
+            table.columns.back() = column->vector();
+        } else if (is_list_of_texts(L, -1)) {
+            table.texts[name] = list_of_texts(L, lua_gettop(L));
+        } else {
+            refuse_entry(L, name);
+        }
+        lua_pop(L, 1);
+    }
+    return table;
+}
+
+/// Reads an option that is a table of texts by name.
+std::map<std::string, std::string> texts_by_name(const Call& call, const Options& options, const char* option) {
+    std::map<std::string, std::string> texts;
+    if (!options.has(option)) return texts;
+    lua_State* L = call.state();
+    const int index = options.push(option);
+    if (lua_type(L, index) != LUA_TTABLE)
+        throw InvalidArgument(fmt::format("option '{}' must be a table like {{t = \"s\"}}", option));
+    lua_pushnil(L);
+    while (lua_next(L, index)) {
+        if (lua_type(L, -2) != LUA_TSTRING || lua_type(L, -1) != LUA_TSTRING)
+            throw InvalidArgument(fmt::format("option '{}' must give a text for each name", option));
+        texts[lua_tostring(L, -2)] = lua_tostring(L, -1);
+        lua_pop(L, 1);
+    }
+    lua_pop(L, 1);
+    return texts;
+}
+
+int save_csv(Call& call) {
+    call.at_most(3);
+    const std::filesystem::path file = file_to_write(call, ".csv");
+    const Options options(call, 3, {"units", "title", "columns", "digits", "Ts"});
+    const IdData* data = to_object<IdData>(call.state(), 2);
+    if (data == nullptr && call.type(2) != LUA_TTABLE)
+        wrong_argument(call.state(), 2, "data", "iddata object or a table of vectors by name");
+    CsvTable table = data != nullptr ? table_of_data(*data) : table_of_columns(call, 2, options);
+    for (const auto& [name, unit] : texts_by_name(call, options, "units")) table.units[name] = unit;
+    if (options.has("title")) table.remarks["title"] = options.text("title", "");
+    if (options.has("Ts")) table.Ts = options.number("Ts", 0);
+    write_csv_file(file, table, digits_of(options, 7));
+    return 0;
+}
+
+double rounded(double value, int digits) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.*g", digits, value);
+    return std::strtod(text, nullptr);
+}
+
+constexpr int kDeepestSavedTable = 16;
+
+VariableTable variables_of(const Call& call, int index, int digits, int depth);
+
+bool is_table_of_variables(lua_State* L, int index) {
+    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) > 0) return false;
+    lua_pushnil(L);
+    if (lua_next(L, index) == 0) return false;
+    lua_pop(L, 2);
+    return true;
+}
+
+/// The entry on top of the stack as a MAT variable.
+Variable variable_on_top(const Call& call, const std::string& name, int digits, int depth) {
+    lua_State* L = call.state();
+    const auto round = [digits](double value) { return rounded(value, digits); };
+    if (NumericBlock* column = to_vector(L, -1)) return {Vector(column->vector().unaryExpr(round))};
+    if (NumericBlock* matrix = to_matrix(L, -1)) return {Matrix(matrix->matrix().unaryExpr(round))};
+    if (lua_type(L, -1) == LUA_TNUMBER) return {round(lua_tonumber(L, -1))};
+    if (lua_type(L, -1) == LUA_TSTRING) return {std::string(lua_tostring(L, -1))};
+    if (is_table_of_variables(L, lua_gettop(L)))
+        return {std::make_shared<VariableTable>(variables_of(call, lua_gettop(L), digits, depth + 1))};
+    if (!is_list_of_texts(L, -1)) refuse_entry(L, name);
+    auto cells = std::make_shared<VariableList>();
+    for (const std::string& text : list_of_texts(L, lua_gettop(L))) cells->push_back({text});
+    return {cells};
+}
+
+VariableTable variables_of(const Call& call, int index, int digits, int depth) {
+    if (depth > kDeepestSavedTable)
+        throw InvalidArgument(fmt::format("tables within tables are written to {} levels only", kDeepestSavedTable));
+    luaL_checkstack(call.state(), 8, "the tables are nested too deeply");
+    VariableTable variables;
+    for (const std::string& name : names_of_entries(call, index, Options(call, 0, {}))) {
+        lua_getfield(call.state(), index, name.c_str());
+        variables[name] = variable_on_top(call, name, digits, depth);
+        lua_pop(call.state(), 1);
+    }
+    return variables;
+}
+
+int save_mat(Call& call) {
+    call.at_most(3);
+    const std::filesystem::path file = file_to_write(call, ".mat");
+    const Options options(call, 3, {"digits"});
+    if (call.type(2) != LUA_TTABLE) wrong_argument(call.state(), 2, "variables", "a table of variables by name");
+    write_mat_file(file, variables_of(call, 2, digits_of(options, 17), 1));
+    return 0;
+}
+
+constexpr const char* kSavingArea = "data";
+constexpr std::array kSavingFunctions = {
+    FunctionEntry{"save_csv", kSavingArea, "save_csv(path, data, {units =, title =, columns =, Ts =, digits =})",
+                  "writes data, or a table of vectors, as CSV", guarded<save_csv>},
+    FunctionEntry{"save_mat", kSavingArea, "save_mat(path, variables, {digits =})",
+                  "writes vectors, matrices, numbers, texts and tables of them as a MAT file", guarded<save_mat>},
+};
+
+}  // namespace
+
+FunctionEntries saving_functions() {
+    return kSavingFunctions;
+}
+
+}  // namespace dynlab::inline scripting

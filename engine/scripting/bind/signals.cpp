@@ -1,0 +1,84 @@
+#include <array>
+
+#include "numerics/signals/excitation.h"
+#include "numerics/signals/prbs.h"
+#include "scripting/bind/bindings.h"
+#include "scripting/objects/boxed.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+/// {low, high} of a signal with two levels.
+std::pair<double, double> levels(const Call& call, int index, double low, double high) {
+    if (!call.given(index)) return {low, high};
+    const VectorMap values = call.vector(index, "{low, high}");
+    if (values.size() != 2)
+        throw InvalidArgument(
+            fmt::format("the levels are written {{low, high}}, but {} numbers were given", values.size()));
+    return {values[0], values[1]};
+}
+
+int make_prbs(Call& call) {
+    call.at_most(3);
+    const auto [low, high] = levels(call, 3, -1, 1);
+    const Index hold = call.given(2) ? call.size(2, "p") : 1;
+    return call.give_vector(prbs(static_cast<int>(call.size(1, "n")), static_cast<int>(hold), low, high));
+}
+
+int make_rbs(Call& call) {
+    call.at_most(3);
+    const auto [low, high] = levels(call, 3, -1, 1);
+    const Index hold = call.given(2) ? call.size(2, "p") : 1;
+    return call.give_vector(rbs(call.size(1, "N"), static_cast<int>(hold), call.context().random, low, high));
+}
+
+int make_step(Call& call) {
+    call.at_most(3);
+    const auto [low, high] = levels(call, 3, 0, 1);
+    return call.give_vector(step_signal(call.size(1, "N"), call.given(2) ? call.size(2, "first") : 1, low, high));
+}
+
+int make_sine(Call& call) {
+    call.at_most(4);
+    const Options options(call, 4, {"amplitude", "phase"});
+    return call.give_vector(sine(call.number(1, "frequency"), call.number(2, "T"), call.number(3, "Ts"),
+                                 options.number("amplitude", 1), options.number("phase", 0)));
+}
+
+int make_chirp(Call& call) {
+    call.at_most(5);
+    const Options options(call, 5, {"shape"});
+    const ChirpShape shape =
+        options.choice("shape", {"sine", "square"}, 0) == 0 ? ChirpShape::kSine : ChirpShape::kSquare;
+    return call.give_vector(
+        chirp(call.number(1, "f0"), call.number(2, "f1"), call.number(3, "T"), call.number(4, "Ts"), shape));
+}
+
+int make_multisine(Call& call) {
+    call.at_most(3);
+    return call.give_vector(multisine(call.vector(1, "frequencies"), call.number(2, "T"), call.number(3, "Ts")));
+}
+
+constexpr const char* kSignalsArea = "signals";
+constexpr std::array kSignalsFunctions = {
+    FunctionEntry{"prbs", kSignalsArea, "prbs(n, p, {low, high}) -> u",
+                  "pseudo-random binary sequence of n stages, each bit held for p samples", guarded<make_prbs>},
+    FunctionEntry{"rbs", kSignalsArea, "rbs(N, p, {low, high}) -> u",
+                  "N samples of a random binary signal, each value held for p samples", guarded<make_rbs>},
+    FunctionEntry{"step_signal", kSignalsArea, "step_signal(N, first, {low, high}) -> u",
+                  "N samples that change from low to high at sample `first`", guarded<make_step>},
+    FunctionEntry{"sine", kSignalsArea, "sine(f, T, Ts, {amplitude =, phase =}) -> u",
+                  "a sine of f hertz for T seconds", guarded<make_sine>},
+    FunctionEntry{"chirp", kSignalsArea, "chirp(f0, f1, T, Ts, {shape = \"sine\" | \"square\"}) -> u",
+                  "a sine or square wave whose frequency (hertz) runs from f0 to f1", guarded<make_chirp>},
+    FunctionEntry{"multisine", kSignalsArea, "multisine({f1, f2, ...}, T, Ts) -> u", "a sum of sines with low peaks",
+                  guarded<make_multisine>},
+};
+
+}  // namespace
+
+FunctionEntries signal_functions() {
+    return kSignalsFunctions;
+}
+
+}  // namespace dynlab::inline scripting

@@ -1,0 +1,181 @@
+#include <array>
+
+#include "figures/histogram.h"
+#include "figures/plots/bode_plot.h"
+#include "figures/plots/impulse_plot.h"
+#include "figures/plots/nyquist_plot.h"
+#include "figures/plots/pole_zero_map.h"
+#include "figures/plots/step_plot.h"
+#include "numerics/simulation/frequency_response.h"
+#include "numerics/simulation/lsim.h"
+#include "numerics/simulation/time_response.h"
+#include "scripting/bind/bindings.h"
+#include "scripting/objects/figure_object.h"
+#include "scripting/objects/model.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+Hold hold_option(const Options& options, Hold fallback) {
+    return options.choice("hold", {"zoh", "foh"}, fallback == Hold::kZoh ? 0 : 1) == 0 ? Hold::kZoh : Hold::kFoh;
+}
+
+/// Several inputs or outputs: columns of a matrix.
+int simulate_system(Call& call, const StateSpace& system, const Options& options, const VectorView& x0) {
+    const Matrix y = lsim(system, call.matrix(2, "u"), call.number(3, "Ts"), hold_option(options, Hold::kZoh), x0);
+    return y.cols() == 1 ? call.give_vector(y.col(0)) : call.give_matrix(y);
+}
+
+int simulate(Call& call) {
+    call.at_most(4);
+    const Options options(call, 4, {"hold", "x0"});
+    const Vector x0 = options.has("x0") ? Vector(options.vector("x0")) : Vector();
+    if (const StateSpace* system = to_object<StateSpace>(call.state(), 1))
+        return simulate_system(call, *system, options, x0);
+    const Model model = model_argument(call, 1, "G");
+    const VectorMap u = call.vector(2, "u");
+    const Hold hold = hold_option(options, Hold::kZoh);
+    if (call.type(3) == LUA_TNUMBER) return call.give_vector(lsim(model.G, u, call.number(3, "Ts"), hold, x0));
+    return call.give_vector(lsim(model.G, u, call.vector(3, "t or Ts"), hold, x0));
+}
+
+int filter_states(Call& call) {
+    call.at_most(4);
+    const Options options(call, 4, {"hold", "Ts"});
+    const auto Ts = options.optional_number("Ts");
+    if (!Ts) throw InvalidArgument("the sampling time is needed: svf(x, n, lambda, {Ts = 0.01})");
+    const VectorMap x = call.vector(1, "x");
+    return call.give_matrix(state_variable_filter(x, static_cast<int>(call.size(2, "n")), call.number(3, "lambda"), *Ts,
+                                                  hold_option(options, Hold::kFoh)));
+}
+
+int frequency_response_of(Call& call) {
+    call.at_most(2);
+    const Model model = model_argument(call, 1, "G");
+    push_object(call.state(), frequency_response(model.G, call.vector(2, "w")));
+    return 1;
+}
+
+/// G1, G2, ... up to the vector of instants or frequencies, or the options, that end the arguments.
+std::vector<NamedModel> models_to_draw(const Call& call, int& next) {
+    std::vector<NamedModel> models;
+    for (next = 1; holds_model(call, next); ++next) models.push_back({"", model_argument(call, next, "G").G});
+    if (models.empty()) wrong_argument(call.state(), 1, "G", "model");
+    return models;
+}
+
+void name_models(const Call& call, const Options& options, std::vector<NamedModel>& models) {
+    const std::vector<std::string> labels = options.texts("labels");
+    if (!labels.empty() && labels.size() != models.size())
+        throw InvalidArgument(
+            fmt::format("option 'labels' has {} texts, but there are {} models", labels.size(), models.size()));
+    for (std::size_t i = 0; i < models.size(); ++i) {
+        if (!labels.empty()) {
+            models[i].name = labels[i];
+        } else if (models.size() > 1) {
+            const Model* model = to_object<Model>(call.state(), static_cast<int>(i + 1));
+            models[i].name =
+                model != nullptr && model->estimate ? model->estimate->method : fmt::format("model {}", i + 1);
+        }
+    }
+}
+
+/// Option confidence: a probability, or false for none; 99 % unless given.
+std::optional<double> confidence_level(const Options& options) {
+    constexpr double kUsual = 0.99;
+    lua_State* L = options.call().state();
+    const bool flag = lua_isboolean(L, options.push("confidence")), wanted = lua_toboolean(L, -1);
+    lua_pop(L, 1);
+    if (flag) return wanted ? std::optional(kUsual) : std::nullopt;
+    const double level = options.number("confidence", kUsual);
+    if (level > 0 && level < 1) return level;
+    throw InvalidArgument(fmt::format(
+        "option 'confidence' must be a probability between 0 and 1, such as 0.99, or false, but {} was given", level));
+}
+
+void add_confidence(const Call& call, const Options& options, std::vector<NamedModel>& models) {
+    const std::optional<double> level = confidence_level(options);
+    if (!level) return;
+    for (std::size_t i = 0; i < models.size(); ++i) {
+        const Model* model = to_object<Model>(call.state(), static_cast<int>(i + 1));
+        if (model == nullptr) continue;
+        if (auto uncertain = uncertain_model(*model)) models[i].confidence = {std::move(*uncertain), *level};
+    }
+}
+
+template <Figure (*kPlot)(const std::vector<NamedModel>&, const Vector&), bool kBands>
+int draw_models(Call& call) {
+    int next = 0;
+    std::vector<NamedModel> models = models_to_draw(call, next);
+    const Vector grid = call.holds_vector(next) ? Vector(call.vector(next++, "t or w")) : Vector();
+    call.at_most(next);
+    const Options options = kBands ? Options(call, next, {"labels", "confidence"}) : Options(call, next, {"labels"});
+    name_models(call, options, models);
+    if (kBands) add_confidence(call, options, models);
+    return give_figure(call, kPlot(models, grid));
+}
+
+int draw_poles_and_zeros(Call& call) {
+    int next = 0;
+    std::vector<NamedModel> models = models_to_draw(call, next);
+    call.at_most(next);
+    const Options options(call, next, {"labels", "confidence"});
+    name_models(call, options, models);
+    add_confidence(call, options, models);
+    return give_figure(call, pole_zero_map(models));
+}
+
+/// step(G, t) with a vector of instants gives the response, without it a figure.
+template <TimeResponse (*kResponse)(const TransferFunction&, const VectorView&),
+          Figure (*kPlot)(const std::vector<NamedModel>&, const Vector&), bool kBands>
+int time_response(Call& call) {
+    if (!(holds_model(call, 1) && call.holds_vector(2))) return draw_models<kPlot, kBands>(call);
+    call.at_most(2);
+    const TimeResponse response = kResponse(model_argument(call, 1, "G").G, call.vector(2, "t"));
+    return call.give_vector(response.y) + call.give_vector(response.t);
+}
+
+int draw_histogram(Call& call) {
+    call.at_most(2);
+    const Options options(call, 2, {"bins", "truth", "label", "xlabel", "truth_label"});
+    HistogramOptions wanted;
+    wanted.bins = options.size("bins", 0);
+    wanted.truth = options.optional_number("truth");
+    wanted.label = options.text("label", "");
+    wanted.x_label = options.text("xlabel", "");
+    wanted.truth_label = options.text("truth_label", wanted.truth_label);
+    return give_figure(call, histogram(call.vector(1, "values"), wanted));
+}
+
+constexpr const char* kSimulationArea = "simulation";
+constexpr const char* kFigures = "figures";
+constexpr std::array kSimulationFunctions = {
+    FunctionEntry{"lsim", kSimulationArea, "lsim(G, u, t_or_Ts, {hold = \"zoh\" | \"foh\", x0 =}) -> y",
+                  "response of a model to an input, exact at the samples", guarded<simulate>},
+    FunctionEntry{"svf", kSimulationArea, "svf(x, n, lambda, {Ts =, hold = \"zoh\" | \"foh\"}) -> matrix",
+                  "outputs of the state-variable filter, highest derivative first", guarded<filter_states>},
+    FunctionEntry{"step", kSimulationArea, "step(G, t) -> y, t; step(G1, G2, ..., {labels =, confidence =}) -> fig",
+                  "response to a unit step, as numbers at given instants or as a figure",
+                  guarded<time_response<step_response, step_plot, true>>},
+    FunctionEntry{"impulse", kSimulationArea, "impulse(G, t) -> y, t; impulse(G1, G2, ..., {labels =}) -> fig",
+                  "response to a unit impulse, as numbers or as a figure",
+                  guarded<time_response<impulse_response, impulse_plot, false>>},
+    FunctionEntry{"freqresp", kSimulationArea, "freqresp(G, w) -> complex vector", "frequency response at w (rad/s)",
+                  guarded<frequency_response_of>},
+    FunctionEntry{"bode", kFigures, "bode(G1, G2, ..., w, {labels =, confidence =}) -> fig",
+                  "magnitude and phase over frequency", guarded<draw_models<bode_plot, true>>},
+    FunctionEntry{"nyquist", kFigures, "nyquist(G1, G2, ..., w, {labels =}) -> fig",
+                  "frequency response in the complex plane", guarded<draw_models<nyquist_plot, false>>},
+    FunctionEntry{"pzmap", kFigures, "pzmap(G1, G2, ..., {labels =, confidence =}) -> fig",
+                  "poles and zeros in the complex plane", guarded<draw_poles_and_zeros>},
+    FunctionEntry{"histogram", kFigures, "histogram(values, {bins =, truth =, xlabel =}) -> fig",
+                  "how often values fall into each interval", guarded<draw_histogram>},
+};
+
+}  // namespace
+
+FunctionEntries simulation_functions() {
+    return kSimulationFunctions;
+}
+
+}  // namespace dynlab::inline scripting

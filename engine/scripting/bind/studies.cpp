@@ -1,0 +1,207 @@
+#include <algorithm>
+#include <array>
+
+#include "numerics/validation/monte_carlo.h"
+#include "platform/terminal/progress.h"
+#include "scripting/arguments/estimation.h"
+#include "scripting/bind/study_bindings.h"
+#include "scripting/objects/data_object.h"
+#include "scripting/objects/model.h"
+#include "scripting/objects/study_objects.h"
+#include "scripting/remembered_calls/long_call.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+MonteCarloEstimate estimate_of(const TransferEstimate& result) {
+    return {result.theta, result.std, result.names, true, result.termination == Termination::kConverged};
+}
+
+struct Reading {
+    EstimationReader reader;
+    Estimation estimation;
+};
+
+/// Runs in a frame of its own, where the arguments stand as in a call of the method itself.
+int read_arguments(Call& call) {
+    auto* reading = static_cast<Reading*>(lua_touserdata(call.state(), lua_upvalueindex(2)));
+    reading->estimation = reading->reader(call);
+    return 0;
+}
+
+/// A method whose arguments after the data are the entries from `first` on of the table at `table`.
+MonteCarloMethod method_of_table(const Call& call, const std::string& label, const std::string& name, int table,
+                                 lua_Integer first) {
+    lua_State* L = call.state();
+    Reading reading{find_estimation_reader(name), {}};
+    if (reading.reader == nullptr)
+        throw InvalidArgument(fmt::format(
+            "estimator '{}' is none of {}; write any other as a function: {} = function(data) return ... end", name,
+            fmt::join(estimation_names(), ", "), label));
+    lua_pushlightuserdata(L, const_cast<char*>(name.c_str()));
+    lua_pushlightuserdata(L, &reading);
+    lua_pushcclosure(L, guarded<read_arguments>, 2);
+    lua_pushnil(L);  // where the data stand
+    const auto last = static_cast<lua_Integer>(lua_rawlen(L, table));
+    luaL_checkstack(L, static_cast<int>(std::max<lua_Integer>(last, 0)) + 4, "too many arguments of an estimator");
+    for (lua_Integer i = first; i <= last; ++i) lua_rawgeti(L, table, i);
+    lua_call(L, static_cast<int>(last - first + 2), 0);
+    return {label,
+            [estimation = std::move(reading.estimation)](const IdData& data) { return estimate_of(estimation(data)); }};
+}
+
+MonteCarloEstimate estimate_of_model(const Model& model) {
+    const ModelParameters parameters = parameters_of(model);
+    return {parameters.values, parameters.std, parameters.names, model.G.continuous(),
+            !model.estimate || model.estimate->converged};
+}
+
+/// What a script's function returned: a model, or a vector of parameters with their standard errors.
+MonteCarloEstimate returned_estimate(lua_State* L, int first) {
+    const Call call(L);
+    if (const Model* model = to_object<Model>(L, first)) return estimate_of_model(*model);
+    if (!call.holds_vector(first))
+        throw InvalidArgument(
+            fmt::format("it must return a model or a vector of parameters, but returned {}", given_text(L, first)));
+    MonteCarloEstimate estimate{call.vector(first, "theta")};
+    if (call.holds_vector(first + 1)) estimate.std = call.vector(first + 1, "std");
+    return estimate;
+}
+
+/// A function of the script at a stack place, which stays there while the study runs.
+MonteCarloMethod method_of_function(const Call& call, const std::string& label, int function) {
+    lua_State* L = call.state();
+    const auto estimate = [L, function](const IdData& data) {
+        const int top = lua_gettop(L);
+        luaL_checkstack(L, 8, "too many estimators");
+        lua_pushvalue(L, function);
+        push_object(L, data);
+        if (lua_pcall(L, 1, 2, 0) != LUA_OK) {
+            pass_stop_on(L);
+            const std::string message = given_text(L, -1),
+                              text = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : message;
+            lua_settop(L, top);
+            throw InvalidArgument(text);
+        }
+        MonteCarloEstimate result = returned_estimate(L, top + 1);
+        lua_settop(L, top);
+        return result;
+    };
+    return {label, estimate, false};
+}
+
+/// One entry of the estimators: its value is on top of the stack, and stays when it is a function.
+MonteCarloMethod method_of_entry(const Call& call, const std::string& label) {
+    lua_State* L = call.state();
+    const int value = lua_gettop(L);
+    if (lua_isfunction(L, value)) return method_of_function(call, label, value);
+    if (!lua_istable(L, value))
+        throw InvalidArgument(fmt::format(
+            "the estimator '{}' must be a table of arguments, such as lssvf = {{{{2, 1, 0}}, 3}}, or a function of the "
+            "data, but {} was given",
+            label, given_text(L, value)));
+    const bool names_itself = lua_rawgeti(L, value, 1) == LUA_TSTRING;
+    const std::string name = names_itself ? lua_tostring(L, -1) : label;
+    const bool holds_function = names_itself && lua_rawgeti(L, value, 2) == LUA_TFUNCTION;
+    if (holds_function) return method_of_function(call, label.empty() ? name : label, lua_gettop(L));
+    lua_settop(L, value);
+    std::string shown = label.empty() ? name : label;
+    if (lua_getfield(L, value, "label") == LUA_TSTRING) shown = lua_tostring(L, -1);
+    lua_settop(L, value);
+    MonteCarloMethod method = method_of_table(call, shown, name, value, names_itself ? 2 : 1);
+    lua_settop(L, value - 1);
+    return method;
+}
+
+/// The names of the table's named entries: known methods in the order of their list, then the others by name.
+std::vector<std::string> entry_names(lua_State* L, int table) {
+    std::vector<std::string> names;
+    lua_pushnil(L);
+    while (lua_next(L, table)) {
+        lua_pop(L, 1);
+        if (lua_type(L, -1) == LUA_TSTRING) names.emplace_back(lua_tostring(L, -1));
+    }
+    const std::vector<std::string> known = estimation_names();
+    const auto rank = [&](const std::string& name) {
+        return std::find(known.begin(), known.end(), name) - known.begin();
+    };
+    std::sort(names.begin(), names.end(), [&](const std::string& a, const std::string& b) {
+        return rank(a) != rank(b) ? rank(a) < rank(b) : a < b;
+    });
+    return names;
+}
+
+std::vector<MonteCarloMethod> methods_of(const Call& call, int table) {
+    lua_State* L = call.state();
+    if (!lua_istable(L, table))
+        throw InvalidArgument(
+            "option 'estimators' must be a table, such as {lssvf = {{2, 1, 0}, 3}, ivsvf = {{2, 1, 0}, 3}}");
+    std::vector<MonteCarloMethod> methods;
+    const auto length = static_cast<lua_Integer>(lua_rawlen(L, table));
+    for (lua_Integer i = 1; i <= length; ++i) {
+        luaL_checkstack(L, 16, "too many estimators");
+        lua_rawgeti(L, table, i);
+        methods.push_back(method_of_entry(call, lua_isfunction(L, -1) ? fmt::format("function {}", i) : ""));
+    }
+    for (const std::string& name : entry_names(L, table)) {
+        luaL_checkstack(L, 16, "too many estimators");
+        lua_getfield(L, table, name.c_str());
+        methods.push_back(method_of_entry(call, name));
+    }
+    return methods;
+}
+
+TransferFunction system_of(const Options& options) {
+    const Model* model = to_object<Model>(options.call().state(), options.push("system"));
+    if (model == nullptr || !model->single_channel())
+        throw InvalidArgument(
+            "option 'system' must be a model with one input and one output, such as 2/(s^2 + 4*s + 3)");
+    return model->G;
+}
+
+MonteCarloStudy study_of(const Options& options) {
+    MonteCarloStudy study;
+    study.system = system_of(options);
+    if (!options.has("input")) throw InvalidArgument("option 'input' is missing: the samples of the input");
+    study.u = options.vector("input");
+    const auto Ts = options.optional_number("Ts");
+    if (!Ts) throw InvalidArgument("option 'Ts' is missing: the sampling time in seconds");
+    study.Ts = *Ts;
+    study.hold = options.choice("hold", {"zoh", "foh"}, 0) == 0 ? Hold::kZoh : Hold::kFoh;
+    study.sigma = options.optional_number("sigma");
+    study.snr = options.optional_number("snr");
+    study.runs = static_cast<int>(options.size("runs", study.runs));
+    study.seed = static_cast<std::uint32_t>(options.size("seed", study.seed));
+    study.threads = static_cast<int>(options.size("threads", study.threads));
+    study.cancel = options.call().cancel();
+    return study;
+}
+
+int run_study(Call& call) {
+    call.at_most(1);
+    const Options options(call, 1,
+                          {"system", "input", "Ts", "hold", "sigma", "snr", "runs", "seed", "threads", "estimators"});
+    MonteCarloStudy study = study_of(options);
+    const std::vector<MonteCarloMethod> methods = methods_of(call, options.push("estimators"));
+    ProgressBar bar("Monte Carlo", static_cast<std::size_t>(study.runs) * methods.size());
+    study.progress = [&bar](std::size_t done) { bar.advance(done); };
+    MonteCarlo result = monte_carlo(study, methods);
+    poll_stop(call.state());
+    push_object(call.state(), std::move(result));
+    return 1;
+}
+
+constexpr std::array kStudiesFunctions = {
+    FunctionEntry{"montecarlo", "validation",
+                  "montecarlo{system =, input =, Ts =, sigma = | snr =, runs =, seed =, estimators = {...}} -> M",
+                  "the same experiment many times with fresh noise: bias and scatter of estimators",
+                  guarded<long_call<run_study>>},
+};
+
+}  // namespace
+
+FunctionEntries study_functions() {
+    return kStudiesFunctions;
+}
+
+}  // namespace dynlab::inline scripting

@@ -1,0 +1,57 @@
+#include <array>
+
+#include "numerics/estimators/n4sid.h"
+#include "scripting/bind/bindings.h"
+#include "scripting/objects/data_object.h"
+#include "scripting/objects/model.h"
+#include "scripting/remembered_calls/long_call.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+Estimate estimate_of(const SubspaceEstimate& result) {
+    Estimate estimate;
+    estimate.method = "n4sid";
+    estimate.message = result.message;
+    estimate.warnings = result.warnings;
+    estimate.numbers = {{"fit_percent", result.fit_percent[0]},
+                        {"loss", result.loss},
+                        {"condition_number", result.condition_number},
+                        {"block_rows", result.block_rows}};
+    estimate.vectors = {{"fits", result.fit_percent}, {"singular_values", result.singular_values}};
+    estimate.matrices = {{"initial_states", result.initial_states}};
+    return estimate;
+}
+
+int estimate_n4sid(Call& call) {
+    call.at_most(3);
+    const IdData& data = object_argument<IdData>(call, 1, "data");
+    const Index order = call.size(2, "order");
+    const Options options(call, 3, {"BlockRows", "Weighting", "Feedthrough"});
+    SubspaceOptions wanted;
+    wanted.BlockRows = static_cast<int>(options.size("BlockRows", wanted.BlockRows));
+    wanted.Weighting = parse_subspace_weighting(options.text("Weighting", "MOESP"));
+    wanted.Feedthrough = options.flag("Feedthrough", wanted.Feedthrough);
+    const SubspaceEstimate result = n4sid(data, static_cast<int>(order), wanted);
+    Model model{result.models.front()};
+    if (result.models.size() > 1) model.channels = result.models;
+    model.outputs = static_cast<std::size_t>(data.output_count());
+    model.estimate = std::make_shared<Estimate>(estimate_of(result));
+    model.system = std::make_shared<StateSpace>(result.system);
+    push_object(call.state(), std::move(model));
+    return 1;
+}
+
+constexpr std::array kSubspaceFunctions = {
+    FunctionEntry{"n4sid", "discrete time", "n4sid(data, order, {BlockRows =, Weighting =, Feedthrough =}) -> G",
+                  "a state-space model by subspace identification, without iterating",
+                  guarded<long_call<estimate_n4sid>>},
+};
+
+}  // namespace
+
+FunctionEntries subspace_functions() {
+    return kSubspaceFunctions;
+}
+
+}  // namespace dynlab::inline scripting

@@ -1,0 +1,168 @@
+#include <array>
+
+#include "numerics/estimators/coe.h"
+#include "numerics/estimators/ivsvf.h"
+#include "numerics/estimators/lssvf.h"
+#include "numerics/estimators/srivc.h"
+#include "numerics/fit/integrated_input.h"
+#include "numerics/fit/simulation_report.h"
+#include "numerics/fit/transfer_data.h"
+#include "scripting/arguments/estimation.h"
+#include "scripting/arguments/transfer_arguments.h"
+#include "scripting/bind/bindings.h"
+#include "scripting/objects/data_object.h"
+#include "scripting/remembered_calls/long_call.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+constexpr std::array kCarxOrders = {kNa, kNb, kNk};
+constexpr std::array kOutputErrorOrders = {kNb, kNf, kNk};
+
+/// lssvf and ivsvf; lsgpmf and ivgpmf, whose filter has a gain beta.
+template <auto kMethod, bool kMomentFunctionals>
+Estimation read_filtered(const Call& call) {
+    call.at_most(4);
+    const auto orders = order_lists(call, 2, kCarxOrders);
+    if (orders[0].size() != 1)
+        throw InvalidArgument(
+            fmt::format("na is one number of poles for all inputs, but {} were given", orders[0].size()));
+    const Options options = kMomentFunctionals ? Options(call, 4, {"hold_y", "beta"}) : Options(call, 4, {"hold_y"});
+    SvfOptions wanted;
+    wanted.lambda = call.number(3, "lambda");
+    wanted.hold_y = hold_y_of(options);
+    if constexpr (kMomentFunctionals) wanted.beta = options.optional_number("beta").value_or(wanted.lambda);
+    return [structure = structure_of_orders(kCarxOrders, orders, Denominators::kPerOutput),
+            wanted](const IdData& data) { return kMethod(data, structure(data), wanted); };
+}
+
+template <auto kMethod, bool kMomentFunctionals>
+int estimate_filtered(Call& call) {
+    const IdData& data = object_argument<IdData>(call, 1, "data");
+    TransferEstimate result = read_filtered<kMethod, kMomentFunctionals>(call)(data);
+    measure_fit(result, data);
+    Estimate estimate = estimate_of(call.function_name(), result);
+    estimate.carx = true;
+    return give_estimate(call, std::move(estimate), result);
+}
+
+/// What the estimator saw: without the operating points for Offset "remove".
+std::shared_ptr<const Assessment> assessment_of(const IdData& data, const TransferEstimate& result,
+                                                const TransferOptions& options) {
+    if (data.sample_count() > kMostAssessed) return {};
+    if (options.offset != Offset::kRemove) return std::make_shared<Assessment>(assess(data, result));
+    return std::make_shared<Assessment>(assess(without_operating_points(data).data, result));
+}
+
+/// An output-error estimation with the options it was asked for.
+struct RefinedReading {
+    TransferOptions options;
+    bool integration;  ///< the models have an integrator besides
+    Estimation estimation;
+};
+
+int give_refined(Call& call, const IdData& data, const RefinedReading& reading) {
+    const TransferEstimate result = reading.estimation(data);
+    Estimate estimate = estimate_of(call.function_name(), result);
+    estimate.of_coefficients = !reading.integration;
+    estimate.assessment = assessment_of(reading.integration ? integrated_inputs(data) : data, result, reading.options);
+    return give_estimate(call, std::move(estimate), result);
+}
+
+template <auto kMethod>
+RefinedReading reading_of(const StructureMaker& structure, const Options& options, const TransferOptions& wanted) {
+    const bool integration = options.flag("Integration", false);
+    return {wanted, integration, [structure, wanted, integration](const IdData& data) {
+                if (!integration) return kMethod(data, structure(data), wanted);
+                TransferEstimate estimate = kMethod(integrated_inputs(data), structure(data), wanted);
+                append_integrator(estimate);
+                return estimate;
+            }};
+}
+
+/// srivc and coe: orders and fixed delays in samples.
+template <auto kMethod>
+RefinedReading read_refined(const Call& call) {
+    call.at_most(3);
+    const auto orders = order_lists(call, 2, kOutputErrorOrders);
+    const Options options(
+        call, 3, {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator", "Integration"});
+    TransferOptions wanted;
+    read_common_options(options, wanted);
+    return reading_of<kMethod>(structure_of_orders(kOutputErrorOrders, orders, sharing_of(options)), options, wanted);
+}
+
+/// tfsrivc and tfcoe: numbers of poles and zeros, and a delay that is estimated unless it is given.
+template <auto kMethod>
+RefinedReading read_transfer_function(const Call& call) {
+    call.at_most(4);
+    const Options options(call, 4,
+                          {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator",
+                           "Integration", "TdMin", "TdMax", "NumTd", "IODelay"});
+    TransferOptions wanted;
+    read_common_options(options, wanted);
+    const StructureMaker structure = structure_of_counts(call, options, wanted);
+    return reading_of<kMethod>(structure, options, wanted);
+}
+
+template <auto kRead>
+int estimate_refined(Call& call) {
+    const IdData& data = object_argument<IdData>(call, 1, "data");
+    return give_refined(call, data, kRead(call));
+}
+
+template <auto kRead>
+Estimation read_transfer_estimation(const Call& call) {
+    return kRead(call).estimation;
+}
+
+constexpr NamedReader kTransferEstimatorsReaders[] = {
+    {"lssvf", read_filtered<lssvf, false>},
+    {"ivsvf", read_filtered<ivsvf, false>},
+    {"lsgpmf", read_filtered<lssvf, true>},
+    {"ivgpmf", read_filtered<ivsvf, true>},
+    {"srivc", read_transfer_estimation<read_refined<srivc>>},
+    {"coe", read_transfer_estimation<read_refined<coe>>},
+    {"tfsrivc", read_transfer_estimation<read_transfer_function<srivc>>},
+    {"tfcoe", read_transfer_estimation<read_transfer_function<coe>>}};
+
+constexpr const char* kTransferEstimatorsArea = "continuous time";
+constexpr std::array kTransferEstimatorsFunctions = {
+    FunctionEntry{"lssvf", kTransferEstimatorsArea, "lssvf(data, {na, nb, nk}, lambda, {hold_y =}) -> G",
+                  "A y = B u + e by least squares on state-variable filtered signals",
+                  guarded<estimate_filtered<lssvf, false>>},
+    FunctionEntry{"ivsvf", kTransferEstimatorsArea, "ivsvf(data, {na, nb, nk}, lambda, {hold_y =}) -> G",
+                  "the same by instrumental variables, without lssvf's bias", guarded<estimate_filtered<ivsvf, false>>},
+    FunctionEntry{"lsgpmf", kTransferEstimatorsArea, "lsgpmf(data, {na, nb, nk}, lambda, {beta =, hold_y =}) -> G",
+                  "least squares on Poisson moment functionals", guarded<estimate_filtered<lssvf, true>>},
+    FunctionEntry{"ivgpmf", kTransferEstimatorsArea, "ivgpmf(data, {na, nb, nk}, lambda, {beta =, hold_y =}) -> G",
+                  "instrumental variables on Poisson moment functionals", guarded<estimate_filtered<ivsvf, true>>},
+    FunctionEntry{"srivc", kTransferEstimatorsArea, "srivc(data, {nb, nf, nk}, {lambda =, MaxIter =, Tol =, ...}) -> G",
+                  "y = B/F u + e by refined instrumental variables",
+                  guarded<long_call<estimate_refined<read_refined<srivc>>>>},
+    FunctionEntry{"coe", kTransferEstimatorsArea, "coe(data, {nb, nf, nk}, {lambda =, MaxIter =, Tol =, ...}) -> G",
+                  "y = B/F u + e with the smallest simulation error",
+                  guarded<long_call<estimate_refined<read_refined<coe>>>>},
+    FunctionEntry{"tfsrivc", kTransferEstimatorsArea, "tfsrivc(data, np, nz, {TdMin =, TdMax =, IODelay =, ...}) -> G",
+                  "srivc by numbers of poles and zeros, the delay estimated",
+                  guarded<long_call<estimate_refined<read_transfer_function<srivc>>>>},
+    FunctionEntry{"tfcoe", kTransferEstimatorsArea, "tfcoe(data, np, nz, {TdMin =, TdMax =, IODelay =, ...}) -> G",
+                  "coe by numbers of poles and zeros, the delay estimated",
+                  guarded<long_call<estimate_refined<read_transfer_function<coe>>>>},
+};
+
+}  // namespace
+
+EstimationReaders transfer_estimation_readers() {
+    return kTransferEstimatorsReaders;
+}
+
+int give_transfer_estimate(const Call& call, const char* method, const TransferEstimate& estimate) {
+    return give_estimate(call, estimate_of(method, estimate), estimate);
+}
+
+FunctionEntries transfer_estimator_functions() {
+    return kTransferEstimatorsFunctions;
+}
+
+}  // namespace dynlab::inline scripting

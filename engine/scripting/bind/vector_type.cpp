@@ -1,0 +1,183 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "scripting/objects/boxed.h"
+#include "scripting/objects/numeric_operators.h"
+#include "scripting/objects/numeric_types.h"
+#include "scripting/objects/text_form.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+/// Reads an element number from 1 to `size`, 0-based. `what` is "v" or "row" for messages.
+Index element_place(lua_State* L, int index, Index size, const char* what) {
+    if (lua_isinteger(L, index)) {
+        const lua_Integer place = lua_tointeger(L, index);
+        if (place >= 1 && place <= size) return place - 1;
+        throw InvalidArgument(
+            fmt::format("{}[{}] does not exist: {} has the elements 1 to {}", what, place, what, size));
+    }
+    if (lua_type(L, index) != LUA_TNUMBER)
+        throw InvalidArgument(fmt::format("{}[i] needs a whole number i from 1 to {}, but {} was given{}", what, size,
+                                          given_text(L, index),
+                                          to_mask(L, index) != nullptr ? "; write v:select(mask)" : ""));
+    const double place = lua_tonumber(L, index);
+    if (std::floor(place) != place)
+        throw InvalidArgument(
+            fmt::format("{}[{:.10g}]: an element has a whole number from 1 to {}", what, place, size));
+    if (place >= 1 && place <= static_cast<double>(size)) return static_cast<Index>(place) - 1;
+    throw InvalidArgument(
+        fmt::format("{}[{:.10g}] does not exist: {} has the elements 1 to {}", what, place, what, size));
+}
+
+int read_element(Call& call) {
+    NumericBlock* v = to_vector(call.state(), 1);
+    return call.give(v->data()[element_place(call.state(), 2, v->rows, "v")]);
+}
+
+int write_element(Call& call) {
+    NumericBlock* v = to_vector(call.state(), 1);
+    const Index place = element_place(call.state(), 2, v->rows, "v");
+    v->data()[place] = call.number(3, "the new value");
+    return 0;
+}
+
+NumericBlock& vector_self(Call& call) {
+    NumericBlock* v = to_vector(call.state(), 1);
+    if (v == nullptr) wrong_argument(call.state(), 1, "v", "vector; methods are called with a colon, v:name(...)");
+    return *v;
+}
+
+int vector_length(Call& call) {
+    return call.give_whole(vector_self(call).rows);
+}
+int vector_tostring(Call& call) {
+    return call.give(vector_text(vector_self(call).vector()));
+}
+
+int vector_range(Call& call) {
+    call.at_most(3);
+    NumericBlock& v = vector_self(call);
+    const Index first = call.whole(2, "first"), last = call.whole(3, "last");
+    if (first < 1 || last > v.rows || first > last + 1)
+        throw InvalidArgument(
+            fmt::format("the elements {} to {} do not exist: v has the elements 1 to {}", first, last, v.rows));
+    return call.give_vector(v.vector().segment(first - 1, last - first + 1));
+}
+
+int select_by_mask(Call& call, NumericBlock& v, MaskBlock& mask) {
+    if (mask.size != v.rows)
+        throw InvalidArgument(fmt::format("the mask has {} values, but the vector has {}", mask.size, v.rows));
+    const Index count = std::count(mask.data(), mask.data() + mask.size, true);
+    double* target = push_vector(call.state(), count).data();
+    for (Index i = 0; i < v.rows; ++i)
+        if (mask.data()[i]) *target++ = v.data()[i];
+    return 1;
+}
+
+int vector_select(Call& call) {
+    call.at_most(2);
+    NumericBlock& v = vector_self(call);
+    if (MaskBlock* mask = to_mask(call.state(), 2)) return select_by_mask(call, v, *mask);
+    const VectorMap places = call.vector(2, "mask or element numbers");
+    NumericBlock& result = push_vector(call.state(), places.size());
+    for (Index i = 0; i < places.size(); ++i) {
+        const double place = places[i];
+        if (std::floor(place) != place || place < 1 || place > static_cast<double>(v.rows))
+            throw InvalidArgument(
+                fmt::format("the element {:.10g} does not exist: v has the elements 1 to {}", place, v.rows));
+        result.data()[i] = v.data()[static_cast<Index>(place) - 1];
+    }
+    return 1;
+}
+
+int vector_table(Call& call) {
+    NumericBlock& v = vector_self(call);
+    lua_createtable(call.state(), static_cast<int>(v.rows), 0);
+    for (Index i = 0; i < v.rows; ++i) {
+        lua_pushnumber(call.state(), v.data()[i]);
+        lua_rawseti(call.state(), -2, i + 1);
+    }
+    return 1;
+}
+
+/// __eq is asked only for two objects of this kind: same length and same values.
+int vector_equal(Call& call) {
+    NumericBlock *a = to_vector(call.state(), 1), *b = to_vector(call.state(), 2);
+    return call.give(a != nullptr && b != nullptr && a->rows == b->rows && a->vector() == b->vector());
+}
+
+constexpr std::array kVectorMethods = {Member{"range", guarded<vector_range>}, Member{"select", guarded<vector_select>},
+                                       Member{"table", guarded<vector_table>}};
+
+constexpr std::array kVectorOperators = {
+    Member{"__add", guarded<numeric_add>},        Member{"__sub", guarded<numeric_subtract>},
+    Member{"__mul", guarded<numeric_multiply>},   Member{"__div", guarded<numeric_divide>},
+    Member{"__pow", guarded<numeric_power>},      Member{"__unm", guarded<numeric_negate>},
+    Member{"__len", guarded<vector_length>},      Member{"__tostring", guarded<vector_tostring>},
+    Member{"__lt", guarded<refuse_comparison>},   Member{"__le", guarded<refuse_comparison>},
+    Member{"__newindex", guarded<write_element>}, Member{"__eq", guarded<vector_equal>},
+};
+
+MaskBlock& mask_self(Call& call) {
+    MaskBlock* mask = to_mask(call.state(), 1);
+    if (mask == nullptr) wrong_argument(call.state(), 1, "mask", "mask");
+    return *mask;
+}
+
+int mask_length(Call& call) {
+    return call.give_whole(mask_self(call).size);
+}
+
+int mask_element(Call& call) {
+    MaskBlock& mask = mask_self(call);
+    return call.give(mask.data()[element_place(call.state(), 2, mask.size, "mask")]);
+}
+
+int mask_tostring(Call& call) {
+    MaskBlock& mask = mask_self(call);
+    return call.give(
+        fmt::format("mask: {} of {} true", std::count(mask.data(), mask.data() + mask.size, true), mask.size));
+}
+
+template <class Function>
+int combine_masks(Call& call, Function function) {
+    MaskBlock &a = mask_self(call), *b = to_mask(call.state(), 2);
+    if (b == nullptr) wrong_argument(call.state(), 2, "other", "mask");
+    if (a.size != b->size) throw InvalidArgument(fmt::format("the masks have {} and {} values", a.size, b->size));
+    std::transform(a.data(), a.data() + a.size, b->data(), push_mask(call.state(), a.size).data(), function);
+    return 1;
+}
+int mask_both(Call& call) {
+    return combine_masks(call, [](bool x, bool y) { return x && y; });
+}
+int mask_either(Call& call) {
+    return combine_masks(call, [](bool x, bool y) { return x || y; });
+}
+int mask_opposite(Call& call) {
+    MaskBlock& mask = mask_self(call);
+    std::transform(mask.data(), mask.data() + mask.size, push_mask(call.state(), mask.size).data(),
+                   std::logical_not<bool>());
+    return 1;
+}
+
+constexpr std::array kMaskOperators = {Member{"__len", guarded<mask_length>},
+                                       Member{"__tostring", guarded<mask_tostring>},
+                                       Member{"__band", guarded<mask_both>}, Member{"__bor", guarded<mask_either>},
+                                       Member{"__bnot", guarded<mask_opposite>}};
+
+}  // namespace
+
+const ObjectType& vector_type() {
+    static const ObjectType type{"vector", {}, kVectorMethods, kVectorOperators, guarded<read_element>};
+    return type;
+}
+
+const ObjectType& mask_type() {
+    static const ObjectType type{"mask", {}, {}, kMaskOperators, guarded<mask_element>};
+    return type;
+}
+
+}  // namespace dynlab::inline scripting

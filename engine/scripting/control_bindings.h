@@ -1,8 +1,0 @@
-#pragma once
-#include "scripting/function_entry.h"
-
-namespace dynlab {
-
-FunctionEntries control_functions();
-
-}  // namespace dynlab

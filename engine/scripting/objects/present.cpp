@@ -1,0 +1,157 @@
+#include "scripting/objects/present.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scripting/objects/text_form.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+std::string kind_of(const Model& model) {
+    const std::string time = model.G.continuous() ? "continuous-time" : "discrete-time";
+    if (model.process) return fmt::format("{} process model {}", time, model.process->structure.text());
+    if (model.system) return fmt::format("{} state-space model of order {}", time, model.system->order());
+    if (model.polynomial) return time + " polynomial model A y = B/F u + C/D e";
+    return time + " transfer function";
+}
+
+/// "  +- 0.0312"; an error of exactly zero beside others belongs to a parameter that the search left at its bound.
+std::string error_text(const Vector& std, Index place) {
+    if (std[place] == 0 && (std.array() > 0).any()) return "  (at its bound)";
+    return "  +- " + number_text(std[place], 3);
+}
+
+std::string parameter_lines(const Model& model) {
+    const ModelParameters parameters = parameters_of(model);
+    const bool coloured = model.estimate && model.estimate->errors_are_coloured();
+    std::string text = "Parameters:\n";
+    for (std::size_t i = 0; i < parameters.names.size(); ++i) {
+        const auto place = static_cast<Index>(i);
+        text += fmt::format("  {:<5} {:>12}", parameters.names[i], number_text(parameters.values[place], 6));
+        if (parameters.std.size() > place) text += error_text(parameters.std, place);
+        if (coloured && model.estimate->assessment->std[place] > 0)
+            text += fmt::format("  (robust +- {})", number_text(model.estimate->assessment->std[place], 3));
+        text += '\n';
+    }
+    return text;
+}
+
+/// "1.25 +- 0.031", or the value alone when its error is not known, or is none, as the damping of a real pole.
+std::string with_error(const std::string& value, double error) {
+    return std::isfinite(error) && error > 0 ? value + " +- " + number_text(error, 2) : value;
+}
+
+struct PoleColumns {
+    int frequency, damping, time;
+};
+
+std::string pole_row(const PoleDescription& row, const ModeUncertainty* errors, const PoleColumns& widths) {
+    const auto cell = [&](double value, int digits, double ModeUncertainty::*error, int width) {
+        const double own_error = errors != nullptr ? errors->*error : std::nan("");
+        return fmt::format("  {:>{}}",
+                           std::isfinite(value) ? with_error(number_text(value, digits), own_error) : "none", width);
+    };
+    return fmt::format("  {:<24}", complex_text(row.pole)) +
+           cell(row.natural_frequency, 5, &ModeUncertainty::natural_frequency_std, widths.frequency) +
+           cell(row.damping_ratio, 4, &ModeUncertainty::damping_ratio_std, widths.damping) +
+           cell(row.time_constant, 5, &ModeUncertainty::time_constant_std, widths.time) + "\n";
+}
+
+/// Steady-state gain and poles of one channel, with their standard errors where they are known.
+std::string gain_and_poles(const TransferFunction& G, const std::optional<ModelUncertainty>& uncertainty) {
+    const double gain_error = uncertainty ? uncertainty->gain_std : std::nan("");
+    std::string text = "Steady-state gain: " + with_error(number_text(G.dc_gain()), gain_error) + "\n";
+    if (G.pole_count() == 0) return text;
+    const PoleColumns widths = uncertainty ? PoleColumns{19, 18, 19} : PoleColumns{17, 8, 17};
+    text += fmt::format("{:<26}  {:>{}}  {:>{}}  {:>{}}\n", "Poles:", "frequency (rad/s)", widths.frequency, "damping",
+                        widths.damping, "time constant (s)", widths.time);
+    const std::vector<PoleDescription> rows = damping(G);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        text += pole_row(rows[i], uncertainty ? &uncertainty->modes[i] : nullptr, widths);
+    if (uncertainty)
+        for (const std::string& warning : uncertainty->warnings) text += warning + "\n";
+    return text;
+}
+
+std::string polynomial_lines(const PolynomialModel& model) {
+    std::string text;
+    const auto add = [&](const std::string& name, const Vector& p) {
+        if (p.size() > 1 || p[0] != 1) text += fmt::format("  {:<5} {}\n", name, vector_text(p));
+    };
+    add("A", model.A);
+    for (std::size_t i = 0; i < model.B.size(); ++i) {
+        const std::string ending = model.B.size() > 1 ? fmt::format("{{{}}}", i + 1) : "";
+        add("B" + ending, model.B[i]);
+        add("F" + ending, model.F[i]);
+    }
+    add("C", model.C);
+    add("D", model.D);
+    return "Polynomials (weights of the present sample, the one before, ...; those not shown are 1):\n" + text;
+}
+
+std::string noise_lines(const NoiseModel& noise) {
+    std::string text = "Noise C(q^-1)/D(q^-1) e, e white (weights of the samples before; the present one's is 1):\n";
+    const auto add = [&](const char* name, const Vector& p, const Vector& std) {
+        for (Index i = 1; i < p.size(); ++i)
+            text += fmt::format("  {:<5} {:>12}  +- {}\n", fmt::format("{}{}", name, i), number_text(p[i], 6),
+                                number_text(std[i], 3));
+    };
+    add("c", noise.C, noise.C_std);
+    add("d", noise.D, noise.D_std);
+    return noise.C.size() + noise.D.size() > 2 ? text : "Noise: taken as white\n";
+}
+
+std::string channel_name(const Model& model, std::size_t channel) {
+    const std::string input = fmt::format("From input {}", channel % model.inputs() + 1);
+    return model.outputs == 1 ? input : fmt::format("{} to output {}", input, channel / model.inputs() + 1);
+}
+
+/// Delay, gain and poles of one channel.
+std::string channel_lines(const TransferFunction& G, const std::optional<ModelUncertainty>& uncertainty) {
+    const std::string delay = G.delay() > 0 ? fmt::format("Delay: {} s\n", number_text(G.delay())) : "";
+    return delay + gain_and_poles(G, uncertainty);
+}
+
+std::string estimate_lines(const Estimate& estimate) {
+    std::string text = fmt::format("Estimated by {}", estimate.method);
+    for (const auto& [name, value] : estimate.numbers) {
+        if (name == "fit_percent")
+            text += fmt::format(", fit to the estimation data {} % (simulation)", number_text(value, 4));
+        if (name == "noise_variance") text += fmt::format(", noise variance {}", number_text(value, 4));
+    }
+    text += ".\n";
+    if (!estimate.message.empty()) text += estimate.message + "\n";
+    if (estimate.errors_are_coloured()) text += estimate.assessment->verdict + "\n";
+    return text;
+}
+
+}  // namespace
+
+std::string channels_text(const Model& model) {
+    const std::vector<TransferFunction> channels = channels_of(model);
+    if (channels.size() == 1) return to_text(channels.front());
+    std::string text;
+    for (std::size_t i = 0; i < channels.size(); ++i)
+        text += fmt::format("{}{}:\n{}", i > 0 ? "\n" : "", channel_name(model, i), to_text(channels[i]));
+    return text;
+}
+
+std::string presentation(const Model& model) {
+    std::string text = kind_of(model) + "\n" + channels_text(model) + "\n";
+    if (model.polynomial) text += polynomial_lines(*model.polynomial);
+    if (!model.system) text += parameter_lines(model);
+    if (model.estimate && model.estimate->noise) text += noise_lines(*model.estimate->noise);
+    if (!model.G.continuous()) text += fmt::format("Sampling time: {} s\n", number_text(model.G.Ts()));
+    std::optional<ModelUncertainty> uncertainty;
+    if (const auto uncertain = uncertain_model(model)) uncertainty = describe_uncertainty(*uncertain);
+    const std::vector<TransferFunction> channels = channels_of(model);
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+        if (channels.size() > 1) text += channel_name(model, i) + ": ";
+        text += channel_lines(channels[i], uncertainty);
+    }
+    if (model.estimate) text += estimate_lines(*model.estimate);
+    return text;
+}
+
+}  // namespace dynlab::inline scripting

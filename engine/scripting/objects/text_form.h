@@ -1,0 +1,20 @@
+#pragma once
+#include <lua.hpp>
+#include <string>
+
+#include "numerics/linalg/types.h"
+#include "numerics/number_text.h"
+
+namespace dynlab::inline scripting {
+
+/// The short readable forms that print and tostring show, with number_text() for the numbers.
+std::string vector_text(const VectorView& v);  ///< [1 2 3]; long ones shortened, with their length
+std::string matrix_text(const MatrixView& m);  ///< rows under each other, columns aligned
+std::string complex_text(const Complex& value, int significant_digits = 5);
+std::string complex_vector_text(const ComplexVector& v);
+
+/// Text of any Lua value: whole numbers without ".0", tables as {1, 2, name = "x"}, objects by their own form. Equal
+/// values give equal text in every run (no addresses).
+std::string value_text(lua_State* L, int index);
+
+}  // namespace dynlab::inline scripting

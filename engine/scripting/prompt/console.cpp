@@ -1,0 +1,160 @@
+#include "scripting/prompt/console.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <iostream>
+
+#include "platform/error.h"
+#include "platform/interrupt.h"
+#include "platform/text_file.h"
+#include "scripting/prompt/line_editor.h"
+#include "scripting/prompt/prompt_session.h"
+#include "scripting/runtime/errors.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+constexpr const char* kPrompt = "dynlab> ";
+constexpr const char* kContinuation = "   ...> ";
+constexpr const char* kPipeName = "standard input";
+constexpr int kImpatience = 5;  // that many Ctrl-C during one statement end the program even if it does not listen
+
+void print_now(const std::string& text) {
+    std::fwrite(text.data(), 1, text.size(), stdout);
+    std::fflush(stdout);
+}
+
+void show_figures(const StatementResult& result) {
+    for (const auto& file : result.figures) print_now("figure: " + file.string() + '\n');
+}
+
+class Prompt {
+  public:
+    explicit Prompt(const std::filesystem::path& figure_folder)
+        : session_(figure_folder, print_now),
+          history_(history_file()),
+          editor_(history_, [this](const auto& line) { return session_.complete_end(pending_ + line); }) {}
+
+    void run() {
+        while (take_line(editor_.read(pending_.empty() ? kPrompt : kContinuation))) {
+        }
+    }
+
+  private:
+    using Ending = LineEditor::Line::Ending;
+
+    /// False when the prompt is to be left.
+    bool take_line(const LineEditor::Line& line) {
+        if (line.ending != Ending::kEntered) {
+            print_now("\n");
+            const bool stays = line.ending == Ending::kGivenUp || !pending_.empty();
+            pending_.clear();
+            return stays;
+        }
+        const bool blank = line.text.find_first_not_of(" \t") == std::string::npos;
+        if (blank && !pending_.empty() && !line.more_follows) {
+            give_up();
+            return true;
+        }
+        PromptStatement statement = read_statement(pending_ + line.text);
+        if (statement.kind == PromptStatement::Kind::kIncomplete) {
+            pending_ += line.text + '\n';
+            return true;
+        }
+        pending_.clear();
+        if (statement.kind == PromptStatement::Kind::kLeave) return false;
+        if (statement.kind == PromptStatement::Kind::kReady) run(statement);
+        return true;
+    }
+
+    void give_up() {
+        print_now("(given up: the statement was not complete)\n");
+        pending_.clear();
+    }
+
+    void run(const PromptStatement& statement) {
+        const std::string name = fmt::format("statement {}", ++count_);
+        forget_interrupts(kImpatience);
+        const StatementResult result = session_.run(statement, name);
+        if (interrupted()) print_now("\n");  // the terminal has shown ^C
+        forget_interrupts(kImpatience);
+        show_figures(result);
+        if (!result.error.empty()) show_error(message_of(result.error, name, statement.source));
+    }
+
+    /// The place is told where it helps: the line of a longer statement, or that it was an earlier one's.
+    static std::string message_of(const std::string& error, const std::string& name, const std::string& source) {
+        const PlacedMessage placed = take_apart(error);
+        if (placed.line == 0) return error;
+        if (placed.file != name) return fmt::format("{} (in line {} of {})", placed.text, placed.line, placed.file);
+        if (source.find('\n') == std::string::npos) return placed.text;
+        return fmt::format("line {}: {}", placed.line, placed.text);
+    }
+
+    void show_error(const std::string& message) const {
+        print_now(in_colour_ ? "\033[31m" + message + "\033[0m\n" : message + '\n');
+    }
+
+    static bool takes_colour() {
+        const char *no_colour = std::getenv("NO_COLOR"), *terminal = std::getenv("TERM");
+        return (no_colour == nullptr || *no_colour == '\0') && terminal != nullptr && std::string(terminal) != "dumb";
+    }
+
+    PromptSession session_;
+    CommandHistory history_;
+    LineEditor editor_;
+    std::string pending_;  ///< lines of a statement that is not complete yet
+    unsigned count_ = 0;
+    bool in_colour_ = takes_colour();
+};
+
+/// Runs a statement whose text was shifted to its line of the input. False when it failed.
+bool run_from_pipe(PromptSession& session, const PromptStatement& statement, int first_line) {
+    const StatementResult result = session.run(statement, kPipeName);
+    show_figures(result);
+    if (interrupted()) throw Interrupted();
+    if (result.error.empty()) return true;
+    const bool placed = take_apart(result.error).line > 0;
+    std::cerr << "dynlab: " << (placed ? "" : fmt::format("{}:{}: ", kPipeName, first_line)) << result.error
+              << std::endl;
+    return false;
+}
+
+}  // namespace
+
+void run_prompt(const std::filesystem::path& figure_folder, const std::string& greeting) {
+    Prompt prompt(figure_folder);
+    print_now(greeting);
+    prompt.run();
+}
+
+bool run_statements_of(std::istream& input, const std::filesystem::path& figure_folder) {
+    PromptSession session(figure_folder, print_now);
+    bool all_well = true;
+    std::string pending;
+    int first_line = 1, line_number = 0;
+    for (bool at_end = false; !at_end;) {
+        std::string line;
+        at_end = !std::getline(input, line);
+        ++line_number;
+        if (line_number == 1) line = without_byte_order_mark(line);
+        if (pending.empty()) {
+            first_line = line_number;
+            pending.assign(static_cast<std::size_t>(line_number - 1),
+                           '\n');  // so that messages count the input's lines
+        }
+        pending += line + '\n';
+        const PromptStatement statement = read_statement(pending);
+        if (statement.kind == PromptStatement::Kind::kIncomplete && !at_end) continue;
+        pending.clear();
+        if (statement.kind == PromptStatement::Kind::kLeave) return all_well;
+        if (statement.kind != PromptStatement::Kind::kEmpty)
+            all_well = run_from_pipe(session, statement, first_line) && all_well;
+    }
+    return all_well;
+}
+
+}  // namespace dynlab::inline scripting

@@ -1,0 +1,42 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "figures/gnuplot_renderer.h"
+#include "scripting/prompt/completion.h"
+#include "scripting/prompt/prompt_statement.h"
+#include "scripting/runtime/runtime.h"
+
+namespace dynlab::inline scripting {
+
+/// What a statement came to, besides the text it printed.
+struct StatementResult {
+    std::string error;  ///< a sentence with its place ("prompt:2: ..."); empty when all went well
+    std::vector<std::filesystem::path> figures;  ///< files of the figures it made, also before an error
+};
+
+/// The statements of one session: variables, random numbers and the count of figures live on from one to the next.
+class PromptSession {
+  public:
+    /// Figures go to `figure_folder`, made with the first one, as figure-1.pdf, figure-2.pdf, ...; the numbers go on
+    /// after those of the files that are there, so that no figure is overwritten.
+    PromptSession(std::filesystem::path figure_folder, std::function<void(const std::string&)> print);
+
+    /// `name` stands for the file in messages. Ctrl-C ends the statement with the error "interrupted" (while an
+    /// InterruptScope lives); nothing is thrown that a statement can cause.
+    StatementResult run(const PromptStatement& statement, const std::string& name);
+    Completion complete_end(std::string_view text);  ///< of a statement, up to the cursor
+
+  private:
+    void save_figures(const RunRecord& record, StatementResult& result);
+
+    GnuplotRenderer renderer_;
+    std::filesystem::path figure_folder_;
+    std::optional<unsigned> last_figure_;  ///< once the folder was looked at
+    Runtime runtime_;
+};
+
+}  // namespace dynlab::inline scripting

@@ -1,0 +1,22 @@
+#pragma once
+#include <lua.hpp>
+#include <string>
+#include <vector>
+
+namespace dynlab::inline scripting {
+
+/// The variables of the prompt. Every statement is a chunk of its own, so a `local` of one would be gone in the next;
+/// names declared so live in a table before the globals instead, which all statements (and their functions) share. Like
+/// a local, such a name may be that of one of dynlab's functions. All other names are globals as in any script.
+
+/// Makes that table, empty. Call once, after the library was sealed.
+void make_prompt_variables(lua_State* L);
+/// Pushes it, nil when there is none: the environment (_ENV) of a statement, to be read raw by the completion.
+void push_prompt_variables(lua_State* L);
+
+/// The next statement declares these names. Until it assigns to one, the name means what it meant before.
+void announce_variables(lua_State* L, const std::vector<std::string>& names);
+/// Ends the statement: names it never came to assign are not declared.
+void forget_unassigned(lua_State* L, const std::vector<std::string>& names);
+
+}  // namespace dynlab::inline scripting

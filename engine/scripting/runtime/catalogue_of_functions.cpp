@@ -1,0 +1,30 @@
+#include "scripting/bind/bindings.h"
+#include "scripting/bind/control_bindings.h"
+#include "scripting/bind/study_bindings.h"
+
+namespace dynlab::inline scripting {
+
+const std::vector<FunctionEntry>& catalogue_of_functions() {
+    static const std::vector<FunctionEntry> catalogue = [] {
+        std::vector<FunctionEntry> all;
+        for (FunctionEntries area : {data_functions(),          preprocess_functions(),
+                                     saving_functions(),        rig_functions(),
+                                     vector_functions(),        vector_comparisons(),
+                                     random_functions(),        signal_functions(),
+                                     model_functions(),         simulation_functions(),
+                                     estimator_functions(),     transfer_estimator_functions(),
+                                     noise_model_functions(),   discrete_estimator_functions(),
+                                     subspace_functions(),      hammerstein_functions(),
+                                     nonparametric_functions(), advice_functions(),
+                                     regression_functions(),    validation_functions(),
+                                     residual_functions(),      order_functions(),
+                                     study_functions(),         figure_functions(),
+                                     control_functions(),       report_functions(),
+                                     answer_functions(),        help_functions()})
+            all.insert(all.end(), area.begin(), area.end());
+        return all;
+    }();
+    return catalogue;
+}
+
+}  // namespace dynlab::inline scripting

@@ -1,0 +1,92 @@
+#include "scripting/runtime/context.h"
+
+#include <fmt/format.h>
+
+#include "platform/interrupt.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+/// Activation record of the outermost call of a thread: where the main chunk runs.
+bool outermost_call(lua_State* L, lua_Debug& record) {
+    int inside = 0, outside = 1;
+    while (lua_getstack(L, outside, &record)) {
+        inside = outside;
+        outside *= 2;
+    }
+    while (inside + 1 < outside) {
+        const int middle = (inside + outside) / 2;
+        (lua_getstack(L, middle, &record) ? inside : outside) = middle;
+    }
+    return lua_getstack(L, inside, &record) != 0;
+}
+
+std::string innermost_line(lua_State* L) {
+    lua_Debug record;
+    for (int level = 0; lua_getstack(L, level, &record); ++level) {
+        lua_getinfo(L, "Sl", &record);
+        if (record.currentline > 0) return fmt::format("{}:{}", record.short_src, record.currentline);
+    }
+    return {};
+}
+
+const char* stop_sentence(StopReason reason) {
+    switch (reason) {
+        case StopReason::kTimeLimit:
+            return "the script ran longer than the time it is given";
+        case StopReason::kOutputLimit:
+            return "the script printed more text than a run may keep";
+        default:
+            return "interrupted";
+    }
+}
+
+}  // namespace
+
+RuntimeContext& context_of(lua_State* L) {
+    return **static_cast<RuntimeContext**>(lua_getextraspace(L));
+}
+
+int main_chunk_line(RuntimeContext& context) {
+    if (!context.running) return 0;
+    if (!context.main_chunk_known) context.main_chunk_known = outermost_call(context.main, context.main_chunk);
+    if (!context.main_chunk_known) return 0;
+    lua_getinfo(context.main, "l", &context.main_chunk);
+    return std::max(context.main_chunk.currentline, 0);
+}
+
+std::string script_place(lua_State* L) {
+    std::string place = innermost_line(L);
+    lua_State* main = context_of(L).main;
+    return place.empty() && main != L ? innermost_line(main) : place;
+}
+
+void poll_stop(lua_State* L) {
+    RuntimeContext& context = context_of(L);
+    pass_stop_on(L);
+    if (interrupted()) raise_stop(L, StopReason::kInterrupted);
+    if (context.deadline && std::chrono::steady_clock::now() > *context.deadline) raise_stop(L, StopReason::kTimeLimit);
+}
+
+void pass_stop_on(lua_State* L) {
+    const StopReason reason = context_of(L).stop;
+    if (reason != StopReason::kNone) raise_stop(L, reason);
+}
+
+void raise_stop(lua_State* L, StopReason reason) {
+    RuntimeContext& context = context_of(L);
+    context.stop = reason;
+    lua_sethook(L, lua_gethook(L), LUA_MASKCOUNT, 1);  // so that a loop around pcall ends at its next step
+    lua_sethook(context.main, lua_gethook(L), LUA_MASKCOUNT, 1);
+    raise_error(L, stop_sentence(reason));
+}
+
+void raise_error(lua_State* L, const std::string& message) {
+    const std::string place = script_place(L);
+    const std::string text = place.empty() ? message : place + ": " + message;
+    lua_pushlstring(L, text.data(), text.size());
+    lua_error(L);
+    std::abort();  // not reached: lua_error does not return
+}
+
+}  // namespace dynlab::inline scripting

@@ -1,0 +1,66 @@
+#pragma once
+#include <chrono>
+#include <lua.hpp>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "numerics/signals/random.h"
+#include "scripting/runtime/memory_account.h"
+#include "scripting/runtime/recorder.h"
+#include "scripting/runtime/runtime.h"
+
+namespace dynlab::inline scripting {
+
+enum class StopReason { kNone, kInterrupted, kTimeLimit, kOutputLimit };
+
+/// What the bindings of one Lua state share.
+struct RuntimeContext {
+    RuntimeContext(RunOptions run_options, GnuplotRenderer& shared_renderer)
+        : options(std::move(run_options)),
+          renderer(shared_renderer),
+          memory(options.memory_limit_bytes),
+          random(options.seed) {}
+
+    RunOptions options;
+    GnuplotRenderer& renderer;
+    MemoryAccount memory;
+    RandomStream random;
+    Recorder recorder;
+    std::vector<const FunctionEntry*> functions;  ///< all that scripts can call, later layers' too
+    std::map<std::size_t, void*> services;
+
+    lua_State* main = nullptr;
+    std::string script_name;  ///< as messages show it
+    lua_Debug main_chunk{};   ///< activation record of the running main chunk
+    bool main_chunk_known = false;
+    bool running = false;
+    StopReason stop = StopReason::kNone;  ///< once set, every protected call passes the stop on
+    std::optional<std::chrono::steady_clock::time_point> deadline;
+    std::string* printed_by_call = nullptr;  ///< also gets what is printed, while a call is watched
+    /// Functions with the bytes of their arguments whose calls are over sooner than they are looked up.
+    std::set<std::pair<std::string, std::size_t>> quick_calls;
+    int refusal_line = 0;  ///< of the main chunk when memory was last refused
+};
+
+RuntimeContext& context_of(lua_State* L);
+
+template <class T>
+T& service(lua_State* L) {
+    return *static_cast<T*>(context_of(L).services.at(typeid(T).hash_code()));
+}
+
+/// Line of the main chunk that runs now, 0 when none does.
+int main_chunk_line(RuntimeContext& context);
+/// "file:line" of the innermost script line, empty when no script is running.
+std::string script_place(lua_State* L);
+/// Raises the stop when Ctrl-C was pressed or the time limit is over; cheap enough for every protected call.
+void poll_stop(lua_State* L);
+/// Passes a stop on that is under way, whatever the script tried to catch.
+void pass_stop_on(lua_State* L);
+[[noreturn]] void raise_stop(lua_State* L, StopReason reason);
+/// Raises "place: message" for the script.
+[[noreturn]] void raise_error(lua_State* L, const std::string& message);
+
+}  // namespace dynlab::inline scripting

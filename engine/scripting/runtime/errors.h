@@ -1,0 +1,32 @@
+#pragma once
+#include <lua.hpp>
+#include <string>
+
+namespace dynlab::inline scripting {
+
+struct RuntimeContext;
+
+/// Message handler: turns Lua's own runtime messages on top of the stack into plain sentences; other values stay.
+int translate_error(lua_State* L);
+void translate_value_on_top(lua_State* L);
+/// The sentence about the memory limit, with the line of the script where it was reached.
+std::string memory_message(const RuntimeContext& context);
+/// Replaces the error on top by it.
+void push_memory_message(lua_State* L);
+
+/// "file:line: text" taken apart; line 0 and empty file when the text has no place.
+struct PlacedMessage {
+    std::string file;
+    int line = 0;
+    std::string text;
+    std::string joined() const;
+};
+PlacedMessage take_apart(const std::string& message);
+
+/// Plain words for what Lua says at run time, place kept ("attempt to index a nil value (local 'x')" and its like).
+std::string plain_runtime_message(const std::string& message);
+
+/// Plain words for a syntax error of `source`, with a hint when the line looks like MATLAB.
+std::string plain_syntax_message(const std::string& message, const std::string& source);
+
+}  // namespace dynlab::inline scripting

@@ -1,0 +1,219 @@
+#include "scripting/runtime/matlab_hints.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
+
+namespace dynlab::inline scripting {
+namespace {
+
+struct NameHint {
+    std::string_view name;
+    const char* hint;
+};
+
+constexpr std::array kNames = {
+    NameHint{"ans", "keep the result in a variable: local x = ..."},
+    NameHint{"axis", "give x_range = {a, b} and y_range = {a, b} among the options of plot"},
+    NameHint{"bar", "write plot(x, y, {style = \"bars\"})"},
+    NameHint{"cell2mat", "a Lua table of numbers is accepted wherever a vector is: vector(t)"},
+    NameHint{"clc", "at the prompt Ctrl-L clears the screen"},
+    NameHint{"clear", "every run and every prompt starts afresh; one variable is cleared by x = nil"},
+    NameHint{"close", "there is nothing to close: figures go into the document"},
+    NameHint{"disp", "write print(x)"},
+    NameHint{"fclose", "scripts read data with load(name) and write with save_csv(path, data)"},
+    NameHint{"fopen", "scripts read data with load(name) and write with save_csv(path, data)"},
+    NameHint{"fprintf", "write print(string.format(\"%.3f\", x))"},
+    NameHint{"grid", "the grid is always drawn"},
+    NameHint{"hold", "give all curves to one call: plot(x1, y1, \"a\", x2, y2, \"b\")"},
+    NameHint{"horzcat", "write matrix{v1, v2}: vectors are the columns"},
+    NameHint{"inv", "write solve(A, b), which is also more accurate than an inverse"},
+    NameHint{"isempty", "write #v == 0"},
+    NameHint{"isnan", "a vector with NaN is refused by name where it matters; for one number x write x ~= x"},
+    NameHint{"legend", "name the curves: plot(x1, y1, \"first\", x2, y2, \"second\")"},
+    NameHint{"length", "write #v"},
+    NameHint{"line", "write plot(x, y)"},
+    NameHint{"log10", "write log(x)/log(10)"},
+    NameHint{"logspace", "write exp(linspace(log(a), log(b), n))"},
+    NameHint{"mldivide", "write solve(A, b)"},
+    NameHint{"nnz", "write #find(mask)"},
+    NameHint{"num2str", "write string.format(\"%g\", x)"},
+    NameHint{"numel", "write #v"},
+    NameHint{"pi", "write math.pi"},
+    NameHint{"rem", "write a % b"},
+    NameHint{"mod", "write a % b"},
+    NameHint{"floor", "write math.floor(x)"},
+    NameHint{"ceil", "write math.ceil(x)"},
+    NameHint{"round", "write math.floor(x + 0.5)"},
+    NameHint{"inf", "write math.huge"},
+    NameHint{"Inf", "write math.huge"},
+    NameHint{"NaN", "write 0/0"},
+    NameHint{"scatter", "write plot(x, y, {style = \"points\"})"},
+    NameHint{"set", "give the options to plot: plot(x, y, {xlabel = \"time (s)\"})"},
+    NameHint{"size", "write #v for a vector, A.rows and A.columns for a matrix"},
+    NameHint{"sprintf", "write string.format(\"%.3f\", x)"},
+    NameHint{"sqrtm", "write sqrt(x) for the root of every element"},
+    NameHint{"stairs", "write plot(x, y, {style = \"stairs\"})"},
+    NameHint{"stem", "write plot(x, y, {style = \"stems\"})"},
+    NameHint{"strcat", "write a .. b"},
+    NameHint{"struct", "write {name = value}"},
+    NameHint{"title", "give it among the options: plot(x, y, {title = \"...\"})"},
+    NameHint{"transpose", "write A:t()"},
+    NameHint{"vertcat", "write vector{v1, v2}"},
+    NameHint{"xlabel", "give it among the options: plot(x, y, {xlabel = \"time (s)\"})"},
+    NameHint{"xlim", "give it among the options: plot(x, y, {x_range = {a, b}})"},
+    NameHint{"ylabel", "give it among the options: plot(x, y, {ylabel = \"output\"})"},
+    NameHint{"ylim", "give it among the options: plot(x, y, {y_range = {a, b}})"},
+};
+
+/// The line without its strings and Lua comment, so that their contents are not taken for code.
+std::string code_only(const std::string& line) {
+    std::string code;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        if (line.compare(i, 2, "--") == 0) break;
+        if (line[i] == '"') {
+            const auto end = line.find('"', i + 1);
+            if (end == std::string::npos) break;
+            code += "\"\"";
+            i = end;
+        } else {
+            code += line[i];
+        }
+    }
+    return code;
+}
+
+bool contains(const std::string& text, std::string_view part) {
+    return text.find(part) != std::string::npos;
+}
+
+bool name_character(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+}
+
+std::string first_word(const std::string& code) {
+    const auto start = code.find_first_not_of(" \t");
+    if (start == std::string::npos) return {};
+    auto end = start;
+    while (end < code.size() && name_character(code[end])) ++end;
+    return code.substr(start, end - start);
+}
+
+/// x' with the quote right behind a name, a bracket or another quote: MATLAB's transpose.
+bool has_transpose(const std::string& code) {
+    for (std::size_t i = 1; i < code.size(); ++i)
+        if (code[i] == '\'' && (name_character(code[i - 1]) || code[i - 1] == ')' || code[i - 1] == ']'))
+            return std::count(code.begin() + static_cast<std::ptrdiff_t>(i), code.end(), '\'') % 2 == 1;
+    return false;
+}
+
+/// a:b or a:s:b between two values, outside a method call.
+bool has_colon_range(const std::string& code) {
+    for (std::size_t i = 1; i + 1 < code.size(); ++i) {
+        if (code[i] != ':' || code[i + 1] == ':' || code[i - 1] == ':') continue;
+        auto next = code.find_first_not_of(' ', i + 1);
+        if (next == std::string::npos) continue;
+        auto end = next;
+        while (end < code.size() && name_character(code[end])) ++end;
+        const bool method = end > next && !std::isdigit(static_cast<unsigned char>(code[next])) && end < code.size() &&
+                            (code[end] == '(' || code[end] == '{' || code[end] == '"');
+        if (!method) return true;
+    }
+    return false;
+}
+
+/// An opening bracket where a value starts: [1 2 3].
+bool has_bracket_list(const std::string& code) {
+    for (std::size_t i = 0; i < code.size(); ++i) {
+        if (code[i] != '[') continue;
+        const auto before = code.find_last_not_of(" \t", i == 0 ? std::string::npos : i - 1);
+        if (i == 0 || before == std::string::npos ||
+            std::string_view("=(,{+-*/^").find(code[before]) != std::string_view::npos)
+            return true;
+    }
+    return false;
+}
+
+bool ends_with(const std::string& code, std::string_view tail) {
+    const auto last = code.find_last_not_of(" \t\r");
+    return last != std::string::npos && last + 1 >= tail.size() &&
+           code.compare(last + 1 - tail.size(), tail.size(), tail) == 0;
+}
+
+/// A single = inside an if or while condition.
+bool has_assignment_condition(const std::string& code) {
+    const std::string word = first_word(code);
+    if (word != "if" && word != "elseif" && word != "while") return false;
+    for (std::size_t i = 1; i + 1 < code.size(); ++i)
+        if (code[i] == '=' && code[i + 1] != '=' &&
+            std::string_view("=~<>!").find(code[i - 1]) == std::string_view::npos)
+            return true;
+    return false;
+}
+
+std::string operator_hint(const std::string& code) {
+    if (contains(code, ".*")) return "for vectors write x*y, for matrices A:times(B), instead of .*";
+    if (contains(code, "./")) return "for vectors write x/y instead of ./";
+    if (contains(code, ".^")) return "for vectors write x^2 instead of .^";
+    if (contains(code, "!=")) return "'not equal' is ~= in Lua";
+    if (contains(code, "&&")) return "'and' is written and";
+    if (contains(code, "||")) return "'or' is written or";
+    if (contains(code, "+=") || contains(code, "-=") || contains(code, "*="))
+        return "write x = x + 1 instead of x += 1";
+    if (contains(code, "++")) return "write x = x + 1 instead of x++";
+    return {};
+}
+
+std::string block_hint(const std::string& code) {
+    const std::string word = first_word(code);
+    if ((word == "for" || word == "while") && !contains(code, " do"))
+        return word == "for" ? "a loop is written: for k = 1, N do ... end"
+                             : "a loop is written: while condition do ... end";
+    if ((word == "if" || word == "elseif") && !contains(code, "then"))
+        return "a condition is written: if a > b then ... end";
+    if (word == "function" && contains(code, "=")) return "a function is written: function name(x) ... return y end";
+    if (word == "switch" || word == "case" || word == "otherwise")
+        return "Lua has no switch: write if ... elseif ... else ... end";
+    if (word == "try" || word == "catch") return "write local ok, message = pcall(f) instead of try";
+    if (word == "end" && contains(code, "end;")) return "one 'end' too many, or a block that was not opened";
+    return {};
+}
+
+/// Commands of words alone: hold on, close all, clear x y.
+std::string command_hint(const std::string& code) {
+    const bool words_only = std::all_of(code.begin(), code.end(), [](char c) {
+        return name_character(c) || std::string_view(" \t\r;").find(c) != std::string_view::npos;
+    });
+    const char* hint = words_only ? matlab_name_hint(first_word(code)) : nullptr;
+    return hint != nullptr ? hint : "";
+}
+
+}  // namespace
+
+const char* matlab_name_hint(const std::string& name) {
+    const auto found =
+        std::find_if(kNames.begin(), kNames.end(), [&](const NameHint& hint) { return hint.name == name; });
+    return found == kNames.end() ? nullptr : found->hint;
+}
+
+std::string matlab_syntax_hint(const std::string& line, const std::string& near) {
+    const std::string code = code_only(line);
+    if (std::string hint = command_hint(code); !hint.empty()) return hint;
+    const auto first = code.find_first_not_of(" \t");
+    if (first != std::string::npos && code[first] == '%') return "a comment starts with -- in Lua";
+    if (has_assignment_condition(code)) return "to compare, write == instead of =";
+    if (std::string hint = operator_hint(code); !hint.empty()) return hint;
+    if (ends_with(code, "...") && near != ")") return "a statement may simply go on in the next line, without ...";
+    if (has_transpose(code)) return "the transpose is A:t(); vectors are columns already";
+    if (std::string hint = block_hint(code); !hint.empty()) return hint;
+    if (has_bracket_list(code)) return "a vector is written vector{1, 2, 3}, a matrix matrix{{1, 2}, {3, 4}}";
+    if (has_colon_range(code))
+        return "a range is range(first, last) or range(first, step, last), a part of a vector v:range(i, j)";
+    if (contains(code, "%")) return "a comment starts with -- in Lua";
+    if (contains(code, "\\")) return "A\\b is written solve(A, b)";
+    if (contains(code, "@(")) return "a function is written function(x) return x^2 end";
+    return {};
+}
+
+}  // namespace dynlab::inline scripting

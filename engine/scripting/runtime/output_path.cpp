@@ -1,0 +1,39 @@
+#include "scripting/runtime/output_path.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "numerics/error.h"
+#include "platform/error.h"
+#include "scripting/runtime/context.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool lies_below(const fs::path& file, const fs::path& folder) {
+    const fs::path root = fs::weakly_canonical(fs::absolute(folder));
+    const auto [end, rest] = std::mismatch(root.begin(), root.end(), file.begin(), file.end());
+    return end == root.end() || (std::next(end) == root.end() && end->empty());
+}
+
+}  // namespace
+
+fs::path output_path(const RuntimeContext& context, const std::string& path) {
+    if (path.empty() || path.find('\0') != std::string::npos)
+        throw InvalidArgument("the path of a file to write must not be empty");
+    const fs::path file = fs::weakly_canonical(fs::absolute(context.options.out_folder / path));
+    if (!lies_below(file, context.options.out_folder) && !lies_below(file, context.options.script_folder))
+        throw InvalidArgument(
+            fmt::format("'{}' lies outside the script's folder and the output folder; scripts write only there", path));
+    std::error_code failure;
+    fs::create_directories(file.parent_path(), failure);
+    if (failure)
+        throw EnvironmentError(
+            fmt::format("the folder {} cannot be made: {}", file.parent_path().string(), failure.message()));
+    return file;
+}
+
+}  // namespace dynlab::inline scripting

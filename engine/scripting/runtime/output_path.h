@@ -1,0 +1,13 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+namespace dynlab::inline scripting {
+
+struct RuntimeContext;
+
+/// Where a script may write `path`: relative paths count from the output folder; the result lies below it or below the
+/// script's folder, symbolic links followed. Makes missing folders in between. Throws InvalidArgument for other places.
+std::filesystem::path output_path(const RuntimeContext& context, const std::string& path);
+
+}  // namespace dynlab::inline scripting

@@ -1,0 +1,28 @@
+#pragma once
+#include <lua.hpp>
+
+namespace dynlab::inline scripting {
+
+/// Fills the fresh state `L` with the safe part of Lua's libraries: base without chunk loading, string, table, math,
+/// utf8, coroutine. Leaves the table of all functions, not yet reachable for scripts, on the stack.
+void open_safe_libraries(lua_State* L);
+
+/// Takes the table of functions (top of the stack, popped) and makes it what scripts see: globals fall back on it, the
+/// table `dynlab` shows it, its tables cannot be changed, unknown names are errors with a suggestion.
+void seal_library(lua_State* L);
+
+/// Registry place of the table of functions, for adding to it after it was sealed.
+void push_library(lua_State* L);
+
+/// pcall, xpcall, coroutine.resume, wrap and close that let a stop (Ctrl-C, time limit) through and translate messages.
+/// Expects the table of functions on top.
+void add_protected_calls(lua_State* L);
+
+/// Replacements for functions of string and table that could loop in C for ever or fill the memory, print, tostring,
+/// pairs in a repeatable order, math.random from the run's stream. Expects the table of functions on top.
+void add_tamed_functions(lua_State* L);
+
+/// Sets field `name` of the table on top to a C function.
+void set_function(lua_State* L, const char* name, lua_CFunction function);
+
+}  // namespace dynlab::inline scripting

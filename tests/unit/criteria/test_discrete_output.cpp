@@ -1,0 +1,138 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+#include "numerics/criteria/discrete_output.h"
+#include "numerics/linalg/polynomial.h"
+#include "support/difference_equation.h"
+
+namespace test_discrete_output {
+
+using namespace dynlab;
+using namespace dynlab::test;
+
+const PolynomialOrders kOrders = PolynomialOrders::output_error({2, 1}, {1, 2}, {0, 3});
+const Vector kModel{{-0.7, 1, 0.5, -1.3, 0.6, 2}};
+
+std::vector<SampledExperiment> experiments() {
+    std::vector<SampledExperiment> list;
+    for (std::uint32_t seed : {1u, 2u}) {
+        const Index N = 30 + 10 * static_cast<Index>(seed);
+        SampledExperiment experiment{Matrix(N, 2), RandomStream(seed + 5).normal(N)};
+        experiment.u << random_levels(N, 3, seed).array() + 0.5, random_levels(N, 4, seed + 10);
+        list.push_back(experiment);
+    }
+    return list;
+}
+
+Vector some_parameters(const DiscreteOutput& model) {
+    Vector theta = RandomStream(9).normal(model.parameter_count());
+    theta.head(kModel.size()) = kModel;
+    return theta;
+}
+
+double worst(const Matrix& a, const Matrix& b) {
+    return (a - b).cwiseAbs().maxCoeff();
+}
+
+const std::vector<StartCondition>& conditions() {
+    static const std::vector<StartCondition> kAll = {{InitialState::kZero, false},     {InitialState::kZero, true},
+                                                     {InitialState::kSteady, false},   {InitialState::kSteady, true},
+                                                     {InitialState::kEstimate, false}, {InitialState::kEstimate, true}};
+    return kAll;
+}
+
+TEST(discrete_output, follows_the_difference_equation) {  // oracle: the recursion
+    const auto list = experiments();
+    const DiscreteOutput model(kOrders, {InitialState::kZero, false}, list);
+    Vector output;
+    model.simulate(kModel, output, nullptr);
+    const PolynomialModel same(kOrders, kModel, 1);
+    const Vector first = model_output(same, list[0].u, Vector::Zero(40)),
+                 second = model_output(same, list[1].u, Vector::Zero(50));
+    EXPECT_LT(worst(output.head(40), first), 1e-13);
+    EXPECT_LT(worst(output.tail(50), second), 1e-13);
+    EXPECT_EQ(model.target().head(40), list[0].y);
+}
+
+TEST(discrete_output, sensitivities_are_derivatives) {  // oracle: central differences
+    const auto list = experiments();
+    for (const StartCondition& condition : conditions()) {
+        const DiscreteOutput model(kOrders, condition, list);
+        const Vector theta = some_parameters(model);
+        Vector output, ahead, behind;
+        Matrix sensitivities;
+        model.simulate(theta, output, &sensitivities);
+        model.simulate(theta, ahead, nullptr);
+        EXPECT_LT(worst(output, ahead), 1e-13);
+        for (Index i = 0; i < theta.size(); ++i) {
+            const Vector step = 1e-6 * Vector::Unit(theta.size(), i);
+            model.simulate(theta + step, ahead, nullptr);
+            model.simulate(theta - step, behind, nullptr);
+            EXPECT_LT(worst(sensitivities.col(i), (ahead - behind) / 2e-6), 1e-6 * sensitivities.col(i).norm())
+                << description(condition) << " " << i;
+        }
+    }
+}
+
+TEST(discrete_output, a_steady_start_has_a_constant_past) {  // oracle: a longer record with a constant beginning
+    auto list = experiments();
+    list.resize(1);
+    const DiscreteOutput model(kOrders, {InitialState::kSteady, false}, list);
+    Vector output;
+    model.simulate(kModel, output, nullptr);
+    Matrix longer(540, 2);
+    longer << list[0].u.row(0).replicate(500, 1), list[0].u;
+    const Vector all = model_output(PolynomialModel(kOrders, kModel, 1), longer, Vector::Zero(540));
+    EXPECT_LT(worst(output, all.tail(40)), 1e-10);
+}
+
+TEST(discrete_output, initial_values_hold_any_past) {  // oracle: a record cut from a longer one
+    Matrix u(90, 2);
+    u << random_levels(90, 3, 1), random_levels(90, 5, 2);
+    const Vector y = model_output(PolynomialModel(kOrders, kModel, 1), u, Vector::Zero(90));
+    const std::vector<SampledExperiment> list{{u.bottomRows(60), y.tail(60)}};
+    const DiscreteOutput model(kOrders, {InitialState::kEstimate, false}, list);
+    EXPECT_EQ(model.head(), 1);  // nk + nb - 1 - nf of the second input
+    EXPECT_EQ(model.target().size(), 59);
+    EXPECT_EQ(model.left_out(), 1);
+    Vector theta = Vector::Zero(model.parameter_count()), output;
+    theta.head(6) = kModel;
+    Matrix sensitivities;
+    model.simulate(theta, output, &sensitivities);
+    const Matrix motions = sensitivities.rightCols(3);
+    const Vector error = model.target() - output;
+    const Vector values = motions.householderQr().solve(error);
+    EXPECT_GT(error.norm(), 0.1);
+    EXPECT_LT((motions * values - error).norm(), 1e-10);
+}
+
+TEST(discrete_output, regressors_hold_the_measured_output) {  // oracle: the filtered signals, one input
+    const PolynomialOrders orders = PolynomialOrders::output_error({1}, {2}, {2});
+    const Vector theta{{-1.3, 0.6, 2}};
+    const Vector u = random_levels(40, 3, 1), y = RandomStream(2).normal(40);
+    const std::vector<SampledExperiment> list{{u, y}};
+    const DiscreteOutput model(orders, {InitialState::kZero, false}, list);
+    Vector output;
+    Matrix sensitivities, Phi;
+    model.simulate(theta, output, &sensitivities);
+    model.regressors(theta, sensitivities, y - output, Phi);
+    const Vector F{{1, -1.3, 0.6}}, y_filtered = divided_by(F, y), u_filtered = divided_by(F, u);
+    EXPECT_LT(worst(Phi.col(0), weighted_past(Vector{{0, -1}}, y_filtered)), 1e-12);
+    EXPECT_LT(worst(Phi.col(1), weighted_past(Vector{{0, 0, -1}}, y_filtered)), 1e-12);
+    EXPECT_LT(worst(Phi.col(2), weighted_past(Vector{{0, 0, 1}}, u_filtered)), 1e-12);
+    EXPECT_LT(worst(y - output, y_filtered - Phi * theta), 1e-12);
+}
+
+TEST(discrete_output, poles_are_mirrored) {  // oracle: definition
+    const ComplexVector poles{{Complex(1.2, 0.5), Complex(1.2, -0.5), Complex(-0.4, 0)}};
+    const Vector f = polynomial_from_roots(poles).tail(3), mirrored = reflect_into_unit_circle(f);
+    Vector p(4);
+    p << 1, mirrored;
+    for (const Complex& pole : {1.0 / Complex(1.2, 0.5), 1.0 / Complex(1.2, -0.5), Complex(-0.4, 0)})
+        EXPECT_LT(std::abs(evaluate(p, pole)), 1e-13);
+    EXPECT_EQ(reflect_into_unit_circle(mirrored), mirrored);
+    EXPECT_EQ(reflect_into_unit_circle(Vector()).size(), 0);
+}
+
+}  // namespace test_discrete_output

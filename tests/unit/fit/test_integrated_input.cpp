@@ -1,0 +1,63 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "numerics/estimators/oe.h"
+#include "numerics/estimators/srivc.h"
+#include "numerics/fit/integrated_input.h"
+#include "support/difference_equation.h"
+#include "support/thrown_message.h"
+#include "support/transfer_cases.h"
+
+namespace test_integrated_input {
+
+using namespace dynlab;
+using namespace dynlab::test;
+
+const TransferFunction kPosition(values({3}), values({1, 2, 0}), 0, 0.12);  // a motor: 3/(s (s + 2)), late
+
+TEST(integrated_input, models_get_the_integrator_of_the_system) {  // oracle: the simulated system
+    const Vector u = prbs(7, 6);
+    const IdData data(Matrix(lsim(kPosition, u, 0.05)), Matrix(u), 0.05);
+    TransferOptions options;
+    options.Tol = 1e-10;
+    TransferEstimate estimate = srivc(integrated_inputs(data), TransferStructure::single(1, 0, 0.12), options);
+    append_integrator(estimate);
+    EXPECT_LT((estimate.models[0].den() - kPosition.den()).cwiseAbs().maxCoeff(), 1e-6) << estimate.message;
+    EXPECT_LT((estimate.models[0].num() - kPosition.num()).cwiseAbs().maxCoeff(), 1e-6);
+    EXPECT_EQ(estimate.models[0].delay(), 0.12);
+    EXPECT_GT(estimate.fit_percent[0], 100 - 1e-5);
+}
+
+TEST(integrated_input, irregular_sampling_counts_every_step) {  // oracle: the simulated system
+    Vector t(400);
+    t[0] = 0;
+    const Vector jitter = RandomStream(1).normal(400).cwiseAbs();
+    for (Index k = 1; k < 400; ++k) t[k] = t[k - 1] + 0.02 + 0.02 * jitter[k];
+    const Vector u = random_levels(400, 7, 2);
+    const TransferFunction G = kPosition.with_delay(0);
+    const IdData data(Matrix(lsim(G, u, t)), Matrix(u), t);
+    TransferOptions options;
+    options.Tol = 1e-10;
+    TransferEstimate estimate = srivc(integrated_inputs(data), TransferStructure::single(1, 0), options);
+    append_integrator(estimate);
+    EXPECT_LT((estimate.models[0].den() - G.den()).cwiseAbs().maxCoeff(), 1e-5) << estimate.message;
+}
+
+TEST(integrated_input, running_sums_do_the_same_in_discrete_time) {  // oracle: the simulated system
+    PolynomialOrders orders = PolynomialOrders::output_error({2}, {2}, {1});
+    const PolynomialModel truth(orders, Vector{{-1.7, 0.7, 1, 0.5}}, 0.1);  // poles 1 and 0.7
+    const Vector u = random_levels(500, 4, 1);
+    const IdData data(Matrix(model_output(truth, u, Vector::Zero(500))), Matrix(u), 0.1);
+    PolynomialEstimate estimate = oe(summed_inputs(data), PolynomialOrders::output_error({2}, {1}, {1}));
+    append_integrator(estimate);
+    EXPECT_LT((estimate.model.F[0] - truth.F[0]).cwiseAbs().maxCoeff(), 1e-8) << estimate.message;
+    EXPECT_LT((estimate.model.B[0] - truth.B[0]).cwiseAbs().maxCoeff(), 1e-8);
+}
+
+TEST(integrated_input, needs_a_held_input) {  // oracle: definition
+    IdData data(Matrix::Random(10, 1), Matrix::Random(10, 1), 1);
+    data.hold = Hold::kFoh;
+    EXPECT_THAT(thrown_message([&] { integrated_inputs(data); }), testing::HasSubstr("held input"));
+}
+
+}  // namespace test_integrated_input
