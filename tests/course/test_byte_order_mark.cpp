@@ -58,7 +58,7 @@ TEST(byte_order_mark, changes_nothing_of_a_student_s_folder) {
                           marked = bench.shell("cd b && $DYNLAB " + command);
         EXPECT_EQ(plain.exit_code, 0) << plain.error_output;
         EXPECT_EQ(marked.exit_code, 0) << marked.error_output;
-        EXPECT_EQ(replaced(marked.output, "/work/b/", "/work/a/"), plain.output);
+        EXPECT_EQ(replaced(marked.output, "work/b/", "work/a/"), plain.output);
     }
     for (const std::string pdf : {"report.pdf", "woven.pdf"}) EXPECT_EQ(bench.read("b/" + pdf), bench.read("a/" + pdf));
 }
