@@ -50,14 +50,14 @@ double base_height(const PanelLayout& panel) {
     return std::clamp(panel.y.position(0), 0.0, 1.0) * panel.box.height();
 }
 
-std::vector<Box> bars_of(const Curve& curve, const PanelLayout& panel, const Trace& samples) {
-    std::vector<Box> bars;
+std::vector<Rectangle> bars_of(const Curve& curve, const PanelLayout& panel, const Trace& samples) {
+    std::vector<Rectangle> bars;
     const double base = base_height(panel);
     for (std::size_t i = 0; i < samples.size(); ++i) {
         if (samples[i].gap()) continue;
         const auto [left, right] = bar_edges(curve.x, static_cast<Index>(i));
-        const Box bar{on_page(panel.x, left, panel.box.width()), std::min(base, samples[i].y),
-                      on_page(panel.x, right, panel.box.width()), std::max(base, samples[i].y)};
+        const Rectangle bar{on_page(panel.x, left, panel.box.width()), std::min(base, samples[i].y),
+                            on_page(panel.x, right, panel.box.width()), std::max(base, samples[i].y)};
         const bool same_column = !bars.empty() && bar.right - bars.back().left < kResolution;
         if (same_column)  // bars thinner than a dot become one as tall as the tallest
             bars.back() = {bars.back().left, std::min(bars.back().bottom, bar.bottom), bar.right,

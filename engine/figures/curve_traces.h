@@ -10,7 +10,7 @@ struct CurveTraces {
     Trace line;
     Trace points;        ///< markers; for lines, the samples that stand alone between gaps
     Trace lower, upper;  ///< the edges of a band
-    std::vector<Box> bars;
+    std::vector<Rectangle> bars;
 };
 CurveTraces traces_of(const Curve& curve, const PanelLayout& panel);
 

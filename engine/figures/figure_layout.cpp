@@ -196,7 +196,7 @@ class LayoutWork {
 
     void place_texts(std::size_t i) {
         PanelLayout& panel = panels_[i];
-        const Box& box = panel.box;
+        const Rectangle& box = panel.box;
         for (LegendEntry& entry : panel.legend) entry.x += box.left, entry.y += box.top;
         panel.title.x = 0.5 * (box.left + box.right);
         panel.title.y = box.top + row_margins_[row_of(i)].top - 0.5 * block_height(panel.title.text);
@@ -212,7 +212,7 @@ class LayoutWork {
     const Figure& figure_;
     std::vector<PanelLayout> panels_;
     std::vector<Margins> column_margins_, row_margins_;
-    PlacedText title_;
+    CentredText title_;
     double height_ = 0;
 };
 

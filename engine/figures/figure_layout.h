@@ -8,7 +8,7 @@
 namespace dynlab::inline figures {
 
 /// A rectangle of the page, cm from its lower left corner.
-struct Box {
+struct Rectangle {
     double left = 0, bottom = 0, right = 0, top = 0;
     double width() const { return right - left; }
     double height() const { return top - bottom; }
@@ -23,24 +23,24 @@ struct LegendEntry {
 };
 
 /// A text with the page position of its middle.
-struct PlacedText {
+struct CentredText {
     FittedText text;
     double x = 0, y = 0;
 };
 
 struct PanelLayout {
-    Box box;  ///< the frame
+    Rectangle box;  ///< the frame
     Axis x, y;
     bool x_numbers = true;  ///< false where the panel below carries them for both
     std::vector<LegendEntry> legend;
-    PlacedText title, x_label, y_label;
+    CentredText title, x_label, y_label;
     double exponent_x = 0, exponent_y = 0;  ///< height of the text "×10^n" of either axis
 };
 
 /// Where everything of a figure goes: frames aligned in rows and columns, margins just wide enough for the texts.
 struct FigureLayout {
     double width, height;
-    PlacedText title;
+    CentredText title;
     std::vector<PanelLayout> panels;
 };
 FigureLayout lay_out(const Figure& figure);

@@ -45,7 +45,7 @@ class PanelScript {
     double height() const { return layout_.box.height(); }
 
     void write_frame() {
-        const Box& box = layout_.box;
+        const Rectangle& box = layout_.box;
         put("unset label; unset arrow; unset object\n");
         put("set lmargin at screen {:.6f}; set rmargin at screen {:.6f}\n", box.left / page_.width,
             box.right / page_.width);
@@ -95,7 +95,7 @@ class PanelScript {
                  kFrameColour);
     }
 
-    void block(const PlacedText& placed, bool upright = false) {
+    void block(const CentredText& placed, bool upright = false) {
         const double count = static_cast<double>(placed.text.lines.size());
         for (std::size_t i = 0; i < placed.text.lines.size(); ++i) {
             const double step = kTextLine * placed.text.size / kTextSize;
@@ -220,7 +220,7 @@ class PanelScript {
             element(fmt::format("u 1:2:3:4:5:6 w boxxyerror lw 0.3 lc rgb '{}' fs {} border lc rgb 'white'",
                                 look.colour, fill(curve.style)),
                     [&] {
-                        for (const Box& bar : traces.bars)
+                        for (const Rectangle& bar : traces.bars)
                             put("{0:.4f} {1:.4f} {0:.4f} {2:.4f} {1:.4f} {3:.4f}\n", bar.left, bar.bottom, bar.right,
                                 bar.top);
                     });

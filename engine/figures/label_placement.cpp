@@ -20,7 +20,7 @@ class Occupancy {
           rows_(std::max(1, static_cast<int>(height / kCell))),
           weight_(static_cast<std::size_t>(columns_ * rows_), 0) {}
 
-    void add_box(const Box& box, int weight) {
+    void add_box(const Rectangle& box, int weight) {
         const auto [left, right] = cells(box.left, box.right, columns_);
         const auto [bottom, top] = cells(box.bottom, box.top, rows_);
         for (int row = bottom; row <= top; ++row)
@@ -36,7 +36,7 @@ class Occupancy {
             weight_[place(std::clamp(column, 0, columns_ - 1), std::clamp(row, 0, rows_ - 1))] += weight;
         }
     }
-    double covered(const Box& box) const {
+    double covered(const Rectangle& box) const {
         const auto [left, right] = cells(box.left, box.right, columns_);
         const auto [bottom, top] = cells(box.bottom, box.top, rows_);
         double sum = 0;
@@ -126,20 +126,20 @@ class Placement {
             for (std::size_t i = 1; i < trace->size(); ++i)
                 if (!(*trace)[i - 1].gap() && !(*trace)[i].gap()) taken_.add_segment((*trace)[i - 1], (*trace)[i], 3);
         for (const PagePoint& point : curve.points) take_marker(point, 1);
-        for (const Box& bar : curve.bars) taken_.add_box(bar, 1);
+        for (const Rectangle& bar : curve.bars) taken_.add_box(bar, 1);
     }
 
     /// Takes the candidate that covers least; false texts beyond the frame never win against ones inside.
     PagePoint choose(const std::string& text, const std::vector<Candidate>& candidates) {
         const double half_width = 0.5 * text_width(text, style::kTextSize) + 0.05;
-        Box best{};
+        Rectangle best{};
         double least = -1;
         for (const Candidate& candidate : candidates) {
             const double x =
                 half_width < 0.5 * width_ ? std::clamp(candidate.x, half_width, width_ - half_width) : 0.5 * width_;
             const double y = std::clamp(candidate.y, std::min(kHalfHeight, 0.5 * height_),
                                         std::max(height_ - kHalfHeight, 0.5 * height_));
-            const Box box{x - half_width, y - kHalfHeight, x + half_width, y + kHalfHeight};
+            const Rectangle box{x - half_width, y - kHalfHeight, x + half_width, y + kHalfHeight};
             const double moved = std::abs(x - candidate.x) + std::abs(y - candidate.y);
             const double cost = taken_.covered(box) + candidate.penalty + 8 * moved;
             if (least >= 0 && cost >= least) continue;

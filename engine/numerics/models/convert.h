@@ -6,8 +6,8 @@ namespace dynlab::inline numerics {
 
 enum class Discretisation { kZoh, kFoh, kTustin };
 
-/// Discrete-time model. zoh and foh are exact for inputs held so (foh: triangle hold); a delay that is not a
-/// multiple of Ts is handled exactly by the modified z-transform. Throws for a discrete G or Ts <= 0.
+/// Discrete-time model. zoh and foh are exact for inputs held so (foh: triangle hold of Ts seconds); a delay that is
+/// not a multiple of Ts is handled exactly by the modified z-transform. Throws for a discrete G or Ts <= 0.
 TransferFunction c2d(const TransferFunction& G, double Ts, Discretisation method = Discretisation::kZoh);
 StateSpace c2d(const StateSpace& system, double Ts, Discretisation method = Discretisation::kZoh);
 

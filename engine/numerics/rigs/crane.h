@@ -64,6 +64,7 @@ struct CraneTruth {
     double starting_voltage;   ///< below it a resting trolley stays, V
     double time_constant;      ///< of the speed: belt and pendulum rigid, no inductance, s
 };
+/// What the record should tell, from the parameters by formula. Throws InvalidArgument as their validate() does.
 CraneTruth crane_truth(const CraneParameters& parameters);
 
 /// The energy stored in masses, belt and gravity (zero hanging at rest), without buffers and current, J.

@@ -33,6 +33,7 @@ struct FirstOrderStepTruth {
     double f, g;  ///< exp(-Ts/time_constant) and gain (1 - f)
 };
 
+/// What the record should tell, from the parameters by formula. Throws InvalidArgument as their validate() does.
 FirstOrderStepTruth first_order_step_truth(const FirstOrderStepParameters& parameters);
 
 /// The noise of y is drawn before that of ydot; equal seeds give equal records.

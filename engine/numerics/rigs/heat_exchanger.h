@@ -40,6 +40,7 @@ struct HeatExchangerTruth {
     double final_output;          ///< equilibrium after the step, degrees Celsius
 };
 
+/// What the record should tell, from the parameters by formula. Throws InvalidArgument as their validate() does.
 HeatExchangerTruth heat_exchanger_truth(const HeatExchangerParameters& parameters);
 
 /// The sampled experiment; equal seeds give equal records.

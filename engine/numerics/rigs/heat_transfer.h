@@ -52,6 +52,7 @@ struct HeatTransferTruth {
     double gain;         ///< K/V
     double slow, fast;   ///< time constants of heater and air, s
 };
+/// Throws InvalidArgument as the parameters' validate() does.
 HeatTransferTruth heat_transfer_truth(const HeatTransferParameters& parameters, double operating_point);
 
 /// The measured temperature for a sequence of voltages that begins at the equilibrium of its first value; draws the

@@ -25,6 +25,7 @@ struct LinearSystemParameters {
     void validate() const;
 };
 
+/// What the record should tell, from the parameters by formula. Throws InvalidArgument as their validate() does.
 TransferFunction linear_system_truth(const LinearSystemParameters& parameters);
 
 struct LinearSystemRecords {

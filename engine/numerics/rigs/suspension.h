@@ -35,6 +35,7 @@ struct SuspensionTruth {
     double overshoot_time;     ///< after the step, pi/(w0 sqrt(1 - z^2)), s
 };
 
+/// What the record should tell, from the parameters by formula. Throws InvalidArgument as their validate() does.
 SuspensionTruth suspension_truth(const SuspensionParameters& parameters);
 
 /// The sampled experiment; equal seeds give equal records.

@@ -50,6 +50,7 @@ struct ThrusterTruth {
     double slow_time_constant;              ///< of the speed at rest, J R/K^2, s
     double fast_time_constant;              ///< of small changes of the speed at full width forwards, s
 };
+/// What the record should tell, from the parameters by formula. Throws InvalidArgument as their validate() does.
 ThrusterTruth thruster_truth(const ThrusterParameters& parameters);
 
 /// Chirps about neutral, each between two rests at neutral.
