@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "platform/content_hash.h"
+#include "platform/hash.h"
 #include "platform/program_identity.h"
 #include "platform/program_lookup.h"
 #include "workflow/inputs_read.h"
@@ -24,7 +24,7 @@ std::vector<fs::path> template_files() {
 }
 
 std::string hash_or_nothing(const fs::path& file) {
-    return fs::is_regular_file(file) ? hash_of_file(file) : std::string();
+    return fs::is_regular_file(file) ? sha256_of_file(file) : std::string();
 }
 
 }  // namespace
@@ -33,20 +33,20 @@ ReportMemory::ReportMemory(const ReportRequest& request)
     : cache_("reports", 4u << 20),
       output_(fs::absolute(request.output)),
       script_folder_(fs::absolute(request.script.file).parent_path()) {
-    ContentHash hash;
+    Sha256 hash;
     const auto add = [&hash](const std::string& text) { hash.add(std::to_string(text.size()) + ":").add(text); };
     add(program_identity());
     add(fs::absolute(request.script.file).string());
     add(request.script.source);
     add(fs::absolute(request.template_file).string());
-    add(hash_of_file(request.template_file));
+    add(sha256_of_file(request.template_file));
     for (const auto& [name, value] : request.metadata) {
         add(name);
         add(value);
     }
     add(std::to_string(request.seed));
     add(output_.string());
-    for (const fs::path& file : template_files()) add(hash_of_file(file));
+    for (const fs::path& file : template_files()) add(sha256_of_file(file));
     key_ = hash.hex();
 }
 

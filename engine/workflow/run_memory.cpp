@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "platform/atomic_file.h"
-#include "platform/content_hash.h"
+#include "platform/hash.h"
 #include "platform/program_identity.h"
 #include "workflow/inputs_read.h"
 
@@ -111,14 +111,14 @@ bool names_a_line(const RunRecord& record) {
 }
 
 std::string key_of_run(const std::string& key, const InputsRead& inputs) {
-    return hash_of(key + json(inputs).dump(-1, ' ', false, json::error_handler_t::replace));
+    return sha256_of(key + json(inputs).dump(-1, ' ', false, json::error_handler_t::replace));
 }
 
 }  // namespace
 
 RunMemory::RunMemory(const PercentScript& script, std::uint32_t seed, FigureFormat format)
     : cache_("runs"), script_(fs::absolute(script.file)) {
-    ContentHash hash;
+    Sha256 hash;
     const auto add = [&hash](const std::string& text) { hash.add(std::to_string(text.size()) + ":").add(text); };
     add(program_identity());
     add(script_.string());

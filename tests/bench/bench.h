@@ -27,9 +27,9 @@ std::pair<double, double> paired_medians(int repetitions, const std::function<vo
 
 void measure_numerics(Report& report);
 void measure_estimators(Report& report);
-void measure_lua(Report& report);
 void measure_program(Report& report);
 void measure_grading(Report& report);
 void measure_course(Report& report);
+void measure_lua(Report& report);
 
 }  // namespace dynlab::bench
