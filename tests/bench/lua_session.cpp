@@ -11,7 +11,7 @@ LuaSession::LuaSession() : runtime_(options(), renderer_) {}
 RunOptions LuaSession::options() {
     RunOptions options;
     options.script_folder = options.out_folder = folder_.path();
-    options.long_calls = &memories_.long_calls;
+    options.memoized_calls = &memories_.memoized_calls;
     return options;
 }
 

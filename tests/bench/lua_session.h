@@ -5,7 +5,7 @@
 #include "numerics/linalg/types.h"
 #include "platform/temporary_folder.h"
 #include "scripting/runtime/runtime.h"
-#include "workflow/memories.h"
+#include "workflow/caches.h"
 
 namespace dynlab::bench {
 
@@ -21,7 +21,7 @@ class LuaSession {
     RunOptions options();
 
     TemporaryFolder folder_;
-    Memories memories_;
+    Caches memories_;
     GnuplotRenderer renderer_;
     Runtime runtime_;
 };

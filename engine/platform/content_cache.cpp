@@ -1,12 +1,12 @@
-#include "platform/content_memory.h"
+#include "platform/content_cache.h"
 
 #include <algorithm>
 #include <exception>
 #include <fstream>
 
 #include "platform/atomic_file.h"
-#include "platform/hash.h"
 #include "platform/error.h"
+#include "platform/hash.h"
 #include "platform/program_identity.h"
 
 namespace dynlab::inline platform {
@@ -27,10 +27,10 @@ void write_unsynced(const fs::path& file, std::string_view hash, std::string_vie
 
 }  // namespace
 
-ContentMemory::ContentMemory(const std::string& name, std::uint64_t limit_bytes)
+ContentCache::ContentCache(const std::string& name, std::uint64_t limit_bytes)
     : cache_(name, limit_bytes), program_(program_identity()) {}
 
-std::string ContentMemory::key(std::initializer_list<std::string_view> parts) const {
+std::string ContentCache::key(std::initializer_list<std::string_view> parts) const {
     Sha256 hash;
     const auto add = [&hash](std::string_view part) { hash.add(std::to_string(part.size()) + ":").add(part); };
     add(program_);
@@ -38,7 +38,7 @@ std::string ContentMemory::key(std::initializer_list<std::string_view> parts) co
     return hash.hex();
 }
 
-std::optional<std::string> ContentMemory::recall(const std::string& key) {
+std::optional<std::string> ContentCache::recall(const std::string& key) {
     try {
         const auto folder = cache_.find(key);
         if (!folder) return {};
@@ -54,7 +54,7 @@ std::optional<std::string> ContentMemory::recall(const std::string& key) {
     return {};
 }
 
-void ContentMemory::remember(const std::string& key, std::string_view bytes) {
+void ContentCache::remember(const std::string& key, std::string_view bytes) {
     ++remembered_;
     try {
         keep(key, bytes);
@@ -62,7 +62,7 @@ void ContentMemory::remember(const std::string& key, std::string_view bytes) {
     }
 }
 
-void ContentMemory::keep(const std::string& key, std::string_view bytes) const {
+void ContentCache::keep(const std::string& key, std::string_view bytes) const {
     const fs::path folder = cache_.prepare();
     try {
         write_unsynced(folder / kContent, sha256_of(bytes), bytes);

@@ -1,4 +1,4 @@
-#include "workflow/report_memory.h"
+#include "workflow/report_cache.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -29,7 +29,7 @@ std::string hash_or_nothing(const fs::path& file) {
 
 }  // namespace
 
-ReportMemory::ReportMemory(const ReportRequest& request)
+ReportCache::ReportCache(const ReportRequest& request)
     : cache_("reports", 4u << 20),
       output_(fs::absolute(request.output)),
       script_folder_(fs::absolute(request.script.file).parent_path()) {
@@ -50,7 +50,7 @@ ReportMemory::ReportMemory(const ReportRequest& request)
     key_ = hash.hex();
 }
 
-bool ReportMemory::unchanged() const {
+bool ReportCache::unchanged() const {
     const auto remembered = cache_.recall(key_);
     if (!remembered) return false;
     const auto facts = nlohmann::json::parse(*remembered, nullptr, false);
@@ -58,7 +58,7 @@ bool ReportMemory::unchanged() const {
     return dynlab::unchanged(facts.value("inputs", InputsRead()));
 }
 
-void ReportMemory::remember(const RunRecord& record) const {
+void ReportCache::remember(const RunRecord& record) const {
     const nlohmann::json facts = {{"output", hash_or_nothing(output_)},
                                   {"inputs", inputs_read(record, script_folder_)}};
     cache_.store(key_, facts.dump());

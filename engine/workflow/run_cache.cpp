@@ -1,4 +1,4 @@
-#include "workflow/run_memory.h"
+#include "workflow/run_cache.h"
 
 #include <nlohmann/json.hpp>
 
@@ -116,7 +116,7 @@ std::string key_of_run(const std::string& key, const InputsRead& inputs) {
 
 }  // namespace
 
-RunMemory::RunMemory(const PercentScript& script, std::uint32_t seed, FigureFormat format)
+RunCache::RunCache(const PercentScript& script, std::uint32_t seed, FigureFormat format)
     : cache_("runs"), script_(fs::absolute(script.file)) {
     Sha256 hash;
     const auto add = [&hash](const std::string& text) { hash.add(std::to_string(text.size()) + ":").add(text); };
@@ -133,7 +133,7 @@ RunMemory::RunMemory(const PercentScript& script, std::uint32_t seed, FigureForm
     key_ = hash.hex();
 }
 
-std::optional<RunRecord> RunMemory::recall() const {
+std::optional<RunRecord> RunCache::recall() const {
     const auto remembered = cache_.recall(key_);
     if (!remembered) return {};
     const json inputs = json::parse(*remembered, nullptr, false);
@@ -147,7 +147,7 @@ std::optional<RunRecord> RunMemory::recall() const {
     }
 }
 
-void RunMemory::remember(const RunRecord& record) const {
+void RunCache::remember(const RunRecord& record) const {
     if (record.error || names_a_line(record)) return;
     try {
         keep(record);
@@ -155,7 +155,7 @@ void RunMemory::remember(const RunRecord& record) const {
     }
 }
 
-void RunMemory::keep(const RunRecord& record) const {
+void RunCache::keep(const RunRecord& record) const {
     const InputsRead inputs = inputs_read(record, script_.parent_path());
     const fs::path folder = cache_.prepare();
     for (const auto& [name, figure] : record.figures) fs::copy_file(figure.file, folder / figure.file.filename());
