@@ -9,8 +9,8 @@
 
 #include "cli/commands.h"
 #include "platform/interrupt.h"
+#include "workflow/caches.h"
 #include "workflow/demonstration.h"
-#include "workflow/memories.h"
 #include "workflow/run_script.h"
 
 namespace dynlab::inline cli {
@@ -50,9 +50,9 @@ int show(const Demonstration& demonstration) {
     request.out_folder = folder;
     std::cout << '\n' << demonstration.title << "\n\n" << std::flush;
 
-    Memories memories;
-    GnuplotRenderer renderer(&memories.figures);
-    request.long_calls = &memories.long_calls;
+    Caches caches;
+    GnuplotRenderer renderer(&caches.figures);
+    request.memoized_calls = &caches.memoized_calls;
     RunRecord record = run_script(request, renderer);
     if (!record.figures.empty()) fs::create_directories(folder);
     draw_figures(record, renderer, folder, FigureFormat::kPdf);

@@ -6,7 +6,7 @@
 #include "platform/atomic_file.h"
 #include "platform/terminal/activity_line.h"
 #include "platform/terminal/terminal_text.h"
-#include "workflow/memories.h"
+#include "workflow/caches.h"
 #include "workflow/run_script.h"
 
 namespace dynlab::inline cli {
@@ -51,9 +51,9 @@ int run(const RunWords& words) {
     request.out_folder = words.out.empty() ? fs::path(".") : out;
     if (!words.out.empty()) fs::create_directories(out);
 
-    Memories memories;
-    GnuplotRenderer renderer(&memories.figures);
-    request.long_calls = &memories.long_calls;
+    Caches caches;
+    GnuplotRenderer renderer(&caches.figures);
+    request.memoized_calls = &caches.memoized_calls;
     RunRecord record = run_showing_activity(request, renderer);
     save_figures(record, renderer, out);
     if (!words.out.empty()) write_file_atomically(out / "record.json", to_json(record));

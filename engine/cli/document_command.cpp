@@ -18,7 +18,7 @@ void show_time(double seconds, const std::string& of, const char* indent = "") {
     std::cout << fmt::format("{:>8.0f} ms  {}{}\n", 1e3 * seconds, indent, of);
 }
 
-void show_use(const std::optional<MemoryUse>& use, const char* of, const char* made) {
+void show_use(const std::optional<CacheUse>& use, const char* of, const char* made) {
     if (use && use->recalled + use->made > 0)
         std::cout << fmt::format("{:>11}  {} {}, {} recalled\n", use->made, of, made, use->recalled);
 }
@@ -33,7 +33,7 @@ void show(const ReportResult& result) {
             if (seconds_of_cell >= kWorthTelling) show_time(seconds_of_cell, "cell " + cell, "  ");
     }
     show_time(total, "in total");
-    show_use(result.long_calls, "long calls", "computed");
+    show_use(result.memoized_calls, "long calls", "computed");
     show_use(result.figures, "figures", "drawn");
     rusage used{};
     getrusage(RUSAGE_SELF, &used);

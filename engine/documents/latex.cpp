@@ -12,7 +12,7 @@
 #include "numerics/number_text.h"
 #include "platform/cache.h"
 #include "platform/child_process.h"
-#include "platform/content_hash.h"
+#include "platform/hash.h"
 
 namespace dynlab::inline documents {
 namespace {
@@ -39,7 +39,7 @@ std::string references(const fs::path& folder, bool has_contents) {
 class KeptAuxiliaryFiles {
   public:
     explicit KeptAuxiliaryFiles(const LatexJob& job)
-        : job_(job), key_(hash_of(job.identity + "\n" + job.layout.language)) {
+        : job_(job), key_(sha256_of(job.identity + "\n" + job.layout.language)) {
         if (!job.use_cache) return;
         if (const auto kept = cache().find(key_)) copy(*kept, job.work_folder);
     }

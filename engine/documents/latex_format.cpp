@@ -7,7 +7,7 @@
 #include "platform/atomic_file.h"
 #include "platform/cache.h"
 #include "platform/child_process.h"
-#include "platform/content_hash.h"
+#include "platform/hash.h"
 #include "platform/error.h"
 #include "platform/program_identity.h"
 #include "platform/program_lookup.h"
@@ -74,7 +74,7 @@ void check_missing_packages(const std::string& log) {
 
 fs::path latex_format_folder(const LatexLayout& layout) {
     const Cache cache("latex-format");
-    ContentHash key;
+    Sha256 key;
     for (const auto& [name, text] : preamble_files(layout)) key.add(text);
     key.add(tex_version());
     if (const auto folder = cache.find(key.hex())) return *folder;

@@ -15,7 +15,7 @@
 #include "figures/gnuplot_script.h"
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
-#include "platform/content_memory.h"
+#include "platform/content_cache.h"
 #include "platform/interrupt.h"
 #include "platform/program_identity.h"
 #include "platform/program_lookup.h"
@@ -75,7 +75,7 @@ std::string gnuplot_version() {
 /// The figures on their way, in the order in which they were asked for: a file drawn twice is the later figure's.
 class GnuplotRenderer::Work {
   public:
-    explicit Work(ContentMemory* memory) : memory_(memory) {}
+    explicit Work(ContentCache* memory) : memory_(memory) {}
     ~Work() { give_up(); }
 
     void draw(const Figure& figure, const fs::path& target, FigureFormat format) {
@@ -191,13 +191,13 @@ class GnuplotRenderer::Work {
                            system_reason(failure.value()));
     }
 
-    ContentMemory* memory_;
+    ContentCache* memory_;
     std::unique_ptr<Running> running_;
     std::deque<Pending> pending_;
     unsigned last_number_ = 0;
 };
 
-GnuplotRenderer::GnuplotRenderer(ContentMemory* memory) : work_(std::make_unique<Work>(memory)) {}
+GnuplotRenderer::GnuplotRenderer(ContentCache* memory) : work_(std::make_unique<Work>(memory)) {}
 GnuplotRenderer::~GnuplotRenderer() = default;
 
 void GnuplotRenderer::draw(const Figure& figure, const fs::path& file, FigureFormat format) {

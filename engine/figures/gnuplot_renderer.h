@@ -8,7 +8,7 @@
 #include "figures/figure.h"
 
 namespace dynlab::inline platform {
-class ContentMemory;
+class ContentCache;
 }
 
 namespace dynlab::inline figures {
@@ -23,7 +23,7 @@ FigureFormat figure_format(
 /// command. Files appear whole (temporary name, then rename) once finish() or the next finish() returns.
 class GnuplotRenderer {
   public:
-    explicit GnuplotRenderer(ContentMemory* memory = nullptr);
+    explicit GnuplotRenderer(ContentCache* memory = nullptr);
     ~GnuplotRenderer();  ///< ends the process; files not finished are removed
 
     /// Queues `figure` for `file`; returns at once. Throws MissingProgram when gnuplot is not installed.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "platform/content_hash.h"
+#include "platform/hash.h"
 
 namespace dynlab::inline workflow {
 namespace {
@@ -16,14 +16,14 @@ std::string state_of_folder(const fs::path& folder) {
         const fs::path& file = entry.path();
         if (file.extension() == ".mat" || file.extension() == ".csv") names.insert(file.filename().string());
     }
-    ContentHash hash;
+    Sha256 hash;
     for (const std::string& name : names) hash.add(std::to_string(name.size()) + ":").add(name);
     return hash.hex();
 }
 
 std::string state_of(const fs::path& path) {
     if (fs::is_directory(path)) return state_of_folder(path);
-    return fs::is_regular_file(path) ? hash_of_file(path) : std::string();
+    return fs::is_regular_file(path) ? sha256_of_file(path) : std::string();
 }
 
 }  // namespace

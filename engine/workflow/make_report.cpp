@@ -9,10 +9,10 @@
 #include "platform/interrupt.h"
 #include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
+#include "workflow/caches.h"
 #include "workflow/lesson_catalogue.h"
-#include "workflow/memories.h"
-#include "workflow/report_memory.h"
-#include "workflow/run_memory.h"
+#include "workflow/report_cache.h"
+#include "workflow/run_cache.h"
 #include "workflow/run_script.h"
 
 namespace dynlab::inline workflow {
@@ -98,7 +98,7 @@ std::vector<std::pair<std::string, double>> cells_in_order(const PercentScript& 
     return cells;
 }
 
-MemoryUse use_of(const ContentMemory& memory) {
+CacheUse use_of(const ContentCache& memory) {
     return {memory.recalled(), memory.remembered()};
 }
 
@@ -141,15 +141,15 @@ ReportResult make_report(const ReportRequest& request) {
     ReportResult result;
     Stopwatch watch(result.timings);
     const DocumentFormat format = document_format(request.output);
-    const ReportMemory memory(request);
+    const ReportCache memory(request);
     result.up_to_date = !request.print && memory.unchanged();
     watch.lap("look for changes");
     if (result.up_to_date) return result;
 
-    const RunMemory runs(request.script, request.seed, figure_format_for(format));
+    const RunCache runs(request.script, request.seed, figure_format_for(format));
     const TemporaryFolder workplace;
-    Memories memories;
-    GnuplotRenderer renderer(&memories.figures);
+    Caches caches;
+    GnuplotRenderer renderer(&caches.figures);
     std::optional<RunRecord> known;
     if (!request.print) known = runs.recall();
     const bool recalled = known.has_value();
@@ -164,10 +164,10 @@ ReportResult make_report(const ReportRequest& request) {
                        .out_folder = workplace.path(),
                        .print = request.print,
                        .enter_cell = request.enter_cell,
-                       .long_calls = &memories.long_calls};
+                       .memoized_calls = &caches.memoized_calls};
         record = run_script(run, renderer);
         result.cells = cells_in_order(request.script, record.timings);
-        result.long_calls = use_of(memories.long_calls);
+        result.memoized_calls = use_of(caches.memoized_calls);
         if (record.error && request.print) throw DocumentError(record.error->message);
         if (record.error) result.error = record.error->message;
         draw_figures(record, renderer, workplace.path(), figure_format_for(format));
@@ -184,7 +184,7 @@ ReportResult make_report(const ReportRequest& request) {
         DocumentMaker({.use_cache = true, .timings = &result.timings}).make(source, request.output, format, [&] {
             renderer.finish();
             if (recalled) return;
-            result.figures = use_of(memories.figures);
+            result.figures = use_of(caches.figures);
             runs.remember(record);
         });
     } catch (const DocumentError& complaint) {

@@ -30,7 +30,7 @@ struct ReportRequest {
 inline constexpr const char* kRunStep = "run the script";
 
 /// What a memory spared, and what was made anew.
-struct MemoryUse {
+struct CacheUse {
     std::size_t recalled = 0, made = 0;
 };
 
@@ -39,7 +39,7 @@ struct ReportResult {
     std::optional<std::string> error;                     ///< the script stopped with it; the report says so
     std::vector<std::pair<std::string, double>> timings;  ///< seconds of each step
     std::vector<std::pair<std::string, double>> cells;    ///< seconds of each code cell, when the script was run
-    std::optional<MemoryUse> long_calls, figures;         ///< of the script, when it was run
+    std::optional<CacheUse> memoized_calls, figures;      ///< of the script, when it was run
 };
 
 /// The report of a lesson (`name`, any unique beginning: its worked solution) or of a student's folder (analysis.lua

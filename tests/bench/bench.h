@@ -30,5 +30,6 @@ void measure_estimators(Report& report);
 void measure_program(Report& report);
 void measure_grading(Report& report);
 void measure_course(Report& report);
+void measure_lua(Report& report);
 
 }  // namespace dynlab::bench

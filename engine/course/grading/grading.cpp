@@ -16,7 +16,7 @@
 #include "course/grading/roster.h"
 #include "course/grading/submission.h"
 #include "platform/atomic_file.h"
-#include "platform/content_hash.h"
+#include "platform/hash.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
 #include "platform/temporary_folder.h"
@@ -34,9 +34,9 @@ std::string hash_of_content(const Submission& submission) {
     const auto too_large = [](std::uintmax_t bytes) { return fmt::format("too large: {}", bytes); };
     if (submission.archive) {
         const std::uintmax_t bytes = fs::file_size(submission.path);
-        return bytes > limits.bytes ? too_large(bytes) : hash_of_file(submission.path);
+        return bytes > limits.bytes ? too_large(bytes) : sha256_of_file(submission.path);
     }
-    ContentHash hash;
+    Sha256 hash;
     std::vector<fs::path> files;
     std::uintmax_t bytes = 0;
     for (const auto& entry : fs::recursive_directory_iterator(submission.path))

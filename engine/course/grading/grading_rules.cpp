@@ -6,8 +6,8 @@
 
 #include "course/findings/document_findings.h"
 #include "data_io/dataset_index.h"
-#include "platform/content_hash.h"
 #include "platform/error.h"
+#include "platform/hash.h"
 #include "platform/program_identity.h"
 #include "platform/program_lookup.h"
 #include "platform/text_file.h"
@@ -89,7 +89,7 @@ void GradingRules::read_checks() {
 }
 
 std::uint32_t GradingRules::drawn(const std::string& what) const {
-    const std::string hash = hash_of(setup_.secret + "\n" + setup_.lesson.slug + "\n" + what);
+    const std::string hash = sha256_of(setup_.secret + "\n" + setup_.lesson.slug + "\n" + what);
     return static_cast<std::uint32_t>(std::stoul(hash.substr(0, 8), nullptr, 16)) | 1u;
 }
 
@@ -298,9 +298,9 @@ std::vector<std::string> GradingRules::try_solution() {
 }
 
 std::string GradingRules::fingerprint(const std::string& content_hash, const GroupSeed& group_seed) const {
-    ContentHash hash;
+    Sha256 hash;
     for (const std::string& part :
-         {content_hash, program_identity(), setup_.lesson.slug, hash_of_file(setup_.lesson.script()), setup_.secret,
+         {content_hash, program_identity(), setup_.lesson.slug, sha256_of_file(setup_.lesson.script()), setup_.secret,
           files_.dump(), std::to_string(setup_.timeout.count()), name_of(setup_.isolation),
           fmt::format("{}", fmt::join(broken_, " ")), group_seed ? std::to_string(*group_seed) : ""})
         hash.add(std::to_string(part.size()) + ":").add(part);

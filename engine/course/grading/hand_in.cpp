@@ -9,7 +9,7 @@
 #include "course/grading/zip_file.h"
 #include "data_io/dataset_index.h"
 #include "platform/atomic_file.h"
-#include "platform/content_hash.h"
+#include "platform/hash.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
@@ -56,11 +56,11 @@ Pack pack_folder(const fs::path& folder, const fs::path& file) {
     nlohmann::json manifest = {{"format", 1}, {"files", nlohmann::json::object()}};
     for (const auto& [name, content] : contents) {
         pack.files.push_back(name);
-        manifest["files"][name] = {{"bytes", content.size()}, {"sha256", hash_of(content)}};
+        manifest["files"][name] = {{"bytes", content.size()}, {"sha256", sha256_of(content)}};
     }
     contents[kManifest] = manifest.dump(2) + "\n";
     write_zip(file, contents);
-    pack.hash = hash_of_file(file);
+    pack.hash = sha256_of_file(file);
     return pack;
 }
 

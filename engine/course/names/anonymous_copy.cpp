@@ -9,7 +9,7 @@
 #include "course/names/name_findings.h"
 #include "documents/work_file.h"
 #include "platform/atomic_file.h"
-#include "platform/content_hash.h"
+#include "platform/hash.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
@@ -67,7 +67,7 @@ class CopyingAnonymously {
                                         [](const Finding& finding) { return finding.severity == Severity::kRule; });
             if (!result_.made) return std::move(result_);
             write_file_atomically(copy, bytes);
-            result_.hash = hash_of(bytes);
+            result_.hash = sha256_of(bytes);
         } catch (const PdfRefusal& refusal) {
             result_.made = false;
             result_.trouble = refusal.what();

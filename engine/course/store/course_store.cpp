@@ -9,7 +9,7 @@
 
 #include "course/store/course_schema.h"
 #include "platform/atomic_file.h"
-#include "platform/content_hash.h"
+#include "platform/hash.h"
 #include "platform/error.h"
 #include "platform/system_call.h"
 
@@ -125,9 +125,9 @@ fs::path Course::file(const std::string& hash) const {
 }
 
 std::string Course::keep(std::string_view content) const {
-    const std::string hash = hash_of(content);
+    const std::string hash = sha256_of(content);
     const fs::path place = file(hash);
-    if (fs::exists(place) && hash_of_file(place) == hash) return hash;
+    if (fs::exists(place) && sha256_of_file(place) == hash) return hash;
     make_folder(place.parent_path());
     write_file_atomically(place, content);
     return hash;

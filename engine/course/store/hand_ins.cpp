@@ -16,7 +16,7 @@
 #include "course/store/senders.h"
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
-#include "platform/content_hash.h"
+#include "platform/hash.h"
 #include "platform/error.h"
 
 namespace dynlab::inline course {
@@ -148,7 +148,7 @@ class Receiving {
         const Assignment& a = outcome_.assignment;
         const bool over = a.review_due && request_.at > *a.review_due + a.grace;
         if (!released && !(sent && over)) return;
-        if (is_known(candidate, hash_of(read_file(candidate.file->file)))) return;
+        if (is_known(candidate, sha256_of(read_file(candidate.file->file)))) return;
         throw EnvironmentError(fmt::format(
             "the reviews of {} are {}: did you mean dynlab course final receive? --first takes it as a first "
             "version all the same",

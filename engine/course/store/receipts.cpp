@@ -1,25 +1,18 @@
 #include "course/store/receipts.h"
 
 #include <fmt/format.h>
+#include <sodium/crypto_auth_hmacsha256.h>
+#include <sodium/utils.h>
 
+#include <array>
 #include <sstream>
 
-#include "platform/content_hash.h"
 #include "platform/error.h"
 
 namespace dynlab::inline course {
 namespace {
 
-constexpr std::size_t kBlock = 64;  // bytes that SHA-256 takes at a time
 constexpr std::string_view kSignature = "signature: ";
-
-std::string bytes_of(std::string_view hex) {
-    const auto digit = [](char c) { return c <= '9' ? c - '0' : c - 'a' + 10; };
-    std::string bytes;
-    for (std::size_t i = 0; i + 1 < hex.size(); i += 2)
-        bytes += static_cast<char>(digit(hex[i]) * 16 + digit(hex[i + 1]));
-    return bytes;
-}
 
 /// The same time whatever the first difference, so that nobody can guess a signature digit by digit.
 bool equal_digits(std::string_view a, std::string_view b) {
@@ -38,12 +31,14 @@ std::string one_line(std::string text) {
 }  // namespace
 
 std::string hmac_sha256(std::string_view key, std::string_view message) {
-    std::string block = key.size() > kBlock ? bytes_of(hash_of(key)) : std::string(key);
-    block.resize(kBlock, '\0');
-    std::string inner = block, outer = block;
-    for (char& c : inner) c = static_cast<char>(c ^ 0x36);
-    for (char& c : outer) c = static_cast<char>(c ^ 0x5C);
-    return ContentHash().add(outer).add(bytes_of(ContentHash().add(inner).add(message).hex())).hex();
+    const auto bytes = [](std::string_view text) { return reinterpret_cast<const unsigned char*>(text.data()); };
+    crypto_auth_hmacsha256_state state;
+    crypto_auth_hmacsha256_init(&state, bytes(key), key.size());
+    crypto_auth_hmacsha256_update(&state, bytes(message), message.size());
+    std::array<unsigned char, crypto_auth_hmacsha256_BYTES> code;
+    crypto_auth_hmacsha256_final(&state, code.data());
+    std::array<char, 2 * code.size() + 1> digits;
+    return sodium_bin2hex(digits.data(), digits.size(), code.data(), code.size());
 }
 
 std::string receipt_text(const Receipt& receipt) {

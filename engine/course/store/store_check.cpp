@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "course/store/receipts.h"
-#include "platform/content_hash.h"
+#include "platform/hash.h"
 
 namespace dynlab::inline course {
 
@@ -18,7 +18,7 @@ StoreCheck check_store(Course& course) {
         const auto file = course.file(rows.text(0));
         if (!std::filesystem::exists(file))
             check.troubles.push_back(fmt::format("{} is missing; put it back from a backup", file.string()));
-        else if (hash_of_file(file) != rows.text(0))
+        else if (sha256_of_file(file) != rows.text(0))
             check.troubles.push_back(fmt::format("{} was altered; put it back from a backup", file.string()));
     }
     for (Rows rows = db.query("SELECT id, signature FROM versions ORDER BY id"); rows.next(); ++check.versions)

@@ -10,9 +10,9 @@
 #include "scripting/arguments/estimation.h"
 #include "scripting/arguments/order_vector.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/model.h"
-#include "scripting/remembered_calls/long_call.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -143,19 +143,20 @@ constexpr std::array kDiscreteEstimatorsFunctions = {
                   "A y = B u + e by least squares", guarded<estimate_equation_error<arx>>},
     FunctionEntry{"iv4", kDiscreteEstimatorsArea, "iv4(data, {na, nb, nk}, {Integration =}) -> G",
                   "A y = B u + v by instrumental variables in four steps",
-                  guarded<long_call<estimate_equation_error<iv4>>>},
+                  guarded<memoized_call<estimate_equation_error<iv4>>>},
     FunctionEntry{"armax", kDiscreteEstimatorsArea,
                   "armax(data, {na, nb, nc, nk}, {MaxIter =, Tol =, Integration =}) -> G",
-                  "A y = B u + C e with the smallest prediction error", guarded<long_call<estimate_armax>>},
-    FunctionEntry{"oe", kDiscreteEstimatorsArea,
-                  "oe(data, {nb, nf, nk}, {InitialState =, Offset =, Integration =, ...}) -> G",
-                  "y = B/F u + e with the smallest simulation error", guarded<long_call<estimate_output_error<oe>>>},
+                  "A y = B u + C e with the smallest prediction error", guarded<memoized_call<estimate_armax>>},
+    FunctionEntry{
+        "oe", kDiscreteEstimatorsArea, "oe(data, {nb, nf, nk}, {InitialState =, Offset =, Integration =, ...}) -> G",
+        "y = B/F u + e with the smallest simulation error", guarded<memoized_call<estimate_output_error<oe>>>},
     FunctionEntry{"sriv", kDiscreteEstimatorsArea,
                   "sriv(data, {nb, nf, nk}, {InitialState =, Offset =, Integration =, ...}) -> G",
-                  "y = B/F u + e by refined instrumental variables", guarded<long_call<estimate_output_error<sriv>>>},
+                  "y = B/F u + e by refined instrumental variables",
+                  guarded<memoized_call<estimate_output_error<sriv>>>},
     FunctionEntry{"bj", kDiscreteEstimatorsArea,
                   "bj(data, {nb, nc, nd, nf, nk}, {InitialState =, Offset =, Integration =, ...}) -> G",
-                  "y = B/F u + C/D e with the smallest prediction error", guarded<long_call<estimate_bj>>},
+                  "y = B/F u + C/D e with the smallest prediction error", guarded<memoized_call<estimate_bj>>},
 };
 
 }  // namespace

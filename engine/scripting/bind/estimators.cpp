@@ -4,10 +4,10 @@
 #include "numerics/estimators/procsrivc.h"
 #include "numerics/estimators/step_test.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/model.h"
-#include "scripting/remembered_calls/long_call.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -109,7 +109,7 @@ constexpr std::array kEstimatorsFunctions = {
                   "the reading points of a step test on its response", guarded<draw_construction>},
     FunctionEntry{"procsrivc", "continuous time",
                   "procsrivc(data, \"P2DU\", {TdMin =, TdMax =, InitialState =, Offset =, ...}) -> G",
-                  "process model with the smallest simulation error", guarded<long_call<estimate_process_model>>},
+                  "process model with the smallest simulation error", guarded<memoized_call<estimate_process_model>>},
 };
 
 }  // namespace

@@ -3,8 +3,8 @@
 #include "numerics/estimators/hammerstein.h"
 #include "scripting/arguments/transfer_arguments.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
-#include "scripting/remembered_calls/long_call.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -44,7 +44,8 @@ int estimate_hammerstein(Call& call) {
 constexpr std::array kHammersteinFunctions = {
     FunctionEntry{"hammerstein", "continuous time",
                   "hammerstein(data, np, nz, {Bins =, Breakpoints =, TdMin =, TdMax =, IODelay =, ...}) -> G",
-                  "a static characteristic by bins, then linear dynamics", guarded<long_call<estimate_hammerstein>>},
+                  "a static characteristic by bins, then linear dynamics",
+                  guarded<memoized_call<estimate_hammerstein>>},
 };
 
 }  // namespace

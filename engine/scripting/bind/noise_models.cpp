@@ -5,8 +5,8 @@
 #include "scripting/arguments/estimation.h"
 #include "scripting/arguments/transfer_arguments.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
-#include "scripting/remembered_calls/long_call.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -88,11 +88,12 @@ constexpr NamedReader kNoiseModelsReaders[] = {{"rivc", read_estimation<read_riv
 constexpr const char* kNoiseModelsArea = "continuous time";
 constexpr std::array kNoiseModelsFunctions = {
     FunctionEntry{"rivc", kNoiseModelsArea, "rivc(data, {nb, nc, nd, nf, nk}, {lambda =, MaxIter =, Tol =, ...}) -> G",
-                  "y = B/F u + C/D e, coloured noise modelled too", guarded<long_call<estimate_with_noise<read_rivc>>>},
+                  "y = B/F u + C/D e, coloured noise modelled too",
+                  guarded<memoized_call<estimate_with_noise<read_rivc>>>},
     FunctionEntry{"tfrivc", kNoiseModelsArea,
                   "tfrivc(data, np, nz, {nc =, nd =, TdMin =, TdMax =, IODelay =, ...}) -> G",
                   "rivc by numbers of poles and zeros, the delay estimated",
-                  guarded<long_call<estimate_with_noise<read_tfrivc>>>},
+                  guarded<memoized_call<estimate_with_noise<read_tfrivc>>>},
 };
 
 }  // namespace

@@ -9,11 +9,11 @@
 #include "scripting/arguments/order_vector.h"
 #include "scripting/arguments/table_fields.h"
 #include "scripting/bind/study_bindings.h"
+#include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/study_objects.h"
 #include "scripting/objects/study_text.h"
-#include "scripting/remembered_calls/long_call.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -201,13 +201,13 @@ constexpr std::array kOrdersFunctions = {
     FunctionEntry{"srivcstruc", kOrdersArea,
                   "srivcstruc(data, {poles = {1, 4}, zeros = {0, 2}, delays =, validate =, ...}) -> V",
                   "srivc for many numbers of poles, zeros and samples of delay, with criteria for each",
-                  guarded<long_call<try_structures>>},
+                  guarded<memoized_call<try_structures>>},
     FunctionEntry{"selcstruc", kOrdersArea, "selcstruc(V, criterion) -> G, fig",
                   "the structure that a criterion chooses, explained in words", guarded<select_structure>},
     FunctionEntry{"delayest", kOrdersArea,
                   "delayest(data, {poles = {1, 3}, zeros = {0, 1}, TdMin =, TdMax =, ...}) -> Td, fig, D",
                   "the delay between input and output, with its standard error and the loss over the delay",
-                  guarded<long_call<estimate_delay>>},
+                  guarded<memoized_call<estimate_delay>>},
 };
 
 }  // namespace

@@ -4,9 +4,9 @@
 #include "numerics/rigs/specimen.h"
 #include "scripting/arguments/table_fields.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/boxed.h"
 #include "scripting/objects/model.h"
-#include "scripting/remembered_calls/long_call.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -219,7 +219,7 @@ int rig_truth(Call& call) {
 constexpr std::array kRigsFunctions = {
     FunctionEntry{"rig", "data", "rig(name, {seed =, specimen =}) -> table",
                   "repeats one of the course's simulated experiments, with other noise for another seed",
-                  guarded<long_call<rig>>},
+                  guarded<memoized_call<rig>>},
     FunctionEntry{"rig_truth", "data", "rig_truth(name, {specimen =}) -> table",
                   "what theory says of one of the course's simulated experiments", guarded<rig_truth>},
 };

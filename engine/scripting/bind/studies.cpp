@@ -5,10 +5,10 @@
 #include "platform/terminal/progress.h"
 #include "scripting/arguments/estimation.h"
 #include "scripting/bind/study_bindings.h"
+#include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/model.h"
 #include "scripting/objects/study_objects.h"
-#include "scripting/remembered_calls/long_call.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -195,7 +195,7 @@ constexpr std::array kStudiesFunctions = {
     FunctionEntry{"montecarlo", "validation",
                   "montecarlo{system =, input =, Ts =, sigma = | snr =, runs =, seed =, estimators = {...}} -> M",
                   "the same experiment many times with fresh noise: bias and scatter of estimators",
-                  guarded<long_call<run_study>>},
+                  guarded<memoized_call<run_study>>},
 };
 
 }  // namespace

@@ -2,9 +2,9 @@
 
 #include "numerics/estimators/n4sid.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/model.h"
-#include "scripting/remembered_calls/long_call.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -45,7 +45,7 @@ int estimate_n4sid(Call& call) {
 constexpr std::array kSubspaceFunctions = {
     FunctionEntry{"n4sid", "discrete time", "n4sid(data, order, {BlockRows =, Weighting =, Feedthrough =}) -> G",
                   "a state-space model by subspace identification, without iterating",
-                  guarded<long_call<estimate_n4sid>>},
+                  guarded<memoized_call<estimate_n4sid>>},
 };
 
 }  // namespace

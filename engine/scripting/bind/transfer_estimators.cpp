@@ -10,8 +10,8 @@
 #include "scripting/arguments/estimation.h"
 #include "scripting/arguments/transfer_arguments.h"
 #include "scripting/bind/bindings.h"
+#include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
-#include "scripting/remembered_calls/long_call.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -139,16 +139,16 @@ constexpr std::array kTransferEstimatorsFunctions = {
                   "instrumental variables on Poisson moment functionals", guarded<estimate_filtered<ivsvf, true>>},
     FunctionEntry{"srivc", kTransferEstimatorsArea, "srivc(data, {nb, nf, nk}, {lambda =, MaxIter =, Tol =, ...}) -> G",
                   "y = B/F u + e by refined instrumental variables",
-                  guarded<long_call<estimate_refined<read_refined<srivc>>>>},
+                  guarded<memoized_call<estimate_refined<read_refined<srivc>>>>},
     FunctionEntry{"coe", kTransferEstimatorsArea, "coe(data, {nb, nf, nk}, {lambda =, MaxIter =, Tol =, ...}) -> G",
                   "y = B/F u + e with the smallest simulation error",
-                  guarded<long_call<estimate_refined<read_refined<coe>>>>},
+                  guarded<memoized_call<estimate_refined<read_refined<coe>>>>},
     FunctionEntry{"tfsrivc", kTransferEstimatorsArea, "tfsrivc(data, np, nz, {TdMin =, TdMax =, IODelay =, ...}) -> G",
                   "srivc by numbers of poles and zeros, the delay estimated",
-                  guarded<long_call<estimate_refined<read_transfer_function<srivc>>>>},
+                  guarded<memoized_call<estimate_refined<read_transfer_function<srivc>>>>},
     FunctionEntry{"tfcoe", kTransferEstimatorsArea, "tfcoe(data, np, nz, {TdMin =, TdMax =, IODelay =, ...}) -> G",
                   "coe by numbers of poles and zeros, the delay estimated",
-                  guarded<long_call<estimate_refined<read_transfer_function<coe>>>>},
+                  guarded<memoized_call<estimate_refined<read_transfer_function<coe>>>>},
 };
 
 }  // namespace

@@ -12,7 +12,7 @@
 
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
-#include "platform/content_memory.h"
+#include "platform/content_cache.h"
 #include "platform/interrupt.h"
 #include "platform/temporary_folder.h"
 
@@ -77,7 +77,7 @@ TEST(gnuplot_renderer, equal_figures_make_equal_files) {
 TEST(gnuplot_renderer, takes_what_was_drawn_before_from_its_memory) {
     const TemporaryFolder folder, cache;
     setenv("XDG_CACHE_HOME", cache.path().c_str(), 1);
-    ContentMemory memory("figures");
+    ContentCache memory("figures");
     unsetenv("XDG_CACHE_HOME");
     for (const std::string kind : {".pdf", ".svg", ".png"}) {
         GnuplotRenderer first(&memory);
@@ -102,7 +102,7 @@ TEST(gnuplot_renderer, takes_what_was_drawn_before_from_its_memory) {
 TEST(gnuplot_renderer, a_file_drawn_twice_is_the_later_figure) {
     const TemporaryFolder folder, cache;
     setenv("XDG_CACHE_HOME", cache.path().c_str(), 1);
-    ContentMemory memory("figures");
+    ContentCache memory("figures");
     unsetenv("XDG_CACHE_HOME");
     GnuplotRenderer renderer(&memory);
     const auto alone = draw_one(renderer, sine("later"), folder.path() / "alone.svg");

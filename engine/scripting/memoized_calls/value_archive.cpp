@@ -1,4 +1,4 @@
-#include "scripting/remembered_calls/value_archive.h"
+#include "scripting/memoized_calls/value_archive.h"
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 #include <tuple>
 
 #include "numerics/signals/iddata.h"
+#include "scripting/memoized_calls/class_members.h"
 #include "scripting/objects/model.h"
-#include "scripting/remembered_calls/class_members.h"
 
 namespace dynlab::inline scripting {
 

@@ -1,12 +1,12 @@
-#include "platform/content_memory.h"
+#include "platform/content_cache.h"
 
 #include <algorithm>
 #include <exception>
 #include <fstream>
 
 #include "platform/atomic_file.h"
-#include "platform/content_hash.h"
 #include "platform/error.h"
+#include "platform/hash.h"
 #include "platform/program_identity.h"
 
 namespace dynlab::inline platform {
@@ -27,24 +27,24 @@ void write_unsynced(const fs::path& file, std::string_view hash, std::string_vie
 
 }  // namespace
 
-ContentMemory::ContentMemory(const std::string& name, std::uint64_t limit_bytes)
+ContentCache::ContentCache(const std::string& name, std::uint64_t limit_bytes)
     : cache_(name, limit_bytes), program_(program_identity()) {}
 
-std::string ContentMemory::key(std::initializer_list<std::string_view> parts) const {
-    ContentHash hash;
+std::string ContentCache::key(std::initializer_list<std::string_view> parts) const {
+    Sha256 hash;
     const auto add = [&hash](std::string_view part) { hash.add(std::to_string(part.size()) + ":").add(part); };
     add(program_);
     for (const std::string_view part : parts) add(part);
     return hash.hex();
 }
 
-std::optional<std::string> ContentMemory::recall(const std::string& key) {
+std::optional<std::string> ContentCache::recall(const std::string& key) {
     try {
         const auto folder = cache_.find(key);
         if (!folder) return {};
         const std::string content = fs::exists(*folder / kContent) ? read_file(*folder / kContent) : std::string();
         const std::string_view bytes = std::string_view(content).substr(std::min(kHashDigits, content.size()));
-        if (content.substr(0, kHashDigits) == hash_of(bytes)) {
+        if (content.substr(0, kHashDigits) == sha256_of(bytes)) {
             ++recalled_;
             return std::string(bytes);
         }
@@ -54,7 +54,7 @@ std::optional<std::string> ContentMemory::recall(const std::string& key) {
     return {};
 }
 
-void ContentMemory::remember(const std::string& key, std::string_view bytes) {
+void ContentCache::remember(const std::string& key, std::string_view bytes) {
     ++remembered_;
     try {
         keep(key, bytes);
@@ -62,10 +62,10 @@ void ContentMemory::remember(const std::string& key, std::string_view bytes) {
     }
 }
 
-void ContentMemory::keep(const std::string& key, std::string_view bytes) const {
+void ContentCache::keep(const std::string& key, std::string_view bytes) const {
     const fs::path folder = cache_.prepare();
     try {
-        write_unsynced(folder / kContent, hash_of(bytes), bytes);
+        write_unsynced(folder / kContent, sha256_of(bytes), bytes);
     } catch (...) {
         std::error_code ignored;
         fs::remove_all(folder, ignored);

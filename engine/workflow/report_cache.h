@@ -9,9 +9,9 @@ namespace dynlab::inline workflow {
 
 /// Remembers what a report was made from, so that it is not made again when nothing changed: script, template, all of
 /// report_templates/, seed, program, what the script read, and the output file itself, all by content.
-class ReportMemory {
+class ReportCache {
   public:
-    explicit ReportMemory(const ReportRequest& request);
+    explicit ReportCache(const ReportRequest& request);
 
     bool unchanged() const;
     void remember(const RunRecord& record) const;

@@ -1,9 +1,9 @@
-#include "scripting/remembered_calls/long_call.h"
+#include "scripting/memoized_calls/memoized_call.h"
 
 #include <chrono>
 
-#include "platform/content_memory.h"
-#include "scripting/remembered_calls/value_archive.h"
+#include "platform/content_cache.h"
+#include "scripting/memoized_calls/value_archive.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -61,8 +61,8 @@ std::optional<std::string> archive_of(const Call& call, const std::string& print
 
 }  // namespace
 
-int run_long_call(Call& call, Binding body) {
-    ContentMemory* memory = call.context().options.long_calls;
+int run_memoized_call(Call& call, Binding body) {
+    ContentCache* memory = call.context().options.memoized_calls;
     const auto arguments = memory ? archive_of_arguments(call) : std::nullopt;
     if (!arguments) return body(call);
     auto& quick_calls = call.context().quick_calls;

@@ -12,9 +12,9 @@ namespace dynlab::inline platform {
 
 /// Keeps what was expensive to make in one of the program's caches, under a key made of all it was made from. Whatever
 /// happens to the disk, work goes on: what cannot be kept is not kept, what is spoilt is not recalled and is forgotten.
-class ContentMemory {
+class ContentCache {
   public:
-    explicit ContentMemory(const std::string& name, std::uint64_t limit_bytes = 256u << 20);
+    explicit ContentCache(const std::string& name, std::uint64_t limit_bytes = 256u << 20);
 
     /// A key of all parts in their order, and of the running program.
     std::string key(std::initializer_list<std::string_view> parts) const;

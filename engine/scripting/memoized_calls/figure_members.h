@@ -2,7 +2,7 @@
 #include <tuple>
 
 #include "figures/figure.h"
-#include "scripting/remembered_calls/class_members.h"
+#include "scripting/memoized_calls/class_members.h"
 
 namespace dynlab::inline scripting {
 

@@ -12,9 +12,9 @@ namespace dynlab::inline workflow {
 /// Remembers what runs produced, figures drawn, so that a script is not run again when only its prose or its template
 /// was edited. A run is known by the script's code (all its code cells), its folder, the seed, the program and what it
 /// read. Runs that failed are not remembered, nor those whose output names lines of the script, which an edit moves.
-class RunMemory {
+class RunCache {
   public:
-    RunMemory(const PercentScript& script, std::uint32_t seed, FigureFormat format);
+    RunCache(const PercentScript& script, std::uint32_t seed, FigureFormat format);
 
     /// The record of an equal run, its figures' files in the cache.
     std::optional<RunRecord> recall() const;

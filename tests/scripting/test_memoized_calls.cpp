@@ -5,12 +5,12 @@
 
 #include <cstdlib>
 
-#include "platform/content_memory.h"
+#include "platform/content_cache.h"
 #include "platform/temporary_folder.h"
 #include "script_run.h"
-#include "scripting/remembered_calls/value_archive.h"
+#include "scripting/memoized_calls/value_archive.h"
 
-namespace test_long_calls {
+namespace test_memoized_calls {
 
 using namespace dynlab;
 using testing::HasSubstr;
@@ -28,7 +28,7 @@ std::string archive_of_global(lua_State* L, const char* name) {
     return archive.bytes();
 }
 
-class long_calls : public testing::Test {
+class memoized_calls : public testing::Test {
   protected:
     void SetUp() override {
         setenv("XDG_CACHE_HOME", home_.path().c_str(), 1);
@@ -42,9 +42,9 @@ class long_calls : public testing::Test {
     };
     /// Runs a script with what earlier ones left.
     Use run_with_memory(const std::string& code) {
-        ContentMemory memory("calls");
+        ContentCache memory("calls");
         RunOptions options;
-        options.long_calls = &memory;
+        options.memoized_calls = &memory;
         const std::string printed = test::printed(kData + code, options);
         return {printed, memory.remembered(), memory.recalled()};
     }
@@ -52,7 +52,7 @@ class long_calls : public testing::Test {
 };
 
 // A value that was written and read back is written as the same bytes again: no member of any class is lost or changed.
-TEST_F(long_calls, values_come_back_bit_by_bit) {
+TEST_F(memoized_calls, values_come_back_bit_by_bit) {
     GnuplotRenderer renderer;
     Runtime runtime({}, renderer);
     lua_State* L = runtime.state();
@@ -106,7 +106,7 @@ TEST_F(long_calls, values_come_back_bit_by_bit) {
     }
 }
 
-TEST_F(long_calls, what_has_no_lasting_content_is_refused) {
+TEST_F(memoized_calls, what_has_no_lasting_content_is_refused) {
     GnuplotRenderer renderer;
     Runtime runtime({}, renderer);
     lua_State* L = runtime.state();
@@ -122,7 +122,7 @@ TEST_F(long_calls, what_has_no_lasting_content_is_refused) {
     }
 }
 
-TEST_F(long_calls, an_equal_call_gives_the_result_the_text_and_the_figure_of_the_first) {
+TEST_F(memoized_calls, an_equal_call_gives_the_result_the_text_and_the_figure_of_the_first) {
     const std::string code =
         "local delay, fig, D = delayest(d, {poles = {1, 3}, TdMax = 0.2})\n"
         "print(string.format('%.17g', delay), fig, D.message, D.model)\npresent(D.model)\n"
@@ -137,16 +137,16 @@ TEST_F(long_calls, an_equal_call_gives_the_result_the_text_and_the_figure_of_the
     EXPECT_EQ(first.printed, second.printed);
     EXPECT_EQ(first.printed, test::printed(kData + code));
 
-    ContentMemory memory("calls");
+    ContentCache memory("calls");
     RunOptions options;
-    options.long_calls = &memory;
+    options.memoized_calls = &memory;
     const RunRecord record = test::run(kData + "delayest(d, {poles = {1, 3}, TdMax = 0.2})", options);
     EXPECT_EQ(memory.recalled(), 1u);
     EXPECT_EQ(record.figures.size(), 1u);
     EXPECT_THAT(record.outputs.at("cell-1").front().printed, HasSubstr("delay"));
 }
 
-TEST_F(long_calls, any_difference_of_the_arguments_is_another_call) {
+TEST_F(memoized_calls, any_difference_of_the_arguments_is_another_call) {
     const auto study = [](const std::string& options, const std::string& before = "") {
         return before + "montecarlo{system = G0, input = u, Ts = 0.01, runs = 200, " + options + "}\n";
     };
@@ -169,7 +169,7 @@ TEST_F(long_calls, any_difference_of_the_arguments_is_another_call) {
     EXPECT_EQ(run_with_memory("e = iddata(d.y, u, 0.01, {InputName = 'force'})\n" + search).computed, 1u);
 }
 
-TEST_F(long_calls, functions_of_the_script_are_called_every_time) {
+TEST_F(memoized_calls, functions_of_the_script_are_called_every_time) {
     const std::string code =
         "local n = 0\nmontecarlo{system = G0, input = u, Ts = 0.01, sigma = 0.2, runs = 100, estimators = {own = "
         "function(e) n = n + 1 return lssvf(e, {2, 1, 0}, 3) end}}\nprint(n)\n";
@@ -180,7 +180,7 @@ TEST_F(long_calls, functions_of_the_script_are_called_every_time) {
     }
 }
 
-TEST_F(long_calls, short_calls_and_failed_ones_are_not_kept) {
+TEST_F(memoized_calls, short_calls_and_failed_ones_are_not_kept) {
     EXPECT_EQ(run_with_memory("lssvf(d, {2, 1, 0}, 3)\nrig_truth('crane')\n").computed, 0u);
     const std::string failing =
         "print(pcall(montecarlo, {system = G0, input = u, Ts = 0.01, sigma = 0.2, runs = 200, estimators = {srivc = "
@@ -191,4 +191,4 @@ TEST_F(long_calls, short_calls_and_failed_ones_are_not_kept) {
     EXPECT_EQ(run_with_memory(failing).printed, first.printed);
 }
 
-}  // namespace test_long_calls
+}  // namespace test_memoized_calls

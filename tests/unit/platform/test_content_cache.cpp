@@ -1,5 +1,5 @@
 // Oracle: what was given to be remembered, and the promise that trouble with the disk only forgets.
-#include "platform/content_memory.h"
+#include "platform/content_cache.h"
 
 #include <gtest/gtest.h>
 
@@ -11,11 +11,11 @@
 #include "platform/temporary_folder.h"
 
 namespace dynlab {
-namespace test_content_memory {
+namespace test_content_cache {
 
 namespace fs = std::filesystem;
 
-class content_memory : public testing::Test {
+class content_cache : public testing::Test {
   protected:
     void SetUp() override {
         setenv("XDG_CACHE_HOME", home_.path().c_str(), 1);
@@ -29,22 +29,22 @@ class content_memory : public testing::Test {
     TemporaryFolder home_;
 };
 
-TEST_F(content_memory, gives_back_the_bytes_of_an_equal_key) {
-    ContentMemory memory("test");
+TEST_F(content_cache, gives_back_the_bytes_of_an_equal_key) {
+    ContentCache memory("test");
     const std::string key = memory.key({"a", "b"});
     EXPECT_FALSE(memory.recall(key));
     memory.remember(key, bytes_);
     memory.remember(memory.key({"empty"}), "");
     EXPECT_EQ(memory.recall(key), bytes_);
-    ContentMemory later("test");
+    ContentCache later("test");
     EXPECT_EQ(later.recall(later.key({"a", "b"})), bytes_);
     EXPECT_EQ(later.recall(later.key({"empty"})), "");
     EXPECT_EQ(memory.remembered(), 2u);
     EXPECT_EQ(later.recalled(), 2u);
 }
 
-TEST_F(content_memory, every_part_and_where_it_ends_makes_the_key) {
-    const ContentMemory memory("test");
+TEST_F(content_cache, every_part_and_where_it_ends_makes_the_key) {
+    const ContentCache memory("test");
     const std::string key = memory.key({"ab", "c"});
     EXPECT_EQ(key, memory.key({"ab", "c"}));
     EXPECT_NE(key, memory.key({"a", "bc"}));
@@ -53,8 +53,8 @@ TEST_F(content_memory, every_part_and_where_it_ends_makes_the_key) {
     EXPECT_NE(key, memory.key({"c", "ab"}));
 }
 
-TEST_F(content_memory, spoilt_entries_are_not_recalled_and_can_be_made_again) {
-    ContentMemory memory("test");
+TEST_F(content_cache, spoilt_entries_are_not_recalled_and_can_be_made_again) {
+    ContentCache memory("test");
     const std::string key = memory.key({"a"});
     memory.remember(key, bytes_);
     const std::string whole = read_file(file_of(key));
@@ -72,8 +72,8 @@ TEST_F(content_memory, spoilt_entries_are_not_recalled_and_can_be_made_again) {
     EXPECT_EQ(memory.recall(key), bytes_);
 }
 
-TEST_F(content_memory, trouble_with_the_disk_only_forgets) {
-    ContentMemory memory("test");
+TEST_F(content_cache, trouble_with_the_disk_only_forgets) {
+    ContentCache memory("test");
     const std::string key = memory.key({"a"});
     memory.remember(key, bytes_);
     fs::remove_all(home_.path() / "dynlab");
@@ -87,9 +87,9 @@ TEST_F(content_memory, trouble_with_the_disk_only_forgets) {
     EXPECT_FALSE(memory.recall(key));
 }
 
-TEST_F(content_memory, is_bounded) {
+TEST_F(content_cache, is_bounded) {
     constexpr std::size_t kEach = 1000;
-    ContentMemory memory("test", 20 * kEach);
+    ContentCache memory("test", 20 * kEach);
     for (int i = 0; i < 60; ++i) {
         const std::string key = memory.key({std::to_string(i)});
         memory.remember(key, std::string(kEach, 'c'));
@@ -102,5 +102,5 @@ TEST_F(content_memory, is_bounded) {
     EXPECT_FALSE(memory.recall(memory.key({"0"})));
 }
 
-}  // namespace test_content_memory
+}  // namespace test_content_cache
 }  // namespace dynlab

@@ -7,7 +7,7 @@
 #include "support/terminal.h"
 
 namespace dynlab::test {
-namespace test_memories {
+namespace test_caches {
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
@@ -22,9 +22,9 @@ const std::string kSearch =
     "print(srivcstruc(data, {poles = {1, 4}, zeros = {0, 3}}))\nlocal Td, fig = delayest(data)\n";
 const std::string kLate = "-- %% id=late\nplot({1, 2}, {3, 4})\nprint('late')\n";
 
-class memories : public testing::Test {
+class caches : public testing::Test {
   protected:
-    memories() { make_data(1); }
+    caches() { make_data(1); }
     void make_data(int seed) {
         bench_.write("make.lua", "local s = tf('s') local u = prbs(4, 100) rng(" + std::to_string(seed) +
                                      ") local y = lsim(2/(s^2 + 4*s + 3), u, 0.01) + 0.2*randn(#u)\n"
@@ -49,7 +49,7 @@ std::string figures(int drawn, int recalled) {
     return " " + std::to_string(drawn) + "  figures drawn, " + std::to_string(recalled) + " recalled\n";
 }
 
-TEST_F(memories, a_changed_late_cell_computes_and_draws_nothing_else) {
+TEST_F(caches, a_changed_late_cell_computes_and_draws_nothing_else) {
     EXPECT_THAT(weave(kStudy + kSearch + kLate), AllOf(HasSubstr(calls(3, 0)), HasSubstr(figures(3, 0))));
     const std::string changed = kStudy + kSearch + "-- %% id=late\nplot({1, 2}, {3, 5})\nprint('later')\n";
     EXPECT_THAT(weave(changed), AllOf(HasSubstr(calls(0, 3)), HasSubstr(figures(1, 2))));
@@ -59,19 +59,19 @@ TEST_F(memories, a_changed_late_cell_computes_and_draws_nothing_else) {
     EXPECT_TRUE(recalled == bench_.read("a.html")) << "a recalled result is not the computed one";
 }
 
-TEST_F(memories, a_changed_data_file_computes_and_draws_what_depends_on_it) {
+TEST_F(caches, a_changed_data_file_computes_and_draws_what_depends_on_it) {
     weave(kStudy + kSearch + kLate);
     make_data(2);
     EXPECT_THAT(weave(kStudy + kSearch + kLate), AllOf(HasSubstr(calls(2, 1)), HasSubstr(figures(1, 2))));
 }
 
-TEST_F(memories, edited_prose_runs_nothing) {
+TEST_F(caches, edited_prose_runs_nothing) {
     weave(kStudy + kLate);
     EXPECT_THAT(weave("-- %% [markdown]\n-- Prose.\n" + kStudy + kLate),
                 AllOf(Not(HasSubstr("run the script")), Not(HasSubstr("long calls"))));
 }
 
-TEST_F(memories, spoilt_entries_are_made_anew) {
+TEST_F(caches, spoilt_entries_are_made_anew) {
     weave(kStudy + kLate);
     const std::string whole = bench_.read("a.html");
     ASSERT_EQ(bench_
@@ -85,7 +85,7 @@ TEST_F(memories, spoilt_entries_are_made_anew) {
     EXPECT_THAT(weave(kStudy + kLate), AllOf(HasSubstr(calls(0, 1)), HasSubstr(figures(0, 2))));
 }
 
-TEST_F(memories, two_runs_at_once_give_the_same_document) {
+TEST_F(caches, two_runs_at_once_give_the_same_document) {
     bench_.write("a.lua", kHeader + kStudy + kSearch + kLate);
     const ChildResult both = bench_.shell(
         "\"$DYNLAB\" weave a.lua -o 1.html & \"$DYNLAB\" weave a.lua -o 2.html & wait -n && wait -n && cmp 1.html "
@@ -94,7 +94,7 @@ TEST_F(memories, two_runs_at_once_give_the_same_document) {
     EXPECT_THAT(weave(kStudy + kSearch + kLate + "print(1)\n"), HasSubstr(calls(0, 3)));
 }
 
-TEST_F(memories, can_be_switched_off_and_need_no_folder) {
+TEST_F(caches, can_be_switched_off_and_need_no_folder) {
     bench_.write("a.lua", kHeader + kStudy);
     for (const char* where : {"DYNLAB_NO_CACHE=1", "XDG_CACHE_HOME=/proc/none", "XDG_CACHE_HOME=/dev/full"})
         for (int i = 0; i < 2; ++i) {
@@ -105,7 +105,7 @@ TEST_F(memories, can_be_switched_off_and_need_no_folder) {
         }
 }
 
-TEST_F(memories, serve_run_too) {
+TEST_F(caches, serve_run_too) {
     const std::string code = "print(rig('crane', {seed = 7}).estimation.x[100])";
     const std::string first = bench_.dynlab({"run", "-e", code}).output;
     EXPECT_EQ(bench_.shell("ls ../cache/dynlab/calls | wc -l").output, "1\n");
@@ -115,14 +115,14 @@ TEST_F(memories, serve_run_too) {
 
 // ---- where a run is
 
-TEST_F(memories, timings_tell_cells_figures_and_documents_apart) {
+TEST_F(caches, timings_tell_cells_figures_and_documents_apart) {
     const std::string told = weave(kStudy + kLate, "a.pdf");
     for (const char* step : {" ms  run the script\n", " ms    cell study\n", " ms  pandoc\n", " ms  figures\n",
                              " ms  latex pass 1\n", " ms  in total\n"})
         EXPECT_THAT(told, HasSubstr(step));
 }
 
-TEST_F(memories, a_terminal_is_told_of_a_cell_that_takes_long_and_of_its_bar) {
+TEST_F(caches, a_terminal_is_told_of_a_cell_that_takes_long_and_of_its_bar) {
     std::string study = kStudy;
     study.replace(study.find("300"), 3, "1000000");
     bench_.write("a.lua", kHeader + "-- %%\nprint(1)\n" + study);
@@ -138,7 +138,7 @@ TEST_F(memories, a_terminal_is_told_of_a_cell_that_takes_long_and_of_its_bar) {
     EXPECT_EQ(bench_.shell("ls ../cache/dynlab/calls | wc -l").output, "0\n") << "half a result was kept";
 }
 
-TEST_F(memories, a_loop_of_the_script_shows_its_cell_too) {
+TEST_F(caches, a_loop_of_the_script_shows_its_cell_too) {
     bench_.write("a.lua", kHeader + "-- %% [markdown]\n-- # The loop\n-- %%\nwhile true do end\n-- %%\nprint(1)\n");
     Terminal terminal(bench_, {"weave", "a.lua", "-o", "a.html"});
     terminal.until("running the script ...");
@@ -147,5 +147,5 @@ TEST_F(memories, a_loop_of_the_script_shows_its_cell_too) {
     EXPECT_EQ(terminal.wait_for_end(), 130);
 }
 
-}  // namespace test_memories
+}  // namespace test_caches
 }  // namespace dynlab::test

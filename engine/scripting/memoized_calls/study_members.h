@@ -1,8 +1,8 @@
 #pragma once
 #include <tuple>
 
+#include "scripting/memoized_calls/class_members.h"
 #include "scripting/objects/study_objects.h"
-#include "scripting/remembered_calls/class_members.h"
 
 namespace dynlab::inline scripting {
 

@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "scripting/remembered_calls/figure_members.h"
-#include "scripting/remembered_calls/model_members.h"
-#include "scripting/remembered_calls/study_members.h"
+#include "scripting/memoized_calls/figure_members.h"
+#include "scripting/memoized_calls/model_members.h"
+#include "scripting/memoized_calls/study_members.h"
 
 namespace dynlab::inline scripting {
 

@@ -1,6 +1,6 @@
 #pragma once
 #include "scripting/arguments/arguments.h"
-#include "scripting/remembered_calls/archive.h"
+#include "scripting/memoized_calls/archive.h"
 
 namespace dynlab::inline scripting {
 

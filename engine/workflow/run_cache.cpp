@@ -1,9 +1,9 @@
-#include "workflow/run_memory.h"
+#include "workflow/run_cache.h"
 
 #include <nlohmann/json.hpp>
 
 #include "platform/atomic_file.h"
-#include "platform/content_hash.h"
+#include "platform/hash.h"
 #include "platform/program_identity.h"
 #include "workflow/inputs_read.h"
 
@@ -111,14 +111,14 @@ bool names_a_line(const RunRecord& record) {
 }
 
 std::string key_of_run(const std::string& key, const InputsRead& inputs) {
-    return hash_of(key + json(inputs).dump(-1, ' ', false, json::error_handler_t::replace));
+    return sha256_of(key + json(inputs).dump(-1, ' ', false, json::error_handler_t::replace));
 }
 
 }  // namespace
 
-RunMemory::RunMemory(const PercentScript& script, std::uint32_t seed, FigureFormat format)
+RunCache::RunCache(const PercentScript& script, std::uint32_t seed, FigureFormat format)
     : cache_("runs"), script_(fs::absolute(script.file)) {
-    ContentHash hash;
+    Sha256 hash;
     const auto add = [&hash](const std::string& text) { hash.add(std::to_string(text.size()) + ":").add(text); };
     add(program_identity());
     add(script_.string());
@@ -133,7 +133,7 @@ RunMemory::RunMemory(const PercentScript& script, std::uint32_t seed, FigureForm
     key_ = hash.hex();
 }
 
-std::optional<RunRecord> RunMemory::recall() const {
+std::optional<RunRecord> RunCache::recall() const {
     const auto remembered = cache_.recall(key_);
     if (!remembered) return {};
     const json inputs = json::parse(*remembered, nullptr, false);
@@ -147,7 +147,7 @@ std::optional<RunRecord> RunMemory::recall() const {
     }
 }
 
-void RunMemory::remember(const RunRecord& record) const {
+void RunCache::remember(const RunRecord& record) const {
     if (record.error || names_a_line(record)) return;
     try {
         keep(record);
@@ -155,7 +155,7 @@ void RunMemory::remember(const RunRecord& record) const {
     }
 }
 
-void RunMemory::keep(const RunRecord& record) const {
+void RunCache::keep(const RunRecord& record) const {
     const InputsRead inputs = inputs_read(record, script_.parent_path());
     const fs::path folder = cache_.prepare();
     for (const auto& [name, figure] : record.figures) fs::copy_file(figure.file, folder / figure.file.filename());

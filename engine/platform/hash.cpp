@@ -1,0 +1,94 @@
+#include "platform/hash.h"
+
+#include <fmt/format.h>
+#include <sodium/utils.h>
+#include <xxhash.h>
+
+#include <array>
+#include <new>
+
+#include "platform/file_blocks.h"
+
+namespace dynlab::inline platform {
+namespace {
+
+Digest digest_from(const XXH128_hash_t& hash) {
+    return {hash.high64, hash.low64};
+}
+
+XXH3_state_t* new_digest_state() {
+    XXH3_state_t* state = XXH3_createState();
+    if (!state) throw std::bad_alloc();
+    XXH3_128bits_reset(state);
+    return state;
+}
+
+void free_digest_state(XXH3_state_t* state) {
+    XXH3_freeState(state);
+}
+
+}  // namespace
+
+Sha256::Sha256() {
+    crypto_hash_sha256_init(&state_);
+}
+
+Sha256& Sha256::add(std::string_view bytes) {
+    crypto_hash_sha256_update(&state_, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+    return *this;
+}
+
+Sha256& Sha256::add_file(const std::filesystem::path& file) {
+    for_each_block(file, [this](std::string_view block) { add(block); });
+    return *this;
+}
+
+std::string Sha256::hex() const {
+    crypto_hash_sha256_state last = state_;
+    std::array<unsigned char, crypto_hash_sha256_BYTES> bytes;
+    crypto_hash_sha256_final(&last, bytes.data());
+    std::array<char, 2 * bytes.size() + 1> digits;
+    return sodium_bin2hex(digits.data(), digits.size(), bytes.data(), bytes.size());
+}
+
+std::string sha256_of(std::string_view bytes) {
+    return Sha256().add(bytes).hex();
+}
+std::string sha256_of_file(const std::filesystem::path& file) {
+    return Sha256().add_file(file).hex();
+}
+
+std::string Digest::hex() const {
+    return fmt::format("{:016x}{:016x}", high, low);
+}
+
+DigestStream::DigestStream() : state_(new_digest_state(), free_digest_state) {}
+DigestStream::~DigestStream() = default;
+
+DigestStream& DigestStream::add(const void* bytes, std::size_t size) {
+    XXH3_128bits_update(state_.get(), bytes, size);
+    return *this;
+}
+
+DigestStream& DigestStream::add_part(std::string_view bytes) {
+    const std::uint64_t size = bytes.size();
+    return add(&size, sizeof size).add(bytes.data(), bytes.size());
+}
+
+DigestStream& DigestStream::add_file(const std::filesystem::path& file) {
+    for_each_block(file, [this](std::string_view block) { add(block.data(), block.size()); });
+    return *this;
+}
+
+Digest DigestStream::digest() const {
+    return digest_from(XXH3_128bits_digest(state_.get()));
+}
+
+Digest digest_of(std::string_view bytes) {
+    return digest_from(XXH3_128bits(bytes.data(), bytes.size()));
+}
+Digest digest_of_file(const std::filesystem::path& file) {
+    return DigestStream().add_file(file).digest();
+}
+
+}  // namespace dynlab::inline platform

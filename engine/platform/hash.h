@@ -1,0 +1,59 @@
+#pragma once
+#include <sodium/crypto_hash_sha256.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+struct XXH3_state_s;
+
+namespace dynlab::inline platform {
+
+/// SHA-256 (FIPS 180-4) as 64 lower-case hexadecimal digits: what identifies a file for others, since nobody can make
+/// another file of the same hash. Other programs give the same (sha256sum).
+class Sha256 {
+  public:
+    Sha256();
+    Sha256& add(std::string_view bytes);
+    Sha256& add_file(const std::filesystem::path& file);  ///< throws EnvironmentError
+    std::string hex() const;
+
+  private:
+    crypto_hash_sha256_state state_;
+};
+
+std::string sha256_of(std::string_view bytes);
+std::string sha256_of_file(const std::filesystem::path& file);  ///< throws EnvironmentError
+
+/// 128 bits that tell contents apart, as 32 lower-case hexadecimal digits.
+struct Digest {
+    std::uint64_t high = 0, low = 0;
+    std::string hex() const;
+    bool operator==(const Digest&) const = default;
+};
+
+/// XXH3 (128 bits), as quick as memory is read: for the keys of this program's own caches. Contents that differ by
+/// accident differ in it; somebody who wants to can make two of the same digest.
+class DigestStream {
+  public:
+    DigestStream();
+    ~DigestStream();
+    DigestStream(const DigestStream&) = delete;
+    DigestStream& operator=(const DigestStream&) = delete;
+
+    DigestStream& add(const void* bytes, std::size_t size);
+    /// The number of bytes and then the bytes, so that it tells where one part ends and the next begins.
+    DigestStream& add_part(std::string_view bytes);
+    DigestStream& add_file(const std::filesystem::path& file);  ///< throws EnvironmentError
+    Digest digest() const;
+
+  private:
+    std::unique_ptr<XXH3_state_s, void (*)(XXH3_state_s*)> state_;
+};
+
+Digest digest_of(std::string_view bytes);
+Digest digest_of_file(const std::filesystem::path& file);  ///< throws EnvironmentError
+
+}  // namespace dynlab::inline platform

@@ -1,0 +1,109 @@
+#include <algorithm>
+
+#include "bench/bench.h"
+#include "bench/lua_session.h"
+#include "bench/peers.h"
+
+namespace dynlab::bench {
+namespace {
+
+/// Records of N samples, made by the session itself: of two poles (d), three poles (d3), two poles behind a delay that
+/// is no whole number of samples (dd), and two poles with coloured noise (dc).
+constexpr char kRecords[] = R"(
+N, Ts = 999000, 0.01
+s = tf("s")
+G = 2/(s^2 + 4*s + 3)
+u = prbs(17, 100):range(1, N)
+rng(1)
+noise = 0.2*randn(N)
+function record(y) return iddata(y, u, Ts) end
+d = record(lsim(G, u, Ts) + noise)
+d3 = record(lsim(6/((s + 1)*(s + 2)*(s + 3)), u, Ts) + noise)
+dd = record(lsim(tf({2}, {1, 4, 3}, {IODelay = 0.1375}), u, Ts) + noise)
+dc = record(lsim(G, u, Ts) + lsim(tf({1, 0.5}, {1, -0.9}, {Ts = Ts}), noise, Ts))
+)";
+
+constexpr char kTwoPoles[] = "E = srivc(d, {1, 2, 0}, {lambda = 3})";
+constexpr char kSimulation[] = "x = lsim(G, u, Ts)";
+
+/// Repeated until two seconds are over, so that a call of many seconds is made once and a short one often.
+double seconds_of(LuaSession& session, const std::string& line) {
+    constexpr double kEnough = 2;
+    constexpr std::size_t kMost = 15;
+    std::vector<double> times;
+    for (double sum = 0; times.size() < kMost && sum < kEnough; sum += times.back())
+        times.push_back(repeated_seconds(1, [&] { session.run(line); }).front());
+    return median(times);
+}
+
+/// Adds the row of a line against another one that is measured before and after it.
+void compare_lines(LuaSession& session, const Result& row, const std::string& line, const std::string& reference,
+                   Report& report, double reference_times = 1) {
+    const double before = seconds_of(session, reference), measured = seconds_of(session, line);
+    const double after = seconds_of(session, reference);
+    Result result = row;
+    result.measured = measured;
+    result.reference = reference_times * (before + after) / 2;
+    report.results.push_back(result);
+}
+
+void measure_srivc_calls(LuaSession& session, Report& report) {
+    {
+        const Vector u = session.numbers("d.u"), y = session.numbers("d.y");
+        const auto work = [&] {
+            session.run(kTwoPoles);
+            return session.numbers("E.param");
+        };
+        compare_with_peer({"Lua srivc(d, {1, 2, 0}), N = 999000 (s)", Peer::kNumpy, "srivc", 1.0 / 40, 1.0 / 80, 11},
+                          {u, y}, work, report);
+    }
+    compare_lines(session, {"Lua tfsrivc, 2 poles, IODelay = 0.1375 (s)", "without a delay (s)", 0, 0, 2, 1.3},
+                  "tfsrivc(dd, 2, 0, {IODelay = 0.1375, lambda = 3})", kTwoPoles, report);
+    constexpr double kPairs = 1.5;
+    compare_lines(session, {"Lua srivc, 3 poles (s)", "1.5 times that of 2 poles (s)", 0, 0, 2, 1.3},
+                  "srivc(d3, {1, 3, 0}, {lambda = 3})", kTwoPoles, report, kPairs);
+}
+
+void measure_validation_calls(LuaSession& session, Report& report) {
+    for (const char* line : {"fit(d, G)", "compare(d, G)", "resid(d, G)"})
+        compare_lines(session, {std::string("Lua ") + line + ", N = 999000 (s)", "one lsim (s)", 0, 0, 8, 4}, line,
+                      kSimulation, report);
+}
+
+/// Calls that were slow when these rows were written, and how many times the time of one lsim they took then: a fifth
+/// of that is the bar, a tenth the goal.
+struct SlowCall {
+    const char* line;
+    double lsims_before;
+};
+constexpr SlowCall kSlowCalls[] = {{"procsrivc(d, 'P2')", 9300},
+                                   {"rivc(dc, {1, 1, 1, 2, 0})", 1900},
+                                   {"armax(dc, {2, 2, 2, 1})", 5800},
+                                   {"bj(dc, {2, 1, 1, 2, 1})", 2400},
+                                   {"advice(d)", 1450}};
+
+void measure_slow_calls(LuaSession& session, Report& report) {
+    for (const auto& [line, lsims_before] : kSlowCalls)
+        compare_lines(session,
+                      {std::string("Lua ") + line + " (s)", "one lsim (s)", 0, 0, lsims_before / 5, lsims_before / 10},
+                      line, kSimulation, report);
+}
+
+void measure_saving(LuaSession& session, Report& report) {
+    session.run("numbers = randn(2000000) save_mat('numbers.mat', {numbers = numbers})");
+    compare_lines(session, {"Lua save_mat, 2e6 numbers (s)", "load of them (s)", 0, 0, 3, 1.5},
+                  "save_mat('numbers.mat', {numbers = numbers})", "loaded = load('numbers.mat')", report);
+}
+
+}  // namespace
+
+void measure_lua(Report& report) {
+    LuaSession session;
+    session.run(kRecords);
+    measure_srivc_calls(session, report);
+    measure_validation_calls(session, report);
+    measure_slow_calls(session, report);
+    measure_saving(session, report);
+}
+
+}  // namespace dynlab::bench

@@ -1,0 +1,34 @@
+#include "bench/lua_session.h"
+
+#include <stdexcept>
+
+#include "scripting/objects/numeric.h"
+
+namespace dynlab::bench {
+
+LuaSession::LuaSession() : runtime_(options(), renderer_) {}
+
+RunOptions LuaSession::options() {
+    RunOptions options;
+    options.script_folder = options.out_folder = folder_.path();
+    options.memoized_calls = &memories_.memoized_calls;
+    return options;
+}
+
+void LuaSession::run(const std::string& line) {
+    const RunRecord record = runtime_.run_code(line, "bench.lua");
+    if (record.error) throw std::runtime_error(line + ": " + record.error->message);
+}
+
+Vector LuaSession::numbers(const std::string& expression) {
+    run("bench_numbers = " + expression);
+    lua_State* L = runtime_.state();
+    lua_getglobal(L, "bench_numbers");
+    const NumericBlock* block = to_vector(L, -1);
+    if (!block) throw std::runtime_error(expression + " is no vector");
+    const Vector values = const_cast<NumericBlock*>(block)->vector();
+    lua_pop(L, 1);
+    return values;
+}
+
+}  // namespace dynlab::bench
