@@ -4,10 +4,10 @@
 #include <cctype>
 #include <cstdint>
 
-#include "data_io/mat_text.h"
 #include "data_io/mat_variable.h"
 #include "numerics/error.h"
 #include "platform/error.h"
+#include "platform/utf8.h"
 
 namespace dynlab::inline data_io {
 namespace {

@@ -10,7 +10,4 @@ namespace dynlab::inline data_io {
 /// there are fewer characters than the size says.
 std::vector<std::string> text_rows(const matvar_t& variable, std::size_t rows, std::size_t columns);
 
-/// UTF-8 as the UTF-16 units MATLAB stores; bytes that are not UTF-8 become U+FFFD.
-std::u16string utf16_of(const std::string& text);
-
 }  // namespace dynlab::inline data_io

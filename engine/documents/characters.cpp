@@ -4,27 +4,10 @@
 
 #include <charconv>
 
+#include "platform/utf8.h"
+
 namespace dynlab::inline documents {
 namespace {
-
-constexpr char32_t kInvalid = 0xFFFFFFFF;
-
-/// Takes the first character off `text` (not empty); kInvalid, taking one byte, when it is not UTF-8.
-char32_t next_character(std::string_view& text) {
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    const unsigned char first = byte(0);
-    const std::size_t length = first < 0x80 ? 1 : first >> 5 == 6 ? 2 : first >> 4 == 14 ? 3 : first >> 3 == 30 ? 4 : 0;
-    char32_t character = length <= 1 ? first : first & (0x7Fu >> length);
-    bool valid = length > 0 && length <= text.size();
-    for (std::size_t i = 1; valid && i < length; ++i) {
-        valid = byte(i) >> 6 == 2;
-        character = (character << 6) | (byte(i) & 0x3Fu);
-    }
-    const char32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
-    valid = valid && character >= least[length] && character <= 0x10FFFF && (character < 0xD800 || character > 0xDFFF);
-    text.remove_prefix(valid ? length : 1);
-    return valid ? character : kInvalid;
-}
 
 bool is_control(char32_t c) {
     return (c < 0x20 && c != '\n' && c != '\t' && c != '\r') || (c >= 0x7F && c < 0xA0);
@@ -39,20 +22,6 @@ bool is_in_latex_fonts(char32_t c) {
     for (const auto& [first, last] : ranges)
         if (c >= first && c <= last) return true;
     return false;
-}
-
-std::string shown(char32_t c) {
-    std::string utf8;
-    if (c < 0x800) {
-        utf8 = {static_cast<char>(0xC0 | (c >> 6)), static_cast<char>(0x80 | (c & 0x3F))};
-    } else if (c < 0x10000) {
-        utf8 = {static_cast<char>(0xE0 | (c >> 12)), static_cast<char>(0x80 | ((c >> 6) & 0x3F)),
-                static_cast<char>(0x80 | (c & 0x3F))};
-    } else {
-        utf8 = {static_cast<char>(0xF0 | (c >> 18)), static_cast<char>(0x80 | ((c >> 12) & 0x3F)),
-                static_cast<char>(0x80 | ((c >> 6) & 0x3F)), static_cast<char>(0x80 | (c & 0x3F))};
-    }
-    return utf8;
 }
 
 }  // namespace
@@ -83,15 +52,16 @@ bool PrintableCharacters::can_print(char32_t c) const {
 
 std::optional<std::string> PrintableCharacters::complaint(std::string_view text) const {
     while (!text.empty()) {
-        const char32_t c = next_character(text);
-        if (c == kInvalid) return "this is not UTF-8 text; save the file with the encoding UTF-8";
+        const std::optional<char32_t> taken = take_character(text);
+        if (!taken) return "this is not UTF-8 text; save the file with the encoding UTF-8";
+        const char32_t c = *taken;
         if (can_print(c)) continue;
         const std::string code = fmt::format("U+{:04X}", static_cast<std::uint32_t>(c));
         if (is_control(c)) return "the control character " + code + " cannot be printed; remove it";
         if (c >= 0x0300 && c <= 0x036F)
             return "the combining accent " + code +
                    " cannot be printed; type the letter with its accent as one character";
-        return "the character \"" + shown(c) + "\" (" + code +
+        return "the character \"" + utf8_of(c) + "\" (" + code +
                ") cannot be printed by LaTeX; write it in words or as a formula between dollar signs";
     }
     return std::nullopt;

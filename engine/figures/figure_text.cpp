@@ -4,6 +4,7 @@
 #include <array>
 
 #include "figures/style.h"
+#include "platform/utf8.h"
 
 namespace dynlab::inline figures {
 namespace {
@@ -13,26 +14,9 @@ using Level = TextPiece::Level;
 constexpr std::size_t kLongestText = 200;
 constexpr double kScriptSize = 0.8;  // gnuplot's size of raised and lowered text
 
-/// One character from the front of `bytes` (removed there); U+FFFD for bytes that are not UTF-8.
-char32_t take_character(std::string_view& bytes) {
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
-    const unsigned char lead = byte(0);
-    const std::size_t length = lead < 0x80 ? 1 : lead >> 5 == 6 ? 2 : lead >> 4 == 14 ? 3 : lead >> 3 == 30 ? 4 : 0;
-    char32_t value = length == 1 ? lead : lead & (0xFFu >> (length + 1));
-    bool whole = length > 0 && bytes.size() >= length;
-    for (std::size_t i = 1; whole && i < length; ++i) {
-        whole = byte(i) >> 6 == 2;
-        value = value << 6 | (byte(i) & 0x3Fu);
-    }
-    constexpr std::array<char32_t, 5> kSmallest = {0, 0, 0x80, 0x800, 0x10000};
-    whole = whole && value >= kSmallest[length] && value <= 0x10FFFF && !(value >= 0xD800 && value < 0xE000);
-    bytes.remove_prefix(whole ? length : 1);
-    return whole ? value : U'\uFFFD';
-}
-
 char32_t printable(char32_t c) {
     if (c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0x2028 || c == 0x2029) return U' ';
-    if (c == 0xFFFD) return U'?';
+    if (c == kNoCharacter) return U'?';
     if (c == U'\'') return U'’';  // as LaTeX prints it; and no text holds the quote that ends gnuplot's strings
     const bool directs_text = (c >= 0x202A && c <= 0x202E) || (c >= 0x2066 && c <= 0x2069);
     if (directs_text || c == 0xFEFF || (c & 0xFFFE) == 0xFFFE) return U' ';  // not allowed in SVG, or reorders the rest
@@ -43,7 +27,7 @@ std::u32string decode(std::string_view bytes) {
     std::u32string text;
     while (!bytes.empty()) {
         if (text.size() == kLongestText) return text + U'…';
-        text += printable(take_character(bytes));
+        text += printable(next_character(bytes));
     }
     return text;
 }
@@ -105,26 +89,6 @@ FittedText made_smaller(FittedText text, double widest, double length) {
 
 }  // namespace
 
-std::string to_utf8(std::u32string_view text) {
-    std::string bytes;
-    for (const char32_t c : text) {
-        const auto tail = [&](int shift) { bytes += static_cast<char>(0x80 | (c >> shift & 0x3F)); };
-        if (c < 0x80) {
-            bytes += static_cast<char>(c);
-        } else if (c < 0x800) {
-            bytes += static_cast<char>(0xC0 | c >> 6);
-            tail(0);
-        } else if (c < 0x10000) {
-            bytes += static_cast<char>(0xE0 | c >> 12);
-            tail(6), tail(0);
-        } else {
-            bytes += static_cast<char>(0xF0 | c >> 18);
-            tail(12), tail(6), tail(0);
-        }
-    }
-    return bytes;
-}
-
 std::vector<TextPiece> text_pieces(std::string_view utf8) {
     const std::u32string text = decode(utf8);
     std::vector<TextPiece> pieces;
@@ -153,8 +117,8 @@ double text_width(std::string_view utf8, double size) {
 std::string cut_text(const std::string& text, double length, double size) {
     if (text_width(text, size) <= length) return text;
     std::u32string kept = decode(text);
-    while (kept.size() > 1 && text_width(to_utf8(kept + U'…'), size) > length) kept.pop_back();
-    return to_utf8(kept + U'…');
+    while (kept.size() > 1 && text_width(utf8_of(kept + U'…'), size) > length) kept.pop_back();
+    return utf8_of(kept + U'…');
 }
 
 FittedText fit_line(const std::string& text, double length, double size) {
@@ -185,7 +149,7 @@ std::string gnuplot_text(std::string_view utf8) {
     std::string marked;
     for (const TextPiece& piece : text_pieces(utf8)) {
         std::string escaped;
-        for (const char c : to_utf8(piece.text)) {
+        for (const char c : utf8_of(piece.text)) {
             if (std::string_view("\\{}^_@&~").find(c) != std::string_view::npos) escaped += '\\';
             escaped += c;
         }

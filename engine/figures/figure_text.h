@@ -39,6 +39,4 @@ std::string gnuplot_text(std::string_view utf8);
 /// For strings gnuplot does not typeset (absolute file names): quotes doubled.
 std::string gnuplot_quoted(std::string_view text);
 
-std::string to_utf8(std::u32string_view text);
-
 }  // namespace dynlab::inline figures

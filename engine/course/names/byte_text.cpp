@@ -9,8 +9,8 @@
 #include <memory>
 #include <optional>
 
-#include "course/names/letters.h"
 #include "documents/pdf/inflate.h"
+#include "platform/utf8.h"
 #include "platform/utf8_locale.h"
 
 namespace dynlab::inline course {
@@ -20,7 +20,6 @@ constexpr std::size_t kShortestRun = 4;
 constexpr std::size_t kMostOfArchive = 50u << 20, kMostInside = 4u << 20;
 constexpr std::size_t kLongestReference = 32;
 constexpr int kMostEntries = 2000, kMostPieces = 300;
-constexpr char32_t kNoCharacter = 0xFFFD;
 
 /// HTML 4.01, 24.2.1: U+00A0 to U+00FF.
 constexpr const char* kNamesFromA0[] = {
@@ -38,26 +37,13 @@ unsigned char byte_at(std::string_view bytes, std::size_t i) {
     return static_cast<unsigned char>(bytes[i]);
 }
 
-char32_t unit_at(std::string_view bytes, std::size_t i, bool big_endian) {
-    const char32_t first = byte_at(bytes, i), second = byte_at(bytes, i + 1);
-    return big_endian ? first << 8 | second : second << 8 | first;
-}
-
-/// Takes the first character off UTF-16 of at least two bytes; U+FFFD for half of a pair.
-char32_t next_of_utf16(std::string_view& bytes, bool big_endian) {
-    const char32_t first = unit_at(bytes, 0, big_endian);
-    bytes.remove_prefix(2);
-    if (first < 0xD800 || first >= 0xE000) return first;
-    const char32_t second = bytes.size() >= 2 ? unit_at(bytes, 0, big_endian) : 0;
-    if (first >= 0xDC00 || second < 0xDC00 || second >= 0xE000) return kNoCharacter;
-    bytes.remove_prefix(2);
-    return 0x10000 + ((first - 0xD800) << 10 | (second - 0xDC00));
-}
-
-std::string from_utf16(std::string_view bytes, bool big_endian) {
-    std::string text;
-    while (bytes.size() >= 2) text += utf8_of(next_of_utf16(bytes, big_endian));
-    return text;
+std::u16string units_in(std::string_view bytes, bool big_endian) {
+    std::u16string units;
+    for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) {
+        const unsigned first = byte_at(bytes, i), second = byte_at(bytes, i + 1);
+        units += static_cast<char16_t>(big_endian ? first << 8 | second : second << 8 | first);
+    }
+    return units;
 }
 
 bool has_utf16_mark(std::string_view bytes) {
@@ -103,9 +89,10 @@ std::string runs_of_utf8(std::string_view bytes) {
 
 /// Latin letters and pairs of units only: any other two bytes are some character.
 std::string runs_of_utf16(std::string_view bytes, bool big_endian) {
+    const std::u16string units = units_in(bytes, big_endian);
     Runs runs;
-    while (bytes.size() >= 2) {
-        const char32_t c = next_of_utf16(bytes, big_endian);
+    for (std::u16string_view rest = units; !rest.empty();) {
+        const char32_t c = next_character(rest);
         runs.add(c < 0x250 || c >= 0x10000 ? c : kNoCharacter, utf8_of(c));
     }
     return runs.text();
@@ -155,7 +142,7 @@ bool is_text(std::string_view bytes) {
 }
 
 std::string text_in(std::string_view bytes) {
-    if (has_utf16_mark(bytes)) return from_utf16(bytes.substr(2), bytes.starts_with("\xFE\xFF"));
+    if (has_utf16_mark(bytes)) return utf8_of(units_in(bytes.substr(2), bytes.starts_with("\xFE\xFF")));
     if (is_text(bytes)) return std::string(bytes);
     std::string text = runs_of_utf8(bytes);
     constexpr std::string_view kSigns("\0\xD8", 2);  // in UTF-16 of Latin letters, of mathematical ones

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "course/names/byte_text.h"
-#include "course/names/letters.h"
+#include "platform/utf8.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -162,7 +162,7 @@ void add_list(CodeMap& map, std::vector<std::string>& codes, std::size_t list) {
 std::string decoded(const std::string& bytes, const CodeMap* map) {
     std::string text;
     if (map == nullptr) {
-        for (const char c : bytes) text += utf8_of(static_cast<unsigned char>(c));
+        for (const char c : bytes) text += utf8_of(char32_t{static_cast<unsigned char>(c)});
         return text;
     }
     for (std::size_t i = 0; i + map->bytes <= bytes.size(); i += map->bytes) {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "course/names/letters.h"
+#include "platform/utf8.h"
 
 namespace dynlab::inline course {
 namespace {

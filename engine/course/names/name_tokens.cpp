@@ -1,6 +1,6 @@
 #include "course/names/name_tokens.h"
 
-#include "course/names/letters.h"
+#include "platform/utf8.h"
 
 namespace dynlab::inline course {
 namespace {

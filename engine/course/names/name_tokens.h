@@ -16,7 +16,7 @@ enum class Gap {
 
 /// A run of letters, a run of digits, or one ideograph of a text, as names are compared.
 struct NameToken {
-    std::string letters;         ///< folded_letter of each character (letters.h)
+    std::string letters;         ///< folded_letter of each character (platform/utf8.h)
     std::size_t begin, end = 0;  ///< bytes of the text
     bool digits = false, capital = false;
     Gap gap = Gap::kWide;

@@ -2,8 +2,8 @@
 
 #include <cctype>
 
-#include "course/names/letters.h"
 #include "platform/terminal/terminal_text.h"
+#include "platform/utf8.h"
 
 namespace dynlab::inline course {
 namespace {

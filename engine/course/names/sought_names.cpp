@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <tuple>
 
-#include "course/names/letters.h"
 #include "platform/text_file.h"
+#include "platform/utf8.h"
 
 namespace dynlab::inline course {
 namespace {

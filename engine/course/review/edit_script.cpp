@@ -2,11 +2,11 @@
 
 #include <cctype>
 
-#include "course/names/letters.h"
 #include "documents/work_file.h"
 #include "platform/child_process.h"
 #include "platform/error.h"
 #include "platform/temporary_folder.h"
+#include "platform/utf8.h"
 
 namespace dynlab::inline course {
 namespace {

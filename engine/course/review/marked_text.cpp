@@ -5,11 +5,11 @@
 #include <algorithm>
 
 #include "course/grading/feedback.h"
-#include "course/names/letters.h"
 #include "course/names/plain_words.h"
 #include "documents/characters.h"
 #include "platform/atomic_file.h"
 #include "platform/program_lookup.h"
+#include "platform/utf8.h"
 
 namespace dynlab::inline course {
 namespace {

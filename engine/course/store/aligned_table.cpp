@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "platform/utf8.h"
+
 namespace dynlab::inline course {
 namespace {
 
@@ -11,23 +13,19 @@ std::string shown(std::string cell) {
     return cell;
 }
 
-std::size_t width_of(const std::string& cell) {
-    return static_cast<std::size_t>(std::count_if(cell.begin(), cell.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
 }  // namespace
 
 std::string aligned_table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows) {
     std::vector<std::size_t> widths;
-    for (const std::string& name : header) widths.push_back(width_of(name));
+    for (const std::string& name : header) widths.push_back(columns_of(name));
     for (const auto& row : rows)
-        for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], width_of(shown(row[i])));
+        for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], columns_of(shown(row[i])));
     std::string text;
     const auto append = [&](const std::vector<std::string>& row) {
         std::string line;
         for (std::size_t i = 0; i < row.size(); ++i) {
             const std::string cell = shown(row[i]);
-            line += cell + std::string(widths[i] - width_of(cell) + 2, ' ');
+            line += cell + std::string(widths[i] - columns_of(cell) + 2, ' ');
         }
         line.erase(line.find_last_not_of(' ') + 1);
         text += line + '\n';

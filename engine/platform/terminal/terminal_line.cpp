@@ -5,6 +5,7 @@
 
 #include "platform/system_call.h"
 #include "platform/terminal/terminal_text.h"
+#include "platform/utf8.h"
 
 namespace dynlab::inline platform {
 namespace {
@@ -16,12 +17,16 @@ std::size_t terminal_width() {
     return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80u;
 }
 
-/// At most so many characters of an UTF-8 text.
-std::string beginning_of(const std::string& text, std::size_t characters) {
-    std::size_t end = 0;
-    for (; end < text.size(); ++end)
-        if ((static_cast<unsigned char>(text[end]) & 0xC0) != 0x80 && characters-- == 0) break;
-    return text.substr(0, end);
+/// As much of a text as so many columns hold.
+std::string beginning_of(const std::string& text, std::size_t columns) {
+    std::string_view rest = text;
+    for (std::size_t used = 0; !rest.empty();) {
+        std::string_view behind = rest;
+        used += columns_of(next_character(behind));
+        if (used > columns) break;
+        rest = behind;
+    }
+    return text.substr(0, text.size() - rest.size());
 }
 
 void print(const std::string& text) {

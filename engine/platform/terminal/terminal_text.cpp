@@ -1,29 +1,12 @@
 #include "platform/terminal/terminal_text.h"
 
-namespace dynlab::inline platform {
+#include "platform/utf8.h"
 
-char32_t next_character(std::string_view& text) {
-    const auto byte = [&text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    const unsigned char first = byte(0);
-    const std::size_t length = first < 0x80   ? 1
-                               : first < 0xC2 ? 0
-                               : first < 0xE0 ? 2
-                               : first < 0xF0 ? 3
-                               : first < 0xF5 ? 4
-                                              : 0;
-    char32_t character = length == 1 ? first : length == 0 ? 0xFFFD : first & (0x7F >> length);
-    bool whole = length > 0 && length <= text.size();
-    for (std::size_t i = 1; whole && i < length; ++i) {
-        whole = (byte(i) & 0xC0) == 0x80;
-        character = character << 6 | (byte(i) & 0x3F);
-    }
-    text.remove_prefix(whole ? length : 1);
-    return whole ? character : 0xFFFD;
-}
+namespace dynlab::inline platform {
 
 bool is_obeyed(char32_t c) {
     return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0x061C || (c >= 0x200B && c <= 0x200F) ||
-           (c >= 0x2028 && c <= 0x202E) || (c >= 0x2066 && c <= 0x2069) || c == 0xFFFD;
+           (c >= 0x2028 && c <= 0x202E) || (c >= 0x2066 && c <= 0x2069) || c == kNoCharacter;
 }
 
 std::string terminal_text(std::string_view utf8) {

@@ -4,9 +4,6 @@
 
 namespace dynlab::inline platform {
 
-/// Takes the first character off `utf8`, which is not empty; U+FFFD for broken UTF-8.
-char32_t next_character(std::string_view& utf8);
-
 /// Whether a terminal, or whatever shows a text, would obey the character instead of showing it: control characters,
 /// those without width, those that turn the direction of writing; U+FFFD too.
 bool is_obeyed(char32_t c);

@@ -11,28 +11,12 @@
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/system_call.h"
+#include "platform/utf8.h"
 
 namespace dynlab::inline scripting {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Bytes of the UTF-8 character at the start of `text`; 0 when it is none (RFC 3629).
-std::size_t character_length(std::string_view text) {
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    const unsigned char lead = byte(0);
-    if (lead < 0x80) return 1;
-    const std::size_t length = lead >= 0xC2 && lead <= 0xDF   ? 2
-                               : lead >= 0xE0 && lead <= 0xEF ? 3
-                               : lead >= 0xF0 && lead <= 0xF4 ? 4
-                                                              : 0;
-    if (length == 0 || length > text.size()) return 0;
-    for (std::size_t i = 1; i < length; ++i)
-        if ((byte(i) & 0xC0) != 0x80) return 0;
-    const bool overlong = (lead == 0xE0 && byte(1) < 0xA0) || (lead == 0xF0 && byte(1) < 0x90);
-    const bool no_character = (lead == 0xED && byte(1) > 0x9F) || (lead == 0xF4 && byte(1) > 0x8F);
-    return overlong || no_character ? 0 : length;
-}
 
 /// The end of the file; empty when it is not there or no ordinary file.
 std::string end_of_file(const fs::path& file) {
@@ -47,10 +31,8 @@ std::string end_of_file(const fs::path& file) {
     return std::move(text).str();
 }
 
-bool is_control(std::string_view character) {
-    const auto first = static_cast<unsigned char>(character[0]);
-    const bool second_block = character.size() == 2 && first == 0xC2 && static_cast<unsigned char>(character[1]) < 0xA0;
-    return first < 0x20 || first == 0x7F || second_block;
+bool is_control(char32_t c) {
+    return c < 0x20 || (c >= 0x7F && c < 0xA0);
 }
 
 }  // namespace
@@ -102,13 +84,12 @@ fs::path history_file() {
 std::string clean_line(std::string_view text) {
     std::string line;
     while (!text.empty()) {
-        const std::size_t length = character_length(text);
-        const std::string_view character = text.substr(0, std::max<std::size_t>(length, 1));
-        if (character == "\t")
+        const std::string_view before = text;
+        const std::optional<char32_t> c = take_character(text);
+        if (c == U'\t')
             line += ' ';
-        else if (length > 0 && !is_control(character))
-            line += character;
-        text.remove_prefix(character.size());
+        else if (c && !is_control(*c))
+            line += before.substr(0, before.size() - text.size());
     }
     return line;
 }

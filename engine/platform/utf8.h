@@ -1,0 +1,45 @@
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace dynlab::inline platform {
+
+/// Stands for each byte that is not UTF-8 (RFC 3629: overlong forms, surrogates and what is beyond U+10FFFF are not)
+/// and for each half of a pair in UTF-16.
+inline constexpr char32_t kNoCharacter = 0xFFFD;
+
+/// Takes the first character off `utf8`, which is not empty; nothing, and one byte taken, where it is not UTF-8.
+std::optional<char32_t> take_character(std::string_view& utf8);
+/// The same with kNoCharacter for what is not UTF-8; of UTF-16, with kNoCharacter for half a pair.
+char32_t next_character(std::string_view& utf8);
+char32_t next_character(std::u16string_view& utf16);
+
+std::u32string characters_in(std::string_view utf8);
+std::u16string utf16_of(std::string_view utf8);
+
+/// UTF-8 of characters; kNoCharacter for what is none.
+std::string utf8_of(char32_t character);
+std::string utf8_of(std::u32string_view characters);
+std::string utf8_of(std::u16string_view utf16);
+
+/// Cells of a terminal that a text takes: none for combining accents and signs without width, two for wide characters
+/// of East Asian scripts (UAX #11).
+std::size_t columns_of(char32_t character);
+std::size_t columns_of(std::string_view utf8);
+
+/// A letter without accent, in lower case: "É" -> "e", "Ł" -> "l", "Æ" -> "ae"; ligatures, full-width and mathematical
+/// letters as the plain ones they show (the compatibility decomposition of Unicode, UAX #15); decimal digits of any
+/// script -> 0 to 9 (UTF-8). Letters that stand for themselves as they are; "" for what is no letter and no digit, also
+/// raised and lowered ones, which mark a footnote.
+std::string folded_letter(char32_t character);
+
+/// What leaves no trace when letters are compared: accents on their own or combining, the soft hyphen, signs without
+/// width and those that direct the text.
+bool is_silent(char32_t character);
+
+bool is_capital(char32_t character);    ///< of a script that knows capitals
+bool is_ideograph(char32_t character);  ///< of a script that writes words without spaces: each stands for itself
+
+}  // namespace dynlab::inline platform
