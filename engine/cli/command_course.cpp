@@ -36,6 +36,7 @@ void add_init(CLI::App& course, Action& action) {
             std::cout << fmt::format(
                 "Course made in {}, times in {}.\n"
                 "course.key signs the receipts: keep a copy of the whole folder, and give the key to nobody.\n"
+                "course.pub verifies them: give it to your students, who need dynlab verify-receipt and no course.\n"
                 "Next: cd {} and dynlab course roster import roster.csv\n",
                 folder.string(), words->zone, words->folder);
             return kDone;

@@ -115,10 +115,9 @@ int verify(const CourseWords& where, const std::vector<std::string>& receipts) {
     Course course(where.folder);
     bool well = true;
     for (const std::string& file : receipts) {
-        const bool genuine = receipt_is_genuine(read_file(file), course.key());
-        std::cout << fmt::format("{}: {}\n", file,
-                                 genuine ? "genuine" : "NOT genuine: altered, or signed by another course");
-        well = well && genuine;
+        const ReceiptVerdict verdict = verify_receipt(read_file(file), course);
+        std::cout << fmt::format("{}: {}\n", file, verdict.reason);
+        well = well && verdict.genuine;
     }
     if (receipts.empty()) {
         const StoreCheck check = check_store(course);
@@ -134,9 +133,28 @@ void add_verify(CLI::App& course, CourseWords& where, Action& action) {
     auto receipts = std::make_shared<std::vector<std::string>>();
     CLI::App* command = course.add_subcommand("verify", "Whether receipts are genuine; without one, the whole store");
     command->add_option("RECEIPT", *receipts, "Receipts that students show");
-    command->footer("Example:  dynlab course verify 00012-group-07-first-report.txt");
+    command->footer(
+        "Students verify theirs without the course: dynlab verify-receipt.\n"
+        "Example:  dynlab course verify 00012-group-07-first-report.txt");
     command->callback(
         [&where, receipts, &action] { action = [&where, receipts] { return verify(where, *receipts); }; });
+}
+
+void add_key(CLI::App& course, CourseWords& where, Action& action) {
+    CLI::App* command = course.add_subcommand("key", "Show the public key, by which students verify receipts");
+    command->footer(
+        "The file course.pub holds the same: give it to your students, on the course's page say. The secret "
+        "course.key\n"
+        "stays with you.\n"
+        "Example:  dynlab course key");
+    command->callback([&where, &action] {
+        action = [&where] {
+            const Course course_here(where.folder);
+            const fs::path file = course_here.publish_key();
+            std::cout << terminal_text(read_file(file)) << "File: " << file.string() << '\n';
+            return kDone;
+        };
+    });
 }
 
 }  // namespace
@@ -154,6 +172,7 @@ void add_receive_commands(CLI::App& course, CourseWords& where, Action& action) 
                 "dynlab course final receive final.zip --assignment crane", where, action);
     add_final_changes(*final, where, action);
     add_verify(course, where, action);
+    add_key(course, where, action);
 }
 
 }  // namespace dynlab::inline cli

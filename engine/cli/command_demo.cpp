@@ -9,7 +9,7 @@
 
 #include "cli/commands.h"
 #include "platform/interrupt.h"
-#include "workflow/caches.h"
+#include "scripting/memoized_calls/call_cache.h"
 #include "workflow/demonstration.h"
 #include "workflow/run_script.h"
 
@@ -50,9 +50,10 @@ int show(const Demonstration& demonstration) {
     request.out_folder = folder;
     std::cout << '\n' << demonstration.title << "\n\n" << std::flush;
 
-    Caches caches;
-    GnuplotRenderer renderer(&caches.figures);
-    request.memoized_calls = &caches.memoized_calls;
+    const Cache cache;
+    CallCache calls(cache);
+    GnuplotRenderer renderer(&cache);
+    request.call_cache = &calls;
     RunRecord record = run_script(request, renderer);
     if (!record.figures.empty()) fs::create_directories(folder);
     draw_figures(record, renderer, folder, FigureFormat::kPdf);

@@ -90,7 +90,7 @@ int examine() {
     show("lessons", std::to_string(lessons().size()), !lessons().empty());
     missing.merge(check_data());
     check_isolation();
-    show("caches", Cache("reports").root().parent_path().string() + " (safe to delete)", true);
+    show("caches", Cache().root().string() + " (safe to delete)", true);
     if (missing.empty()) {
         std::cout << "\nEverything is in place.\n";
         return kDone;

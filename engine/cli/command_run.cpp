@@ -6,7 +6,7 @@
 #include "platform/atomic_file.h"
 #include "platform/terminal/activity_line.h"
 #include "platform/terminal/terminal_text.h"
-#include "workflow/caches.h"
+#include "scripting/memoized_calls/call_cache.h"
 #include "workflow/run_script.h"
 
 namespace dynlab::inline cli {
@@ -51,9 +51,10 @@ int run(const RunWords& words) {
     request.out_folder = words.out.empty() ? fs::path(".") : out;
     if (!words.out.empty()) fs::create_directories(out);
 
-    Caches caches;
-    GnuplotRenderer renderer(&caches.figures);
-    request.memoized_calls = &caches.memoized_calls;
+    const Cache cache;
+    CallCache calls(cache);
+    GnuplotRenderer renderer(&cache);
+    request.call_cache = &calls;
     RunRecord record = run_showing_activity(request, renderer);
     save_figures(record, renderer, out);
     if (!words.out.empty()) write_file_atomically(out / "record.json", to_json(record));

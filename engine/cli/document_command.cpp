@@ -33,7 +33,7 @@ void show(const ReportResult& result) {
             if (seconds_of_cell >= kWorthTelling) show_time(seconds_of_cell, "cell " + cell, "  ");
     }
     show_time(total, "in total");
-    show_use(result.memoized_calls, "long calls", "computed");
+    show_use(result.long_calls, "long calls", "computed");
     show_use(result.figures, "figures", "drawn");
     rusage used{};
     getrusage(RUSAGE_SELF, &used);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <csignal>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <regex>
 
 #include "documents/text_lines.h"
@@ -12,7 +13,6 @@
 #include "numerics/number_text.h"
 #include "platform/cache.h"
 #include "platform/child_process.h"
-#include "platform/hash.h"
 
 namespace dynlab::inline documents {
 namespace {
@@ -38,41 +38,28 @@ std::string references(const fs::path& folder, bool has_contents) {
 /// The auxiliary files of a document's last run, kept between runs.
 class KeptAuxiliaryFiles {
   public:
-    explicit KeptAuxiliaryFiles(const LatexJob& job)
-        : job_(job), key_(sha256_of(job.identity + "\n" + job.layout.language)) {
-        if (!job.use_cache) return;
-        if (const auto kept = cache().find(key_)) copy(*kept, job.work_folder);
+    explicit KeptAuxiliaryFiles(const LatexJob& job) : job_(job) {
+        if (!job.use_cache || !cache_.lasting()) return;
+        entry_ = EntryName("latex-references").add(job.identity).add(job.layout.language).text();
+        before_ = cache_.recall(entry_).value_or("");
+        const auto files = nlohmann::json::from_cbor(before_, true, false);
+        for (const char* name : kAuxiliaryFiles)
+            if (const std::string content = files.is_object() ? files.value(name, "") : ""; !content.empty())
+                write_work_file(job.work_folder / name, content);
     }
 
     void keep() const {
-        if (!job_.use_cache) return;
-        if (const auto kept = cache().find(key_)) {
-            copy(job_.work_folder, *kept);
-            return;
-        }
-        const fs::path folder = cache().prepare();
-        copy(job_.work_folder, folder);
-        cache().commit(folder, key_);
+        if (entry_.empty()) return;
+        nlohmann::json files;
+        for (const char* name : kAuxiliaryFiles) files[name] = read_work_file(job_.work_folder / name);
+        const std::vector<std::uint8_t> bytes = nlohmann::json::to_cbor(files);
+        if (const std::string now(bytes.begin(), bytes.end()); now != before_) cache_.remember(entry_, now);
     }
 
   private:
-    static const Cache& cache() {
-        static const Cache aux("latex-references", 16u << 20);
-        return aux;
-    }
-
-    static void copy(const fs::path& from, const fs::path& to) {
-        for (const char* name : kAuxiliaryFiles) {
-            const std::string content = read_work_file(from / name);
-            if (content.empty())
-                fs::remove(to / name);
-            else if (content != read_work_file(to / name))
-                write_work_file(to / name, content);
-        }
-    }
-
     const LatexJob& job_;
-    std::string key_;
+    const Cache cache_;
+    std::string entry_, before_;
 };
 
 /// "./main.tex:12: Undefined control sequence." and the line "l.12 text so far" below it.

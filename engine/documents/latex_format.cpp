@@ -7,7 +7,6 @@
 #include "platform/atomic_file.h"
 #include "platform/cache.h"
 #include "platform/child_process.h"
-#include "platform/hash.h"
 #include "platform/error.h"
 #include "platform/program_identity.h"
 #include "platform/program_lookup.h"
@@ -73,14 +72,13 @@ void check_missing_packages(const std::string& log) {
 }
 
 fs::path latex_format_folder(const LatexLayout& layout) {
-    const Cache cache("latex-format");
-    Sha256 key;
-    for (const auto& [name, text] : preamble_files(layout)) key.add(text);
-    key.add(tex_version());
-    if (const auto folder = cache.find(key.hex())) return *folder;
+    const Cache cache;
+    EntryName name("latex-formats", tex_version());
+    for (const auto& [file, text] : preamble_files(layout)) name.add(text);
+    if (const auto folder = cache.find(name.text())) return *folder;
     const fs::path folder = cache.prepare();
     make_latex_format(layout, folder);
-    return cache.commit(folder, key.hex());
+    return cache.commit(folder, name.text());
 }
 
 void make_latex_format(const LatexLayout& layout, const fs::path& folder) {

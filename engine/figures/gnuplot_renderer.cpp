@@ -15,7 +15,7 @@
 #include "figures/gnuplot_script.h"
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
-#include "platform/content_cache.h"
+#include "platform/cache.h"
 #include "platform/interrupt.h"
 #include "platform/program_identity.h"
 #include "platform/program_lookup.h"
@@ -70,18 +70,22 @@ std::string gnuplot_version() {
     return gnuplot ? file_stamp(*gnuplot) : std::string();
 }
 
+std::string name_of_drawing(FigureFormat format, const std::string& script) {
+    return EntryName("figures").add(gnuplot_version()).add(std::to_string(static_cast<int>(format))).add(script).text();
+}
+
 }  // namespace
 
 /// The figures on their way, in the order in which they were asked for: a file drawn twice is the later figure's.
 class GnuplotRenderer::Work {
   public:
-    explicit Work(ContentCache* memory) : memory_(memory) {}
+    explicit Work(const Cache* cache) : cache_(cache && cache->lasting() ? cache : nullptr) {}
     ~Work() { give_up(); }
 
     void draw(const Figure& figure, const fs::path& target, FigureFormat format) {
         const std::string script = gnuplot_script(figure, format);
         Pending next{0, format, make_temporary_beside(target), target, {}};
-        if (memory_) next.key = memory_->key({gnuplot_version(), std::to_string(static_cast<int>(format)), script});
+        if (cache_) next.name = name_of_drawing(format, script);
         pending_.push_back(next);
         try {
             if (!recall(pending_.back())) start_drawing(pending_.back(), script);
@@ -105,12 +109,14 @@ class GnuplotRenderer::Work {
         if (first_complaint) throw FigureError(*first_complaint);
     }
 
+    CacheUse use() const { return use_; }
+
   private:
     struct Pending {
         unsigned number;  ///< of gnuplot's report; 0 for a figure that is not drawn but recalled
         FigureFormat format;
         fs::path temporary, target;
-        std::string key;  ///< in the memory
+        std::string name;  ///< in the cache
     };
     struct Running {
         GnuplotProcess child;
@@ -129,13 +135,15 @@ class GnuplotRenderer::Work {
         fs::remove(figure.temporary, ignored);
     }
 
-    bool recall(const Pending& figure) const {
-        const auto drawn = memory_ ? memory_->recall(figure.key) : std::nullopt;
+    bool recall(const Pending& figure) {
+        const auto drawn = cache_ ? cache_->recall(figure.name) : std::nullopt;
         if (!drawn) return false;
         std::ofstream file(figure.temporary, std::ios::binary);
         file << *drawn;
         file.close();
-        return file.good();
+        if (!file) return false;
+        ++use_.recalled;
+        return true;
     }
 
     void start_drawing(Pending& figure, const std::string& script) {
@@ -171,7 +179,8 @@ class GnuplotRenderer::Work {
         if (!is_whole(figure.temporary, figure.format)) return "the file is not complete (is the disk full?)";
         if (figure.format == FigureFormat::kPdf) blank_creation_date(figure.temporary);
         if (figure.format == FigureFormat::kSvg) finish_svg(figure.temporary);
-        if (memory_) memory_->remember(figure.key, read_file(figure.temporary));
+        ++use_.made;
+        if (cache_) cache_->remember(figure.name, read_file(figure.temporary));
         return {};
     }
 
@@ -191,13 +200,14 @@ class GnuplotRenderer::Work {
                            system_reason(failure.value()));
     }
 
-    ContentCache* memory_;
+    const Cache* cache_;
+    CacheUse use_;
     std::unique_ptr<Running> running_;
     std::deque<Pending> pending_;
     unsigned last_number_ = 0;
 };
 
-GnuplotRenderer::GnuplotRenderer(ContentCache* memory) : work_(std::make_unique<Work>(memory)) {}
+GnuplotRenderer::GnuplotRenderer(const Cache* cache) : work_(std::make_unique<Work>(cache)) {}
 GnuplotRenderer::~GnuplotRenderer() = default;
 
 void GnuplotRenderer::draw(const Figure& figure, const fs::path& file, FigureFormat format) {
@@ -211,6 +221,10 @@ void GnuplotRenderer::draw(const Figure& figure, const fs::path& file, FigureFor
 
 void GnuplotRenderer::finish() {
     work_->finish();
+}
+
+CacheUse GnuplotRenderer::use() const {
+    return work_->use();
 }
 
 }  // namespace dynlab::inline figures

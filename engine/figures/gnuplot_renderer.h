@@ -6,10 +6,7 @@
 
 #include "figures/error.h"
 #include "figures/figure.h"
-
-namespace dynlab::inline platform {
-class ContentCache;
-}
+#include "platform/cache.h"
 
 namespace dynlab::inline figures {
 
@@ -18,18 +15,20 @@ FigureFormat figure_format(
     const std::filesystem::path& file);  ///< by extension; throws InvalidArgument naming the three
 
 /// One gnuplot process that draws any number of figures in the house style. Starts with the first figure that must be
-/// drawn: with a `memory`, which must outlive it, figures drawn before are taken from there. All
+/// drawn: with a `cache`, which must outlive it, figures drawn before are taken from there. All
 /// data go through the pipe; all text is quoted so that none of it can become gnuplot code or a shell
 /// command. Files appear whole (temporary name, then rename) once finish() or the next finish() returns.
 class GnuplotRenderer {
   public:
-    explicit GnuplotRenderer(ContentCache* memory = nullptr);
+    explicit GnuplotRenderer(const Cache* cache = nullptr);
     ~GnuplotRenderer();  ///< ends the process; files not finished are removed
 
     /// Queues `figure` for `file`; returns at once. Throws MissingProgram when gnuplot is not installed.
     void draw(const Figure& figure, const std::filesystem::path& file, FigureFormat format);
     /// Waits until all queued files are whole. Throws FigureError with gnuplot's first complaint.
     void finish();
+
+    CacheUse use() const;  ///< figures drawn and recalled so far
 
   private:
     class Work;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <fstream>
 #include <stdexcept>
 #include <vector>
 
@@ -23,9 +24,10 @@ using namespace std::chrono_literals;
 
 constexpr char kUnfinished[] = ".new-";
 constexpr char kDropped[] = ".old-";
-constexpr char kText[] = "text";
-constexpr auto kInUse = 1min;    // an entry used so lately may be open in another process
-constexpr auto kAbandoned = 1h;  // an unfinished entry this old belongs to a process that died
+constexpr char kGrowth[] = ".growth";  // bytes written since the entries were looked through
+constexpr auto kInUse = 1min;          // an entry used so lately may be open in another process
+constexpr auto kAbandoned = 1h;        // an unfinished entry this old belongs to a process that died
+constexpr std::size_t kDigestDigits = 32;
 
 fs::path folder_of_caches() {
     if (const char* cache_home = std::getenv("XDG_CACHE_HOME"); cache_home && *cache_home == '/') {
@@ -44,19 +46,13 @@ bool can_be_written(const fs::path& folder) {
     return ::access(folder.c_str(), R_OK | W_OK | X_OK) == 0;
 }
 
-/// A cache that cannot be kept must not stop the work: it then lives as long as this process.
-fs::path make_root(const std::string& name) {
+/// Nothing where a cache cannot last: that must not stop the work.
+std::optional<fs::path> lasting_root() {
+    const fs::path folder = std::getenv("DYNLAB_NO_CACHE") ? fs::path() : folder_of_caches();
+    if (folder.empty()) return {};
     std::error_code error;
-    const fs::path caches = std::getenv("DYNLAB_NO_CACHE") ? fs::path() : folder_of_caches();
-    if (!caches.empty()) {
-        fs::create_directories(caches / name, error);
-        if (!error && can_be_written(caches / name)) return caches / name;
-    }
-    fs::create_directories(private_folder() / name, error);
-    if (error) {
-        throw EnvironmentError("cannot make a cache folder in " + private_folder().string() + ": " + error.message());
-    }
-    return private_folder() / name;
+    fs::create_directories(folder, error);
+    return !error && can_be_written(folder) ? std::optional(folder) : std::nullopt;
 }
 
 fs::path new_folder(const fs::path& root, const std::string& beginning) {
@@ -67,51 +63,153 @@ fs::path new_folder(const fs::path& root, const std::string& beginning) {
     return pattern;
 }
 
-void check_key(const std::string& key) {
-    if (key.empty() || key.front() == '.' || key.find('/') != std::string::npos) {
-        throw std::invalid_argument("a cache key must be a plain file name, not \"" + key + "\"");
-    }
+bool is_plain(std::string_view name) {
+    return !name.empty() && name.front() != '.' && name.find('/') == std::string_view::npos;
 }
 
-void mark_as_used(const fs::path& folder) {
-    ::utimensat(AT_FDCWD, folder.c_str(), nullptr, 0);
+void check_name(std::string_view name) {
+    const std::size_t slash = name.find('/');
+    if (slash == std::string_view::npos || !is_plain(name.substr(0, slash)) || !is_plain(name.substr(slash + 1)))
+        throw std::invalid_argument("the name of an entry is KIND/NAME, two plain file names, not \"" +
+                                    std::string(name) + "\"");
+}
+
+/// False when the entry is not there.
+bool mark_as_used(const fs::path& entry) {
+    return ::utimensat(AT_FDCWD, entry.c_str(), nullptr, 0) == 0;
 }
 
 bool begins_with(const fs::path& entry, const char* beginning) {
-    return entry.filename().string().rfind(beginning, 0) == 0;
+    return entry.filename().string().starts_with(beginning);
 }
 
-std::uint64_t bytes_in(const fs::path& folder) {
-    std::uint64_t total = 0;
+std::uint64_t bytes_in(const fs::path& entry) {
     std::error_code error;  // entries may vanish meanwhile
-    for (auto at = fs::recursive_directory_iterator(folder, error); !error && at != fs::end(at); at.increment(error)) {
+    const auto size = [](const fs::directory_entry& file) {
         std::error_code not_a_file;
-        const std::uintmax_t size = at->file_size(not_a_file);
-        if (!not_a_file) total += size;
-    }
+        const std::uintmax_t bytes = file.file_size(not_a_file);
+        return not_a_file ? 0 : bytes;
+    };
+    if (!fs::is_directory(entry, error)) return size(fs::directory_entry(entry, error));
+    std::uint64_t total = 0;
+    for (auto at = fs::recursive_directory_iterator(entry, error); !error && at != fs::end(at); at.increment(error))
+        total += size(*at);
     return total;
 }
 
 /// Out of sight in one step, so that nobody finds half an entry; then deleted.
 void drop(const fs::path& root, const fs::path& entry) {
     std::error_code error;
+    if (!fs::is_directory(entry, error)) {
+        fs::remove(entry, error);
+        return;
+    }
     const fs::path aside = new_folder(root, kDropped);
     fs::rename(entry, aside, error);
     fs::remove_all(aside, error);
 }
 
-}  // namespace
-
-Cache::Cache(const std::string& name, std::uint64_t limit_bytes)
-    : limit_bytes_(limit_bytes), unseen_bytes_(limit_bytes) {
-    check_key(name);
-    root_ = make_root(name);
+/// A file of the digest and then the bytes. Nobody waits for the disk: what a power failure leaves does not match.
+fs::path write_unfinished(const fs::path& root, std::string_view bytes) {
+    std::string file = root / (std::string(kUnfinished) + "XXXXXX");
+    const FileDescriptor fd(::mkstemp(file.data()));
+    const std::string digest = digest_of(bytes).hex();
+    if (fd && write_all(fd.get(), digest.data(), digest.size()) && write_all(fd.get(), bytes.data(), bytes.size()))
+        return file;
+    const std::string reason = system_reason(errno);
+    std::error_code ignored;
+    if (fd) fs::remove(file, ignored);
+    throw EnvironmentError("cannot write " + file + ": " + reason);
 }
 
-std::optional<fs::path> Cache::find(const std::string& key) const {
-    check_key(key);
+struct Entry {
+    fs::path path;
+    fs::file_time_type used;
+    std::uint64_t bytes;
+};
+
+/// All entries, those that are dropped or unfinished aside; of these the abandoned ones are deleted.
+std::vector<Entry> entries_below(const fs::path& root) {
+    const auto now = fs::file_time_type::clock::now();
+    std::vector<Entry> entries;
     std::error_code error;
-    const fs::path folder = root_ / key;
+    for (auto kind = fs::directory_iterator(root, error); !error && kind != fs::end(kind); kind.increment(error)) {
+        std::error_code vanished;
+        if (begins_with(*kind, kUnfinished) || begins_with(*kind, kDropped)) {
+            const auto used = fs::last_write_time(*kind, vanished);
+            if (!vanished && now - used > kAbandoned) fs::remove_all(*kind, vanished);
+            continue;
+        }
+        for (auto at = fs::directory_iterator(*kind, vanished); !vanished && at != fs::end(at);
+             at.increment(vanished)) {
+            std::error_code gone;
+            const auto used = fs::last_write_time(*at, gone);
+            if (!gone) entries.push_back({at->path(), used, bytes_in(at->path())});
+        }
+    }
+    return entries;
+}
+
+}  // namespace
+
+EntryName::EntryName(std::string kind, std::string_view maker) : kind_(std::move(kind)) {
+    add(maker);
+}
+
+EntryName& EntryName::add(std::string_view part) {
+    parts_.add_part(part);
+    return *this;
+}
+
+std::string EntryName::text() const {
+    return kind_ + "/" + parts_.digest().hex();
+}
+
+Cache::Cache(std::uint64_t limit_bytes) : limit_bytes_(limit_bytes) {
+    const auto lasting = lasting_root();
+    lasting_ = lasting.has_value();
+    root_ = lasting ? *lasting : private_folder();
+}
+
+std::optional<std::string> Cache::recall(const std::string& name) const {
+    check_name(name);
+    try {
+        if (!mark_as_used(root_ / name)) return {};
+        const std::string content = read_file(root_ / name);
+        const std::string_view bytes = std::string_view(content).substr(std::min(kDigestDigits, content.size()));
+        if (content.substr(0, kDigestDigits) == digest_of(bytes).hex()) return std::string(bytes);
+        forget(name);
+    } catch (const std::exception&) {  // deleted meanwhile, or not to be read: then it is made anew
+    }
+    return {};
+}
+
+void Cache::remember(const std::string& name, std::string_view bytes) const {
+    check_name(name);
+    try {
+        write(name, bytes);
+    } catch (const std::exception&) {  // a full disk, say: the next run does without
+    }
+}
+
+void Cache::write(const std::string& name, std::string_view bytes) const {
+    const fs::path entry = root_ / name;
+    fs::create_directories(entry.parent_path());
+    const fs::path unfinished = write_unfinished(root_, bytes);
+    std::error_code error;
+    if (fs::is_directory(entry, error)) drop(root_, entry);
+    fs::rename(unfinished, entry, error);
+    if (error) {
+        fs::remove(unfinished, error);
+        return;
+    }
+    add_growth(kDigestDigits + bytes.size());
+}
+
+std::optional<fs::path> Cache::find(const std::string& name) const {
+    check_name(name);
+    std::error_code error;
+    const fs::path folder = root_ / name;
     if (!fs::is_directory(folder, error)) return std::nullopt;
     mark_as_used(folder);
     return folder;
@@ -123,10 +221,11 @@ fs::path Cache::prepare() const {
     return new_folder(root_, kUnfinished);
 }
 
-fs::path Cache::commit(const fs::path& prepared, const std::string& key) const {
-    check_key(key);
+fs::path Cache::commit(const fs::path& prepared, const std::string& name) const {
+    check_name(name);
     std::error_code error;
-    const fs::path folder = root_ / key;
+    const fs::path folder = root_ / name;
+    fs::create_directories(folder.parent_path(), error);
     fs::rename(prepared, folder, error);
     if (error && fs::is_directory(folder)) {
         fs::remove_all(prepared, error);
@@ -134,55 +233,36 @@ fs::path Cache::commit(const fs::path& prepared, const std::string& key) const {
         throw EnvironmentError("cannot keep " + folder.string() + ": " + error.message());
     }
     mark_as_used(folder);
-    unseen_bytes_ += bytes_in(folder);
-    if (unseen_bytes_ > limit_bytes_ / 16) drop_beyond_limit();
+    add_growth(bytes_in(folder));
     return folder;
 }
 
-void Cache::forget(const std::string& key) const {
-    check_key(key);
-    drop(root_, root_ / key);
+void Cache::forget(const std::string& name) const {
+    check_name(name);
+    drop(root_, root_ / name);
 }
 
-void Cache::store(const std::string& key, const std::string& text) const {
-    if (const auto folder = find(key)) return write_file_atomically(*folder / kText, text);
-    const fs::path folder = prepare();
-    write_file_atomically(folder / kText, text);
-    commit(folder, key);
-}
-
-std::optional<std::string> Cache::recall(const std::string& key) const {
-    const auto folder = find(key);
-    if (!folder || !fs::exists(*folder / kText)) return std::nullopt;
-    return read_file(*folder / kText);
+/// Two processes at once may lose what one of them added; the next look comes a little later then.
+void Cache::add_growth(std::uint64_t bytes) const {
+    std::uint64_t growth = limit_bytes_;  // nobody has looked yet
+    std::ifstream(root_ / kGrowth) >> growth;
+    growth = std::min(growth, limit_bytes_) + bytes;
+    if (growth > limit_bytes_ / 16) {
+        drop_beyond_limit();
+        growth = 0;
+    }
+    std::ofstream(root_ / kGrowth) << growth;
 }
 
 void Cache::drop_beyond_limit() const {
-    struct Entry {
-        fs::path folder;
-        fs::file_time_type used;
-        std::uint64_t bytes;
-    };
-    unseen_bytes_ = 0;
-    const auto now = fs::file_time_type::clock::now();
-    std::vector<Entry> entries;
-    std::uint64_t total = 0;
-    std::error_code error;
-    for (auto at = fs::directory_iterator(root_, error); !error && at != fs::end(at); at.increment(error)) {
-        std::error_code vanished;
-        const auto used = fs::last_write_time(*at, vanished);
-        if (vanished) continue;
-        if (begins_with(*at, kUnfinished) || begins_with(*at, kDropped)) {
-            if (now - used > kAbandoned) fs::remove_all(*at, vanished);
-            continue;
-        }
-        entries.push_back({at->path(), used, bytes_in(at->path())});
-        total += entries.back().bytes;
-    }
+    std::vector<Entry> entries = entries_below(root_);
     std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.used < b.used; });
+    const auto now = fs::file_time_type::clock::now();
+    std::uint64_t total = 0;
+    for (const Entry& entry : entries) total += entry.bytes;
     for (const Entry& entry : entries) {
-        if (total <= limit_bytes_ || now - entry.used < kInUse) return;
-        drop(root_, entry.folder);
+        if (total <= limit_bytes_ || now - entry.used < kInUse) break;
+        drop(root_, entry.path);
         total -= entry.bytes;
     }
 }

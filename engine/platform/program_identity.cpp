@@ -13,8 +13,9 @@ std::string file_stamp(const fs::path& file) {
     return missing ? std::string() : real.string() + " " + std::to_string(size) + " " + std::to_string(date);
 }
 
-std::string program_identity() {
-    return file_stamp("/proc/self/exe");
+const std::string& program_identity() {
+    static const std::string stamp = file_stamp("/proc/self/exe");
+    return stamp;
 }
 
 }  // namespace dynlab::inline platform

@@ -8,6 +8,6 @@ namespace dynlab::inline platform {
 std::string file_stamp(const std::filesystem::path& file);
 
 /// The running program by its stamp: hashing megabytes would cost more than a whole report.
-std::string program_identity();
+const std::string& program_identity();
 
 }  // namespace dynlab::inline platform

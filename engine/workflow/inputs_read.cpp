@@ -16,14 +16,14 @@ std::string state_of_folder(const fs::path& folder) {
         const fs::path& file = entry.path();
         if (file.extension() == ".mat" || file.extension() == ".csv") names.insert(file.filename().string());
     }
-    Sha256 hash;
-    for (const std::string& name : names) hash.add(std::to_string(name.size()) + ":").add(name);
-    return hash.hex();
+    DigestStream digest;
+    for (const std::string& name : names) digest.add_part(name);
+    return digest.digest().hex();
 }
 
 std::string state_of(const fs::path& path) {
     if (fs::is_directory(path)) return state_of_folder(path);
-    return fs::is_regular_file(path) ? sha256_of_file(path) : std::string();
+    return fs::is_regular_file(path) ? digest_of_file(path).hex() : std::string();
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include "platform/interrupt.h"
 #include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
-#include "workflow/caches.h"
+#include "scripting/memoized_calls/call_cache.h"
 #include "workflow/lesson_catalogue.h"
 #include "workflow/report_cache.h"
 #include "workflow/run_cache.h"
@@ -98,10 +98,6 @@ std::vector<std::pair<std::string, double>> cells_in_order(const PercentScript& 
     return cells;
 }
 
-CacheUse use_of(const ContentCache& memory) {
-    return {memory.recalled(), memory.remembered()};
-}
-
 FigureFormat figure_format_for(DocumentFormat format) {
     return format == DocumentFormat::kPdf ? FigureFormat::kPdf : FigureFormat::kSvg;
 }
@@ -141,15 +137,16 @@ ReportResult make_report(const ReportRequest& request) {
     ReportResult result;
     Stopwatch watch(result.timings);
     const DocumentFormat format = document_format(request.output);
-    const ReportCache memory(request);
-    result.up_to_date = !request.print && memory.unchanged();
+    const Cache cache;
+    const ReportCache reports(request, cache);
+    result.up_to_date = !request.print && reports.unchanged();
     watch.lap("look for changes");
     if (result.up_to_date) return result;
 
-    const RunCache runs(request.script, request.seed, figure_format_for(format));
+    const RunCache runs(request.script, request.seed, figure_format_for(format), cache);
     const TemporaryFolder workplace;
-    Caches caches;
-    GnuplotRenderer renderer(&caches.figures);
+    CallCache calls(cache);
+    GnuplotRenderer renderer(&cache);
     std::optional<RunRecord> known;
     if (!request.print) known = runs.recall();
     const bool recalled = known.has_value();
@@ -164,10 +161,10 @@ ReportResult make_report(const ReportRequest& request) {
                        .out_folder = workplace.path(),
                        .print = request.print,
                        .enter_cell = request.enter_cell,
-                       .memoized_calls = &caches.memoized_calls};
+                       .call_cache = &calls};
         record = run_script(run, renderer);
         result.cells = cells_in_order(request.script, record.timings);
-        result.memoized_calls = use_of(caches.memoized_calls);
+        result.long_calls = calls.use();
         if (record.error && request.print) throw DocumentError(record.error->message);
         if (record.error) result.error = record.error->message;
         draw_figures(record, renderer, workplace.path(), figure_format_for(format));
@@ -184,14 +181,14 @@ ReportResult make_report(const ReportRequest& request) {
         DocumentMaker({.use_cache = true, .timings = &result.timings}).make(source, request.output, format, [&] {
             renderer.finish();
             if (recalled) return;
-            result.figures = use_of(caches.figures);
+            result.figures = renderer.use();
             runs.remember(record);
         });
     } catch (const DocumentError& complaint) {
         if (!result.error) throw;
         throw DocumentError(*result.error + "\nThe report up to there cannot be made: " + complaint.what());
     }
-    if (!result.error) memory.remember(record);
+    if (!result.error) reports.remember(record);
     return result;
 }
 

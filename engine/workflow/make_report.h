@@ -9,6 +9,7 @@
 
 #include "documents/document.h"
 #include "documents/percent_script.h"
+#include "platform/cache.h"
 
 namespace dynlab::inline workflow {
 
@@ -29,17 +30,12 @@ struct ReportRequest {
 /// The step of the timings that the cells' own are part of.
 inline constexpr const char* kRunStep = "run the script";
 
-/// What a memory spared, and what was made anew.
-struct CacheUse {
-    std::size_t recalled = 0, made = 0;
-};
-
 struct ReportResult {
     bool up_to_date = false;                              ///< nothing had changed, nothing was made
     std::optional<std::string> error;                     ///< the script stopped with it; the report says so
     std::vector<std::pair<std::string, double>> timings;  ///< seconds of each step
     std::vector<std::pair<std::string, double>> cells;    ///< seconds of each code cell, when the script was run
-    std::optional<CacheUse> memoized_calls, figures;      ///< of the script, when it was run
+    std::optional<CacheUse> long_calls, figures;          ///< of the script, when it was run
 };
 
 /// The report of a lesson (`name`, any unique beginning: its worked solution) or of a student's folder (analysis.lua

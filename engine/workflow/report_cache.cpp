@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "platform/hash.h"
-#include "platform/program_identity.h"
 #include "platform/program_lookup.h"
 #include "workflow/inputs_read.h"
 
@@ -23,45 +22,44 @@ std::vector<fs::path> template_files() {
     return files;
 }
 
-std::string hash_or_nothing(const fs::path& file) {
-    return fs::is_regular_file(file) ? sha256_of_file(file) : std::string();
+std::string digest_or_nothing(const fs::path& file) {
+    return fs::is_regular_file(file) ? digest_of_file(file).hex() : std::string();
+}
+
+std::string entry_of_report(const ReportRequest& request) {
+    EntryName name("reports");
+    name.add(fs::absolute(request.script.file).string());
+    name.add(request.script.source);
+    name.add(fs::absolute(request.template_file).string());
+    name.add(digest_of_file(request.template_file).hex());
+    for (const auto& [key, value] : request.metadata) name.add(key).add(value);
+    name.add(std::to_string(request.seed));
+    name.add(fs::absolute(request.output).string());
+    for (const fs::path& file : template_files()) name.add(digest_of_file(file).hex());
+    return name.text();
 }
 
 }  // namespace
 
-ReportCache::ReportCache(const ReportRequest& request)
-    : cache_("reports", 4u << 20),
+ReportCache::ReportCache(const ReportRequest& request, const Cache& cache)
+    : cache_(cache),
       output_(fs::absolute(request.output)),
-      script_folder_(fs::absolute(request.script.file).parent_path()) {
-    Sha256 hash;
-    const auto add = [&hash](const std::string& text) { hash.add(std::to_string(text.size()) + ":").add(text); };
-    add(program_identity());
-    add(fs::absolute(request.script.file).string());
-    add(request.script.source);
-    add(fs::absolute(request.template_file).string());
-    add(sha256_of_file(request.template_file));
-    for (const auto& [name, value] : request.metadata) {
-        add(name);
-        add(value);
-    }
-    add(std::to_string(request.seed));
-    add(output_.string());
-    for (const fs::path& file : template_files()) add(sha256_of_file(file));
-    key_ = hash.hex();
-}
+      script_folder_(fs::absolute(request.script.file).parent_path()),
+      entry_(cache.lasting() ? entry_of_report(request) : std::string()) {}
 
 bool ReportCache::unchanged() const {
-    const auto remembered = cache_.recall(key_);
-    if (!remembered) return false;
-    const auto facts = nlohmann::json::parse(*remembered, nullptr, false);
-    if (!facts.is_object() || facts.value("output", "") != hash_or_nothing(output_)) return false;
+    const auto known = entry_.empty() ? std::nullopt : cache_.recall(entry_);
+    if (!known) return false;
+    const auto facts = nlohmann::json::parse(*known, nullptr, false);
+    if (!facts.is_object() || facts.value("output", "") != digest_or_nothing(output_)) return false;
     return dynlab::unchanged(facts.value("inputs", InputsRead()));
 }
 
 void ReportCache::remember(const RunRecord& record) const {
-    const nlohmann::json facts = {{"output", hash_or_nothing(output_)},
+    if (entry_.empty()) return;
+    const nlohmann::json facts = {{"output", digest_or_nothing(output_)},
                                   {"inputs", inputs_read(record, script_folder_)}};
-    cache_.store(key_, facts.dump());
+    cache_.remember(entry_, facts.dump());
 }
 
 }  // namespace dynlab::inline workflow

@@ -7,19 +7,20 @@
 
 namespace dynlab::inline workflow {
 
-/// Remembers what a report was made from, so that it is not made again when nothing changed: script, template, all of
+/// Knows what a report was made from, so that it is not made again when nothing changed: script, template, all of
 /// report_templates/, seed, program, what the script read, and the output file itself, all by content.
 class ReportCache {
   public:
-    explicit ReportCache(const ReportRequest& request);
+    /// `cache` must outlive it.
+    ReportCache(const ReportRequest& request, const Cache& cache);
 
     bool unchanged() const;
     void remember(const RunRecord& record) const;
 
   private:
-    Cache cache_;
+    const Cache& cache_;
     std::filesystem::path output_, script_folder_;
-    std::string key_;  ///< of everything that is known before the run
+    std::string entry_;  ///< of everything that is known before the run; empty where nothing lasts
 };
 
 }  // namespace dynlab::inline workflow

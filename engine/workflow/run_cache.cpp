@@ -3,8 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include "platform/atomic_file.h"
-#include "platform/hash.h"
-#include "platform/program_identity.h"
 #include "workflow/inputs_read.h"
 
 namespace dynlab::inline workflow {
@@ -110,35 +108,39 @@ bool names_a_line(const RunRecord& record) {
     return false;
 }
 
-std::string key_of_run(const std::string& key, const InputsRead& inputs) {
-    return sha256_of(key + json(inputs).dump(-1, ' ', false, json::error_handler_t::replace));
+std::string text_of(const InputsRead& inputs) {
+    return json(inputs).dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+std::string entry_of_script(const PercentScript& script, const fs::path& file, std::uint32_t seed,
+                            FigureFormat format) {
+    EntryName name("runs");
+    name.add(file.string());
+    name.add(std::to_string(seed));
+    name.add(script.header.language);
+    name.add(std::to_string(static_cast<int>(format)));
+    for (const Cell& cell : script.cells)
+        if (cell.kind == Cell::Kind::kCode) name.add(cell.id).add(cell.content);
+    return name.text();
+}
+
+std::string entry_of_run(const std::string& entry_of_script, const InputsRead& inputs) {
+    return EntryName("runs").add(entry_of_script).add(text_of(inputs)).text();
 }
 
 }  // namespace
 
-RunCache::RunCache(const PercentScript& script, std::uint32_t seed, FigureFormat format)
-    : cache_("runs"), script_(fs::absolute(script.file)) {
-    Sha256 hash;
-    const auto add = [&hash](const std::string& text) { hash.add(std::to_string(text.size()) + ":").add(text); };
-    add(program_identity());
-    add(script_.string());
-    add(std::to_string(seed));
-    add(script.header.language);
-    add(std::to_string(static_cast<int>(format)));
-    for (const Cell& cell : script.cells) {
-        if (cell.kind != Cell::Kind::kCode) continue;
-        add(cell.id);
-        add(cell.content);
-    }
-    key_ = hash.hex();
-}
+RunCache::RunCache(const PercentScript& script, std::uint32_t seed, FigureFormat format, const Cache& cache)
+    : cache_(cache),
+      script_(fs::absolute(script.file)),
+      entry_(cache.lasting() ? entry_of_script(script, script_, seed, format) : std::string()) {}
 
 std::optional<RunRecord> RunCache::recall() const {
-    const auto remembered = cache_.recall(key_);
-    if (!remembered) return {};
-    const json inputs = json::parse(*remembered, nullptr, false);
+    const auto known = entry_.empty() ? std::nullopt : cache_.recall(entry_);
+    if (!known) return {};
+    const json inputs = json::parse(*known, nullptr, false);
     if (!inputs.is_object() || !unchanged(inputs.get<InputsRead>())) return {};
-    const auto folder = cache_.find(key_of_run(key_, inputs));
+    const auto folder = cache_.find(entry_of_run(entry_, inputs));
     if (!folder) return {};
     try {
         return unpacked(read_file(*folder / kRecord), *folder);
@@ -148,7 +150,7 @@ std::optional<RunRecord> RunCache::recall() const {
 }
 
 void RunCache::remember(const RunRecord& record) const {
-    if (record.error || names_a_line(record)) return;
+    if (entry_.empty() || record.error || names_a_line(record)) return;
     try {
         keep(record);
     } catch (const std::exception&) {  // a full disk, say: the next run does without
@@ -160,8 +162,8 @@ void RunCache::keep(const RunRecord& record) const {
     const fs::path folder = cache_.prepare();
     for (const auto& [name, figure] : record.figures) fs::copy_file(figure.file, folder / figure.file.filename());
     write_file_atomically(folder / kRecord, packed(record));
-    cache_.commit(folder, key_of_run(key_, inputs));
-    cache_.store(key_, json(inputs).dump(-1, ' ', false, json::error_handler_t::replace));
+    cache_.commit(folder, entry_of_run(entry_, inputs));
+    cache_.remember(entry_, text_of(inputs));
 }
 
 }  // namespace dynlab::inline workflow

@@ -9,12 +9,13 @@
 
 namespace dynlab::inline workflow {
 
-/// Remembers what runs produced, figures drawn, so that a script is not run again when only its prose or its template
+/// Keeps what runs produced, figures drawn, so that a script is not run again when only its prose or its template
 /// was edited. A run is known by the script's code (all its code cells), its folder, the seed, the program and what it
 /// read. Runs that failed are not remembered, nor those whose output names lines of the script, which an edit moves.
 class RunCache {
   public:
-    RunCache(const PercentScript& script, std::uint32_t seed, FigureFormat format);
+    /// `cache` must outlive it.
+    RunCache(const PercentScript& script, std::uint32_t seed, FigureFormat format, const Cache& cache);
 
     /// The record of an equal run, its figures' files in the cache.
     std::optional<RunRecord> recall() const;
@@ -24,9 +25,10 @@ class RunCache {
   private:
     void keep(const RunRecord& record) const;
 
-    Cache cache_;
+    const Cache& cache_;
     std::filesystem::path script_;
-    std::string key_;  ///< of everything that is known before the run
+    std::string entry_;  ///< of everything that is known before the run: holds what the run read; empty where nothing
+                         ///< lasts
 };
 
 }  // namespace dynlab::inline workflow

@@ -70,7 +70,7 @@ RunRecord run_script(const RunRequest& request, GnuplotRenderer& renderer) {
     options.script_folder = folder.empty() ? "." : folder;
     options.out_folder = request.out_folder;
     options.print = request.print;
-    options.memoized_calls = request.memoized_calls;
+    options.call_cache = request.call_cache;
     if (request.enter_cell) {
         options.enter_cell = [titles = cell_titles(request.script), tell = request.enter_cell](const std::string& id) {
             if (const auto title = titles.find(id); title != titles.end()) tell(title->second);

@@ -9,8 +9,8 @@
 #include "documents/run_record.h"
 #include "figures/gnuplot_renderer.h"
 
-namespace dynlab::inline platform {
-class ContentCache;
+namespace dynlab::inline scripting {
+class CallCache;
 }
 
 namespace dynlab::inline workflow {
@@ -21,7 +21,7 @@ struct RunRequest {
     std::filesystem::path out_folder;                    ///< where `save` and `save_csv` may write
     std::function<void(const std::string&)> print;       ///< live output; none when empty
     std::function<void(const std::string&)> enter_cell;  ///< told of each cell that begins: "cell 4 of 12, validation"
-    ContentCache* memoized_calls = nullptr;              ///< where results of long calls are kept
+    CallCache* call_cache = nullptr;                     ///< where results of long calls are kept
 };
 
 /// Runs a script from top to bottom. An error of the script stands in the record; Ctrl-C throws Interrupted.

@@ -1,5 +1,6 @@
 #include "bench/lua_session.h"
 
+#include <cstdlib>
 #include <stdexcept>
 
 #include "scripting/objects/numeric.h"
@@ -11,8 +12,19 @@ LuaSession::LuaSession() : runtime_(options(), renderer_) {}
 RunOptions LuaSession::options() {
     RunOptions options;
     options.script_folder = options.out_folder = folder_.path();
-    options.memoized_calls = &memories_.memoized_calls;
+    options.call_cache = &calls_;
     return options;
+}
+
+Cache LuaSession::cache_below(const std::filesystem::path& folder) {
+    setenv("XDG_CACHE_HOME", folder.c_str(), 1);
+    const Cache cache;
+    unsetenv("XDG_CACHE_HOME");
+    return cache;
+}
+
+void LuaSession::forget_results() {
+    std::filesystem::remove_all(cache_.root());
 }
 
 void LuaSession::run(const std::string& line) {

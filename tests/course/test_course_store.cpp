@@ -25,16 +25,27 @@ TEST(course_store, signs_as_the_standard_says) {
 TEST(course_store, knows_genuine_receipts) {
     const Receipt receipt{"c", "crane", "group-01", "first", "report", "a\nb.pdf", std::string(64, 'a'),
                           1,   10,      0,          5,       6};
-    const std::string text = signed_receipt(receipt, "key");
-    EXPECT_TRUE(receipt_is_genuine(text, "key"));
-    EXPECT_FALSE(receipt_is_genuine(text, "other"));
+    const SigningKey key = SigningKey::derived("secret", "test"), other = SigningKey::derived("other", "test");
+    const std::string text = signed_receipt(receipt, key);
+    const auto genuine = [](const std::string& told, const SigningKey& by) {
+        return verify_receipt(told, by.public_key()).genuine;
+    };
+    EXPECT_TRUE(genuine(text, key));
+    EXPECT_FALSE(genuine(text, other));
     for (std::size_t i = 0; i < text.size(); ++i) {
         if (text[i] == '\n') continue;
         std::string altered = text;
         altered[i] ^= 1;
-        EXPECT_FALSE(receipt_is_genuine(altered, "key")) << i;
+        EXPECT_FALSE(genuine(altered, key)) << i;
     }
-    EXPECT_FALSE(receipt_is_genuine(text + "late: no\n", "key"));
+    EXPECT_FALSE(genuine(text + "late: no\n", key));
+    EXPECT_FALSE(genuine("late: no\n" + text, key));
+    EXPECT_FALSE(genuine(text + text, key));
+    EXPECT_FALSE(genuine(text.substr(0, text.find("signature")), key));
+    EXPECT_FALSE(genuine("", key));
+    std::string other_ends;
+    for (const char c : text) other_ends += c == '\n' ? std::string("\r\n\r\n") : std::string(1, c);
+    EXPECT_TRUE(genuine(other_ends, key));
 }
 
 // oracle: calendars: Paris leaves summer time at 2026-10-25 03:00, and enters it at 2026-03-29 02:00

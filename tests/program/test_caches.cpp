@@ -75,7 +75,7 @@ TEST_F(caches, spoilt_entries_are_made_anew) {
     weave(kStudy + kLate);
     const std::string whole = bench_.read("a.html");
     ASSERT_EQ(bench_
-                  .shell("for f in ../cache/dynlab/{calls,figures}/*/content; do truncate -s -1 \"$f\"; done; rm -r "
+                  .shell("for f in ../cache/dynlab/{calls,figures}/*; do truncate -s -1 \"$f\"; done; rm -r "
                          "../cache/dynlab/{runs,reports}")
                   .exit_code,
               0);

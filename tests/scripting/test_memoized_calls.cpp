@@ -5,10 +5,13 @@
 
 #include <cstdlib>
 
-#include "platform/content_cache.h"
+#include "platform/cache.h"
 #include "platform/temporary_folder.h"
 #include "script_run.h"
+#include "scripting/memoized_calls/call_cache.h"
+#include "scripting/memoized_calls/call_text.h"
 #include "scripting/memoized_calls/value_archive.h"
+#include "scripting/objects/data_object.h"
 
 namespace test_memoized_calls {
 
@@ -41,12 +44,13 @@ class memoized_calls : public testing::Test {
         std::size_t computed, recalled;
     };
     /// Runs a script with what earlier ones left.
-    Use run_with_memory(const std::string& code) {
-        ContentCache memory("calls");
+    Use run_with_cache(const std::string& code) {
+        const Cache cache;
+        CallCache calls(cache);
         RunOptions options;
-        options.memoized_calls = &memory;
+        options.call_cache = &calls;
         const std::string printed = test::printed(kData + code, options);
-        return {printed, memory.remembered(), memory.recalled()};
+        return {printed, calls.use().made, calls.use().recalled};
     }
     TemporaryFolder home_;
 };
@@ -129,7 +133,7 @@ TEST_F(memoized_calls, an_equal_call_gives_the_result_the_text_and_the_figure_of
         "local M = montecarlo{system = G0, input = u, Ts = 0.01, sigma = 0.2, runs = 100, estimators = {srivc = {{1, "
         "2, "
         "0}}}}\nprint(M)\nprint(srivcstruc(d, {poles = {1, 4}, zeros = {0, 3}}))\n";
-    const Use first = run_with_memory(code), second = run_with_memory(code);
+    const Use first = run_with_cache(code), second = run_with_cache(code);
     EXPECT_EQ(first.computed, 3u);
     EXPECT_EQ(first.recalled, 0u);
     EXPECT_EQ(second.computed, 0u);
@@ -137,11 +141,12 @@ TEST_F(memoized_calls, an_equal_call_gives_the_result_the_text_and_the_figure_of
     EXPECT_EQ(first.printed, second.printed);
     EXPECT_EQ(first.printed, test::printed(kData + code));
 
-    ContentCache memory("calls");
+    const Cache cache;
+    CallCache calls(cache);
     RunOptions options;
-    options.memoized_calls = &memory;
+    options.call_cache = &calls;
     const RunRecord record = test::run(kData + "delayest(d, {poles = {1, 3}, TdMax = 0.2})", options);
-    EXPECT_EQ(memory.recalled(), 1u);
+    EXPECT_EQ(calls.use().recalled, 1u);
     EXPECT_EQ(record.figures.size(), 1u);
     EXPECT_THAT(record.outputs.at("cell-1").front().printed, HasSubstr("delay"));
 }
@@ -151,22 +156,22 @@ TEST_F(memoized_calls, any_difference_of_the_arguments_is_another_call) {
         return before + "montecarlo{system = G0, input = u, Ts = 0.01, runs = 200, " + options + "}\n";
     };
     const std::string srivc = "estimators = {srivc = {{1, 2, 0}}}";
-    EXPECT_EQ(run_with_memory(study("sigma = 0.2, " + srivc)).computed, 1u);
-    EXPECT_EQ(run_with_memory(study("sigma = 0.2, " + srivc)).computed, 0u);
-    EXPECT_EQ(run_with_memory(study("sigma = 0.3, " + srivc)).computed, 1u);
-    EXPECT_EQ(run_with_memory(study("sigma = 0.2, seed = 2, " + srivc)).computed, 1u);
-    EXPECT_EQ(run_with_memory(study("sigma = 0.2, estimators = {srivc = {{1, 2, 0}, {MaxIter = 20}}}")).computed, 1u);
-    EXPECT_EQ(run_with_memory(study("sigma = 0.2, " + srivc, "G0 = G0*(1 + 1e-15)\n")).computed, 1u);
-    EXPECT_EQ(run_with_memory(study("sigma = 0.2, " + srivc, "u = 1*u\n")).computed, 0u);  // another, equal vector
-    EXPECT_EQ(run_with_memory(study("sigma = 0.2, " + srivc, "u = prbs(4, 100, {-1, 1.5})\n")).computed, 1u);
+    EXPECT_EQ(run_with_cache(study("sigma = 0.2, " + srivc)).computed, 1u);
+    EXPECT_EQ(run_with_cache(study("sigma = 0.2, " + srivc)).computed, 0u);
+    EXPECT_EQ(run_with_cache(study("sigma = 0.3, " + srivc)).computed, 1u);
+    EXPECT_EQ(run_with_cache(study("sigma = 0.2, seed = 2, " + srivc)).computed, 1u);
+    EXPECT_EQ(run_with_cache(study("sigma = 0.2, estimators = {srivc = {{1, 2, 0}, {MaxIter = 20}}}")).computed, 1u);
+    EXPECT_EQ(run_with_cache(study("sigma = 0.2, " + srivc, "G0 = G0*(1 + 1e-15)\n")).computed, 1u);
+    EXPECT_EQ(run_with_cache(study("sigma = 0.2, " + srivc, "u = 1*u\n")).computed, 0u);  // another, equal vector
+    EXPECT_EQ(run_with_cache(study("sigma = 0.2, " + srivc, "u = prbs(4, 100, {-1, 1.5})\n")).computed, 1u);
     const std::string search = "srivcstruc(e, {poles = {1, 4}, zeros = {0, 3}})\n";
-    EXPECT_EQ(run_with_memory("e = d\n" + search).computed, 1u);
-    EXPECT_EQ(run_with_memory("e = d\n" + search).computed, 0u);
+    EXPECT_EQ(run_with_cache("e = d\n" + search).computed, 1u);
+    EXPECT_EQ(run_with_cache("e = d\n" + search).computed, 0u);
     EXPECT_EQ(
-        run_with_memory("local y = d.y y[7] = y[7] + 1e-12 e = iddata(y, u, 0.01, {InputName = 'voltage'})\n" + search)
+        run_with_cache("local y = d.y y[7] = y[7] + 1e-12 e = iddata(y, u, 0.01, {InputName = 'voltage'})\n" + search)
             .computed,
         1u);
-    EXPECT_EQ(run_with_memory("e = iddata(d.y, u, 0.01, {InputName = 'force'})\n" + search).computed, 1u);
+    EXPECT_EQ(run_with_cache("e = iddata(d.y, u, 0.01, {InputName = 'force'})\n" + search).computed, 1u);
 }
 
 TEST_F(memoized_calls, functions_of_the_script_are_called_every_time) {
@@ -174,21 +179,136 @@ TEST_F(memoized_calls, functions_of_the_script_are_called_every_time) {
         "local n = 0\nmontecarlo{system = G0, input = u, Ts = 0.01, sigma = 0.2, runs = 100, estimators = {own = "
         "function(e) n = n + 1 return lssvf(e, {2, 1, 0}, 3) end}}\nprint(n)\n";
     for (int i = 0; i < 2; ++i) {
-        const Use use = run_with_memory(code);
+        const Use use = run_with_cache(code);
         EXPECT_EQ(use.printed, "100\n");
         EXPECT_EQ(use.computed + use.recalled, 0u);
     }
 }
 
 TEST_F(memoized_calls, short_calls_and_failed_ones_are_not_kept) {
-    EXPECT_EQ(run_with_memory("lssvf(d, {2, 1, 0}, 3)\nrig_truth('crane')\n").computed, 0u);
+    EXPECT_EQ(run_with_cache("lssvf(d, {2, 1, 0}, 3)\nrig_truth('crane')\n").computed, 0u);
     const std::string failing =
         "print(pcall(montecarlo, {system = G0, input = u, Ts = 0.01, sigma = 0.2, runs = 200, estimators = {srivc = "
         "{{1, 2, 0}}, lssvf = {{9, 9, 0}, -3}}}))\n";
-    const Use first = run_with_memory(failing);
+    const Use first = run_with_cache(failing);
     EXPECT_THAT(first.printed, HasSubstr("false"));
     EXPECT_EQ(first.computed, 0u);
-    EXPECT_EQ(run_with_memory(failing).printed, first.printed);
+    EXPECT_EQ(run_with_cache(failing).printed, first.printed);
+}
+
+// Oracle: the files below the cache folder. Where nothing was kept of a call's shape, its arguments are not looked at;
+// where nothing can be kept, nothing is written.
+TEST_F(memoized_calls, quick_calls_and_calls_without_a_cache_leave_nothing) {
+    run_with_cache("lssvf(d, {2, 1, 0}, 3)\nfor i = 1, 3 do srivc(d, {1, 2, 0}) end\n");
+    EXPECT_FALSE(std::filesystem::exists(home_.path() / "dynlab/calls"));
+    setenv("DYNLAB_NO_CACHE", "1", 1);
+    const std::string study =
+        "montecarlo{system = G0, input = u, Ts = 0.01, sigma = 0.2, runs = 200, estimators = {srivc = {{1, 2, 0}}}}\n";
+    for (int i = 0; i < 2; ++i) {
+        const Use use = run_with_cache(study + study);
+        EXPECT_EQ(use.computed, 2u);
+        EXPECT_EQ(use.recalled, 0u);
+    }
+    EXPECT_FALSE(std::filesystem::exists(home_.path() / "dynlab/calls"));
+}
+
+std::optional<std::string> text_of(Runtime& runtime, const std::string& arguments, LargeArguments large) {
+    EXPECT_FALSE(runtime.run_code("bench = table.pack(" + arguments + ")", "text.lua").error) << arguments;
+    lua_State* L = runtime.state();
+    lua_getglobal(L, "bench");
+    const int packed = lua_gettop(L);
+    const int count = static_cast<int>(lua_rawlen(L, packed));
+    for (int i = 1; i <= count; ++i) lua_rawgeti(L, packed, i);
+    auto text = call_text(L, "f", packed + 1, packed + count, large);
+    lua_settop(L, packed - 1);
+    return text;
+}
+
+// Oracle: the definition of equal calls, and of equal shapes.
+TEST_F(memoized_calls, texts_of_calls_tell_contents_and_shapes_apart) {
+    GnuplotRenderer renderer;
+    Runtime runtime({}, renderer);
+    ASSERT_FALSE(runtime
+                     .run_code(kData + "e = iddata(d.y, d.u, 0.01, {InputName = 'voltage'})\n"
+                                       "y = d.y y[7] = y[7] + 1e-12\n"
+                                       "m = matrix{{1, 2}, {3, 4}} t = matrix{{1, 3}, {2, 4}}",
+                               "data.lua")
+                     .error);
+    const auto text = [&](const std::string& arguments) {
+        return text_of(runtime, arguments, LargeArguments::kByContent);
+    };
+    const auto shape = [&](const std::string& arguments) {
+        return text_of(runtime, arguments, LargeArguments::kBySize);
+    };
+    // equal calls
+    EXPECT_EQ(text("d, {1, 2, 0}, {lambda = 3, Tol = 1}"), text("e, {1, 2, 0}, {Tol = 1, lambda = 3}"));
+    EXPECT_EQ(text("{a = {b = u}}"), text("{a = {b = 1*u}}"));
+    // other contents of the same shape
+    for (const auto& [one, other] : std::initializer_list<std::pair<const char*, const char*>>{
+             {"d", "iddata(y, d.u, 0.01, {InputName = 'voltage'})"},
+             {"d", "iddata(d.y, -d.u, 0.01, {InputName = 'voltage'})"},
+             {"d", "iddata(d.y, d.u, 0.02, {InputName = 'voltage'})"},
+             {"d", "iddata(d.y, d.u, 0.01, {InputName = 'force'})"},
+             {"d", "iddata(d.y, d.u, 0.01, {InputName = 'voltage', OutputName = 'x'})"},
+             {"d", "iddata(d.y, d.u, 0.01, {InputName = 'voltage', InputUnit = 'V'})"},
+             {"d", "iddata(d.y, d.u, 0.01, {InputName = 'voltage', OutputUnit = 'm'})"},
+             {"d", "iddata(d.y, d.u, 0.01, {InputName = 'voltage', InterSample = 'foh'})"},
+             {"d", "iddata(d.y, d.u, 0.01, {InputName = 'voltage', TimeUnit = 'min'})"},
+             {"d", "iddata(d.y, d.u, 0.01, {InputName = 'voltage', Tstart = 5})"},
+             {"d.y", "y"},
+             {"{x = d.y}", "{x = y}"},
+             {"m", "t"},
+             {"d", "h"},
+             {"G0", "2*G0"}}) {
+        EXPECT_NE(text(one), text(other)) << one << " and " << other;
+        EXPECT_EQ(shape(one), shape(other)) << one << " and " << other;
+    }
+    // other shapes
+    for (const auto& [one, other] :
+                                                                    {"d", "d[{1, 100}]"},
+                                                                    {"d", "merge(d[{1, 700}], d[{701, 1500}])"},
+                                                                    {"u", "u:range(1, 10)"},
+                                                                    {"u", "matrix{{1, 2}}"},
+                                                                    {"1", "2"},
+                                                                    {"1", "1.0"},
+                                                                    {"1", "'1'"},
+                                                                    {"1", "true"},
+                                                                    {"0.1", "0.1 + 1e-17 + 2e-17"},
+                                                                    {"{1, 2}", "{2, 1}"},
+                                                                    {"{{1}, 2}", "{1, {2}}"},
+                                                                    {"'ab', 'c'", "'a', 'bc'"},
+                                                                    {
+        "{runs = 5}", "{runs = 500}"}
+}) {
+    EXPECT_NE(text(one), text(other)) << one << " and " << other;
+    EXPECT_NE(shape(one), shape(other)) << one << " and " << other;
+}
+for (const char* none : {"print", "{1, {2, print}}", "coroutine.create(print)", "setmetatable({}, {})",
+                         "(function() local t = {} t.t = t return t end)()"})
+    EXPECT_FALSE(text(none)) << none;
+}
+
+// Oracle: definition; a digest that is kept is that of an equal record made anew.
+TEST_F(memoized_calls, digests_are_kept_with_the_record) {
+    GnuplotRenderer renderer;
+    Runtime runtime({}, renderer);
+    lua_State* L = runtime.state();
+    ASSERT_FALSE(runtime.run_code(kData, "data.lua").error);
+    const auto digest = [&] {
+        lua_getglobal(L, "d");
+        const Digest result = digest_of_object<IdData>(L, -1);
+        lua_pop(L, 1);
+        return result;
+    };
+    const Digest first = digest();
+    EXPECT_EQ(digest(), first);
+    EXPECT_TRUE(runtime.run_code("d.y = vector{1}", "change.lua").error) << "records can be changed";
+    ASSERT_FALSE(runtime.run_code("local y = d.y y[1] = 7", "copy.lua").error);
+    lua_getglobal(L, "d");
+    EXPECT_EQ(Boxed<IdData>::digest(*to_object<IdData>(L, -1)), first);
+    lua_pop(L, 1);
+    ASSERT_FALSE(runtime.run_code("local y = d.y y[1] = 7 d = iddata(y, d.u, 0.01)", "copy.lua").error);
+    EXPECT_NE(digest(), first);
 }
 
 }  // namespace test_memoized_calls

@@ -7,10 +7,11 @@
 
 #include <set>
 
+#include "course/store/course_key.h"
 #include "course/store/course_schema.h"
 #include "platform/atomic_file.h"
-#include "platform/hash.h"
 #include "platform/error.h"
+#include "platform/hash.h"
 #include "platform/system_call.h"
 
 namespace dynlab::inline course {
@@ -77,6 +78,18 @@ std::string read_key(const fs::path& file) {
     return key;
 }
 
+/// The same secret made codes before, so that signing has a key of its own.
+SigningKey signing_key_of(const std::string& secret) {
+    return SigningKey::derived(secret, "dynlab receipts");
+}
+
+fs::path write_public_key(const fs::path& folder, const std::string& name, const SigningKey& key) {
+    const fs::path file = folder / kPublicKeyFile;
+    const std::string text = public_key_text(name, key.public_key());
+    if (!fs::exists(file) || read_file(file) != text) write_file_atomically(file, text);
+    return file;
+}
+
 Database open_database(const fs::path& file) {
     Database database(file, Database::Opening::kExisting);
     migrate_course(database, Database::Opening::kExisting, file.string());
@@ -95,6 +108,7 @@ void Course::create(const fs::path& folder, const std::string& name, const std::
         throw EnvironmentError(
             fmt::format("there is a course in {} already; nothing was changed", fs::absolute(folder).string()));
     make_key(folder / kKey);
+    write_public_key(folder, name, signing_key_of(read_key(folder / kKey)));
     const auto set = [&](const char* key, const std::string& value) {
         database.run("INSERT INTO course VALUES (?, ?)", key, value);
     };
@@ -110,7 +124,12 @@ Course::Course(const fs::path& folder)
       database_(open_database(folder_ / kDatabase)),
       name_(setting("name")),
       clock_(setting("zone")),
-      key_(read_key(folder_ / kKey)) {}
+      key_(read_key(folder_ / kKey)),
+      signing_key_(signing_key_of(key_)) {}
+
+fs::path Course::publish_key() const {
+    return write_public_key(folder_, name_, signing_key_);
+}
 
 std::string Course::setting(const char* key) {
     Rows rows = database_.query("SELECT value FROM course WHERE key = ?", key);

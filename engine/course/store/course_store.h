@@ -6,12 +6,13 @@
 
 #include "course/store/course_clock.h"
 #include "course/store/sqlite.h"
+#include "platform/signature.h"
 
 namespace dynlab::inline course {
 
-/// A course on disk: course.db, the handed-in files under their hashes below files/, and course.key, which signs
-/// receipts. Nothing is ever deleted. A file is on disk before the transaction that speaks of it commits, so that a
-/// crash leaves at worst a file that nobody speaks of.
+/// A course on disk: course.db, the handed-in files under their hashes below files/, the secret course.key, which signs
+/// receipts, and course.pub, by which anybody verifies them. Nothing is ever deleted. A file is on disk before the
+/// transaction that speaks of it commits, so that a crash leaves at worst a file that nobody speaks of.
 class Course {
   public:
     /// Makes a course in `folder`, which may exist. Finishes what an interrupted one began. Throws EnvironmentError
@@ -24,8 +25,12 @@ class Course {
     Database& database() { return database_; }
     const CourseClock& clock() const { return clock_; }
     const std::string& name() const { return name_; }
-    const std::string& key() const { return key_; }
+    const std::string& key() const { return key_; }  ///< the secret
+    const SigningKey& signing_key() const { return signing_key_; }
     const std::filesystem::path& folder() const { return folder_; }
+
+    /// Writes course.pub where it is not there, as in courses of before; returns the file.
+    std::filesystem::path publish_key() const;
 
     /// Stores the content of a file, before a transaction; returns its hash. Several threads may do so at once.
     std::string keep(std::string_view content) const;
@@ -45,6 +50,7 @@ class Course {
     std::string name_;
     CourseClock clock_;
     std::string key_;
+    SigningKey signing_key_;
 };
 
 }  // namespace dynlab::inline course

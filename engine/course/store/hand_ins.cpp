@@ -16,8 +16,8 @@
 #include "course/store/senders.h"
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
-#include "platform/hash.h"
 #include "platform/error.h"
+#include "platform/hash.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -73,6 +73,7 @@ class Receiving {
         keep_all();
         write();
         outcome_.receipts = course_.folder() / "receipts" / outcome_.assignment.name;
+        if (!outcome_.received.empty()) course_.publish_key();
         for (const Received& received : outcome_.received) write_receipt(course_, received.id);
         return std::move(outcome_);
     }
@@ -304,7 +305,7 @@ class Receiving {
             "INSERT INTO versions (assignment, group_id, stage, pair, part, number, hash, name, received_at, due_at, "
             "late, findings, signature) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
             a.id, c.group.id, request_.stage, pair, c.part, received.version, c.hash, c.file->name, request_.at, due_,
-            received.late, c.inspection.json, hmac_sha256(course_.key(), receipt_text(receipt)));
+            received.late, c.inspection.json, version_signature(course_, receipt));
         received.id = db.last_id();
         return received;
     }
@@ -330,7 +331,7 @@ fs::path write_receipt(Course& course, std::int64_t version) {
     fs::create_directories(folder);
     const fs::path file =
         folder / fmt::format("{:05}-{}-{}-{}.txt", version, receipt.group, receipt.stage, receipt.part);
-    if (!fs::exists(file)) write_file_atomically(file, signed_receipt(receipt, course.key()));
+    if (!fs::exists(file)) write_file_atomically(file, signed_receipt(receipt, course.signing_key()));
     return file;
 }
 

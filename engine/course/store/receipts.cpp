@@ -5,27 +5,67 @@
 #include <sodium/utils.h>
 
 #include <array>
+#include <optional>
 #include <sstream>
 
 #include "platform/error.h"
+#include "platform/hash.h"
 
 namespace dynlab::inline course {
 namespace {
 
-constexpr std::string_view kSignature = "signature: ";
+constexpr std::string_view kSignature = "signature: ", kHash = "sha256: ";
+constexpr std::size_t kCodeDigits = 64;
 
-/// The same time whatever the first difference, so that nobody can guess a signature digit by digit.
+std::string_view first_line(ReceiptKind kind) {
+    return kind == ReceiptKind::kSigned ? "dynlab receipt 2" : "dynlab receipt 1";
+}
+
+/// The same time whatever the first difference, so that nobody can guess a code digit by digit.
 bool equal_digits(std::string_view a, std::string_view b) {
-    if (a.size() != b.size()) return false;
-    int difference = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) difference |= a[i] ^ b[i];
-    return difference == 0;
+    return a.size() == b.size() && sodium_memcmp(a.data(), b.data(), a.size()) == 0;
 }
 
 std::string one_line(std::string text) {
     for (char& c : text)
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
     return text;
+}
+
+/// A receipt's file taken apart; the signature is its last line.
+struct ReceiptFile {
+    std::string content, signature;
+    ReceiptKind kind = ReceiptKind::kSigned;
+};
+
+/// Nothing for what is no receipt.
+std::optional<ReceiptFile> read_receipt(std::string_view text) {
+    ReceiptFile file;
+    std::istringstream lines{std::string(text)};
+    for (std::string line; std::getline(lines, line);) {
+        if (line.ends_with('\r')) line.pop_back();
+        if (line.empty()) continue;
+        if (!file.signature.empty()) return {};
+        if (line.starts_with(kSignature))
+            file.signature = line.substr(kSignature.size());
+        else
+            file.content += line + '\n';
+    }
+    const std::string_view first = std::string_view(file.content).substr(0, file.content.find('\n'));
+    if (first != first_line(ReceiptKind::kSigned) && first != first_line(ReceiptKind::kCoded)) return {};
+    if (first == first_line(ReceiptKind::kCoded)) file.kind = ReceiptKind::kCoded;
+    return file;
+}
+
+const ReceiptVerdict kGenuine{true, "genuine"};
+const ReceiptVerdict kNoReceipt{false, "NOT genuine: this is no receipt"};
+const ReceiptVerdict kNotGenuine{false, "NOT genuine: altered, or signed by another course"};
+const ReceiptVerdict kNeedsCourse{false,
+                                  "cannot be told: it has no signature but a code, as courses gave before; only the "
+                                  "course can verify it (dynlab course verify)"};
+
+ReceiptVerdict verify_signature(const ReceiptFile& file, std::string_view public_key) {
+    return is_signature(file.signature, file.content, public_key) ? kGenuine : kNotGenuine;
 }
 
 }  // namespace
@@ -41,33 +81,47 @@ std::string hmac_sha256(std::string_view key, std::string_view message) {
     return sodium_bin2hex(digits.data(), digits.size(), code.data(), code.size());
 }
 
-std::string receipt_text(const Receipt& receipt) {
+std::string receipt_text(const Receipt& receipt, ReceiptKind kind) {
     return fmt::format(
-        "dynlab receipt 1\ncourse: {}\nassignment: {}\ngroup: {}\nhanded in as: {}, {}, version {}\nfile: {}\n"
-        "sha256: {}\nbytes: {}\nreceived: {}\ndue: {}\nlate: {}\n",
-        one_line(receipt.course), one_line(receipt.assignment), one_line(receipt.group), receipt.stage, receipt.part,
-        receipt.version, one_line(receipt.name), receipt.hash, receipt.bytes, utc_text(receipt.received),
-        utc_text(receipt.due), receipt.late > 0 ? duration_text(receipt.late) : "no");
+        "{}\ncourse: {}\nassignment: {}\ngroup: {}\nhanded in as: {}, {}, version {}\nfile: {}\n"
+        "{}{}\nbytes: {}\nreceived: {}\ndue: {}\nlate: {}\n",
+        first_line(kind), one_line(receipt.course), one_line(receipt.assignment), one_line(receipt.group),
+        receipt.stage, receipt.part, receipt.version, one_line(receipt.name), kHash, receipt.hash, receipt.bytes,
+        utc_text(receipt.received), utc_text(receipt.due), receipt.late > 0 ? duration_text(receipt.late) : "no");
 }
 
-std::string signed_receipt(const Receipt& receipt, std::string_view key) {
+std::string signed_receipt(const Receipt& receipt, const SigningKey& key) {
     const std::string text = receipt_text(receipt);
-    return fmt::format("{}{}{}\n", text, kSignature, hmac_sha256(key, text));
+    return fmt::format("{}{}{}\n", text, kSignature, key.sign(text));
 }
 
-bool receipt_is_genuine(std::string_view text, std::string_view key) {
-    std::string content, signature;
-    std::istringstream lines{std::string(text)};
-    for (std::string line; std::getline(lines, line);) {
-        if (line.ends_with('\r')) line.pop_back();
-        if (line.empty()) continue;
-        if (!signature.empty()) return false;  // the signature is the last line
-        if (line.starts_with(kSignature))
-            signature = line.substr(kSignature.size());
-        else
-            content += line + '\n';
-    }
-    return equal_digits(signature, hmac_sha256(key, content));
+ReceiptVerdict verify_receipt(std::string_view text, std::string_view public_key) {
+    const auto file = read_receipt(text);
+    if (!file) return kNoReceipt;
+    return file->kind == ReceiptKind::kCoded ? kNeedsCourse : verify_signature(*file, public_key);
+}
+
+ReceiptVerdict verify_receipt(std::string_view text, const Course& course) {
+    const auto file = read_receipt(text);
+    if (!file) return kNoReceipt;
+    if (file->kind == ReceiptKind::kSigned) return verify_signature(*file, course.signing_key().public_key());
+    return equal_digits(file->signature, hmac_sha256(course.key(), file->content)) ? kGenuine : kNotGenuine;
+}
+
+bool is_receipt_for(std::string_view text, const std::filesystem::path& file) {
+    const std::string hash = fmt::format("\n{}{}\n", kHash, sha256_of_file(file));
+    const auto receipt = read_receipt(text);
+    return receipt && receipt->content.find(hash) != std::string::npos;
+}
+
+std::string version_signature(const Course& course, const Receipt& receipt) {
+    return course.signing_key().sign(receipt_text(receipt));
+}
+
+bool is_version_signature(const Course& course, const Receipt& receipt, std::string_view signature) {
+    if (signature.size() == kCodeDigits)
+        return equal_digits(signature, hmac_sha256(course.key(), receipt_text(receipt, ReceiptKind::kCoded)));
+    return is_signature(signature, receipt_text(receipt), course.signing_key().public_key());
 }
 
 Receipt receipt_of(Course& course, std::int64_t version) {

@@ -1,14 +1,12 @@
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
 #include "course/store/course_store.h"
 
 namespace dynlab::inline course {
-
-/// HMAC-SHA256 (RFC 2104, FIPS 198-1) as 64 lower-case hexadecimal digits.
-std::string hmac_sha256(std::string_view key, std::string_view message);
 
 /// What a group gets for a file it handed in: the lines that are signed.
 struct Receipt {
@@ -17,16 +15,39 @@ struct Receipt {
     Instant received = 0, due = 0;
 };
 
+/// The first line says how a receipt is signed: by Ed25519, so that everybody with the course's public key can verify
+/// it, or, as courses did before, by a code (HMAC) that only the course itself can verify.
+enum class ReceiptKind { kSigned, kCoded };
+
 /// One "key: value" a line, always in the same order, control characters as blanks: equal facts give equal text.
-std::string receipt_text(const Receipt& receipt);
+std::string receipt_text(const Receipt& receipt, ReceiptKind kind = ReceiptKind::kSigned);
 
 /// The receipt as a file: its text and a line "signature: ...".
-std::string signed_receipt(const Receipt& receipt, std::string_view key);
+std::string signed_receipt(const Receipt& receipt, const SigningKey& key);
 
-/// Whether this text is a receipt that this key signed, not a letter changed (line ends and blank lines aside).
-bool receipt_is_genuine(std::string_view text, std::string_view key);
+/// What somebody holds against a receipt, in words: "genuine", or why it is not.
+struct ReceiptVerdict {
+    bool genuine = false;
+    std::string reason;
+};
+
+/// Whether this text is a receipt that the owner of this public key signed, not a letter changed (line ends and blank
+/// lines aside). Coded receipts are told apart: they need the course.
+ReceiptVerdict verify_receipt(std::string_view text, std::string_view public_key);
+/// The same by the course itself, coded receipts too.
+ReceiptVerdict verify_receipt(std::string_view text, const Course& course);
+/// Whether the receipt is for this file: the SHA-256 it names is the file's. Throws EnvironmentError when that cannot
+/// be read.
+bool is_receipt_for(std::string_view text, const std::filesystem::path& file);
+
+/// The signature or code of a version's facts, as the store keeps it, and whether it is theirs.
+std::string version_signature(const Course& course, const Receipt& receipt);
+bool is_version_signature(const Course& course, const Receipt& receipt, std::string_view signature);
 
 /// The receipt of a version, from the store. Throws EnvironmentError for an unknown one.
 Receipt receipt_of(Course& course, std::int64_t version);
+
+/// HMAC-SHA256 (RFC 2104, FIPS 198-1) as 64 lower-case hexadecimal digits: of coded receipts.
+std::string hmac_sha256(std::string_view key, std::string_view message);
 
 }  // namespace dynlab::inline course

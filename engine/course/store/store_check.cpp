@@ -22,7 +22,7 @@ StoreCheck check_store(Course& course) {
             check.troubles.push_back(fmt::format("{} was altered; put it back from a backup", file.string()));
     }
     for (Rows rows = db.query("SELECT id, signature FROM versions ORDER BY id"); rows.next(); ++check.versions)
-        if (hmac_sha256(course.key(), receipt_text(receipt_of(course, rows.integer(0)))) != rows.text(1))
+        if (!is_version_signature(course, receipt_of(course, rows.integer(0)), rows.text(1)))
             check.troubles.push_back(
                 fmt::format("version {}: its facts are not those that were signed", rows.integer(0)));
     return check;

@@ -150,6 +150,18 @@ int data_to_text(Call& call) {
                                  experiments > 1 ? fmt::format(", {} experiments", experiments) : ""));
 }
 
+void add_texts(DigestStream& digest, const std::vector<std::string>& texts) {
+    const std::size_t count = texts.size();
+    digest.add(&count, sizeof count);
+    for (const std::string& text : texts) digest.add_part(text);
+}
+
+template <class Numbers>
+void add_numbers(DigestStream& digest, const Numbers& numbers) {
+    const Index size[] = {numbers.rows(), numbers.cols()};
+    digest.add(size, sizeof size).add(numbers.data(), sizeof(double) * static_cast<std::size_t>(numbers.size()));
+}
+
 constexpr std::array kDataTypeFields = {
     Member{"y", guarded<field_y>},
     Member{"u", guarded<field_u>},
@@ -189,6 +201,20 @@ std::size_t Boxed<IdData>::outside_bytes(const IdData& data) {
     for (const Experiment& experiment : data.experiments)
         numbers += static_cast<std::size_t>(experiment.y.size() + experiment.u.size() + experiment.t.size());
     return numbers * sizeof(double) + data.experiments.size() * sizeof(Experiment);
+}
+
+Digest Boxed<IdData>::digest(const IdData& data) {
+    DigestStream digest;
+    const auto& [experiments, Ts, hold, input_names, output_names, input_units, output_units, time_unit] = data;
+    digest.add(&Ts, sizeof Ts).add(&hold, sizeof hold).add_part(time_unit);
+    for (const auto* texts : {&input_names, &output_names, &input_units, &output_units}) add_texts(digest, *texts);
+    for (const auto& [y, u, t, start_time, name] : experiments) {
+        digest.add(&start_time, sizeof start_time).add_part(name);
+        add_numbers(digest, y);
+        add_numbers(digest, u);
+        add_numbers(digest, t);
+    }
+    return digest.digest();
 }
 
 int give_data(const Call& call, IdData data) {

@@ -2,7 +2,8 @@
 
 #include <chrono>
 
-#include "platform/content_cache.h"
+#include "scripting/memoized_calls/call_cache.h"
+#include "scripting/memoized_calls/call_text.h"
 #include "scripting/memoized_calls/value_archive.h"
 
 namespace dynlab::inline scripting {
@@ -12,15 +13,6 @@ using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
 constexpr auto kLong = 10ms;  // far more than it takes to read a result back
-constexpr auto kQuick = 2ms;  // not even worth a look: a loop of estimations on records of one length, say
-
-/// Nothing when an argument has no lasting content.
-std::optional<std::string> archive_of_arguments(const Call& call) {
-    ArchiveWriter arguments;
-    for (int i = 1; i <= call.count(); ++i)
-        if (!put_value(call.state(), i, arguments)) return {};
-    return arguments.bytes();
-}
 
 /// Pushes the values of an archived result and returns their number.
 int give_again(const Call& call, const std::string& bytes) {
@@ -59,25 +51,85 @@ std::optional<std::string> archive_of(const Call& call, const std::string& print
     return archive.bytes();
 }
 
+/// Holds the arguments as the script gave them: a binding may put what it read in their places.
+class KeptArguments {
+  public:
+    explicit KeptArguments(const Call& call) : L_(call.state()), count_(call.count()) {
+        lua_createtable(L_, count_, 0);
+        for (int i = 1; i <= count_; ++i) {
+            lua_pushvalue(L_, i);
+            lua_rawseti(L_, -2, i);
+        }
+        reference_ = luaL_ref(L_, LUA_REGISTRYINDEX);
+    }
+    ~KeptArguments() { luaL_unref(L_, LUA_REGISTRYINDEX, reference_); }
+    KeptArguments(const KeptArguments&) = delete;
+    KeptArguments& operator=(const KeptArguments&) = delete;
+
+    std::optional<std::string> text(const char* function) const {
+        luaL_checkstack(L_, count_ + 1, "too many arguments");
+        const int top = lua_gettop(L_);
+        lua_rawgeti(L_, LUA_REGISTRYINDEX, reference_);
+        for (int i = 1; i <= count_; ++i) lua_rawgeti(L_, top + 1, i);
+        auto result = call_text(L_, function, top + 2, top + 1 + count_, LargeArguments::kByContent);
+        lua_settop(L_, top);
+        return result;
+    }
+
+  private:
+    lua_State* L_;
+    int count_, reference_;
+};
+
+/// A call that is made now, watched for whether it is worth keeping.
+class WatchedCall {
+  public:
+    WatchedCall(Call& call, CallCache& cache) : call_(call), cache_(cache) {}
+
+    int run(Binding body) {
+        const char* const function = call_.function_name();
+        std::optional<std::string> shape, text;
+        if (cache_.lasting()) shape = call_text(call_.state(), function, 1, call_.count(), LargeArguments::kBySize);
+        const bool known = shape && cache_.knows(*shape);
+        if (known) text = call_text(call_.state(), function, 1, call_.count(), LargeArguments::kByContent);
+        if (text)
+            if (const auto result = cache_.recall(*text)) return give_again(call_, *result);
+        std::optional<KeptArguments> arguments;
+        if (shape && !text) arguments.emplace(call_);
+        const int count = compute(body);
+        if (taken_ < kLong && known) cache_.forget(*shape);
+        if (taken_ < kLong || call_.cancel()()) return count;
+        if (arguments) text = arguments->text(function);
+        if (text || !cache_.lasting()) cache_.count_computed();
+        if (text) keep(*shape, *text, count);
+        return count;
+    }
+
+  private:
+    int compute(Binding body) {
+        const PrintedText printed(call_.context());
+        const auto start = Clock::now();
+        const int count = body(call_);
+        taken_ = Clock::now() - start;
+        printed_ = printed.text();
+        return count;
+    }
+
+    void keep(const std::string& shape, const std::string& text, int count) {
+        if (const auto result = archive_of(call_, printed_, count)) cache_.remember(shape, text, *result);
+    }
+
+    Call& call_;
+    CallCache& cache_;
+    Clock::duration taken_{};
+    std::string printed_;
+};
+
 }  // namespace
 
 int run_memoized_call(Call& call, Binding body) {
-    ContentCache* memory = call.context().options.memoized_calls;
-    const auto arguments = memory ? archive_of_arguments(call) : std::nullopt;
-    if (!arguments) return body(call);
-    auto& quick_calls = call.context().quick_calls;
-    const std::pair<std::string, std::size_t> kind{call.function_name(), arguments->size()};
-    if (quick_calls.count(kind)) return body(call);
-    const std::string key = memory->key({kind.first, *arguments});
-    if (const auto known = memory->recall(key)) return give_again(call, *known);
-    const PrintedText printed(call.context());
-    const auto start = Clock::now();
-    const int count = body(call);
-    const auto taken = Clock::now() - start;
-    if (taken < kQuick) quick_calls.insert(kind);
-    if (taken < kLong || call.cancel()()) return count;
-    if (const auto result = archive_of(call, printed.text(), count)) memory->remember(key, *result);
-    return count;
+    CallCache* const cache = call.context().options.call_cache;
+    return cache ? WatchedCall(call, *cache).run(body) : body(call);
 }
 
 }  // namespace dynlab::inline scripting

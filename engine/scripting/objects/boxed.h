@@ -1,7 +1,11 @@
 #pragma once
+#include <concepts>
 #include <new>
+#include <optional>
+#include <type_traits>
 #include <utility>
 
+#include "platform/hash.h"
 #include "scripting/arguments/arguments.h"
 #include "scripting/objects/object_type.h"
 
@@ -10,14 +14,24 @@ namespace dynlab::inline scripting {
 /// Each boxed C++ class says which object type it is and how many bytes it holds outside Lua:
 ///   template <> struct Boxed<IdData> { static const ObjectType type; static std::size_t outside_bytes(const IdData&);
 ///   };
+/// A class of large objects that nobody changes once they are pushed may also say `static Digest digest(const T&)`, of
+/// all its content: its objects are then handed out as constant, and the digest of each is computed once.
 template <class T>
 struct Boxed;
+
+template <class T>
+concept KeepsDigest = requires(const T& object) {
+    { Boxed<T>::digest(object) } -> std::same_as<Digest>;
+};
+template <class T>
+using Access = std::conditional_t<KeepsDigest<T>, const T, T>;
 
 /// A C++ object inside a userdata, with the bytes it was charged for.
 template <class T>
 struct Box {
     T object;
     std::size_t outside_bytes;
+    std::optional<Digest> digest = {};  ///< once somebody asked
 };
 
 template <class T>
@@ -44,7 +58,7 @@ void charge_outside_bytes(lua_State* L, std::size_t bytes, const char* what);
 
 /// Pushes `object`; its outside bytes count against the memory limit and drive the collector.
 template <class T>
-T& push_object(lua_State* L, T object) {
+Access<T>& push_object(lua_State* L, T object) {
     const std::size_t bytes = Boxed<T>::outside_bytes(object);
     charge_outside_bytes(L, bytes, Boxed<T>::type.name);
     void* memory = lua_newuserdatauv(L, sizeof(Box<T>), 0);
@@ -57,15 +71,23 @@ T& push_object(lua_State* L, T object) {
 
 /// The object at a stack place, nullptr when something else is there.
 template <class T>
-T* to_object(lua_State* L, int index) {
+Access<T>* to_object(lua_State* L, int index) {
     if (!is_object(L, index, Boxed<T>::type)) return nullptr;
     return &static_cast<Box<T>*>(lua_touserdata(L, index))->object;
 }
 
+/// The digest of the object at a stack place, which is of this class.
+template <KeepsDigest T>
+Digest digest_of_object(lua_State* L, int index) {
+    auto* box = static_cast<Box<T>*>(lua_touserdata(L, index));
+    if (!box->digest) box->digest = Boxed<T>::digest(box->object);
+    return *box->digest;
+}
+
 /// The object of argument `index`; throws InvalidArgument naming argument and wanted kind.
 template <class T>
-T& object_argument(const Call& call, int index, const char* what) {
-    T* object = index <= call.count() ? to_object<T>(call.state(), index) : nullptr;
+Access<T>& object_argument(const Call& call, int index, const char* what) {
+    Access<T>* object = index <= call.count() ? to_object<T>(call.state(), index) : nullptr;
     if (object == nullptr) wrong_argument(call.state(), index, what, Boxed<T>::type.name);
     return *object;
 }

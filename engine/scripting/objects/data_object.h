@@ -8,6 +8,7 @@ template <>
 struct Boxed<IdData> {
     static const ObjectType type;
     static std::size_t outside_bytes(const IdData& data);
+    static Digest digest(const IdData& data);
 };
 
 int give_data(const Call& call, IdData data);

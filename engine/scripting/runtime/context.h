@@ -2,7 +2,6 @@
 #include <chrono>
 #include <lua.hpp>
 #include <map>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -39,9 +38,7 @@ struct RuntimeContext {
     StopReason stop = StopReason::kNone;  ///< once set, every protected call passes the stop on
     std::optional<std::chrono::steady_clock::time_point> deadline;
     std::string* printed_by_call = nullptr;  ///< also gets what is printed, while a call is watched
-    /// Functions with the bytes of their arguments whose calls are over sooner than they are looked up.
-    std::set<std::pair<std::string, std::size_t>> quick_calls;
-    int refusal_line = 0;  ///< of the main chunk when memory was last refused
+    int refusal_line = 0;                    ///< of the main chunk when memory was last refused
 };
 
 RuntimeContext& context_of(lua_State* L);

@@ -13,15 +13,13 @@
 #include "scripting/prompt/prompt_statement.h"
 #include "scripting/runtime/function_entry.h"
 
-namespace dynlab::inline platform {
-class ContentCache;
-}
 namespace dynlab::inline figures {
 class GnuplotRenderer;
 }
 
 namespace dynlab::inline scripting {
 
+class CallCache;
 struct RuntimeContext;
 
 struct RunOptions {
@@ -30,7 +28,7 @@ struct RunOptions {
     std::filesystem::path out_folder = ".";                   ///< what a script writes must lie below this folder
     std::function<void(const std::string&)> print = {};       ///< sees printed text at once, besides the record
     std::function<void(const std::string&)> enter_cell = {};  ///< told the id of a cell as the script gets to it
-    ContentCache* memoized_calls = nullptr;  ///< where results of long calls are kept; computed anew without
+    CallCache* call_cache = nullptr;  ///< of results of calls that take long; all are computed anew without
     std::size_t memory_limit_bytes = std::size_t{2} << 30;
     std::size_t output_limit_bytes = std::size_t{16} << 20;  ///< of printed text
     std::optional<std::chrono::milliseconds> time_limit = {};

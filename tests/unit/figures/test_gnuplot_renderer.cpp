@@ -12,7 +12,7 @@
 
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
-#include "platform/content_cache.h"
+#include "platform/cache.h"
 #include "platform/interrupt.h"
 #include "platform/temporary_folder.h"
 
@@ -74,42 +74,42 @@ TEST(gnuplot_renderer, equal_figures_make_equal_files) {
 }
 
 // Oracle: the file that gnuplot drew, and that no gnuplot runs for it again.
-TEST(gnuplot_renderer, takes_what_was_drawn_before_from_its_memory) {
+TEST(gnuplot_renderer, takes_what_was_drawn_before_from_its_cache) {
     const TemporaryFolder folder, cache;
     setenv("XDG_CACHE_HOME", cache.path().c_str(), 1);
-    ContentCache memory("figures");
+    const Cache store;
     unsetenv("XDG_CACHE_HOME");
     for (const std::string kind : {".pdf", ".svg", ".png"}) {
-        GnuplotRenderer first(&memory);
+        GnuplotRenderer first(&store);
         draw_one(first, sine(), folder.path() / ("a" + kind));
+        EXPECT_EQ(first.use().recalled, 0u) << kind;
+        EXPECT_EQ(first.use().made, 1u) << kind;
     }
-    EXPECT_EQ(memory.recalled(), 0u);
-    EXPECT_EQ(memory.remembered(), 3u);
-    GnuplotRenderer second(&memory);
+    GnuplotRenderer second(&store);
     for (const std::string kind : {".pdf", ".svg", ".png"}) {
         draw_one(second, sine(), folder.path() / ("b" + kind));
         EXPECT_TRUE(read_file(folder.path() / ("a" + kind)) == read_file(folder.path() / ("b" + kind))) << kind;
     }
-    EXPECT_EQ(memory.recalled(), 3u);
+    EXPECT_EQ(second.use().recalled, 3u);
     EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "a gnuplot was started";
     Figure wider = sine();
     wider.width_cm += 1;
     draw_one(second, wider, folder.path() / "c.pdf");
-    EXPECT_EQ(memory.recalled(), 3u);
+    EXPECT_EQ(second.use().recalled, 3u);
 }
 
 // Oracle: the file of the later figure, drawn alone.
 TEST(gnuplot_renderer, a_file_drawn_twice_is_the_later_figure) {
     const TemporaryFolder folder, cache;
     setenv("XDG_CACHE_HOME", cache.path().c_str(), 1);
-    ContentCache memory("figures");
+    const Cache store;
     unsetenv("XDG_CACHE_HOME");
-    GnuplotRenderer renderer(&memory);
+    GnuplotRenderer renderer(&store);
     const auto alone = draw_one(renderer, sine("later"), folder.path() / "alone.svg");
     renderer.draw(sine("earlier"), folder.path() / "a.svg", FigureFormat::kSvg);
     renderer.draw(sine("later"), folder.path() / "a.svg", FigureFormat::kSvg);
     renderer.finish();
-    EXPECT_EQ(memory.recalled(), 1u);
+    EXPECT_EQ(renderer.use().recalled, 1u);
     EXPECT_TRUE(read_file(alone) == read_file(folder.path() / "a.svg"));
     EXPECT_EQ(file_count(folder.path()), 2u);
 }

@@ -6,6 +6,8 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <fstream>
+#include <stdexcept>
 
 #include "platform/atomic_file.h"
 #include "platform/temporary_folder.h"
@@ -32,71 +34,72 @@ class cache : public testing::Test {
     static void set_age(const fs::path& entry, std::chrono::hours age) {
         fs::last_write_time(entry, fs::file_time_type::clock::now() - age);
     }
-    std::size_t entries() const {
+    std::size_t entries(const char* kind = "test") const {
         return static_cast<std::size_t>(
-            std::distance(fs::directory_iterator(home_.path() / "dynlab/test"), fs::directory_iterator()));
+            std::distance(fs::directory_iterator(home_.path() / "dynlab" / kind), fs::directory_iterator()));
     }
 
+    const std::string bytes_ = std::string("any\0bytes\xff", 10);
     TemporaryFolder home_;
 };
 
 TEST_F(cache, finds_what_was_committed_and_nothing_else) {
-    const Cache store("test");
-    EXPECT_EQ(store.root(), home_.path() / "dynlab/test");
-    EXPECT_FALSE(store.find("key"));
+    const Cache store;
+    EXPECT_EQ(store.root(), home_.path() / "dynlab");
+    EXPECT_FALSE(store.find("test/key"));
     const fs::path unfinished = store.prepare();
-    EXPECT_FALSE(store.find("key"));
-    EXPECT_EQ(store.commit(unfinished, "key"), store.root() / "key");
-    EXPECT_EQ(Cache("test").find("key"), store.root() / "key");
-    EXPECT_FALSE(Cache("other").find("key"));
+    EXPECT_FALSE(store.find("test/key"));
+    EXPECT_EQ(store.commit(unfinished, "test/key"), store.root() / "test/key");
+    EXPECT_EQ(Cache().find("test/key"), store.root() / "test/key");
+    EXPECT_FALSE(Cache().find("other/key"));
 }
 
 TEST_F(cache, first_of_two_writers_wins) {
-    const Cache store("test");
+    const Cache store;
     const fs::path mine = store.prepare(), theirs = store.prepare();
     write_file_atomically(mine / "content", "mine");
     write_file_atomically(theirs / "content", "theirs");
-    store.commit(theirs, "key");
-    const fs::path kept = store.commit(mine, "key");
+    store.commit(theirs, "test/key");
+    const fs::path kept = store.commit(mine, "test/key");
     EXPECT_EQ(read_file(kept / "content"), "theirs");
     EXPECT_EQ(entries(), 1u);
 }
 
 TEST_F(cache, drops_the_least_recently_used_beyond_the_limit) {
-    const Cache store("test", 2500);
-    set_age(add(store, "a", 1000), 3h);
-    set_age(add(store, "b", 1000), 2h);
-    ASSERT_TRUE(store.find("a"));  // used now, so b is the oldest
-    add(store, "c", 1000);
-    EXPECT_TRUE(store.find("a"));
-    EXPECT_FALSE(store.find("b"));
-    EXPECT_TRUE(store.find("c"));
+    const Cache store(2500);
+    set_age(add(store, "test/a", 1000), 3h);
+    set_age(add(store, "test/b", 1000), 2h);
+    ASSERT_TRUE(store.find("test/a"));  // used now, so b is the oldest
+    add(store, "test/c", 1000);
+    EXPECT_TRUE(store.find("test/a"));
+    EXPECT_FALSE(store.find("test/b"));
+    EXPECT_TRUE(store.find("test/c"));
     EXPECT_EQ(entries(), 2u);
 }
 
 TEST_F(cache, keeps_what_was_used_just_now_even_beyond_the_limit) {
-    const Cache store("test", 100);
-    add(store, "a", 1000);
-    add(store, "b", 1000);
-    EXPECT_TRUE(store.find("a") && store.find("b"));
+    const Cache store(100);
+    add(store, "test/a", 1000);
+    add(store, "test/b", 1000);
+    EXPECT_TRUE(store.find("test/a") && store.find("test/b"));
 }
 
 TEST_F(cache, sweeps_what_a_dead_process_left_unfinished) {
-    const Cache store("test");
+    const Cache store;
     const fs::path dead = store.prepare(), alive = store.prepare();
     set_age(dead, 2h);
-    add(store, "a", 10);
+    add(store, "test/a", 10);
     EXPECT_FALSE(fs::exists(dead));
     EXPECT_TRUE(fs::exists(alive));
 }
 
 TEST_F(cache, may_be_deleted_at_any_time) {
-    const Cache store("test");
-    add(store, "a", 10);
+    const Cache store;
+    add(store, "test/a", 10);
     fs::remove_all(home_.path() / "dynlab");
-    EXPECT_FALSE(store.find("a"));
-    add(store, "a", 10);
-    EXPECT_TRUE(store.find("a"));
+    EXPECT_FALSE(store.find("test/a"));
+    add(store, "test/a", 10);
+    EXPECT_TRUE(store.find("test/a"));
 }
 
 TEST_F(cache, survives_many_writers_at_once) {
@@ -105,9 +108,9 @@ TEST_F(cache, survives_many_writers_at_once) {
         if (fork() != 0) continue;
         bool whole = true;
         try {
-            const Cache store("test", 20000);
+            const Cache store(20000);
             for (int key = 0; key < kKeys; ++key) {
-                const fs::path entry = add(store, std::to_string(key), 1000);
+                const fs::path entry = add(store, "test/" + std::to_string(key), 1000);
                 whole = whole && read_file(entry / "content").size() == 1000;
             }
         } catch (const std::exception&) {
@@ -125,19 +128,140 @@ TEST_F(cache, survives_many_writers_at_once) {
 
 TEST_F(cache, is_private_when_switched_off_or_impossible) {
     setenv("DYNLAB_NO_CACHE", "1", 1);
-    const Cache off("test");
-    add(off, "a", 10);
-    EXPECT_TRUE(off.find("a"));
+    const Cache off;
+    add(off, "test/a", 10);
+    EXPECT_TRUE(off.find("test/a"));
     EXPECT_FALSE(fs::exists(home_.path() / "dynlab"));
     unsetenv("DYNLAB_NO_CACHE");
     write_file_atomically(home_.path() / "plain", "x");
     setenv("XDG_CACHE_HOME", (home_.path() / "plain").c_str(), 1);
-    EXPECT_EQ(Cache("other").root().parent_path(), off.root().parent_path());
+    EXPECT_EQ(Cache().root(), off.root());
 }
 
-TEST_F(cache, keys_are_plain_names) {
-    const Cache store("test");
-    for (const char* key : {"", "..", "a/b", ".hidden"}) EXPECT_THROW(store.find(key), std::invalid_argument) << key;
+TEST_F(cache, lasts_only_where_later_runs_find_it) {
+    EXPECT_TRUE(Cache().lasting());
+    setenv("DYNLAB_NO_CACHE", "1", 1);
+    EXPECT_FALSE(Cache().lasting());
+    unsetenv("DYNLAB_NO_CACHE");
+    setenv("XDG_CACHE_HOME", "/proc/none", 1);
+    EXPECT_FALSE(Cache().lasting());
+}
+
+TEST_F(cache, names_are_a_kind_and_a_plain_name) {
+    const Cache store;
+    for (const char* name :
+         {"", "..", "key", "a/", "/b", "a/b/c", "a/..", "../b", "a/.hidden", ".hidden/b", "a//b", "/a/b"}) {
+        EXPECT_THROW(store.find(name), std::invalid_argument) << name;
+        EXPECT_THROW(store.recall(name), std::invalid_argument) << name;
+        EXPECT_THROW(store.remember(name, ""), std::invalid_argument) << name;
+        EXPECT_THROW(store.forget(name), std::invalid_argument) << name;
+    }
+}
+
+// ---- names
+
+TEST_F(cache, every_part_and_where_it_ends_makes_the_name) {
+    const auto name = [](std::initializer_list<std::string_view> parts, const char* kind = "test") {
+        EntryName entry(kind);
+        for (const std::string_view part : parts) entry.add(part);
+        return entry.text();
+    };
+    EXPECT_EQ(name({"ab", "c"}), name({"ab", "c"}));
+    EXPECT_NE(name({"ab", "c"}), name({"a", "bc"}));
+    EXPECT_NE(name({"ab", "c"}), name({"ab", "d"}));
+    EXPECT_NE(name({"ab", "c"}), name({"ab", "c", ""}));
+    EXPECT_NE(name({"ab", "c"}), name({"c", "ab"}));
+    EXPECT_NE(name({"ab", "c"}), name({"ab", "c"}, "other"));
+}
+
+TEST_F(cache, what_makes_the_entries_is_part_of_their_names) {
+    EXPECT_EQ(EntryName("test", "TeX 3.14").add("a").text(), EntryName("test", "TeX 3.14").add("a").text());
+    EXPECT_NE(EntryName("test", "TeX 3.14").add("a").text(), EntryName("test", "TeX 3.15").add("a").text());
+    EXPECT_NE(EntryName("test", "TeX 3.14").add("a").text(), EntryName("test").add("a").text());
+}
+
+// ---- bytes
+
+TEST_F(cache, gives_back_the_bytes_of_a_name) {
+    const Cache store;
+    EXPECT_FALSE(store.recall("test/a"));
+    store.remember("test/a", bytes_);
+    store.remember("test/empty", "");
+    EXPECT_EQ(store.recall("test/a"), bytes_);
+    EXPECT_EQ(Cache().recall("test/a"), bytes_);
+    EXPECT_EQ(Cache().recall("test/empty"), "");
+    store.remember("test/a", "later");
+    EXPECT_EQ(Cache().recall("test/a"), "later");
+    store.forget("test/a");
+    EXPECT_FALSE(store.recall("test/a"));
+    EXPECT_EQ(entries(), 1u);
+}
+
+TEST_F(cache, spoilt_bytes_are_not_recalled_and_can_be_kept_again) {
+    const Cache store;
+    store.remember("test/a", bytes_);
+    const fs::path file = store.root() / "test/a";
+    const std::string whole = read_file(file);
+    std::string flipped = whole;
+    flipped.back() ^= 1;
+    for (const std::string& spoilt : {whole.substr(0, whole.size() - 1), whole + "x", flipped, std::string()}) {
+        write_file_atomically(file, spoilt);
+        EXPECT_FALSE(store.recall("test/a"));
+        EXPECT_FALSE(fs::exists(file));
+        store.remember("test/a", bytes_);
+        EXPECT_EQ(store.recall("test/a"), bytes_);
+    }
+    fs::remove(file);
+    fs::create_directories(file / "folder");  // as an earlier program may have left it
+    EXPECT_FALSE(store.recall("test/a"));
+    store.remember("test/a", bytes_);
+    EXPECT_EQ(store.recall("test/a"), bytes_);
+}
+
+TEST_F(cache, trouble_with_the_disk_only_forgets) {
+    const Cache store;
+    store.remember("test/a", bytes_);
+    fs::remove_all(store.root());
+    EXPECT_FALSE(store.recall("test/a"));
+    store.remember("test/a", bytes_);
+    EXPECT_EQ(store.recall("test/a"), bytes_);
+    fs::remove_all(store.root() / "test");
+    std::ofstream(store.root() / "test") << "no folder";  // nothing can be written below it
+    EXPECT_FALSE(store.recall("test/a"));
+    EXPECT_NO_THROW(store.remember("test/a", bytes_));
+    EXPECT_FALSE(store.recall("test/a"));
+    fs::remove_all(store.root());
+    std::ofstream(store.root()) << "no folder";
+    EXPECT_FALSE(store.recall("test/a"));
+    EXPECT_NO_THROW(store.remember("test/a", bytes_));
+    EXPECT_FALSE(store.recall("test/a"));
+}
+
+TEST_F(cache, bytes_of_all_kinds_share_the_limit) {
+    constexpr std::size_t kEach = 1000;
+    const Cache store(20 * kEach);
+    for (int i = 0; i < 60; ++i) {
+        const std::string name = (i % 2 == 0 ? "even/" : "odd/") + std::to_string(i);
+        store.remember(name, std::string(kEach, 'c'));
+        set_age(store.root() / name, std::chrono::hours(60 - i));
+    }
+    const auto left = entries("even") + entries("odd");
+    EXPECT_GE(left, 15u);
+    EXPECT_LE(left, 22u);
+    EXPECT_TRUE(store.recall("odd/59"));
+    EXPECT_FALSE(store.recall("even/0"));
+}
+
+// Oracle: the count of entries. Each of many short runs writes far less than a sixteenth of the limit.
+TEST_F(cache, the_limit_holds_over_many_runs_that_write_little) {
+    for (int i = 0; i < 100; ++i) {
+        const Cache store(20000);
+        const std::string name = "test/" + std::to_string(i);
+        store.remember(name, std::string(400, 'c'));
+        set_age(store.root() / name, std::chrono::hours(100 - i));
+    }
+    EXPECT_GE(entries(), 35u);
+    EXPECT_LE(entries(), 20000u / 432u + 1 + 20000u / 16 / 432u + 1);
 }
 
 }  // namespace test_cache

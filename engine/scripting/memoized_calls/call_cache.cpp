@@ -1,0 +1,34 @@
+#include "scripting/memoized_calls/call_cache.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+std::string entry_of_shape(const std::string& shape) {
+    return EntryName("call-shapes").add(shape).text();
+}
+std::string entry_of_call(const std::string& call) {
+    return EntryName("calls").add(call).text();
+}
+
+}  // namespace
+
+bool CallCache::knows(const std::string& shape) const {
+    return cache_.lasting() && cache_.recall(entry_of_shape(shape)).has_value();
+}
+
+std::optional<std::string> CallCache::recall(const std::string& call) {
+    auto result = cache_.recall(entry_of_call(call));
+    if (result) ++use_.recalled;
+    return result;
+}
+
+void CallCache::remember(const std::string& shape, const std::string& call, std::string_view result) {
+    cache_.remember(entry_of_call(call), result);
+    cache_.remember(entry_of_shape(shape), "");
+}
+
+void CallCache::forget(const std::string& shape) const {
+    cache_.forget(entry_of_shape(shape));
+}
+
+}  // namespace dynlab::inline scripting

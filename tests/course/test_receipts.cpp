@@ -1,0 +1,157 @@
+// Receipts through the commands: what a student can verify without the course, and what the course alone can. Oracles:
+// OpenSSL, another implementation of Ed25519 and of HMAC; the definition of a signature.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "course/course_bench.h"
+
+namespace dynlab::test {
+namespace test_receipts {
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+/// A course that took group-01's report; the receipt and the public key in the student's own folder, "mine".
+class receipts : public testing::Test {
+  protected:
+    receipts() {
+        CourseBench::expect_done(course_.hand_in("group-01.pdf", small_pdf("one"), "2026-03-01 10:00"));
+        CourseBench::expect_done(
+            shell("mkdir mine && cp k/receipts/crane/*-group-01-first-report.txt mine/r.txt && cp k/course.pub mine"));
+    }
+    ChildResult shell(const std::string& command) { return course_.bench().shell(command); }
+    ChildResult verify(std::vector<std::string> words) {
+        words.insert(words.begin(), "verify-receipt");
+        return course_.bench().dynlab(words);
+    }
+    std::string read(const std::string& file) { return course_.bench().read(file); }
+    void write(const std::string& file, const std::string& text) { course_.bench().write(file, text); }
+
+    CourseBench course_{2};
+};
+
+TEST_F(receipts, are_verified_without_the_course) {
+    EXPECT_THAT(course_.course({"verify", "mine/r.txt"}).output, HasSubstr("mine/r.txt: genuine"));
+    CourseBench::expect_done(shell("rm -r k"));
+    const ChildResult genuine = verify({"mine/r.txt"});
+    EXPECT_EQ(genuine.exit_code, 0) << genuine.error_output;
+    EXPECT_EQ(genuine.output, "mine/r.txt: genuine, signed by the course \"k\"\n");
+    CourseBench::expect_done(shell("mv mine/course.pub key.txt"));
+    EXPECT_EQ(verify({"mine/r.txt", "--key", "key.txt"}).exit_code, 0);
+    const ChildResult without = verify({"mine/r.txt"});
+    EXPECT_EQ(without.exit_code, 1);
+    EXPECT_THAT(without.error_output, HasSubstr("there is no course.pub beside the receipt or here"));
+}
+
+// Oracle: OpenSSL verifies the lines above the signature with the key of course.pub.
+TEST_F(receipts, are_signed_by_ed25519_as_other_programs_know_it) {
+    const ChildResult told = shell(
+        "cd mine && grep -v ^signature: r.txt > text && sed -n 's/^signature: //p' r.txt | xxd -r -p > signature && "
+        "(echo 302a300506032b6570032100; sed -n 's/^ed25519: //p' course.pub) | xxd -r -p > key.der && "
+        "openssl pkeyutl -verify -pubin -keyform DER -inkey key.der -rawin -in text -sigfile signature");
+    EXPECT_EQ(told.exit_code, 0) << told.error_output;
+    EXPECT_THAT(told.output, HasSubstr("Signature Verified Successfully"));
+}
+
+TEST_F(receipts, forged_and_altered_ones_are_refused) {
+    const std::string text = read("mine/r.txt");
+    const auto refused = [&](const std::string& forged) {
+        write("mine/forged.txt", forged);
+        const ChildResult result = verify({"mine/r.txt", "mine/forged.txt", "--key", "mine/course.pub"});
+        EXPECT_EQ(result.exit_code, 1) << forged;
+        EXPECT_THAT(result.output, AllOf(HasSubstr("mine/r.txt: genuine"), HasSubstr("mine/forged.txt: NOT genuine")));
+        EXPECT_EQ(course_.course({"verify", "mine/forged.txt"}).exit_code, 1) << forged;
+    };
+    const auto changed = [&text](const std::string& from, const std::string& to) {
+        std::string result = text;
+        EXPECT_NE(result.find(from), std::string::npos) << from;
+        return result.replace(result.find(from), from.size(), to);
+    };
+    refused(changed("group-01", "group-02"));
+    refused(changed("T10:00:00Z", "T09:00:00Z"));
+    refused(changed("receipt 2", "receipt 3"));
+    refused(text.substr(0, text.size() - 2) + (text[text.size() - 2] == '0' ? "1\n" : "0\n"));  // one digit
+    refused(text.substr(0, text.find("signature: ")));
+    refused(text.substr(0, text.find("signature: ") + 11) + std::string(128, '0') + "\n");
+    refused("late: no\n" + text);
+    refused("");
+    // A code made with what everybody knows, the public key, is no code of the course.
+    write("mine/coded.txt", changed("receipt 2", "receipt 1").substr(0, text.find("signature: ")));
+    CourseBench::expect_done(
+        shell("cd mine && code=$(openssl dgst -sha256 -hmac \"$(sed -n 's/^ed25519: //p' course.pub)\" coded.txt | sed "
+              "'s/.*= //') && echo \"signature: $code\" >> coded.txt"));
+    EXPECT_THAT(course_.course({"verify", "mine/coded.txt"}).output, HasSubstr("NOT genuine"));
+    EXPECT_EQ(verify({"mine/coded.txt"}).exit_code, 1);
+}
+
+TEST_F(receipts, of_another_course_are_refused) {
+    CourseBench other(2);
+    CourseBench::expect_done(other.hand_in("group-01.pdf", small_pdf("one"), "2026-03-01 10:00"));
+    write("theirs.pub", other.bench().read("k/course.pub"));
+    EXPECT_NE(read("theirs.pub"), read("mine/course.pub"));
+    const ChildResult result = verify({"mine/r.txt", "--key", "theirs.pub"});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.output, HasSubstr("mine/r.txt: NOT genuine: altered, or signed by another course"));
+}
+
+TEST_F(receipts, are_for_one_file) {
+    const ChildResult right = verify({"mine/r.txt", "--file", "group-01.pdf"});
+    EXPECT_EQ(right.exit_code, 0) << right.output << right.error_output;
+    write("other.pdf", small_pdf("other"));
+    const ChildResult wrong = verify({"mine/r.txt", "--file", "other.pdf"});
+    EXPECT_EQ(wrong.exit_code, 1);
+    EXPECT_THAT(wrong.output, HasSubstr("genuine, but NOT for other.pdf: that file has another SHA-256"));
+}
+
+TEST_F(receipts, bad_keys_and_words_are_told) {
+    for (const std::string& bad :
+         {std::string("nothing\n"), std::string(), "dynlab receipt key 1\ned25519: 12\n" + std::string(64, '0'),
+          "dynlab receipt key 1\ned25519: " + std::string(64, 'x') + "\n"}) {
+        write("bad.pub", bad);
+        const ChildResult result = verify({"mine/r.txt", "--key", "bad.pub"});
+        EXPECT_EQ(result.exit_code, 1) << bad;
+        EXPECT_THAT(result.error_output, HasSubstr("bad.pub: this is no public key of a course")) << bad;
+    }
+    EXPECT_EQ(verify({}).exit_code, 2);
+    EXPECT_EQ(verify({"nowhere.txt"}).exit_code, 2);
+    EXPECT_EQ(verify({"mine/r.txt", "--key", "nowhere.pub"}).exit_code, 2);
+}
+
+TEST_F(receipts, the_public_key_is_shown_and_the_secret_is_not) {
+    const ChildResult shown = course_.course({"key"});
+    EXPECT_EQ(shown.exit_code, 0) << shown.error_output;
+    EXPECT_THAT(shown.output, AllOf(HasSubstr(read("mine/course.pub")), HasSubstr("k/course.pub")));
+    const std::string secret = read("k/course.key");
+    for (const std::string& open : {shown.output, read("mine/course.pub"), read("mine/r.txt")})
+        EXPECT_THAT(open, Not(HasSubstr(secret.substr(0, 64))));
+    EXPECT_EQ(shell("stat -c %a k/course.key").output, "600\n");
+}
+
+// A course of before has no public key, codes in its store, and receipts with codes. Oracle: OpenSSL's HMAC.
+TEST_F(receipts, of_courses_of_before_are_still_known_to_the_course) {
+    CourseBench::expect_done(
+        shell("rm k/course.pub && grep -v ^signature: mine/r.txt | sed '1s/2$/1/' > old.txt && "
+              "code=$(openssl dgst -sha256 -hmac \"$(cat k/course.key)\" old.txt | sed 's/.*= //') && "
+              "echo \"signature: $code\" >> old.txt && cp old.txt k/receipts/crane/*-group-01-first-report.txt && "
+              "sqlite3 k/course.db \"UPDATE versions SET signature = '$code'\""));
+    EXPECT_THAT(course_.course({"verify"}).output, HasSubstr("1 files, 1 versions: all there and unaltered"));
+    EXPECT_THAT(course_.course({"verify", "old.txt"}).output, HasSubstr("old.txt: genuine"));
+    const ChildResult alone = verify({"old.txt", "--key", "mine/course.pub"});
+    EXPECT_EQ(alone.exit_code, 1);
+    EXPECT_THAT(alone.output, HasSubstr("old.txt: cannot be told: it has no signature but a code"));
+    std::string altered = read("old.txt");
+    altered.replace(altered.find("group-01"), 8, "group-02");
+    write("altered.txt", altered);
+    EXPECT_THAT(course_.course({"verify", "altered.txt"}).output, HasSubstr("NOT genuine"));
+    // What comes from now on is signed, and the key is there again, the same.
+    CourseBench::expect_done(course_.hand_in("group-02.pdf", small_pdf("two"), "2026-03-01 10:00"));
+    EXPECT_EQ(read("k/course.pub"), read("mine/course.pub"));
+    CourseBench::expect_done(shell("cp k/receipts/crane/*-group-02-first-report.txt new.txt"));
+    EXPECT_EQ(verify({"new.txt", "--key", "mine/course.pub"}).exit_code, 0);
+    EXPECT_THAT(course_.course({"verify"}).output, HasSubstr("2 files, 2 versions: all there and unaltered"));
+    CourseBench::expect_done(shell("sqlite3 k/course.db \"UPDATE versions SET late = 7 WHERE id = 1\""));
+    EXPECT_THAT(course_.course({"verify"}).error_output, HasSubstr("version 1: its facts are not those"));
+}
+
+}  // namespace test_receipts
+}  // namespace dynlab::test
