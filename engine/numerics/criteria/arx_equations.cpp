@@ -5,6 +5,7 @@
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/triangular_factor.h"
+#include "numerics/signals/lagged_gram.h"
 
 namespace dynlab::inline numerics {
 
@@ -12,8 +13,9 @@ namespace {
 
 constexpr double kGramLimit = 1e3;  // beyond this condition number the Gram matrix costs digits
 
-/// By the column-scaled Gram matrix; the condition number alone is right when it is too large.
-ArxSolution solve_gram(const Matrix& gram) {
+}  // namespace
+
+ArxSolution solve_gram(const MatrixView& gram) {
     const Index d = gram.cols() - 1;
     Vector unscale = gram.diagonal().head(d).cwiseSqrt();
     for (double& value : unscale) value = value > 0 ? 1 / value : 1;
@@ -26,8 +28,6 @@ ArxSolution solve_gram(const Matrix& gram) {
     solution.theta = unscale.asDiagonal() * solve_semidefinite(scaled, unscale.asDiagonal() * gram.col(d).head(d));
     return solution;
 }
-
-}  // namespace
 
 Index ArxEquations::count() const {
     Index count = 0;
@@ -47,8 +47,15 @@ void ArxEquations::fill(const Experiment& experiment, Index k, Index rows, Matri
 }
 
 Matrix ArxEquations::gram() const {
-    Matrix gram = Matrix::Zero(parameters() + 1, parameters() + 1);
-    for_each_block([&](const auto& block) { gram.noalias() += block.transpose() * block; });
+    const Index d = parameters();
+    Matrix gram = Matrix::Zero(d + 1, d + 1);
+    for (const Experiment& experiment : data_.experiments) {
+        std::vector<LaggedColumns> columns{{experiment.y.col(0), 1, orders_.na, -1}};
+        for (std::size_t input = 0; input < orders_.inputs(); ++input)
+            columns.push_back({experiment.u.col(static_cast<Index>(input)), orders_.nk[input], orders_.nb[input], 1});
+        columns.push_back({experiment.y.col(0), 0, 1, 1});
+        gram += lagged_gram(columns, orders_.past(), experiment.y.rows() - orders_.past());
+    }
     return gram;
 }
 

@@ -56,6 +56,10 @@ struct ArxSolution {
     double condition_number = 0;  ///< of the column-scaled Phi
 };
 
+/// From the sums [Phi y]'[Phi y], scaled: `theta` is right while the condition number is below about 1e6, the condition
+/// number itself always.
+ArxSolution solve_gram(const MatrixView& gram);
+
 /// Least squares: by the Gram matrix while its condition number is below 1e3, otherwise by the triangular factor; of
 /// least scaled norm where the data do not tell the parameters apart.
 ArxSolution solve_arx(const ArxEquations& equations);

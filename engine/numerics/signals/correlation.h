@@ -9,4 +9,8 @@ namespace dynlab::inline numerics {
 /// no samples, or negative lags.
 Vector lagged_products(const VectorView& x, const VectorView& y, Index lags);
 
+/// sum_k x(k) y(k - lag) over all samples of x, lags 0..last. `y` points at the sample that belongs to the first one of
+/// x at lag 0; the caller vouches for the `last` samples before it and those beside x.
+Vector products_behind(const VectorView& x, const double* y, Index last);
+
 }  // namespace dynlab::inline numerics

@@ -17,27 +17,34 @@ namespace {
 
 using Channels = std::span<const TransferFunction>;  // of one output, one per input
 
-// One output of one experiment.
+// One output of one experiment; t is empty when sampled regularly.
 struct ComparedRecord {
-    Matrix u;
-    Vector y, t;
+    const Matrix& u;
+    VectorView y, t;
     double Ts;
     Hold hold;
 };
 
 Vector simulate(const ComparedRecord& record, const TransferFunction& G, const VectorView& u, const VectorView& x0) {
-    return record.Ts > 0 ? lsim(G, u, record.Ts, record.hold, x0) : lsim(G, u, record.t, record.hold, x0);
+    return record.Ts > 0 ? lsim(G, u, record.Ts, record.hold, x0)
+                         : lsim(G, u, record.t.head(u.size()), record.hold, x0);
 }
 
-// Response from rest at zero input, or at the first input values.
-Vector driven_response(const ComparedRecord& record, Channels channels, InitialState state) {
-    Vector response = Vector::Zero(record.y.size());
+// Response from rest at zero input, or at the first input values, over the first `rows` samples.
+Vector driven_response(const ComparedRecord& record, Channels channels, InitialState state, Index rows) {
+    Vector response;
     for (Index j = 0; j < record.u.cols(); ++j) {
         const TransferFunction& G = channels[static_cast<std::size_t>(j)];
         const double gain = G.dc_gain();
         const double resting = state == InitialState::kZero || !std::isfinite(gain) ? 0 : record.u(0, j);
-        response += simulate(record, G, record.u.col(j).array() - resting, Vector());
-        if (resting != 0) response.array() += gain * resting;
+        const auto u = record.u.col(j).head(rows);
+        Vector share =
+            resting == 0 ? simulate(record, G, u, Vector()) : simulate(record, G, u.array() - resting, Vector());
+        if (resting != 0) share.array() += gain * resting;
+        if (j == 0)
+            response = std::move(share);
+        else
+            response += share;
     }
     return response;
 }
@@ -60,72 +67,197 @@ Index free_order(Channels channels) {
     return n;
 }
 
-Matrix free_motions(const ComparedRecord& record, Channels channels) {
-    const Index N = record.y.size();
-    Matrix motions(N, free_order(channels));
+Matrix free_motions(const ComparedRecord& record, Channels channels, Index rows) {
+    Matrix motions(rows, free_order(channels));
     Index column = 0;
     for (const TransferFunction* G : free_systems(channels)) {
         const Index n = G->pole_count();
         const TransferFunction poles(Vector::Ones(1), G->den(), G->Ts());
         for (Index i = 0; i < n; ++i)
-            motions.col(column++) = simulate(record, poles, Vector::Zero(N), Vector::Unit(n, i));
+            motions.col(column++) = simulate(record, poles, Vector::Zero(rows), Vector::Unit(n, i));
     }
     return motions;
 }
 
-struct DelayCandidate {
-    CompareResult result;
+// How the system's past shows in the first samples of the record. Past them nothing of it is left beside rounding; with
+// poles that do not decay, or irregular sampling, they are the whole record.
+struct Beginning {
+    Matrix motions;  // free motions, one column each
+    Vector steady;   // the response when the system rested at the first input values
+    Index rows() const { return motions.rows(); }
+};
+
+bool has_decayed(const Matrix& motions) {
+    constexpr double kDecayed = 1e-18;
+    const Matrix last = motions.bottomRows(motions.rows() / 4);
+    if (!motions.allFinite()) return false;
+    return (last.colwise().lpNorm<Eigen::Infinity>().array() <=
+            kDecayed * motions.colwise().lpNorm<Eigen::Infinity>().array())
+        .all();
+}
+
+Beginning beginning(const ComparedRecord& record, Channels channels) {
+    const Index N = record.y.size();
+    Index late = 0;  // samples until the slowest channel begins to answer
+    for (const TransferFunction& G : channels)
+        if (record.Ts > 0) late = std::max(late, static_cast<Index>(std::min(G.delay() / record.Ts + 2, 1e9)));
+    Beginning start;
+    for (Index reach = 1024;; reach *= 4) {
+        const Index rows = record.Ts > 0 ? std::min(N, late + reach) : N;
+        start.motions = free_motions(record, channels, std::min(rows, reach));
+        if (rows < N && !has_decayed(start.motions)) continue;
+        if (start.motions.rows() < rows) start.motions = free_motions(record, channels, rows);
+        start.steady = driven_response(record, channels, InitialState::kSteady, rows);
+        return start;
+    }
+}
+
+// Number, mean and squares about the mean of the errors past the beginning, which only an offset can explain.
+struct Remainder {
+    double count = 0, mean = 0, squares = 0;
+};
+
+Remainder remainder_of(const ComparedRecord& record, const Vector& response, Index first) {
+    constexpr Index kBlock = 2048;
+    Remainder sums;
+    for (Index k = first; k < response.size(); k += kBlock) {
+        const Index rows = std::min(kBlock, response.size() - k);
+        const auto errors = (record.y.segment(k, rows) - response.segment(k, rows)).eval();
+        const double count = static_cast<double>(rows), mean = errors.mean(), step = mean - sums.mean;
+        const double together = sums.count + count;
+        sums.squares += (errors.array() - mean).square().sum() + step * step * sums.count * count / together;
+        sums.mean += step * count / together;
+        sums.count = together;
+    }
+    return sums;
+}
+
+struct StartCandidate {
+    StartCondition condition{};
+    Vector initial_values;
+    double offset = 0;
     double bic = std::numeric_limits<double>::infinity();
 };
 
-DelayCandidate candidate(const ComparedRecord& record, Channels channels, const StartCondition& condition) {
-    DelayCandidate found;
-    CompareResult& result = found.result;
-    result.start = condition;
-    result.output = driven_response(record, channels, condition.state);
-    const Index N = record.y.size(), n = condition.state == InitialState::kEstimate ? free_order(channels) : 0;
-    const Index d = n + (condition.offset ? 1 : 0);
-    if (d > 0) {
-        if (N <= d)
-            throw InvalidArgument("compare needs more samples than the " + std::to_string(d) +
-                                  " values it estimates, and the record holds " + std::to_string(N));
-        Matrix regressors = Matrix::Ones(N, d);
-        if (n > 0) regressors.leftCols(n) = free_motions(record, channels);
-        const Vector error = record.y - result.output;
-        if (!regressors.allFinite() || !error.allFinite()) return found;  // an unstable model: nothing to estimate
-        const LeastSquares fit = solve_least_squares(regressors, error);
-        result.output = record.y - fit.residuals;
-        result.initial_values = fit.solution.head(n);
-        if (condition.offset) result.offset = fit.solution[d - 1];
+// What all start conditions of a record have in common.
+struct StartSearch {
+    const ComparedRecord& record;
+    Channels channels;
+    Vector response;  // from rest at zero input
+    Beginning start;
+    Remainder rest;
+    double power = 0;  // mean square of y
+
+    Index values(const StartCondition& condition) const {
+        return condition.state == InitialState::kEstimate ? start.motions.cols() : 0;
     }
-    const double samples = static_cast<double>(N);
-    const double loss = (record.y - result.output).squaredNorm() / samples;
-    if (std::isfinite(loss)) found.bic = bic_of_loss(loss, record.y.squaredNorm() / samples, N, d);
+    VectorView first_response(const StartCondition& condition) const {
+        return condition.state == InitialState::kZero ? VectorView(response.head(start.rows()))
+                                                      : VectorView(start.steady);
+    }
+};
+
+StartSearch start_search(const ComparedRecord& record, Channels channels, const std::vector<StartCondition>& all) {
+    StartSearch search{record, channels, driven_response(record, channels, InitialState::kZero, record.y.size()),
+                       {},     {},       0};
+    const bool past =
+        std::any_of(all.begin(), all.end(), [](const StartCondition& one) { return one.state != InitialState::kZero; });
+    if (past) search.start = beginning(record, channels);
+    search.rest = remainder_of(record, search.response, search.start.rows());
+    search.power = record.y.squaredNorm() / static_cast<double>(record.y.size());
+    return search;
+}
+
+// The equations of the beginning, and two that say of the rest what an offset makes of its sum of squares.
+struct StartEquations {
+    Matrix regressors;
+    Vector errors;
+};
+
+StartEquations start_equations(const StartSearch& search, const StartCondition& condition) {
+    const Index rows = search.start.rows(), n = search.values(condition), d = n + (condition.offset ? 1 : 0);
+    StartEquations equations{Matrix::Zero(rows + 2, d), Vector(rows + 2)};
+    equations.regressors.topLeftCorner(rows, n) = search.start.motions.leftCols(n);
+    const double weight = std::sqrt(search.rest.count);
+    if (condition.offset) {
+        equations.regressors.col(n).head(rows).setOnes();
+        equations.regressors(rows, n) = weight;
+    }
+    equations.errors.head(rows) = search.record.y.head(rows) - search.first_response(condition);
+    equations.errors.tail(2) << weight * search.rest.mean, std::sqrt(search.rest.squares);
+    return equations;
+}
+
+StartCandidate candidate(const StartSearch& search, const StartCondition& condition) {
+    StartCandidate found{condition, {}, 0, std::numeric_limits<double>::infinity()};
+    const Index N = search.record.y.size(), n = search.values(condition), d = n + (condition.offset ? 1 : 0);
+    const StartEquations equations = start_equations(search, condition);
+    if (!equations.regressors.allFinite() || !equations.errors.allFinite()) return found;  // an unstable model
+    double squares = equations.errors.squaredNorm();
+    if (d > 0) {
+        const LeastSquares fit = solve_least_squares(equations.regressors, equations.errors);
+        squares = fit.residuals.squaredNorm();
+        found.initial_values = fit.solution.head(n);
+        if (condition.offset) found.offset = fit.solution[d - 1];
+    }
+    const double loss = squares / static_cast<double>(N);
+    if (std::isfinite(loss)) found.bic = bic_of_loss(loss, search.power, N, d);
     return found;
 }
 
-CompareResult compare_record(ComparedRecord record, Channels channels, const CompareOptions& options) {
+Vector simulated_output(StartSearch& search, const StartCandidate& best) {
+    Vector output = std::move(search.response);
+    if (best.condition.state != InitialState::kZero) output.head(search.start.rows()) = search.start.steady;
+    if (best.initial_values.size() > 0) output.head(search.start.rows()) += search.start.motions * best.initial_values;
+    if (best.offset != 0) output.array() += best.offset;
+    return output;
+}
+
+struct Compared {
+    CompareResult result;
+    double squares = 0, variation = 0;  // of the errors, and of the outputs about their mean
+};
+
+CompareResult compare_centred(const ComparedRecord& record, Channels channels, const CompareOptions& options) {
+    const Index N = record.y.size(), order = free_order(channels);
+    const auto conditions = start_conditions(record.u, options.initial_state, options.offset);
+    const auto values = [order](const StartCondition& condition) {
+        return (condition.state == InitialState::kEstimate ? order : 0) + (condition.offset ? 1 : 0);
+    };
+    if (const Index d = values(conditions.front()); d > 0 && N <= d)
+        throw InvalidArgument("compare needs more samples than the " + std::to_string(d) +
+                              " values it estimates, and the record holds " + std::to_string(N));
+    StartSearch search = start_search(record, channels, conditions);
+    StartCandidate best = candidate(search, conditions.front());
+    for (std::size_t i = 1; i < conditions.size(); ++i) {
+        const bool estimated = conditions[i].state == InitialState::kEstimate;
+        if (N <= (estimated ? order : 0) + 1) continue;
+        StartCandidate next = candidate(search, conditions[i]);
+        if (next.bic < best.bic) best = std::move(next);
+    }
+    return {simulated_output(search, best), 0, best.condition, best.initial_values, best.offset, {}};
+}
+
+Compared compare_record(const ComparedRecord& record, Channels channels, const CompareOptions& options) {
+    Compared compared;
+    CompareResult& result = compared.result;
     double removed_output = 0;
     if (options.offset == Offset::kRemove) {
         const JointOperatingPoint removed = joint_operating_point(record.u, record.y);
-        record.u.rowwise() -= removed.inputs.transpose();
-        record.y.array() -= removed.output;
+        const Matrix u = record.u.rowwise() - removed.inputs.transpose();
+        const Vector y = record.y.array() - removed.output;
+        result = compare_centred({u, y, record.t, record.Ts, record.hold}, channels, options);
         removed_output = removed.output;
+        result.output.array() += removed_output;
+    } else {
+        result = compare_centred(record, channels, options);
     }
-    const auto conditions = start_conditions(record.u, options.initial_state, options.offset);
-    DelayCandidate best = candidate(record, channels, conditions.front());
-    for (std::size_t i = 1; i < conditions.size(); ++i) {
-        const Index n = conditions[i].state == InitialState::kEstimate ? free_order(channels) : 0;
-        if (record.y.size() <= n + 1) continue;
-        DelayCandidate next = candidate(record, channels, conditions[i]);
-        if (next.bic < best.bic) best = std::move(next);
-    }
-    CompareResult result = std::move(best.result);
-    result.fit_percent = fit_percent(record.y, result.output);
-    result.output.array() += removed_output;
     result.offset += removed_output;
+    compared.squares = (record.y - result.output).squaredNorm();
+    compared.variation = variation_about_mean(record.y);
+    result.fit_percent = 100 * (1 - std::sqrt(compared.squares / compared.variation));
     result.message = "Simulated " + description(result.start) + ": fit " + number_text(result.fit_percent, 4) + " %.";
-    return result;
+    return compared;
 }
 
 }  // namespace
@@ -150,11 +282,12 @@ Comparison compare_all(const IdData& data, const std::vector<TransferFunction>& 
         const Experiment& experiment = data.experiments[k];
         auto& row = all.results.emplace_back();
         for (Index i = 0; i < ny; ++i) {
-            const Vector y = experiment.y.col(i);
             const Channels own(channels.data() + i * nu, static_cast<std::size_t>(nu));
-            row.push_back(compare_record({experiment.u, y, data.time(k), data.Ts, data.hold}, own, options));
-            squares[i] += (y - row.back().output).squaredNorm();
-            variation[i] += (y.array() - y.mean()).matrix().squaredNorm();
+            const ComparedRecord record{experiment.u, experiment.y.col(i), experiment.t, data.Ts, data.hold};
+            Compared compared = compare_record(record, own, options);
+            squares[i] += compared.squares;
+            variation[i] += compared.variation;
+            row.push_back(std::move(compared.result));
         }
     }
     all.fit_percent = 100 * (1 - (squares.array() / variation.array()).sqrt());

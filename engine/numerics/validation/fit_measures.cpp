@@ -21,22 +21,23 @@ double square_about_mean(const VectorView& x) {
     return (x.array() - x.mean()).matrix().squaredNorm();
 }
 
-double moving_square(const VectorView& y) {
+}  // namespace
+
+double variation_about_mean(const VectorView& y) {
+    require_pair(y, y);
     if ((y.array() == y[0]).all())
         throw InvalidArgument("The measured output never changes, so a fit relative to its variation has no meaning");
     return square_about_mean(y);
 }
 
-}  // namespace
-
 double fit_percent(const VectorView& y, const VectorView& y_sim) {
     require_pair(y, y_sim);
-    return 100 * (1 - (y - y_sim).norm() / std::sqrt(moving_square(y)));
+    return 100 * (1 - (y - y_sim).norm() / std::sqrt(variation_about_mean(y)));
 }
 
 double r_squared_simulation(const VectorView& y, const VectorView& y_sim) {
     require_pair(y, y_sim);
-    return 1 - square_about_mean(y - y_sim) / moving_square(y);
+    return 1 - square_about_mean(y - y_sim) / variation_about_mean(y);
 }
 
 YoungCriterion yic(const VectorView& y, const VectorView& y_sim, const VectorView& theta,
@@ -56,7 +57,7 @@ YoungCriterion yic(const VectorView& y, const VectorView& y_sim, const VectorVie
     }
     const double used = static_cast<double>(theta.size()) - static_cast<double>(criterion.skipped.size());
     if (used == 0) throw InvalidArgument("YIC needs at least one parameter that is not zero");
-    const double unexplained = square_about_mean(y - y_sim) / moving_square(y);
+    const double unexplained = square_about_mean(y - y_sim) / variation_about_mean(y);
     criterion.value = unexplained == 0 || relative_variances == 0
                           ? -std::numeric_limits<double>::infinity()
                           : std::log(unexplained) + std::log(relative_variances / used);

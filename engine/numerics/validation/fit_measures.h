@@ -9,6 +9,9 @@ namespace dynlab::inline numerics {
 /// Measures of how well a simulated output `y_sim` follows the measured `y` (N values each). All throw InvalidArgument
 /// for lengths that differ or fewer than two samples.
 
+/// |y - mean(y)|^2, what the measures below relate errors to. Throws for a constant y.
+double variation_about_mean(const VectorView& y);
+
 /// 100 (1 - |y - y_sim|/|y - mean(y)|) in percent; 100 is perfect, 0 no better than the mean. Throws for a constant y.
 double fit_percent(const VectorView& y, const VectorView& y_sim);
 

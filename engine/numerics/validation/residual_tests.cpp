@@ -25,6 +25,12 @@ Signals centred(const Signals& signals) {
     return all;
 }
 
+Signals centred_column(const std::vector<Matrix>& signals, Index column) {
+    Signals all;
+    for (const Matrix& x : signals) all.push_back(centred(x.col(column)));
+    return all;
+}
+
 double sample_count(const Signals& signals) {
     double N = 0;
     for (const Vector& x : signals) N += static_cast<double>(x.size());
@@ -60,9 +66,10 @@ double lag_variance(const Signals& e, Index lag) {
     return pairs / (N * (N + 2));
 }
 
-WhitenessTest test_whiteness(const Signals& e, Index lags, double confidence) {
+// R holds the covariances of e, lags 0..lags.
+WhitenessTest test_whiteness(const Signals& e, const VectorView& R, double confidence) {
     WhitenessTest test;
-    const Vector R = covariances(e, e, lags).tail(lags + 1);
+    const Index lags = R.size() - 1;
     if (R[0] == 0) return test;  // nothing but a constant
     test.correlation = R / R[0];
     test.bound = normal_half_width(confidence) / std::sqrt(sample_count(e));
@@ -84,10 +91,10 @@ WhitenessTest test_whiteness(const Signals& e, Index lags, double confidence) {
     return test;
 }
 
-// g(h) = sum_k w(k) R_e(k) R_u(k + h), h = 0..lags. With `white` only k = 0 counts, else Bartlett weights reach
-// over a quarter of the record: positive by construction, and as exact as the autocorrelations allow.
-Vector product_covariances(const Signals& e, const Signals& u, Index lags, bool white) {
-    const Index reach = white ? 0 : longest(e) / 4;
+// g(h) = sum_k w(k) R_e(k) R_u(k + h), h = 0..lags. Bartlett weights reach over a quarter of the record: positive by
+// construction, and as exact as the autocorrelations allow.
+Vector product_covariances(const Signals& e, const Signals& u, Index lags) {
+    const Index reach = longest(e) / 4;
     const Vector Re = covariances(e, e, reach), Ru = covariances(u, u, reach + lags);
     Vector g = Vector::Zero(lags + 1);
     for (Index h = 0; h <= lags; ++h)
@@ -148,13 +155,15 @@ std::string independence_verdict(const IndependenceTest& test, const IdData& dat
     return name + " explains nothing more of it (" + probability_text(test.p_value) + ").";
 }
 
-IndependenceTest test_independence(const Signals& e, const Signals& u, const IdData& data, Index input, bool white,
-                                   const ResidualOptions& options) {
+// `variance` is that of e.
+IndependenceTest test_independence(const Signals& e, double variance, const Signals& u, const IdData& data, Index input,
+                                   bool white, const ResidualOptions& options) {
     const Index lags = options.lags;
     const double N = sample_count(e);
     IndependenceTest test;
     test.input = input;
-    const double Re = covariances(e, e, 0)[0], Ru = covariances(u, u, 0)[0];
+    const Vector input_covariances = covariances(u, u, lags).tail(lags + 1);
+    const double Re = variance, Ru = input_covariances[0];
     if (Ru == 0) {
         test.tested = false;
         test.correlation = Vector::Zero(2 * lags + 1);
@@ -162,7 +171,8 @@ IndependenceTest test_independence(const Signals& e, const Signals& u, const IdD
                        " never changes, so that its correlation with the error says nothing.";
         return test;
     }
-    const Vector r = covariances(e, u, lags), g = product_covariances(e, u, lags, white);
+    const Vector r = covariances(e, u, lags),
+                 g = white ? Vector(Re * input_covariances) : product_covariances(e, u, lags);
     test.correlation = r / std::sqrt(Re * Ru);
     test.bound = normal_half_width(options.confidence) * std::sqrt(g[0] / (N * Re * Ru));
     test.outside = (test.correlation.tail(lags + 1).cwiseAbs().array() > test.bound).count();
@@ -194,16 +204,18 @@ std::string conclusion(const OutputResiduals& output) {
            "noise model are in place.";
 }
 
-OutputResiduals test_output(const Signals& errors, const IdData& data, Index output, const ResidualOptions& options) {
+OutputResiduals test_output(const std::vector<Matrix>& errors, const IdData& data, Index output,
+                            const ResidualOptions& options) {
     OutputResiduals result;
-    const double N = sample_count(errors);
+    const Signals e = centred_column(errors, output);
+    const double N = sample_count(e);
     double output_power = 0;
     for (std::size_t k = 0; k < errors.size(); ++k) {
-        result.mean += errors[k].sum() / N;
+        result.mean += errors[k].col(output).sum() / N;
         output_power += data.experiments[k].y.col(output).squaredNorm() / N;
     }
-    const Signals e = centred(errors);
-    result.variance = covariances(e, e, 0)[0];
+    const Vector R = covariances(e, e, options.lags).tail(options.lags + 1);
+    result.variance = R[0];
     const std::string name = data.output_names[static_cast<std::size_t>(output)];
     constexpr double kRounding = 1e4 * std::numeric_limits<double>::epsilon();
     if (result.variance <= kRounding * kRounding * output_power) {
@@ -212,24 +224,23 @@ OutputResiduals test_output(const Signals& errors, const IdData& data, Index out
             name + ": the simulated output equals the measured one to rounding, so nothing is left to test.";
         return result;
     }
-    result.whiteness = test_whiteness(e, options.lags, options.confidence);
+    result.whiteness = test_whiteness(e, R, options.confidence);
     result.verdict = name + ": " + result.whiteness.verdict;
     for (Index j = 0; j < data.input_count(); ++j) {
         Signals u;
         for (const Experiment& experiment : data.experiments) u.push_back(centred(experiment.u.col(j)));
-        result.inputs.push_back(test_independence(e, u, data, j, result.whiteness.white, options));
+        result.inputs.push_back(test_independence(e, R[0], u, data, j, result.whiteness.white, options));
         result.verdict += " " + result.inputs.back().verdict;
     }
     result.verdict += " " + conclusion(result);
     return result;
 }
 
-std::vector<Matrix> output_errors(const IdData& data, const std::vector<Matrix>& simulated) {
+std::vector<Matrix> output_errors(const IdData& data, std::vector<Matrix> simulated) {
     if (simulated.size() != data.experiments.size() || data.experiments.empty())
         throw InvalidArgument("The residual tests need a simulated output for each of the " +
                               std::to_string(data.experiments.size()) + " experiment(s), and got " +
                               std::to_string(simulated.size()));
-    std::vector<Matrix> errors;
     for (std::size_t k = 0; k < simulated.size(); ++k) {
         const Matrix& y = data.experiments[k].y;
         if (y.rows() != simulated[k].rows() || y.cols() != simulated[k].cols())
@@ -239,9 +250,9 @@ std::vector<Matrix> output_errors(const IdData& data, const std::vector<Matrix>&
         if (!simulated[k].allFinite())
             throw InvalidArgument(
                 "The simulated output is not finite everywhere: the model is unstable on this record");
-        errors.push_back(y - simulated[k]);
+        simulated[k] = y - simulated[k];
     }
-    return errors;
+    return simulated;
 }
 
 }  // namespace
@@ -256,13 +267,13 @@ WhitenessTest whiteness_test(const std::vector<Vector>& errors, const ResidualOp
     options.validate();
     const Signals e = centred(errors);
     const Index lags = std::max<Index>(1, std::min(options.lags, longest(e) / 2));
-    return test_whiteness(e, lags, options.confidence);
+    return test_whiteness(e, covariances(e, e, lags).tail(lags + 1), options.confidence);
 }
 
-ResidualTests residual_tests(const IdData& data, const std::vector<Matrix>& simulated, const ResidualOptions& options) {
+ResidualTests residual_tests(const IdData& data, std::vector<Matrix> simulated, const ResidualOptions& options) {
     options.validate();
     ResidualTests tests;
-    tests.residuals = output_errors(data, simulated);
+    tests.residuals = output_errors(data, std::move(simulated));
     Index most = 0;
     for (const Matrix& errors : tests.residuals) most = std::max(most, errors.rows());
     if (most < 2 * options.lags)
@@ -270,9 +281,7 @@ ResidualTests residual_tests(const IdData& data, const std::vector<Matrix>& simu
                               std::to_string(2 * options.lags) + " samples in one record, and the longest has " +
                               std::to_string(most) + ": ask for fewer lags");
     for (Index i = 0; i < data.output_count(); ++i) {
-        Signals errors;
-        for (const Matrix& all : tests.residuals) errors.push_back(all.col(i));
-        tests.outputs.push_back(test_output(errors, data, i, options));
+        tests.outputs.push_back(test_output(tests.residuals, data, i, options));
         tests.verdict += (i == 0 ? "" : "\n") + tests.outputs.back().verdict;
     }
     return tests;
@@ -284,7 +293,7 @@ ResidualTests residual_tests(const IdData& data, const std::vector<TransferFunct
     const Comparison comparison = compare_all(data, channels, simulation);
     std::vector<Matrix> simulated;
     for (std::size_t k = 0; k < data.experiments.size(); ++k) simulated.push_back(comparison.outputs(k));
-    return residual_tests(data, simulated, options);
+    return residual_tests(data, std::move(simulated), options);
 }
 
 }  // namespace dynlab::inline numerics

@@ -63,8 +63,7 @@ struct ResidualTests {
 /// The degrees of freedom are not reduced by the estimated parameters, so that the tests reject a little less than they
 /// might. `simulated` holds N x ny outputs per experiment. Throws InvalidArgument for sizes that do not fit or fewer
 /// than two samples per lag.
-ResidualTests residual_tests(const IdData& data, const std::vector<Matrix>& simulated,
-                             const ResidualOptions& options = {});
+ResidualTests residual_tests(const IdData& data, std::vector<Matrix> simulated, const ResidualOptions& options = {});
 
 /// The same for a model, whose initial state and offset are handled as by compare_all().
 ResidualTests residual_tests(const IdData& data, const std::vector<TransferFunction>& channels,

@@ -25,6 +25,27 @@ TEST(correlation, both_ways_equal_the_definition) {  // oracle: the definition
     }
 }
 
+TEST(correlation, of_a_signal_with_itself_equals_the_definition) {  // oracle: the definition
+    const Vector x = RandomStream(6).normal(5000);
+    for (const Index lags : {0, 2, 25, 90, 120}) {
+        const Vector sums = lagged_products(x, x, lags);
+        for (Index lag = -lags; lag <= lags; ++lag) EXPECT_NEAR(sums[lags + lag], product(x, x, lag), 1e-9) << lag;
+    }
+}
+
+TEST(correlation, behind_equals_the_definition) {  // oracle: the definition
+    const Vector y = RandomStream(7).normal(3000), x = RandomStream(8).normal(2900);
+    for (const Index last : {0, 1, 3, 4, 30}) {
+        const Vector sums = products_behind(x, y.data() + 50, last);
+        ASSERT_EQ(sums.size(), last + 1);
+        for (Index lag = 0; lag <= last; ++lag) {
+            double sum = 0;
+            for (Index k = 0; k < x.size(); ++k) sum += x[k] * y[50 + k - lag];
+            EXPECT_NEAR(sums[lag], sum, 1e-10) << lag;
+        }
+    }
+}
+
 TEST(correlation, finds_a_delay_at_its_positive_lag) {  // oracle: the delay made
     const Vector u = RandomStream(1).normal(500);
     Vector y = Vector::Zero(500);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "numerics/error.h"
+#include "numerics/linalg/least_squares.h"
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
 #include "numerics/validation/compare.h"
@@ -86,6 +87,31 @@ TEST(compare, takes_discrete_models_and_irregular_data) {  // oracle: second rou
     for (Index k = 1; k < 200; ++k) t[k] = t[k - 1] + 0.02 + 0.05 * random.uniform();
     const Vector late = lsim(kG, u, t, Hold::kZoh);
     EXPECT_NEAR(compare(IdData(Matrix(late), Matrix(u), t), kG).fit_percent, 100, 1e-8);
+}
+
+// The output from the first input on, with the free motion and the offset that least squares over every sample finds.
+Vector fitted_by_definition(const Vector& y, const Vector& u, const TransferFunction& G, double Ts) {
+    const Index N = y.size(), n = G.pole_count();
+    const Vector steady = (lsim(G, u.array() - u[0], Ts).array() + G.dc_gain() * u[0]).matrix();
+    Matrix regressors = Matrix::Ones(N, n + 1);
+    for (Index i = 0; i < n; ++i)
+        regressors.col(i) =
+            lsim(TransferFunction(Vector::Ones(1), G.den()), Vector::Zero(N), Ts, Hold::kZoh, Vector::Unit(n, i));
+    return steady + regressors * solve_least_squares(regressors, y - steady).solution;
+}
+
+TEST(compare, long_records_need_their_beginning_only) {  // oracle: least squares over every sample
+    const Vector u = rough_input(20000, 2);
+    const TransferFunction late(Vector{{2.0}}, kG.den(), 0, 111), slow(Vector{{1.0}}, Vector{{1.0, 0.0001}}),
+        undamped(Vector{{1.0}}, Vector{{1.0, 0.0, 1.0}});
+    for (const TransferFunction& G : {kG, late, slow, undamped}) {
+        const Vector y = lsim(G, u, 0.05).array() + 4 + 0.1 * RandomStream(3).normal(20000).array();
+        const Vector cut = y.tail(19000), input = u.tail(19000);
+        const auto result = compare(siso(cut, input, 0.05), G, {InitialState::kEstimate, Offset::kEstimate});
+        const Vector expected = fitted_by_definition(cut, input, G, 0.05);
+        EXPECT_LT((result.output - expected).cwiseAbs().maxCoeff(), 1e-9 * expected.cwiseAbs().maxCoeff());
+        EXPECT_NEAR(result.fit_percent, fit_percent(cut, expected), 1e-7);
+    }
 }
 
 TEST(compare, an_unstable_model_is_an_answer_too) {  // oracle: it fits worse than the mean, and nothing is thrown
