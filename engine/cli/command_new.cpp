@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "cli/commands.h"
+#include "platform/terminal/activity_line.h"
 #include "workflow/student_copy.h"
 
 namespace dynlab::inline cli {
@@ -19,7 +20,12 @@ int make_new(const NewWords& words) {
                   << "Then:  dynlab report " << words.folder << "    and    dynlab check " << words.folder << '\n';
         return kDone;
     }
-    make_student_copy(find_lesson(words.lesson), words.folder, words.group_seed, words.language);
+    const Lesson lesson = find_lesson(words.lesson);
+    {
+        ActivityLine activity;
+        if (words.group_seed) activity.begin_step("finding out which data the lesson loads");
+        make_student_copy(lesson, words.folder, words.group_seed, words.language);
+    }
     std::cout << words.folder << ": analysis.lua is yours to edit, report.md is your report's text.\n"
               << "Try:  dynlab run " << words.folder << "/analysis.lua    then    dynlab report " << words.folder
               << '\n';

@@ -105,14 +105,14 @@ VariableTable read_mat_file(const fs::path& file, bool guarded) {
     return guarded ? read_guarded(file) : read_variables(file);
 }
 
-void write_mat_file(const fs::path& file, const VariableTable& variables) {
+void write_mat_file(const fs::path& file, const VariableTable& variables, int digits) {
     const TemporaryFolder folder;
     const fs::path draft = folder.path() / "draft.mat";
     const MatioComplaints complaints;
     MatFile mat(Mat_CreateVer(draft.c_str(), "MATLAB 5.0 MAT-file, written by dynlab", MAT_FT_MAT5));
     bool written = mat != nullptr;
     for (const auto& [name, variable] : variables) {
-        const MatVariable converted = to_mat(variable, name);
+        const MatVariable converted = to_mat(variable, name, digits);
         written = written && Mat_VarWrite(mat.get(), converted.get(), MAT_COMPRESSION_ZLIB) == 0;
     }
     written = written && Mat_Close(mat.release()) == 0 && complaints.first().empty();

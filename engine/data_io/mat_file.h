@@ -18,8 +18,9 @@ namespace dynlab::inline data_io {
 VariableTable read_mat_file(const std::filesystem::path& file, bool guarded = true);
 
 /// Writes MAT v5 (compressed), whole or not at all, the same bytes for the same variables. Vectors are written as
-/// columns, lists as cell columns. Throws InvalidArgument for a name MATLAB does not allow (letter first, then
-/// letters, digits and _, at most 63), EnvironmentError when the file cannot be written.
-void write_mat_file(const std::filesystem::path& file, const VariableTable& variables);
+/// columns, lists as cell columns; real numbers are rounded to so many significant digits (17 keep every bit). Throws
+/// InvalidArgument for a name MATLAB does not allow (letter first, then letters, digits and _, at most 63),
+/// EnvironmentError when the file cannot be written.
+void write_mat_file(const std::filesystem::path& file, const VariableTable& variables, int digits = 17);
 
 }  // namespace dynlab::inline data_io

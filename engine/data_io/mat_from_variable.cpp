@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cstdint>
 
 #include "data_io/mat_variable.h"
@@ -11,6 +12,8 @@
 
 namespace dynlab::inline data_io {
 namespace {
+
+constexpr int kAllDigits = 17;  // which no two numbers share
 
 void check_name(const std::string& name) {
     constexpr std::size_t kLongest = 63;
@@ -31,12 +34,20 @@ MatVariable created(matvar_t* variable) {
     return MatVariable(variable);
 }
 
+/// The nearest number of so many significant digits.
+double rounded_to_digits(double value, int digits) {
+    char text[32];
+    const auto [end, error] = std::to_chars(text, text + sizeof text, value, std::chars_format::scientific, digits - 1);
+    std::from_chars(text, end, value);
+    return value;
+}
+
 /// Makes the libmatio variable for the alternative it is called with; the data are copied.
 class ToMat {
   public:
-    explicit ToMat(const char* name) : name_(name) {}
+    ToMat(const char* name, int digits) : name_(name), digits_(digits) {}
 
-    MatVariable operator()(double number) const { return array(MAT_C_DOUBLE, MAT_T_DOUBLE, 1, 1, &number); }
+    MatVariable operator()(double number) const { return real(1, 1, &number); }
     MatVariable operator()(bool truth) const {
         const std::uint8_t byte = truth;
         return array(MAT_C_UINT8, MAT_T_UINT8, 1, 1, &byte, MAT_F_LOGICAL);
@@ -55,7 +66,7 @@ class ToMat {
         std::vector<MatVariable> fields;
         for (const auto& [field, value] : *table) {
             names.push_back(field.c_str());
-            fields.push_back(to_mat(value, field));
+            fields.push_back(to_mat(value, field, digits_));
         }
         std::size_t size[2] = {1, 1};
         auto variable = created(Mat_VarCreateStruct(name_, 2, size, names.data(), static_cast<unsigned>(names.size())));
@@ -66,7 +77,7 @@ class ToMat {
     }
     MatVariable operator()(const std::shared_ptr<VariableList>& list) const {
         std::vector<MatVariable> parts;
-        for (const Variable& part : *list) parts.push_back(std::visit(ToMat(nullptr), part.value));
+        for (const Variable& part : *list) parts.push_back(std::visit(ToMat(nullptr, digits_), part.value));
         std::vector<matvar_t*> pointers;
         for (const MatVariable& part : parts) pointers.push_back(part.get());
         auto variable = array(MAT_C_CELL, MAT_T_CELL, pointers.size(), pointers.empty() ? 0 : 1, pointers.data());
@@ -81,6 +92,12 @@ class ToMat {
         return created(Mat_VarCreate(name_, kind, type, 2, size, const_cast<void*>(data), flags));
     }
     MatVariable real(Index rows, Index columns, const double* data) const {
+        std::vector<double> rounded;
+        if (digits_ < kAllDigits) {
+            rounded.assign(data, data + rows * columns);
+            for (double& value : rounded) value = rounded_to_digits(value, digits_);
+            data = rounded.data();
+        }
         return array(MAT_C_DOUBLE, MAT_T_DOUBLE, static_cast<std::size_t>(rows), static_cast<std::size_t>(columns),
                      data);
     }
@@ -92,13 +109,14 @@ class ToMat {
     }
 
     const char* name_;
+    int digits_;
 };
 
 }  // namespace
 
-MatVariable to_mat(const Variable& variable, const std::string& name) {
+MatVariable to_mat(const Variable& variable, const std::string& name, int digits) {
     check_name(name);
-    return std::visit(ToMat(name.c_str()), variable.value);
+    return std::visit(ToMat(name.c_str(), digits), variable.value);
 }
 
 }  // namespace dynlab::inline data_io

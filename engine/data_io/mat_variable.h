@@ -27,7 +27,8 @@ void check_mat_header(const matvar_t& variable, const std::string& name, std::si
 /// cannot be represented or is inconsistent.
 Variable from_mat(const matvar_t& variable, const std::string& name);
 
-/// The other way; lists become cell columns. Throws InvalidArgument for a name MATLAB does not allow.
-MatVariable to_mat(const Variable& variable, const std::string& name);
+/// The other way; lists become cell columns, real numbers are rounded to so many significant digits. Throws
+/// InvalidArgument for a name MATLAB does not allow.
+MatVariable to_mat(const Variable& variable, const std::string& name, int digits = 17);
 
 }  // namespace dynlab::inline data_io

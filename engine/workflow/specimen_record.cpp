@@ -2,16 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 
+#include "data_io/mat_file.h"
 #include "documents/text_lines.h"
-#include "figures/gnuplot_renderer.h"
+#include "numerics/error.h"
 #include "platform/atomic_file.h"
-#include "platform/error.h"
 #include "platform/program_lookup.h"
 #include "platform/text_file.h"
-#include "scripting/runtime/runtime.h"
 
 namespace dynlab::inline workflow {
 
@@ -19,6 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr int kStoredDigits = 7;
 constexpr char kSourceFile[] = "SOURCE.md";
 constexpr std::string_view kSpecimenKey = "Specimen:";
 constexpr char kOwnRecord[] = R"(
@@ -29,37 +28,28 @@ are others, and with other noise: `rig("{name}", {{specimen = {seed}, seed = {se
 {key} {seed}
 )";
 
+/// What each kind of value is in a data file.
+struct AsVariable {
+    Variable operator()(double value) const { return {value}; }
+    Variable operator()(const Vector& value) const { return {value}; }
+    Variable operator()(const TransferFunction&) const { throw InvalidArgument("a record holds signals, not models"); }
+    Variable operator()(const RigValues& value) const {
+        return {std::make_shared<VariableTable>(variables_of_record(value))};
+    }
+};
+
 }  // namespace
 
-const std::vector<std::string>& simulated_data_sets() {
-    static const std::vector<std::string> names = {"crane",         "heat_exchanger", "heat_transfer", "linear_system",
-                                                   "step_response", "suspension",     "thruster"};
-    return names;
+VariableTable variables_of_record(const RigValues& record) {
+    VariableTable variables;
+    for (const RigValue& value : record) variables[value.name] = std::visit(AsVariable(), value.value);
+    return variables;
 }
 
-bool is_simulated(const std::string& data_set) {
-    const auto& names = simulated_data_sets();
-    return std::find(names.begin(), names.end(), data_set) != names.end();
-}
-
-std::vector<std::string> simulated_data_of(const std::string& source) {
-    std::vector<std::string> found;
-    for (const std::string& name : simulated_data_sets())
-        if (source.find("load(\"" + name + "\")") != std::string::npos) found.push_back(name);
-    return found;
-}
-
-void write_specimen_record(const std::string& data_set, std::uint32_t specimen, std::uint32_t seed,
-                           const fs::path& folder) {
-    GnuplotRenderer renderer;
-    RunOptions options;
-    options.out_folder = folder;
-    Runtime runtime(options, renderer);
-    const RunRecord record = runtime.run_code(
-        fmt::format("save_mat(\"{0}.mat\", rig(\"{0}\", {{seed = {1}, specimen = {2}}}), {{digits = 7}})", data_set,
-                    seed, specimen),
-        "record of " + data_set);
-    if (record.error) throw EnvironmentError("a record cannot be made: " + record.error->message);
+void write_specimen_record(const std::string& data_set, const RigChoice& choice, const fs::path& folder) {
+    const Rig* rig = find_rig(data_set);
+    if (!rig) throw InvalidArgument(fmt::format("no rig makes the data set '{}'", data_set));
+    write_mat_file(folder / (data_set + ".mat"), variables_of_record(rig->record(choice)), kStoredDigits);
 }
 
 void write_group_data(const std::vector<std::string>& data_sets, std::uint32_t group_seed, const fs::path& folder) {
@@ -69,13 +59,13 @@ void write_group_data(const std::vector<std::string>& data_sets, std::uint32_t g
         const std::string own = fmt::format(kOwnRecord, fmt::arg("name", name), fmt::arg("seed", group_seed),
                                             fmt::arg("key", kSpecimenKey));
         write_file_atomically(folder / name / kSourceFile, source + own);
-        write_specimen_record(name, group_seed, group_seed, folder / name);
+        write_specimen_record(name, {.specimen = group_seed, .seed = group_seed}, folder / name);
     }
 }
 
 std::optional<std::uint32_t> group_seed_of(const fs::path& data_folder) {
-    for (const std::string& name : simulated_data_sets()) {
-        const fs::path source = data_folder / name / kSourceFile;
+    for (const Rig& rig : rig_catalogue()) {
+        const fs::path source = data_folder / rig.name / kSourceFile;
         if (!fs::is_regular_file(source)) continue;
         for (const std::string& line : lines_of(read_text(source))) {
             if (!line.starts_with(kSpecimenKey)) continue;

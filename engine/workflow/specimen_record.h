@@ -5,19 +5,18 @@
 #include <string>
 #include <vector>
 
+#include "data_io/variable.h"
+#include "numerics/rigs/catalogue.h"
+
 namespace dynlab::inline workflow {
 
-/// The data sets that a simulator of the project makes.
-const std::vector<std::string>& simulated_data_sets();
-bool is_simulated(const std::string& data_set);
+/// The record as load() gives it from a MAT file: experiments as structs of vectors.
+VariableTable variables_of_record(const RigValues& record);
 
-/// Those of them that a script loads by name.
-std::vector<std::string> simulated_data_of(const std::string& source);
-
-/// Writes NAME.mat into `folder`: the data set's experiment on another specimen of the apparatus, with other noise.
-/// Throws EnvironmentError.
-void write_specimen_record(const std::string& data_set, std::uint32_t specimen, std::uint32_t seed,
-                           const std::filesystem::path& folder);
+/// Writes NAME.mat into `folder`: the record of the data set's rig, rounded to seven significant digits as the stored
+/// ones are. Throws InvalidArgument for a data set that no rig makes, EnvironmentError where the file cannot be
+/// written.
+void write_specimen_record(const std::string& data_set, const RigChoice& choice, const std::filesystem::path& folder);
 
 /// Makes `folder`/NAME with SOURCE.md and such a record for each of the data sets, as a group finds its own data:
 /// specimen and noise are the group's seed's, which SOURCE.md tells.

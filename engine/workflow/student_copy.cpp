@@ -7,6 +7,7 @@
 #include "platform/error.h"
 #include "platform/program_lookup.h"
 #include "platform/text_file.h"
+#include "workflow/lesson_data.h"
 #include "workflow/specimen_record.h"
 
 namespace dynlab::inline workflow {
@@ -43,8 +44,8 @@ void fill_lesson(const fs::path& folder, const Lesson& lesson, const std::option
     const std::string form = script.header.template_name == "lesson" ? "exercise_sheet" : script.header.template_name;
     write_file_atomically(folder / "report.md", report_for(script.header, template_file(form + ".md"), language));
     write_file_atomically(folder / "group.toml", fmt::format(kGroupFile, group_seed.value_or(script.header.seed)));
-    const std::vector<std::string> own = simulated_data_of(script.source);
-    if (group_seed && !own.empty())
+    const std::vector<std::string> own = group_seed ? simulated_data_of(lesson) : std::vector<std::string>();
+    if (!own.empty())
         write_group_data(own, *group_seed, folder / "data");
     else
         fs::create_directory_symlink(shared_folder() / "data", folder / "data");

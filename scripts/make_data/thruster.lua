@@ -1,8 +1,7 @@
 -- Makes data/thruster: chirps on the simulated thruster (engine/numerics/rigs/thruster.h).
-local records = rig("thruster", {seed = 1})
-local units, columns = {t = "s", pwm = "µs", force = "N"}, {"t", "pwm", "force"}
+local thruster, records = rig().thruster, rig("thruster")
 for name, record in pairs(records) do
-    save_csv("thruster_" .. name .. ".csv", record, {units = units, columns = columns, Ts = record.t[2] - record.t[1],
-             title = "Thruster, record " .. name})
+    save_csv("thruster_" .. name .. ".csv", record, {units = thruster.units, columns = thruster.signals, Ts = thruster.Ts,
+             title = thruster.title .. ", record " .. name})
 end
 save_mat("thruster.mat", records, {digits = 7})

@@ -119,5 +119,23 @@ TEST(own_records, check_promises_the_points_that_grade_gives) {
     EXPECT_EQ(work.shell(std::string("cd in/group-7 && $DYNLAB run -e \"") + repeated + "\"").output, "true\n");
 }
 
+// oracle: the points of a script that reads the same record, whatever its lesson's own script looks like
+TEST(own_records, are_given_whatever_the_lesson_calls_its_data) {
+    const char* checks =
+        "check{id = 'truth', test = function(a) return near(a.K, truth(a, 'suspension').gain, {rel = 0.02}) end}\n"
+        "check{id = 'own', test = function(a)\n"
+        "  return truth(a, 'suspension').gain == rig_truth('suspension', {specimen = a.specimen}).gain end}\n";
+    for (const char* loading :
+         {"local d = load 'suspension'\n", "local name = [[suspension]]\nlocal d = load(name)\n"}) {
+        GradingBench bench("--   K: number\n--   specimen: number\n", checks,
+                           loading + std::string("answer('K', mean(d.y:range(300, #d.y)))\nanswer('specimen', 0)\n"));
+        bench.hand_in("group-7", kComputesGain + "answer('specimen', 7)\n");
+        bench.bench().write("roster.csv", "id,group,seed\n1,group-7,7\n");
+        const ChildResult graded = bench.grade({"--roster", "roster.csv"});
+        ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
+        EXPECT_EQ(bench.result("group-7").at("score"), 2) << loading;
+    }
+}
+
 }  // namespace test_own_records
 }  // namespace dynlab::test

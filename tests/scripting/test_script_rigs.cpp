@@ -47,6 +47,25 @@ TEST(script_rigs, refuse_what_there_is_not) {
     EXPECT_NE(error_of("rig('crane', {seed = 2^33})").find("whole number"), std::string::npos);
 }
 
+// oracle: the fields of the records themselves
+TEST(script_rigs, are_described_by_the_signals_that_their_records_have) {
+    EXPECT_EQ(printed("local function count(t) local n = 0; for _ in pairs(t) do n = n + 1 end; return n end\n"
+                      "for name, about in pairs(rig()) do\n"
+                      "  local record = rig(name)\n"
+                      "  local experiments = #about.experiments > 0 and record or {[name] = record}\n"
+                      "  if #about.experiments > 0 and count(record) ~= #about.experiments then print(name) end\n"
+                      "  for _, experiment in pairs(experiments) do\n"
+                      "    if count(experiment) ~= #about.signals then print(name, #about.signals) end\n"
+                      "    for _, signal in ipairs(about.signals) do\n"
+                      "      if #experiment[signal] == 0 then print(name, signal) end\n"
+                      "    end\n"
+                      "  end\n"
+                      "  if about.units.t ~= 's' or about.title == '' then print(name, about.title) end\n"
+                      "end\n"
+                      "print(rig().crane.units.theta, rig().linear_system.units.u, rig().crane.experiments[4])"),
+              "rad\tnil\tfree_swing\n");
+}
+
 TEST(script_rigs, unknown_fields_are_told_at_every_level) {
     for (const std::string table : {"load('crane')", "rig('crane')"}) {
         EXPECT_NE(error_of("print(" + table + ".estimaton)")

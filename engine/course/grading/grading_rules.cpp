@@ -11,6 +11,7 @@
 #include "platform/program_identity.h"
 #include "platform/program_lookup.h"
 #include "platform/text_file.h"
+#include "workflow/lesson_data.h"
 #include "workflow/specimen_record.h"
 
 namespace dynlab::inline course {
@@ -43,12 +44,20 @@ std::string standard_for(const Lesson& lesson, const PercentScript& script) {
     return demands || !fs::exists(report) ? script.header.template_name : report.string();
 }
 
+[[noreturn]] void refuse_rerun(const std::string& check, const std::string& rerun) {
+    std::vector<std::string> names;
+    for (const Rig& rig : rig_catalogue()) names.push_back(rig.name);
+    throw EnvironmentError(
+        fmt::format("the check \"{}\" wants a rerun on \"{}\", but records are made of {}, or the seed changed with "
+                    "\"seed\"",
+                    check, rerun, fmt::join(names, ", ")));
+}
+
 }  // namespace
 
 GradingRules::GradingRules(GradingSetup setup) : setup_(std::move(setup)) {
     const PercentScript lesson = read_percent_script(setup_.lesson.script());
     seed_ = lesson.header.seed;
-    simulated_ = simulated_data_of(lesson.source);
     standard_ = standard_for(setup_.lesson, lesson);
     for (const ExpectedAnswer& answer : lesson.header.answers) answers_.push_back({answer.name, answer.kind});
     read_checks();
@@ -79,11 +88,7 @@ void GradingRules::read_checks() {
         const std::string rerun = check.at("rerun");
         document_ = document_ || check.at("document").get<bool>();
         if (rerun.empty()) continue;
-        if (rerun != kSeedOnly && !is_simulated(rerun))
-            throw EnvironmentError(
-                fmt::format("the check \"{}\" wants a rerun on \"{}\", but records are made of {}, or "
-                            "the seed changed with \"seed\"",
-                            check.at("id").get<std::string>(), rerun, fmt::join(simulated_data_sets(), ", ")));
+        if (rerun != kSeedOnly && !find_rig(rerun)) refuse_rerun(check.at("id"), rerun);
         reruns_.insert(rerun);
     }
 }
@@ -93,15 +98,11 @@ std::uint32_t GradingRules::drawn(const std::string& what) const {
     return static_cast<std::uint32_t>(std::stoul(hash.substr(0, 8), nullptr, 16)) | 1u;
 }
 
+/// A hidden record of every rig: which ones the checks ask for shows only while they run, and all take a tenth of a
+/// second together.
 void GradingRules::make_records() {
-    std::string sources;
-    for (const json& file : files_) sources += file.at("source").get<std::string>();
-    const auto named = [&sources](const std::string& name, char quote) {
-        return sources.find(quote + name + quote) != std::string::npos;
-    };
     fs::create_directories(records_.path() / kHiddenRecords);
-    for (const std::string& name : simulated_data_sets())
-        if (named(name, '"') || named(name, '\'')) make_record(name, kHiddenRecords, records_.path() / kHiddenRecords);
+    for (const Rig& rig : rig_catalogue()) make_record(rig.name, kHiddenRecords, records_.path() / kHiddenRecords);
     const auto own = fs::copy_options::recursive;
     for (const std::string& rerun : reruns_) {
         if (rerun == kSeedOnly) continue;
@@ -116,10 +117,16 @@ void GradingRules::make_records() {
 
 void GradingRules::make_record(const std::string& data_set, const std::string& run, const fs::path& folder) {
     // Without the run: hidden records are further experiments with the apparatus of the rerun.
-    const std::uint32_t specimen = drawn(data_set);
-    specimens_[run][data_set] = specimen;
-    write_specimen_record(data_set, specimen, drawn((run == kHiddenRecords ? "noise:" : "noise:rerun:") + data_set),
-                          folder);
+    const RigChoice choice{.specimen = drawn(data_set),
+                           .seed = drawn((run == kHiddenRecords ? "noise:" : "noise:rerun:") + data_set)};
+    specimens_[run][data_set] = choice.specimen;
+    write_specimen_record(data_set, choice, folder);
+}
+
+/// Data sets of the lesson that groups may have for themselves. Needs the lock of `making_`.
+std::vector<std::string> GradingRules::simulated() const {
+    if (!simulated_) simulated_ = simulated_data_of(setup_.lesson);
+    return *simulated_;
 }
 
 /// The official data, a group's own records among them, as groups have them.
@@ -131,8 +138,8 @@ fs::path GradingRules::data_of(const GroupSeed& group_seed) const {
     const fs::path growing = data.parent_path() / "growing";
     fs::create_directories(growing.parent_path());
     fs::copy(shared_folder() / "data", growing, fs::copy_options::recursive);
-    for (const std::string& name : simulated_) fs::remove_all(growing / name);
-    write_group_data(simulated_, *group_seed, growing);
+    for (const std::string& name : simulated()) fs::remove_all(growing / name);
+    write_group_data(simulated(), *group_seed, growing);
     fs::rename(growing, data);
     return data;
 }
@@ -197,9 +204,11 @@ BoxedResult GradingRules::checked(json submission, const GroupSeed& group_seed, 
     box.set_environment("DYNLAB_HOME", add_home(box, kMain, group_seed).string());
     const bool tries = !submission.is_null();
     auto specimens = specimens_;
-    if (group_seed)
-        for (const std::string& name : simulated_)
+    if (group_seed) {
+        const std::lock_guard lock(*making_);
+        for (const std::string& name : simulated())
             for (const char* run : {kMain, kSeedOnly}) specimens[run][name] = *group_seed;
+    }
     const json job = {{"work", "checks"},
                       {"files", files_},
                       {"hidden_folder", tries ? box.add(records_.path() / kHiddenRecords, "/box/hidden").string() : ""},

@@ -32,7 +32,7 @@ struct GradingSetup {
 class GradingRules {
   public:
     /// Makes the records. Throws EnvironmentError for a lesson without checks.lua, check files that cannot be read, a
-    /// rerun of a data set that no simulator makes.
+    /// rerun of a data set that no rig makes.
     explicit GradingRules(GradingSetup setup);
 
     /// Of a group that has records of its own (dynlab new --group-seed); nothing for the data of all.
@@ -61,6 +61,7 @@ class GradingRules {
     BoxedResult checked(nlohmann::json submission, const GroupSeed& group_seed, std::optional<std::size_t> only = {},
                         std::chrono::milliseconds timeout = std::chrono::seconds(60)) const;
     nlohmann::json verdicts(const nlohmann::json& submission, const GroupSeed& group_seed, std::string& log) const;
+    std::vector<std::string> simulated() const;
     std::filesystem::path data_of(const GroupSeed& group_seed) const;
     std::filesystem::path add_home(Box& box, const std::string& run, const GroupSeed& group_seed) const;
     std::uint32_t drawn(const std::string& what) const;
@@ -68,13 +69,13 @@ class GradingRules {
     GradingSetup setup_;
     nlohmann::json files_ = nlohmann::json::array(), answers_ = nlohmann::json::array(), checks_;
     std::uint32_t seed_ = 1;
-    std::string standard_;                ///< the template, or the file of one, whose rules a document must keep
-    std::vector<std::string> simulated_;  ///< data sets of the lesson that groups may have for themselves
-    std::map<std::string, Specimens> specimens_;  ///< of hidden records and reruns (CheckSession)
+    std::string standard_;  ///< the template, or the file of one, whose rules a document must keep
+    mutable std::optional<std::vector<std::string>> simulated_;  ///< once they were asked for
+    std::map<std::string, Specimens> specimens_;                 ///< of hidden records and reruns (CheckSession)
     std::set<std::string> reruns_, broken_;
     bool document_ = false;
     TemporaryFolder records_;
-    std::unique_ptr<std::mutex> making_ = std::make_unique<std::mutex>();  ///< of groups' records
+    std::unique_ptr<std::mutex> making_ = std::make_unique<std::mutex>();  ///< of groups' records and simulated_
 };
 
 }  // namespace dynlab::inline course

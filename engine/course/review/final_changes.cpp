@@ -71,7 +71,7 @@ class TaskMaker {
             "SELECT max(s.version) FROM sendings s JOIN pairs p ON p.id = s.pair WHERE p.assignment = ? AND p.author = "
             "? AND s.way = 'to reviewer'",
             assignment_.id, group.id);
-        return rows.next() && !rows.null(0) ? rows.integer(0) : 0;
+        return rows.next() && !rows.isColumnNull(0) ? rows.integer(0) : 0;
     }
 
     /// Marks the wanted version of a part, else its newest; returns its hash.

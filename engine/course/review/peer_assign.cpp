@@ -95,7 +95,7 @@ class Assigning {
         if (outcome_.fresh + outcome_.ended == 0) return;
         db_.run("INSERT INTO allocations (assignment, seed, made_at, explanation) VALUES (?, ?, ?, ?)", assignment_.id,
                 std::int64_t{assignment_.seed}, now_, fmt::format("{}", fmt::join(allocation.remarks, "\n")));
-        const std::int64_t id = db_.last_id();
+        const std::int64_t id = db_.getLastInsertRowid();
         for (const auto& [reviewer, author] : fresh)
             db_.run("INSERT INTO pairs (allocation, assignment, reviewer, author) VALUES (?, ?, ?, ?)", id,
                     assignment_.id, groups_[static_cast<std::size_t>(reviewer)].id,

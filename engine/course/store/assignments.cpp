@@ -100,7 +100,7 @@ bool add_assignment(Course& course, Assignment wanted) {
         "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
         wanted.name, wanted.kind, wanted.lesson, wanted.first_due, wanted.review_due, wanted.final_due, wanted.grace,
         wanted.is_report() ? wanted.reviews : 0, std::int64_t{wanted.seed}, CourseClock::now());
-    wanted.id = db.last_id();
+    wanted.id = db.getLastInsertRowid();
     write_criteria(db, wanted);
     course.note(fmt::format("assignment {} added", wanted.name));
     transaction.commit();

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <SQLiteCpp/Column.h>
+
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -43,6 +45,33 @@ std::map<std::int64_t, std::string> remarks_by_reviewer(Course& course, const As
                                 mark.retaliation ? ", perhaps in return for a bad one" : "");
         }
     return remarks;
+}
+
+/// A whole number, a number, a text or null.
+json cell_value(const SQLite::Column& cell) {
+    if (cell.isInteger()) return cell.getInt64();
+    if (cell.isFloat()) return cell.getDouble();
+    return cell.isNull() ? json() : json(cell.getString());
+}
+
+/// Inserts a row of column names and values.
+void insert_row(Database& db, const std::string& table, const json& row) {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : row.items()) names.push_back('"' + name + '"');
+    const std::vector<std::string> marks(names.size(), "?");
+    Rows statement =
+        db.query(fmt::format("INSERT INTO {} ({}) VALUES ({})", table, fmt::join(names, ", "), fmt::join(marks, ", ")));
+    int place = 0;
+    for (const auto& [name, value] : row.items()) {
+        ++place;
+        if (value.is_number_integer())
+            statement.give(place, value.get<std::int64_t>());
+        else if (value.is_number())
+            statement.give(place, value.get<double>());
+        else if (value.is_string())
+            statement.give(place, value.get<std::string>());
+    }
+    statement.next();
 }
 
 }  // namespace
@@ -111,7 +140,7 @@ std::string course_json(Course& course) {
         json& rows = all["tables"][table] = json::array();
         for (Rows row = db.query("SELECT * FROM " + table + " ORDER BY 1, 2"); row.next();) {
             json fields = json::object();
-            for (int c = 0; c < row.columns(); ++c) fields[row.name(c)] = row.value(c);
+            for (int c = 0; c < row.getColumnCount(); ++c) fields[row.getColumnName(c)] = cell_value(row.getColumn(c));
             rows.push_back(std::move(fields));
         }
     }
@@ -149,7 +178,7 @@ void import_course(const fs::path& file, const fs::path& from, const fs::path& f
     const bool older = all.value("tables version", std::int64_t{0}) < static_cast<std::int64_t>(course_steps().size());
     for (const std::string& table : course_tables()) {
         if (older && !all["tables"].contains(table)) continue;  // one that a later version brought
-        for (const json& row : all["tables"].at(table)) db.insert(table, row);
+        for (const json& row : all["tables"].at(table)) insert_row(db, table, row);
     }
     transaction.commit();
 }

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "course/store/sqlite.h"
+#include "course/store/database.h"
 
 namespace dynlab::inline course {
 

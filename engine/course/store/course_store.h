@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "course/store/course_clock.h"
-#include "course/store/sqlite.h"
+#include "course/store/database.h"
 #include "platform/signature.h"
 
 namespace dynlab::inline course {

@@ -77,7 +77,7 @@ class Import {
         if (rows.next()) return rows.integer(0);
         ++change_.new_groups;
         db_.run("INSERT INTO groups (name, joined_at) VALUES (?, ?)", name, now_);
-        return db_.last_id();
+        return db_.getLastInsertRowid();
     }
 
     void move(const Student& student) {
@@ -119,7 +119,7 @@ std::vector<Group> groups_of(Course& course) {
              "overrides) ORDER BY name");
          rows.next();) {
         place[rows.integer(0)] = groups.size();
-        groups.push_back({rows.integer(0), rows.text(1), !rows.null(2), {}});
+        groups.push_back({rows.integer(0), rows.text(1), !rows.isColumnNull(2), {}});
     }
     for (Rows rows =
              course.database().query("SELECT group_id, student FROM memberships WHERE until IS NULL ORDER BY student");

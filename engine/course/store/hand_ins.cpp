@@ -306,7 +306,7 @@ class Receiving {
             "late, findings, signature) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
             a.id, c.group.id, request_.stage, pair, c.part, received.version, c.hash, c.file->name, request_.at, due_,
             received.late, c.inspection.json, version_signature(course_, receipt));
-        received.id = db.last_id();
+        received.id = db.getLastInsertRowid();
         return received;
     }
 

@@ -1,8 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 #include "data_io/csv_file.h"
 #include "data_io/mat_file.h"
@@ -146,15 +143,9 @@ int save_csv(Call& call) {
     return 0;
 }
 
-double rounded(double value, int digits) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.*g", digits, value);
-    return std::strtod(text, nullptr);
-}
-
 constexpr int kDeepestSavedTable = 16;
 
-VariableTable variables_of(const Call& call, int index, int digits, int depth);
+VariableTable variables_of(const Call& call, int index, int depth);
 
 bool is_table_of_variables(lua_State* L, int index) {
     if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) > 0) return false;
@@ -165,29 +156,28 @@ bool is_table_of_variables(lua_State* L, int index) {
 }
 
 /// The entry on top of the stack as a MAT variable.
-Variable variable_on_top(const Call& call, const std::string& name, int digits, int depth) {
+Variable variable_on_top(const Call& call, const std::string& name, int depth) {
     lua_State* L = call.state();
-    const auto round = [digits](double value) { return rounded(value, digits); };
-    if (NumericBlock* column = to_vector(L, -1)) return {Vector(column->vector().unaryExpr(round))};
-    if (NumericBlock* matrix = to_matrix(L, -1)) return {Matrix(matrix->matrix().unaryExpr(round))};
-    if (lua_type(L, -1) == LUA_TNUMBER) return {round(lua_tonumber(L, -1))};
+    if (NumericBlock* column = to_vector(L, -1)) return {Vector(column->vector())};
+    if (NumericBlock* matrix = to_matrix(L, -1)) return {Matrix(matrix->matrix())};
+    if (lua_type(L, -1) == LUA_TNUMBER) return {lua_tonumber(L, -1)};
     if (lua_type(L, -1) == LUA_TSTRING) return {std::string(lua_tostring(L, -1))};
     if (is_table_of_variables(L, lua_gettop(L)))
-        return {std::make_shared<VariableTable>(variables_of(call, lua_gettop(L), digits, depth + 1))};
+        return {std::make_shared<VariableTable>(variables_of(call, lua_gettop(L), depth + 1))};
     if (!is_list_of_texts(L, -1)) refuse_entry(L, name);
     auto cells = std::make_shared<VariableList>();
     for (const std::string& text : list_of_texts(L, lua_gettop(L))) cells->push_back({text});
     return {cells};
 }
 
-VariableTable variables_of(const Call& call, int index, int digits, int depth) {
+VariableTable variables_of(const Call& call, int index, int depth) {
     if (depth > kDeepestSavedTable)
         throw InvalidArgument(fmt::format("tables within tables are written to {} levels only", kDeepestSavedTable));
     luaL_checkstack(call.state(), 8, "the tables are nested too deeply");
     VariableTable variables;
     for (const std::string& name : names_of_entries(call, index, Options(call, 0, {}))) {
         lua_getfield(call.state(), index, name.c_str());
-        variables[name] = variable_on_top(call, name, digits, depth);
+        variables[name] = variable_on_top(call, name, depth);
         lua_pop(call.state(), 1);
     }
     return variables;
@@ -198,7 +188,7 @@ int save_mat(Call& call) {
     const std::filesystem::path file = file_to_write(call, ".mat");
     const Options options(call, 3, {"digits"});
     if (call.type(2) != LUA_TTABLE) wrong_argument(call.state(), 2, "variables", "a table of variables by name");
-    write_mat_file(file, variables_of(call, 2, digits_of(options, 17), 1));
+    write_mat_file(file, variables_of(call, 2, 1), digits_of(options, 17));
     return 0;
 }
 

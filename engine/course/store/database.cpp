@@ -1,0 +1,95 @@
+#include "course/store/database.h"
+
+#include <SQLiteCpp/Exception.h>
+#include <fmt/format.h>
+#include <sqlite3.h>
+
+#include <cerrno>
+
+#include "platform/error.h"
+
+namespace dynlab::inline course {
+namespace {
+
+constexpr int kMillisecondsToWait = 5000;
+
+/// What SQLite's code means to whoever works with a course; its own words for the others.
+std::string reason_of(int code, const char* words) {
+    switch (code & 0xFF) {
+        case SQLITE_BUSY:
+        case SQLITE_LOCKED:
+            return "another dynlab is writing to this course; nothing was changed, try again when it is done";
+        case SQLITE_FULL:
+            return "no space left on the disk; nothing was changed, make room and repeat";
+        case SQLITE_READONLY:
+        case SQLITE_PERM:
+            return "it may not be written to; nothing was changed, see to the rights of the file and its folder";
+        case SQLITE_CANTOPEN:
+            return "it cannot be opened; see whether file and folder are there and may be written to";
+        case SQLITE_NOTADB:
+            return "this is no course: the file is not a database";
+        case SQLITE_CORRUPT:
+            return "the file is damaged; take a backup, or a JSON export with dynlab course import";
+        case SQLITE_IOERR:
+            return "the disk refused to read or write; nothing was changed, see to it and repeat";
+        default:
+            return words;
+    }
+}
+
+[[noreturn]] void fail(const std::string& file, int code, const char* words) {
+    throw EnvironmentError(fmt::format("{}: {}", file, reason_of(code, words)));
+}
+
+/// Does a piece of work with the open database.
+template <class Work>
+auto told(const SQLite::Database& database, const Work& work) {
+    try {
+        return work();
+    } catch (const SQLite::Exception& error) {
+        const bool full =
+            (error.getErrorCode() & 0xFF) == SQLITE_IOERR && sqlite3_system_errno(database.getHandle()) == ENOSPC;
+        fail(database.getFilename(), full ? SQLITE_FULL : error.getErrorCode(), error.what());
+    }
+}
+
+SQLite::Database opened(const std::filesystem::path& file, int flags) {
+    try {
+        return {file.string(), flags, kMillisecondsToWait};
+    } catch (const SQLite::Exception& error) {
+        fail(file.string(), error.getErrorCode(), error.what());
+    }
+}
+
+}  // namespace
+
+Rows::Rows(const SQLite::Database& database, const std::string& sql)
+    : SQLite::Statement(told(database, [&] { return SQLite::Statement(database, sql); })), database_(&database) {}
+
+bool Rows::next() {
+    return told(*database_, [this] { return executeStep(); });
+}
+
+std::optional<std::int64_t> Rows::optional_integer(int column) const {
+    if (isColumnNull(column)) return {};
+    return integer(column);
+}
+
+Database::Database(const std::filesystem::path& file, Opening opening)
+    : SQLite::Database(opened(file, SQLite::OPEN_READWRITE | (opening == Opening::kNew ? SQLite::OPEN_CREATE : 0))) {
+    execute("PRAGMA foreign_keys = ON; PRAGMA synchronous = FULL");
+}
+
+void Database::execute(const std::string& statements) {
+    told(*this, [&] { return exec(statements); });
+}
+
+Transaction::Transaction(Database& database) : database_(database) {
+    told(database, [&] { transaction_.emplace(database, SQLite::TransactionBehavior::IMMEDIATE); });
+}
+
+void Transaction::commit() {
+    told(database_, [this] { transaction_->commit(); });
+}
+
+}  // namespace dynlab::inline course

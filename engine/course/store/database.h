@@ -1,0 +1,76 @@
+#pragma once
+#include <SQLiteCpp/Database.h>
+#include <SQLiteCpp/Statement.h>
+#include <SQLiteCpp/Transaction.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace dynlab::inline course {
+
+// SQLiteCpp's classes; what SQLite refuses becomes an EnvironmentError that names the file and says what to do: no such
+// file, not a database, locked by another, disk full, not writable.
+
+/// A statement with its values; walks over the rows of its answer: while (rows.next()) rows.text(0).
+class Rows : public SQLite::Statement {
+  public:
+    Rows(const SQLite::Database& database, const std::string& sql);
+
+    bool next();
+    std::int64_t integer(int column) const { return getColumn(column).getInt64(); }
+    std::optional<std::int64_t> optional_integer(int column) const;
+    double number(int column) const { return getColumn(column).getDouble(); }
+    std::string text(int column) const { return getColumn(column).getString(); }  ///< empty where the cell is null
+
+    /// The value of the parameter at `place`, counted from 1. Without a value it is null, as one that was never given.
+    template <class Value>
+    void give(int place, const Value& value) {
+        bind(place, value);
+    }
+    template <class Value>
+    void give(int place, const std::optional<Value>& value) {
+        if (value.has_value()) bind(place, *value);
+    }
+
+  private:
+    const SQLite::Database* database_;
+};
+
+/// An SQLite database: write-ahead log, foreign keys enforced, every commit on disk, waits five seconds for another
+/// writer.
+class Database : public SQLite::Database {
+  public:
+    enum class Opening { kExisting, kNew };
+    Database(const std::filesystem::path& file, Opening opening);
+
+    /// Several statements without values, such as a schema.
+    void execute(const std::string& statements);
+    template <class... Values>
+    Rows query(const std::string& sql, const Values&... values) {
+        Rows rows(*this, sql);
+        int place = 0;
+        (rows.give(++place, values), ...);
+        return rows;
+    }
+    template <class... Values>
+    void run(const std::string& sql, const Values&... values) {
+        Rows rows = query(sql, values...);
+        while (rows.next()) continue;
+    }
+};
+
+/// All or nothing: what is not committed when this object goes is undone. Holds the only right to write from its
+/// beginning on, so that nothing read inside changes before it is written.
+class Transaction {
+  public:
+    explicit Transaction(Database& database);
+    void commit();
+
+  private:
+    Database& database_;
+    std::optional<SQLite::Transaction> transaction_;
+};
+
+}  // namespace dynlab::inline course

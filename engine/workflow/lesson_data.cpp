@@ -1,0 +1,67 @@
+#include "workflow/lesson_data.h"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "documents/text_lines.h"
+#include "figures/gnuplot_renderer.h"
+#include "numerics/rigs/catalogue.h"
+#include "platform/content_memory.h"
+#include "platform/error.h"
+#include "platform/temporary_folder.h"
+#include "scripting/runtime/report_language.h"
+#include "scripting/runtime/runtime.h"
+
+namespace dynlab::inline workflow {
+namespace {
+
+/// The run of the worked solution as grading does it: on the course's own data, and nothing is drawn.
+RunRecord run_of_solution(const PercentScript& script) {
+    const TemporaryFolder out;
+    RunOptions options;
+    options.seed = script.header.seed;
+    options.script_folder = script.file.parent_path();
+    options.out_folder = out.path();
+    options.graded = true;
+    GnuplotRenderer renderer;
+    ReportLanguage language{script.header.language};
+    Runtime runtime(options, renderer);
+    runtime.set_service(&language);
+    return runtime.run(script);
+}
+
+std::vector<std::string> words_of(const std::string& text) {
+    std::vector<std::string> words;
+    for (const std::string& line : lines_of(text))
+        if (!line.empty()) words.push_back(line);
+    return words;
+}
+
+}  // namespace
+
+std::vector<std::string> simulated_data_of(const RunRecord& record) {
+    std::set<std::string> names;
+    for (const std::filesystem::path& file : record.files_read) {
+        const std::filesystem::path folder = file.parent_path();
+        const bool is_data_set = folder.parent_path().filename() == "data";
+        if (is_data_set && find_rig(folder.filename().string())) names.insert(folder.filename().string());
+    }
+    return {names.begin(), names.end()};
+}
+
+std::vector<std::string> simulated_data_of(const Lesson& lesson) {
+    const PercentScript script = read_percent_script(lesson.script());
+    ContentMemory memory("lessons", 1u << 20);
+    const std::string key = memory.key({lesson.script().string(), script.source});
+    if (const auto known = memory.recall(key)) return words_of(*known);
+    const RunRecord record = run_of_solution(script);
+    if (record.error)
+        throw EnvironmentError(fmt::format("which data lesson {} loads is not known, for its worked solution stops: {}",
+                                           lesson.slug, record.error->message));
+    const std::vector<std::string> names = simulated_data_of(record);
+    memory.remember(key, fmt::format("{}\n", fmt::join(names, "\n")));
+    return names;
+}
+
+}  // namespace dynlab::inline workflow

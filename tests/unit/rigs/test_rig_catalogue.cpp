@@ -1,0 +1,130 @@
+// The table of rigs. Oracles: the stored data sets, their CSV files' headers and SOURCE.md, which people wrote; the
+// definition of a sampling time.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "numerics/rigs/catalogue.h"
+
+namespace test_rig_catalogue {
+
+using namespace dynlab;
+namespace fs = std::filesystem;
+using testing::ElementsAreArray;
+using testing::HasSubstr;
+
+std::vector<std::string> all_names() {
+    std::vector<std::string> names;
+    for (const Rig& rig : dynlab::rig_catalogue()) names.push_back(rig.name);
+    return names;
+}
+
+class rig_catalogue : public testing::TestWithParam<std::string> {
+  protected:
+    static const Rig& rig() { return *find_rig(GetParam()); }
+    static fs::path folder() { return fs::path(DYNLAB_SOURCE_DIR) / "data" / GetParam(); }
+};
+INSTANTIATE_TEST_SUITE_P(all, rig_catalogue, testing::ValuesIn(all_names()),
+                         [](const auto& name) { return name.param; });
+
+std::string text_of_file(const fs::path& file) {
+    std::ifstream in(file);
+    std::ostringstream text;
+    text << in.rdbuf();
+    return text.str();
+}
+
+std::vector<std::string> names_of(const RigValues& values) {
+    std::vector<std::string> names;
+    for (const RigValue& value : values) names.push_back(value.name);
+    return names;
+}
+
+/// The record's experiments, or the record itself.
+std::vector<RigValues> experiments_of(const Rig& rig, const RigValues& record) {
+    if (rig.experiments.empty()) return {record};
+    std::vector<RigValues> all;
+    for (const RigValue& experiment : record) all.push_back(std::get<RigValues>(experiment.value));
+    return all;
+}
+
+const Vector& signal_of(const RigValues& values, const std::string& name) {
+    const auto found =
+        std::find_if(values.begin(), values.end(), [&](const RigValue& value) { return value.name == name; });
+    return std::get<Vector>(found->value);
+}
+
+TEST_P(rig_catalogue, has_a_stored_data_set_that_says_its_signals) {
+    const std::string source = text_of_file(folder() / "SOURCE.md");
+    for (const RigSignal& signal : rig().signals) {
+        EXPECT_THAT(source, HasSubstr("`" + signal.name + "`"));
+        for (const auto& entry : fs::directory_iterator(folder())) {
+            if (entry.path().extension() != ".csv") continue;
+            const std::string text = text_of_file(entry.path()), unit = "# unit " + signal.name + ": ";
+            if (signal.unit.empty()) {
+                EXPECT_EQ(text.find(unit), std::string::npos) << entry.path();
+            } else {
+                EXPECT_THAT(text, HasSubstr(unit + signal.unit + "\n"));
+            }
+        }
+    }
+}
+
+TEST_P(rig_catalogue, records_have_the_experiments_the_signals_and_the_sampling_it_tells) {
+    const Rig& rig = this->rig();
+    std::vector<std::string> signals;
+    for (const RigSignal& signal : rig.signals) signals.push_back(signal.name);
+    const RigValues record = rig.record({});
+    if (!rig.experiments.empty()) {
+        EXPECT_THAT(names_of(record), ElementsAreArray(rig.experiments));
+    }
+    for (const RigValues& experiment : experiments_of(rig, record)) {
+        EXPECT_THAT(names_of(experiment), ElementsAreArray(signals));
+        const Vector& t = signal_of(experiment, "t");
+        for (Index k = 1; k < t.size(); ++k) ASSERT_NEAR(t[k] - t[k - 1], rig.Ts, 1e-9 * t[k]) << k;
+        for (const std::string& name : signals) EXPECT_TRUE(signal_of(experiment, name).allFinite()) << name;
+    }
+}
+
+// oracle: what a choice means
+TEST_P(rig_catalogue, another_seed_changes_the_record_and_another_specimen_the_truth) {
+    const Rig& rig = this->rig();
+    const auto record = [&rig](const RigChoice& choice) {
+        return signal_of(experiments_of(rig, rig.record(choice)).front(), rig.signals.back().name);
+    };
+    const RigChoice stored;
+    EXPECT_EQ(stored.specimen, 0u);
+    EXPECT_EQ(stored.seed, 1u);
+    EXPECT_EQ(record(stored), record({.specimen = 0, .seed = 1}));
+    EXPECT_NE(record(stored), record({.specimen = 0, .seed = 2}));
+    EXPECT_NE(record(stored), record({.specimen = 3, .seed = 1}));
+    EXPECT_EQ(names_of(rig.truth(0)), names_of(rig.truth(3)));
+    const auto numbers = [](const RigValues& values) {
+        std::vector<double> all;
+        for (const RigValue& value : values) {
+            if (const auto* number = std::get_if<double>(&value.value)) all.push_back(*number);
+            if (const auto* model = std::get_if<TransferFunction>(&value.value)) all.push_back(model->dc_gain());
+        }
+        return all;
+    };
+    EXPECT_EQ(numbers(rig.truth(3)), numbers(rig.truth(3)));
+    EXPECT_NE(numbers(rig.truth(0)), numbers(rig.truth(3)));
+}
+
+TEST(rig_names, are_sorted_and_found) {
+    std::set<std::string> names;
+    for (const Rig& rig : dynlab::rig_catalogue()) {
+        EXPECT_TRUE(names.empty() || *names.rbegin() < rig.name) << rig.name;
+        names.insert(rig.name);
+        EXPECT_EQ(find_rig(rig.name), &rig);
+    }
+    EXPECT_EQ(find_rig("cranes"), nullptr);
+    EXPECT_EQ(find_rig(""), nullptr);
+}
+
+}  // namespace test_rig_catalogue
