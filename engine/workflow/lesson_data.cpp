@@ -7,7 +7,7 @@
 #include "documents/text_lines.h"
 #include "figures/gnuplot_renderer.h"
 #include "numerics/rigs/catalogue.h"
-#include "platform/content_memory.h"
+#include "platform/cache.h"
 #include "platform/error.h"
 #include "platform/temporary_folder.h"
 #include "scripting/runtime/report_language.h"
@@ -52,15 +52,15 @@ std::vector<std::string> simulated_data_of(const RunRecord& record) {
 
 std::vector<std::string> simulated_data_of(const Lesson& lesson) {
     const PercentScript script = read_percent_script(lesson.script());
-    ContentMemory memory("lessons", 1u << 20);
-    const std::string key = memory.key({lesson.script().string(), script.source});
-    if (const auto known = memory.recall(key)) return words_of(*known);
+    const Cache cache;
+    const std::string name = EntryName("lessons").add(lesson.script().string()).add(script.source).text();
+    if (const auto known = cache.recall(name)) return words_of(*known);
     const RunRecord record = run_of_solution(script);
     if (record.error)
         throw EnvironmentError(fmt::format("which data lesson {} loads is not known, for its worked solution stops: {}",
                                            lesson.slug, record.error->message));
     const std::vector<std::string> names = simulated_data_of(record);
-    memory.remember(key, fmt::format("{}\n", fmt::join(names, "\n")));
+    cache.remember(name, fmt::format("{}\n", fmt::join(names, "\n")));
     return names;
 }
 
