@@ -11,6 +11,7 @@
 
 #include "platform/error.h"
 #include "platform/system_call.h"
+#include "platform/utf8_locale.h"
 
 namespace dynlab::inline platform {
 namespace {
@@ -77,6 +78,10 @@ void filter_system_calls() {
     check(::seccomp_load(filter.get()));
 }
 
+void allow(scmp_filter_ctx filter, std::initializer_list<int> calls) {
+    for (const int call : calls) check(::seccomp_rule_add(filter, SCMP_ACT_ALLOW, call, 0));
+}
+
 }  // namespace
 
 void confine_process(const ProcessLimits& limits) {
@@ -90,6 +95,25 @@ void confine_process(const ProcessLimits& limits) {
     if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0)
         throw EnvironmentError("cannot give up privileges: " + system_reason(errno));
     filter_system_calls();
+    confined = true;
+}
+
+void confine_to_memory() {
+    { const Utf8Locale read_from_its_file; }
+    const std::unique_ptr<void, void (*)(scmp_filter_ctx)> filter(::seccomp_init(SCMP_ACT_ERRNO(EPERM)),
+                                                                  ::seccomp_release);
+    if (!filter) throw EnvironmentError("cannot filter the system calls of a process");
+    allow(filter.get(), {SCMP_SYS(brk), SCMP_SYS(mmap), SCMP_SYS(munmap), SCMP_SYS(mremap), SCMP_SYS(mprotect),
+                         SCMP_SYS(madvise), SCMP_SYS(futex), SCMP_SYS(sched_yield)});
+    allow(filter.get(), {SCMP_SYS(read), SCMP_SYS(write), SCMP_SYS(lseek), SCMP_SYS(fstat), SCMP_SYS(close)});
+    allow(filter.get(), {SCMP_SYS(rt_sigaction), SCMP_SYS(rt_sigprocmask), SCMP_SYS(rt_sigreturn),
+                         SCMP_SYS(sigaltstack), SCMP_SYS(exit), SCMP_SYS(exit_group), SCMP_SYS(restart_syscall)});
+    allow(filter.get(), {SCMP_SYS(getpid), SCMP_SYS(gettid), SCMP_SYS(clock_gettime), SCMP_SYS(gettimeofday),
+                         SCMP_SYS(time), SCMP_SYS(getrandom), SCMP_SYS(getrusage)});
+    // abort() signals the own process.
+    check(::seccomp_rule_add(filter.get(), SCMP_ACT_ALLOW, SCMP_SYS(tgkill), 1,
+                             SCMP_A0(SCMP_CMP_EQ, static_cast<scmp_datum_t>(::getpid()))));
+    check(::seccomp_load(filter.get()));
     confined = true;
 }
 

@@ -17,6 +17,11 @@ struct ProcessLimits {
 /// that are needed are running. Throws EnvironmentError where the kernel refuses.
 void confine_process(const ProcessLimits& limits);
 
+/// Gives up everything but memory, time and the files that are open, for good: for code that reads what is not trusted
+/// and answers on a pipe. What such code needs of files must have been read; Utf8Locale works. Throws EnvironmentError
+/// where the kernel refuses.
+void confine_to_memory();
+
 /// Whether this process gave up starting others.
 bool is_confined();
 

@@ -65,7 +65,6 @@ const std::vector<NeededProgram>& needed_programs() {
         {"gnuplot", "gnuplot-nox", "draws the figures"},
         {"pandoc", "pandoc", "turns templates into LaTeX and HTML"},
         {"pdflatex", "texlive-latex-base", "sets the PDF documents"},
-        {"qpdf", "qpdf", "looks for names inside PDFs and cleans review copies"},
     };
     return programs;
 }

@@ -6,15 +6,24 @@
 #include "platform/system_call.h"
 
 namespace dynlab::inline platform {
+namespace {
 
-Utf8Locale::Utf8Locale() : own_(::newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr)), before_(nullptr) {
-    if (own_ == nullptr) throw EnvironmentError("the C library has no locale C.UTF-8: " + system_reason(errno));
-    before_ = ::uselocale(own_);
+/// Read once from the files of the C library.
+locale_t locale_of_utf8() {
+    static const locale_t read = [] {
+        const locale_t locale = ::newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr);
+        if (locale == nullptr) throw EnvironmentError("the C library has no locale C.UTF-8: " + system_reason(errno));
+        return locale;
+    }();
+    return read;
 }
+
+}  // namespace
+
+Utf8Locale::Utf8Locale() : before_(::uselocale(locale_of_utf8())) {}
 
 Utf8Locale::~Utf8Locale() {
     ::uselocale(before_);
-    ::freelocale(own_);
 }
 
 }  // namespace dynlab::inline platform

@@ -14,7 +14,7 @@ class Utf8Locale {
     Utf8Locale& operator=(const Utf8Locale&) = delete;
 
   private:
-    locale_t own_, before_;
+    locale_t before_;
 };
 
 }  // namespace dynlab::inline platform

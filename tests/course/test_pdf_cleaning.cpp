@@ -122,6 +122,22 @@ TEST_F(pdf_cleaning, plain_actions_stay) {
     EXPECT_THAT(shown, AllOf(HasSubstr("(https://example.org)"), HasSubstr("(https://example.net)")));
 }
 
+// Oracle: RFC 3986, 3.1 (schemes, whose case does not count) and ISO 32000-1, 7.9.2.2 (strings in UTF-16).
+TEST_F(pdf_cleaning, addresses_of_the_web_and_of_mail_stay) {
+    const auto to = [](const std::string& address) { return "/A<</S/URI/URI" + address + ">>"; };
+    Parts parts;
+    parts.links = {to("(HTTPS://example.org)"), to("(mailto:a@example.org)"), to("(figures/a.html#b:c)")};
+    for (const char* address :
+         {"(file:///home/ada/a.pdf)", "(javascript:alert\\(1\\))", "( javascript:1)", "(smb://example.org/a)",
+          "(vbscript:x)", "<FEFF00660069006C0065003A002F0061>", "12", "null"})
+        parts.links.push_back(to(address));
+    parts.bookmarks = {to("(http://example.net)"), to("(ftp://example.net)")};
+    const std::string shown = cleaned(parts);
+    EXPECT_THAT(actions_in(shown), ElementsAre("URI", "URI", "URI", "URI"));
+    EXPECT_THAT(shown, AllOf(HasSubstr("(HTTPS://example.org)"), HasSubstr("(mailto:a@example.org)"),
+                             HasSubstr("(figures/a.html#b:c)"), HasSubstr("(http://example.net)")));
+}
+
 TEST_F(pdf_cleaning, actions_of_bookmarks) {
     Parts parts;
     parts.bookmarks = each("/A", kActive);

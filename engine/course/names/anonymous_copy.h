@@ -16,8 +16,8 @@ struct AnonymousCopySetup {
     Isolation isolation = strongest_isolation();
     std::filesystem::path program;          ///< dynlab, which makes reports again
     std::chrono::seconds report_time{120};  ///< of a report made again
-    PdfObjectLimits objects;                ///< of qpdf
-    bool rebuild = true;                    ///< from the source, where there is one
+    PdfObjectLimits objects;
+    bool rebuild = true;  ///< from the source, where there is one
 };
 
 /// What became of one copy.
@@ -40,8 +40,8 @@ AnonymousCopy anonymous_copy(const std::filesystem::path& handed_in, const std::
 /// The PDF without document information, XMP, embedded files, comments, forms, dates, identities, private data of
 /// programs, metadata of pictures, earlier versions and objects that nothing refers to. Links, bookmarks and layers
 /// stay, as they belong to the text; of actions only those that turn to a place in the document (GoTo, and Named for
-/// the next, previous, first and last page) or open an address when they are clicked (URI), one at a time. Nothing is
-/// fetched from other files. Throws PdfRefusal, MissingProgram.
+/// the next, previous, first and last page) or open an address of the web or of mail when they are clicked (URI), one
+/// at a time. Nothing is fetched from other files. Throws PdfRefusal.
 std::string clean_pdf(const std::filesystem::path& file, const PdfObjectLimits& limits = {});
 
 }  // namespace dynlab::inline course

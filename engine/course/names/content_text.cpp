@@ -1,6 +1,10 @@
 #include "course/names/content_text.h"
 
 #include <cstdlib>
+#include <memory>
+#include <qpdf/BufferInputSource.hh>
+#include <qpdf/QPDFTokenizer.hh>
+#include <set>
 #include <vector>
 
 #include "course/names/byte_text.h"
@@ -12,112 +16,29 @@ namespace {
 constexpr double kSpace = -180;  ///< thousandths of the font's size: moved on as far as a space
 constexpr std::uint32_t kLongestRange = 65536;
 
-bool is_white_space(char c) {
-    return c == ' ' || c == '\n' || c == '\r' || c == '\t' || c == '\f' || c == '\0';
-}
-
-bool ends_word(char c) {
-    return is_white_space(c) || std::string_view("()<>[]{}/%").find(c) != std::string_view::npos;
-}
-
-int hex_value(char c) {
-    if (c >= '0' && c <= '9') return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
-}
-
-/// Reads strings, numbers and operators off a content stream or a map.
-class Scanner {
+/// Reads the tokens of a content stream or a map, whatever they are.
+class Tokens {
   public:
-    explicit Scanner(std::string_view text) : rest_(text) {}
+    using Kind = QPDFTokenizer::token_type_e;
 
-    enum class Kind { kEnd, kString, kWord, kOther };
-    Kind next() {
-        skip_blanks();
-        token_.clear();
-        if (rest_.empty()) return Kind::kEnd;
-        const char c = rest_.front();
-        if (c == '(') return literal();
-        if (rest_.starts_with("<<") || rest_.starts_with(">>")) {
-            take();
-            take();
-            return Kind::kOther;
-        }
-        if (c == '<') return hexadecimal();
-        if (c == '/') rest_.remove_prefix(1);
-        while (!rest_.empty() && !ends_word(rest_.front())) take();
-        if (c == '/') return Kind::kOther;
-        if (!token_.empty()) return Kind::kWord;
-        take();
-        return Kind::kOther;
+    explicit Tokens(std::string_view text)
+        : buffer_(reinterpret_cast<unsigned char*>(const_cast<char*>(text.data())), text.size()),
+          input_(std::make_shared<BufferInputSource>("text", &buffer_)) {
+        tokenizer_.allowEOF();
     }
-    const std::string& token() const { return token_; }
+
+    Kind next() {
+        token_ = tokenizer_.readToken(input_, "", true);
+        if (token_.isWord("ID")) tokenizer_.expectInlineImage(input_);
+        return token_.getType();
+    }
+    const std::string& token() const { return token_.getValue(); }
 
   private:
-    void take() {
-        token_ += rest_.front();
-        rest_.remove_prefix(1);
-    }
-    void skip_blanks() {
-        while (!rest_.empty() && (is_white_space(rest_.front()) || rest_.front() == '%')) {
-            if (rest_.front() == '%')
-                rest_.remove_prefix(std::min(rest_.find_first_of("\r\n"), rest_.size()));
-            else
-                rest_.remove_prefix(1);
-        }
-    }
-    Kind literal() {
-        int depth = 0;
-        while (!rest_.empty()) {
-            const char c = rest_.front();
-            rest_.remove_prefix(1);
-            if (c == '\\') {
-                escape();
-                continue;
-            }
-            depth += c == '(' ? 1 : c == ')' ? -1 : 0;
-            if (depth == 0) break;
-            if (depth > 1 || c != '(') token_ += c;
-        }
-        return Kind::kString;
-    }
-    void escape() {
-        if (rest_.empty()) return;
-        int code = 0, digits = 0;
-        while (digits < 3 && !rest_.empty() && rest_.front() >= '0' && rest_.front() <= '7') {
-            code = 8 * code + (rest_.front() - '0');
-            rest_.remove_prefix(1);
-            ++digits;
-        }
-        if (digits > 0) {
-            token_ += static_cast<char>(code);
-            return;
-        }
-        const char c = rest_.front();
-        rest_.remove_prefix(1);
-        if (c != '\n' && c != '\r') token_ += c == 'n' || c == 'r' || c == 't' ? ' ' : c;
-    }
-    Kind hexadecimal() {
-        rest_.remove_prefix(1);
-        int half = -1;
-        while (!rest_.empty() && rest_.front() != '>') {
-            const int value = hex_value(rest_.front());
-            rest_.remove_prefix(1);
-            if (value < 0) continue;
-            if (half < 0) {
-                half = value;
-                continue;
-            }
-            token_ += static_cast<char>(16 * half + value);
-            half = -1;
-        }
-        if (half >= 0) token_ += static_cast<char>(16 * half);
-        if (!rest_.empty()) rest_.remove_prefix(1);
-        return Kind::kString;
-    }
-
-    std::string_view rest_;
-    std::string token_;
+    Buffer buffer_;  // libqpdf only reads it
+    std::shared_ptr<BufferInputSource> input_;
+    QPDFTokenizer tokenizer_;
+    QPDFTokenizer::Token token_;
 };
 
 std::uint32_t number_of(const std::string& code) {
@@ -176,20 +97,20 @@ std::string decoded(const std::string& bytes, const CodeMap* map) {
 
 CodeMap code_map(const std::string& to_unicode) {
     CodeMap map;
-    Scanner scanner(to_unicode);
+    Tokens tokens(to_unicode);
     std::vector<std::string> codes;
     std::size_t list = 0;  // where it begins among the codes
-    for (Scanner::Kind kind = scanner.next(); kind != Scanner::Kind::kEnd; kind = scanner.next()) {
-        if (kind == Scanner::Kind::kString) codes.push_back(scanner.token());
-        if (kind == Scanner::Kind::kOther && scanner.token() == "[") list = codes.size();
-        if (kind == Scanner::Kind::kOther && scanner.token() == "]") add_list(map, codes, list);
-        if (kind != Scanner::Kind::kWord) continue;
-        if (scanner.token() == "endbfchar") {
+    for (auto kind = tokens.next(); kind != QPDFTokenizer::tt_eof; kind = tokens.next()) {
+        if (kind == QPDFTokenizer::tt_string) codes.push_back(tokens.token());
+        if (kind == QPDFTokenizer::tt_array_open) list = codes.size();
+        if (kind == QPDFTokenizer::tt_array_close) add_list(map, codes, list);
+        if (kind != QPDFTokenizer::tt_word) continue;
+        if (tokens.token() == "endbfchar") {
             for (std::size_t i = 0; i + 1 < codes.size(); i += 2) {
                 map.bytes = codes[i].size();
                 map.text[number_of(codes[i])] = text_of_units(codes[i + 1]);
             }
-        } else if (scanner.token() == "endbfrange") {
+        } else if (tokens.token() == "endbfrange") {
             add_range(map, codes);
         }
         codes.clear();
@@ -207,22 +128,34 @@ bool shows_text(std::string_view stream) {
 std::vector<ShownPiece> shown_pieces(std::string_view stream) {
     std::vector<ShownPiece> pieces;
     const auto move = [&pieces](const char* space) { pieces.push_back({space, false}); };
-    Scanner scanner(stream);
+    static const std::set<std::string> moves = {"Td", "TD", "Tm", "T*", "ET", "BDC"};
+    Tokens tokens(stream);
     bool in_array = false;
-    for (Scanner::Kind kind = scanner.next(); kind != Scanner::Kind::kEnd; kind = scanner.next()) {
-        const std::string& token = scanner.token();
-        if (kind == Scanner::Kind::kString) {
-            const bool coded = !token.starts_with("\xFE\xFF");
-            pieces.push_back({coded ? token : text_in(token), coded});
-        } else if (kind == Scanner::Kind::kOther) {
-            if (token == "[") in_array = true;
-            if (token == "]") in_array = false;
-            if (token == "<<" || token == ">>") move("\n");
-        } else if (in_array) {
-            if (std::strtod(token.c_str(), nullptr) < kSpace) move(" ");
-        } else if (token == "Td" || token == "TD" || token == "Tm" || token == "T*" || token == "ET" ||
-                   token == "BDC") {
-            move("\n");
+    for (auto kind = tokens.next(); kind != QPDFTokenizer::tt_eof; kind = tokens.next()) {
+        const std::string& token = tokens.token();
+        switch (kind) {
+            case QPDFTokenizer::tt_string: {
+                const bool coded = !token.starts_with("\xFE\xFF");
+                pieces.push_back({coded ? token : text_in(token), coded});
+                break;
+            }
+            case QPDFTokenizer::tt_array_open:
+            case QPDFTokenizer::tt_array_close:
+                in_array = kind == QPDFTokenizer::tt_array_open;
+                break;
+            case QPDFTokenizer::tt_dict_open:
+            case QPDFTokenizer::tt_dict_close:
+                move("\n");
+                break;
+            case QPDFTokenizer::tt_integer:
+            case QPDFTokenizer::tt_real:
+                if (in_array && std::strtod(token.c_str(), nullptr) < kSpace) move(" ");
+                break;
+            case QPDFTokenizer::tt_word:
+                if (moves.contains(token)) move("\n");
+                break;
+            default:
+                break;
         }
     }
     return pieces;

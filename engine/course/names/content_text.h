@@ -10,6 +10,7 @@ namespace dynlab::inline course {
 struct CodeMap {
     std::size_t bytes = 1;                      ///< of a code
     std::map<std::uint32_t, std::string> text;  ///< UTF-8
+    bool operator==(const CodeMap&) const = default;
 };
 
 CodeMap code_map(const std::string& to_unicode);

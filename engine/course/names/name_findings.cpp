@@ -13,7 +13,6 @@
 #include "course/names/pdf_places.h"
 #include "course/names/plain_words.h"
 #include "documents/work_file.h"
-#include "platform/guarded_call.h"
 #include "platform/temporary_folder.h"
 
 namespace dynlab::inline course {
@@ -157,11 +156,11 @@ class NameSearch {
 
     void search_inside(const fs::path& file, bool versions) {
         try {
-            const std::string objects = pdf_objects(file, StreamForm::kDecoded, limits_.objects);
-            const json read = searched_objects(file, objects);
+            const json read = searched_objects(file);
             for (const json& one : read.at("found")) found_.push_back(found_of(one));
             for (const json& author : read.at("authors")) authors_.insert(author.get<std::string>());
-            search_all_shown(file, read.at("shown").get<std::string>());
+            trouble_ = read.at("trouble");
+            search_all_shown(read.at("shown").get_binary());
             const json& nested = read.at("nested");
             for (std::size_t i = 0; i < nested.size() && i < kMostNested; ++i)
                 search_nested(nested[i].get_binary(), PdfPlace::kAttachment);
@@ -173,24 +172,19 @@ class NameSearch {
         if (versions) search_versions(file);
     }
 
-    /// In a guarded process: objects of a hostile file may take any form.
-    json searched_objects(const fs::path& file, const std::string& objects) const {
-        const ChildResult result = run_guarded(
-            [&] {
-                const std::vector<std::uint8_t> packed = json::to_msgpack(found_in(objects, read_work_file(file)));
+    json searched_objects(const fs::path& file) const {
+        return json::from_msgpack(
+            work_on_pdf_objects(file, limits_.objects, [this](QPDF& pdf, const std::string& bytes) {
+                const std::vector<std::uint8_t> packed = json::to_msgpack(found_in(pdf, bytes));
                 return std::string(packed.begin(), packed.end());
-            },
-            {limits_.pdf.time, 2 * limits_.objects.memory_bytes, limits_.objects.output_bytes});
-        if (result.exit_code != 0 || result.timed_out || result.output_exceeded)
-            throw PdfRefusal(PdfFault::kTooLarge, "Searching it takes too long or too much memory.");
-        return json::from_msgpack(result.output);
+            }));
     }
 
-    json found_in(const std::string& text, const std::string& bytes) const {
-        const json objects = json::parse(text);
+    /// What is found, and the PDF with everything shown.
+    json found_in(QPDF& pdf, const std::string& bytes) const {
         json found = json::array(), nested = json::array(), authors = json::array();
-        visit_places(
-            objects, bytes,
+        std::string trouble = visit_places(
+            pdf, bytes, limits_.objects.bytes_inside,
             [&](const PlacedText& placed) {
                 const std::vector<NameHit> hits = sought_.find(placed.text, placed.manner);
                 for (const NameHit& hit : hits)
@@ -200,25 +194,35 @@ class NameSearch {
                 if (author && hits.empty() && !plain_words(placed.text).empty())
                     authors.push_back(printable(placed.text, 200));
             },
-            [&](const std::string&, const std::string& pdf) {
-                if (nested.size() <= kMostNested) nested.push_back(json::binary({pdf.begin(), pdf.end()}));
+            [&](const std::string&, const std::string& inner) {
+                if (nested.size() <= kMostNested) nested.push_back(binary(inner));
             });
+        show_everything(pdf);
         return {{"found", std::move(found)},
                 {"nested", std::move(nested)},
                 {"authors", std::move(authors)},
-                {"shown", with_everything_shown(objects).dump()}};
+                {"trouble", std::move(trouble)},
+                {"shown", binary(written_pdf(pdf, limits_.objects.bytes_inside))}};
     }
 
-    void search_all_shown(const fs::path& file, const std::string& changes) {
-        write_work_file(work_.path() / "shown.pdf", pdf_with_objects(file, changes, limits_.objects));
-        search_pages(read_pdf_layout(work_.path() / "shown.pdf", limits_.pdf), PdfPlace::kHidden);
+    static json binary(const std::string& bytes) { return json::binary({bytes.begin(), bytes.end()}); }
+
+    template <class Bytes>
+    fs::path written(const char* name, const Bytes& bytes) const {
+        const fs::path file = work_.path() / name;
+        write_work_file(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+        return file;
+    }
+
+    template <class Bytes>
+    void search_all_shown(const Bytes& pdf) {
+        search_pages(read_pdf_layout(written("shown.pdf", pdf), limits_.pdf), PdfPlace::kHidden);
     }
 
     /// A PDF inside of this one, or an earlier version of it: all that is found there counts as `place`.
     template <class Bytes>
     void search_nested(const Bytes& bytes, PdfPlace place) {
-        const fs::path file = work_.path() / "nested.pdf";
-        write_work_file(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+        const fs::path file = written("nested.pdf", bytes);
         NameSearch inner(sought_, limits_);
         try {
             inner.search_pages(read_pdf_layout(file, limits_.pdf), PdfPlace::kText);

@@ -10,7 +10,7 @@ namespace dynlab::inline course {
 
 struct NameSearchLimits {
     PdfLimits pdf;
-    PdfObjectLimits objects;  ///< its isolation is that of qpdf
+    PdfObjectLimits objects;
 };
 
 /// Names, numbers, mail addresses and home folders in a PDF, wherever they stand: name-in-text, name-hidden,
@@ -18,8 +18,8 @@ struct NameSearchLimits {
 /// name-in-layer, name-in-image, name-in-figure-file, name-in-remains, name-inside: rules, and hints where somebody
 /// else may be meant. Of these, rules come before hints; of more than forty the rest is not listed, which is a rule of
 /// its own: names-not-listed. author-named (hint): the metadata name an author who is not known. not-searched (rule):
-/// the inside of the file cannot be read, so that nothing can be said. Pictures of text are not read. `layout` is the
-/// file's, as read_pdf_layout gives it. Throws MissingProgram without qpdf, PdfRefusal when there is no such file.
+/// the inside of the file, or a part of it, cannot be read, so that nothing can be said. Pictures of text are not read.
+/// `layout` is the file's, as read_pdf_layout gives it. Throws PdfRefusal when there is no such file.
 Findings name_findings(const std::filesystem::path& file, const PdfLayout& layout, const SoughtNames& sought,
                        const NameSearchLimits& limits);
 

@@ -1,17 +1,14 @@
-#include <algorithm>
-#include <nlohmann/json.hpp>
+#include <qpdf/QPDF.hh>
+#include <qpdf/QPDFWriter.hh>
 #include <set>
 
 #include "course/names/anonymous_copy.h"
-#include "platform/guarded_call.h"
+#include "course/names/plain_words.h"
 
 namespace dynlab::inline course {
 namespace {
 
-using nlohmann::json;
-
-constexpr int kDeepestObject = 600;  ///< qpdf reads 500 levels
-constexpr std::uint64_t kGuardMemory = 6ull << 30;
+using Object = QPDFObjectHandle;
 
 /// Entries of any dictionary that speak of people, programs and dates, not of what is printed.
 const std::set<std::string>& private_entries() {
@@ -49,108 +46,92 @@ const std::set<std::string>& active_kinds() {
 
 class Cleaning {
   public:
-    explicit Cleaning(const std::string& text) : document_(json::parse(text)), all_(document_.at("qpdf").at(1)) {}
+    explicit Cleaning(QPDF& pdf) : pdf_(pdf) {}
 
-    std::string cleaned() {
-        json& trailer = all_.at("trailer").at("value");
-        const json root = trailer.value("/Root", json());
-        trailer =
-            json::object({{"/Root", root}, {"/Size", 1}});  // qpdf writes the size itself, but only where there is one
-        for (auto& [name, object] : all_.items()) {
-            if (object.contains("stream"))
-                clean_stream(object.at("stream"));
-            else if (object.contains("value"))
-                clean(object.at("value"), 0);
+    void clean() {
+        Object trailer = pdf_.getTrailer();
+        for (const std::string& key : trailer.getKeys())
+            if (key != "/Root") trailer.removeKey(key);
+        trailer.replaceKey("/Size", Object::newInteger(1));  // libqpdf writes its own, but only where there is one
+        for (const Object& object : pdf_.getAllObjects()) {
+            if (Object(object).isStream())
+                clean_stream(object);
+            else
+                clean(object);
         }
-        document_.erase("pages");
-        return document_.dump();
     }
 
   private:
-    void clean(json& value, int depth) {
-        if (depth > kDeepestObject) value = nullptr;
-        if (value.is_array()) {
-            for (json& entry : value) {
-                if (is_active("", entry)) entry = nullptr;
-                clean(entry, depth + 1);
+    /// A value without those that it refers to, which are cleaned by themselves.
+    void clean(Object value) {
+        if (value.isArray()) {
+            for (int i = 0; i < value.getArrayNItems(); ++i) {
+                const Object entry = value.getArrayItem(i);
+                if (is_active("", entry))
+                    value.setArrayItem(i, Object::newNull());
+                else if (!entry.isIndirect())
+                    clean(entry);
             }
-            return;
         }
-        if (!value.is_object()) return;
-        for (const std::string& key : private_entries()) value.erase(key);
-        if (value.contains("/Annots")) keep_links(value.at("/Annots"));
+        if (!value.isDictionary()) return;
+        for (const std::string& key : private_entries()) value.removeKey(key);
+        if (value.hasKey("/Annots")) value.replaceKey("/Annots", links_of(value.getKey("/Annots")));
         if (name_at(value, "/Subtype") == "/Link") clean_link(value);
-        if (is_plain_action(value)) value.erase("/Next");
-        for (auto entry = value.begin(); entry != value.end();) {
-            const bool active = is_active(entry.key(), entry.value());
-            if (!active) clean(entry.value(), depth + 1);
-            entry = active ? value.erase(entry) : std::next(entry);
+        if (is_plain_action(value)) value.removeKey("/Next");
+        for (const auto& [key, entry] : value.getDictAsMap()) {
+            if (is_active(key, entry))
+                value.removeKey(key);
+            else if (!entry.isIndirect())
+                clean(entry);
         }
     }
 
-    void clean_link(json& link) const {
+    static void clean_link(Object link) {
         for (const char* key : {"/T", "/Contents", "/NM", "/M", "/CreationDate", "/RC", "/Subj", "/PA"})
-            link.erase(key);
-        if (link.contains("/A") && !is_plain_action(link.at("/A"))) link.erase("/A");
+            link.removeKey(key);
+        if (link.hasKey("/A") && !is_plain_action(link.getKey("/A"))) link.removeKey("/A");
     }
 
-    /// What stands in the object that a reference leads to, at last; null for none.
-    const json* object_at(const json& value) const {
-        const json* object = nullptr;
-        const json* reference = &value;
-        for (int i = 0; i < kDeepestObject && reference->is_string(); ++i) {
-            const auto found = all_.find("obj:" + reference->get<std::string>());
-            if (found == all_.end()) break;
-            object = &*found;
-            if (!object->contains("value")) break;
-            reference = &object->at("value");
-        }
-        return object;
+    static std::string name_at(Object dictionary, const char* key) {
+        const Object name = dictionary.getKey(key);
+        return Object(name).isName() ? Object(name).getName() : "";
     }
 
-    /// The value itself or the one that a reference leads to.
-    const json& resolved(const json& value) const {
-        const json* const object = object_at(value);
-        return object && object->contains("value") ? object->at("value") : value;
+    static Object links_of(Object annotations) {
+        Object links = Object::newArray();
+        if (!annotations.isArray()) return links;
+        for (const Object& one : annotations.getArrayAsVector())
+            if (Object(one).isDictionaryOfType("", "/Link")) links.appendItem(one);
+        return links;
     }
 
-    std::string name_at(const json& dictionary, const char* key) const {
-        const auto found = dictionary.find(key);
-        if (found == dictionary.end()) return "";
-        const json& name = resolved(*found);
-        return name.is_string() ? name.get<std::string>() : "";
-    }
-
-    void keep_links(json& annotations) const {
-        json kept = json::array();
-        const json& list = resolved(annotations);
-        if (list.is_array()) {
-            for (const json& one : list) {
-                const json& annotation = resolved(one);
-                if (annotation.is_object() && name_at(annotation, "/Subtype") == "/Link") kept.push_back(one);
-            }
-        }
-        annotations = std::move(kept);
+    /// An address of the web or of mail, or one that lies beside the document.
+    static bool is_plain_address(const std::string& address) {
+        const std::string scheme = folded(address.substr(0, address.find_first_of(":/?#")));
+        const bool has_scheme = address.size() > scheme.size() && address[scheme.size()] == ':';
+        return !has_scheme || scheme == "http" || scheme == "https" || scheme == "mailto";
     }
 
     /// An action that shows a place in the document or opens an address.
-    bool is_plain_action(const json& action) const {
+    static bool is_plain_action(Object action) {
         static const std::set<std::string> pages = {"/NextPage", "/PrevPage", "/FirstPage", "/LastPage"};
-        const json& value = resolved(action);
-        if (!value.is_object()) return false;
-        const std::string kind = name_at(value, "/S");
-        return kind == "/GoTo" || kind == "/URI" || (kind == "/Named" && pages.contains(name_at(value, "/N")));
+        if (!action.isDictionary()) return false;
+        const std::string kind = name_at(action, "/S");
+        if (kind == "/URI") {
+            Object address = action.getKey("/URI");
+            return address.isString() && is_plain_address(address.getUTF8Value());
+        }
+        return kind == "/GoTo" || (kind == "/Named" && pages.contains(name_at(action, "/N")));
     }
 
     /// Whether an entry leads to an action of another kind: of any kind where viewers look for one, else of a known
     /// kind, as roles in the structure and styles of lines have their /S, too.
-    bool is_active(const std::string& key, const json& entry) const {
-        const json* const object = object_at(entry);
-        const json& value = object && object->contains("stream") ? object->at("stream").at("dict") : resolved(entry);
-        if (!value.is_object() || is_plain_action(value)) return false;
+    static bool is_active(const std::string& key, Object entry) {
+        const Object value = entry.isStream() ? entry.getDict() : entry;
+        if (!Object(value).isDictionary() || is_plain_action(entry)) return false;
         const std::string kind = name_at(value, "/S");
         if (kind.empty()) return false;
-        return key == "/A" || key == "/Next" || kind == "/Named" || active_kinds().contains(kind) ||
+        return key == "/A" || key == "/Next" || kind == "/Named" || kind == "/URI" || active_kinds().contains(kind) ||
                name_at(value, "/Type") == "/Action";
     }
 
@@ -175,34 +156,34 @@ class Cleaning {
         bytes = std::move(result);
     }
 
-    void clean_stream(json& stream) {
-        json& dict = stream.at("dict");
-        const std::string type = name_at(dict, "/Type");
+    void clean_stream(Object stream) {
+        Object entries = stream.getDict();
         // Viewers would fetch them from elsewhere.
-        for (const char* key : {"/F", "/FFilter", "/FDecodeParms", "/Ref", "/OPI"}) dict.erase(key);
-        clean(dict, 0);
-        if (type == "/Metadata" || type == "/EmbeddedFile") stream["data"] = "";
-        if (type == "/Metadata" || type == "/EmbeddedFile") dict = json::object();
-        if (name_at(dict, "/Subtype") != "/Image" || !stream.contains("data")) return;
-        std::string bytes = bytes_of_base64(stream.at("data").get_ref<const std::string&>());
+        for (const char* key : {"/F", "/FFilter", "/FDecodeParms", "/Ref", "/OPI"}) entries.removeKey(key);
+        if (stream.isStreamOfType("/Metadata") || stream.isStreamOfType("/EmbeddedFile")) {
+            stream.replaceDict(Object::newDictionary());
+            stream.replaceStreamData("", Object::newNull(), Object::newNull());
+            return;
+        }
+        clean(entries);
+        if (!entries.isDictionaryOfType("", "/Image")) return;
+        std::string bytes = stored_bytes(stream);
         if (!bytes.starts_with("\xFF\xD8")) return;
         clean_jpeg(bytes);
-        stream["data"] = base64_of(bytes);
+        stream.replaceStreamData(bytes, entries.getKey("/Filter"), entries.getKey("/DecodeParms"));
     }
 
-    json document_;
-    json& all_;
+    QPDF& pdf_;
 };
 
 }  // namespace
 
 std::string clean_pdf(const std::filesystem::path& file, const PdfObjectLimits& limits) {
-    const std::string objects = pdf_objects(file, StreamForm::kAsStored, limits);
-    const ChildResult cleaned =
-        run_guarded([&] { return Cleaning(objects).cleaned(); }, {limits.time, kGuardMemory, 2 * limits.output_bytes});
-    if (cleaned.exit_code != 0 || cleaned.timed_out || cleaned.output_exceeded)
-        throw PdfRefusal(PdfFault::kTooLarge, "Cleaning the file takes too long or too much memory.");
-    return pdf_with_objects({}, cleaned.output, limits);
+    return work_on_pdf_objects(file, limits, [&](QPDF& pdf, const std::string&) {
+        Cleaning(pdf).clean();
+        return written_pdf(pdf, limits.bytes_inside,
+                           [](QPDFWriter& writer) { writer.setObjectStreamMode(qpdf_o_generate); });
+    });
 }
 
 }  // namespace dynlab::inline course

@@ -1,50 +1,61 @@
 #include "course/names/pdf_places.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
+#include <qpdf/QPDF.hh>
+#include <qpdf/QUtil.hh>
 #include <set>
 
 #include "course/names/byte_text.h"
 #include "course/names/content_text.h"
 #include "documents/pdf/inflate.h"
 #include "documents/pdf/pdf_objects.h"
+#include "platform/utf8.h"
 
 namespace dynlab::inline course {
 namespace {
 
-using nlohmann::json;
+using Object = QPDFObjectHandle;
 
-constexpr int kDeepestPlace = 600;  ///< qpdf reads 500 levels
-constexpr std::size_t kMostMaps = 40, kMostContent = 4u << 20, kMostInflated = 64u << 20;
+constexpr int kDeepestPlace = 600;  ///< libqpdf reads 500 levels
+constexpr std::size_t kMostMaps = 200, kMostInflated = 64u << 20;
 
-std::string unicode_of(const std::string& value) {
-    if (value.starts_with("u:")) return value.substr(2);
-    if (value.starts_with("b:")) {
-        std::string bytes;
-        for (std::size_t i = 2; i + 1 < value.size(); i += 2)
-            bytes += static_cast<char>(std::strtol(value.substr(i, 2).c_str(), nullptr, 16));
-        return text_in(bytes);
+/// Whether bytes look like UTF-16 without its mark rather than like Latin letters: control characters, or every second
+/// byte beyond ASCII.
+bool may_be_units(std::string_view bytes) {
+    std::size_t beyond = 0, control = 0;
+    for (const char c : bytes) {
+        beyond += static_cast<unsigned char>(c) >= 0x80;
+        control += static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' && c != '\r';
     }
-    if (value.starts_with("n:/")) return value.substr(3);
-    return value.starts_with('/') ? value.substr(1) : "";
+    return control > 0 || 2 * beyond >= bytes.size();
 }
 
-bool is_reference(const json& value) {
-    return value.is_string() && value.get_ref<const std::string&>().ends_with(" R") &&
-           std::isdigit(static_cast<unsigned char>(value.get_ref<const std::string&>().front()));
+/// A text string of PDF (ISO 32000-1, 7.9.2), or what can be read in bytes that are none.
+std::string unicode_of(Object value) {
+    if (value.isName()) return value.getName().substr(1);
+    if (!value.isString()) return "";
+    const std::string bytes = value.getStringValue(), text = value.getUTF8Value();
+    if (QUtil::is_utf16(bytes) || QUtil::is_explicit_utf8(bytes)) return text;
+    const bool is_utf8 = characters_in(bytes).find(kNoCharacter) == std::u32string::npos;  // without its mark
+    std::string again;
+    const bool is_latin = QUtil::utf8_to_pdf_doc(text, again) && again == bytes;
+    const std::string readable = is_utf8 || !is_latin || may_be_units(bytes) ? text_in(bytes) : "";
+    return readable.empty() ? text : readable;
 }
 
-std::string text_of(const json& dictionary, const char* key) {
-    const auto found = dictionary.find(key);
-    return found != dictionary.end() && found->is_string() ? unicode_of(found->get<std::string>()) : "";
+std::string text_of(Object dictionary, const char* key) {
+    return unicode_of(dictionary.getKey(key));
 }
 
-bool has_any(const json& dictionary, std::initializer_list<const char*> keys) {
-    return std::any_of(keys.begin(), keys.end(), [&](const char* key) { return dictionary.contains(key); });
+bool has_any(Object dictionary, std::initializer_list<const char*> keys) {
+    return std::any_of(keys.begin(), keys.end(), [&](const char* key) { return dictionary.hasKey(key); });
 }
 
 /// What kind of thing a dictionary is, by its own entries.
-PdfPlace place_of(const json& dictionary, PdfPlace otherwise) {
+PdfPlace place_of(Object dictionary, PdfPlace otherwise) {
     const std::string type = text_of(dictionary, "/Type"), subtype = text_of(dictionary, "/Subtype");
     if (type == "Metadata" || has_any(dictionary, {"/Producer", "/Creator"})) return PdfPlace::kMetadata;
     if (type == "Filespec" || type == "F" || type == "EmbeddedFile" || has_any(dictionary, {"/EF"}))
@@ -87,136 +98,134 @@ bool is_of_font(const std::string& key) {
 
 class Places {
   public:
-    Places(const json& objects, const std::string& file, const PlaceVisitor& visit, const NestedVisitor& nested)
-        : all_(objects.at("qpdf").at(1)), file_(file), visit_(visit), nested_(nested) {
+    Places(QPDF& pdf, const std::string& file, std::uint64_t most, const PlaceVisitor& visit,
+           const NestedVisitor& nested)
+        : file_(file), most_(most), visit_(visit), nested_(nested) {
         int number = 0;
-        for (const json& page : objects.at("pages")) mark(page.at("object"), ++number, 0);
-        for (const auto& [name, object] : all_.items()) {
-            note_kinds(object, 0);
-            note_map(object);
-        }
+        for (const Object& page : pdf.getAllPages()) mark(page, ++number, 0);
+        all_ = pdf.getAllObjects();
+        for (const Object& object : all_) note_kinds(object, 0);
     }
 
     void visit_all() {
-        for (const auto& [name, object] : all_.items()) {
-            page_ = page_of(name);
-            if (object.contains("stream"))
-                visit_stream(name, object.at("stream"));
-            else if (object.contains("value"))
-                walk(object.at("value"), PdfPlace::kInside, "", 0);
+        for (const Object& object : all_) {
+            page_ = page_of(object);
+            if (Object(object).isStream())
+                visit_stream(object);
+            else
+                walk(object, PdfPlace::kInside, "", 0);
         }
         page_ = 0;
         visit_outside();
     }
 
+    /// A sentence when something was too much to be looked at.
+    const std::string& trouble() const { return trouble_; }
+
   private:
-    const json* object(const std::string& reference) const {
-        const auto found = all_.find("obj:" + reference);
-        return found == all_.end() ? nullptr : &*found;
-    }
-    int page_of(const std::string& name) const {
-        const auto found = pages_.find(name);
+    using Ids = std::set<QPDFObjGen>;
+
+    static Object dictionary_in(Object object) { return object.isStream() ? object.getDict() : object; }
+    int page_of(const Object& object) const {
+        const auto found = pages_.find(object.getObjGen());
         return found == pages_.end() ? 0 : found->second;
     }
 
     /// What a page refers to belongs to it, the first page first.
-    void mark(const json& value, int page, int depth) {
+    void mark(Object value, int page, int depth) {
         if (depth > kDeepestPlace) return;
-        if (is_reference(value)) {
-            const std::string name = "obj:" + value.get<std::string>();
-            const json* const target = object(value.get<std::string>());
-            if (target == nullptr || !pages_.emplace(name, page).second) return;
-            if (target->contains("value")) mark(target->at("value"), page, depth + 1);
-            if (target->contains("stream")) mark(target->at("stream").at("dict"), page, depth + 1);
-        } else if (value.is_array()) {
-            for (const json& entry : value) mark(entry, page, depth + 1);
-        } else if (value.is_object()) {
-            static const std::set<std::string> elsewhere = {"/Parent", "/P", "/Dest", "/D", "/Popup", "/IRT"};
-            for (const auto& [key, entry] : value.items())
-                if (!elsewhere.contains(key)) mark(entry, page, depth + 1);
-        }
+        if (value.isIndirect() && !pages_.emplace(value.getObjGen(), page).second) return;
+        if (value.isArray())
+            for (const Object& entry : value.getArrayAsVector()) mark(entry, page, depth + 1);
+        value = dictionary_in(value);
+        if (!value.isDictionary()) return;
+        static const std::set<std::string> elsewhere = {"/Parent", "/P", "/Dest", "/D", "/Popup", "/IRT"};
+        for (const auto& [key, entry] : value.getDictAsMap())
+            if (!elsewhere.contains(key)) mark(entry, page, depth + 1);
     }
 
     /// Streams whose kind only the dictionary says that refers to them.
-    void note_kinds(const json& value, int depth) {
-        if (depth > kDeepestPlace) return;
-        if (value.is_array())
-            for (const json& entry : value) note_kinds(entry, depth + 1);
-        if (!value.is_object()) return;
-        for (const auto& [key, entry] : value.items()) {
-            if (key.starts_with("/FontFile") && is_reference(entry)) fonts_.insert("obj:" + entry.get<std::string>());
-            if (key == "/EF" && entry.is_object())
-                for (const json& file : entry)
-                    if (is_reference(file)) attachments_.insert("obj:" + file.get<std::string>());
+    void note_kinds(Object value, int depth) {
+        if (depth > kDeepestPlace || (depth > 0 && value.isIndirect())) return;
+        if (value.isArray())
+            for (const Object& entry : value.getArrayAsVector()) note_kinds(entry, depth + 1);
+        value = dictionary_in(value);
+        if (!value.isDictionary()) return;
+        for (auto& [key, entry] : value.getDictAsMap()) {
+            if (key.starts_with("/FontFile")) fonts_.insert(entry.getObjGen());
+            if (key == "/EF" && entry.isDictionary())
+                for (const auto& [name, file] : entry.getDictAsMap()) attachments_.insert(file.getObjGen());
+            if (key == "/ToUnicode" && entry.isStream()) note_map(entry);
             note_kinds(entry, depth + 1);
         }
     }
 
-    void note_map(const json& object) {
-        const json& value = object.contains("value") ? object.at("value") : object;
-        if (!value.is_object()) return;
-        if (!value.contains("/ToUnicode") || !is_reference(value.at("/ToUnicode")) || maps_.size() >= kMostMaps) return;
-        const json* const map = this->object(value.at("/ToUnicode").get<std::string>());
-        if (map && map->contains("stream")) maps_.push_back(code_map(data_of(map->at("stream"))));
+    /// Each map once: figures that were made alike bring the same one.
+    void note_map(const Object& stream) {
+        if (!known_maps_.insert(stream.getObjGen()).second) return;
+        CodeMap map = code_map(content_of(stream));
+        if (std::find(maps_.begin(), maps_.end(), map) != maps_.end()) return;
+        if (maps_.size() < kMostMaps)
+            maps_.push_back(std::move(map));
+        else
+            trouble_ = fmt::format("More than {} of its fonts have codes of their own.", kMostMaps);
     }
 
-    static std::string data_of(const json& stream) {
-        const auto data = stream.find("data");
-        return data == stream.end() ? "" : bytes_of_base64(data->get_ref<const std::string&>());
+    std::string content_of(const Object& stream) {
+        try {
+            return stream_content(stream, most_).bytes;
+        } catch (const PdfRefusal& refusal) {
+            trouble_ = refusal.what();
+            return {};
+        }
     }
 
     void say(PdfPlace place, const std::string& detail, std::string text, TextManner manner = TextManner::kData) {
         if (!text.empty()) visit_({place, page_, detail, std::move(text), manner});
     }
 
-    void walk(const json& value, PdfPlace place, const std::string& key, int depth) {
+    void walk(Object value, PdfPlace place, const std::string& key, int depth) {
         if (depth > kDeepestPlace) return;
-        if (value.is_string()) {
-            if (is_reference(value)) return walk_string_at(value.get<std::string>(), place, key, depth);
-            say(place, key.empty() ? "" : key.substr(1), unicode_of(value.get<std::string>()),
+        if (value.isString() || value.isName()) {
+            say(place, key.empty() ? "" : key.substr(1), unicode_of(value),
                 is_of_font(key) ? TextManner::kBytes : TextManner::kData);
-        } else if (value.is_array()) {
-            for (const json& entry : value) walk(entry, place, key, depth + 1);
-        } else if (value.is_object()) {
+        } else if (depth > 0 && value.isIndirect()) {
+            return;  // It is visited by itself.
+        } else if (value.isArray()) {
+            for (const Object& entry : value.getArrayAsVector()) walk(entry, place, key, depth + 1);
+        } else if (value.isDictionary()) {
             const PdfPlace here = place_of(value, place);
-            for (const auto& [name, entry] : value.items()) {
-                say(here, "", unicode_of(name));
+            for (const auto& [name, entry] : value.getDictAsMap()) {
+                say(here, "", name.substr(1));
                 walk(entry, place_of_entry(name, here), name, depth + 1);
             }
         }
     }
 
-    /// A string that stands in an object of its own is what the entry says that refers to it.
-    void walk_string_at(const std::string& reference, PdfPlace place, const std::string& key, int depth) {
-        const json* const target = object(reference);
-        if (target == nullptr || !target->contains("value")) return;
-        const json& value = target->at("value");
-        if (value.is_string() && !is_reference(value)) walk(value, place, key, depth + 1);
-    }
-
-    void visit_stream(const std::string& name, const json& stream) {
-        const json& dict = stream.at("dict");
-        walk(dict, PdfPlace::kInside, "", 0);
-        const std::string type = text_of(dict, "/Type");
-        const PdfPlace place = attachments_.contains(name) ? PdfPlace::kAttachment : place_of(dict, PdfPlace::kInside);
-        const std::string data = data_of(stream);
+    void visit_stream(Object stream) {
+        const Object entries = stream.getDict();
+        walk(entries, PdfPlace::kInside, "", 0);
+        const std::string type = text_of(entries, "/Type");
+        const bool attached = attachments_.contains(stream.getObjGen());
+        const PdfPlace place = attached ? PdfPlace::kAttachment : place_of(entries, PdfPlace::kInside);
+        const std::string data = content_of(stream);
         seen_.insert(std::hash<std::string>()(data));
         if (type == "XRef") return;
-        if (place == PdfPlace::kImage) return visit_image(dict, data);
+        if (place == PdfPlace::kImage) return visit_image(entries, data);
         if (place == PdfPlace::kAttachment) return visit_attachment(data);
         if (type == "Metadata" || data.find("<x:xmpmeta") != std::string::npos)
             return say(PdfPlace::kMetadata, "XMP", without_references(text_in(data)));
-        if (fonts_.contains(name)) return say(PdfPlace::kInside, "font", text_in(data), TextManner::kBytes);
+        if (fonts_.contains(stream.getObjGen()))
+            return say(PdfPlace::kInside, "font", text_in(data), TextManner::kBytes);
         if (type == "ObjStm") return say(PdfPlace::kRemains, "", text_in(data));
-        if (data.size() <= kMostContent && shows_text(data)) return visit_content(name, data);
+        if (shows_text(data)) return visit_content(data);
         say(PdfPlace::kInside, "", text_in(data), TextManner::kBytes);
     }
 
-    void visit_image(const json& dict, const std::string& data) {
-        const std::string filter = dict.contains("/Filter") ? dict.at("/Filter").dump() : "";
+    void visit_image(Object entries, const std::string& data) {
         if (data.starts_with("\xFF\xD8"))
             say(PdfPlace::kImage, "", without_references(metadata_of_jpeg(data)));
-        else if (filter.find("JPX") != std::string::npos)
+        else if (entries.getKey("/Filter").unparseResolved().find("JPX") != std::string::npos)
             say(PdfPlace::kImage, "", text_in(data), TextManner::kBytes);
     }
 
@@ -230,8 +239,8 @@ class Places {
     }
 
     /// What poppler may not have been shown, or not as words: it reads a line of text in four directions only.
-    void visit_content(const std::string& name, const std::string& data) {
-        const PdfPlace place = page_of(name) > 0 ? PdfPlace::kHidden : PdfPlace::kRemains;
+    void visit_content(const std::string& data) {
+        const PdfPlace place = page_ > 0 ? PdfPlace::kHidden : PdfPlace::kRemains;
         const std::vector<ShownPiece> pieces = shown_pieces(data);
         say(place, "", shown_text(pieces), TextManner::kProse);
         for (const CodeMap& map : maps_) say(place, "", shown_text(pieces, &map), TextManner::kProse);
@@ -261,52 +270,40 @@ class Places {
         std::string data = inflate(stored, kMostInflated).bytes;
         if (data.empty()) data = std::string(stored);
         if (!seen_.insert(std::hash<std::string>()(data)).second) return;
-        if (data.size() <= kMostContent && shows_text(data))
+        if (shows_text(data))
             say(PdfPlace::kRemains, "", shown_text(shown_pieces(data)), TextManner::kProse);
         else
             say(PdfPlace::kRemains, "", without_references(text_in(data)),
                 is_text(data) ? TextManner::kData : TextManner::kBytes);
     }
 
-    const json& all_;
     const std::string& file_;
+    const std::uint64_t most_;
     const PlaceVisitor& visit_;
     const NestedVisitor& nested_;
-    std::map<std::string, int> pages_;
-    std::set<std::string> fonts_, attachments_;
+    std::vector<Object> all_;
+    std::map<QPDFObjGen, int> pages_;
+    Ids fonts_, attachments_, known_maps_;
     std::set<std::size_t> seen_;
     std::vector<CodeMap> maps_;
+    std::string trouble_;
     int page_ = 0;
 };
 
 }  // namespace
 
-void visit_places(const json& objects, const std::string& file, const PlaceVisitor& visit,
-                  const NestedVisitor& nested) {
-    Places(objects, file, visit, nested).visit_all();
+std::string visit_places(QPDF& pdf, const std::string& file, std::uint64_t most, const PlaceVisitor& visit,
+                         const NestedVisitor& nested) {
+    Places places(pdf, file, most, visit, nested);
+    places.visit_all();
+    return places.trouble();
 }
 
-json with_everything_shown(const json& objects) {
-    static constexpr int kFar = 20000;  // points
-    const json& all = objects.at("qpdf").at(1);
-    json changed = json::object();
-    const auto change = [&](const std::string& name, const auto& how) {
-        if (!all.contains(name) || !all.at(name).contains("value")) return;
-        json value = all.at(name).at("value");
-        how(value);
-        changed[name] = {{"value", std::move(value)}};
-    };
-    for (const json& page : objects.at("pages")) {
-        change("obj:" + page.at("object").get<std::string>(), [](json& value) {
-            value["/MediaBox"] = json::array({-kFar, -kFar, kFar, kFar});
-            value["/CropBox"] = value["/MediaBox"];
-        });
-    }
-    const json& trailer = all.at("trailer").at("value");
-    if (is_reference(trailer.value("/Root", json())))
-        change("obj:" + trailer.at("/Root").get<std::string>(), [](json& value) { value.erase("/OCProperties"); });
-    const json head = {{"jsonversion", 2}, {"pdfversion", "1.7"}};
-    return {{"qpdf", json::array({head, std::move(changed)})}};
+void show_everything(QPDF& pdf) {
+    const Object everywhere = Object::parse("[-20000 -20000 20000 20000]");  // points
+    for (Object page : pdf.getAllPages())
+        for (const char* box : {"/MediaBox", "/CropBox"}) page.replaceKey(box, everywhere);
+    pdf.getRoot().removeKey("/OCProperties");
 }
 
 }  // namespace dynlab::inline course

@@ -1,9 +1,11 @@
 #pragma once
+#include <cstdint>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "course/names/sought_names.h"
+
+class QPDF;
 
 namespace dynlab::inline course {
 
@@ -36,12 +38,13 @@ using PlaceVisitor = std::function<void(const PlacedText&)>;
 /// Takes an embedded file that is a PDF itself.
 using NestedVisitor = std::function<void(const std::string& name, const std::string& bytes)>;
 
-/// Everything in a PDF that may hold a name, besides what poppler reads on its pages. `objects` as pdf_objects gives
-/// them, decoded; `file` the bytes themselves, for what no object holds. Meant for a guarded process.
-void visit_places(const nlohmann::json& objects, const std::string& file, const PlaceVisitor& visit,
-                  const NestedVisitor& nested);
+/// Everything in a PDF that may hold a name, besides what poppler reads on its pages. `file` the bytes themselves, for
+/// what no object holds. Meant for work_on_pdf_objects. Returns a sentence when something was not looked at, as it is
+/// too much: a stream of more than `most` bytes, too many fonts whose codes a content might be written in; else "".
+std::string visit_places(QPDF& pdf, const std::string& file, std::uint64_t most, const PlaceVisitor& visit,
+                         const NestedVisitor& nested);
 
-/// Changes (for pdf_with_objects) with which poppler reads what lies outside of the pages and in layers that are off.
-nlohmann::json with_everything_shown(const nlohmann::json& objects);
+/// Changes the PDF so that poppler reads what lies outside of the pages and in layers that are off.
+void show_everything(QPDF& pdf);
 
 }  // namespace dynlab::inline course

@@ -10,12 +10,11 @@
 #include <cmath>
 #include <fstream>
 #include <memory>
-#include <new>
 #include <nlohmann/json.hpp>
 
+#include "documents/pdf/guarded_pdf.h"
 #include "documents/pdf/plain_streams.h"
 #include "documents/work_file.h"
-#include "platform/guarded_call.h"
 
 namespace dynlab::inline documents {
 namespace {
@@ -78,8 +77,8 @@ json word_of(const poppler::text_box& box) {
             std::string(bytes.begin(), bytes.end())};
 }
 
-json fault(PdfFault kind, const std::string& sentence) {
-    return {{"fault", kind}, {"sentence", sentence}};
+[[noreturn]] void refuse(PdfFault fault, const std::string& sentence) {
+    throw PdfRefusal(fault, sentence);
 }
 
 void ignore_message(const std::string&, void*) {}
@@ -90,26 +89,24 @@ json read_all(const fs::path& file, const PdfLimits& limits) {
     const std::string pdf = with_plain_streams(read_work_file(file));
     const std::unique_ptr<poppler::document> document(
         poppler::document::load_from_raw_data(pdf.data(), static_cast<int>(pdf.size())));
-    if (!document) return fault(PdfFault::kDamaged, "The file is damaged: no page can be found in it.");
-    if (document->is_locked())
-        return fault(PdfFault::kEncrypted, "The file is encrypted: it opens only with a password.");
+    if (!document) refuse(PdfFault::kDamaged, "The file is damaged: no page can be found in it.");
+    if (document->is_locked()) refuse(PdfFault::kEncrypted, "The file is encrypted: it opens only with a password.");
     const int count = document->pages();
-    if (count < 1) return fault(PdfFault::kDamaged, "The file is damaged: no page can be found in it.");
+    if (count < 1) refuse(PdfFault::kDamaged, "The file is damaged: no page can be found in it.");
     if (count > limits.pages) {
-        return fault(PdfFault::kTooLarge,
-                     fmt::format("The file has {} pages; at most {} are looked at.", count, limits.pages));
+        refuse(PdfFault::kTooLarge,
+               fmt::format("The file has {} pages; at most {} are looked at.", count, limits.pages));
     }
     json pages = json::array();
     int words = 0;
     for (int i = 0; i < count; ++i) {
         const std::unique_ptr<poppler::page> page(document->create_page(i));
-        if (!page) return fault(PdfFault::kDamaged, fmt::format("The file is damaged: page {} cannot be read.", i + 1));
+        if (!page) refuse(PdfFault::kDamaged, fmt::format("The file is damaged: page {} cannot be read.", i + 1));
         json list = json::array();
         for (const poppler::text_box& box : page->text_list(poppler::page::text_list_include_font)) {
             if (++words > limits.words) {
-                return fault(
-                    PdfFault::kTooLarge,
-                    fmt::format("The file has more than {} words, more than a report can have.", limits.words));
+                refuse(PdfFault::kTooLarge,
+                       fmt::format("The file has more than {} words, more than a report can have.", limits.words));
             }
             list.push_back(word_of(box));
         }
@@ -145,27 +142,12 @@ PdfLayout layout_from(const json& read) {
 
 PdfLayout read_pdf_layout(const fs::path& file, const PdfLimits& limits) {
     check_outside(file, limits);
-    const ChildResult result = run_guarded(
-        [&] {
-            try {
-                const std::vector<std::uint8_t> packed = json::to_msgpack(read_all(file, limits));
-                return std::string(packed.begin(), packed.end());
-            } catch (const std::bad_alloc&) {
-                return std::string();
-            }
-        },
-        {limits.time, limits.memory_bytes, limits.memory_bytes});
-    if (result.timed_out) {
-        throw PdfRefusal(PdfFault::kTooLarge,
-                         fmt::format("Reading the file takes more than {} s.", limits.time.count() / 1000));
-    }
-    if (result.output_exceeded || (result.exit_code == 0 && result.output.empty())) {
-        throw PdfRefusal(PdfFault::kTooLarge,
-                         fmt::format("Reading the file takes more than {} MB of memory.", limits.memory_bytes >> 20));
-    }
-    if (result.exit_code != 0) throw PdfRefusal(PdfFault::kDamaged, "The file is damaged: reading it ends in a crash.");
-    const json read = json::from_msgpack(result.output);
-    if (read.contains("fault")) throw PdfRefusal(read.at("fault"), read.at("sentence"));
+    const auto work = [&] {
+        const std::vector<std::uint8_t> packed = json::to_msgpack(read_all(file, limits));
+        return std::string(packed.begin(), packed.end());
+    };
+    const json read =
+        json::from_msgpack(run_guarded_on_pdf(work, {limits.time, limits.memory_bytes, limits.memory_bytes}));
     return layout_from(read);
 }
 

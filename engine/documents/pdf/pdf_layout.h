@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "platform/error.h"
+#include "documents/pdf/pdf_refusal.h"
 
 namespace dynlab::inline documents {
 
@@ -28,18 +28,6 @@ struct PdfLayout {
     std::vector<PdfPage> pages;
 };
 
-/// Why a file cannot be looked at.
-enum class PdfFault { kNotThere, kNotPdf, kEncrypted, kDamaged, kTooLarge };
-
-class PdfRefusal : public EnvironmentError {
-  public:
-    PdfRefusal(PdfFault fault, const std::string& sentence) : EnvironmentError(sentence), fault_(fault) {}
-    PdfFault fault() const { return fault_; }
-
-  private:
-    PdfFault fault_;
-};
-
 /// What a file from somebody else may cost.
 struct PdfLimits {
     std::uint64_t file_bytes = 100u << 20, memory_bytes = 1u << 30;
@@ -48,7 +36,7 @@ struct PdfLimits {
 };
 
 /// Words and fonts of a PDF, as poppler finds them. A forked copy of this process with limits reads the file, so that a
-/// hostile one can neither crash nor hang the caller. Throws PdfRefusal; its sentence does not name the file.
+/// hostile one can neither crash nor hang the caller. Throws PdfRefusal.
 PdfLayout read_pdf_layout(const std::filesystem::path& file, const PdfLimits& limits = {});
 
 }  // namespace dynlab::inline documents

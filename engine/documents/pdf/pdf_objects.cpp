@@ -2,95 +2,106 @@
 
 #include <fmt/format.h>
 
+#include <qpdf/Pipeline.hh>
+#include <qpdf/QPDF.hh>
+#include <qpdf/QPDFExc.hh>
+#include <qpdf/QPDFWriter.hh>
+
+#include "documents/pdf/guarded_pdf.h"
 #include "documents/work_file.h"
-#include "platform/program_lookup.h"
-#include "platform/temporary_folder.h"
+#include "platform/confinement.h"
 
 namespace dynlab::inline documents {
 namespace {
 
-namespace fs = std::filesystem;
+/// Collects bytes up to a limit.
+class Collector : public Pipeline {
+  public:
+    explicit Collector(std::uint64_t most) : Pipeline("collector", nullptr), most_(most) {}
 
-constexpr char kProgram[] = "qpdf";
-constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    void write(const unsigned char* data, std::size_t count) override {
+        full_ = full_ || count > most_ - bytes_.size();
+        if (full_) throw std::length_error("too many bytes");  // libqpdf takes it for damage of the stream
+        bytes_.append(reinterpret_cast<const char*>(data), count);
+    }
+    void finish() override {}
 
-/// Runs qpdf in the box; warnings about damage that it mended are no failure.
-std::string run_qpdf(const Box& box, std::vector<std::string> words, const PdfObjectLimits& limits) {
-    if (!find_program(kProgram))
-        throw MissingProgram("qpdf is not installed; names are looked for inside PDFs with it (sudo apt install qpdf)");
-    std::vector<std::string> command = {"prlimit", fmt::format("--as={}", limits.memory_bytes), kProgram,
-                                        "--warning-exit-0", "--no-warn"};
-    command.insert(command.end(), words.begin(), words.end());
-    Box::Limits box_limits;
-    box_limits.timeout = limits.time;
-    box_limits.output_bytes = limits.output_bytes;
-    ChildResult child = box.run(command, {}, "", box_limits);
-    if (child.timed_out)
-        throw PdfRefusal(PdfFault::kTooLarge,
-                         fmt::format("Looking inside the file takes more than {} s.", limits.time.count() / 1000));
-    if (child.output_exceeded)
-        throw PdfRefusal(PdfFault::kTooLarge,
-                         fmt::format("The file has more than {} MB inside.", limits.output_bytes >> 20));
-    if (child.exit_code != 0)
-        throw PdfRefusal(PdfFault::kDamaged, "The file is damaged: what is inside it cannot be read.");
-    return std::move(child.output);
-}
+    std::string take() {
+        if (full_)
+            throw PdfRefusal(PdfFault::kTooLarge, fmt::format("The file has more than {} MB inside.", most_ >> 20));
+        return std::move(bytes_);
+    }
 
-int digit_value(char c) {
-    if (c >= 'A' && c <= 'Z') return c - 'A';
-    if (c >= 'a' && c <= 'z') return c - 'a' + 26;
-    if (c >= '0' && c <= '9') return c - '0' + 52;
-    return c == '+' ? 62 : c == '/' ? 63 : -1;
+  private:
+    std::uint64_t most_;
+    bool full_ = false;
+    std::string bytes_;
+};
+
+bool is_piped(QPDFObjectHandle& stream, Collector& into, qpdf_stream_decode_level_e level, bool& decoded) {
+    return stream.pipeStreamData(&into, &decoded, 0, level, true, true);
 }
 
 }  // namespace
 
-std::string pdf_objects(const fs::path& file, StreamForm form, const PdfObjectLimits& limits) {
-    Box box(limits.isolation);
-    const std::string inside = box.add(file, "/box/document.pdf").string();
-    return run_qpdf(box,
-                    {"--json=2", "--json-key=qpdf", "--json-key=pages", "--json-stream-data=inline",
-                     form == StreamForm::kDecoded ? "--decode-level=specialized" : "--decode-level=none", inside},
-                    limits);
+void read_pdf(QPDF& pdf, const std::string& bytes) {
+    pdf.setSuppressWarnings(true);
+    pdf.processMemoryFile("PDF", bytes.data(), bytes.size());
 }
 
-std::string pdf_with_objects(const fs::path& file, const std::string& objects, const PdfObjectLimits& limits) {
-    const TemporaryFolder folder;
-    write_work_file(folder.path() / "objects.json", objects);
-    Box box(limits.isolation);
-    const std::string json = box.add(folder.path() / "objects.json", "/box/objects.json").string();
-    if (file.empty())
-        return run_qpdf(box, {"--json-input", json, "--deterministic-id", "--object-streams=generate", "-"}, limits);
-    const std::string inside = box.add(file, "/box/document.pdf").string();
-    return run_qpdf(box, {"--decrypt", inside, "--update-from-json=" + json, "--deterministic-id", "-"}, limits);
+std::string work_on_pdf_objects(const std::filesystem::path& file, const PdfObjectLimits& limits, const PdfWork& work) {
+    const auto guarded = [&] {
+        const std::string bytes = read_work_file(file);
+        if (!is_confined()) confine_to_memory();
+        try {
+            QPDF pdf;
+            read_pdf(pdf, bytes);
+            return work(pdf, bytes);
+        } catch (const PdfRefusal&) {
+            throw;
+        } catch (const std::bad_alloc&) {
+            throw;
+        } catch (const QPDFExc& error) {
+            if (error.getErrorCode() == qpdf_e_password)
+                throw PdfRefusal(PdfFault::kEncrypted, "The file is encrypted: it opens only with a password.");
+        } catch (const std::exception&) {
+            // What libqpdf says of objects that are not of the kind they should be.
+        }
+        throw PdfRefusal(PdfFault::kDamaged, "The file is damaged: what is inside it cannot be read.");
+    };
+    return run_guarded_on_pdf(guarded, {limits.time, limits.memory_bytes, limits.bytes_inside});
 }
 
-std::string bytes_of_base64(const std::string& text) {
-    std::string bytes;
-    bytes.reserve(text.size() / 4 * 3);
-    std::uint32_t collected = 0;
-    int bits = 0;
-    for (const char c : text) {
-        const int value = digit_value(c);
-        if (value < 0) break;
-        collected = collected << 6 | static_cast<std::uint32_t>(value);
-        bits += 6;
-        if (bits < 8) continue;
-        bits -= 8;
-        bytes += static_cast<char>(collected >> bits & 0xFF);
+StreamContent stream_content(QPDFObjectHandle stream, std::uint64_t most) {
+    StreamContent content;
+    Collector collector(most);
+    const bool whole = is_piped(stream, collector, qpdf_dl_specialized, content.decoded);
+    content.bytes = collector.take();
+    if (whole) return content;
+    content.decoded = false;
+    content.bytes = stored_bytes(stream);
+    return content;
+}
+
+std::string stored_bytes(QPDFObjectHandle stream) {
+    bool decoded = false;
+    Collector collector(std::numeric_limits<std::uint64_t>::max());
+    is_piped(stream, collector, qpdf_dl_none, decoded);
+    return collector.take();
+}
+
+std::string written_pdf(QPDF& pdf, std::uint64_t most, const std::function<void(QPDFWriter&)>& choose) {
+    Collector collector(most);
+    QPDFWriter writer(pdf);
+    writer.setOutputPipeline(&collector);
+    writer.setDeterministicID(true);
+    writer.setPreserveEncryption(false);
+    if (choose) choose(writer);
+    try {
+        writer.write();
+    } catch (const std::length_error&) {  // the collector's; take() says so
     }
-    return bytes;
-}
-
-std::string base64_of(const std::string& bytes) {
-    std::string text;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        std::uint32_t three = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            three = three << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-        for (std::size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? kDigits[three >> (18 - 6 * k) & 63] : '=';
-    }
-    return text;
+    return collector.take();
 }
 
 }  // namespace dynlab::inline documents

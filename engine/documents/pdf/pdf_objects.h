@@ -2,36 +2,45 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 
-#include "documents/pdf/pdf_layout.h"
-#include "platform/box.h"
+#include "documents/pdf/pdf_refusal.h"
+
+class QPDF;
+class QPDFObjectHandle;
+class QPDFWriter;
 
 namespace dynlab::inline documents {
 
-/// How PDFs from anybody are given to qpdf: in a box, with limits.
+/// What looking inside a PDF from somebody else may cost; `bytes_inside` of a stream that is written out, and of the
+/// answer.
 struct PdfObjectLimits {
-    Isolation isolation = strongest_isolation();
-    std::uint64_t memory_bytes = 3ull << 30, output_bytes = 400ull << 20;
+    std::uint64_t memory_bytes = 3ull << 30, bytes_inside = 400ull << 20;
     std::chrono::milliseconds time{20'000};
 };
 
-enum class StreamForm {
-    kDecoded,  ///< as far as nothing is lost; photographs (DCT, JPX) stay as they are
-    kAsStored  ///< the bytes of the file
+/// Work on the objects of a PDF as libqpdf reads them; `bytes` are those of the file.
+using PdfWork = std::function<std::string(QPDF& pdf, const std::string& bytes)>;
+/// Does it in a process of its own with limits, which can reach nothing but its memory, and returns its answer. Throws
+/// PdfRefusal, also those of the work.
+std::string work_on_pdf_objects(const std::filesystem::path& file, const PdfObjectLimits& limits, const PdfWork& work);
+
+/// For use in such work: reads a PDF, mending what is damaged without a word. Throws QPDFExc where that cannot be done.
+void read_pdf(QPDF& pdf, const std::string& bytes);
+
+/// What a stream holds, decoded as far as nothing is lost (photographs stay as they are, and damaged streams).
+struct StreamContent {
+    std::string bytes;
+    bool decoded = false;
 };
+/// Throws PdfRefusal for more than `most` bytes.
+StreamContent stream_content(QPDFObjectHandle stream, std::uint64_t most);
+/// The bytes in the file, decrypted.
+std::string stored_bytes(QPDFObjectHandle stream);
 
-/// All objects of a PDF, referred to or not, as qpdf's JSON (version 2): {"pages": [...], "qpdf": [{...}, {"obj:4 0 R":
-/// {"value": ...} | {"stream": {"dict": ..., "data": base64}}, ..., "trailer": ...}]}. Throws PdfRefusal whose sentence
-/// does not name the file, MissingProgram without qpdf.
-std::string pdf_objects(const std::filesystem::path& file, StreamForm form, const PdfObjectLimits& limits);
-
-/// The PDF with some objects in another form, or the PDF that `objects` alone describe when `file` is empty, without
-/// what is not referred to; equal input gives equal bytes. Throws like pdf_objects.
-std::string pdf_with_objects(const std::filesystem::path& file, const std::string& objects,
-                             const PdfObjectLimits& limits);
-
-std::string bytes_of_base64(const std::string& text);  ///< up to the first character that is none of base64
-std::string base64_of(const std::string& bytes);
+/// The PDF as one file, without what nothing refers to; equal objects give equal bytes. Throws PdfRefusal for more than
+/// `most` bytes.
+std::string written_pdf(QPDF& pdf, std::uint64_t most, const std::function<void(QPDFWriter&)>& choose = {});
 
 }  // namespace dynlab::inline documents

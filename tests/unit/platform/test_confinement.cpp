@@ -8,23 +8,34 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <functional>
+#include <stdexcept>
 #include <thread>
+#include <vector>
 
 #include "platform/guarded_call.h"
 
 namespace dynlab::test {
 namespace test_confinement {
-/// What `work` says in a confined copy of this process; -1 when it crashed.
-int confined(const std::function<int()>& work, const ProcessLimits& limits = {}) {
+/// What `work` says in a confined copy of this process; 1 when it throws, -1 when it crashed.
+int confined_by(const std::function<void()>& confine, const std::function<int()>& work) {
     const pid_t child = ::fork();
     if (child == 0) {
-        confine_process(limits);
-        ::_exit(work());
+        confine();
+        try {
+            ::_exit(work());
+        } catch (const std::runtime_error&) {
+            ::_exit(1);
+        }
     }
     int status = 0;
     ::waitpid(child, &status, 0);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+int confined(const std::function<int()>& work, const ProcessLimits& limits = {}) {
+    return confined_by([&] { confine_process(limits); }, work);
 }
 
 int refused(long result) {
@@ -100,6 +111,22 @@ TEST(confinement, limits_memory_and_files) {
                   },
                   limits),
               0);
+}
+
+// oracle: the kernel's answers
+TEST(confinement, to_memory_leaves_computing_and_open_files) {
+    const int code = confined_by(confine_to_memory, [] {
+        const bool all_refused =
+            refused(::open("/etc/passwd", O_RDONLY)) + refused(::fork()) + refused(::unlink("/tmp/never")) +
+                refused(::socket(AF_UNIX, SOCK_STREAM, 0)) + refused(::kill(::getpid(), SIGTERM)) +
+                refused(::execl("/bin/true", "true", nullptr)) + refused(::chdir("/")) + refused(::dup(1)) ==
+            0;
+        const std::vector<int> many(50'000'000, 1);
+        return all_refused && is_confined() && many.back() == 1 && ::write(STDOUT_FILENO, "", 0) == 0 ? 0 : 1;
+    });
+    EXPECT_EQ(code, 0);
+    EXPECT_EQ(confined_by(confine_to_memory, []() -> int { throw std::runtime_error("no"); }), 1);
+    EXPECT_EQ(confined_by(confine_to_memory, []() -> int { std::abort(); }), -1);
 }
 
 // oracle: definition; a confined process cannot fork, and does the work itself
