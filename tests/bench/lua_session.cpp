@@ -36,9 +36,9 @@ Vector LuaSession::numbers(const std::string& expression) {
     run("bench_numbers = " + expression);
     lua_State* L = runtime_.state();
     lua_getglobal(L, "bench_numbers");
-    const NumericBlock* block = to_vector(L, -1);
+    NumericBlock* const block = to_vector(L, -1);
     if (!block) throw std::runtime_error(expression + " is no vector");
-    const Vector values = const_cast<NumericBlock*>(block)->vector();
+    const Vector values = block->vector();
     lua_pop(L, 1);
     return values;
 }
