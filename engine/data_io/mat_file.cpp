@@ -6,7 +6,7 @@
 
 #include "data_io/mat_layout.h"
 #include "data_io/mat_variable.h"
-#include "data_io/variable_bytes.h"
+#include "data_io/values/cbor_values.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/guarded_call.h"
@@ -85,7 +85,7 @@ VariableTable read_guarded(const fs::path& file) {
     const GuardLimits limits;
     const auto read = [&file] {
         try {
-            return bytes_of(read_variables(file));
+            return cbor_of(read_variables(file));
         } catch (const std::bad_alloc&) {
             fail_damaged(file, "reading it takes more than 2 GiB of memory");
         }
@@ -96,7 +96,11 @@ VariableTable read_guarded(const fs::path& file) {
     if (result.output_exceeded) fail_damaged(file, "it unpacks to more than 2 GiB");
     if (result.exit_code == 1 && !result.error_output.empty()) throw EnvironmentError(result.error_output);
     if (result.exit_code != 0) fail_damaged(file, "reading it ends in a crash");
-    return variables_of(result.output);
+    try {
+        return from_cbor<VariableTable>(result.output);
+    } catch (const ValueError& error) {
+        fail_damaged(file, error.what());
+    }
 }
 
 }  // namespace

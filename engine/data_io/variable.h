@@ -9,6 +9,8 @@
 
 namespace dynlab::inline data_io {
 
+class ValueReader;
+class ValueWriter;
 struct Variable;
 using VariableTable = std::map<std::string, Variable>;
 using VariableList = std::vector<Variable>;
@@ -20,5 +22,9 @@ struct Variable {
                  std::shared_ptr<VariableList>>   // a cell array or an array of structs, column by column
         value;
 };
+
+/// As values/described.h stores it.
+void write_whole_value(ValueWriter& writer, const Variable& variable);
+void read_whole_value(ValueReader& reader, Variable& variable);
 
 }  // namespace dynlab::inline data_io

@@ -1,9 +1,9 @@
 #include "workflow/report_cache.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <vector>
 
+#include "data_io/values/cbor_values.h"
 #include "platform/hash.h"
 #include "platform/program_lookup.h"
 #include "workflow/inputs_read.h"
@@ -12,6 +12,9 @@ namespace dynlab::inline workflow {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// The hash of the output, and what the run read.
+using ReportFacts = std::pair<std::string, InputsRead>;
 
 std::vector<fs::path> template_files() {
     std::vector<fs::path> files;
@@ -50,16 +53,17 @@ ReportCache::ReportCache(const ReportRequest& request, const Cache& cache)
 bool ReportCache::unchanged() const {
     const auto known = entry_.empty() ? std::nullopt : cache_.recall(entry_);
     if (!known) return false;
-    const auto facts = nlohmann::json::parse(*known, nullptr, false);
-    if (!facts.is_object() || facts.value("output", "") != digest_or_nothing(output_)) return false;
-    return dynlab::unchanged(facts.value("inputs", InputsRead()));
+    try {
+        const auto [output, inputs] = from_cbor<ReportFacts>(*known, ValueLimits::own());
+        return output == digest_or_nothing(output_) && dynlab::unchanged(inputs);
+    } catch (const ValueError&) {  // spoilt: then the report is made
+        return false;
+    }
 }
 
 void ReportCache::remember(const RunRecord& record) const {
     if (entry_.empty()) return;
-    const nlohmann::json facts = {{"output", digest_or_nothing(output_)},
-                                  {"inputs", inputs_read(record, script_folder_)}};
-    cache_.remember(entry_, facts.dump());
+    cache_.remember(entry_, cbor_of(ReportFacts{digest_or_nothing(output_), inputs_read(record, script_folder_)}));
 }
 
 }  // namespace dynlab::inline workflow

@@ -1,7 +1,10 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "course/grading/grading_rules.h"
+#include "course/grading/job_descriptions.h"
 #include "course/grading_bench.h"
+#include "data_io/values/cbor_values.h"
 
 namespace dynlab::test {
 namespace test_secret_records {
@@ -105,27 +108,51 @@ TEST(secret_records, are_asked_for_inside_the_test_that_looks_at_them) {
 /// Graded by a program that tells what it finds in its box and leaves something behind.
 class secret_records_box : public ::testing::Test {
   protected:
-    static constexpr const char* kProgram =
-        "#!/bin/sh\n"
-        "job=$(cat)\n"
-        "case $job in\n"
-        "*'\"submission\":null'*)\n"
-        "  echo '{\"checks\": [{\"id\": \"x\", \"about\": \"x\", \"hint\": \"\", \"points\": 1, \"visible\": true,\n"
-        "          \"rerun\": \"suspension\", \"document\": false}]}' ;;\n"
-        "*'\"work\":\"checks\"'*)\n"
-        "  echo 'sample 30.78' >&2\n"
-        "  exit 1 ;;\n"
-        "*)\n"
-        "  left=$(ls -A \"$TMPDIR\" | tr '\\n' ' ')\n"
-        "  records=$(find /box -name 'suspension.*' | sort | while read -r file; do\n"
-        "    echo \"$file $(cksum < \"$file\")\"; done | tr '\\n' ';')\n"
-        "  touch \"$TMPDIR/was_here\"\n"
-        "  echo \"{\\\"error\\\": \\\"records: $records left: $left.\\\"}\" ;;\n"
-        "esac\n";
+    /// Bytes as the shell's printf takes them.
+    static std::string octal(const std::string& bytes) {
+        std::string text;
+        for (const char c : bytes) text += fmt::format("\\{:03o}", static_cast<unsigned char>(c));
+        return text;
+    }
+
+    /// Lists one check, fails to try it, and of a run returns an error that tells what stands in the box.
+    static std::string program() {
+        const CheckResults listed{{{{"x", "x", "", 1, "suspension", false, true}, {}, "", ""}}, {}};
+        GradedRun run;
+        run.error = "";
+        const std::string bytes = cbor_of(run);
+        const std::size_t error = bytes.find("error") + 5;  // where the text stands, which is one byte while empty
+        return "#!/bin/sh\n"
+               "job=$(tr -d '\\000')\n"
+               "case $2 in\n"
+               "checks)\n"
+               "  case $job in *submission*)\n"
+               "    echo 'sample 30.78' >&2\n"
+               "    exit 1 ;;\n"
+               "  esac\n"
+               "  printf '" +
+               octal(cbor_of(listed)) +
+               "' ;;\n"
+               "run)\n"
+               "  left=$(ls -A \"$TMPDIR\" | tr '\\n' ' ')\n"
+               "  records=$(find /box -name 'suspension.*' | sort | while read -r file; do\n"
+               "    echo \"$file $(cksum < \"$file\")\"; done | tr '\\n' ';')\n"
+               "  touch \"$TMPDIR/was_here\"\n"
+               "  text=\"records: $records left: $left.\"\n"
+               "  printf '" +
+               octal(bytes.substr(0, error)) +
+               "\\171'\n"  // a text with its length in two bytes
+               "  printf \"\\\\$(printf %03o $((${#text} / 256)))\\\\$(printf %03o $((${#text} % 256)))\"\n"
+               "  printf %s \"$text\"\n"
+               "  printf '" +
+               octal(bytes.substr(error + 1)) +
+               "' ;;\n"
+               "esac\n";
+    }
 
     Grade graded(Isolation level) {
         const Workbench& work = bench_.bench();
-        work.write("program", kProgram);
+        work.write("program", program());
         work.shell("chmod +x program");
         bench_.hand_in("a", "answer('x', 42)\n");
         GradingSetup setup;

@@ -174,15 +174,15 @@ TEST(text_changes, equal_texts_have_none_and_strange_ones_all) {
 
 // oracle: by hand
 TEST(text_changes, compares_the_values_of_run_records) {
-    const auto before = nlohmann::json::parse(
+    const auto before = shown_record(
         R"({"values": {"fit": {"text": "80.0", "number": 80}, "old": {"text": "a"}, "same": {"text": "1.00", "number": 1},
                        "zero": {"text": "0", "number": 0}, "word": {"text": "good"}},
             "tables": {"m": {"header": ["model", "fit"], "rows": [["ARX", "81.0"], ["OE", "90"]]}}})");
-    const auto after = nlohmann::json::parse(
+    const auto after = shown_record(
         R"({"values": {"fit": {"text": "90.0", "number": 90}, "same": {"text": "1.00", "number": 1.0000001},
                        "zero": {"text": "2", "number": 2}, "word": {"text": "bad"}, "young": {"text": "7", "number": 7}},
             "tables": {"m": {"header": ["model", "fit"], "rows": [["OE", "45"], ["ARX", "81.0"]]}}})");
-    const ValueChanges changes = value_changes(before, after);
+    const ValueChanges changes = value_changes(before.value(), after.value());
     EXPECT_EQ(changes.compared, 8);
     Words shown;
     for (const ValueChange& c : changes.changed)
@@ -192,7 +192,7 @@ TEST(text_changes, compares_the_values_of_run_records) {
     for (const char* strange :
          {"[]", "3", R"({"values": 3, "tables": [1]})", R"({"tables": {"m": {"header": {}, "rows": {}}}})",
           R"({"values": {"a": []}, "tables": {"m": {"rows": [[], 3, [1, null]]}}})"})
-        EXPECT_THAT(value_changes(nlohmann::json::parse(strange), nlohmann::json::object()).changed.size(),
+        EXPECT_THAT(value_changes(shown_record(strange).value_or(ShownRecord()), ShownRecord()).changed.size(),
                     ::testing::Le(1u));
 }
 

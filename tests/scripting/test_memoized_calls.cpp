@@ -25,7 +25,7 @@ const std::string kData =
 
 std::string archive_of_global(lua_State* L, const char* name) {
     lua_getglobal(L, name);
-    ArchiveWriter archive;
+    CborWriter archive;
     EXPECT_TRUE(put_value(L, lua_gettop(L), archive)) << name;
     lua_pop(L, 1);
     return archive.bytes();
@@ -96,7 +96,7 @@ TEST_F(memoized_calls, values_come_back_bit_by_bit) {
         const RunRecord made = runtime.run_code(std::string("value = ") + expression, "value.lua");
         ASSERT_FALSE(made.error) << expression << ": " << made.error->message;
         const std::string bytes = archive_of_global(L, "value");
-        ArchiveReader archive(bytes);
+        CborReader archive(bytes);
         const Call call(L);
         push_archived_value(call, archive);
         EXPECT_TRUE(archive.at_end()) << expression;
@@ -119,7 +119,7 @@ TEST_F(memoized_calls, what_has_no_lasting_content_is_refused) {
         ASSERT_FALSE(runtime.run_code(std::string("value = ") + value, "value.lua").error) << value;
         lua_getglobal(L, "value");
         const int top = lua_gettop(L);
-        ArchiveWriter archive;
+        CborWriter archive;
         EXPECT_FALSE(put_value(L, top, archive)) << value;
         EXPECT_EQ(lua_gettop(L), top) << value;
         lua_settop(L, 0);

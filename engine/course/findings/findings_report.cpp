@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "course/names/plain_words.h"
+#include "data_io/values/json_values.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -132,19 +133,24 @@ std::string findings_as_json(const CheckResult& result) {
 }
 
 CheckResult findings_from_json(const std::string& json) {
-    const nlohmann::json in = nlohmann::json::parse(json);
+    const nlohmann::json in = parsed_json(json);
     const auto text = [](const nlohmann::json& value) { return value.is_null() ? "" : value.get<std::string>(); };
     const auto number = [](const nlohmann::json& value) { return value.is_null() ? 0 : value.get<int>(); };
-    CheckResult result;
-    result.subject = in.at("subject");
-    result.template_name = text(in.at("template"));
-    result.language = text(in.at("language"));
-    result.pages = number(in.at("pages"));
-    result.checked = in.at("checked").get<std::vector<std::string>>();
-    for (const nlohmann::json& one : in.at("findings"))
-        result.findings.push_back({one.at("id"), one.at("severity") == "rule" ? Severity::kRule : Severity::kHint,
-                                   number(one.at("page")), text(one.at("place")), one.at("what"), one.at("remedy")});
-    return result;
+    try {
+        CheckResult result;
+        result.subject = in.at("subject");
+        result.template_name = text(in.at("template"));
+        result.language = text(in.at("language"));
+        result.pages = number(in.at("pages"));
+        result.checked = in.at("checked").get<std::vector<std::string>>();
+        for (const nlohmann::json& one : in.at("findings"))
+            result.findings.push_back({one.at("id"), one.at("severity") == "rule" ? Severity::kRule : Severity::kHint,
+                                       number(one.at("page")), text(one.at("place")), one.at("what"),
+                                       one.at("remedy")});
+        return result;
+    } catch (const nlohmann::json::exception&) {
+        throw EnvironmentError("these are not findings that dynlab check wrote");
+    }
 }
 
 }  // namespace dynlab::inline course

@@ -18,7 +18,7 @@ std::string findings_in_words(const CheckResult& result, bool in_colour);
 /// severity is "rule" or "hint"; template, language, pages, page and place are null where nothing is known.
 std::string findings_as_json(const CheckResult& result);
 
-/// The outcome that findings_as_json wrote.
+/// The outcome that findings_as_json wrote. Throws EnvironmentError for any other text.
 CheckResult findings_from_json(const std::string& json);
 
 }  // namespace dynlab::inline course

@@ -1,6 +1,7 @@
 #include "course/grading/boxed_document.h"
 
 #include "course/grading/boxed_work.h"
+#include "course/grading/job_descriptions.h"
 #include "documents/document.h"
 #include "documents/error.h"
 #include "documents/latex_format.h"
@@ -12,44 +13,25 @@ namespace dynlab::inline course {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 constexpr auto kTimeOfDocument = std::chrono::seconds(30);
 
-/// What of a record reaches such documents.
-json json_of(const RunRecord& record) {
-    json j = {{"values", json::object()}, {"texts", json::object()}, {"tables", json::object()}};
-    for (const auto& [name, value] : record.values) j["values"][name] = value.text;
-    for (const auto& [name, text] : record.texts) j["texts"][name] = text.markdown;
-    for (const auto& [name, table] : record.tables)
-        j["tables"][name] = {{"header", table.header}, {"rows", table.rows}};
-    return j;
-}
-
-RunRecord record_of_content(const json& j) {
-    RunRecord record;
-    for (const auto& [name, value] : j.at("values").items()) record.values[name] = {{}, value};
-    for (const auto& [name, text] : j.at("texts").items()) record.texts[name] = {text};
-    for (const auto& [name, table] : j.at("tables").items())
-        record.tables[name] = {table.at("header"), table.at("rows")};
-    for (const auto& [name, figure] : j.at("figures").items()) {
-        record.figures[name].caption = figure.at("caption");
-        record.figures[name].file = figure.at("file").get<std::string>();
-    }
-    return record;
-}
-
-json in_ascii(const json& j) {
-    if (!j.is_string() && !j.is_structured()) return j;
-    if (j.is_structured()) {
-        json result = j;
-        for (auto& part : result) part = in_ascii(part);
-        return result;
-    }
-    std::string text = j;
+std::string in_ascii(std::string text) {
     for (char& c : text)
         if (static_cast<unsigned char>(c) > 126) c = '?';
     return text;
+}
+
+RunRecord in_ascii(RunRecord record) {
+    for (auto& [name, value] : record.values) value.text = in_ascii(value.text);
+    for (auto& [name, text] : record.texts) text.markdown = in_ascii(text.markdown);
+    for (auto& [name, figure] : record.figures) figure.caption = in_ascii(figure.caption);
+    for (auto& [name, table] : record.tables) {
+        for (std::string& cell : table.header) cell = in_ascii(cell);
+        for (auto& row : table.rows)
+            for (std::string& cell : row) cell = in_ascii(cell);
+    }
+    return record;
 }
 
 /// Everything in `from` to the folder `to`.
@@ -80,39 +62,39 @@ void BoxedDocuments::make(const std::string& template_name, const RunRecord& rec
     const fs::path templates = box.add(shared_folder() / "report_templates", "/box/home/report_templates");
     box.add(shared_folder() / "data", "/box/home/data");
     box.set_environment("DYNLAB_HOME", templates.parent_path().string());
-    json job = {{"work", "document"}, {"template", template_name}, {"record", json_of(record)}};
-    job["record"]["figures"] = json::object();
+    DocumentJob job;
+    job.template_name = template_name;
+    job.record.values = record.values;
+    job.record.texts = record.texts;
+    job.record.tables = record.tables;
     for (const auto& [name, figure] : record.figures) {
         const fs::path file = box.add(figure.file, "/box/figures/" + figure.file.filename().string());
-        job["record"]["figures"][name] = {{"caption", figure.caption}, {"file", file.string()}};
+        job.record.figures[name] = {{}, figure.caption, file, figure.place};
     }
-    const bool pdf = document_format(output) == DocumentFormat::kPdf;
-    if (pdf) job["format"] = box.add(latex_format(), "/box/format").string();
-    job["to"] = (box.add_writable(made.path(), "/box/made") / output.filename()).string();
-    const BoxedResult result = run_boxed(box, program_, job, kTimeOfDocument);
+    if (document_format(output) == DocumentFormat::kPdf) job.latex_format = box.add(latex_format(), "/box/format");
+    job.to = box.add_writable(made.path(), "/box/made") / output.filename();
+    const auto result = run_boxed(box, program_, job, kTimeOfDocument);
     if (!result.output) throw EnvironmentError(output.filename().string() + " cannot be made: " + result.reason);
     place_all(made.path(), output.parent_path());
 }
 
-json make_boxed_document(const json& job) {
-    const fs::path to = job.at("to").get<std::string>();
+BoxedOutcome make_boxed_document(const DocumentJob& job) {
     DocumentMaker::Options options;
     options.use_cache = false;
-    if (job.contains("format")) options.latex_format = job.at("format").get<std::string>();
+    if (job.latex_format) options.latex_format = *job.latex_format;
     const DocumentMaker maker(options);
     DocumentSource source;
-    source.template_file = shared_folder() / "report_templates" / job.at("template").get<std::string>();
-    const auto make = [&](const json& content) {
-        const RunRecord record = record_of_content(content);
+    source.template_file = shared_folder() / "report_templates" / job.template_name;
+    const auto make = [&](const RunRecord& record) {
         source.record = &record;
-        maker.make(source, to, document_format(to), [] {});
+        maker.make(source, job.to, document_format(job.to), [] {});
     };
     try {
-        make(job.at("record"));
+        make(job.record);
     } catch (const DocumentError&) {
-        make(in_ascii(job.at("record")));  // letters that LaTeX does not have
+        make(in_ascii(job.record));  // letters that LaTeX does not have
     }
-    return json::object();
+    return {};
 }
 
 }  // namespace dynlab::inline course

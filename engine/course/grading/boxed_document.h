@@ -1,7 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <mutex>
-#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "documents/run_record.h"
@@ -32,7 +32,23 @@ class BoxedDocuments {
     mutable std::once_flag format_made_;
 };
 
-/// The part of it inside the box. Returns {}.
-nlohmann::json make_boxed_document(const nlohmann::json& job);
+/// What comes of a job whose result is files.
+struct BoxedOutcome {
+    std::optional<std::string> error;  ///< a sentence; nothing where all went well
+};
+
+/// A document to be made inside a box; all places are those there.
+struct DocumentJob {
+    static constexpr char kWork[] = "document";
+    using Result = BoxedOutcome;
+
+    std::string template_name;
+    RunRecord record;
+    std::optional<std::filesystem::path> latex_format;  ///< of PDFs
+    std::filesystem::path to;                           ///< .pdf or .md
+};
+
+/// The part of it inside the box.
+BoxedOutcome make_boxed_document(const DocumentJob& job);
 
 }  // namespace dynlab::inline course

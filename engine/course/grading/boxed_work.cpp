@@ -4,16 +4,26 @@
 
 namespace dynlab::inline course {
 
-BoxedResult run_boxed(Box& box, const std::filesystem::path& program, const nlohmann::json& job,
-                      std::chrono::milliseconds timeout, std::uint64_t output_bytes) {
+ValueLimits boxed_limits(std::uint64_t bytes) {
+    constexpr std::size_t kMemoryOfAByte = 40;  // an empty text in a list
+    ValueLimits limits;
+    limits.bytes = bytes;
+    limits.memory = kMemoryOfAByte * bytes;
+    limits.depth = 30;
+    limits.only_utf8 = true;
+    return limits;
+}
+
+BoxedResult<std::string> run_boxed_bytes(Box& box, const std::filesystem::path& program, const std::string& work,
+                                         const std::string& job, std::chrono::milliseconds timeout,
+                                         std::uint64_t output_bytes) {
     const std::filesystem::path inside = box.add(program, "/box/dynlab");
     Box::Limits limits;
     limits.timeout = timeout;
     limits.output_bytes = output_bytes;
     const auto start = std::chrono::steady_clock::now();
-    const ChildResult child = box.run({inside.string(), "boxed"}, {},
-                                      job.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), limits);
-    BoxedResult result;
+    const ChildResult child = box.run({inside.string(), "boxed", work}, {}, job, limits);
+    BoxedResult<std::string> result;
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     result.timed_out = child.timed_out;
     if (child.timed_out) {
@@ -26,11 +36,7 @@ BoxedResult run_boxed(Box& box, const std::filesystem::path& program, const nloh
         result.reason = fmt::format("it ended with code {}: {}", child.exit_code,
                                     child.error_output.substr(0, child.error_output.find('\n')));
     } else {
-        result.output = nlohmann::json::parse(child.output, nullptr, false);
-        if (result.output->is_discarded()) {
-            result.output.reset();
-            result.reason = "its result cannot be read";
-        }
+        result.output = child.output;
     }
     return result;
 }

@@ -1,25 +1,47 @@
 #pragma once
 #include <chrono>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
+#include "data_io/values/cbor_values.h"
 #include "platform/box.h"
 
 namespace dynlab::inline course {
 
-/// What came out of a box.
+/// What came out of a box. A job is a described struct (data_io/values/described.h) that says its work's name, kWork,
+/// and what comes of it, Result, another such; both are CBOR on the pipes.
+template <class Result>
 struct BoxedResult {
-    std::optional<nlohmann::json> output;  ///< what the work returned; nothing when it came to no end
-    std::string reason;                    ///< then: "it took more than 10 s", "it crashed (signal 11)", ...
+    std::optional<Result> output;  ///< what the work returned; nothing when it came to no end
+    std::string reason;            ///< then: "it took more than 10 s", "it crashed (signal 11)", ...
     bool timed_out = false;
     double seconds = 0;  ///< wall clock, box and start included
 };
 
-/// Runs one piece of work, {"work": "run" | "checks" | "unpack", ...}, with `program` (dynlab) in the box; it may give
-/// out so many bytes.
-BoxedResult run_boxed(Box& box, const std::filesystem::path& program, const nlohmann::json& job,
-                      std::chrono::milliseconds timeout, std::uint64_t output_bytes = Box::Limits{}.output_bytes);
+/// The bytes of it, as they came.
+BoxedResult<std::string> run_boxed_bytes(Box& box, const std::filesystem::path& program, const std::string& work,
+                                         const std::string& job, std::chrono::milliseconds timeout,
+                                         std::uint64_t output_bytes);
+
+/// Of what is read inside a box and of what comes out of it: texts are made UTF-8.
+ValueLimits boxed_limits(std::uint64_t bytes = Box::Limits{}.output_bytes);
+
+/// Runs one piece of work, `dynlab boxed WORK`, with `program` (dynlab) in the box; it may give out so many bytes.
+template <class Job>
+BoxedResult<typename Job::Result> run_boxed(Box& box, const std::filesystem::path& program, const Job& job,
+                                            std::chrono::milliseconds timeout,
+                                            std::uint64_t output_bytes = Box::Limits{}.output_bytes) {
+    const BoxedResult<std::string> came =
+        run_boxed_bytes(box, program, Job::kWork, cbor_of(job), timeout, output_bytes);
+    BoxedResult<typename Job::Result> result{{}, came.reason, came.timed_out, came.seconds};
+    if (!came.output) return result;
+    try {
+        result.output = from_cbor<typename Job::Result>(*came.output, boxed_limits(output_bytes));
+    } catch (const ValueError&) {
+        result.reason = "its result cannot be read";
+    }
+    return result;
+}
 
 }  // namespace dynlab::inline course

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "course/grading/check_session.h"
+#include "data_io/values/json_values.h"
 #include "numerics/number_text.h"
 #include "scripting/answers/answer_value.h"
 #include "scripting/arguments/arguments.h"
@@ -197,20 +199,20 @@ int differs(Call& call) {
 // ---------------------------------------------------------------------------------------------------------------------
 // Facts
 
-int has(Call& call, const char* group, const char* words) {
+int has(Call& call, const std::vector<std::string> GradedRun::*names, const char* words) {
     call.at_most(1);
     const std::string name = call.text(1, "name");
-    const nlohmann::json& main = session_of(call).runs.at("main");
-    if (main.contains(group) && main.at(group).contains(name)) return give_judgement(call, 1, "");
+    const std::vector<std::string>& there = session_of(call).runs.at("main").*names;
+    if (std::find(there.begin(), there.end(), name) != there.end()) return give_judgement(call, 1, "");
     return give_judgement(call, 0, fmt::format("There is no {} \"{}\" in the report.", words, name));
 }
 
 int has_figure(Call& call) {
-    return has(call, "figures", "figure");
+    return has(call, &GradedRun::figures, "figure");
 }
 
 int has_value(Call& call) {
-    return has(call, "values", "value");
+    return has(call, &GradedRun::values, "value");
 }
 
 /// no_finding(id, ...): none of these findings of the document, or none at all that breaks a rule.
@@ -219,11 +221,11 @@ int no_finding(Call& call) {
     for (int i = 1; i <= call.count(); ++i) ids.push_back(call.text(i, "id"));
     static const std::set<std::string> no_document = {"document-fails", "analysis-fails", "analysis-missing",
                                                       "folder-too-large"};
-    for (const nlohmann::json& finding : session_of(call).findings) {
-        const bool concerned = no_document.contains(finding.at("id")) || ids.empty()
-                                   ? finding.at("severity") == "rule"
-                                   : std::find(ids.begin(), ids.end(), finding.at("id")) != ids.end();
-        if (concerned) return give_judgement(call, 0, finding.at("what"));
+    for (const Finding& finding : session_of(call).findings) {
+        const bool concerned = no_document.contains(finding.id) || ids.empty()
+                                   ? finding.severity == Severity::kRule
+                                   : std::find(ids.begin(), ids.end(), finding.id) != ids.end();
+        if (concerned) return give_judgement(call, 0, finding.what);
     }
     return give_judgement(call, 1, "");
 }
@@ -248,7 +250,7 @@ constexpr std::array kFunctions = {
 // ---------------------------------------------------------------------------------------------------------------------
 // Trying a check
 
-/// Whether NaN or an infinite number stands in an answer (see json_of_number).
+/// Whether NaN or an infinite number stands in an answer (see data_io/values/json_values.h).
 bool holds_no_numbers(const nlohmann::json& answer) {
     if (answer.is_string()) return answer == "NaN" || answer == "Infinity" || answer == "-Infinity";
     return answer.is_structured() && std::any_of(answer.begin(), answer.end(), holds_no_numbers);
@@ -260,14 +262,14 @@ int answer_of(Call& call) {
     lua_State* L = call.state();
     const std::string name = call.text(2, "name"), run = lua_tostring(L, lua_upvalueindex(2));
     CheckSession& session = session_of(call);
-    const nlohmann::json& runs = session.runs;
     const auto refuse = [&session](const std::string& why) { throw InvalidArgument(session.answer_trouble = why); };
-    if (!runs.contains(run) || !runs.at(run).contains("answers") || !runs.at(run).at("answers").contains(name))
-        refuse(fmt::format("The answer \"{}\" was not handed in.", name));
-    const nlohmann::json& answer = runs.at(run).at("answers").at(name);
-    if (answer.at("kind") != "data" && answer.at("kind") != "text" && holds_no_numbers(answer))
+    const auto& answers = session.runs[run].answers;
+    const auto answer = answers.find(name);
+    if (answer == answers.end()) refuse(fmt::format("The answer \"{}\" was not handed in.", name));
+    const auto& [kind, text] = answer->second;
+    if (kind != "data" && kind != "text" && holds_no_numbers(parsed_json(text)))
         refuse(fmt::format("The answer \"{}\" holds NaN or infinite numbers.", name));
-    push_answer_value(L, answer.dump());
+    push_answer_value(L, text);
     lua_pushvalue(L, 2);
     lua_pushvalue(L, -2);
     lua_rawset(L, 1);

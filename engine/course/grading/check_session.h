@@ -2,22 +2,28 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "course/findings/finding.h"
+#include "course/grading/graded_run.h"
+
 namespace dynlab::inline course {
 
-/// A check as its file declares it.
-struct DeclaredCheck {
+/// What is said of a check before it is tried.
+struct CheckDescription {
     std::string id, about, hint;
     double points = 1;
     std::string rerun;      ///< a data set's name, "seed", or empty
     bool document = false;  ///< it asks for findings of the document
-    int test = 0;           ///< place of the function in Lua's registry
-    int mistakes = 0;       ///< place of the list of typical mistakes, 0 for none
     bool visible = true;    ///< students may read the file it stands in
+};
+
+/// A check as its file declares it.
+struct DeclaredCheck : CheckDescription {
+    int test = 0;      ///< place of the function in Lua's registry
+    int mistakes = 0;  ///< place of the list of typical mistakes, 0 for none
 };
 
 /// What a check says of a submission.
@@ -35,8 +41,8 @@ inline constexpr char kRunOfAnswers[] = "run";      ///< field of a metatable: f
 /// What the functions of checks.lua share while a submission is checked.
 struct CheckSession {
     std::vector<DeclaredCheck> checks;
-    nlohmann::json runs = nlohmann::json::object();     ///< run_for_grading's results: "main", and one for each rerun
-    nlohmann::json findings = nlohmann::json::array();  ///< of `dynlab check --json`
+    std::map<std::string, GradedRun> runs;       ///< "main", and one for each rerun
+    Findings findings;                           ///< of the document
     std::map<std::string, Specimens> specimens;  ///< whose records each run read, "hidden" those of hidden(); the data
                                                  ///< sets that are not named are those of all, specimen 0
     std::filesystem::path hidden_folder;         ///< holds NAME.mat

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cctype>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "documents/run_record.h"
@@ -14,26 +13,28 @@ namespace dynlab::inline course {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 /// A list item, its texts made harmless by `escape`.
-std::string item_of(const json& check, std::string (*escape)(const std::string&)) {
-    const bool graded = check.at("graded");
-    const double points = check.at("points"), earned = check.at("earned");
-    const std::string message = check.at("visible").get<bool>() ? check.at("message") : json("");
-    const std::string hint = check.at("hint");
+std::string item_of(const CheckGrade& check, std::string (*escape)(const std::string&)) {
     std::string item =
-        fmt::format("- **{}** – {}", escape(check.at("about")),
-                    graded ? fmt::format("{} of {}", points_text(earned), points_text(points)) : "not graded yet");
-    if (!message.empty()) item += "\\\n  " + escape(message);
-    if (earned < points && graded && !hint.empty()) item += "\\\n  *" + escape(hint) + "*";
+        fmt::format("- **{}** – {}", escape(check.about),
+                    check.graded ? fmt::format("{} of {}", points_text(check.earned), points_text(check.points))
+                                 : "not graded yet");
+    if (check.visible && !check.message.empty()) item += "\\\n  " + escape(check.message);
+    if (check.earned < check.points && check.graded && !check.hint.empty())
+        item += "\\\n  *" + escape(check.hint) + "*";
     return item + "\n";
 }
 
-std::string trouble_of(const json& grade, std::string (*escape)(const std::string&)) {
-    const std::string trouble = grade.at("trouble");
-    if (trouble.empty()) return "Your script ran to its end.";
-    return "**Your script did not run to its end:** " + escape(trouble);
+std::string trouble_of(const Grade& grade, std::string (*escape)(const std::string&)) {
+    if (grade.trouble.empty()) return "Your script ran to its end.";
+    return "**Your script did not run to its end:** " + escape(grade.trouble);
+}
+
+std::string lateness_of(const Grade& grade) {
+    if (!(grade.penalty > 0)) return "";
+    return fmt::format("It came {:.1f} hours late, which costs {} points.", grade.late_hours,
+                       points_text(grade.penalty));
 }
 
 /// For readers of the Markdown itself: only what would change its meaning is escaped.
@@ -48,46 +49,29 @@ std::string readable_markdown(const std::string& text) {
     return result;
 }
 
-std::string markdown_of(const json& grade) {
-    std::string text = fmt::format("# Feedback\n\n**{}**, lesson {}: **{} of {} points.** {}\n\n{}\n\n## Checks\n\n",
-                                   readable_markdown(grade.at("submission")), readable_markdown(grade.at("lesson")),
-                                   grade.at("points").get<std::string>(), grade.at("possible").get<std::string>(),
-                                   grade.at("lateness").get<std::string>(), trouble_of(grade, readable_markdown));
-    for (const json& check : grade.at("checks")) text += item_of(check, readable_markdown);
+std::string markdown_of(const Grade& grade) {
+    std::string text =
+        fmt::format("# Feedback\n\n**{}**, lesson {}: **{} of {} points.** {}\n\n{}\n\n## Checks\n\n",
+                    readable_markdown(grade.submission), readable_markdown(grade.lesson), points_text(grade.earned()),
+                    points_text(grade.possible()), lateness_of(grade), trouble_of(grade, readable_markdown));
+    for (const CheckGrade& check : grade.checks) text += item_of(check, readable_markdown);
     return text;
 }
 
-RunRecord feedback_record(const json& grade) {
+RunRecord feedback_record(const Grade& grade) {
     RunRecord record;
     record.script = "feedback";
-    for (const char* name : {"submission", "lesson", "points", "possible", "lateness"})
-        record.values[name] = {{}, grade.at(name)};
+    const auto value = [&record](const char* name, const std::string& text) { record.values[name] = {{}, text}; };
+    value("submission", grade.submission);
+    value("lesson", grade.lesson);
+    value("points", points_text(grade.earned()));
+    value("possible", points_text(grade.possible()));
+    value("lateness", lateness_of(grade));
     std::string items;
-    for (const json& check : grade.at("checks")) items += item_of(check, escaped_markdown);
+    for (const CheckGrade& check : grade.checks) items += item_of(check, escaped_markdown);
     record.texts["checks"] = {items};
     record.texts["trouble"] = {trouble_of(grade, escaped_markdown)};
     return record;
-}
-
-json json_of(const Grade& grade) {
-    json j = {{"submission", grade.submission},
-              {"lesson", grade.lesson},
-              {"points", points_text(grade.earned())},
-              {"possible", points_text(grade.possible())},
-              {"lateness", grade.penalty > 0 ? fmt::format("It came {:.1f} hours late, which costs {} points.",
-                                                           grade.late_hours, points_text(grade.penalty))
-                                             : ""},
-              {"trouble", grade.trouble},
-              {"checks", json::array()}};
-    for (const CheckGrade& check : grade.checks)
-        j["checks"].push_back({{"about", check.about},
-                               {"hint", check.hint},
-                               {"message", check.message},
-                               {"points", check.points},
-                               {"earned", check.earned},
-                               {"visible", check.visible},
-                               {"graded", check.graded}});
-    return j;
 }
 
 }  // namespace
@@ -119,9 +103,8 @@ std::string escaped_markdown(const std::string& text) {
 }
 
 void write_feedback(const Grade& grade, const fs::path& folder, const BoxedDocuments* documents) {
-    const json text = json_of(grade);
-    write_file_atomically(folder / "feedback.md", markdown_of(text));
-    if (documents) documents->make("feedback.md", feedback_record(text), folder / "feedback.pdf");
+    write_file_atomically(folder / "feedback.md", markdown_of(grade));
+    if (documents) documents->make("feedback.md", feedback_record(grade), folder / "feedback.pdf");
 }
 
 }  // namespace dynlab::inline course

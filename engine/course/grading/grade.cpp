@@ -2,10 +2,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
+#include "data_io/values/json_values.h"
 #include "platform/error.h"
 
 namespace dynlab::inline course {
+
+template <Is<CheckGrade> T, class V>
+void describe(T& object, V& member) {
+    auto& [id, about, hint, message, points, earned, visible, graded, for_instructor] = object;
+    member("id", id), member("about", about), member("hint", hint), member("message", message);
+    member("points", points), member("earned", earned), member("visible", visible), member("graded", graded);
+}
+
+template <Is<Grade> T, class V>
+void describe(T& object, V& member) {
+    auto& [submission, lesson, isolation, fingerprint, trouble, printed, checks, late_hours, penalty, log] = object;
+    member("submission", submission), member("lesson", lesson), member("isolation", isolation);
+    member("fingerprint", fingerprint), member("trouble", trouble), member("printed", printed);
+    member("checks", checks), member("late_hours", late_hours), member("penalty", penalty);
+}
+
 namespace {
 
 using nlohmann::json;
@@ -28,16 +46,6 @@ json test_of(const CheckGrade& check, std::size_t number) {
     return test;
 }
 
-json json_of(const CheckGrade& check) {
-    return {{"id", check.id},         {"about", check.about},     {"hint", check.hint},     {"points", check.points},
-            {"earned", check.earned}, {"visible", check.visible}, {"graded", check.graded}, {"message", check.message}};
-}
-
-CheckGrade check_of(const json& j) {
-    return {j.at("id"),     j.at("about"),  j.at("hint"),    j.at("message"),
-            j.at("points"), j.at("earned"), j.at("visible"), j.at("graded")};
-}
-
 }  // namespace
 
 double Grade::earned() const {
@@ -57,46 +65,28 @@ bool Grade::whole() const {
 }
 
 std::string to_results_json(const Grade& grade, const Grade& marked) {
-    json tests = json::array(), checks = json::array();
+    json tests = json::array();
     for (const CheckGrade& check : marked.checks) tests.push_back(test_of(check, tests.size() + 1));
-    for (const CheckGrade& check : grade.checks) checks.push_back(json_of(check));
+    JsonWriter writer;
+    write_value(writer, grade);
+    json own = writer.value();
+    own["format"] = 1;
+    own["whole"] = marked.whole();
     json j = {{"output", grade.trouble},
               {"stdout_visibility", "hidden"},
               {"tests", std::move(tests)},
-              {"extra_data",
-               {{"dynlab",
-                 {{"format", 1},
-                  {"submission", grade.submission},
-                  {"lesson", grade.lesson},
-                  {"isolation", grade.isolation},
-                  {"fingerprint", grade.fingerprint},
-                  {"trouble", grade.trouble},
-                  {"printed", grade.printed},
-                  {"late_hours", grade.late_hours},
-                  {"penalty", grade.penalty},
-                  {"whole", marked.whole()},
-                  {"checks", std::move(checks)}}}}}};
+              {"extra_data", {{"dynlab", std::move(own)}}}};
     if (marked.whole()) j["score"] = marked.earned();
     return j.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
 Grade from_results_json(const std::string& text) {
     try {
-        const json j = json::parse(text).at("extra_data").at("dynlab");
-        Grade grade;
-        grade.submission = j.at("submission");
-        grade.lesson = j.at("lesson");
-        grade.isolation = j.at("isolation");
-        grade.fingerprint = j.at("fingerprint");
-        grade.trouble = j.at("trouble");
-        grade.printed = j.at("printed");
-        grade.late_hours = j.at("late_hours");
-        grade.penalty = j.at("penalty");
-        for (const json& check : j.at("checks")) grade.checks.push_back(check_of(check));
-        return grade;
+        return value_of_json<Grade>(parsed_json(text).at("extra_data").at("dynlab"));
     } catch (const json::exception&) {
-        throw EnvironmentError("this is not a result that dynlab grade wrote");
+    } catch (const ValueError&) {
     }
+    throw EnvironmentError("this is not a result that dynlab grade wrote");
 }
 
 }  // namespace dynlab::inline course

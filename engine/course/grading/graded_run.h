@@ -1,18 +1,38 @@
 #pragma once
-#include <nlohmann/json.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "documents/percent_script.h"
+#include "documents/run_record.h"
 
 namespace dynlab::inline course {
 
-/// Runs a student's script for grading, in this process, which should be in a box and is confined here. The data are
-/// those of DYNLAB_HOME. `job`:
-///   {"script": place, "seed": whole number, "answers": [[name, kind], ...] as the lesson declares them,
-///    "time_ms": most milliseconds, "memory_bytes": most bytes of the script}
-/// Returns what the checks may see:
-///   {"answers": {name: value}, "figures": {name: caption}, "values": {name: {...}}, "tables": [names], "texts":
-///   [names],
-///    "printed": the end of what it printed, "error": message or absent,
-///    "seconds": that the script took}
-/// A script that cannot be read at all has an "error" and nothing else.
-nlohmann::json run_for_grading(const nlohmann::json& job);
+/// What the checks may see of a run. A script that cannot be read at all has an error and nothing else.
+struct GradedRun {
+    std::map<std::string, RecordedAnswer> answers;
+    std::vector<std::string> figures, values;  ///< their names
+    std::string printed;                       ///< the end of what it printed
+    std::optional<std::string> error;          ///< the message
+    double seconds = 0;                        ///< that the script took
+};
+
+/// One run of a student's script for grading.
+struct RunJob {
+    static constexpr char kWork[] = "run";
+    using Result = GradedRun;
+
+    std::filesystem::path script;
+    std::uint32_t seed = 1;
+    std::vector<ExpectedAnswer> answers;  ///< as the lesson declares them
+    std::int64_t time_ms = 0;             ///< most milliseconds
+    std::uint64_t memory_bytes = 0;       ///< most bytes of the script
+};
+
+/// Runs the script in this process, which should be in a box and is confined here. The data are those of DYNLAB_HOME.
+GradedRun run_for_grading(const RunJob& job);
 
 }  // namespace dynlab::inline course

@@ -109,7 +109,7 @@ class ClassGrading {
     void tell_strays() {
         std::set<std::string> names, checks;
         for (const Submission& submission : submissions_) names.insert(submission.name);
-        for (const auto& check : rules_.checks()) checks.insert(check.at("id"));
+        for (const CheckDescription& check : rules_.checks()) checks.insert(check.id);
         for (std::string& sentence : manual_.strays(names, checks)) outcome_.complaints.push_back(std::move(sentence));
         for (const std::string& name : deadlines_.strays(submissions_))
             outcome_.complaints.push_back(fmt::format("the deadline of \"{}\": there is no such submission", name));

@@ -5,7 +5,11 @@
 #include <algorithm>
 
 #include "course/findings/document_findings.h"
+#include "course/findings/findings_report.h"
+#include "course/grading/boxed_work.h"
+#include "course/grading/job_descriptions.h"
 #include "data_io/dataset_index.h"
+#include "data_io/values/json_values.h"
 #include "platform/error.h"
 #include "platform/hash.h"
 #include "platform/program_identity.h"
@@ -18,7 +22,6 @@ namespace dynlab::inline course {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 constexpr char kSeedOnly[] = "seed";
 constexpr char kMain[] = "main";
@@ -59,7 +62,7 @@ GradingRules::GradingRules(GradingSetup setup) : setup_(std::move(setup)) {
     const PercentScript lesson = read_percent_script(setup_.lesson.script());
     seed_ = lesson.header.seed;
     standard_ = standard_for(setup_.lesson, lesson);
-    for (const ExpectedAnswer& answer : lesson.header.answers) answers_.push_back({answer.name, answer.kind});
+    answers_ = lesson.header.answers;
     read_checks();
     make_records();
 }
@@ -68,7 +71,7 @@ void GradingRules::read_checks() {
     const fs::path own = setup_.lesson.folder / "checks.lua";
     if (!fs::is_regular_file(own))
         throw EnvironmentError(fmt::format("lesson {} has no checks.lua", setup_.lesson.slug));
-    files_.push_back({{"name", "checks.lua"}, {"source", read_text(own)}, {"visible", true}});
+    files_.push_back({"checks.lua", read_text(own), true});
     if (setup_.more_checks) {
         std::vector<fs::path> more;
         if (!fs::is_directory(*setup_.more_checks))
@@ -76,19 +79,18 @@ void GradingRules::read_checks() {
         for (const auto& entry : fs::directory_iterator(*setup_.more_checks))
             if (entry.path().extension() == ".lua") more.push_back(entry.path());
         std::sort(more.begin(), more.end());
-        for (const fs::path& file : more)
-            files_.push_back({{"name", file.filename().string()}, {"source", read_text(file)}, {"visible", false}});
+        for (const fs::path& file : more) files_.push_back({file.filename().string(), read_text(file), false});
     }
-    const BoxedResult listed = checked(nullptr, {});
+    const BoxedResult<CheckResults> listed = checked({}, {});
     if (!listed.output) throw EnvironmentError("the checks cannot be read: " + listed.reason);
-    if (listed.output->contains("error")) throw EnvironmentError(listed.output->at("error").get<std::string>());
-    checks_ = listed.output->at("checks");
+    if (listed.output->error) throw EnvironmentError(*listed.output->error);
+    for (const TriedCheck& one : listed.output->checks) checks_.push_back(one.check);
     if (checks_.empty()) throw EnvironmentError(fmt::format("lesson {} declares no check", setup_.lesson.slug));
-    for (const json& check : checks_) {
-        const std::string rerun = check.at("rerun");
-        document_ = document_ || check.at("document").get<bool>();
+    for (const CheckDescription& check : checks_) {
+        const std::string& rerun = check.rerun;
+        document_ = document_ || check.document;
         if (rerun.empty()) continue;
-        if (rerun != kSeedOnly && !find_rig(rerun)) refuse_rerun(check.at("id"), rerun);
+        if (rerun != kSeedOnly && !find_rig(rerun)) refuse_rerun(check.id, rerun);
         reruns_.insert(rerun);
     }
 }
@@ -151,33 +153,36 @@ fs::path GradingRules::add_home(Box& box, const std::string& run, const GroupSee
 }
 
 /// One run of the script, in a box of its own: there are neither records of other runs nor what they left behind.
-json GradingRules::run(const std::string& name, const fs::path& folder, const GroupSeed& group_seed,
-                       std::string& log) const {
+GradedRun GradingRules::run(const std::string& name, const fs::path& folder, const GroupSeed& group_seed,
+                            std::string& log) const {
     Box box(setup_.isolation);
     box.set_environment("DYNLAB_HOME", add_home(box, name, group_seed).string());
-    const json job = {{"work", "run"},
-                      {"script", (box.add(folder, "/box/submission") / "analysis.lua").string()},
-                      {"seed", name == kSeedOnly ? drawn("seed") : seed_},
-                      {"answers", answers_},
-                      {"memory_bytes", kScriptMemory},
-                      {"time_ms", (setup_.timeout - kMargin).count()}};
-    const BoxedResult result = run_boxed(box, setup_.program, job, setup_.timeout + kStartTime, kMostAnswers);
+    RunJob job;
+    job.script = box.add(folder, "/box/submission") / "analysis.lua";
+    job.seed = name == kSeedOnly ? drawn("seed") : seed_;
+    job.answers = answers_;
+    job.memory_bytes = kScriptMemory;
+    job.time_ms = (setup_.timeout - kMargin).count();
+    const auto result = run_boxed(box, setup_.program, job, setup_.timeout + kStartTime, kMostAnswers);
     const std::chrono::duration<double> most = setup_.timeout;
     const std::string reason = result.timed_out ? fmt::format("it took more than {} s", most.count()) : result.reason;
-    json run = result.output ? *result.output : json{{"error", fmt::format("The script was ended: {}.", reason)}};
-    log += fmt::format("run {}: {:.3f} s of the script, {:.3f} s in its box\n{}", name, run.value("seconds", 0.0),
-                       result.seconds, run.contains("error") ? "  " + shortened_trouble(run.at("error")) + "\n" : "");
+    GradedRun run = result.output.value_or(GradedRun());
+    if (!result.output) run.error = fmt::format("The script was ended: {}.", reason);
+    log += fmt::format("run {}: {:.3f} s of the script, {:.3f} s in its box\n{}", name, run.seconds, result.seconds,
+                       run.error ? "  " + shortened_trouble(*run.error) + "\n" : "");
     return run;
 }
 
 /// The run on the official data and the reruns, by name.
-json GradingRules::runs(const fs::path& folder, const GroupSeed& group_seed, std::string& log) const {
-    json all = {{kMain, run(kMain, folder, group_seed, log)}};
+std::map<std::string, GradedRun> GradingRules::runs(const fs::path& folder, const GroupSeed& group_seed,
+                                                    std::string& log) const {
+    std::map<std::string, GradedRun> all;
+    all[kMain] = run(kMain, folder, group_seed, log);
     for (const std::string& rerun : reruns_) all[rerun] = run(rerun, folder, group_seed, log);
     return all;
 }
 
-json GradingRules::findings(const fs::path& folder, const GroupSeed& group_seed) const {
+Findings GradingRules::findings(const fs::path& folder, const GroupSeed& group_seed) const {
     Box box(setup_.isolation);
     box.add_document_programs();
     const fs::path home = box.add(data_of(group_seed), "/box/home/data").parent_path();
@@ -191,53 +196,55 @@ json GradingRules::findings(const fs::path& folder, const GroupSeed& group_seed)
     const ChildResult child =
         box.run({program.string(), "check", "--json", "--document-only", "--template", standard, inside.string()}, {},
                 "", limits);
-    const json found = json::parse(child.output, nullptr, false);
-    if (!found.is_discarded() && found.contains("findings")) return found.at("findings");
-    return json::array({{{"id", "document-fails"},
-                         {"severity", "rule"},
-                         {"what", child.timed_out ? "The report takes too long." : "The report cannot be made."}}});
+    try {
+        return findings_from_json(child.output).findings;
+    } catch (const EnvironmentError&) {
+        const char* const what = child.timed_out ? "The report takes too long." : "The report cannot be made.";
+        return {{"document-fails", Severity::kRule, 0, "", what, ""}};
+    }
 }
 
-BoxedResult GradingRules::checked(json submission, const GroupSeed& group_seed, std::optional<std::size_t> only,
-                                  std::chrono::milliseconds timeout) const {
+BoxedResult<CheckResults> GradingRules::checked(std::optional<CheckedSubmission> submission,
+                                                const GroupSeed& group_seed, std::optional<std::size_t> only,
+                                                std::chrono::milliseconds timeout) const {
     Box box(setup_.isolation);
     box.set_environment("DYNLAB_HOME", add_home(box, kMain, group_seed).string());
-    const bool tries = !submission.is_null();
-    auto specimens = specimens_;
+    ChecksJob job;
+    job.files = files_;
+    if (submission) job.hidden_folder = box.add(records_.path() / kHiddenRecords, "/box/hidden");
+    job.specimens = specimens_;
     if (group_seed) {
         const std::lock_guard lock(*making_);
         for (const std::string& name : simulated())
-            for (const char* run : {kMain, kSeedOnly}) specimens[run][name] = *group_seed;
+            for (const char* run : {kMain, kSeedOnly}) job.specimens[run][name] = *group_seed;
     }
-    const json job = {{"work", "checks"},
-                      {"files", files_},
-                      {"hidden_folder", tries ? box.add(records_.path() / kHiddenRecords, "/box/hidden").string() : ""},
-                      {"specimens", std::move(specimens)},
-                      {"time_ms", kCheckTime.count()},
-                      {"only", only ? json(*only) : json()},
-                      {"submission", std::move(submission)}};
+    job.time_ms = kCheckTime.count();
+    job.only = only;
+    job.submission = std::move(submission);
     return run_boxed(box, setup_.program, job, timeout);
 }
 
-/// A verdict for each check. Answers that crash one check, or hold it up, take the others with them; then each is tried
-/// in a box of its own, and only those stay without a verdict that come to no end there: they are "lost", and
-/// "for_instructor" says why.
-json GradingRules::verdicts(const json& submission, const GroupSeed& group_seed, std::string& log) const {
-    const auto usable = [](const BoxedResult& result, std::size_t count) {
-        return result.output && result.output->contains("checks") && result.output->at("checks").size() == count;
+/// Answers that crash one check, or hold it up, take the others with them; then each is tried in a box of its own, and
+/// only those stay without a verdict that come to no end there.
+std::vector<GradingRules::Tried> GradingRules::verdicts(const CheckedSubmission& submission,
+                                                        const GroupSeed& group_seed, std::string& log) const {
+    const auto usable = [](const BoxedResult<CheckResults>& result, std::size_t count) {
+        return result.output && result.output->checks.size() == count;
     };
-    const BoxedResult together = checked(submission, group_seed);
+    const BoxedResult<CheckResults> together = checked(submission, group_seed);
     log += fmt::format("checks: {:.3f} s in their box{}\n", together.seconds,
                        together.output ? "" : "; " + together.reason);
-    if (usable(together, checks_.size())) return together.output->at("checks");
-    json all = json::array();
+    std::vector<Tried> all;
+    if (usable(together, checks_.size())) {
+        for (const TriedCheck& one : together.output->checks) all.push_back({one, ""});
+        return all;
+    }
     for (std::size_t k = 0; k < checks_.size(); ++k) {
-        const BoxedResult alone = checked(submission, group_seed, k, kSingleTime / static_cast<int>(checks_.size()));
+        const auto alone = checked(submission, group_seed, k, kSingleTime / static_cast<int>(checks_.size()));
         if (usable(alone, 1))
-            all.push_back(alone.output->at("checks").at(0));
+            all.push_back({alone.output->checks.front(), ""});
         else
-            all.push_back(
-                {{"lost", true}, {"for_instructor", alone.output ? "its result cannot be read" : alone.reason}});
+            all.push_back({{}, alone.output ? "its result cannot be read" : alone.reason});
     }
     return all;
 }
@@ -248,13 +255,13 @@ Grade GradingRules::without_checks(const std::string& name, const std::string& t
     grade.lesson = setup_.lesson.slug;
     grade.isolation = name_of(setup_.isolation);
     grade.trouble = trouble;
-    for (const json& check : checks_) {
+    for (const CheckDescription& check : checks_) {
         CheckGrade one;
-        one.id = check.at("id");
-        one.about = check.at("about");
-        one.hint = check.at("hint");
-        one.points = check.at("points");
-        one.visible = check.at("visible");
+        one.id = check.id;
+        one.about = check.about;
+        one.hint = check.hint;
+        one.points = check.points;
+        one.visible = check.visible;
         one.graded = !broken_.contains(one.id);
         grade.checks.push_back(std::move(one));
     }
@@ -263,24 +270,25 @@ Grade GradingRules::without_checks(const std::string& name, const std::string& t
 
 Grade GradingRules::grade(const std::string& name, const fs::path& folder, const GroupSeed& group_seed) const {
     Grade grade = without_checks(name, "");
-    json submission = {{"runs", runs(folder, group_seed, grade.log)}};
-    const json& main = submission.at("runs").at(kMain);
-    if (main.contains("error")) grade.trouble = shortened_trouble(main.at("error"));
-    if (main.contains("printed")) grade.printed = main.at("printed");
-    submission["findings"] = document_ ? findings(folder, group_seed) : json::array();
-    const json found = verdicts(submission, group_seed, grade.log);
+    CheckedSubmission submission;
+    submission.runs = runs(folder, group_seed, grade.log);
+    const GradedRun& main = submission.runs.at(kMain);
+    if (main.error) grade.trouble = shortened_trouble(*main.error);
+    grade.printed = main.printed;
+    if (document_) submission.findings = findings(folder, group_seed);
+    const std::vector<Tried> found = verdicts(submission, group_seed, grade.log);
     for (std::size_t k = 0; k < grade.checks.size(); ++k) {
         CheckGrade& check = grade.checks[k];
-        const json& verdict = found.at(k);
-        check.for_instructor = verdict.value("for_instructor", "");
+        const auto& [verdict, reason] = found.at(k);
+        check.for_instructor = verdict ? verdict->for_instructor : reason;
         if (!check.for_instructor.empty()) grade.log += fmt::format("check {}: {}\n", check.id, check.for_instructor);
-        if (verdict.value("lost", false)) {
+        if (!verdict) {
             check.graded = false;
             check.message = "The check could not be run on these answers.";
             continue;
         }
-        if (verdict.at("share").is_number()) check.earned = check.points * verdict.at("share").get<double>();
-        check.message = verdict.at("message");
+        check.earned = check.points * verdict->share.value_or(0);
+        check.message = verdict->message;
     }
     if (!grade.printed.empty()) grade.log += "\nprinted by the script, at its end:\n" + grade.printed;
     return grade;
@@ -310,7 +318,7 @@ std::string GradingRules::fingerprint(const std::string& content_hash, const Gro
     Sha256 hash;
     for (const std::string& part :
          {content_hash, program_identity(), setup_.lesson.slug, sha256_of_file(setup_.lesson.script()), setup_.secret,
-          files_.dump(), std::to_string(setup_.timeout.count()), name_of(setup_.isolation),
+          json_of(files_), std::to_string(setup_.timeout.count()), name_of(setup_.isolation),
           fmt::format("{}", fmt::join(broken_, " ")), group_seed ? std::to_string(*group_seed) : ""})
         hash.add(std::to_string(part.size()) + ":").add(part);
     return hash.hex();

@@ -4,19 +4,21 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "course/grading/boxed_work.h"
-#include "course/grading/check_session.h"
+#include "course/grading/check_run.h"
 #include "course/grading/grade.h"
+#include "platform/box.h"
 #include "platform/temporary_folder.h"
 #include "workflow/lesson_catalogue.h"
 
 namespace dynlab::inline course {
+
+template <class Result>
+struct BoxedResult;
 
 struct GradingSetup {
     Lesson lesson;
@@ -48,26 +50,36 @@ class GradingRules {
 
     std::string fingerprint(const std::string& content_hash, const GroupSeed& group_seed) const;
     const GradingSetup& setup() const { return setup_; }
-    const nlohmann::json& checks() const { return checks_; }
+    const std::vector<CheckDescription>& checks() const { return checks_; }
 
   private:
     void read_checks();
     void make_records();
     void make_record(const std::string& data_set, const std::string& run, const std::filesystem::path& folder);
-    nlohmann::json run(const std::string& name, const std::filesystem::path& folder, const GroupSeed& group_seed,
-                       std::string& log) const;
-    nlohmann::json runs(const std::filesystem::path& folder, const GroupSeed& group_seed, std::string& log) const;
-    nlohmann::json findings(const std::filesystem::path& folder, const GroupSeed& group_seed) const;
-    BoxedResult checked(nlohmann::json submission, const GroupSeed& group_seed, std::optional<std::size_t> only = {},
-                        std::chrono::milliseconds timeout = std::chrono::seconds(60)) const;
-    nlohmann::json verdicts(const nlohmann::json& submission, const GroupSeed& group_seed, std::string& log) const;
+    GradedRun run(const std::string& name, const std::filesystem::path& folder, const GroupSeed& group_seed,
+                  std::string& log) const;
+    std::map<std::string, GradedRun> runs(const std::filesystem::path& folder, const GroupSeed& group_seed,
+                                          std::string& log) const;
+    Findings findings(const std::filesystem::path& folder, const GroupSeed& group_seed) const;
+    BoxedResult<CheckResults> checked(std::optional<CheckedSubmission> submission, const GroupSeed& group_seed,
+                                      std::optional<std::size_t> only = {},
+                                      std::chrono::milliseconds timeout = std::chrono::seconds(60)) const;
+    /// Nothing of a check for which no verdict can be had, and why, instead of one.
+    struct Tried {
+        std::optional<TriedCheck> result;
+        std::string reason;
+    };
+    std::vector<Tried> verdicts(const CheckedSubmission& submission, const GroupSeed& group_seed,
+                                std::string& log) const;
     std::vector<std::string> simulated() const;
     std::filesystem::path data_of(const GroupSeed& group_seed) const;
     std::filesystem::path add_home(Box& box, const std::string& run, const GroupSeed& group_seed) const;
     std::uint32_t drawn(const std::string& what) const;
 
     GradingSetup setup_;
-    nlohmann::json files_ = nlohmann::json::array(), answers_ = nlohmann::json::array(), checks_;
+    std::vector<CheckFile> files_;
+    std::vector<ExpectedAnswer> answers_;
+    std::vector<CheckDescription> checks_;
     std::uint32_t seed_ = 1;
     std::string standard_;  ///< the template, or the file of one, whose rules a document must keep
     mutable std::optional<std::vector<std::string>> simulated_;  ///< once they were asked for

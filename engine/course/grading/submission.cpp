@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <regex>
 
 #include "course/grading/boxed_work.h"
 #include "course/grading/folder_copy.h"
+#include "course/grading/job_descriptions.h"
 #include "platform/error.h"
 
 namespace dynlab::inline course {
@@ -115,16 +115,17 @@ std::vector<std::string> unpack_submission(const fs::path& archive, const fs::pa
                                            const fs::path& program, const SubmissionLimits& limits) {
     fs::create_directories(to);
     Box box(level);
-    nlohmann::json job = {
-        {"work", "unpack"}, {"bytes", limits.bytes}, {"files", limits.files}, {"keep_times", limits.keep_times}};
-    job["archive"] = box.add(archive, "/box/archive").string();
-    job["to"] = box.add_writable(to, "/box/unpacked").string();
-    const BoxedResult result = run_boxed(box, program, job, std::chrono::seconds(60));
+    UnpackJob job;
+    job.archive = box.add(archive, "/box/archive");
+    job.to = box.add_writable(to, "/box/unpacked");
+    job.bytes = limits.bytes;
+    job.files = limits.files;
+    job.keep_times = limits.keep_times;
+    const auto result = run_boxed(box, program, job, std::chrono::seconds(60));
     if (!result.output) throw SubmissionError("The archive cannot be unpacked: " + result.reason + ".");
-    if (result.output->contains("error"))
-        throw SubmissionError(
-            fmt::format("The file cannot be unpacked: {}.", result.output->at("error").get<std::string>()));
-    return result.output->at("left_out").get<std::vector<std::string>>();
+    if (result.output->error)
+        throw SubmissionError(fmt::format("The file cannot be unpacked: {}.", *result.output->error));
+    return result.output->left_out;
 }
 
 std::vector<std::string> unpack_export(const fs::path& archive, const fs::path& to, Isolation level,

@@ -17,7 +17,6 @@ namespace dynlab::inline course {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 using Archive = std::unique_ptr<archive, int (*)(archive*)>;
 
@@ -43,28 +42,27 @@ std::optional<std::string> objection_to(const fs::path& path) {
 
 class Unpacking {
   public:
-    explicit Unpacking(const json& job)
-        : to_(job.at("to").get<std::string>()),
-          bytes_left_(job.at("bytes").get<std::uint64_t>()),
-          files_left_(job.at("files").get<int>()),
-          keep_times_(job.at("keep_times").get<bool>()),
+    explicit Unpacking(const UnpackJob& job)
+        : to_(job.to),
+          bytes_left_(job.bytes),
+          files_left_(job.files),
+          keep_times_(job.keep_times),
           archive_(archive_read_new(), archive_read_free) {
         archive_read_support_filter_gzip(archive_.get());
         archive_read_support_filter_xz(archive_.get());
         archive_read_support_filter_bzip2(archive_.get());
         archive_read_support_format_zip(archive_.get());
         archive_read_support_format_tar(archive_.get());
-        const std::string file = job.at("archive");
-        if (archive_read_open_filename(archive_.get(), file.c_str(), kReadBlock) != ARCHIVE_OK) fail();
+        if (archive_read_open_filename(archive_.get(), job.archive.c_str(), kReadBlock) != ARCHIVE_OK) fail();
     }
 
-    json unpack() {
+    Unpacked unpack() {
         archive_entry* entry = nullptr;
         int status = ARCHIVE_OK;
         while ((status = archive_read_next_header(archive_.get(), &entry)) == ARCHIVE_OK || status == ARCHIVE_WARN)
             take(entry);
         if (status != ARCHIVE_EOF) fail();
-        return {{"left_out", left_out_}};
+        return {std::move(left_out_), {}};
     }
 
   private:
@@ -130,14 +128,14 @@ class Unpacking {
 
 }  // namespace
 
-json unpack_archive(const json& job) {
+Unpacked unpack_archive(const UnpackJob& job) {
     ProcessLimits limits;
-    limits.file_bytes = job.at("bytes");
+    limits.file_bytes = job.bytes;
     confine_process(limits);
     try {
         return Unpacking(job).unpack();
     } catch (const std::runtime_error& error) {
-        return {{"error", error.what()}};
+        return {{}, error.what()};
     }
 }
 

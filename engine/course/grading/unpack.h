@@ -1,15 +1,30 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace dynlab::inline course {
 
-/// Unpacks an archive (zip, tar, with or without compression) for grading, in this process, which should be in a box
-/// and is confined here. `job`: {"archive": place, "to": place of an empty folder, "bytes": most bytes, "files": most
-/// files, "keep_times": whether files keep theirs}. Only files and folders come out, below `to`; rights are not kept.
-/// Names in UTF-8 become names in UTF-8, other bytes of a name stay as they are. Returns {"left_out": [clauses]}, what
-/// did not come out and why ("\"../x\" leads outside of the archive"), or {"error": sentence}.
-nlohmann::json unpack_archive(const nlohmann::json& job);
+struct Unpacked {
+    std::vector<std::string> left_out;  ///< what did not come out and why: "\"../x\" leads outside of the archive"
+    std::optional<std::string> error;   ///< a sentence; then the archive is not unpacked whole
+};
+
+/// An archive (zip, tar, with or without compression) to be unpacked for grading.
+struct UnpackJob {
+    static constexpr char kWork[] = "unpack";
+    using Result = Unpacked;
+
+    std::filesystem::path archive, to;  ///< `to`: an empty folder
+    std::uint64_t bytes = 0;            ///< at most
+    int files = 0;                      ///< at most
+    bool keep_times = false;            ///< files keep theirs
+};
+
+/// Unpacks it in this process, which should be in a box and is confined here. Only files and folders come out, below
+/// `to`; rights are not kept. Names in UTF-8 become names in UTF-8, other bytes of a name stay as they are.
+Unpacked unpack_archive(const UnpackJob& job);
 
 }  // namespace dynlab::inline course

@@ -4,19 +4,16 @@
 
 #include <charconv>
 #include <cmath>
-#include <map>
-#include <optional>
+#include <nlohmann/json.hpp>
+
+#include "data_io/values/json_values.h"
 
 namespace dynlab::inline course {
 namespace {
 
 using nlohmann::json;
 
-struct Shown {
-    std::string text;
-    std::optional<double> number;
-};
-using Entries = std::map<std::string, Shown>;
+using Entries = std::map<std::string, RecordedValue>;
 
 std::optional<double> number_in(std::string text) {
     while (!text.empty() && (text.back() == ' ' || text.back() == '%')) text.pop_back();
@@ -31,39 +28,42 @@ std::string text_of(const json& cell) {
     return cell.is_string() ? cell.get<std::string>() : cell.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
-void add_table(const std::string& name, const json& table, Entries& entries) {
+std::vector<std::string> row_in(const json& cells) {
+    std::vector<std::string> row;
+    if (cells.is_array())
+        for (const json& cell : cells) row.push_back(text_of(cell));
+    return row;
+}
+
+std::optional<RecordedTable> table_in(const json& table) {
+    if (!table.is_object()) return {};
     const json header = table.value("header", json::array()), rows = table.value("rows", json::array());
-    if (!header.is_array() || !rows.is_array()) return;
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-        const json& row = rows[r];
-        if (!row.is_array() || row.empty()) continue;
+    if (!header.is_array() || !rows.is_array()) return {};
+    RecordedTable read{row_in(header), {}};
+    for (const json& row : rows) read.rows.push_back(row_in(row));
+    return read;
+}
+
+void add_table(const std::string& name, const RecordedTable& table, Entries& entries) {
+    for (std::size_t r = 0; r < table.rows.size(); ++r) {
+        const std::vector<std::string>& row = table.rows[r];
         for (std::size_t c = 1; c < row.size(); ++c) {
-            const std::string column = c < header.size() ? text_of(header[c]) : fmt::format("column {}", c + 1);
-            std::string entry = fmt::format("{}: {}, {}", name, text_of(row[0]), column);
+            const std::string column = c < table.header.size() ? table.header[c] : fmt::format("column {}", c + 1);
+            std::string entry = fmt::format("{}: {}, {}", name, row[0], column);
             if (entries.contains(entry)) entry += fmt::format(" (row {})", r + 1);
-            const std::string text = text_of(row[c]);
-            entries[entry] = {text, number_in(text)};
+            entries[entry] = {number_in(row[c]), row[c]};
         }
     }
 }
 
-/// All that a record shows; whatever has another form than ours is left out.
-Entries entries_of(const json& record) {
-    Entries entries;
-    if (!record.is_object()) return entries;
-    const json values = record.value("values", json::object()), tables = record.value("tables", json::object());
-    for (const auto& [name, value] : values.items()) {
-        if (!value.is_object() || !value.contains("text")) continue;
-        Shown shown{text_of(value.at("text")), {}};
-        if (value.contains("number") && value.at("number").is_number()) shown.number = value.at("number").get<double>();
-        entries[name] = std::move(shown);
-    }
-    for (const auto& [name, table] : tables.items())
-        if (table.is_object()) add_table(name, table, entries);
+/// All that a record shows.
+Entries entries_of(const ShownRecord& record) {
+    Entries entries = record.values;
+    for (const auto& [name, table] : record.tables) add_table(name, table, entries);
     return entries;
 }
 
-std::string change_text(const Shown& before, const Shown& after) {
+std::string change_text(const RecordedValue& before, const RecordedValue& after) {
     if (!before.number || !after.number) return "other text";
     if (*before.number == 0) return "from zero";
     const double percent = 100 * (*after.number - *before.number) / std::abs(*before.number);
@@ -74,7 +74,31 @@ std::string change_text(const Shown& before, const Shown& after) {
 
 }  // namespace
 
-ValueChanges value_changes(const json& before, const json& after) {
+std::optional<ShownRecord> shown_record(const std::string& text) {
+    constexpr std::size_t kMostText = 16u << 20;
+    ValueLimits limits;
+    limits.bytes = kMostText;
+    limits.memory = 64 * kMostText;
+    json record;
+    try {
+        record = parsed_json(text, limits);
+    } catch (const ValueError&) {
+    }
+    if (!record.is_object()) return {};
+    ShownRecord shown;
+    shown.failed = record.contains("error");
+    const json values = record.value("values", json::object()), tables = record.value("tables", json::object());
+    for (const auto& [name, value] : values.items()) {
+        if (!value.is_object() || !value.contains("text")) continue;
+        RecordedValue& read = shown.values[name] = {{}, text_of(value.at("text"))};
+        if (value.contains("number") && value.at("number").is_number()) read.number = value.at("number").get<double>();
+    }
+    for (const auto& [name, table] : tables.items())
+        if (auto read = table_in(table)) shown.tables[name] = std::move(*read);
+    return shown;
+}
+
+ValueChanges value_changes(const ShownRecord& before, const ShownRecord& after) {
     const Entries old_entries = entries_of(before), new_entries = entries_of(after);
     ValueChanges changes;
     for (const auto& [name, was] : old_entries) {

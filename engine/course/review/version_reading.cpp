@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "course/grading/boxed_work.h"
+#include "course/grading/job_descriptions.h"
 #include "course/grading/submission.h"
 #include "documents/text_lines.h"
 #include "documents/work_file.h"
@@ -16,7 +17,6 @@ namespace dynlab::inline course {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 constexpr auto kReadingTime = std::chrono::seconds(120);
 constexpr std::uintmax_t kMostText = 4u << 20;
@@ -33,12 +33,9 @@ std::optional<std::string> text_of_file(const fs::path& file) {
     return read_work_file(file);
 }
 
-std::optional<json> record_in(const fs::path& file) {
+std::optional<ShownRecord> record_in(const fs::path& file) {
     const auto text = text_of_file(file);
-    if (!text) return {};
-    json record = json::parse(*text, nullptr, false);
-    if (!record.is_object()) return {};
-    return record;
+    return text ? shown_record(*text) : std::nullopt;
 }
 
 class VersionReader {
@@ -75,13 +72,14 @@ class VersionReader {
         const fs::path home = box.add(shared_folder() / "data", "/box/home/data").parent_path();
         box.add(shared_folder() / "report_templates", "/box/home/report_templates");
         box.set_environment("DYNLAB_HOME", home.string());
-        json job = {{"work", "version"}, {"pdf", !files_.pdf}};
-        job["folder"] = box.add_writable(folder, "/box/submission").string();
-        job["to"] = box.add_writable(made, "/box/made").string();
-        const BoxedResult result = run_boxed(box, program_, job, kReadingTime);
+        VersionJob job;
+        job.folder = box.add_writable(folder, "/box/submission");
+        job.to = box.add_writable(made, "/box/made");
+        job.pdf = !files_.pdf;
+        const auto result = run_boxed(box, program_, job, kReadingTime);
         std::string reason = result.reason;
-        if (result.output && result.output->contains("error") && result.output->at("error").is_string())
-            reason = replaced(first_line(result.output->at("error")), job.at("folder").get<std::string>() + "/", "");
+        if (result.output && result.output->error)
+            reason = replaced(first_line(*result.output->error), job.folder.string() + "/", "");
         while (reason.ends_with('.')) reason.pop_back();
         if (!reason.empty())
             version_.troubles.push_back(fmt::format("The pack's report could not be made again: {}.", reason));
@@ -89,7 +87,7 @@ class VersionReader {
 
     void read_made(const fs::path& folder, const fs::path& made) {
         version_.record = record_in(made / "record.json");
-        if (!version_.record || version_.record->contains("error")) {
+        if (!version_.record || version_.record->failed) {
             if (auto own = record_in(folder / "record.json")) {
                 version_.record = std::move(own);
                 version_.record_found = true;
@@ -139,8 +137,8 @@ void make_document(const ReportRequest& request, RunRecord record, const fs::pat
 
 }  // namespace
 
-json make_version(const json& job) {
-    const fs::path folder = job.at("folder").get<std::string>(), to = job.at("to").get<std::string>();
+BoxedOutcome make_version(const VersionJob& job) {
+    const fs::path &folder = job.folder, &to = job.to;
     try {
         const ReportRequest request = report_of(folder.string(), to / "report.md");
         GnuplotRenderer renderer;
@@ -152,11 +150,11 @@ json make_version(const json& job) {
         const RunRecord record = run_script(run, renderer);
         write_work_file(to / "record.json", to_json(record));
         make_document(request, record, to / "report.md", FigureFormat::kSvg);
-        if (job.at("pdf").get<bool>()) make_document(request, record, to / "report.pdf", FigureFormat::kPdf);
-        if (record.error) return {{"error", record.error->message}};
-        return json::object();
+        if (job.pdf) make_document(request, record, to / "report.pdf", FigureFormat::kPdf);
+        if (record.error) return {record.error->message};
+        return {};
     } catch (const std::runtime_error& error) {
-        return {{"error", error.what()}};
+        return {error.what()};
     }
 }
 

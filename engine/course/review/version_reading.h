@@ -1,11 +1,12 @@
 #pragma once
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "course/grading/boxed_document.h"
 #include "course/review/report_text.h"
+#include "course/review/value_changes.h"
 #include "platform/box.h"
 
 namespace dynlab::inline course {
@@ -19,11 +20,11 @@ struct VersionFiles {
 /// A version as it can be compared.
 struct ReadVersion {
     std::optional<int> pages;
-    std::optional<ReportText> source;      ///< report.md of the pack, its slots filled by the pack's analysis
-    std::optional<ReportText> printed;     ///< the PDF's text
-    std::optional<nlohmann::json> record;  ///< of a run of the pack's analysis
-    bool record_found = false;             ///< it is the pack's own record.json, as the analysis could not be run
-    std::vector<std::string> troubles;     ///< sentences: what could not be read, and why
+    std::optional<ReportText> source;   ///< report.md of the pack, its slots filled by the pack's analysis
+    std::optional<ReportText> printed;  ///< the PDF's text
+    std::optional<ShownRecord> record;  ///< of a run of the pack's analysis
+    bool record_found = false;          ///< it is the pack's own record.json, as the analysis could not be run
+    std::vector<std::string> troubles;  ///< sentences: what could not be read, and why
 };
 
 /// Reads a version: unpacks the pack and runs its analysis in boxes, looks at the PDF in a guarded process. Without a
@@ -31,9 +32,17 @@ struct ReadVersion {
 /// MissingProgram.
 ReadVersion read_version(const VersionFiles& files, Isolation level, const std::filesystem::path& program);
 
-/// The part of it inside the box. `job`: {"folder": place of analysis.lua and report.md, "to": place of an empty
-/// folder, "pdf": whether to make the PDF}. Writes record.json, report.md and report.pdf into `to`; returns {} or
-/// {"error": sentence}.
-nlohmann::json make_version(const nlohmann::json& job);
+/// A version to be made inside a box; all places are those there.
+struct VersionJob {
+    static constexpr char kWork[] = "version";
+    using Result = BoxedOutcome;
+
+    std::filesystem::path folder;  ///< of analysis.lua and report.md
+    std::filesystem::path to;      ///< an empty folder
+    bool pdf = false;              ///< whether to make the PDF
+};
+
+/// The part of it inside the box. Writes record.json, report.md and report.pdf into `to`.
+BoxedOutcome make_version(const VersionJob& job);
 
 }  // namespace dynlab::inline course

@@ -86,7 +86,7 @@ class CallWriter {
             return true;
         }
         if (!by_content_) return true;
-        ArchiveWriter archive;
+        CborWriter archive;
         if (!put_value(L_, index, archive)) return false;
         put_digest(digest_of(archive.bytes()));
         return true;

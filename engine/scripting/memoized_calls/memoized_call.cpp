@@ -16,9 +16,9 @@ constexpr auto kLong = 10ms;  // far more than it takes to read a result back
 
 /// Pushes the values of an archived result and returns their number.
 int give_again(const Call& call, const std::string& bytes) {
-    ArchiveReader archive(bytes);
-    if (const auto printed = archive.get<std::string>(); !printed.empty()) call.print(printed);
-    const int count = archive.get<int>();
+    CborReader archive(bytes, ValueLimits::own());
+    if (const std::string printed = archive.text(); !printed.empty()) call.print(printed);
+    const int count = read_fresh<int>(archive);
     luaL_checkstack(call.state(), count, "too many results");
     for (int i = 0; i < count; ++i) push_archived_value(call, archive);
     return count;
@@ -42,9 +42,9 @@ class PrintedText {
 };
 
 std::optional<std::string> archive_of(const Call& call, const std::string& printed, int count) {
-    ArchiveWriter archive;
-    archive.put(printed);
-    archive.put(count);
+    CborWriter archive;
+    archive.text(printed);
+    archive.whole(count);
     const int top = lua_gettop(call.state());
     for (int i = top - count + 1; i <= top; ++i)
         if (!put_value(call.state(), i, archive)) return {};

@@ -3,40 +3,38 @@
 #include <algorithm>
 #include <array>
 
+#include "documents/figure_description.h"
 #include "scripting/arguments/table_fields.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
-#include "scripting/objects/model.h"
+#include "scripting/objects/model_description.h"
 #include "scripting/objects/numeric.h"
-#include "scripting/objects/study_objects.h"
 
 namespace dynlab::inline scripting {
 namespace {
 
-enum class ValueKind : std::uint8_t { kNil, kTruth, kNumber, kWhole, kText, kTable, kVector, kMatrix, kObject };
-
 constexpr int kDeepestTable = 20;
 
-/// How objects of one type are written and pushed.
+/// How objects of one type are written and pushed. Their name stands before them.
 struct ObjectCodec {
     const ObjectType* type;
-    void (*put)(lua_State* L, int index, ArchiveWriter& archive);
-    void (*push)(const Call& call, ArchiveReader& archive);
+    void (*put)(lua_State* L, int index, CborWriter& archive);
+    void (*push)(const Call& call, CborReader& archive);
 };
 
 template <class T>
 ObjectCodec codec_of() {
     return {&Boxed<T>::type,
-            [](lua_State* L, int index, ArchiveWriter& archive) { archive.put(*to_object<T>(L, index)); },
-            [](const Call& call, ArchiveReader& archive) { push_object(call.state(), archive.get<T>()); }};
+            [](lua_State* L, int index, CborWriter& archive) { write_value(archive, *to_object<T>(L, index)); },
+            [](const Call& call, CborReader& archive) { push_object(call.state(), read_fresh<T>(archive)); }};
 }
 
 ObjectCodec codec_of_figures() {
     return {&Boxed<FigurePointer>::type,
-            [](lua_State* L, int index, ArchiveWriter& archive) {
-                archive.put((*to_object<FigurePointer>(L, index))->figure);
+            [](lua_State* L, int index, CborWriter& archive) {
+                write_value(archive, (*to_object<FigurePointer>(L, index))->figure);
             },
-            [](const Call& call, ArchiveReader& archive) { give_figure(call, archive.get<Figure>()); }};
+            [](const Call& call, CborReader& archive) { give_figure(call, read_fresh<Figure>(archive)); }};
 }
 
 const auto& object_codecs() {
@@ -46,21 +44,21 @@ const auto& object_codecs() {
     return codecs;
 }
 
-bool put_object(lua_State* L, int index, ArchiveWriter& archive) {
-    for (const auto& [block, kind] :
-         {std::pair(to_vector(L, index), ValueKind::kVector), std::pair(to_matrix(L, index), ValueKind::kMatrix)}) {
+bool put_object(lua_State* L, int index, CborWriter& archive) {
+    for (const auto& [block, form] :
+         {std::pair(to_vector(L, index), ArrayForm::kVector), std::pair(to_matrix(L, index), ArrayForm::kMatrix)}) {
         if (block == nullptr) continue;
-        archive.put(kind);
-        archive.put(Matrix(block->matrix()));
+        archive.array({form, block->rows, block->columns, block->data()});
         return true;
     }
     const auto& codecs = object_codecs();
     const auto codec = std::find_if(codecs.begin(), codecs.end(),
                                     [type = object_type(L, index)](const auto& known) { return known.type == type; });
     if (codec == codecs.end()) return false;
-    archive.put(ValueKind::kObject);
-    archive.put(static_cast<std::uint64_t>(codec - codecs.begin()));
+    archive.begin_object();
+    archive.member(codec->type->name);
     codec->put(L, index, archive);
+    archive.end_object();
     return true;
 }
 
@@ -70,18 +68,17 @@ bool has_metatable(lua_State* L, int index) {
     return true;
 }
 
-bool put_at_depth(lua_State* L, int index, ArchiveWriter& archive, int depth);
+bool put_at_depth(lua_State* L, int index, CborWriter& archive, int depth);
 
-/// The entries ordered by what their keys are written as: Lua's own order changes from run to run.
-bool put_table(lua_State* L, int index, ArchiveWriter& archive, int depth) {
+/// The entries ordered by what their keys are written as: Lua's own order changes from run to run. A list of the data's
+/// name, where it has one, then each key and its value.
+bool put_table(lua_State* L, int index, CborWriter& archive, int depth) {
     const auto data_name = name_of_refusing_table(L, index);
     if (depth > kDeepestTable || (!data_name && has_metatable(L, index))) return false;
-    archive.put(ValueKind::kTable);
-    archive.put(data_name);
     std::vector<std::pair<std::string, std::string>> entries;
     lua_pushnil(L);
     while (lua_next(L, index)) {
-        ArchiveWriter key, value;
+        CborWriter key, value;
         const bool known =
             put_at_depth(L, lua_gettop(L) - 1, key, depth) && put_at_depth(L, lua_gettop(L), value, depth);
         lua_pop(L, 1);
@@ -89,35 +86,37 @@ bool put_table(lua_State* L, int index, ArchiveWriter& archive, int depth) {
             lua_pop(L, 1);
             return false;
         }
-        entries.emplace_back(key.bytes(), value.bytes());
+        entries.emplace_back(key.take(), value.take());
     }
     std::sort(entries.begin(), entries.end());
-    archive.put(entries);
+    archive.begin_list(1 + 2 * entries.size());
+    write_value(archive, data_name);
+    for (const auto& [key, value] : entries) {
+        archive.encoded(key);
+        archive.encoded(value);
+    }
     return true;
 }
 
-bool put_at_depth(lua_State* L, int index, ArchiveWriter& archive, int depth) {
+bool put_at_depth(lua_State* L, int index, CborWriter& archive, int depth) {
     luaL_checkstack(L, 8, "too many nested tables");
     switch (lua_type(L, index)) {
         case LUA_TNIL:
-            archive.put(ValueKind::kNil);
+            archive.nothing();
             return true;
         case LUA_TBOOLEAN:
-            archive.put(ValueKind::kTruth);
-            archive.put(lua_toboolean(L, index) != 0);
+            archive.truth(lua_toboolean(L, index) != 0);
             return true;
         case LUA_TNUMBER:
-            archive.put(lua_isinteger(L, index) ? ValueKind::kWhole : ValueKind::kNumber);
             if (lua_isinteger(L, index))
-                archive.put(lua_tointeger(L, index));
+                archive.whole(lua_tointeger(L, index));
             else
-                archive.put(lua_tonumber(L, index));
+                archive.number(lua_tonumber(L, index));
             return true;
         case LUA_TSTRING: {
             std::size_t length = 0;
             const char* text = lua_tolstring(L, index, &length);
-            archive.put(ValueKind::kText);
-            archive.put(std::string(text, length));
+            archive.text({text, length});
             return true;
         }
         case LUA_TTABLE:
@@ -129,53 +128,79 @@ bool put_at_depth(lua_State* L, int index, ArchiveWriter& archive, int depth) {
     }
 }
 
-void push_table(const Call& call, ArchiveReader& archive) {
+void push_table(const Call& call, CborReader& archive) {
     lua_State* L = call.state();
-    const auto data_name = archive.get<std::optional<std::string>>();
-    const auto entries = archive.get<std::vector<std::pair<std::string, std::string>>>();
-    lua_createtable(L, 0, static_cast<int>(entries.size()));
-    for (const auto& [key, value] : entries) {
-        ArchiveReader of_key(key), of_value(value);
-        push_archived_value(call, of_key);
-        push_archived_value(call, of_value);
+    const std::size_t count = archive.begin_list(2 * sizeof(lua_Number));
+    if (count % 2 == 0) archive.refuse("a table has a name and pairs of a key and a value");
+    archive.element();
+    const auto data_name = read_fresh<std::optional<std::string>>(archive);
+    lua_createtable(L, 0, static_cast<int>(count / 2));
+    for (std::size_t i = 0; i < count / 2; ++i) {
+        archive.element();
+        push_archived_value(call, archive);
+        const bool usable = !lua_isnil(L, -1) && !(lua_isnumber(L, -1) && lua_tonumber(L, -1) != lua_tonumber(L, -1));
+        if (!usable) archive.refuse("this is no key of a table");
+        archive.element();
+        push_archived_value(call, archive);
         lua_rawset(L, -3);
     }
+    archive.end_list();
     if (data_name) refuse_unknown_fields(L, *data_name);
+}
+
+void push_array(const Call& call, CborReader& archive) {
+    const NumberArray numbers = archive.array({});
+    if (numbers.is_complex()) archive.refuse("complex numbers stand in an object");
+    Matrix values(numbers.rows, numbers.columns);
+    if (numbers.bytes() > 0) std::memcpy(values.data(), numbers.numbers, numbers.bytes());
+    if (numbers.form == ArrayForm::kVector)
+        call.give_vector(values.reshaped());
+    else
+        call.give_matrix(values);
+}
+
+void push_known_object(const Call& call, CborReader& archive) {
+    archive.begin_object();
+    for (const ObjectCodec& codec : object_codecs()) {
+        if (!archive.member(codec.type->name)) continue;
+        codec.push(call, archive);
+        return archive.end_object();
+    }
+    archive.refuse("it is an object of an unknown type");
 }
 
 }  // namespace
 
-bool put_value(lua_State* L, int index, ArchiveWriter& archive) {
+bool put_value(lua_State* L, int index, CborWriter& archive) {
     return put_at_depth(L, lua_absindex(L, index), archive, 0);
 }
 
-void push_archived_value(const Call& call, ArchiveReader& archive) {
+void push_archived_value(const Call& call, CborReader& archive) {
+    using Kind = CborReader::Kind;
     lua_State* L = call.state();
     luaL_checkstack(L, 8, "too many nested tables");
-    switch (archive.get<ValueKind>()) {
-        case ValueKind::kNil:
+    switch (archive.next()) {
+        case Kind::kNothing:
+            archive.nothing();
             return lua_pushnil(L);
-        case ValueKind::kTruth:
-            return lua_pushboolean(L, archive.get<bool>());
-        case ValueKind::kNumber:
-            return lua_pushnumber(L, archive.get<lua_Number>());
-        case ValueKind::kWhole:
-            return lua_pushinteger(L, archive.get<lua_Integer>());
-        case ValueKind::kText:
-            call.give(archive.get<std::string>());
+        case Kind::kTruth:
+            return lua_pushboolean(L, archive.truth());
+        case Kind::kNumber:
+            return lua_pushnumber(L, archive.number());
+        case Kind::kWhole:
+            return lua_pushinteger(L, archive.whole(LUA_MININTEGER, LUA_MAXINTEGER));
+        case Kind::kText:
+            call.give(archive.text());
             return;
-        case ValueKind::kTable:
+        case Kind::kList:
             return push_table(call, archive);
-        case ValueKind::kVector:
-            call.give_vector(archive.get<Matrix>().reshaped());
-            return;
-        case ValueKind::kMatrix:
-            call.give_matrix(archive.get<Matrix>());
-            return;
-        case ValueKind::kObject:
-            return object_codecs().at(archive.get<std::uint64_t>()).push(call, archive);
+        case Kind::kArray:
+            return push_array(call, archive);
+        case Kind::kObject:
+            return push_known_object(call, archive);
+        default:
+            archive.refuse("it is a value of an unknown kind");
     }
-    throw std::out_of_range("an archive holds an unknown kind of value");
 }
 
 }  // namespace dynlab::inline scripting

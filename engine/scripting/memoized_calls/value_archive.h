@@ -1,14 +1,14 @@
 #pragma once
+#include "data_io/values/cbor_values.h"
 #include "scripting/arguments/arguments.h"
-#include "scripting/memoized_calls/archive.h"
 
 namespace dynlab::inline scripting {
 
 /// Writes the value of a script at a stack place, tables with all they hold. False, with something written, for what
 /// has no lasting content: functions, coroutines, tables that behave in ways of their own or lie too deep.
-bool put_value(lua_State* L, int index, ArchiveWriter& archive);
+bool put_value(lua_State* L, int index, CborWriter& archive);
 
-/// Pushes an equal value. Figures among it count as made by this call.
-void push_archived_value(const Call& call, ArchiveReader& archive);
+/// Pushes an equal value. Figures among it count as made by this call. Throws ValueError for bytes that hold none.
+void push_archived_value(const Call& call, CborReader& archive);
 
 }  // namespace dynlab::inline scripting

@@ -3,7 +3,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "documents/run_record.h"
+#include "data_io/values/cbor_values.h"
+#include "documents/record_description.h"
 
 namespace dynlab {
 namespace test_run_record {
@@ -56,6 +57,22 @@ TEST(run_record, numbers_read_back_exactly) {
         record.values["x"] = {number, ""};
         EXPECT_EQ(nlohmann::json::parse(to_json(record))["values"]["x"]["number"].get<double>(), number);
     }
+}
+
+// Oracle: the JSON of what went in, and beside it what JSON leaves out.
+TEST(run_record, comes_back_from_cbor_with_all_but_the_curves) {
+    RunRecord record = sample();
+    record.answers["gain"] = {"number", R"({"kind":"number","value":2.0})"};
+    record.figures["raw"].place = 3;
+    const RunRecord back = from_cbor<RunRecord>(cbor_of(record));
+    EXPECT_EQ(to_json(back), to_json(record));
+    EXPECT_EQ(timings_to_json(back), timings_to_json(record));
+    EXPECT_EQ(back.figures.at("raw").file, record.figures.at("raw").file);
+    EXPECT_EQ(back.figures.at("raw").place, 3u);
+    EXPECT_EQ(back.files_read, record.files_read);
+    EXPECT_EQ(back.answers.at("gain").kind, "number");
+    EXPECT_EQ(back.answers.at("gain").json, record.answers.at("gain").json);
+    EXPECT_EQ(back.outputs.at("cell-1").size(), 1u);
 }
 
 }  // namespace test_run_record

@@ -1,0 +1,106 @@
+#pragma once
+#include <array>
+#include <complex>
+#include <concepts>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "data_io/values/value_stream.h"
+
+namespace dynlab::inline data_io {
+
+/// A class that is stored or sent is described once, in its namespace or a later layer's:
+///
+///     template <Is<Level> T, class V>
+///     void describe(T& object, V& member) {
+///         auto& [value, from, to] = object;
+///         member("value", value), member("from", from), member("to", to);
+///     }
+///
+/// A structured binding must name all members, so that one that is added to the class and not here does not compile.
+/// `member.kept(...)` is for programs only (CBOR): JSON, which people read, leaves it out. `member.unless_empty(...)`
+/// is left out where it is empty, an optional one where it has no value. After reading, `check_value(object, limits)`,
+/// where there is one, throws std::exception for what does not fit together.
+template <class T, class Class>
+concept Is = std::same_as<std::remove_const_t<T>, Class>;
+
+/// A class that is stored as another: Form is the other, form() makes it, value() makes the class of it again.
+template <class T>
+struct StoredAs;
+
+template <>
+struct StoredAs<std::filesystem::path> {
+    using Form = std::string;
+    static std::string form(const std::filesystem::path& path) { return path.string(); }
+    static std::filesystem::path value(std::string&& text) { return std::move(text); }
+};
+
+/// A value to be filled; classes that cannot be empty specialise it.
+template <class T>
+T blank() {
+    return T{};
+}
+
+namespace value_kinds {
+
+/// An enumeration with values 0, 1, ... has `names_of(E)`, an array of their names.
+template <class T>
+concept NamedEnum = std::is_enum_v<T> && requires {
+    names_of(T{});
+};
+
+template <class T>
+concept StoredAsOther = requires {
+    typename StoredAs<T>::Form;
+};
+template <class T>
+concept Dense = std::derived_from<T, Eigen::PlainObjectBase<T>>;
+template <class T>
+concept Maybe = !std::is_arithmetic_v<T> && requires(const T& value) {
+    *value;
+    static_cast<bool>(value);
+};
+template <class T>
+concept Pair = requires {
+    typename T::first_type;
+    typename T::second_type;
+};
+template <class T>
+concept Map = requires {
+    typename T::mapped_type;
+};
+template <class T>
+concept List = !std::same_as<T, std::string> && !Dense<T> && !Map<T> && requires(T & value) {
+    value.emplace_back();
+};
+/// Written and read by functions of its own, write_whole_value and read_whole_value.
+template <class T>
+concept Custom = requires(ValueWriter& writer, const T& value) {
+    write_whole_value(writer, value);
+};
+
+}  // namespace value_kinds
+
+template <class T>
+void write_value(ValueWriter& writer, const T& value);
+template <class T>
+void read_value(ValueReader& reader, T& value);
+/// The members alone, within an object that the caller begins and ends.
+template <class T>
+void write_members(ValueWriter& writer, const T& value);
+template <class T>
+void read_members(ValueReader& reader, T& value);
+
+}  // namespace dynlab::inline data_io
+
+#include "data_io/values/described_reading.h"
+#include "data_io/values/described_writing.h"

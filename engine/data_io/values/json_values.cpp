@@ -1,0 +1,259 @@
+#include "data_io/values/json_values.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace dynlab::inline data_io {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char *kNanText = "NaN", *kInfinite = "Infinity", *kMinusInfinite = "-Infinity";
+
+json json_number(double value) {
+    if (std::isnan(value)) return kNanText;
+    if (std::isinf(value)) return value > 0 ? kInfinite : kMinusInfinite;
+    return value;
+}
+
+std::optional<double> number_in(const json& value) {
+    if (value.is_number()) return value.get<double>();
+    if (!value.is_string()) return {};
+    if (value == kNanText) return kNaN;
+    if (value == kInfinite) return kInfinity;
+    if (value == kMinusInfinite) return -kInfinity;
+    return {};
+}
+
+json list_of_numbers(const NumberArray& array) {
+    const auto* const numbers = static_cast<const double*>(array.numbers);
+    const auto count = static_cast<std::size_t>(array.rows * array.columns);
+    json list = json::array();
+    list.get_ref<json::array_t&>().reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (array.is_complex())
+            list.push_back({json_number(numbers[2 * i]), json_number(numbers[2 * i + 1])});
+        else
+            list.push_back(json_number(numbers[i]));
+    }
+    return list;
+}
+
+}  // namespace
+
+JsonWriter::JsonWriter() : root_(std::make_unique<json>()) {}
+JsonWriter::~JsonWriter() = default;
+
+json& JsonWriter::place(json&& value) {
+    if (open_.empty()) return *root_ = std::move(value);
+    json& parent = *open_.back();
+    if (parent.is_object()) return parent[name_] = std::move(value);
+    parent.push_back(std::move(value));
+    return parent.back();
+}
+
+std::string JsonWriter::dump(int indent) const {
+    return root_->dump(indent, ' ', false, json::error_handler_t::replace);
+}
+
+void JsonWriter::json_text(const std::string& value) {
+    place(json::parse(value));
+}
+
+void JsonWriter::nothing() {
+    place(nullptr);
+}
+
+void JsonWriter::truth(bool value) {
+    place(value);
+}
+
+void JsonWriter::whole(std::int64_t value) {
+    place(value);
+}
+
+void JsonWriter::number(double value) {
+    place(json_number(value));
+}
+
+void JsonWriter::text(std::string_view value) {
+    place(std::string(value));
+}
+
+void JsonWriter::array(const NumberArray& value) {
+    const bool list = value.form == ArrayForm::kVector || value.form == ArrayForm::kComplexVector;
+    if (list)
+        place(list_of_numbers(value));
+    else
+        place({{"rows", value.rows}, {"columns", value.columns}, {"values", list_of_numbers(value)}});
+}
+
+void JsonWriter::begin_list(std::size_t size) {
+    json& list = place(json::array());
+    list.get_ref<json::array_t&>().reserve(size);
+    open_.push_back(&list);
+}
+
+void JsonWriter::begin_object() {
+    open_.push_back(&place(json::object()));
+}
+
+std::string in_utf8(std::string_view text) {
+    const bool ascii =
+        std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+    if (ascii) return std::string(text);
+    return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace)).get<std::string>();
+}
+
+json parsed_json(std::string_view text, const ValueLimits& limits) {
+    if (text.size() > limits.bytes) throw ValueError("the JSON text is longer than is read");
+    std::size_t memory_left = limits.memory;
+    const auto within_limits = [&](int depth, json::parse_event_t, json&) {
+        constexpr std::size_t kNodeBytes = 64;  // of one value, with its place in a list or map
+        if (static_cast<std::size_t>(depth) > limits.depth) throw ValueError("the JSON text is nested too deep");
+        if (memory_left < kNodeBytes) throw ValueError("the JSON text holds too many values");
+        memory_left -= kNodeBytes;
+        return true;
+    };
+    json value = json::parse(text, within_limits, false);
+    if (value.is_discarded()) throw ValueError("the text is no JSON");
+    return value;
+}
+
+struct JsonReader::Entries {
+    json::const_iterator next;
+};
+
+JsonReader::JsonReader(const json& value, const ValueLimits& limits) : ValueReader(limits), at_(&value) {}
+JsonReader::~JsonReader() = default;
+
+void JsonReader::refuse_json(const char* wanted) const {
+    refuse_kind(wanted, std::string("JSON of the type ") + at_->type_name());
+}
+
+ValueReader::Kind JsonReader::next() {
+    if (at_->is_null()) return Kind::kNothing;
+    if (at_->is_boolean()) return Kind::kTruth;
+    if (at_->is_number_integer()) return Kind::kWhole;
+    if (at_->is_number()) return Kind::kNumber;
+    if (at_->is_string()) return Kind::kText;
+    return at_->is_array() ? Kind::kList : Kind::kObject;
+}
+
+void JsonReader::nothing() {
+    if (!at_->is_null()) refuse_json("nothing");
+}
+
+bool JsonReader::truth() {
+    if (!at_->is_boolean()) refuse_json("a truth value");
+    return at_->get<bool>();
+}
+
+std::int64_t JsonReader::whole(std::int64_t low, std::int64_t high) {
+    if (!at_->is_number_integer()) refuse_json("a whole number");
+    const bool fits = !at_->is_number_unsigned() || std::cmp_less_equal(at_->get<std::uint64_t>(), high);
+    const auto value = at_->get<std::int64_t>();
+    if (!fits || value < low || value > high)
+        refuse_kind("a whole number from " + std::to_string(low) + " to " + std::to_string(high), at_->dump());
+    return value;
+}
+
+double JsonReader::number() {
+    const auto number = number_in(*at_);
+    if (!number) refuse_json("a number");
+    return *number;
+}
+
+std::string_view JsonReader::take_text() {
+    if (!at_->is_string()) refuse_json("a text");
+    return at_->get_ref<const std::string&>();
+}
+
+void JsonReader::read_numbers(const json& list, bool complex) {
+    const auto add = [this](const json& value) {
+        const auto number = number_in(value);
+        if (!number) refuse_kind("a list of numbers", std::string("one with JSON of the type ") + value.type_name());
+        numbers_.push_back(*number);
+    };
+    if (!list.is_array()) refuse_json("a list of numbers");
+    numbers_.clear();
+    for (const json& value : list) {
+        if (!complex) {
+            add(value);
+            continue;
+        }
+        if (!value.is_array() || value.size() != 2) refuse("a complex number is a real and an imaginary part");
+        add(value[0]), add(value[1]);
+    }
+}
+
+NumberArray JsonReader::take_array(std::optional<ArrayForm> wanted) {
+    const ArrayForm form = wanted.value_or(at_->is_array() ? ArrayForm::kVector : ArrayForm::kMatrix);
+    NumberArray array{form, 0, 1, nullptr};
+    if (form == ArrayForm::kVector || form == ArrayForm::kComplexVector) {
+        read_numbers(*at_, array.is_complex());
+        array.rows = static_cast<Index>(numbers_.size()) / (array.is_complex() ? 2 : 1);
+    } else {
+        const auto size = [&](const char* name) {
+            constexpr std::int64_t kMost = std::int64_t{1} << 31;
+            if (!at_->is_object() || !at_->contains(name) || !at_->at(name).is_number_integer())
+                refuse_json("a matrix with rows, columns and values");
+            const auto value = at_->at(name).get<std::int64_t>();
+            if (value < 0 || value > kMost) refuse(std::string("there is no such number of ") + name);
+            return static_cast<Index>(value);
+        };
+        array.rows = size("rows"), array.columns = size("columns");
+        if (!at_->contains("values")) lacks("values");
+        read_numbers(at_->at("values"), array.is_complex());
+        const auto count = static_cast<Index>(numbers_.size()) / (array.is_complex() ? 2 : 1);
+        const bool fits = array.columns == 0 ? count == 0 : array.rows <= count / array.columns;
+        if (!fits || array.rows * array.columns != count)
+            refuse_kind(std::to_string(array.rows) + " x " + std::to_string(array.columns) + " numbers",
+                        "another number of them");
+    }
+    array.numbers = numbers_.data();
+    return array;
+}
+
+std::size_t JsonReader::open_list() {
+    if (!at_->is_array()) refuse_json("a list");
+    open_.push_back(at_);
+    return at_->size();
+}
+
+std::size_t JsonReader::open_map() {
+    if (!at_->is_object()) refuse_json("an object");
+    open_.push_back(at_);
+    entries_.push_back({at_->begin()});
+    return at_->size();
+}
+
+void JsonReader::close_map() {
+    open_.pop_back();
+    entries_.pop_back();
+}
+
+void JsonReader::open_object() {
+    if (!at_->is_object()) refuse_json("an object");
+    open_.push_back(at_);
+}
+
+void JsonReader::to_element(std::size_t place) {
+    at_ = &(*open_.back())[place];
+}
+
+std::string_view JsonReader::to_entry(std::size_t) {
+    const auto entry = entries_.back().next++;
+    at_ = &*entry;
+    return entry.key();
+}
+
+bool JsonReader::to_member(const char* name) {
+    const auto found = open_.back()->find(name);
+    if (found == open_.back()->end()) return false;
+    at_ = &*found;
+    return true;
+}
+
+}  // namespace dynlab::inline data_io

@@ -1,0 +1,58 @@
+#include "data_io/values/model_descriptions.h"
+
+namespace dynlab::inline data_io {
+namespace {
+
+void check_coefficients(const Vector& polynomial, const ValueLimits& limits) {
+    if (polynomial.size() > limits.coefficients) throw InvalidArgument("a polynomial is of an absurdly high order");
+}
+
+void check_polynomials(const std::vector<Vector>& polynomials, const ValueLimits& limits) {
+    for (const Vector& polynomial : polynomials) {
+        if (polynomial.size() == 0) throw InvalidArgument("a polynomial has no coefficients");
+        check_coefficients(polynomial, limits);
+    }
+}
+
+}  // namespace
+
+void check_value(const IdData& data, const ValueLimits&) {
+    if (data.experiments.empty()) throw InvalidArgument("data have at least one experiment");
+    for (const Experiment& experiment : data.experiments) {
+        const IdData part = data.Ts > 0 ? IdData(experiment.y, experiment.u, data.Ts)
+                                        : IdData(experiment.y, experiment.u, experiment.t);
+        const bool same_channels =
+            part.input_count() == data.input_count() && part.output_count() == data.output_count();
+        if (!same_channels) throw InvalidArgument("its experiments have different channels");
+        if (data.Ts > 0 && experiment.t.size() > 0) throw InvalidArgument("regular data have no instants of their own");
+    }
+    const auto fit = [](const std::vector<std::string>& names, Index wanted) {
+        return static_cast<Index>(names.size()) == wanted;
+    };
+    if (!fit(data.input_names, data.input_count()) || !fit(data.input_units, data.input_count()) ||
+        !fit(data.output_names, data.output_count()) || !fit(data.output_units, data.output_count()))
+        throw InvalidArgument("its channels and their names and units differ in number");
+}
+
+void check_value(const TransferFunctionMembers& members, const ValueLimits& limits) {
+    check_coefficients(members.num, limits);
+    check_coefficients(members.den, limits);
+}
+
+void check_value(const ProcessModel& model, const ValueLimits&) {
+    ProcessModel(model.structure, model.parameters);
+}
+
+void check_value(const PolynomialModel& model, const ValueLimits& limits) {
+    check_polynomials({model.A, model.C, model.D}, limits);
+    check_polynomials(model.B, limits);
+    check_polynomials(model.F, limits);
+    if (model.B.empty() || model.B.size() != model.F.size() || !(model.Ts > 0))
+        throw InvalidArgument("its polynomials and its sampling time do not fit together");
+}
+
+void check_value(const StateSpace& system, const ValueLimits&) {
+    StateSpace(system.A, system.B, system.C, system.D, system.Ts);
+}
+
+}  // namespace dynlab::inline data_io

@@ -1,0 +1,94 @@
+#pragma once
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "data_io/values/described.h"
+#include "numerics/error.h"
+#include "numerics/models/polynomial_model.h"
+#include "numerics/models/process_model.h"
+#include "numerics/models/state_space.h"
+#include "numerics/models/transfer_function.h"
+#include "numerics/signals/iddata.h"
+
+namespace dynlab::inline data_io {
+
+/// Data and models of numerics as described.h stores them.
+
+constexpr std::array<const char*, 2> names_of(Hold) {
+    return {"zoh", "foh"};
+}
+
+template <Is<Experiment> T, class V>
+void describe(T& object, V& member) {
+    auto& [y, u, t, start_time, name] = object;
+    member("y", y), member("u", u), member("t", t), member("start_time", start_time), member("name", name);
+}
+
+template <Is<IdData> T, class V>
+void describe(T& object, V& member) {
+    auto& [experiments, Ts, hold, input_names, output_names, input_units, output_units, time_unit] = object;
+    member("experiments", experiments), member("Ts", Ts), member("hold", hold);
+    member("input_names", input_names), member("output_names", output_names);
+    member("input_units", input_units), member("output_units", output_units), member("time_unit", time_unit);
+}
+void check_value(const IdData& data, const ValueLimits& limits);
+
+/// Read by the constructor, which leaves what another one made as it is.
+struct TransferFunctionMembers {
+    Vector num, den;
+    double Ts = 0, delay = 0;
+};
+
+template <Is<TransferFunctionMembers> T, class V>
+void describe(T& object, V& member) {
+    auto& [num, den, Ts, delay] = object;
+    member("num", num), member("den", den), member("Ts", Ts), member("delay", delay);
+}
+void check_value(const TransferFunctionMembers& members, const ValueLimits& limits);
+
+template <>
+struct StoredAs<TransferFunction> {
+    using Form = TransferFunctionMembers;
+    static Form form(const TransferFunction& G) { return {G.num(), G.den(), G.Ts(), G.delay()}; }
+    static TransferFunction value(Form&& form) { return TransferFunction(form.num, form.den, form.Ts, form.delay); }
+};
+
+template <>
+struct StoredAs<ProcessStructure> {
+    using Form = std::string;
+    static Form form(const ProcessStructure& structure) { return structure.text(); }
+    static ProcessStructure value(Form&& text) { return ProcessStructure::parse(text); }
+};
+
+template <Is<ProcessModel> T, class V>
+void describe(T& object, V& member) {
+    auto& [structure, parameters] = object;
+    member("structure", structure), member("parameters", parameters);
+}
+void check_value(const ProcessModel& model, const ValueLimits& limits);
+
+template <Is<PolynomialModel> T, class V>
+void describe(T& object, V& member) {
+    auto& [A, C, D, B, F, Ts] = object;
+    member("A", A), member("C", C), member("D", D), member("B", B), member("F", F), member("Ts", Ts);
+}
+void check_value(const PolynomialModel& model, const ValueLimits& limits);
+
+template <Is<StateSpace> T, class V>
+void describe(T& object, V& member) {
+    auto& [A, B, C, D, Ts] = object;
+    member("A", A), member("B", B), member("C", C), member("D", D), member("Ts", Ts);
+}
+void check_value(const StateSpace& system, const ValueLimits& limits);
+
+template <>
+inline ProcessModel blank() {
+    return {ProcessStructure{}, Vector::Zero(2)};
+}
+template <>
+inline PolynomialModel blank() {
+    return {PolynomialOrders::arx(1, {1}, {1}), Vector::Zero(2), 1};
+}
+
+}  // namespace dynlab::inline data_io

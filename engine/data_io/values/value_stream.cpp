@@ -1,0 +1,137 @@
+#include "data_io/values/value_stream.h"
+
+#include <fmt/format.h>
+
+#include "data_io/values/json_values.h"
+
+namespace dynlab::inline data_io {
+namespace {
+
+/// A key as messages show it: it may be anybody's.
+std::string shown_key(const std::string& key) {
+    constexpr std::size_t kLongest = 40;
+    std::string shown;
+    for (const char c : key.substr(0, kLongest)) shown += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? '?' : c;
+    return key.size() > kLongest ? shown + "..." : shown;
+}
+
+}  // namespace
+
+std::string ValueReader::place_text() const {
+    std::string text;
+    for (const Step& step : steps_) {
+        if (step.in == Step::In::kList && step.place > 0)
+            text += fmt::format("[{}]", step.place);
+        else if (step.in == Step::In::kMap && step.place > 0)
+            text += fmt::format("[\"{}\"]", shown_key(step.key));
+        else if (step.in == Step::In::kObject && step.name)
+            text += (text.empty() ? "" : ".") + std::string(step.name);
+    }
+    return text.empty() ? "the value" : text;
+}
+
+void ValueReader::refuse(const std::string& sentence) const {
+    throw ValueError(place_text() + ": " + sentence);
+}
+
+void ValueReader::refuse_kind(const std::string& wanted, const std::string& given) const {
+    refuse(fmt::format("{} was wanted, {} was given", wanted, given));
+}
+
+void ValueReader::lacks(const char* member) const {
+    refuse(fmt::format("its member \"{}\" is missing", member));
+}
+
+void ValueReader::charge(std::size_t bytes) {
+    if (bytes > memory_left_) refuse(fmt::format("it takes more than the {} bytes that are allowed", limits_.memory));
+    memory_left_ -= bytes;
+}
+
+void ValueReader::enter(Step step) {
+    if (steps_.size() >= limits_.depth) refuse(fmt::format("it is nested deeper than {}", limits_.depth));
+    charge(sizeof(Step));
+    steps_.push_back(std::move(step));
+}
+
+std::string ValueReader::text() {
+    const std::string_view text = take_text();
+    charge(text.size());
+    return limits_.only_utf8 ? in_utf8(text) : std::string(text);
+}
+
+std::size_t ValueReader::one_of(std::span<const char* const> names) {
+    const std::string_view name = take_text();
+    std::string known;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (name == names[i]) return i;
+        known += (i == 0 ? "" : ", ") + std::string(names[i]);
+    }
+    refuse("one of " + known + " was wanted, another text was given");
+}
+
+NumberArray ValueReader::array(std::optional<ArrayForm> wanted) {
+    const NumberArray numbers = take_array(wanted);
+    charge(numbers.bytes());
+    return numbers;
+}
+
+std::size_t ValueReader::begin_list(std::size_t element_bytes) {
+    const std::size_t count = open_list();
+    if (count > limits_.memory) refuse("it has too many elements");
+    enter({Step::In::kList});
+    charge(count * element_bytes);
+    return count;
+}
+
+void ValueReader::element() {
+    to_element(steps_.back().place++);
+}
+
+void ValueReader::end_list() {
+    close_list();
+    steps_.pop_back();
+}
+
+std::size_t ValueReader::begin_map(std::size_t entry_bytes) {
+    constexpr std::size_t kNodeBytes = 64;  // of a std::map, with its key
+    const std::size_t count = open_map();
+    if (count > limits_.memory) refuse("it has too many entries");
+    enter({Step::In::kMap});
+    charge(count * (entry_bytes + kNodeBytes));
+    return count;
+}
+
+std::string ValueReader::key() {
+    const std::string_view key = to_entry(steps_.back().place++);
+    charge(key.size());
+    return steps_.back().key = limits_.only_utf8 ? in_utf8(key) : std::string(key);
+}
+
+void ValueReader::end_map() {
+    close_map();
+    steps_.pop_back();
+}
+
+void ValueReader::begin_object() {
+    open_object();
+    enter({Step::In::kObject});
+}
+
+bool ValueReader::member(const char* name) {
+    steps_.back().name = nullptr;
+    if (!to_member(name)) return false;
+    steps_.back().name = name;
+    return true;
+}
+
+void ValueReader::end_members() {
+    steps_.back().name = nullptr;
+}
+
+void ValueReader::end_object() {
+    end_members();
+    close_object();
+    steps_.pop_back();
+}
+
+}  // namespace dynlab::inline data_io

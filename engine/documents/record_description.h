@@ -1,0 +1,70 @@
+#pragma once
+#include "data_io/values/described.h"
+#include "documents/percent_script.h"
+#include "documents/run_record.h"
+
+namespace dynlab::inline documents {
+
+/// Run records as data_io/values/described.h stores them. A figure's curves are not among it: what is needed of them is
+/// in its file.
+
+template <Is<RecordedValue> T, class V>
+void describe(T& object, V& member) {
+    auto& [number, text] = object;
+    member("number", number), member("text", text);
+}
+
+template <Is<RecordedTable> T, class V>
+void describe(T& object, V& member) {
+    auto& [header, rows] = object;
+    member("header", header), member("rows", rows);
+}
+
+template <Is<RecordedFigure> T, class V>
+void describe(T& object, V& member) {
+    auto& [figure, caption, file, place] = object;
+    member("caption", caption), member.unless_empty("file", file), member.kept("place", place);
+}
+
+template <Is<CellOutput> T, class V>
+void describe(T& object, V& member) {
+    auto& [printed, figure] = object;
+    member.unless_empty("printed", printed), member("figure", figure);
+}
+
+template <Is<RecordedError> T, class V>
+void describe(T& object, V& member) {
+    auto& [message, line] = object;
+    member("message", message), member("line", line);
+}
+
+template <Is<RunRecord> T, class V>
+void describe(T& object, V& member) {
+    auto& [script, seed, values, tables, figures, texts, answers, outputs, error, files_read, timings] = object;
+    member("script", script), member("seed", seed), member("values", values), member("tables", tables);
+    member("figures", figures), member("texts", texts), member("answers", answers), member("outputs", outputs);
+    member("error", error), member("files_read", files_read), member.kept("timings", timings);
+}
+
+template <Is<ExpectedAnswer> T, class V>
+void describe(T& object, V& member) {
+    auto& [name, kind] = object;
+    member("name", name), member("kind", kind);
+}
+
+/// An answer is its JSON; CBOR tells the kind beside it.
+void write_whole_value(ValueWriter& writer, const RecordedAnswer& answer);
+void read_whole_value(ValueReader& reader, RecordedAnswer& answer);
+
+}  // namespace dynlab::inline documents
+
+namespace dynlab::inline data_io {
+
+template <>
+struct StoredAs<RecordedText> {
+    using Form = std::string;
+    static Form form(const RecordedText& text) { return text.markdown; }
+    static RecordedText value(Form&& markdown) { return {std::move(markdown)}; }
+};
+
+}  // namespace dynlab::inline data_io

@@ -1,0 +1,43 @@
+#pragma once
+#include "data_io/values/estimate_descriptions.h"
+#include "scripting/objects/model.h"
+#include "scripting/objects/study_objects.h"
+
+namespace dynlab::inline scripting {
+
+/// Objects of scripts as data_io/values/described.h stores them. Answers hold of an estimate what checks look at; what
+/// only plots and `present` use is kept for programs.
+
+template <Is<NoiseModel> T, class V>
+void describe(T& object, V& member) {
+    auto& [C, D, C_std, D_std] = object;
+    member("C", C), member("D", D), member("C_std", C_std), member("D_std", D_std);
+}
+
+template <Is<Estimate> T, class V>
+void describe(T& object, V& member) {
+    auto& [method, names, theta, std, covariance, message, warnings, numbers, vectors, matrices, converged,
+           of_coefficients, carx, step_test, assessment, noise] = object;
+    member("method", method), member("names", names), member("theta", theta), member("std", std);
+    member("covariance", covariance), member("message", message), member("warnings", warnings);
+    member("numbers", numbers), member.kept("vectors", vectors), member.kept("matrices", matrices);
+    member("converged", converged), member("of_coefficients", of_coefficients), member("carx", carx);
+    member.kept("step_test", step_test), member.kept("assessment", assessment), member.kept("noise", noise);
+}
+void check_value(const Estimate& estimate, const ValueLimits& limits);
+
+template <Is<Model> T, class V>
+void describe(T& object, V& member) {
+    auto& [G, process, estimate, polynomial, channels, outputs, system] = object;
+    member("function", G), member("process", process), member("estimate", estimate), member("polynomial", polynomial);
+    member("channels", channels), member("outputs", outputs), member("system", system);
+}
+void check_value(const Model& model, const ValueLimits& limits);
+
+template <Is<OrderTable> T, class V>
+void describe(T& object, V& member) {
+    auto& [selection, choice] = object;
+    member("selection", selection), member("choice", choice);
+}
+
+}  // namespace dynlab::inline scripting

@@ -1,0 +1,91 @@
+// Jobs for boxes and what comes of them. Oracles: what went in; the contract for bytes from a box, which a submission
+// may have written.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "course/grading/boxed_work.h"
+#include "course/grading/job_descriptions.h"
+
+namespace dynlab {
+namespace test_boxed_jobs {
+
+using ::testing::ElementsAre;
+
+GradedRun sample_run() {
+    GradedRun run;
+    run.answers["gain"] = {"number", R"({"kind":"number","value":2.0})"};
+    run.figures = {"raw", "fit"};
+    run.values = {"fit"};
+    run.printed = "93.2\n";
+    run.error = "analysis.lua:3: no";
+    run.seconds = 0.25;
+    return run;
+}
+
+ChecksJob sample_checks() {
+    ChecksJob job;
+    job.files = {{"checks.lua", "check{id = 'a'}", true}, {"more.lua", "", false}};
+    job.hidden_folder = "/box/hidden";
+    job.specimens = {{"hidden", {{"crane", 4'000'000'001u}}}};
+    job.time_ms = 10000;
+    job.only = 1;
+    job.submission =
+        CheckedSubmission{{{"main", sample_run()}}, {{"pages", Severity::kHint, 7, "", "Too many pages.", "Cut."}}};
+    return job;
+}
+
+// Writing what was read gives the same bytes, so that no member is lost or changed.
+template <class T>
+void expect_to_come_back(const T& value) {
+    const std::string bytes = cbor_of(value);
+    EXPECT_TRUE(cbor_of(from_cbor<T>(bytes, boxed_limits())) == bytes);
+}
+
+TEST(boxed_jobs, come_back) {
+    expect_to_come_back(sample_run());
+    expect_to_come_back(sample_checks());
+    expect_to_come_back(ChecksJob());
+    expect_to_come_back(RunJob{"/box/submission/analysis.lua", 7, {{"gain", "number"}}, 59700, 1ull << 30});
+    expect_to_come_back(UnpackJob{"/box/archive", "/box/to", 200ull << 20, 2000, true});
+    expect_to_come_back(Unpacked{{"\"../x\" leads outside of the archive"}, "the archive is damaged"});
+    expect_to_come_back(VersionJob{"/box/submission", "/box/made", true});
+    expect_to_come_back(CheckResults{{{{"a", "about", "hint", 2, "seed", true, false}, 0.5, "no", "why"}}, {}});
+    const ChecksJob back = from_cbor<ChecksJob>(cbor_of(sample_checks()));
+    EXPECT_EQ(back.specimens.at("hidden").at("crane"), 4'000'000'001u);
+    EXPECT_EQ(back.submission->findings.at(0).severity, Severity::kHint);
+    EXPECT_EQ(back.submission->runs.at("main").error, "analysis.lua:3: no");
+    EXPECT_THAT(back.submission->runs.at("main").figures, ElementsAre("raw", "fit"));
+}
+
+TEST(boxed_jobs, texts_from_a_box_are_utf8) {
+    GradedRun run = sample_run();
+    run.printed = "a\xFF";
+    run.error = "\xC3";
+    const GradedRun back = from_cbor<GradedRun>(cbor_of(run), boxed_limits());
+    EXPECT_EQ(back.printed, "a\xEF\xBF\xBD");
+    EXPECT_EQ(back.error, "\xEF\xBF\xBD");
+}
+
+TEST(boxed_jobs, any_bytes_from_a_box_are_a_result_or_refused) {
+    std::mt19937 random(5);
+    const std::string bytes = cbor_of(sample_run());
+    int refused = 0;
+    for (int trial = 0; trial < 20000; ++trial) {
+        std::string wrong = bytes;
+        for (unsigned k = 0; k <= random() % 4; ++k) wrong[random() % wrong.size()] = static_cast<char>(random());
+        try {
+            from_cbor<GradedRun>(wrong, boxed_limits(1u << 20));
+        } catch (const ValueError&) {
+            ++refused;
+        }
+    }
+    EXPECT_GT(refused, 5000);
+    EXPECT_LT(refused, 20000);
+    EXPECT_THROW(from_cbor<GradedRun>("{\"answers\": {}}", boxed_limits()), ValueError);
+    EXPECT_THROW(from_cbor<GradedRun>("", boxed_limits()), ValueError);
+}
+
+}  // namespace test_boxed_jobs
+}  // namespace dynlab
