@@ -6,6 +6,7 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <semaphore>
 #include <set>
 #include <string>
 #include <vector>
@@ -25,6 +26,7 @@ struct GradingSetup {
     Isolation isolation = Isolation::kFull;
     std::chrono::milliseconds timeout{60000};  ///< of each run of a student's script
     std::filesystem::path program;             ///< dynlab
+    int jobs = 1;                              ///< so many boxes may run at once
 };
 
 /// What all submissions of a lesson are held against: the checks, the hidden records, and the check of the checks
@@ -74,6 +76,7 @@ class GradingRules {
     std::map<std::string, Specimens> specimens_;                 ///< of hidden records and reruns (CheckSession)
     std::set<std::string> reruns_, broken_;
     bool document_ = false;
+    std::unique_ptr<std::counting_semaphore<>> free_cores_;  ///< for what runs in boxes
     TemporaryFolder records_;
     std::unique_ptr<std::mutex> making_ = std::make_unique<std::mutex>();  ///< of groups' records and simulated_
 };
