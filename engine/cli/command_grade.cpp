@@ -40,7 +40,8 @@ int grade(const GradeWords& words) {
     request.roster = given(words.roster);
     request.deadlines = given(words.deadlines);
     request.only = words.only;
-    request.jobs = words.jobs > 0 ? words.jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    request.setup.jobs =
+        words.jobs > 0 ? words.jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     request.regrade = words.regrade;
     request.pdf = !words.no_pdf;
     if (words.secret.empty())

@@ -6,7 +6,7 @@ namespace dynlab::inline cli {
 namespace {
 
 struct ReportWords {
-    std::string subject, output, language;
+    std::string subject, output, record, language;
     bool timings = false;
     SeedOption seed;
 };
@@ -14,6 +14,7 @@ struct ReportWords {
 int report(const ReportWords& words) {
     ReportRequest request = report_of(words.subject, words.output, words.language);
     request.seed = words.seed.value().value_or(request.seed);
+    request.record = words.record;
     return make_document(std::move(request), words.timings);
 }
 
@@ -25,6 +26,8 @@ void add_report(CLI::App& app, Action& action) {
     command->add_option("LESSON|FOLDER", words->subject, "A lesson's number or name, or a folder made by dynlab new")
         ->required();
     command->add_option("-o,--output", words->output, "Where to write it (.pdf, .html or .md); else the current folder")
+        ->type_name("FILE");
+    command->add_option("--record", words->record, "Where to write what the script gave, too (.json)")
         ->type_name("FILE");
     command->add_option("--lang", words->language, "Language of a lesson's report, where it has several")
         ->check(CLI::IsMember({"en", "fr"}));

@@ -5,6 +5,7 @@
 
 #include "documents/error.h"
 #include "documents/template_file.h"
+#include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
 #include "platform/program_lookup.h"
@@ -139,7 +140,8 @@ ReportResult make_report(const ReportRequest& request) {
     const DocumentFormat format = document_format(request.output);
     const Cache cache;
     const ReportCache reports(request, cache);
-    result.up_to_date = !request.print && reports.unchanged();
+    const bool anew = request.print || !request.record.empty();
+    result.up_to_date = !anew && reports.unchanged();
     watch.lap("look for changes");
     if (result.up_to_date) return result;
 
@@ -148,7 +150,7 @@ ReportResult make_report(const ReportRequest& request) {
     CallCache calls(cache);
     GnuplotRenderer renderer(&cache);
     std::optional<RunRecord> known;
-    if (!request.print) known = runs.recall();
+    if (!anew) known = runs.recall();
     const bool recalled = known.has_value();
     RunRecord record;
     if (recalled) {
@@ -168,6 +170,7 @@ ReportResult make_report(const ReportRequest& request) {
         if (record.error && request.print) throw DocumentError(record.error->message);
         if (record.error) result.error = record.error->message;
         draw_figures(record, renderer, workplace.path(), figure_format_for(format));
+        if (!request.record.empty()) write_file_atomically(request.record, to_json(record));
         watch.lap(kRunStep);
     }
 

@@ -20,6 +20,8 @@ struct ReportRequest {
     std::map<std::string, std::string>
         metadata;                  ///< title, subtitle and language of a lesson; empty for a student's report
     std::filesystem::path output;  ///< .pdf, .html or .md
+    std::filesystem::path record;  ///< where what the run gave is written, too, as JSON (documents/run_record.h); such
+                                   ///< a report is always made anew
     std::uint32_t seed = 1;
     std::function<void(const std::string&)> step;        ///< told of each step as it begins; none when empty
     std::function<void(const std::string&)> enter_cell;  ///< told of each cell of the script as it begins

@@ -6,7 +6,6 @@
 
 namespace dynlab::test {
 namespace test_check_tolerances {
-namespace fs = std::filesystem;
 
 /// How the answers of a lesson's worked solution are moved: Lua that fills `move[name]`, functions of an answer. `e` is
 /// the sign, and `inside` whether the answer must stay within what checks.lua allows or leave it.
@@ -81,7 +80,7 @@ move.fit = shifted(0.3, 30))"}};
 
 /// The worked solution with every answer moved on its way out.
 std::string moved_solution(const Moved& moved, bool inside, int sign) {
-    std::string script = read_file(fs::path(DYNLAB_SOURCE_DIR) / "lessons" / moved.lesson / "lesson.lua");
+    std::string script = quick_solution_of(moved.lesson);
     const std::string end_of_header = "\n-- ---\n";
     const std::size_t place = script.find(end_of_header) + end_of_header.size();
     const std::string prelude = "\nlocal inside, e, move = " + std::string(inside ? "true" : "false") + ", " +
@@ -103,40 +102,43 @@ std::string moved_solution(const Moved& moved, bool inside, int sign) {
     return script.insert(place, prelude);
 }
 
-class check_tolerances : public ::testing::TestWithParam<std::tuple<Moved, int>> {};
+class check_tolerances : public ::testing::TestWithParam<Moved> {};
+
+void expect_fair_marks(const Moved& moved, const Workbench& bench, const std::string& name, bool inside) {
+    SCOPED_TRACE(name);
+    const auto result = nlohmann::json::parse(bench.read("out/results/" + name + "/results.json"));
+    const auto& ours = result.at("extra_data").at("dynlab");
+    EXPECT_EQ(ours.at("trouble"), "");
+    for (const auto& check : ours.at("checks")) {
+        const std::string id = check.at("id");
+        const bool looks_elsewhere =
+            id == "figures" || std::find(moved.untouched.begin(), moved.untouched.end(), id) != moved.untouched.end();
+        EXPECT_EQ(check.at("earned") == check.at("points"), inside || looks_elsewhere)
+            << id << ": " << check.at("message");
+    }
+}
 
 // oracle: the tolerances that each checks.lua states with its reasons: answers moved by less, up and down, get full
 // marks everywhere, moved by more they lose some at every check that looks at them
 TEST_P(check_tolerances, are_neither_harsh_nor_lenient) {
-    const auto& [moved, sign] = GetParam();
+    const Moved& moved = GetParam();
     const Workbench bench;
-    bench.write("in/inside/analysis.lua", moved_solution(moved, true, sign));
-    bench.write("in/outside/analysis.lua", moved_solution(moved, false, sign));
+    for (const auto& [direction, sign] : {std::pair("up", 1), std::pair("down", -1)}) {
+        bench.write(std::string("in/inside_") + direction + "/analysis.lua", moved_solution(moved, true, sign));
+        bench.write(std::string("in/outside_") + direction + "/analysis.lua", moved_solution(moved, false, sign));
+    }
     bench.write("secret", "chosen by a test");
     const ChildResult graded = bench.dynlab({"grade", "in", "--lesson", moved.lesson, "--out", "out", "--secret",
                                              "secret", "--isolation", GradingBench::level(), "--no-pdf"});
     ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
-    for (const std::string name : {"inside", "outside"}) {
-        SCOPED_TRACE(name);
-        const auto result = nlohmann::json::parse(bench.read("out/results/" + name + "/results.json"));
-        const auto& ours = result.at("extra_data").at("dynlab");
-        EXPECT_EQ(ours.at("trouble"), "");
-        for (const auto& check : ours.at("checks")) {
-            const std::string id = check.at("id");
-            const bool looks_elsewhere = id == "figures" || std::find(moved.untouched.begin(), moved.untouched.end(),
-                                                                      id) != moved.untouched.end();
-            EXPECT_EQ(check.at("earned") == check.at("points"), name == "inside" || looks_elsewhere)
-                << id << ": " << check.at("message");
-        }
+    for (const char* direction : {"up", "down"}) {
+        expect_fair_marks(moved, bench, std::string("inside_") + direction, true);
+        expect_fair_marks(moved, bench, std::string("outside_") + direction, false);
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(all, check_tolerances,
-                         ::testing::Combine(::testing::ValuesIn(kMoved), ::testing::Values(-1, 1)),
-                         [](const auto& test) {
-                             return std::string(std::get<0>(test.param).lesson) +
-                                    (std::get<1>(test.param) > 0 ? "_up" : "_down");
-                         });
+INSTANTIATE_TEST_SUITE_P(all, check_tolerances, ::testing::ValuesIn(kMoved),
+                         [](const auto& test) { return std::string(test.param.lesson); });
 
 }  // namespace test_check_tolerances
 }  // namespace dynlab::test

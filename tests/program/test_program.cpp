@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "support/program.h"
 
 namespace dynlab::test {
@@ -149,6 +151,24 @@ TEST(program, students_copy_has_no_solutions_and_its_report_works) {
     const ChildResult again = bench.dynlab({"new", "02", "mine"});
     EXPECT_EQ(again.exit_code, 1);
     EXPECT_THAT(again.error_output, HasSubstr("exists already"));
+}
+
+// oracle: the record that dynlab run writes
+TEST(program, a_report_gives_the_record_of_its_run_whether_it_was_made_before_or_not) {
+    const Workbench bench;
+    bench.write("mine/analysis.lua",
+                "-- ---\n-- answers:\n--   x: number\n-- ---\nanswer('x', randn())\nreport.value('sum', 3, '%d')\n"
+                "plot(vector{1, 2})\n");
+    bench.write("mine/report.md", "---\ntitle: A\n---\n\nSum `sum`{.value}.\n");
+    ASSERT_EQ(bench.dynlab({"run", "mine/analysis.lua", "--out", "made"}).exit_code, 0);
+    const auto run = nlohmann::json::parse(bench.read("made/record.json"));
+    for (const char* file : {"first.json", "second.json"}) {
+        const ChildResult made = bench.dynlab({"report", "mine", "--record", file});
+        ASSERT_EQ(made.exit_code, 0) << made.error_output;
+        const auto record = nlohmann::json::parse(bench.read(file));
+        for (const char* part : {"answers", "values", "figures", "outputs", "seed"})
+            EXPECT_EQ(record.at(part), run.at(part)) << part;
+    }
 }
 
 TEST(program, weaves_to_html_and_markdown) {

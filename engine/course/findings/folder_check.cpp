@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <thread>
 
 #include "course/findings/leftover_findings.h"
 #include "course/grading/feedback.h"
@@ -63,6 +64,7 @@ class FolderCheck {
     fs::path copy() const { return work_.path() / "folder"; }
     fs::path out() const { return work_.path() / "made"; }
     fs::path report() const { return out() / "report.pdf"; }
+    fs::path record() const { return out() / "record.json"; }
 
     void add(const std::string& id, Severity severity, const std::string& place, const std::string& what,
              const std::string& remedy) {
@@ -129,7 +131,8 @@ class FolderCheck {
     }
 
     bool makes_report() {
-        const ChildResult made = run({"report", copy().string(), "-o", report().string()});
+        const ChildResult made =
+            run({"report", copy().string(), "-o", report().string(), "--record", record().string()});
         if (made.exit_code == 0) return true;
         if (made.exit_code == kMissingProgramCode) throw MissingProgram(in_folder(made.error_output));
         if (made.timed_out)
@@ -159,11 +162,9 @@ class FolderCheck {
     /// Every answer that the script's header declares is given; of the right kind it is, or the script stops.
     void check_answers(const PercentScript& script) {
         if (script.header.answers.empty()) return;
-        const ChildResult ran = run({"run", (copy() / "analysis.lua").string(), "--out", (out() / "run").string()});
-        if (ran.exit_code != 0) return add_failure(ran.error_output);
-        const auto record = nlohmann::json::parse(read_file(out() / "run" / "record.json"));
+        const auto given = nlohmann::json::parse(read_file(record())).at("answers");
         for (const ExpectedAnswer& answer : script.header.answers) {
-            if (record.at("answers").contains(answer.name)) continue;
+            if (given.contains(answer.name)) continue;
             add("answer-missing", Severity::kRule, "analysis.lua",
                 fmt::format("The answer \"{}\" ({}) is not given.", answer.name, answer.kind),
                 fmt::format("Give it: answer(\"{}\", ...).", answer.name));
@@ -180,6 +181,7 @@ class FolderCheck {
         setup.isolation = strongest_isolation();
         setup.timeout = limits_.time;
         setup.program = program_;
+        setup.jobs = static_cast<int>(std::thread::hardware_concurrency());
         const GradingRules::GroupSeed own = group_seed_of(copy() / "data");
         const Grade grade = GradingRules(setup).grade(folder_.filename().string(), copy(), own);
         result_.checked.push_back(fmt::format("checks of lesson {}: {} of {} points", slug, points_text(grade.earned()),

@@ -75,7 +75,7 @@ class ClassGrading {
         outcome_.submissions = static_cast<int>(submissions_.size());
         ProgressBar bar("grading", chosen_.size());
         std::vector<std::thread> threads;
-        for (int i = 0; i < std::max(1, request_.jobs); ++i) threads.emplace_back([&] { work(bar); });
+        for (int i = 0; i < std::max(1, request_.setup.jobs); ++i) threads.emplace_back([&] { work(bar); });
         for (std::thread& thread : threads) thread.join();
         if (failure_) std::rethrow_exception(failure_);
         take_the_others();

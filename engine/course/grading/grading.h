@@ -13,9 +13,8 @@ struct GradingRequest {
     std::filesystem::path submissions, out;
     std::optional<std::filesystem::path> roster, deadlines;
     std::vector<std::string> only;  ///< names of submissions; all when empty
-    int jobs = 1;
-    bool regrade = false;  ///< also those that have a result already
-    bool pdf = true;       ///< feedback and summary as PDF, besides Markdown
+    bool regrade = false;           ///< also those that have a result already
+    bool pdf = true;                ///< feedback and summary as PDF, besides Markdown
 };
 
 struct GradingOutcome {
@@ -26,7 +25,7 @@ struct GradingOutcome {
 /// Grades a class. In `out`: results/NAME/ with results.json and feedback.md and .pdf for each submission,
 /// logs/NAME/log.txt, which may quote hidden records, gradebook.csv, summary.md or .pdf, manual.csv. Each submission is
 /// graded alone, in boxes; a result whose inputs are unchanged is kept, so that a run that was ended goes on where it
-/// was. Marks depend on neither the order nor `jobs`. Throws EnvironmentError for what must be mended first,
+/// was. Marks depend on neither the order nor `setup.jobs`. Throws EnvironmentError for what must be mended first,
 /// Interrupted after Ctrl-C.
 GradingOutcome grade_class(const GradingRequest& request);
 

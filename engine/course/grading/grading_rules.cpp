@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <future>
 
 #include "course/findings/document_findings.h"
 #include "course/findings/findings_report.h"
@@ -47,6 +48,18 @@ std::string standard_for(const Lesson& lesson, const PercentScript& script) {
     return demands || !fs::exists(report) ? script.header.template_name : report.string();
 }
 
+/// One of the cores that boxes share, waited for.
+class TakenCore {
+  public:
+    explicit TakenCore(std::counting_semaphore<>& free) : free_(free) { free_.acquire(); }
+    ~TakenCore() { free_.release(); }
+    TakenCore(const TakenCore&) = delete;
+    TakenCore& operator=(const TakenCore&) = delete;
+
+  private:
+    std::counting_semaphore<>& free_;
+};
+
 [[noreturn]] void refuse_rerun(const std::string& check, const std::string& rerun) {
     std::vector<std::string> names;
     for (const Rig& rig : rig_catalogue()) names.push_back(rig.name);
@@ -58,7 +71,8 @@ std::string standard_for(const Lesson& lesson, const PercentScript& script) {
 
 }  // namespace
 
-GradingRules::GradingRules(GradingSetup setup) : setup_(std::move(setup)) {
+GradingRules::GradingRules(GradingSetup setup)
+    : setup_(std::move(setup)), free_cores_(std::make_unique<std::counting_semaphore<>>(std::max(1, setup_.jobs))) {
     const PercentScript lesson = read_percent_script(setup_.lesson.script());
     seed_ = lesson.header.seed;
     standard_ = standard_for(setup_.lesson, lesson);
@@ -173,16 +187,26 @@ GradedRun GradingRules::run(const std::string& name, const fs::path& folder, con
     return run;
 }
 
-/// The run on the official data and the reruns, by name.
+/// The run on the official data and the reruns, by name: side by side as far as cores are free.
 std::map<std::string, GradedRun> GradingRules::runs(const fs::path& folder, const GroupSeed& group_seed,
                                                     std::string& log) const {
+    std::vector<std::string> names = {kMain};
+    names.insert(names.end(), reruns_.begin(), reruns_.end());
+    std::vector<std::string> logs(names.size());
+    std::vector<std::future<GradedRun>> results;
+    for (std::size_t k = 0; k < names.size(); ++k)
+        results.push_back(std::async(std::launch::async, [&, k] {
+            const TakenCore core(*free_cores_);
+            return run(names[k], folder, group_seed, logs[k]);
+        }));
     std::map<std::string, GradedRun> all;
-    all[kMain] = run(kMain, folder, group_seed, log);
-    for (const std::string& rerun : reruns_) all[rerun] = run(rerun, folder, group_seed, log);
+    for (std::size_t k = 0; k < names.size(); ++k) all[names[k]] = results[k].get();
+    for (const std::string& lines : logs) log += lines;
     return all;
 }
 
 Findings GradingRules::findings(const fs::path& folder, const GroupSeed& group_seed) const {
+    const TakenCore core(*free_cores_);
     Box box(setup_.isolation);
     box.add_document_programs();
     const fs::path home = box.add(data_of(group_seed), "/box/home/data").parent_path();
@@ -207,6 +231,7 @@ Findings GradingRules::findings(const fs::path& folder, const GroupSeed& group_s
 BoxedResult<CheckResults> GradingRules::checked(std::optional<CheckedSubmission> submission,
                                                 const GroupSeed& group_seed, std::optional<std::size_t> only,
                                                 std::chrono::milliseconds timeout) const {
+    const TakenCore core(*free_cores_);
     Box box(setup_.isolation);
     box.set_environment("DYNLAB_HOME", add_home(box, kMain, group_seed).string());
     ChecksJob job;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <semaphore>
 #include <set>
 #include <string>
 #include <vector>
@@ -27,6 +28,7 @@ struct GradingSetup {
     Isolation isolation = Isolation::kFull;
     std::chrono::milliseconds timeout{60000};  ///< of each run of a student's script
     std::filesystem::path program;             ///< dynlab
+    int jobs = 1;                              ///< so many boxes may run at once
 };
 
 /// What all submissions of a lesson are held against: the checks, the hidden records, and the check of the checks
@@ -86,6 +88,7 @@ class GradingRules {
     std::map<std::string, Specimens> specimens_;                 ///< of hidden records and reruns (CheckSession)
     std::set<std::string> reruns_, broken_;
     bool document_ = false;
+    std::unique_ptr<std::counting_semaphore<>> free_cores_;  ///< for what runs in boxes
     TemporaryFolder records_;
     std::unique_ptr<std::mutex> making_ = std::make_unique<std::mutex>();  ///< of groups' records and simulated_
 };
