@@ -31,7 +31,7 @@ MatVariable created(matvar_t* variable) {
     return MatVariable(variable);
 }
 
-/// Makes the libmatio variable for the alternative it is called with; the data are copied.
+/// Makes the libmatio variable for the alternative it is called with; the numbers of real arrays are not copied.
 class ToMat {
   public:
     explicit ToMat(const char* name) : name_(name) {}
@@ -82,7 +82,7 @@ class ToMat {
     }
     MatVariable real(Index rows, Index columns, const double* data) const {
         return array(MAT_C_DOUBLE, MAT_T_DOUBLE, static_cast<std::size_t>(rows), static_cast<std::size_t>(columns),
-                     data);
+                     data, MAT_F_DONT_COPY_DATA);
     }
     MatVariable complex(const Eigen::MatrixXcd& m) const {
         Matrix re = m.real(), im = m.imag();

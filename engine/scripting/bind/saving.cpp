@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
+#include <limits>
 
 #include "data_io/csv_file.h"
 #include "data_io/mat_file.h"
@@ -147,9 +147,11 @@ int save_csv(Call& call) {
 }
 
 double rounded(double value, int digits) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.*g", digits, value);
-    return std::strtod(text, nullptr);
+    if (digits >= std::numeric_limits<double>::max_digits10 || !std::isfinite(value)) return value;
+    std::array<char, 40> text;
+    const auto end = std::to_chars(text.begin(), text.end(), value, std::chars_format::general, digits).ptr;
+    std::from_chars(text.begin(), end, value);
+    return value;
 }
 
 constexpr int kDeepestSavedTable = 16;
