@@ -4,6 +4,7 @@
 
 #include <new>
 
+#include "data_io/mat_compression.h"
 #include "data_io/mat_layout.h"
 #include "data_io/mat_variable.h"
 #include "data_io/values/cbor_values.h"
@@ -19,6 +20,9 @@ namespace fs = std::filesystem;
 
 /// Values that one byte of a file can stand for: deflate makes at most 1032 bytes from one.
 constexpr std::size_t kDensest = 1032;
+
+/// From so many numbers on an array is compressed quickly rather than well, see mat_compression.h.
+constexpr std::size_t kManyNumbers = std::size_t{1} << 19;
 
 /// libmatio reports most damage to its log only. The log is global, so this keeps the first complaint while it
 /// lives.
@@ -82,6 +86,7 @@ VariableTable read_variables(const fs::path& file) {
 }
 
 VariableTable read_guarded(const fs::path& file) {
+    load_matio();
     const GuardLimits limits;
     const auto read = [&file] {
         try {
@@ -103,6 +108,16 @@ VariableTable read_guarded(const fs::path& file) {
     }
 }
 
+/// Numbers of a real array or of all those in a struct; 0 of anything else.
+std::size_t number_count(const Variable& variable) {
+    if (const auto* vector = std::get_if<Vector>(&variable.value)) return static_cast<std::size_t>(vector->size());
+    if (const auto* matrix = std::get_if<Matrix>(&variable.value)) return static_cast<std::size_t>(matrix->size());
+    std::size_t count = 0;
+    if (const auto* table = std::get_if<std::shared_ptr<VariableTable>>(&variable.value))
+        for (const auto& [name, entry] : **table) count += number_count(entry);
+    return count;
+}
+
 }  // namespace
 
 VariableTable read_mat_file(const fs::path& file, bool guarded) {
@@ -117,7 +132,8 @@ void write_mat_file(const fs::path& file, const VariableTable& variables, int di
     bool written = mat != nullptr;
     for (const auto& [name, variable] : variables) {
         const MatVariable converted = to_mat(variable, name, digits);
-        written = written && Mat_VarWrite(mat.get(), converted.get(), MAT_COMPRESSION_ZLIB) == 0;
+        const auto compression = number_count(variable) >= kManyNumbers ? MAT_COMPRESSION_NONE : MAT_COMPRESSION_ZLIB;
+        written = written && Mat_VarWrite(mat.get(), converted.get(), compression) == 0;
     }
     written = written && Mat_Close(mat.release()) == 0 && complaints.first().empty();
     // libmatio does not notice every failed write; a file cut off by a full disk is seen here.
@@ -125,7 +141,7 @@ void write_mat_file(const fs::path& file, const VariableTable& variables, int di
         throw EnvironmentError(fmt::format("cannot write {}: no room for its draft in {}", file.string(),
                                            folder.path().parent_path().string()));
     }
-    place_file_atomically(draft, file);
+    place_file_atomically(with_quick_compression(draft), file);
 }
 
 }  // namespace dynlab::inline data_io

@@ -42,12 +42,16 @@ double rounded_to_digits(double value, int digits) {
     return value;
 }
 
-/// Makes the libmatio variable for the alternative it is called with; the data are copied.
+/// Makes the libmatio variable for the alternative it is called with; the numbers of real arrays are copied only where
+/// they are rounded.
 class ToMat {
   public:
     ToMat(const char* name, int digits) : name_(name), digits_(digits) {}
 
-    MatVariable operator()(double number) const { return real(1, 1, &number); }
+    MatVariable operator()(double number) const {
+        const double kept = digits_ < kAllDigits ? rounded_to_digits(number, digits_) : number;
+        return array(MAT_C_DOUBLE, MAT_T_DOUBLE, 1, 1, &kept);
+    }
     MatVariable operator()(bool truth) const {
         const std::uint8_t byte = truth;
         return array(MAT_C_UINT8, MAT_T_UINT8, 1, 1, &byte, MAT_F_LOGICAL);
@@ -92,14 +96,11 @@ class ToMat {
         return created(Mat_VarCreate(name_, kind, type, 2, size, const_cast<void*>(data), flags));
     }
     MatVariable real(Index rows, Index columns, const double* data) const {
-        std::vector<double> rounded;
-        if (digits_ < kAllDigits) {
-            rounded.assign(data, data + rows * columns);
-            for (double& value : rounded) value = rounded_to_digits(value, digits_);
-            data = rounded.data();
-        }
-        return array(MAT_C_DOUBLE, MAT_T_DOUBLE, static_cast<std::size_t>(rows), static_cast<std::size_t>(columns),
-                     data);
+        const auto height = static_cast<std::size_t>(rows), width = static_cast<std::size_t>(columns);
+        if (digits_ >= kAllDigits) return array(MAT_C_DOUBLE, MAT_T_DOUBLE, height, width, data, MAT_F_DONT_COPY_DATA);
+        std::vector<double> rounded(data, data + rows * columns);
+        for (double& value : rounded) value = rounded_to_digits(value, digits_);
+        return array(MAT_C_DOUBLE, MAT_T_DOUBLE, height, width, rounded.data());
     }
     MatVariable complex(const Eigen::MatrixXcd& m) const {
         Matrix re = m.real(), im = m.imag();

@@ -18,6 +18,10 @@ struct MatFileDeleter {
 };
 using MatFile = std::unique_ptr<mat_t, MatFileDeleter>;
 
+/// Loads libmatio unless it is loaded: before processes are forked that read one file each. Throws EnvironmentError when
+/// it is not there.
+void load_matio();
+
 /// Looks at a variable whose header has been read, before its data are: throws EnvironmentError when it or a part
 /// of it is of a class that cannot be represented, or claims more than `most_values` values (0: any number), which
 /// would make libmatio take memory for nothing.
@@ -27,7 +31,8 @@ void check_mat_header(const matvar_t& variable, const std::string& name, std::si
 /// cannot be represented or is inconsistent.
 Variable from_mat(const matvar_t& variable, const std::string& name);
 
-/// The other way; lists become cell columns, real numbers are rounded to so many significant digits. Throws
+/// The other way; lists become cell columns, real numbers are rounded to so many significant digits. The numbers of
+/// real arrays that keep all 17 stay where they are, so `variable` must live as long as the result. Throws
 /// InvalidArgument for a name MATLAB does not allow.
 MatVariable to_mat(const Variable& variable, const std::string& name, int digits = 17);
 

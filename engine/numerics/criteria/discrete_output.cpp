@@ -94,78 +94,134 @@ double DiscreteOutput::target_variation() const {
     return sum;
 }
 
-/// The share of one input in one experiment's output; its derivatives go into the columns of `part`.
-Vector DiscreteOutput::channel(const Vector& theta, std::size_t experiment, std::size_t input,
-                               Eigen::Ref<Matrix>* part) const {
+/// Adds the share of one input in one experiment's output and its derivatives.
+void DiscreteOutput::add_channel(const Vector& theta, std::size_t experiment, std::size_t input, bool with_derivatives,
+                                 DrivenSignals& all) const {
     const SampledExperiment& record = experiments_[experiment];
     const Index N = record.y.size(), nf = orders_.nf[input], nb = orders_.nb[input], nk = orders_.nk[input];
     const Index f_place = orders_.f_place(input), b_place = orders_.b_place(input);
     const Vector f = theta.segment(f_place, nf), b = theta.segment(b_place, nb);
-    const double resting = steady() ? record.u(0, static_cast<Index>(input)) : 0;
-    const Vector w = all_pole_filter(f, record.u.col(static_cast<Index>(input)).array() - resting);  // u/F
+    const auto u = record.u.col(static_cast<Index>(input));
+    const double resting = steady() ? u[0] : 0, denominator = 1 + f.sum();
+    Vector w = resting == 0 ? all_pole_filter(f, u) : all_pole_filter(f, u.array() - resting);  // u/F
     Vector x = Vector::Zero(N);
     for (Index j = 0; j < nb; ++j) add_late(x, w, b[j], nk + j, 0);
-
     Vector pulse;  // 1/F of a pulse at the first sample
     const Index values_at = values_place(experiment, input);
     if (free_state() && nf > 0) {
         pulse = all_pole_filter(f, Vector::Unit(N, 0));
         for (Index j = 0; j < nf; ++j) add_late(x, pulse, theta[values_at + j], head_ + j, 0);
     }
-    const double denominator = 1 + f.sum();
-    if (part != nullptr) {
-        const Vector y_late = nf > 0 ? all_pole_filter(f, x) : Vector();
-        for (Index j = 0; j < nf; ++j) add_late(part->col(f_place + j), y_late, -1, j + 1, head_);
-        for (Index j = 0; j < nb; ++j) add_late(part->col(b_place + j), w, 1, nk + j, head_);
-        for (Index j = 0; j < nf && pulse.size() > 0; ++j)
-            add_late(part->col(values_at + j), pulse, 1, head_ + j, head_);
-        if (resting != 0) {
-            part->middleCols(f_place, nf).array() -= resting * b.sum() / (denominator * denominator);
-            part->middleCols(b_place, nb).array() += resting / denominator;
+    const auto add = [&all](Index first_place, Index count, Vector signal, Index late, double weight, double constant) {
+        all.signals.push_back(std::move(signal));
+        for (Index j = 0; j < count; ++j) {
+            all.columns.push_back({all.signals.back(), late + j, weight, constant});
+            all.places.push_back(first_place + j);
         }
+    };
+    if (with_derivatives) {
+        if (nf > 0) add(f_place, nf, all_pole_filter(f, x), 1, -1, -resting * b.sum() / (denominator * denominator));
+        add(b_place, nb, std::move(w), nk, 1, resting / denominator);
+        if (pulse.size() > 0) add(values_at, nf, std::move(pulse), head_, 1, 0);
     }
     if (resting != 0) x.array() += resting * b.sum() / denominator;
-    return x;
+    if (all.output.size() == 0)
+        all.output = std::move(x);
+    else
+        all.output += x;
+}
+
+DrivenSignals DiscreteOutput::driven(const Vector& theta, std::size_t experiment, bool with_derivatives) const {
+    DrivenSignals all;
+    all.signals.reserve(3 * orders_.inputs() + 1);  // columns refer to their memory
+    for (std::size_t input = 0; input < orders_.inputs(); ++input)
+        add_channel(theta, experiment, input, with_derivatives, all);
+    if (!condition_.offset) return all;
+    all.output.array() += theta[offset_place(experiment)];
+    if (with_derivatives) {
+        all.signals.push_back(Vector::Zero(all.output.size()));
+        all.columns.push_back({all.signals.back(), 0, 0, 1});
+        all.places.push_back(offset_place(experiment));
+    }
+    return all;
 }
 
 void DiscreteOutput::simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const {
     Index total = 0;
     for (const SampledExperiment& experiment : experiments_) total += rows(experiment);
-    output = Vector::Zero(total);
+    output.resize(total);
     if (sensitivities != nullptr) *sensitivities = Matrix::Zero(total, parameter_count());
     Index place = 0;
     for (std::size_t e = 0; e < experiments_.size(); ++e) {
         const Index count = rows(experiments_[e]);
-        for (std::size_t input = 0; input < orders_.inputs(); ++input) {
-            if (sensitivities == nullptr) {
-                output.segment(place, count) += channel(theta, e, input, nullptr).tail(count);
-                continue;
-            }
-            Eigen::Ref<Matrix> part = sensitivities->middleRows(place, count);
-            output.segment(place, count) += channel(theta, e, input, &part).tail(count);
-        }
-        if (condition_.offset) {
-            output.segment(place, count).array() += theta[offset_place(e)];
-            if (sensitivities != nullptr) sensitivities->col(offset_place(e)).segment(place, count).setOnes();
+        const DrivenSignals share = driven(theta, e, sensitivities != nullptr);
+        output.segment(place, count) = share.output.tail(count);
+        for (std::size_t c = 0; c < share.columns.size(); ++c) {
+            auto target = sensitivities->col(share.places[c]).segment(place, count);
+            const LateColumn& column = share.columns[c];
+            target.setConstant(column.constant);
+            if (column.weight != 0) add_late(target, column.signal, column.weight, column.late, head_);
         }
         place += count;
     }
 }
 
-void DiscreteOutput::regressors(const Vector& theta, const Matrix& sensitivities, const Vector& errors,
-                                Matrix& Phi) const {
-    Phi = sensitivities;
+OutputErrorProducts DiscreteOutput::products(const Vector& theta, const VectorView& y) const {
+    const Index d = parameter_count();
+    OutputErrorProducts sums{0, Matrix::Zero(d, d), Vector::Zero(d)};
     Index place = 0;
-    for (const SampledExperiment& experiment : experiments_) {
-        const Index count = rows(experiment);
-        for (std::size_t input = 0; input < orders_.inputs(); ++input) {
-            const Index f_place = orders_.f_place(input), nf = orders_.nf[input];
-            if (nf == 0) continue;
-            const Vector filtered = all_pole_filter(theta.segment(f_place, nf), errors.segment(place, count));
-            for (Index j = 0; j < nf; ++j) add_late(Phi.col(f_place + j).segment(place, count), filtered, -1, j + 1, 0);
-        }
+    for (std::size_t e = 0; e < experiments_.size(); ++e) {
+        const Index count = rows(experiments_[e]);
+        DrivenSignals share = driven(theta, e, true);
+        share.places.push_back(-1);
+        Vector errors = -share.output;
+        errors.tail(count) += y.segment(place, count);
         place += count;
+        add_to(sums, plain_products(share.columns, {errors, 0, 1, 0}, errors.size() - count, count), share.places);
     }
+    return sums;
+}
+
+InstrumentProducts DiscreteOutput::instrument_products(const Vector& theta, const VectorView& y) const {
+    const Index d = parameter_count();
+    std::vector<Index> f_places;  // of the columns in which Phi differs from Psi
+    for (std::size_t input = 0; input < orders_.inputs(); ++input)
+        for (Index j = 0; j < orders_.nf[input]; ++j) f_places.push_back(orders_.f_place(input) + j);
+    const auto m = static_cast<Index>(f_places.size());
+    OutputErrorProducts sums{0, Matrix::Zero(d + m, d + m), Vector::Zero(d + m)};  // of [Psi, Phi - Psi]
+    Index place = 0;
+    for (std::size_t e = 0; e < experiments_.size(); ++e) {
+        const Index N = experiments_[e].y.size(), count = rows(experiments_[e]);
+        DrivenSignals share = driven(theta, e, true);
+        Vector errors = Vector::Zero(N);
+        errors.tail(count) = y.segment(place, count) - share.output.tail(count);
+        place += count;
+        std::vector<Vector> filtered;
+        filtered.reserve(orders_.inputs());  // columns refer to their memory
+        Index next = d;
+        for (std::size_t input = 0; input < orders_.inputs(); ++input) {
+            const Index nf = orders_.nf[input];
+            filtered.push_back(all_pole_filter(theta.segment(orders_.f_place(input), nf), errors));
+            for (Index j = 0; j < nf; ++j) {
+                share.columns.push_back({filtered.back(), j + 1, -1, 0});
+                share.places.push_back(next++);
+            }
+        }
+        share.places.push_back(-1);
+        add_to(sums, plain_products(share.columns, {errors, 0, 1, 0}, N - count, count), share.places);
+    }
+    InstrumentProducts all{sums.squares, sums.gram.topLeftCorner(d, d), sums.gram.topLeftCorner(d, d),
+                           {},           sums.descent.head(d),          sums.descent.head(d)};
+    Matrix difference_phi = sums.gram.bottomLeftCorner(m, d);  // (Phi - Psi)'Phi
+    for (Index i = 0; i < m; ++i) {
+        const Index column = f_places[static_cast<std::size_t>(i)];
+        all.psi_phi.col(column) += sums.gram.col(d + i).head(d);
+        difference_phi.col(column) += sums.gram.col(d + i).tail(m);
+        all.phi_e[column] += sums.descent[d + i];
+    }
+    all.phi_phi = all.psi_phi;
+    for (Index i = 0; i < m; ++i) all.phi_phi.row(f_places[static_cast<std::size_t>(i)]) += difference_phi.row(i);
+    return all;
 }
 
 Vector DiscreteOutput::stabilised(Vector theta) const {

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "numerics/criteria/filtered_products.h"
 #include "numerics/criteria/initial_conditions.h"
 #include "numerics/criteria/output_error_model.h"
 #include "numerics/models/polynomial_model.h"
@@ -19,6 +20,23 @@ Vector all_pole_filter(const VectorView& f, const VectorView& signal);
 /// magnitude but for a gain. Returns `f` itself when there are none.
 Vector reflect_into_unit_circle(const VectorView& f);
 
+/// What the inputs of one experiment do: the output and its derivatives, each the late copy of one of few signals.
+struct DrivenSignals {
+    Vector output;                    ///< N, the samples without a recorded past too
+    std::vector<Vector> signals;      ///< those that the columns refer to
+    std::vector<LateColumn> columns;  ///< derivatives, a row for each sample
+    std::vector<Index> places;        ///< the parameter of each column
+};
+
+/// Sums of products of the errors e = y - output, the sensitivities Psi of the output (the instruments) and the
+/// regressors Phi: the sensitivities with the measured outputs in the place of the simulated ones, as the equation
+/// F (y/F) = B (u/F) has them, so column j of F_i less q^-j/F_i of e.
+struct InstrumentProducts {
+    double squares = 0;                ///< e'e
+    Matrix psi_psi, psi_phi, phi_phi;  ///< d x d
+    Vector psi_e, phi_e;
+};
+
 /// The output sum_i B_i/F_i u_i of a discrete-time model in all experiments, one after the other, as a function of
 /// [the parameters of the orders; for each experiment its initial values; for each experiment its offset], for the
 /// output-error search and for the instruments of SRIV. Start conditions: zero: inputs and outputs are zero before the
@@ -36,10 +54,12 @@ class DiscreteOutput : public OutputErrorModel {
     const Vector& lower() const override { return lower_; }
     const Vector& upper() const override { return upper_; }
     void simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const override;
+    OutputErrorProducts products(const Vector& theta, const VectorView& y) const override;
+    bool products_come_cheap() const override { return true; }
+    /// One experiment's share; its derivatives only when they are wanted.
+    DrivenSignals driven(const Vector& theta, std::size_t experiment, bool with_derivatives) const;
 
-    /// The sensitivities with the measured outputs in the place of the simulated ones, as the regressors of the
-    /// equation F (y/F) = B (u/F): column j of F_i less q^-j/F_i of the errors y - output.
-    void regressors(const Vector& theta, const Matrix& sensitivities, const Vector& errors, Matrix& Phi) const;
+    InstrumentProducts instrument_products(const Vector& theta, const VectorView& y) const;
     /// `theta` with every F reflected into the unit circle.
     Vector stabilised(Vector theta) const;
 
@@ -57,7 +77,8 @@ class DiscreteOutput : public OutputErrorModel {
     bool steady() const { return condition_.state == InitialState::kSteady; }
     Index rows(const SampledExperiment& experiment) const;
     Index values_place(std::size_t experiment, std::size_t input) const;
-    Vector channel(const Vector& theta, std::size_t experiment, std::size_t input, Eigen::Ref<Matrix>* part) const;
+    void add_channel(const Vector& theta, std::size_t experiment, std::size_t input, bool with_derivatives,
+                     DrivenSignals& all) const;
 
     PolynomialOrders orders_;
     StartCondition condition_;

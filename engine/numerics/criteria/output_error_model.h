@@ -3,6 +3,13 @@
 
 namespace dynlab::inline numerics {
 
+/// Sums over all samples of the errors e = y - output and the sensitivities J of the output (N x d).
+struct OutputErrorProducts {
+    double squares = 0;  ///< e'e
+    Matrix gram;         ///< J'J
+    Vector descent;      ///< J'e
+};
+
 /// A model whose output depends smoothly on parameters: what an output-error method minimises over. Implemented by
 /// each structure (process models, transfer functions); the search below knows nothing else of it.
 class OutputErrorModel {
@@ -15,6 +22,12 @@ class OutputErrorModel {
     virtual const Vector& upper() const = 0;
     /// Simulated output (N) and, when wanted, its derivatives with respect to the parameters (N x d).
     virtual void simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const = 0;
+    /// The sums against the measured `y` (N), for which a model need not store J: what each step of a search needs. By
+    /// simulate() unless a structure knows a faster way; a model may take the `y` it was made of for granted.
+    virtual OutputErrorProducts products(const Vector& theta, const VectorView& y) const;
+    /// Whether they cost little more than the output alone, so that a search asks for them before it knows whether it
+    /// will go there.
+    virtual bool products_come_cheap() const { return false; }
 };
 
 }  // namespace dynlab::inline numerics

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "numerics/criteria/filtered_products.h"
 #include "numerics/criteria/transfer_output.h"
 #include "numerics/error.h"
 #include "numerics/estimators/srivc.h"
@@ -40,7 +41,8 @@ void check(const IdData& data, const NoiseOrders& orders, const TransferStructur
 /// The simulated output of all experiments and its sensitivities, filtered by D/C.
 class WhitenedOutput : public OutputErrorModel {
   public:
-    WhitenedOutput(const TransferOutput& output, const ArmaNoise& noise) : output_(output), noise_(noise) {}
+    WhitenedOutput(const TransferOutput& output, const ArmaNoise& noise, const Vector& y)
+        : output_(output), noise_(noise), y_(y) {}
 
     Index parameter_count() const override { return output_.parameter_count(); }
     const Vector& lower() const override { return output_.lower(); }
@@ -50,6 +52,29 @@ class WhitenedOutput : public OutputErrorModel {
         output = filtered(output);
         if (sensitivities != nullptr) *sensitivities = filtered(*sensitivities);
     }
+    OutputErrorProducts products(const Vector& theta, const VectorView&) const override {
+        const Index d = theta.size();
+        OutputErrorProducts sums{0, Matrix::Zero(d, d), Vector::Zero(d)};
+        Vector errors;
+        Matrix sensitivities;
+        output_.simulate(theta, errors, &sensitivities);
+        errors = y_ - errors;
+        std::vector<LateColumn> columns;
+        std::vector<Index> places;
+        for (Index i = 0; i < d; ++i) {
+            columns.push_back({sensitivities.col(i), 0, 1, 0});
+            places.push_back(i);
+        }
+        places.push_back(-1);
+        for (std::size_t e = 0; e < output_.experiment_count(); ++e) {
+            const Matrix all =
+                filtered_products(columns, {errors, 0, 1, 0}, output_.row(e, 0), output_.rows(e), noise_.C, noise_.D);
+            const auto count = static_cast<Index>(places.size());
+            add_to(sums, all.topLeftCorner(count, count), places);
+        }
+        return sums;
+    }
+    Vector target() const { return filtered(y_); }
     Matrix filtered(const MatrixView& rows) const {
         Matrix result(rows.rows(), rows.cols());
         for (std::size_t e = 0; e < output_.experiment_count(); ++e)
@@ -61,6 +86,7 @@ class WhitenedOutput : public OutputErrorModel {
   private:
     const TransferOutput& output_;
     const ArmaNoise& noise_;
+    const Vector& y_;
 };
 
 /// srivc's estimate as a point of the search.
@@ -143,8 +169,8 @@ class Passes {
         noise_ = without_noise_ ? ArmaNoise::white(orders_.nc, orders_.nd)
                                 : estimate_arma(residual_records(), orders_.nc, orders_.nd, tolerance,
                                                 noise_known ? &before : nullptr);
-        const WhitenedOutput whitened_output(model_, noise_);
-        solution_ = minimise_output_error(whitened_output, whitened_output.filtered(y_), theta_,
+        const WhitenedOutput whitened_output(model_, noise_, y_);
+        solution_ = minimise_output_error(whitened_output, whitened_output.target(), theta_,
                                           {options_.MaxIter, tolerance, options_.cancel});
         const Vector last = theta_;
         theta_ = solution_.theta;
@@ -155,7 +181,7 @@ class Passes {
 
     /// Error variance over the samples that the conditional sum of squares uses, and the covariance that follows.
     void set_matrix() {
-        const WhitenedOutput whitened_output(model_, noise_);
+        const WhitenedOutput whitened_output(model_, noise_, y_);
         const double squares = whitened_output.filtered(y_ - simulated()).squaredNorm();
         const double used = static_cast<double>(y_.size() - orders_.nd * static_cast<Index>(model_.experiment_count()));
         variance_ = squares / (used - static_cast<double>(theta_.size() + orders_.nc + orders_.nd));

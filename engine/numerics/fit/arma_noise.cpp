@@ -3,22 +3,35 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
+#include "numerics/criteria/arx_equations.h"
+#include "numerics/criteria/filtered_products.h"
 #include "numerics/error.h"
 #include "numerics/fit/output_error.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/polynomial.h"
+#include "numerics/linalg/triangular_factor.h"
+#include "numerics/signals/lagged_gram.h"
 
 namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr double kLargestRoot = 0.98;  // of a start whose root lies on the unit circle
+constexpr double kStartGramLimit = 1e5;  // beyond this condition number a start by sums of products loses digits
+constexpr double kLargestRoot = 0.98;    // of a start whose root lies on the unit circle
 
 /// w/C of one signal, from rest.
 void divide(const Vector& C, Eigen::Ref<Vector> w) {
-    for (Index k = 1; k < w.size(); ++k)
-        for (Index j = 1; j < std::min(C.size(), k + 1); ++j) w[k] -= C[j] * w[k - j];
+    const Index nc = C.size() - 1;
+    if (nc == 0) return;
+    for (Index k = 1; k < std::min(nc, w.size()); ++k)
+        for (Index j = 1; j <= k; ++j) w[k] -= C[j] * w[k - j];
+    for (Index k = nc; k < w.size(); ++k) {
+        double value = w[k];
+        for (Index j = nc; j >= 1; --j) value -= C[j] * w[k - j];
+        w[k] = value;
+    }
 }
 
 /// x late by `lag` samples, zero up to the sample `first`.
@@ -67,11 +80,47 @@ class Prediction : public OutputErrorModel {
         }
     }
 
+    bool products_come_cheap() const override { return true; }
+    OutputErrorProducts products(const Vector& theta, const VectorView& y) const override {
+        const Index d = theta.size();
+        OutputErrorProducts sums{kNaN, Matrix::Zero(d, d), Vector::Constant(d, kNaN)};
+        if (!theta.allFinite()) return sums;
+        const ArmaNoise at = noise(theta);
+        if (!inside_unit_circle(at.C) || !inside_unit_circle(at.D)) return sums;
+        sums.squares = 0;
+        sums.descent.setZero();
+        std::vector<Index> places(static_cast<std::size_t>(d) + 1);
+        std::iota(places.begin(), places.end(), Index{-1});
+        Index row = 0;
+        for (const Vector& v : records_) {
+            const Matrix all = filtered_products({}, {y.segment(row, v.size()), 0, 1, 0}, 0, v.size(), at.C, at.D);
+            add_to(sums, all, places);
+            row += v.size();
+        }
+        return sums;
+    }
+
   private:
     const std::vector<Vector>& records_;
     Index nc_, nd_, samples_ = 0;
     Vector lower_, upper_;
 };
+
+/// The triangular factor of the regression below, block by block: for signals whose lags are nearly dependent.
+Matrix regression_factor(const std::vector<Vector>& v, const std::vector<Vector>& e, Index nc, Index nd, Index first) {
+    constexpr Index kBlock = 1024;
+    TriangularFactor factor(nc + nd + 1);
+    Matrix block(kBlock, nc + nd + 1);
+    for (std::size_t r = 0; r < v.size(); ++r)
+        for (Index k = first; k < v[r].size(); k += kBlock) {
+            const Index rows = std::min(kBlock, v[r].size() - k);
+            for (Index j = 1; j <= nc; ++j) block.col(j - 1).head(rows) = e[r].segment(k - j, rows);
+            for (Index i = 1; i <= nd; ++i) block.col(nc + i - 1).head(rows) = -v[r].segment(k - i, rows);
+            block.col(nc + nd).head(rows) = v[r].segment(k, rows);
+            factor.add(block.topRows(rows));
+        }
+    return factor.R();
+}
 
 /// Regression of v(k) on its own past (`nd` lags) and that of e (`nc` lags), from sample `first` of each record on.
 Vector regress(const std::vector<Vector>& v, const std::vector<Vector>& e, Index nc, Index nd, Index first) {
@@ -81,18 +130,13 @@ Vector regress(const std::vector<Vector>& v, const std::vector<Vector>& e, Index
         throw InvalidArgument("the noise model needs longer records: " + std::to_string(nc + nd + 1) +
                               " samples are wanted after the first " + std::to_string(first) + " of each, and " +
                               std::to_string(rows) + " are left");
-    Matrix Phi(rows, nc + nd);
-    Vector target(rows);
-    Index row = 0;
-    for (std::size_t r = 0; r < v.size(); ++r) {
-        const Index N = v[r].size() - first;
-        if (N <= 0) continue;
-        for (Index j = 1; j <= nc; ++j) Phi.col(j - 1).segment(row, N) = e[r].segment(first - j, N);
-        for (Index i = 1; i <= nd; ++i) Phi.col(nc + i - 1).segment(row, N) = -v[r].segment(first - i, N);
-        target.segment(row, N) = v[r].tail(N);
-        row += N;
-    }
-    return solve_least_squares(Phi, target).solution;
+    Matrix gram = Matrix::Zero(nc + nd + 1, nc + nd + 1);
+    for (std::size_t r = 0; r < v.size(); ++r)
+        gram += lagged_gram({{e[r], 1, nc, 1}, {v[r], 1, nd, -1}, {v[r], 0, 1, 1}}, first, v[r].size() - first);
+    const ArxSolution quick = solve_gram(gram);
+    if (quick.condition_number < kStartGramLimit) return quick.theta;
+    const Matrix R = regression_factor(v, e, nc, nd, first);
+    return solve_least_squares(R.leftCols(nc + nd), R.col(nc + nd)).solution;
 }
 
 /// Hannan and Rissanen: e from a long autoregression, then v on the past of both.

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "numerics/error.h"
 #include "numerics/fit/output_error.h"
-#include "numerics/linalg/least_squares.h"
 #include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
@@ -114,16 +114,16 @@ DiscreteFit best_fit(const std::string& method, const DiscreteRecord& record, co
 
 /// Covariance and condition number from the sensitivities at the solution.
 void add_uncertainty(PolynomialEstimate& estimate, const DiscreteOutput& model, const Vector& theta) {
-    Vector output;
-    Matrix sensitivities;
-    model.simulate(theta, output, &sensitivities);
     const Index d = estimate.theta.size();
     estimate.covariance = Matrix::Constant(d, d, std::numeric_limits<double>::infinity());
     estimate.condition_number = std::numeric_limits<double>::infinity();
-    if (sensitivities.allFinite()) {
-        const LeastSquares fit = solve_least_squares(sensitivities, Vector::Zero(output.size()));
-        estimate.covariance = estimate.noise_variance * fit.inverse_gram.topLeftCorner(d, d);
-        estimate.condition_number = fit.condition_number;
+    std::vector<Index> all(static_cast<std::size_t>(theta.size()));
+    std::iota(all.begin(), all.end(), Index{0});
+    const SensitivityPrecision precision =
+        sensitivity_precision(model, theta, model.products(theta, model.target()).gram, all);
+    if (precision.inverse_gram.size() > 0) {
+        estimate.covariance = estimate.noise_variance * precision.inverse_gram.topLeftCorner(d, d);
+        estimate.condition_number = precision.condition_number;
     }
     estimate.std = estimate.covariance.diagonal().cwiseMax(0).cwiseSqrt();
 }

@@ -16,43 +16,34 @@ constexpr std::array kFilterPoles = {0.9, 0.5, 0.98, 0.8, 0.95, 0.0};
 constexpr int kStartIterations = 4;
 constexpr double kStartTolerance = 1e-3, kSameLoss = 1e-4;
 constexpr double kShortestStep = 1.0 / 8, kRounding = 1e-9;
-Vector scale_of(const Matrix& columns) {
-    Vector scale = columns.colwise().norm().transpose();
+
+/// Lengths of columns by the sums of their squares; one for those without any.
+Vector lengths_of(const Matrix& gram) {
+    Vector scale = gram.diagonal().cwiseSqrt();
     for (double& value : scale)
         if (!(value > 0)) value = 1;
     return scale;
 }
 
 /// (Psi' Phi)^-1 Psi' e with the columns of both scaled to norm one; directions without weight stay where they are.
-Vector instrumental_solution(const Matrix& Psi, const Matrix& Phi, const Vector& errors) {
-    const Vector left = scale_of(Psi).cwiseInverse(), right = scale_of(Phi).cwiseInverse();
-    const Matrix system = left.asDiagonal() * (Psi.transpose() * Phi) * right.asDiagonal();
-    const Vector known = left.asDiagonal() * (Psi.transpose() * errors);
+Vector instrumental_solution(const Matrix& psi_phi, const Vector& psi_e, const Vector& psi_lengths,
+                             const Vector& phi_lengths) {
+    const Vector left = psi_lengths.cwiseInverse(), right = phi_lengths.cwiseInverse();
+    const Matrix system = left.asDiagonal() * psi_phi * right.asDiagonal();
+    const Vector known = left.asDiagonal() * psi_e;
     return right.asDiagonal() * shortest_solution(system, known);
 }
 
-double mean_square(const Vector& errors) {
-    const double value = errors.squaredNorm() / static_cast<double>(errors.size());
-    return std::isfinite(value) ? value : kInfinity;
-}
-
 struct Point {
-    Vector theta, errors;
-    Matrix sensitivities;
+    Vector theta;
+    InstrumentProducts products;
     double loss = 0;
 };
 
-/// Evaluates the model at `theta` into a point, whose memory is used again.
-void evaluate(const DiscreteOutput& model, const Vector& y, const Vector& theta, Point& point) {
-    point.theta = theta;
-    model.simulate(theta, point.errors, &point.sensitivities);
-    point.errors = y - point.errors;
-    point.loss = mean_square(point.errors);
-}
-
 Point point_at(const DiscreteOutput& model, const Vector& y, const Vector& theta) {
-    Point point;
-    evaluate(model, y, theta, point);
+    Point point{theta, model.instrument_products(theta, y), 0};
+    const double loss = point.products.squares / static_cast<double>(y.size());
+    point.loss = std::isfinite(loss) ? loss : kInfinity;
     return point;
 }
 
@@ -63,7 +54,7 @@ bool move(const DiscreteOutput& model, const Vector& y, const Vector& step, Poin
     const double loss = here.loss;
     for (double part = 1;; part /= 2) {
         const Vector wanted = from + part * step, next = model.stabilised(wanted);
-        evaluate(model, y, next, here);
+        here = point_at(model, y, next);
         if (here.loss <= loss * (1 + kRounding) || part <= kShortestStep) return next != wanted;
     }
 }
@@ -91,12 +82,14 @@ Vector common_least_squares(const DiscreteOutput& model, const Vector& y, double
     Vector theta = Vector::Zero(model.parameter_count());
     const Vector filter = power(Eigen::Vector2d(1, -alpha), n).tail(n);
     for (std::size_t i = 0; i < orders.inputs(); ++i) theta.segment(orders.f_place(i), n) = filter;
-    Vector output;
-    Matrix sensitivities, Phi;
-    model.simulate(theta, output, &sensitivities);
-    model.regressors(theta, sensitivities, y - output, Phi);
-    for (std::size_t i = 1; i < orders.inputs(); ++i) Phi.middleCols(orders.f_place(i), n).setZero();
-    theta += instrumental_solution(Phi, Phi, y - output);
+    InstrumentProducts products = model.instrument_products(theta, y);
+    for (std::size_t i = 1; i < orders.inputs(); ++i) {
+        products.phi_phi.middleCols(orders.f_place(i), n).setZero();
+        products.phi_phi.middleRows(orders.f_place(i), n).setZero();
+        products.phi_e.segment(orders.f_place(i), n).setZero();
+    }
+    const Vector lengths = lengths_of(products.phi_phi);
+    theta += instrumental_solution(products.phi_phi, products.phi_e, lengths, lengths);
     for (std::size_t i = 1; i < orders.inputs(); ++i)
         theta.segment(orders.f_place(i), n) = theta.segment(orders.f_place(0), n);
     return model.stabilised(theta);
@@ -144,21 +137,22 @@ InstrumentSolution iterate_instruments(const DiscreteOutput& model, const Vector
     best.theta = start;
     Point here = point_at(model, y, start);
     best.loss = here.loss;
-    Matrix Phi;
     const double spread = std::sqrt(model.target_variation());
     for (int iteration = 0; iteration < max_iterations; ++iteration) {
         if (cancel && cancel()) {
             best.termination = Termination::kCancelled;
             return best;
         }
-        model.regressors(here.theta, here.sensitivities, here.errors, Phi);
-        const Vector step = instrumental_solution(here.sensitivities, Phi, here.errors);
+        const InstrumentProducts& products = here.products;
+        const Vector lengths = lengths_of(products.psi_psi);
+        const Vector step =
+            instrumental_solution(products.psi_phi, products.psi_e, lengths, lengths_of(products.phi_phi));
         if (!step.allFinite()) {
             best.termination = Termination::kNoProgress;
             return best;
         }
         // Judged before poles are mirrored: a pole that leaves the circle in every pass has not settled.
-        const Vector size = here.theta.cwiseAbs() + spread * scale_of(here.sensitivities).cwiseInverse();
+        const Vector size = here.theta.cwiseAbs() + spread * lengths.cwiseInverse();
         const double change = step.cwiseAbs().cwiseQuotient(size).maxCoeff();
         best.reflected = move(model, y, step, here) || best.reflected;
         best.trace.push_back({here.loss, change});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <sstream>
 
 #include "numerics/error.h"
@@ -52,16 +53,16 @@ class Search {
   private:
     double samples() const { return static_cast<double>(y_.size()); }
 
-    void evaluate_here() {
-        model_.simulate(theta_, output_, &sensitivities_);
-        residuals_ = y_ - output_;
-        square_sum_ = residuals_.squaredNorm();
-        scale_ = sensitivities_.colwise().norm().transpose();
+    void evaluate_here() { set_products(model_.products(theta_, y_)); }
+
+    void set_products(const OutputErrorProducts& sums) {
+        square_sum_ = sums.squares;
+        scale_ = sums.gram.diagonal().cwiseSqrt();
         for (double& value : scale_)
             if (!(value > 0)) value = 1;
         const auto scaling = scale_.cwiseInverse().asDiagonal();
-        gram_ = scaling * (sensitivities_.transpose() * sensitivities_) * scaling;
-        descent_ = scaling * (sensitivities_.transpose() * residuals_);
+        gram_ = scaling * sums.gram * scaling;
+        descent_ = scaling * sums.descent;
         hold_at_bounds();
     }
 
@@ -95,20 +96,31 @@ class Search {
         return (next - theta_).cwiseAbs().cwiseQuotient(size).maxCoeff();
     }
 
+    // The sums at `next`, unless its errors are larger.
+    std::optional<OutputErrorProducts> products_below(double squares, const Vector& next) const {
+        if (!model_.products_come_cheap()) {
+            Vector output;
+            model_.simulate(next, output, nullptr);
+            if (!((y_ - output).squaredNorm() <= squares)) return std::nullopt;
+            return model_.products(next, y_);
+        }
+        OutputErrorProducts sums = model_.products(next, y_);
+        if (!(sums.squares <= squares)) return std::nullopt;
+        return sums;
+    }
+
     // One accepted step; returns the largest relative change, or -1 when no damping helps.
     double improve() {
-        Vector output;
         while (damping_ <= kLargestDamping) {
             const Vector next = candidate();
             const double change = relative_change(next);
             used_damping_ = damping_;
             if (next.allFinite()) {
-                model_.simulate(next, output, nullptr);
-                const double square_sum = (y_ - output).squaredNorm();
                 // Close to the solution the decrease drowns in rounding, and the step is right all the same.
-                if (square_sum <= square_sum_ * (1 + 1e-12) + rounding_) {
+                const double limit = square_sum_ * (1 + 1e-12) + rounding_;
+                if (const std::optional<OutputErrorProducts> sums = products_below(limit, next)) {
                     theta_ = next;
-                    evaluate_here();
+                    set_products(*sums);
                     damping_ = std::max(kLeastDamping, damping_ / 10);
                     return change;
                 }
@@ -127,26 +139,31 @@ class Search {
             if (!held_[static_cast<std::size_t>(i)]) free.push_back(i);
         result.theta = theta_;
         result.at_bound = held_;
-        result.output = output_;
         result.loss = square_sum_ / samples();
         result.noise_variance = square_sum_ / (samples() - static_cast<double>(free.size()));
-        result.covariance = Matrix::Zero(count, count);
-        if (!free.empty() && sensitivities_.allFinite()) {
-            const LeastSquares fit = solve_least_squares(sensitivities_(Eigen::all, free), residuals_);
-            result.covariance(free, free) = result.noise_variance * fit.inverse_gram;
-            result.condition_number = fit.condition_number;
-        }
+        set_uncertainty(result, free);
         result.termination = termination;
         result.trace = trace_;
         return result;
+    }
+
+    void set_uncertainty(OutputErrorSolution& result, const std::vector<Index>& free) const {
+        const Index count = theta_.size();
+        result.covariance = Matrix::Zero(count, count);
+        model_.simulate(theta_, result.output, nullptr);
+        const Matrix gram = scale_.asDiagonal() * gram_ * scale_.asDiagonal();
+        const SensitivityPrecision precision = sensitivity_precision(model_, theta_, gram, free);
+        if (precision.inverse_gram.size() == 0) return;
+        result.covariance(free, free) = result.noise_variance * precision.inverse_gram;
+        result.condition_number = precision.condition_number;
     }
 
     const OutputErrorModel& model_;
     const VectorView& y_;
     const OutputErrorOptions& options_;
     double spread_ = 0, rounding_ = 0, square_sum_ = 0, damping_ = kFirstDamping, used_damping_ = 0;
-    Vector theta_, output_, residuals_, scale_, descent_;
-    Matrix sensitivities_, gram_;
+    Vector theta_, scale_, descent_;
+    Matrix gram_;  // of the sensitivities with their columns scaled to norm one
     std::vector<bool> held_;
     std::vector<OutputErrorIteration> trace_;
 };
@@ -162,6 +179,28 @@ void OutputErrorOptions::validate() const {
     else
         return;
     throw InvalidArgument(text.str());
+}
+
+SensitivityPrecision sensitivity_precision(const OutputErrorModel& model, const Vector& theta, const Matrix& gram,
+                                           const std::vector<Index>& free) {
+    constexpr double kGramLimit = 1e3;
+    if (free.empty() || !gram.allFinite()) return {};
+    Vector lengths = gram.diagonal()(free).cwiseSqrt();
+    for (double& value : lengths)
+        if (!(value > 0)) value = 1;
+    const Matrix unscale = lengths.cwiseInverse().asDiagonal();
+    const auto [values, vectors] = symmetric_eigen(unscale * gram(free, free) * unscale);
+    const double condition = std::sqrt(values[values.size() - 1] / std::max(values[0], 1e-300));
+    if (condition < kGramLimit) {
+        const Matrix V = unscale * vectors;
+        return {V * values.cwiseInverse().asDiagonal() * V.transpose(), condition};
+    }
+    Vector output;
+    Matrix sensitivities;
+    model.simulate(theta, output, &sensitivities);
+    if (!sensitivities.allFinite()) return {};
+    const LeastSquares fit = solve_least_squares(sensitivities(Eigen::all, free), Vector::Zero(output.size()));
+    return {fit.inverse_gram, fit.condition_number};
 }
 
 OutputErrorSolution minimise_output_error(const OutputErrorModel& model, const VectorView& y, const Vector& start,

@@ -37,6 +37,16 @@ struct OutputErrorSolution {
     std::vector<OutputErrorIteration> trace;
 };
 
+/// What the sensitivities J at `theta` tell of the precision of the parameters `free`: by the sums of products while
+/// these keep enough digits (a condition number below 1e3), otherwise by the QR decomposition of J itself. Without
+/// meaning, an empty matrix, where J is not finite or nothing is free.
+struct SensitivityPrecision {
+    Matrix inverse_gram;          ///< (J'J)^-1 of the free parameters
+    double condition_number = 0;  ///< of J with its columns scaled to norm one
+};
+SensitivityPrecision sensitivity_precision(const OutputErrorModel& model, const Vector& theta, const Matrix& gram,
+                                           const std::vector<Index>& free);
+
 /// Minimises |y - output(theta)|^2 within the bounds by damped Gauss-Newton (Levenberg-Marquardt with the columns of
 /// the sensitivities scaled to norm one, More 1978); a parameter at a bound is held while the descent direction
 /// points outwards, and steps are cut back at the bounds. It has converged when every parameter changes by

@@ -64,14 +64,62 @@ Vector PredictionModel::past_output(std::size_t experiment, Index lag) const {
     return late;
 }
 
+ArmaNoise PredictionModel::noise_at(const Vector& theta) const {
+    ArmaNoise noise = ArmaNoise::white(orders_.nc, orders_.nd);
+    noise.C = monic(theta.segment(orders_.c_place(), orders_.nc));
+    noise.D = monic(theta.segment(orders_.d_place(), orders_.nd));
+    return noise;
+}
+
+bool PredictionModel::possible(const Vector& theta, const ArmaNoise& noise) const {
+    return theta.allFinite() && inside_unit_circle(noise.C) && inside_unit_circle(noise.D);
+}
+
+/// w = A y - driven for every sample of an experiment, y zero before it; `driven` as DiscreteOutput gives it.
+Vector PredictionModel::equation_errors(const Vector& theta, std::size_t experiment, const Vector& driven) const {
+    const Vector& y = experiments_[experiment].y;
+    Vector w = y - driven;
+    for (Index i = 1; i <= std::min<Index>(orders_.na, y.size()); ++i)
+        w.tail(y.size() - i) += theta[i - 1] * y.head(y.size() - i);
+    return w;
+}
+
+OutputErrorProducts PredictionModel::products(const Vector& theta, const VectorView&) const {
+    const Index d = parameter_count(), na = orders_.na, count = dynamic_count();
+    OutputErrorProducts sums{kNaN, Matrix::Zero(d, d), Vector::Constant(d, kNaN)};
+    const ArmaNoise noise = noise_at(theta);
+    if (!possible(theta, noise)) return sums;
+    sums.squares = 0;
+    sums.descent.setZero();
+    const Vector driven_theta = driven_parameters(theta);
+    for (std::size_t e = 0; e < experiments_.size(); ++e) {
+        const Vector& y = experiments_[e].y;
+        const Index first = driven_.head() + blind_, rows = y.size() - first;
+        if (rows <= orders_.nd) continue;
+        const DrivenSignals driven = driven_.driven(driven_theta, e, true);
+        const Vector w = equation_errors(theta, e, driven.output);
+        std::vector<LateColumn> columns = driven.columns;
+        std::vector<Index> places;
+        for (const Index place : driven.places)
+            places.push_back(place < count ? na + place : place - count + orders_.parameter_count());
+        for (Index i = 1; i <= na; ++i) {
+            columns.push_back({y, i, -1, 0});
+            places.push_back(i - 1);
+        }
+        places.push_back(-1);
+        for (Index j = 0; j < orders_.nc; ++j) places.push_back(orders_.c_place() + j);
+        for (Index i = 0; i < orders_.nd; ++i) places.push_back(orders_.d_place() + i);
+        add_to(sums, filtered_products(columns, {w, 0, 1, 0}, first, rows, noise.C, noise.D), places);
+    }
+    return sums;
+}
+
 void PredictionModel::simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const {
     output = target();
     const Index na = orders_.na, nc = orders_.nc, nd = orders_.nd, count = dynamic_count();
     if (sensitivities != nullptr) *sensitivities = Matrix::Zero(output.size(), parameter_count());
-    ArmaNoise noise = ArmaNoise::white(orders_.nc, orders_.nd);
-    noise.C = monic(theta.segment(orders_.c_place(), nc));
-    noise.D = monic(theta.segment(orders_.d_place(), nd));
-    if (!theta.allFinite() || !inside_unit_circle(noise.C) || !inside_unit_circle(noise.D)) {
+    const ArmaNoise noise = noise_at(theta);
+    if (!possible(theta, noise)) {
         output.setConstant(std::numeric_limits<double>::quiet_NaN());
         return;
     }

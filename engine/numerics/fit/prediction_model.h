@@ -25,6 +25,8 @@ class PredictionModel : public OutputErrorModel {
     const Vector& lower() const override { return lower_; }
     const Vector& upper() const override { return upper_; }
     void simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const override;
+    OutputErrorProducts products(const Vector& theta, const VectorView& y) const override;
+    bool products_come_cheap() const override { return true; }
 
     Vector target() const;               ///< measured outputs, in the rows of the prediction
     std::vector<Index> lengths() const;  ///< rows of each experiment
@@ -40,6 +42,9 @@ class PredictionModel : public OutputErrorModel {
   private:
     Index dynamic_count() const { return orders_.c_place() - orders_.na; }  // coefficients of all F and B
     Index skipped() const { return blind_ + orders_.nd; }
+    ArmaNoise noise_at(const Vector& theta) const;
+    bool possible(const Vector& theta, const ArmaNoise& noise) const;
+    Vector equation_errors(const Vector& theta, std::size_t experiment, const Vector& driven) const;
     Vector driven_parameters(const Vector& theta) const;
     Vector past_output(std::size_t experiment, Index lag) const;
 

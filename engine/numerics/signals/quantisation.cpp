@@ -6,9 +6,36 @@
 
 namespace dynlab::inline numerics {
 
-Quantisation quantisation_of(const VectorView& x) {
+namespace {
+
+/// The samples in rising order: first into many narrow ranges of values, then within each.
+std::vector<double> sorted_values(const VectorView& x) {
+    constexpr Index kTogether = 64;  // samples in a range, were they spread evenly
     std::vector<double> values(x.begin(), x.end());
-    std::sort(values.begin(), values.end());
+    const Index ranges = x.size() / kTogether;
+    const double least = ranges > 1 ? x.minCoeff() : 0, width = ranges > 1 ? x.maxCoeff() - least : 0;
+    if (!(width > 0) || !std::isfinite(width)) {
+        std::sort(values.begin(), values.end());
+        return values;
+    }
+    const auto range_of = [&](double value) {
+        return static_cast<std::size_t>((value - least) / width * static_cast<double>(ranges - 1));
+    };
+    std::vector<std::size_t> ends(static_cast<std::size_t>(ranges) + 1, 0);
+    for (const double value : x) ++ends[range_of(value) + 1];
+    for (std::size_t i = 1; i < ends.size(); ++i) ends[i] += ends[i - 1];
+    std::vector<std::size_t> next(ends.begin(), ends.end() - 1);
+    for (const double value : x) values[next[range_of(value)]++] = value;
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i)
+        std::sort(values.begin() + static_cast<std::ptrdiff_t>(ends[i]),
+                  values.begin() + static_cast<std::ptrdiff_t>(ends[i + 1]));
+    return values;
+}
+
+}  // namespace
+
+Quantisation quantisation_of(const VectorView& x) {
+    std::vector<double> values = sorted_values(x);
     const double range = values.empty() ? 0 : values.back() - values.front();
     const auto equal = [range](double a, double b) { return b - a <= 1e-9 * range; };
     values.erase(std::unique(values.begin(), values.end(), equal), values.end());

@@ -21,54 +21,58 @@ std::vector<Segment> stretches_of(const std::vector<Index>& places) {
     return joined(std::move(single));
 }
 
-/// Straight lines over the samples that are not good.
-RepairedSignal bridged(const VectorView& x, const Vector& t, const std::vector<bool>& good) {
+/// Straight lines over the samples that are not good, between their good neighbours; `t` may be empty for regular ones.
+RepairedSignal bridged(const VectorView& x, const VectorView& t, const std::vector<bool>& good) {
     RepairedSignal result{x, {}, {}};
-    std::vector<double> known_t, known_x;
-    for (Index k = 0; k < x.size(); ++k) {
-        if (!good[static_cast<std::size_t>(k)]) {
+    const Index N = x.size();
+    const auto is_good = [&good](Index k) { return good[static_cast<std::size_t>(k)]; };
+    const auto instant = [&t](Index k) { return t.size() > 0 ? t[k] : static_cast<double>(k); };
+    for (Index k = 0; k < N; ++k) {
+        if (is_good(k)) continue;
+        Index after = k;
+        while (after < N && !is_good(after)) ++after;
+        const Index before = k - 1;
+        for (; k < after; ++k) {
             result.replaced.push_back(k + 1);
-            continue;
+            double& value = result.signal[k];
+            if (before < 0)
+                value = x[after];
+            else if (after == N)
+                value = x[before];
+            else
+                value = x[before] +
+                        (x[after] - x[before]) * (instant(k) - instant(before)) / (instant(after) - instant(before));
         }
-        known_t.push_back(t[k]);
-        known_x.push_back(x[k]);
-    }
-    for (const Index place : result.replaced) {
-        const double at = t[place - 1];
-        const auto after = std::upper_bound(known_t.begin(), known_t.end(), at);
-        const auto i = static_cast<std::size_t>(after - known_t.begin());
-        double& value = result.signal[place - 1];
-        if (i == 0)
-            value = known_x.front();
-        else if (i == known_t.size())
-            value = known_x.back();
-        else
-            value =
-                known_x[i - 1] + (known_x[i] - known_x[i - 1]) * (at - known_t[i - 1]) / (known_t[i] - known_t[i - 1]);
     }
     result.stretches = stretches_of(result.replaced);
     return result;
 }
 
-Vector counted(Index count) {
-    return Vector::LinSpaced(count, 1, static_cast<double>(count));
-}
+/// Hampel's question for one sample.
+class MovingMedian {
+  public:
+    MovingMedian(const VectorView& x, Index half) : x_(x), half_(half) {}
 
-/// Median of the window around every sample, and the median distance from it; windows are cut at the ends.
-void moving_medians(const VectorView& x, Index half, Vector& centre, Vector& spread) {
-    const Index N = x.size();
-    centre.resize(N), spread.resize(N);
-    std::vector<double> window;
-    for (Index k = 0; k < N; ++k) {
-        const Index reach = std::min({half, k, N - 1 - k});  // a one-sided window would suspect every slope
+    /// Whether sample k lies within `allowed` of the median of the window around it, or within `threshold` times the
+    /// scatter in the window and `rounding`. Windows are cut at the ends. What no median is needed for comes first.
+    bool accepts(Index k, double allowed, double threshold, double rounding) {
+        const Index N = x_.size(), reach = std::min({half_, k, N - 1 - k});  // one-sided windows would suspect slopes
         const Index first = reach > 0 ? k - reach : k == 0 ? 0 : std::max<Index>(N - 3, 0);
         const Index last = reach > 0 ? k + reach : std::min(first + 2, N - 1);
-        window.assign(x.begin() + first, x.begin() + last + 1);
-        centre[k] = median(window);
-        for (double& value : window) value = std::abs(value - centre[k]);
-        spread[k] = median(window);
+        const auto [least, largest] = std::minmax_element(x_.data() + first, x_.data() + last + 1);
+        if (*largest - *least <= allowed) return true;
+        window_.assign(x_.data() + first, x_.data() + last + 1);
+        const double centre = median(window_), distance = std::abs(x_[k] - centre);
+        if (distance <= allowed) return true;
+        for (double& value : window_) value = std::abs(value - centre);
+        return distance <= threshold * kNormal * median(window_) + rounding;
     }
-}
+
+  private:
+    const VectorView& x_;
+    Index half_;
+    std::vector<double> window_;
+};
 
 }  // namespace
 
@@ -81,7 +85,7 @@ RepairedSignal fill_missing(const VectorView& x, const VectorView& t, Index long
     for (Index k = 0; k < x.size(); ++k) good[static_cast<std::size_t>(k)] = std::isfinite(x[k]);
     if (std::find(good.begin(), good.end(), true) == good.end())
         throw InvalidArgument("fillmissing: the signal has no sample that is a number");
-    RepairedSignal result = bridged(x, t.size() > 0 ? Vector(t) : counted(x.size()), good);
+    RepairedSignal result = bridged(x, t, good);
     for (const auto& [first, last] : result.stretches)
         if (last - first + 1 > longest)
             throw InvalidArgument("fillmissing: samples " + std::to_string(first) + " to " + std::to_string(last) +
@@ -104,16 +108,14 @@ void OutlierOptions::validate() const {
 RepairedSignal replace_outliers(const VectorView& x, const OutlierOptions& options) {
     options.validate();
     check_samples("filloutliers", "the signal", x);
-    Vector centre, spread;
-    moving_medians(x, options.window / 2, centre, spread);
-    const Vector distance = (x - centre).cwiseAbs();
     const double scatter = noise_from_differences(x);
     const double rounding = 1.5 * quantisation_of(x).step + 1e-9 * (x.maxCoeff() - x.minCoeff());
     std::vector<bool> good(static_cast<std::size_t>(x.size()));
+    const double allowed = options.threshold * scatter + rounding;
+    MovingMedian around(x, options.window / 2);
     for (Index k = 0; k < x.size(); ++k)
-        good[static_cast<std::size_t>(k)] =
-            distance[k] <= options.threshold * std::max(scatter, kNormal * spread[k]) + rounding;
-    return bridged(x, counted(x.size()), good);
+        good[static_cast<std::size_t>(k)] = around.accepts(k, allowed, options.threshold, rounding);
+    return bridged(x, Vector(), good);
 }
 
 }  // namespace dynlab::inline numerics

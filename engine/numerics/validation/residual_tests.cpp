@@ -1,5 +1,8 @@
 #include "numerics/validation/residual_tests.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
 #include <cmath>
 #include <limits>
 
@@ -95,13 +98,12 @@ WhitenessTest test_whiteness(const Signals& e, const VectorView& R, double confi
 // construction, and as exact as the autocorrelations allow.
 Vector product_covariances(const Signals& e, const Signals& u, Index lags) {
     const Index reach = longest(e) / 4;
-    const Vector Re = covariances(e, e, reach), Ru = covariances(u, u, reach + lags);
-    Vector g = Vector::Zero(lags + 1);
-    for (Index h = 0; h <= lags; ++h)
-        for (Index k = -reach; k <= reach; ++k) {
-            const double weight = 1 - static_cast<double>(std::abs(k)) / static_cast<double>(reach + 1);
-            g[h] += weight * Re[reach + k] * Ru[reach + lags + k + h];
-        }
+    Vector Re, Ru;
+    tbb::parallel_invoke([&] { Re = covariances(e, e, reach); }, [&] { Ru = covariances(u, u, reach + lags); });
+    for (Index k = -reach; k <= reach; ++k)
+        Re[reach + k] *= 1 - static_cast<double>(std::abs(k)) / static_cast<double>(reach + 1);
+    Vector g(lags + 1);
+    for (Index h = 0; h <= lags; ++h) g[h] = Re.dot(Ru.segment(lags + h, 2 * reach + 1));
     return g;
 }
 
@@ -155,15 +157,40 @@ std::string independence_verdict(const IndependenceTest& test, const IdData& dat
     return name + " explains nothing more of it (" + probability_text(test.p_value) + ").";
 }
 
+// An input, its covariances at lags 0 and on, and those with the error at lags of both signs.
+struct TestedInput {
+    Signals u;
+    Vector own, with_error;
+};
+
+// Of all inputs, and R, the covariances of e at lags 0 and on: two dozen passes over the record each, side by side.
+std::vector<TestedInput> tested_inputs(const Signals& e, const IdData& data, Index lags, Vector& R) {
+    std::vector<TestedInput> inputs(static_cast<std::size_t>(data.input_count()));
+    for (std::size_t j = 0; j < inputs.size(); ++j)
+        for (const Experiment& experiment : data.experiments)
+            inputs[j].u.push_back(centred(experiment.u.col(static_cast<Index>(j))));
+    tbb::parallel_for(std::size_t{0}, 2 * inputs.size() + 1, [&](std::size_t i) {
+        if (i == 0) {
+            R = covariances(e, e, lags).tail(lags + 1);
+            return;
+        }
+        TestedInput& input = inputs[(i - 1) / 2];
+        if (i % 2 == 1)
+            input.own = covariances(input.u, input.u, lags).tail(lags + 1);
+        else
+            input.with_error = covariances(e, input.u, lags);
+    });
+    return inputs;
+}
+
 // `variance` is that of e.
-IndependenceTest test_independence(const Signals& e, double variance, const Signals& u, const IdData& data, Index input,
-                                   bool white, const ResidualOptions& options) {
+IndependenceTest test_independence(const Signals& e, double variance, const TestedInput& tested, const IdData& data,
+                                   Index input, bool white, const ResidualOptions& options) {
     const Index lags = options.lags;
     const double N = sample_count(e);
     IndependenceTest test;
     test.input = input;
-    const Vector input_covariances = covariances(u, u, lags).tail(lags + 1);
-    const double Re = variance, Ru = input_covariances[0];
+    const double Re = variance, Ru = tested.own[0];
     if (Ru == 0) {
         test.tested = false;
         test.correlation = Vector::Zero(2 * lags + 1);
@@ -171,8 +198,8 @@ IndependenceTest test_independence(const Signals& e, double variance, const Sign
                        " never changes, so that its correlation with the error says nothing.";
         return test;
     }
-    const Vector r = covariances(e, u, lags),
-                 g = white ? Vector(Re * input_covariances) : product_covariances(e, u, lags);
+    const Vector& r = tested.with_error;
+    const Vector g = white ? Vector(Re * tested.own) : product_covariances(e, tested.u, lags);
     test.correlation = r / std::sqrt(Re * Ru);
     test.bound = normal_half_width(options.confidence) * std::sqrt(g[0] / (N * Re * Ru));
     test.outside = (test.correlation.tail(lags + 1).cwiseAbs().array() > test.bound).count();
@@ -214,7 +241,8 @@ OutputResiduals test_output(const std::vector<Matrix>& errors, const IdData& dat
         result.mean += errors[k].col(output).sum() / N;
         output_power += data.experiments[k].y.col(output).squaredNorm() / N;
     }
-    const Vector R = covariances(e, e, options.lags).tail(options.lags + 1);
+    Vector R;
+    const std::vector<TestedInput> inputs = tested_inputs(e, data, options.lags, R);
     result.variance = R[0];
     const std::string name = data.output_names[static_cast<std::size_t>(output)];
     constexpr double kRounding = 1e4 * std::numeric_limits<double>::epsilon();
@@ -227,9 +255,8 @@ OutputResiduals test_output(const std::vector<Matrix>& errors, const IdData& dat
     result.whiteness = test_whiteness(e, R, options.confidence);
     result.verdict = name + ": " + result.whiteness.verdict;
     for (Index j = 0; j < data.input_count(); ++j) {
-        Signals u;
-        for (const Experiment& experiment : data.experiments) u.push_back(centred(experiment.u.col(j)));
-        result.inputs.push_back(test_independence(e, R[0], u, data, j, result.whiteness.white, options));
+        const TestedInput& tested = inputs[static_cast<std::size_t>(j)];
+        result.inputs.push_back(test_independence(e, R[0], tested, data, j, result.whiteness.white, options));
         result.verdict += " " + result.inputs.back().verdict;
     }
     result.verdict += " " + conclusion(result);

@@ -192,24 +192,42 @@ void find_degrees(const Channel& channel, std::vector<RecordFinding>& findings) 
 
 /// First lag at which the autocorrelation has fallen to one half.
 Index half_correlation(const Vector& x, Index most) {
-    const Vector r = lagged_products(x, x, most).tail(most + 1);
-    for (Index lag = 1; lag <= most; ++lag)
-        if (r[lag] < 0.5 * r[0]) return lag;
-    return most;
+    for (Index reach = std::min<Index>(64, most);; reach = std::min(8 * reach, most)) {
+        const Vector r = lagged_products(x, x, reach).tail(reach + 1);
+        for (Index lag = 1; lag <= reach; ++lag)
+            if (r[lag] < 0.5 * r[0]) return lag;
+        if (reach == most) return most;
+    }
+}
+
+/// The sums of products of `order` copies of u, each `shift` samples later than the one before, over `rows` samples:
+/// those of a copy with another differ from those of the two before them by what enters and what leaves.
+Matrix products_of_copies(const Vector& u, Index shift, Index order, Index rows) {
+    Matrix G(order, order);
+    for (Index j = 0; j < order; ++j) G(0, j) = G(j, 0) = u.head(rows).dot(u.segment(j * shift, rows));
+    for (Index i = 1; i < order; ++i)
+        for (Index j = i; j < order; ++j) {
+            const auto piece = [&](Index copy, Index first) { return u.segment(copy * shift + first, shift); };
+            G(i, j) = G(j, i) =
+                G(i - 1, j - 1) - piece(i - 1, 0).dot(piece(j - 1, 0)) + piece(i - 1, rows).dot(piece(j - 1, rows));
+        }
+    return G;
 }
 
 /// Rank of the input's shifted copies, shifts as far apart as the input takes to change: how many parameters of a
 /// model it can determine.
-Index excitation_order(const Vector& u) {
-    const Index N = u.size(), shift = half_correlation(u.array() - u.mean(), std::max<Index>(N / 20, 1));
+Index excitation_order(const Vector& input) {
+    const Vector u = input.array() - input.mean();
+    const Index N = u.size(), shift = half_correlation(u, std::max<Index>(N / 20, 1));
     const Index order = std::min(kHighestExcitation, N / (2 * shift));
     if (order < 1) return 1;
     const Index rows = N - (order - 1) * shift;
-    Matrix copies(rows, order);
-    for (Index i = 0; i < order; ++i) copies.col(i) = u.segment(i * shift, rows);
-    copies.rowwise() -= copies.colwise().mean().eval();
-    const Vector singular = singular_values(triangular_part(copies));
-    return (singular.array() > kExcited * singular[0]).count();
+    Vector means(order);
+    for (Index i = 0; i < order; ++i) means[i] = u.segment(i * shift, rows).mean();
+    const Matrix centred =
+        products_of_copies(u, shift, order, rows) - static_cast<double>(rows) * means * means.transpose();
+    const Vector squares = symmetric_eigenvalues(centred);
+    return (squares.array() > kExcited * kExcited * squares[order - 1]).count();
 }
 
 Index changes_of(const Vector& u) {

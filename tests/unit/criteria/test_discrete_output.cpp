@@ -107,21 +107,56 @@ TEST(discrete_output, initial_values_hold_any_past) {  // oracle: a record cut f
     EXPECT_LT((motions * values - error).norm(), 1e-10);
 }
 
-TEST(discrete_output, regressors_hold_the_measured_output) {  // oracle: the filtered signals, one input
-    const PolynomialOrders orders = PolynomialOrders::output_error({1}, {2}, {2});
-    const Vector theta{{-1.3, 0.6, 2}};
-    const Vector u = random_levels(40, 3, 1), y = RandomStream(2).normal(40);
-    const std::vector<SampledExperiment> list{{u, y}};
+/// Oracle: Psi and Phi written out, from the filtered signals of each experiment; two inputs.
+TEST(discrete_output, instrument_products_are_those_of_the_filtered_signals) {
+    const PolynomialOrders orders = PolynomialOrders::output_error({1, 2}, {2, 1}, {2, 1});
+    const Vector theta{{-1.3, 0.6, -0.4, 2, 1, -0.5}};
+    std::vector<SampledExperiment> list;
+    for (const Index N : {40, 700}) {
+        Matrix u(N, 2);
+        u << random_levels(N, 3, 1), random_levels(N, 2, 4);
+        list.push_back({u, RandomStream(2).normal(N)});
+    }
     const DiscreteOutput model(orders, {InitialState::kZero, false}, list);
-    Vector output;
-    Matrix sensitivities, Phi;
-    model.simulate(theta, output, &sensitivities);
-    model.regressors(theta, sensitivities, y - output, Phi);
-    const Vector F{{1, -1.3, 0.6}}, y_filtered = divided_by(F, y), u_filtered = divided_by(F, u);
-    EXPECT_LT(worst(Phi.col(0), weighted_past(Vector{{0, -1}}, y_filtered)), 1e-12);
-    EXPECT_LT(worst(Phi.col(1), weighted_past(Vector{{0, 0, -1}}, y_filtered)), 1e-12);
-    EXPECT_LT(worst(Phi.col(2), weighted_past(Vector{{0, 0, 1}}, u_filtered)), 1e-12);
-    EXPECT_LT(worst(y - output, y_filtered - Phi * theta), 1e-12);
+    Matrix psi_psi = Matrix::Zero(6, 6), psi_phi = psi_psi, phi_phi = psi_psi;
+    Vector psi_e = Vector::Zero(6), phi_e = psi_e;
+    double squares = 0;
+    const Vector F[2] = {Vector{{1, -1.3, 0.6}}, Vector{{1, -0.4}}}, B[2] = {Vector{{0, 0, 2}}, Vector{{0, 1, -0.5}}};
+    for (const SampledExperiment& one : list) {
+        Matrix Psi(one.y.size(), 6), Phi = Psi;
+        Vector x[2], e = one.y;
+        for (Index i : {0, 1}) {
+            x[i] = weighted_past(B[i], divided_by(F[i], one.u.col(i)));
+            e -= x[i];
+        }
+        const auto fill = [&](Matrix& M, const Vector& first, const Vector& second) {
+            M.col(0) = weighted_past(Vector{{0, -1}}, divided_by(F[0], first));
+            M.col(1) = weighted_past(Vector{{0, 0, -1}}, divided_by(F[0], first));
+            M.col(2) = weighted_past(Vector{{0, -1}}, divided_by(F[1], second));
+            M.col(3) = weighted_past(Vector{{0, 0, 1}}, divided_by(F[0], one.u.col(0)));
+            M.col(4) = weighted_past(Vector{{0, 1}}, divided_by(F[1], one.u.col(1)));
+            M.col(5) = weighted_past(Vector{{0, 0, 1}}, divided_by(F[1], one.u.col(1)));
+        };
+        fill(Psi, x[0], x[1]);
+        fill(Phi, x[0] + e, x[1] + e);  // what is measured of each output, once the other is taken off
+        psi_psi += Psi.transpose() * Psi;
+        psi_phi += Psi.transpose() * Phi;
+        phi_phi += Phi.transpose() * Phi;
+        psi_e += Psi.transpose() * e;
+        phi_e += Phi.transpose() * e;
+        squares += e.squaredNorm();
+    }
+    const auto order = std::vector<Index>{orders.f_place(0), orders.f_place(0) + 1, orders.f_place(1),
+                                          orders.b_place(0), orders.b_place(1),     orders.b_place(1) + 1};
+    Vector placed(6);
+    placed(order) = theta;
+    const InstrumentProducts products = model.instrument_products(placed, model.target());
+    EXPECT_NEAR(products.squares, squares, 1e-10 * squares);
+    EXPECT_LT((Matrix(products.psi_psi(order, order)) - psi_psi).norm(), 1e-11 * psi_psi.norm());
+    EXPECT_LT((Matrix(products.psi_phi(order, order)) - psi_phi).norm(), 1e-11 * psi_phi.norm());
+    EXPECT_LT((Matrix(products.phi_phi(order, order)) - phi_phi).norm(), 1e-11 * phi_phi.norm());
+    EXPECT_LT((Vector(products.psi_e(order)) - psi_e).norm(), 1e-11 * std::sqrt(psi_psi.norm() * squares));
+    EXPECT_LT((Vector(products.phi_e(order)) - phi_e).norm(), 1e-11 * std::sqrt(phi_phi.norm() * squares));
 }
 
 TEST(discrete_output, poles_are_mirrored) {  // oracle: definition

@@ -11,6 +11,7 @@
 
 #include "data_io/mat_variable.h"
 #include "numerics/error.h"
+#include "numerics/signals/random.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/temporary_folder.h"
@@ -66,6 +67,29 @@ TEST_F(mat_file, reads_back_what_it_wrote) {
     write_mat_file(file_, sample_variables());
     EXPECT_TRUE(equal(read_mat_file(file_), sample_variables()));
     EXPECT_TRUE(equal(read_mat_file(file_, false), sample_variables()));
+}
+
+/// Oracle: libmatio, which reads what was not written by it; the sizes that deflating must and cannot give.
+TEST_F(mat_file, compresses_large_arrays_where_it_pays) {
+    constexpr Index kCount = 600000;
+    Vector steps(kCount);
+    for (Index k = 0; k < kCount; ++k) steps[k] = static_cast<double>((k / 20) % 7);
+    const Vector noise = RandomStream(1).normal(kCount);
+    const std::size_t plain = 8 * static_cast<std::size_t>(kCount);
+    const auto table = std::make_shared<VariableTable>(VariableTable{{"u", {steps}}, {"text", {std::string("a")}}});
+    const std::vector<std::pair<VariableTable, bool>> cases = {{{{"steps", {steps}}}, true},
+                                                               {{{"noise", {noise}}}, false},
+                                                               {{{"run", {table}}}, true},
+                                                               {{{"steps", {steps}}, {"z", {1.5}}}, true}};
+    for (const auto& [variables, shrinks] : cases) {
+        write_mat_file(file_, variables);
+        EXPECT_TRUE(equal(read_mat_file(file_), variables));
+        const std::size_t size = std::filesystem::file_size(file_);
+        EXPECT_EQ(size < plain / 10, shrinks) << size;
+        EXPECT_LT(size, plain + 1000);
+    }
+    write_mat_file(file_, {{"a", {noise}}, {"b", {steps}}, {"c", {noise}}});
+    EXPECT_TRUE(equal(read_mat_file(file_), {{"a", {noise}}, {"b", {steps}}, {"c", {noise}}}));
 }
 
 TEST_F(mat_file, reads_every_version) {

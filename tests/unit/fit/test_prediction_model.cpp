@@ -55,6 +55,20 @@ TEST(prediction_model, sensitivities_are_those_of_its_output) {  // oracle: cent
     }
 }
 
+TEST(prediction_model, products_are_those_of_its_sensitivities) {  // oracle: second route, the stored sensitivities
+    const auto experiments = records(0.3);
+    for (const StartCondition& condition : kConditions) {
+        const PredictionModel model(full_orders(), condition, experiments);
+        Vector theta = Vector::Constant(model.parameter_count(), 0.2);
+        theta.head(kTheta.size()) = kTheta;
+        const Vector y = model.target();
+        const OutputErrorProducts fast = model.products(theta, y), plain = model.OutputErrorModel::products(theta, y);
+        EXPECT_NEAR(fast.squares, plain.squares, 1e-11 * plain.squares);
+        EXPECT_LT((fast.gram - plain.gram).norm(), 1e-11 * plain.gram.norm());
+        EXPECT_LT((fast.descent - plain.descent).norm(), 1e-11 * std::sqrt(plain.squares * plain.gram.norm()));
+    }
+}
+
 TEST(prediction_model, errors_are_the_noise_that_went_in) {  // oracle: the simulated noise, once the start has decayed
     const auto experiments = records(0.3);
     const PredictionModel model(full_orders(), {InitialState::kZero, false}, experiments);

@@ -1,0 +1,95 @@
+#include "data_io/mat_compression.h"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "platform/atomic_file.h"
+#include "platform/error.h"
+
+namespace dynlab::inline data_io {
+namespace {
+
+constexpr std::size_t kFileHeader = 128, kElementTag = 8;
+constexpr std::uint32_t kPlainElement = 14, kDeflatedElement = 15;
+constexpr std::size_t kLargeElement = std::size_t{1} << 22;  // bytes from which the choice is made
+constexpr std::size_t kTrial = std::size_t{1} << 16;         // bytes from the middle that tell how well it goes
+constexpr double kWorthwhile = 6.0 / 7;                      // of the bytes that may be left
+
+struct ElementTag {
+    std::uint32_t type = 0, bytes = 0;
+};
+
+ElementTag tag_at(std::string_view content, std::size_t place) {
+    ElementTag tag;
+    std::memcpy(&tag, content.data() + place, sizeof tag);
+    return tag;
+}
+
+std::string deflated(std::string_view bytes) {
+    std::string packed(compressBound(bytes.size()), '\0');
+    uLongf size = packed.size();
+    const auto* source = reinterpret_cast<const Bytef*>(bytes.data());
+    if (compress2(reinterpret_cast<Bytef*>(packed.data()), &size, source, bytes.size(), Z_BEST_SPEED) != Z_OK)
+        throw EnvironmentError("cannot compress a MATLAB variable: not enough memory");
+    packed.resize(size);
+    return packed;
+}
+
+bool shrinks(std::string_view element) {
+    const std::string_view part = element.substr(element.size() / 2, kTrial);
+    return static_cast<double>(deflated(part).size()) < kWorthwhile * static_cast<double>(part.size());
+}
+
+/// A variable as it goes into the new file: its old bytes, or the deflated stream in their place.
+struct Piece {
+    std::string_view plain;
+    std::string stream;
+};
+
+std::vector<Piece> pieces_of(std::string_view content) {
+    std::vector<Piece> pieces;
+    for (std::size_t at = kFileHeader; at + kElementTag <= content.size();) {
+        const ElementTag tag = tag_at(content, at);
+        const std::string_view element = content.substr(at, kElementTag + tag.bytes);
+        const bool pack = tag.type == kPlainElement && element.size() >= kLargeElement && shrinks(element);
+        pieces.push_back({element, pack ? deflated(element) : std::string()});
+        at += element.size();
+    }
+    return pieces;
+}
+
+void write_piece(std::ofstream& file, const Piece& piece) {
+    if (!piece.stream.empty()) {
+        const ElementTag tag{kDeflatedElement, static_cast<std::uint32_t>(piece.stream.size())};
+        file.write(reinterpret_cast<const char*>(&tag), sizeof tag);
+    }
+    const std::string_view bytes = piece.stream.empty() ? piece.plain : std::string_view(piece.stream);
+    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
+}  // namespace
+
+std::filesystem::path with_quick_compression(const std::filesystem::path& file) {
+    if (std::filesystem::file_size(file) < kLargeElement) return file;
+    const std::string content = read_file(file);
+    const std::vector<Piece> pieces = pieces_of(content);
+    if (std::all_of(pieces.begin(), pieces.end(), [](const Piece& piece) { return piece.stream.empty(); })) return file;
+    std::filesystem::path target = file;
+    target += ".packed";
+    std::ofstream packed(target, std::ios::binary);
+    packed.write(content.data(), kFileHeader);
+    for (const Piece& piece : pieces) write_piece(packed, piece);
+    packed.close();
+    if (!packed) throw EnvironmentError(fmt::format("cannot write {}: is the disk full?", target.string()));
+    return target;
+}
+
+}  // namespace dynlab::inline data_io
