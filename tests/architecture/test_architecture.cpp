@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "numerics/estimators/catalogue.h"
+#include "scripting/arguments/option_words.h"
 #include "scripting/runtime/function_entry.h"
 #include "scripting/runtime/help.h"
 
@@ -146,6 +147,55 @@ TEST(architecture, only_the_renderer_knows_gnuplot_iostream) {
         if (text_of(file).find("#include <gnuplot-iostream.h>") != std::string::npos) users.push_back(place_of(file));
     }
     EXPECT_THAT(users, testing::ElementsAre("engine/figures/gnuplot_renderer.cpp"));
+}
+
+/// The text between the quotes of a source, piece by piece.
+std::vector<std::string> literals_of(const std::string& source) {
+    const std::string code = std::regex_replace(source, std::regex("#include[^\n]*|//[^\n]*"), "");
+    return matches(code, R"rx("((?:[^"\\\n]|\\.)*)")rx");
+}
+
+/// Names of options as scripts write them, MaxIter, of all bindings, but for the field's own symbols.
+std::set<std::string> option_words_of_lua() {
+    const std::set<std::string> symbols = {"Kp", "Td", "Ts", "Tw", "Tz", "Zeta"};
+    std::set<std::string> words;
+    for (const fs::path& file : sources_below(kRoot / "engine/scripting/bind"))
+        for (const std::string& list : matches(text_of(file), R"rx(Options[^;{}]*\(\s*call,[^;{}]*\{([^}]*)\})rx"))
+            for (const std::string& word : matches(list, R"rx("([A-Z][A-Za-z]+)")rx"))
+                if (!symbols.contains(word)) words.insert(word);
+    return words;
+}
+
+// Numerics is a library for C++: its options have names of C++, and messages name them in backticks, for scripting to
+// put in its own words. A type may be called as an option is (InitialState), but no message says so.
+TEST(architecture, numerics_knows_no_option_of_lua) {
+    const std::set<std::string> words = option_words_of_lua();
+    ASSERT_GE(words.size(), 12u);
+    std::set<std::string> types;
+    for (const fs::path& file : sources_below(kRoot / "engine/numerics"))
+        for (const std::string& type : matches(text_of(file), R"((?:enum class|struct|class) ([A-Z]\w*))"))
+            types.insert(type);
+    std::vector<std::string> offences;
+    for (const fs::path& file : sources_below(kRoot / "engine/numerics")) {
+        const std::string text = text_of(file);
+        std::string said;
+        for (const std::string& literal : literals_of(text)) said += literal + "\n";
+        for (const std::string& word : words)
+            if (std::regex_search(types.contains(word) ? said : text, std::regex("\\b" + word + "\\b")))
+                offences.push_back(place_of(file) + " says " + word);
+    }
+    EXPECT_THAT(offences, IsEmpty());
+}
+
+TEST(architecture, scripting_has_a_word_for_every_option_that_messages_name) {
+    const std::vector<std::string> known = dynlab::translated_options();
+    std::set<std::string> unknown, named;
+    for (const fs::path& file : sources_below(kRoot / "engine/numerics"))
+        for (const std::string& literal : literals_of(text_of(file)))
+            for (const std::string& option : matches(literal, "`([a-z_]+)`"))
+                (std::find(known.begin(), known.end(), option) == known.end() ? unknown : named).insert(option);
+    EXPECT_THAT(unknown, IsEmpty());
+    EXPECT_EQ(named.size(), known.size()) << "a word that no message needs";
 }
 
 TEST(architecture, top_level_is_the_fixed_one) {

@@ -47,7 +47,7 @@ Vector ivsvf_theta(const IdData& data) {
 }
 
 Vector srivc_theta(const IdData& data) {
-    TransferOptions options;
+    FitOptions options;
     options.lambda = kCutoff;
     return srivc(data, TransferStructure::single(2, 0), options).theta;
 }

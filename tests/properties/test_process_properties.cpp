@@ -22,7 +22,7 @@ Vector levels(Index N) {
 
 ProcsrivcOptions tight() {
     ProcsrivcOptions options;
-    options.Tol = 1e-11;
+    options.tolerance = 1e-11;
     return options;
 }
 
@@ -55,12 +55,12 @@ Vector growth(const ProcessStructure& structure, double time, double gain) {
     return factor;
 }
 
-void expect_grown(const ProcsrivcResult& grown, const ProcsrivcResult& one, const Vector& factor) {
+void expect_grown(const Fit& grown, const Fit& one, const Vector& factor) {
     EXPECT_LT(relative_difference(grown.theta, one.theta.cwiseProduct(factor)), 1e-7) << grown.message;
     EXPECT_LT(relative_difference(grown.std, one.std.cwiseProduct(factor.cwiseAbs())), 1e-6);
     EXPECT_EQ(grown.start.state, one.start.state);
     EXPECT_EQ(grown.start.offset, one.start.offset);
-    EXPECT_NEAR(grown.fit_percent, one.fit_percent, 1e-7);
+    EXPECT_NEAR(grown.fit_percent[0], one.fit_percent[0], 1e-7);
 }
 
 class process_properties : public testing::TestWithParam<const char*> {
@@ -101,7 +101,7 @@ TEST_P(process_properties, an_earlier_input_is_a_longer_delay) {  // oracle: inv
     if (!structure_.delay) {
         ProcessStructure delayed = structure_;
         delayed.delay = true;
-        known.TdMin = known.TdMax.emplace(static_cast<double>(shift) * kTs);
+        known.least_delay = known.largest_delay.emplace(static_cast<double>(shift) * kTs);
         const auto a = procsrivc(data_, delayed, known), b = procsrivc(IdData(y_, late, kTs), structure_, from_rest());
         EXPECT_LT(relative_difference(a.theta.head(b.theta.size()), b.theta), 1e-7);
         return;

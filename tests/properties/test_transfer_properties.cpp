@@ -12,12 +12,12 @@ namespace test_transfer_properties {
 using namespace dynlab;
 using namespace dynlab::test;
 
-using Method = std::function<TransferEstimate(const IdData&, const TransferStructure&, double time_scale)>;
+using Method = std::function<Fit(const IdData&, const TransferStructure&, double time_scale)>;
 
-TransferOptions refined(double time_scale) {
-    TransferOptions options;
+FitOptions refined(double time_scale) {
+    FitOptions options;
     options.lambda = 3 / time_scale;
-    options.Tol = 1e-10;
+    options.tolerance = 1e-10;
     return options;
 }
 
@@ -34,11 +34,11 @@ SvfOptions moments(double time_scale) {  // as lsgpmf and ivgpmf
 }
 
 // As tfsrivc and tfcoe: default start, initial state and offset estimated.
-TransferOptions everything(double) {
-    TransferOptions options;
+FitOptions everything(double) {
+    FitOptions options;
     options.initial_state = InitialState::kEstimate;
     options.offset = Offset::kEstimate;
-    options.Tol = 1e-10;
+    options.tolerance = 1e-10;
     return options;
 }
 
@@ -66,7 +66,7 @@ constexpr std::size_t kForRegularSampling = 2;  // the last ones
 
 class transfer_properties : public testing::TestWithParam<std::size_t> {
   protected:
-    TransferEstimate estimate(const IdData& data, double time_scale = 1, double delay = 0) const {
+    Fit estimate(const IdData& data, double time_scale = 1, double delay = 0) const {
         return kMethods[GetParam()].second(data, TransferStructure::single(2, 0, delay), time_scale);
     }
     const IdData data_ = course_record(0.2, 21);
@@ -76,9 +76,9 @@ class transfer_properties : public testing::TestWithParam<std::size_t> {
 class irregular_transfer_properties : public transfer_properties {};
 
 TEST_P(transfer_properties, slower_time_scales_the_coefficients) {  // oracle: invariance
-    const TransferEstimate one = estimate(data_);
+    const Fit one = estimate(data_);
     for (const double scale : {1e-6, 1e-3, 60.0, 3600.0}) {
-        const TransferEstimate slow = estimate(IdData(y_, u_, 0.01 * scale), scale);
+        const Fit slow = estimate(IdData(y_, u_, 0.01 * scale), scale);
         const Vector factor = values({1 / scale, 1 / scale / scale, 1 / scale / scale});
         EXPECT_LT(relative_difference(slow.theta, one.theta.cwiseProduct(factor)), 1e-7) << scale;
         EXPECT_LT(relative_difference(slow.std, one.std.cwiseProduct(factor)), 1e-6) << scale;
@@ -86,9 +86,9 @@ TEST_P(transfer_properties, slower_time_scales_the_coefficients) {  // oracle: i
 }
 
 TEST_P(transfer_properties, input_and_output_units_scale_the_numerator) {  // oracle: invariance
-    const TransferEstimate one = estimate(data_);
+    const Fit one = estimate(data_);
     for (const auto& [of_y, of_u] : {std::pair{1e4, 1e-3}, std::pair{-1e-6, 1e6}, std::pair{1e6, 1.0}}) {
-        const TransferEstimate scaled = estimate(IdData(of_y * y_, of_u * u_, 0.01));
+        const Fit scaled = estimate(IdData(of_y * y_, of_u * u_, 0.01));
         const Vector factor = values({1, 1, of_y / of_u});
         EXPECT_LT(relative_difference(scaled.theta, one.theta.cwiseProduct(factor)), 1e-7) << of_y;
         EXPECT_LT(relative_difference(scaled.std, one.std.cwiseProduct(factor.cwiseAbs())), 1e-6) << of_y;

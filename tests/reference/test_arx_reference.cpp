@@ -9,7 +9,7 @@ namespace test_arx_reference {
 using namespace dynlab;
 using namespace dynlab::test;
 
-PolynomialEstimate hair_dryer_model(int nk) {
+Fit hair_dryer_model(int nk) {
     return arx(remove_mean(hair_dryer()).data, PolynomialOrders::arx(2, {2}, {nk}));
 }
 

@@ -22,9 +22,9 @@ TransferStructure structure_of(const std::string& set) {
     return set.starts_with("rg") ? TransferStructure::single(4, 1) : TransferStructure::single(2, 0);
 }
 
-TransferOptions exact() {
-    TransferOptions options;
-    options.Tol = 1e-10;
+FitOptions exact() {
+    FitOptions options;
+    options.tolerance = 1e-10;
     return options;
 }
 

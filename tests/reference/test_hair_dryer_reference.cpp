@@ -20,13 +20,13 @@ IdData first_half() {
         .data;
 }
 
-TransferEstimate optimum(int poles, double delay) {
-    TransferOptions options;
-    options.Tol = 1e-10;
+Fit optimum(int poles, double delay) {
+    FitOptions options;
+    options.tolerance = 1e-10;
     return coe(first_half(), TransferStructure::single(poles, 0, delay), options);
 }
 
-void expect_digits(const TransferEstimate& found, const Vector& published, double fit) {
+void expect_digits(const Fit& found, const Vector& published, double fit) {
     ASSERT_EQ(found.theta.size(), published.size());
     for (Index i = 0; i < published.size(); ++i) EXPECT_NEAR(found.theta[i], published[i], 0.51e-4) << i;
     EXPECT_NEAR(found.fit_percent[0], fit, 0.51e-2);
@@ -34,7 +34,7 @@ void expect_digits(const TransferEstimate& found, const Vector& published, doubl
 
 // Oracle: output-error optima computed by another program (held input, zero initial state).
 TEST(hair_dryer_reference, two_poles_after_two_samples) {
-    const TransferEstimate found = optimum(2, 0.16);
+    const Fit found = optimum(2, 0.16);
     expect_digits(found, Eigen::Vector3d(11.8728, 30.5013, 28.2254), 89.01);
     EXPECT_NEAR(1 - std::pow(1 - found.fit_percent[0] / 100, 2), 0.98794, 0.51e-4);
 }

@@ -18,7 +18,7 @@ TEST(n4sid_reference, hair_dryer_eigenvalues) {
                          {0.0052, 0.1307, 0.6685, -0.6755},
                          {0.0055, 0.0734, -0.2148, 0.4788}};
     SubspaceOptions options;
-    options.BlockRows = 15;
+    options.block_rows = 15;
     const SubspaceEstimate found = n4sid(hair_dryer(), 4, options);
     const ComplexVector eigenvalues = found.system.A.eigenvalues();
     for (const Complex& value : ComplexVector(printed.eigenvalues()))

@@ -35,7 +35,7 @@ ProcsrivcOptions exact_options() {
     ProcsrivcOptions options;
     options.initial_state = InitialState::kZero;
     options.offset = Offset::kNone;
-    options.Tol = 1e-10;
+    options.tolerance = 1e-10;
     return options;
 }
 
@@ -61,7 +61,7 @@ TEST_P(procsrivc_reference, noise_free_set_gives_the_truth) {  // oracle: the si
     const Expected expected = expected_for(name);
     for (Index i = 0; i < result.theta.size(); ++i)
         EXPECT_NEAR(result.theta[i] / expected.values[static_cast<std::size_t>(i)], 1, 1e-9);
-    EXPECT_GT(result.fit_percent, 100 - 1e-6);
+    EXPECT_GT(result.fit_percent[0], 100 - 1e-6);
 }
 
 TEST_P(procsrivc_reference, defaults_find_the_same_optimum) {  // oracle: reference data, within its standard errors

@@ -42,16 +42,16 @@ TransferStructure structure_of(const std::string& set) {
     return is_rao_garnier(set) ? TransferStructure::single(4, 1) : TransferStructure::single(2, 0);
 }
 
-TransferEstimate estimate(const std::string& set, const std::string& method, double lambda) {
+Fit estimate(const std::string& set, const std::string& method, double lambda) {
     const IdData data = reference_record(set, 0.01);
     SvfOptions options;
     options.lambda = lambda;
     if (method.find("yzoh") != std::string::npos) options.hold_y = Hold::kZoh;
     if (method.rfind("lssvf", 0) == 0) return lssvf(data, structure_of(set), options);
     if (method.rfind("ivsvf", 0) == 0) return ivsvf(data, structure_of(set), options);
-    TransferOptions refined;
+    FitOptions refined;
     refined.lambda = lambda;
-    refined.Tol = 1e-10;
+    refined.tolerance = 1e-10;
     return srivc(data, structure_of(set), refined);
 }
 
@@ -61,7 +61,7 @@ TEST(transfer_reference, svf_and_srivc_match_the_long_double_program) {
     for (const GoldRow& gold : gold_rows()) {
         SCOPED_TRACE(gold.set + " " + gold.method);
         const bool noise_free = gold.set.find("noisefree") != std::string::npos;
-        const TransferEstimate found = estimate(gold.set, gold.method, is_rao_garnier(gold.set) ? 25 : 2);
+        const Fit found = estimate(gold.set, gold.method, is_rao_garnier(gold.set) ? 25 : 2);
         EXPECT_LT(relative_difference(found.theta, gold.theta), noise_free ? 1e-9 : 1e-7);
         if (gold.std.size() > 0 && !noise_free) {
             EXPECT_LT(relative_difference(found.std, gold.std), 1e-7);
@@ -84,7 +84,7 @@ TEST(transfer_reference, cutoffs_of_the_course_match) {
         std::getline(cells, set, ',');
         std::getline(cells, method, ',');
         std::getline(cells, lambda, ',');
-        const TransferEstimate found = estimate(set, method, std::stod(lambda));
+        const Fit found = estimate(set, method, std::stod(lambda));
         EXPECT_LT(relative_difference(found.theta, Vector::Map(theta.data(), 3)), 1e-7);
     }
     EXPECT_EQ(expected.size(), 3u * 4u * 3u);
@@ -103,7 +103,7 @@ TEST(transfer_reference, srivc_rows_with_exact_instruments_match) {
     EXPECT_GE(expected.size(), 3u);
     for (const auto& [set, values] : expected) {
         SCOPED_TRACE(set);
-        const TransferEstimate found = estimate(set, "srivc", is_rao_garnier(set) ? 25 : 2);
+        const Fit found = estimate(set, "srivc", is_rao_garnier(set) ? 25 : 2);
         const Index d = found.theta.size();
         ASSERT_EQ(values.first.size(), static_cast<std::size_t>(d));
         EXPECT_LT(relative_difference(found.theta, Vector::Map(values.first.data(), d)), 1e-7);

@@ -51,7 +51,7 @@ Runs runs_of(const TwoOutputs& system) {
     Runs runs{{}, Vector::Zero(system.theta.size())};
     for (int run = 0; run < kRuns; ++run) {
         const IdData data = system.record(static_cast<std::uint32_t>(run + 1));
-        const TransferEstimate estimate = srivc(data, system.structure);
+        const Fit estimate = srivc(data, system.structure);
         values.row(run) = estimate.theta.transpose();
         runs.robust += assess(data, estimate).std / kRuns;
     }

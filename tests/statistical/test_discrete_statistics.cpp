@@ -28,7 +28,7 @@ Study monte_carlo(Index d, Make make, Method method) {
     Matrix estimates(kRuns, d);
     Study study{Vector::Zero(d), Vector::Zero(d), Vector::Zero(d)};
     for (int run = 0; run < kRuns; ++run) {
-        const PolynomialEstimate result = method(make(static_cast<std::uint32_t>(run + 1)));
+        const Fit result = method(make(static_cast<std::uint32_t>(run + 1)));
         estimates.row(run) = result.theta.transpose();
         study.reported += result.std / kRuns;
     }
@@ -97,7 +97,7 @@ TEST(discrete_statistics, arx_of_fast_samples_says_nothing_of_the_poles) {  // o
         EXPECT_LT(result.theta[0], -0.2);
         bool wrong = true;
         try {
-            const TransferFunction G = d2c(result.model.transfer_function());
+            const TransferFunction G = d2c(result.polynomial->transfer_function());
             wrong = std::abs(G.den()[1] / 4 - 1) > 5 || std::abs(G.den()[2] / 3 - 1) > 5;
         } catch (const InvalidArgument&) {  // a pole on the negative real axis has no continuous-time equal
         }

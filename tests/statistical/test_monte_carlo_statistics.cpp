@@ -21,7 +21,7 @@ nlohmann::json reference_study(const std::string& name) {
     return nlohmann::json::parse(stream);
 }
 
-MonteCarloEstimate estimate_of(const TransferEstimate& result) {
+MonteCarloEstimate estimate_of(const Fit& result) {
     return {result.theta, result.std, result.names, true, result.termination == Termination::kConverged};
 }
 
@@ -37,16 +37,16 @@ MonteCarloMethod filtered(const std::string& label, int poles, int zeros, double
 
 /// `label` is the method's name in the references: "oe" for coe.
 template <auto kMethod>
-MonteCarloMethod refined(const std::string& label, int poles, int zeros, const TransferOptions& options) {
+MonteCarloMethod refined(const std::string& label, int poles, int zeros, const FitOptions& options) {
     return {label, [=](const IdData& data) {
                 return estimate_of(kMethod(data, TransferStructure::single(poles, zeros), options));
             }};
 }
 
-TransferOptions exact_options(double lambda) {
-    TransferOptions options;
+FitOptions exact_options(double lambda) {
+    FitOptions options;
     options.lambda = lambda;
-    options.Tol = 1e-10;
+    options.tolerance = 1e-10;
     return options;
 }
 
@@ -142,7 +142,7 @@ int good_fits(double snr) {
     const Vector x = lsim(study.system, study.u, study.Ts);
     const MonteCarlo result = monte_carlo(
         study, {{"loss ratio", [&](const IdData& data) {
-                     const TransferEstimate estimate = srivc(data, TransferStructure::single(4, 1));
+                     const Fit estimate = srivc(data, TransferStructure::single(4, 1));
                      const auto y = data.experiments.front().y.col(0);
                      const Vector simulated = lsim(estimate.models.front(), study.u, study.Ts);
                      return MonteCarloEstimate{Vector{{(y - simulated).squaredNorm() / (y - x).squaredNorm()}}, {}};

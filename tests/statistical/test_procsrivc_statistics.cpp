@@ -28,8 +28,8 @@ Study monte_carlo(const char* structure_name, const Vector& truth) {
     ProcsrivcOptions options;
     options.initial_state = InitialState::kZero;
     options.offset = Offset::kEstimate;
-    options.TdMax = 1.5;
-    options.NumTd = 20;
+    options.largest_delay = 1.5;
+    options.delay_count = 20;
     const Index d = truth.size();
     Matrix estimates(kRuns, d);
     Study study{Vector::Zero(d), Vector::Zero(d), Vector::Zero(d), 0};
@@ -38,7 +38,7 @@ Study monte_carlo(const char* structure_name, const Vector& truth) {
         const auto result = procsrivc(IdData(Matrix(y), Matrix(u), kTs), structure, options);
         estimates.row(run) = result.theta.transpose();
         study.reported += result.std / kRuns;
-        study.noise_variance += result.noise_variance / kRuns;
+        study.noise_variance += result.noise_variance[0] / kRuns;
     }
     study.mean = estimates.colwise().mean().transpose();
     study.spread =

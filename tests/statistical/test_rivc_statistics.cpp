@@ -33,11 +33,12 @@ Runs runs_of_rivc(const ColouredProblem& problem, const NoiseOrders& orders) {
     const Index nc = orders.nc, nd = orders.nd;
     Runs runs{Matrix(kRuns, 3 + nc + nd), Vector::Zero(3 + nc + nd)};
     for (int run = 0; run < kRuns; ++run) {
-        const RivcResult result = rivc(problem.record(static_cast<std::uint32_t>(run + 1)), kStructure, orders);
+        const Fit result = rivc(problem.record(static_cast<std::uint32_t>(run + 1)), kStructure, orders);
         EXPECT_EQ(result.termination, Termination::kConverged) << run + 1;
-        runs.values.row(run) << result.theta.transpose(), result.C.tail(nc).transpose(), result.D.tail(nd).transpose();
+        runs.values.row(run) << result.theta.transpose(), result.noise->C.tail(nc).transpose(),
+            result.noise->D.tail(nd).transpose();
         Vector std(3 + nc + nd);
-        std << result.std, result.C_std.tail(nc), result.D_std.tail(nd);
+        std << result.std, result.noise->C_std.tail(nc), result.noise->D_std.tail(nd);
         runs.reported += std / kRuns;
     }
     return runs;

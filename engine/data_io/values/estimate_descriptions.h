@@ -1,7 +1,7 @@
 #pragma once
 #include "data_io/values/model_descriptions.h"
 #include "numerics/estimators/step_test.h"
-#include "numerics/fit/transfer_estimate.h"
+#include "numerics/fit/fit.h"
 #include "numerics/validation/assessment.h"
 #include "numerics/validation/monte_carlo.h"
 #include "numerics/validation/order_selection.h"
@@ -79,16 +79,19 @@ void describe(T& object, V& member) {
     member("state", state), member("offset", offset);
 }
 
-template <Is<TransferIteration> T, class V>
+template <Is<FitIteration> T, class V>
 void describe(T& object, V& member) {
     auto& [theta, loss, change] = object;
     member("theta", theta), member("loss", loss), member("change", change);
 }
 
-template <Is<TransferEstimate> T, class V>
+/// Of transfer functions: studies keep no other fits.
+template <Is<Fit> T, class V>
 void describe(T& object, V& member) {
-    auto& [structure, theta, std, names, models, covariance, noise_variance, fit_percent, loss, condition_number, start,
-           initial_values, offsets, delay_grid, delay_loss, termination, trace, warnings, message] = object;
+    auto& [structure, orders, models, process, polynomial, characteristic, noise, names, theta, std, covariance,
+           noise_covariance, noise_variance, fit_percent, prediction_fit_percent, loss, condition_number, start,
+           initial_values, offsets, removed, output, delay_grid, delay_loss, termination, trace, warnings, message] =
+        object;
     member("structure", structure), member("theta", theta), member("std", std), member("names", names);
     member("models", models), member("covariance", covariance), member("noise_variance", noise_variance);
     member("fit_percent", fit_percent), member("loss", loss), member("condition_number", condition_number);

@@ -35,7 +35,8 @@ InitialState parse_initial_state(const std::string& text) {
     if (text == "steady") return InitialState::kSteady;
     if (text == "estimate") return InitialState::kEstimate;
     if (text == "auto") return InitialState::kAuto;
-    throw InvalidArgument("InitialState is \"zero\", \"steady\", \"estimate\" or \"auto\", and not \"" + text + "\"");
+    throw InvalidArgument("`initial_state` is \"zero\", \"steady\", \"estimate\" or \"auto\", and not \"" + text +
+                          "\"");
 }
 
 Offset parse_offset(const std::string& text) {
@@ -43,7 +44,7 @@ Offset parse_offset(const std::string& text) {
     if (text == "remove") return Offset::kRemove;
     if (text == "estimate") return Offset::kEstimate;
     if (text == "auto") return Offset::kAuto;
-    throw InvalidArgument("Offset is \"none\", \"remove\", \"estimate\" or \"auto\", and not \"" + text + "\"");
+    throw InvalidArgument("`offset` is \"none\", \"remove\", \"estimate\" or \"auto\", and not \"" + text + "\"");
 }
 
 JointOperatingPoint joint_operating_point(const MatrixView& u, const VectorView& y) {
@@ -67,11 +68,11 @@ std::vector<StartCondition> start_conditions(const MatrixView& u, InitialState s
     const bool flat = constant(u), zero_first = u.row(0).isZero(0);
     if (flat && state == InitialState::kSteady)
         throw InvalidArgument(
-            "InitialState \"steady\" needs an input that changes, and this one is constant: use \"zero\"");
+            "`initial_state` \"steady\" needs an input that changes, and this one is constant: use \"zero\"");
     if (flat && state == InitialState::kEstimate && offset == Offset::kEstimate)
         throw InvalidArgument(
-            "With a constant input, InitialState \"estimate\" and Offset \"estimate\" together leave the gain unknown: "
-            "estimate one of them");
+            "With a constant input, `initial_state` \"estimate\" and `offset` \"estimate\" together leave the gain "
+            "unknown: estimate one of them");
     std::vector<StartCondition> conditions;
     const auto add = [&](InitialState candidate, bool with_offset) {
         const bool free_state = state == InitialState::kAuto;
@@ -84,6 +85,18 @@ std::vector<StartCondition> start_conditions(const MatrixView& u, InitialState s
     for (InitialState candidate : {InitialState::kZero, InitialState::kSteady, InitialState::kEstimate})
         for (bool with_offset : {false, true}) add(candidate, with_offset);
     return conditions;
+}
+
+std::vector<StartCondition> start_conditions(const IdData& data, InitialState state, Offset offset) {
+    // Two rows that begin with zero, and change, where some experiment does.
+    Matrix summary = Matrix::Zero(2, data.input_count());
+    for (const Experiment& experiment : data.experiments) {
+        const Eigen::RowVectorXd first = experiment.u.row(0);
+        summary.row(0) = summary.row(0).cwiseMax(first.cwiseAbs());
+        summary.row(1) = summary.row(1).cwiseMax((experiment.u.rowwise() - first).cwiseAbs().colwise().maxCoeff());
+    }
+    summary.row(1) += summary.row(0);
+    return start_conditions(summary, state, offset);
 }
 
 std::string description(const StartCondition& condition) {

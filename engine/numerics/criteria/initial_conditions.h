@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "numerics/linalg/types.h"
+#include "numerics/signals/iddata.h"
 
 namespace dynlab::inline numerics {
 
@@ -22,7 +22,7 @@ enum class Offset {
     kAuto,      ///< "auto": none or estimate, by BIC
 };
 
-/// Throw InvalidArgument that lists the words.
+/// Throw InvalidArgument that lists the words. Messages write the names of options in backticks.
 InitialState parse_initial_state(const std::string& text);
 Offset parse_offset(const std::string& text);
 
@@ -52,6 +52,8 @@ struct StartCondition {
 /// constant input a steady start is no experiment at all, and a free motion with an offset would hide the gain. Throws
 /// InvalidArgument when the options ask for such a one.
 std::vector<StartCondition> start_conditions(const MatrixView& u, InitialState state, Offset offset);
+/// Those that the inputs of all experiments together can tell apart.
+std::vector<StartCondition> start_conditions(const IdData& data, InitialState state, Offset offset);
 
 /// "from rest at zero input, with an estimated offset" and the like, for messages.
 std::string description(const StartCondition& condition);

@@ -1,11 +1,9 @@
 #include "numerics/criteria/process_output.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 #include <vector>
 
-#include "numerics/criteria/transfer_sensitivity.h"
 #include "numerics/linalg/polynomial.h"
 
 namespace dynlab::inline numerics {
@@ -43,6 +41,16 @@ std::vector<Factor> factors_of(const ProcessStructure& structure, const Vector& 
     return factors;
 }
 
+// Derivatives of [a_1..a_n b_0..b_m], and of the delay, which is the last parameter.
+Matrix by_parameter(const ProcessCoefficients& c, bool delay) {
+    const Index n = c.den_by_parameter.rows(), b = c.num_by_parameter.rows(), q = c.den_by_parameter.cols();
+    Matrix derivatives = Matrix::Zero(n + b + (delay ? 1 : 0), q);
+    derivatives.topRows(n) = c.den_by_parameter;
+    derivatives.middleRows(n, b) = c.num_by_parameter;
+    if (delay) derivatives(n + b, q - 1) = 1;
+    return derivatives;
+}
+
 }  // namespace
 
 ProcessCoefficients process_coefficients(const ProcessStructure& structure, const Vector& parameters) {
@@ -78,110 +86,54 @@ ProcessCoefficients process_coefficients(const ProcessStructure& structure, cons
 }
 
 Matrix coefficients_by_parameter(const ProcessModel& model) {
-    const ProcessCoefficients c = process_coefficients(model.structure, model.parameters);
-    const Index n = c.den_by_parameter.rows(), b = c.num_by_parameter.rows(), q = model.parameters.size();
-    Matrix derivatives = Matrix::Zero(n + b + (model.structure.delay ? 1 : 0), q);
-    derivatives.topRows(n) = c.den_by_parameter;
-    derivatives.middleRows(n, b) = c.num_by_parameter;
-    if (model.structure.delay) derivatives(n + b, q - 1) = 1;
-    return derivatives;
+    return by_parameter(process_coefficients(model.structure, model.parameters), model.structure.delay);
 }
 
-Index initial_value_count(const ProcessStructure& structure, const StartCondition& condition) {
-    return condition.state == InitialState::kEstimate ? structure.poles + (structure.integrator ? 1 : 0) : 0;
+TransferStructure transfer_structure(const ProcessStructure& structure) {
+    TransferStructure transfer =
+        TransferStructure::single(structure.poles + (structure.integrator ? 1 : 0), structure.zero ? 1 : 0);
+    transfer.free_delays = structure.delay;
+    return transfer;
 }
 
-ProcessOutput::ProcessOutput(const ProcessStructure& structure, const StartCondition& condition,
-                             std::vector<ProcessInput> inputs, double least_delay, double largest_delay)
-    : structure_(structure), condition_(condition) {
-    const bool rests = condition.state != InitialState::kZero && !structure.integrator;
-    for (ProcessInput& input : inputs) {
-        Record record{std::move(input), 0, samples_};
-        if (rests) record.resting = record.input.u[0];
-        record.input.u.array() -= record.resting;
-        samples_ += record.input.u.size();
-        records_.push_back(std::move(record));
-    }
-    model_parameters_ = static_cast<Index>(structure.parameter_names().size());
-    initial_values_ = initial_value_count(structure, condition);
-    set_bounds(least_delay, largest_delay);
-}
-
-Index ProcessOutput::initial_place(std::size_t experiment) const {
-    return model_parameters_ + static_cast<Index>(experiment) * initial_values_;
-}
-
-Index ProcessOutput::offset_place(std::size_t experiment) const {
-    return initial_place(records_.size()) + static_cast<Index>(experiment);
-}
-
-Index ProcessOutput::longest() const {
+Reparametrised process_output(const ProcessStructure& structure, const TransferOutput& output) {
+    const Index q = static_cast<Index>(structure.parameter_names().size()), linear = output.linear_count();
     Index longest = 0;
-    for (std::size_t e = 0; e < records_.size(); ++e) longest = std::max(longest, rows(e));
-    return longest;
-}
-
-void ProcessOutput::set_bounds(double least_delay, double largest_delay) {
-    const Index count = condition_.offset ? offset_place(records_.size()) : initial_place(records_.size());
-    lower_ = Vector::Constant(count, -kInfinity);
-    upper_ = Vector::Constant(count, kInfinity);
-    const double slowest = kLargestTime * static_cast<double>(longest());
-    const Index times = structure_.underdamped ? structure_.poles - 1 : structure_.poles;
-    lower_.segment(1, times).setConstant(kLeastTime);
-    upper_.segment(1, times).setConstant(slowest);
-    if (structure_.underdamped) lower_[1 + times] = 0;
-    if (structure_.zero) {
-        const Index tz = model_parameters_ - 1 - (structure_.delay ? 1 : 0);
-        lower_[tz] = -slowest;
-        upper_[tz] = slowest;
+    for (std::size_t e = 0; e < output.experiment_count(); ++e) longest = std::max(longest, output.rows(e));
+    const double slowest = kLargestTime * static_cast<double>(longest);
+    Vector lower = Vector::Constant(q + linear, -kInfinity), upper = -lower;
+    const Index times = structure.underdamped ? structure.poles - 1 : structure.poles;
+    lower.segment(1, times).setConstant(kLeastTime);
+    upper.segment(1, times).setConstant(slowest);
+    if (structure.underdamped) lower[1 + times] = 0;
+    const Index tz = q - 1 - (structure.delay ? 1 : 0);
+    if (structure.zero) lower[tz] = -(upper[tz] = slowest);
+    const Index inner = output.parameter_count() - linear;
+    if (structure.delay) {
+        lower[q - 1] = output.lower()[inner - 1];
+        upper[q - 1] = output.upper()[inner - 1];
     }
-    if (structure_.delay) {
-        lower_[model_parameters_ - 1] = least_delay;
-        upper_[model_parameters_ - 1] = largest_delay;
-    }
+    const auto coefficients_of = [structure, q, inner, linear](const Vector& theta) {
+        const ProcessCoefficients c = process_coefficients(structure, theta.head(q));
+        Reparametrised::Point point{Vector(inner + linear), Matrix::Zero(inner + linear, q + linear)};
+        point.inner.head(inner) << c.den.tail(c.den.size() - 1), c.num, theta.segment(q - 1, structure.delay ? 1 : 0);
+        point.inner.tail(linear) = theta.tail(linear);
+        point.derivatives.topLeftCorner(inner, q) = by_parameter(c, structure.delay);
+        point.derivatives.bottomRightCorner(linear, linear).setIdentity();
+        return point;
+    };
+    return Reparametrised(output, coefficients_of, lower, upper);
 }
 
-Matrix ProcessOutput::motions(const ProcessInput& input, const VectorView& den) const {
-    if (initial_values_ == 0) return Matrix(input.u.size(), 0);
-    return input.t.size() == 0 ? free_responses(den, input.u.size(), 1) : free_responses(den, input.t);
-}
-
-void ProcessOutput::simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const {
-    const ProcessCoefficients c = process_coefficients(structure_, theta.head(model_parameters_));
-    output.resize(samples_);
-    if (sensitivities) sensitivities->setZero(samples_, theta.size());
-    for (std::size_t e = 0; e < records_.size(); ++e) simulate_record(e, c, theta, output, sensitivities);
-}
-
-void ProcessOutput::simulate_record(std::size_t experiment, const ProcessCoefficients& c, const Vector& theta,
-                                    Vector& output, Matrix* sensitivities) const {
-    const auto& [input, resting, row] = records_[experiment];
-    const Index N = input.u.size(), q = model_parameters_, n = c.den.size() - 1;
-    const bool regular = input.t.size() == 0;
-    const Vector initial = theta.segment(initial_place(experiment), initial_values_);
-    const Matrix free = motions(input, c.den);
-    auto y = output.segment(row, N);
-    if (!sensitivities) {
-        y = regular ? transfer_response(c.num, c.den, c.delay, input.u, 1, input.hold)
-                    : transfer_response(c.num, c.den, c.delay, input.u, input.t, input.hold);
-    } else {
-        const Matrix by_coefficient = regular
-                                          ? transfer_sensitivities(c.num, c.den, c.delay, input.u, 1, input.hold)
-                                          : transfer_sensitivities(c.num, c.den, c.delay, input.u, input.t, input.hold);
-        y = by_coefficient.col(0);
-        Matrix by_den = by_coefficient.middleCols(1, n);
-        if (initial_values_ > 0)
-            by_den += regular ? free_sensitivities(c.den, initial, N, 1) : free_sensitivities(c.den, initial, input.t);
-        auto own = sensitivities->middleRows(row, N);
-        own.leftCols(q) = by_den * c.den_by_parameter;
-        own.leftCols(q) += by_coefficient.middleCols(n + 1, c.num.size()) * c.num_by_parameter;
-        own.col(0).array() += resting;
-        if (structure_.delay) own.col(q - 1) = by_coefficient.rightCols(1);
-        own.middleCols(initial_place(experiment), initial_values_) = free;
-        if (condition_.offset) own.col(offset_place(experiment)).setOnes();
-    }
-    y += free * initial;
-    y.array() += theta[0] * resting + (condition_.offset ? theta[offset_place(experiment)] : 0);
+Vector process_seconds(const ProcessStructure& structure, const TransferOutput& output) {
+    const auto names = structure.parameter_names();
+    const Index q = static_cast<Index>(names.size()), linear = output.linear_count();
+    Vector seconds = Vector::Ones(q + linear);
+    for (Index i = 0; i < q; ++i)
+        if (names[static_cast<std::size_t>(i)].front() == 'T') seconds[i] = output.time_unit();
+    if (structure.integrator) seconds[0] = 1 / output.time_unit();
+    seconds.tail(linear) = output.seconds().tail(linear);
+    return seconds;
 }
 
 }  // namespace dynlab::inline numerics

@@ -37,7 +37,7 @@ struct TransferOutput::Block {
 };
 
 TransferOutput::TransferOutput(const TransferStructure& structure, const StartCondition& condition, const IdData& data,
-                               double least_delay, double largest_delay)
+                               double least_delay, double largest_delay, bool integrator)
     : structure_(structure), condition_(condition), hold_(data.hold), time_unit_(data.mean_step()) {
     if (data.output_count() != structure.outputs || data.input_count() != structure.inputs)
         throw InvalidArgument("The model has " + std::to_string(structure.inputs) + " input(s) and " +
@@ -48,7 +48,7 @@ TransferOutput::TransferOutput(const TransferStructure& structure, const StartCo
     Index row = 0;
     for (const Experiment& experiment : data.experiments) {
         Record record{experiment.u, experiment.y, Vector::Zero(structure.inputs), {}, row};
-        if (condition.state != InitialState::kZero) record.resting = record.u.row(0).transpose();
+        if (condition.state != InitialState::kZero && !integrator) record.resting = record.u.row(0).transpose();
         record.u.rowwise() -= record.resting.transpose();
         if (!data.regular()) record.t = (experiment.t.array() - experiment.t[0]) / time_unit_;
         row += record.y.size();

@@ -16,13 +16,14 @@ namespace dynlab::inline numerics {
 ///
 /// With a start other than zero each channel rests at the first value of its input, so that it adds
 /// B(0)/A(0) u(0) + B/A (u - u(0)); with an estimated state each different denominator of an output adds a free
-/// motion of n initial values (of y, dy/dt, ... in the deviation from rest).
+/// motion of n initial values (of y, dy/dt, ... in the deviation from rest). An integrator does not rest there: with it
+/// the inputs are taken as they are.
 class TransferOutput : public OutputErrorModel {
   public:
     /// `least_delay` and `largest_delay` (s) bound free delays. Throws InvalidArgument when the data have other numbers
     /// of inputs or outputs than the structure.
     TransferOutput(const TransferStructure& structure, const StartCondition& condition, const IdData& data,
-                   double least_delay, double largest_delay);
+                   double least_delay, double largest_delay, bool integrator = false);
 
     Index parameter_count() const override { return lower_.size(); }
     const Vector& lower() const override { return lower_; }
@@ -47,6 +48,11 @@ class TransferOutput : public OutputErrorModel {
     Index initial_place(std::size_t experiment, Index output) const;
     Index initial_count(Index output) const;
     Index offset_place(std::size_t experiment, Index output) const;  ///< with estimated offsets only
+    bool has_offset() const { return condition_.offset; }
+    Hold hold() const { return hold_; }
+    const Vector& times(std::size_t experiment) const { return experiments_[experiment].t; }
+    const Matrix& inputs(std::size_t experiment) const { return experiments_[experiment].u; }
+    const Vector& resting_inputs(std::size_t experiment) const { return experiments_[experiment].resting; }
     /// Which parameters the rows of an output depend on.
     std::vector<bool> bears_on(Index output) const;
 
@@ -54,7 +60,7 @@ class TransferOutput : public OutputErrorModel {
     struct Record {
         Matrix u, y;     // the inputs counted from where they rest
         Vector resting;  // first inputs, or zeros
-        Vector t;        // in time units; empty with regular sampling
+        Vector t;        // in time units from the first on; empty with regular sampling
         Index row = 0;   // the first of its stacked rows
     };
     struct Block;  // the rows of one output in one experiment

@@ -80,17 +80,16 @@ std::vector<Vector> starts(const IdData& data, const PolynomialOrders& orders) {
 
 }  // namespace
 
-PolynomialEstimate armax(const IdData& data, const PolynomialOrders& orders, const PolynomialOptions& options) {
+Fit armax(const IdData& data, const PolynomialOrders& orders, const FitOptions& options) {
     orders.validate();
     options.validate();
     if (orders.nd > 0 || std::any_of(orders.nf.begin(), orders.nf.end(), [](int nf) { return nf > 0; }))
         throw InvalidArgument("armax has the orders na, nb, nc and nk only: nd and nf must be zero");
     check_equation_error("armax", data, without_noise(orders));
     const StartCondition nothing_assumed{InitialState::kEstimate, false};
-    Vector removed;
-    const std::vector<SampledExperiment> experiments = sampled_experiments(data, Offset::kNone, &removed);
+    const std::vector<SampledExperiment> experiments = sampled_experiments(data);
     return fit_prediction("armax", PredictionModel(orders, nothing_assumed, experiments), nothing_assumed, data.Ts,
-                          starts(data, orders), removed, options);
+                          starts(data, orders), options);
 }
 
 }  // namespace dynlab::inline numerics

@@ -4,12 +4,12 @@
 
 namespace dynlab::inline numerics {
 
-PolynomialEstimate arx(const IdData& data, const PolynomialOrders& orders) {
+Fit arx(const IdData& data, const PolynomialOrders& orders) {
     check_equation_error("arx", data, orders);
     const ArxSolution solution = solve_rich_arx("arx", data, orders);
-    PolynomialEstimate estimate(orders, solution.theta, data.Ts);
+    Fit estimate = polynomial_fit(orders, solution.theta, data.Ts);
     report_equation_error(estimate, data);
-    estimate.covariance = estimate.noise_variance * solution.inverse_gram;
+    estimate.covariance = estimate.noise_variance[0] * solution.inverse_gram;
     estimate.condition_number = solution.condition_number;
     describe_equation_error(estimate, "Least squares", ArxEquations(data, orders).count());
     return estimate;

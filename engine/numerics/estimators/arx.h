@@ -1,5 +1,5 @@
 #pragma once
-#include "numerics/fit/polynomial_estimate.h"
+#include "numerics/fit/fit.h"
 #include "numerics/signals/iddata.h"
 
 namespace dynlab::inline numerics {
@@ -15,6 +15,6 @@ namespace dynlab::inline numerics {
 /// of a simulation which begins with the recorded past of the first sample. Throws InvalidArgument for other data or
 /// orders, no more equations than parameters, or an input too poor to tell the coefficients of its B apart. Doubtful
 /// results are told in `warnings`. Reference: Ljung (1999), sections 7.3 and 10.1.
-PolynomialEstimate arx(const IdData& data, const PolynomialOrders& orders);
+Fit arx(const IdData& data, const PolynomialOrders& orders);
 
 }  // namespace dynlab::inline numerics

@@ -4,7 +4,7 @@
 
 namespace dynlab::inline numerics {
 
-TransferEstimate coe(const IdData& data, const TransferStructure& structure, const TransferOptions& options) {
+Fit coe(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
     options.validate();
     return search_transfer("coe", data, structure, options);
 }

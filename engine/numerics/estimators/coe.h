@@ -1,5 +1,5 @@
 #pragma once
-#include "numerics/fit/transfer_estimate.h"
+#include "numerics/fit/fit.h"
 
 namespace dynlab::inline numerics {
 
@@ -9,6 +9,6 @@ namespace dynlab::inline numerics {
 /// sensitivities from the start that srivc also uses; free delays are first looked for on a grid. Efficient for white
 /// e; its optimum is srivc's fixed point. Structures, options, warnings and errors as for srivc. Reference: Ljung
 /// (1999), sections 4.2 and 10.2; Garnier and Wang (2008), chapter 1.
-TransferEstimate coe(const IdData& data, const TransferStructure& structure, const TransferOptions& options = {});
+Fit coe(const IdData& data, const TransferStructure& structure, const FitOptions& options = {});
 
 }  // namespace dynlab::inline numerics

@@ -7,12 +7,11 @@
 #include <optional>
 #include <set>
 
+#include "numerics/criteria/reparametrised.h"
 #include "numerics/criteria/transfer_output.h"
 #include "numerics/error.h"
+#include "numerics/fit/diagnosis.h"
 #include "numerics/fit/output_error.h"
-#include "numerics/fit/polynomial_estimate.h"
-#include "numerics/fit/simulation_report.h"
-#include "numerics/fit/transfer_data.h"
 #include "numerics/fit/transfer_search.h"
 #include "numerics/number_text.h"
 
@@ -42,8 +41,8 @@ Vector visited_edges(const IdData& data, const HammersteinOptions& options, std:
         low = std::min(low, experiment.u.minCoeff());
         high = std::max(high, experiment.u.maxCoeff());
     }
-    Vector edges = options.Breakpoints;
-    if (edges.size() == 0) edges = Vector::LinSpaced(options.Bins + 1, low, high);
+    Vector edges = options.breakpoints;
+    if (edges.size() == 0) edges = Vector::LinSpaced(options.bins + 1, low, high);
     const std::optional<Vector> values = few_values(data, edges.size());
     if (values && (values->size() != edges.size() || *values != edges)) {
         edges = *values;
@@ -60,7 +59,7 @@ Vector visited_edges(const IdData& data, const HammersteinOptions& options, std:
     if (kept.size() < 2)
         throw InvalidArgument("hammerstein: the input visits only " + std::to_string(kept.size()) +
                               " of the edges of the bins, and two are wanted: excite the system with more levels, or "
-                              "give Breakpoints where the input is");
+                              "give `breakpoints` where the input is");
     if (static_cast<Index>(kept.size()) < edges.size())
         warnings.push_back(std::to_string(edges.size() - static_cast<Index>(kept.size())) +
                            " edges of bins were left out, because the input is hardly ever near them.");
@@ -79,7 +78,7 @@ IdData expanded(const IdData& data, const Vector& edges) {
 
 /// Where the search for one channel per hat function begins. The functions sum up to one, which a system that has come
 /// to rest does not answer, so there only what the others do beyond the last one can be told.
-Vector channels_start(const IdData& hats, const TransferStructure& channels, const TransferOptions& options) {
+Vector channels_start(const IdData& hats, const TransferStructure& channels, const FitOptions& options) {
     if (options.initial_state == InitialState::kZero) return start_at(hats, channels, options);
     std::vector<Index> others;
     for (Index i = 1; i < channels.inputs; ++i) others.push_back(i);
@@ -92,69 +91,60 @@ Vector channels_start(const IdData& hats, const TransferStructure& channels, con
     return start;
 }
 
-/// The output as a function of [a_1..a_n, b_0..b_(m-1), c_1..c_K, delay], with b_m given: that of K inputs with the
-/// numerators c_i B and all else in common.
-class HammersteinOutput : public OutputErrorModel {
-  public:
-    HammersteinOutput(const TransferOutput& channels, const TransferStructure& structure, double last_b)
-        : channels_(channels),
-          structure_(structure),
-          n_(structure.poles[0]),
-          m_(structure.channels[0].zeros),
-          K_(structure.inputs),
-          last_b_(last_b) {
-        const Index d = n_ + m_ + K_ + (structure.free_delays ? 1 : 0);
-        lower_ = Vector::Constant(d, -std::numeric_limits<double>::infinity());
-        upper_ = -lower_;
-        if (structure.free_delays) {
-            lower_[d - 1] = channels.lower()[structure.delay_place(0, 0)];
-            upper_[d - 1] = channels.upper()[structure.delay_place(0, 0)];
-        }
+/// Where the parameters [a_1..a_n, b_0..b_(m-1), c_1..c_K, delay] lie; the last coefficient of B is given.
+struct Layout {
+    Index n, m, K;
+    bool delay;
+
+    Index gains() const { return n + m; }
+    Index count() const { return n + m + K + (delay ? 1 : 0); }
+    std::vector<std::string> names() const {
+        std::vector<std::string> all;
+        const auto add = [&](const char* letter, Index first, Index number) {
+            for (Index i = 0; i < number; ++i) all.push_back(letter + std::to_string(first + i));
+        };
+        add("a", 1, n);
+        add("b", 0, m);
+        add("f", 1, K);
+        if (delay) all.push_back("Td");
+        return all;
     }
-
-    Index parameter_count() const override { return lower_.size(); }
-    const Vector& lower() const override { return lower_; }
-    const Vector& upper() const override { return upper_; }
-
-    Vector numerator(const Vector& theta) const {
-        Vector b(m_ + 1);
-        b << theta.segment(n_, m_), last_b_;
-        return b;
-    }
-
-    void simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const override {
-        const Vector b = numerator(theta), c = theta.segment(n_ + m_, K_);
-        Vector all = Vector::Zero(channels_.parameter_count());
-        all.head(n_) = theta.head(n_);
-        for (Index i = 0; i < K_; ++i) {
-            all.segment(structure_.b_place(0, i), m_ + 1) = c[i] * b;
-            if (structure_.free_delays) all[structure_.delay_place(0, i)] = theta[theta.size() - 1];
-        }
-        Matrix of_all;
-        channels_.simulate(all, output, sensitivities != nullptr ? &of_all : nullptr);
-        if (sensitivities != nullptr) *sensitivities = of_all * chain(b, c);
-    }
-
-  private:
-    /// Derivatives of the channels' parameters with respect to these.
-    Matrix chain(const Vector& b, const Vector& c) const {
-        Matrix T = Matrix::Zero(channels_.parameter_count(), parameter_count());
-        T.topLeftCorner(n_, n_).setIdentity();
-        for (Index i = 0; i < K_; ++i) {
-            const Index place = structure_.b_place(0, i);
-            T.block(place, n_, m_, m_).diagonal().setConstant(c[i]);
-            T.col(n_ + m_ + i).segment(place, m_ + 1) = b;
-            if (structure_.free_delays) T(structure_.delay_place(0, i), parameter_count() - 1) = 1;
-        }
-        return T;
-    }
-
-    const TransferOutput& channels_;
-    const TransferStructure& structure_;
-    Index n_, m_, K_;
-    double last_b_;
-    Vector lower_, upper_;
 };
+
+Vector numerator(const Layout& at, const Vector& theta, double last_b) {
+    Vector b(at.m + 1);
+    b << theta.segment(at.n, at.m), last_b;
+    return b;
+}
+
+/// The output of K inputs with the numerators c_i B and all else in common.
+Reparametrised hammerstein_output(const TransferOutput& channels, const TransferStructure& structure, const Layout& at,
+                                  double last_b) {
+    const Index d = at.count(), inner = channels.parameter_count();
+    Vector lower = Vector::Constant(d, -std::numeric_limits<double>::infinity()), upper = -lower;
+    if (at.delay) {
+        lower[d - 1] = channels.lower()[structure.delay_place(0, 0)];
+        upper[d - 1] = channels.upper()[structure.delay_place(0, 0)];
+    }
+    const auto products = [=](const Vector& theta) {
+        const Vector b = numerator(at, theta, last_b);
+        Reparametrised::Point point{Vector::Zero(inner), Matrix::Zero(inner, d)};
+        point.inner.head(at.n) = theta.head(at.n);
+        point.derivatives.topLeftCorner(at.n, at.n).setIdentity();
+        for (Index i = 0; i < at.K; ++i) {
+            const Index place = structure.b_place(0, i);
+            const double c = theta[at.gains() + i];
+            point.inner.segment(place, at.m + 1) = c * b;
+            point.derivatives.block(place, at.n, at.m, at.m).diagonal().setConstant(c);
+            point.derivatives.col(at.gains() + i).segment(place, at.m + 1) = b;
+            if (!at.delay) continue;
+            point.inner[structure.delay_place(0, i)] = theta[d - 1];
+            point.derivatives(structure.delay_place(0, i), d - 1) = 1;
+        }
+        return point;
+    };
+    return Reparametrised(channels, products, lower, upper);
+}
 
 /// B and c of the product c_i b_j closest to the coefficients, with B's last coefficient a_n, so that the gain is one.
 struct Product {
@@ -174,48 +164,39 @@ Product closest_product(const Matrix& coefficients, double a_n) {
 }
 
 /// Everything in seconds, the gain of the linear part made one, with the covariance that belongs to it.
-void set_parameters(HammersteinEstimate& estimate, const OutputErrorSolution& solution, const Vector& b,
-                    const Vector& seconds, Index n, Index K, double fixed_delay) {
-    const Index m = b.size() - 1, d = solution.theta.size();
+void set_parameters(Fit& fit, const OutputErrorSolution& solution, const Layout& at, double last_b,
+                    const Vector& seconds, double fixed_delay) {
+    const Index d = at.count();
     const Vector& theta = solution.theta;
-    const double a_n = theta[n - 1], gain = b[m] / a_n;
+    const double a_n = theta[at.n - 1], gain = last_b / a_n;
     Vector scaled = theta;
-    scaled.segment(n, m) /= gain;
-    scaled.segment(n + m, K) *= gain;
+    scaled.segment(at.n, at.m) /= gain;
+    scaled.segment(at.gains(), at.K) *= gain;
     Matrix T = Matrix::Identity(d, d);
-    T.diagonal().segment(n, m).setConstant(1 / gain);
-    T.diagonal().segment(n + m, K).setConstant(gain);
-    T.col(n - 1).segment(n, m) = theta.segment(n, m) / b[m];
-    T.col(n - 1).segment(n + m, K) = -theta.segment(n + m, K) * gain / a_n;
-    estimate.theta = scaled.cwiseProduct(seconds);
-    estimate.covariance = seconds.asDiagonal() * (T * solution.covariance * T.transpose()) * seconds.asDiagonal();
-    estimate.std = estimate.covariance.diagonal().cwiseMax(0).cwiseSqrt();
-    estimate.levels = estimate.theta.segment(n + m, K);
-    estimate.levels_std = estimate.std.segment(n + m, K);
-    Vector num(m + 1), den(n + 1);
-    den << 1, estimate.theta.head(n);
-    num << estimate.theta.segment(n, m), den[n];
-    const double delay = d > n + m + K ? estimate.theta[d - 1] : fixed_delay;
-    estimate.model = TransferFunction(num, den, 0, std::max(0.0, delay));
-    for (Index i = 1; i <= n; ++i) estimate.names.push_back("a" + std::to_string(i));
-    for (Index i = 0; i < m; ++i) estimate.names.push_back("b" + std::to_string(i));
-    for (Index i = 1; i <= K; ++i) estimate.names.push_back("f" + std::to_string(i));
-    if (d > n + m + K) estimate.names.push_back("Td");
+    T.diagonal().segment(at.n, at.m).setConstant(1 / gain);
+    T.diagonal().segment(at.gains(), at.K).setConstant(gain);
+    T.col(at.n - 1).segment(at.n, at.m) = theta.segment(at.n, at.m) / last_b;
+    T.col(at.n - 1).segment(at.gains(), at.K) = -theta.segment(at.gains(), at.K) * gain / a_n;
+    fit.theta = scaled.cwiseProduct(seconds);
+    fit.names = at.names();
+    fit.covariance = seconds.asDiagonal() * (T * solution.covariance * T.transpose()) * seconds.asDiagonal();
+    fit.std = fit.covariance.diagonal().cwiseMax(0).cwiseSqrt();
+    fit.characteristic->levels = fit.theta.segment(at.gains(), at.K);
+    fit.characteristic->levels_std = fit.std.segment(at.gains(), at.K);
+    Vector den(at.n + 1);
+    den << 1, fit.theta.head(at.n);
+    const double delay = at.delay ? fit.theta[d - 1] : fixed_delay;
+    fit.models = {TransferFunction(numerator(at, fit.theta, den[at.n]), den, 0, std::max(0.0, delay))};
 }
 
-void add_warnings(HammersteinEstimate& estimate, const HammersteinOptions& options) {
-    auto& warnings = estimate.warnings;
-    if (estimate.termination == Termination::kIterationLimit)
-        warnings.push_back("It had not settled after MaxIter = " + std::to_string(options.MaxIter) +
-                           " iterations; the best point on the way is given.");
-    if (estimate.termination == Termination::kCancelled)
-        warnings.push_back("It was stopped before its end; the best point on the way is given.");
-    if (!estimate.model.stable()) warnings.push_back("The linear part is unstable.");
-    if (estimate.condition_number > kAmbiguousCondition)
-        warnings.push_back("The data do not tell all parameters apart: fewer bins or a richer input are wanted.");
-    if (estimate.fit_percent < estimate.linear_fit_percent + 1)
-        warnings.push_back("A linear model fits as well (" + number_text(estimate.linear_fit_percent, 4) +
-                           " %): the static characteristic is hardly bent.");
+void add_warnings(Fit& fit, const HammersteinOptions& options) {
+    const double linear = fit.characteristic->linear_fit_percent;
+    warn_of_search(fit, options);
+    if (!fit.models.front().stable()) fit.warnings.push_back("The linear part is unstable.");
+    if (fit.condition_number > kAmbiguousCondition) warn_of_doubtful_parameters(fit, "fewer bins");
+    if (fit.fit_percent[0] < linear + 1)
+        fit.warnings.push_back("A linear model fits as well (" + number_text(linear, 4) +
+                               " %): the static characteristic is hardly bent.");
 }
 
 void check(const IdData& data, const TransferStructure& structure, const HammersteinOptions& options) {
@@ -227,8 +208,8 @@ void check(const IdData& data, const TransferStructure& structure, const Hammers
     check_transfer_data("hammerstein", data, structure);
     if (data.hold != Hold::kZoh)
         throw InvalidArgument(
-            "hammerstein needs a held input (InterSample zoh): a bent characteristic makes no "
-            "straight lines of straight lines");
+            "hammerstein needs a held input (zoh): the characteristic bends the straight lines "
+            "of any other");
     for (const Experiment& experiment : data.experiments)
         if ((experiment.u.array() != experiment.u(0, 0)).any()) return;
     throw InvalidArgument("hammerstein: the input never changes, so there is no excitation to learn from");
@@ -237,18 +218,18 @@ void check(const IdData& data, const TransferStructure& structure, const Hammers
 }  // namespace
 
 void HammersteinOptions::validate() const {
-    TransferOptions::validate();
-    if (Breakpoints.size() == 0 && (Bins < 1 || Bins > 1000))
-        throw InvalidArgument("Bins must lie between 1 and 1000, and is " + std::to_string(Bins));
-    if (Breakpoints.size() == 1) throw InvalidArgument("Breakpoints must hold two values at least, and holds one");
-    for (Index i = 1; i < Breakpoints.size(); ++i)
-        if (!(Breakpoints[i] > Breakpoints[i - 1]))
-            throw InvalidArgument("Breakpoints must increase, and value " + std::to_string(i + 1) + " is " +
-                                  number_text(Breakpoints[i]) + " after " + number_text(Breakpoints[i - 1]));
+    FitOptions::validate();
+    if (breakpoints.size() == 0 && (bins < 1 || bins > 1000))
+        throw InvalidArgument("`bins` must lie between 1 and 1000, and is " + std::to_string(bins));
+    if (breakpoints.size() == 1) throw InvalidArgument("`breakpoints` must hold two values at least, and holds one");
+    for (Index i = 1; i < breakpoints.size(); ++i)
+        if (!(breakpoints[i] > breakpoints[i - 1]))
+            throw InvalidArgument("`breakpoints` must increase, and value " + std::to_string(i + 1) + " is " +
+                                  number_text(breakpoints[i]) + " after " + number_text(breakpoints[i - 1]));
     if (initial_state != InitialState::kZero && initial_state != InitialState::kSteady)
-        throw InvalidArgument("InitialState must be \"zero\" or \"steady\" for hammerstein");
+        throw InvalidArgument("`initial_state` must be \"zero\" or \"steady\" for hammerstein");
     if (offset != Offset::kNone)
-        throw InvalidArgument("Offset must be \"none\" for hammerstein: a constant is part of its characteristic");
+        throw InvalidArgument("`offset` must be \"none\" for hammerstein: a constant is part of its characteristic");
 }
 
 Matrix hat_functions(const VectorView& edges, const VectorView& u) {
@@ -267,61 +248,58 @@ Matrix hat_functions(const VectorView& edges, const VectorView& u) {
     return hats;
 }
 
-HammersteinEstimate hammerstein(const IdData& data, const TransferStructure& structure,
-                                const HammersteinOptions& options) {
+Fit hammerstein(const IdData& data, const TransferStructure& structure, const HammersteinOptions& options) {
     check(data, structure, options);
-    HammersteinEstimate estimate;
-    estimate.breakpoints = visited_edges(data, options, estimate.warnings);
-    const Index K = estimate.breakpoints.size();
-    const int n = structure.poles[0], m = structure.channels[0].zeros;
+    Fit fit;
+    StaticCharacteristic& characteristic = fit.characteristic.emplace();
+    characteristic.breakpoints = visited_edges(data, options, fit.warnings);
+    const Layout at{structure.poles[0], structure.channels[0].zeros, characteristic.breakpoints.size(),
+                    structure.free_delays};
 
-    TransferOptions linear_options = options;
+    FitOptions linear_options = options;
     linear_options.offset = Offset::kEstimate;
-    const TransferEstimate linear = search_transfer("hammerstein", data, structure, linear_options);
-    estimate.linear_fit_percent = linear.fit_percent[0];
+    const Fit linear = search_transfer("hammerstein", data, structure, linear_options);
+    characteristic.linear_fit_percent = linear.fit_percent[0];
     const double delay = linear.models[0].delay();
 
-    const IdData hats = expanded(data, estimate.breakpoints);
-    TransferStructure channels = TransferStructure::grid(1, K, Denominators::kPerOutput, {n}, {m}, {delay});
-    const TransferEstimate start =
-        search_transfer("hammerstein", hats, channels, options, channels_start(hats, channels, options));
+    const IdData hats = expanded(data, characteristic.breakpoints);
+    TransferStructure channels = TransferStructure::grid(1, at.K, Denominators::kPerOutput, structure.poles,
+                                                         {structure.channels[0].zeros}, {delay});
+    const Fit start = search_transfer("hammerstein", hats, channels, options, channels_start(hats, channels, options));
     channels.free_delays = structure.free_delays;
     const DelayRange range = structure.free_delays ? delay_range(data, options) : DelayRange{};
     const TransferOutput output(channels, {options.initial_state, false}, hats, range.least, range.largest);
     const Vector& seconds = output.seconds();
-    Matrix coefficients(m + 1, K);
-    const Vector b_seconds = seconds.segment(channels.b_place(0, 0), m + 1);
-    for (Index i = 0; i < K; ++i)
-        coefficients.col(i) = start.theta.segment(start.structure.b_place(0, i), m + 1).cwiseQuotient(b_seconds);
-    Vector theta(n + m + K + (channels.free_delays ? 1 : 0)), units(theta.size());
-    theta.head(n) = start.theta.head(n).cwiseQuotient(seconds.head(n));
-    const Product product = closest_product(coefficients, theta[n - 1]);
-    theta.segment(n, m) = product.b.head(m);
-    theta.segment(n + m, K) = product.c;
-    units << seconds.head(n), b_seconds.head(m), Vector::Ones(K), seconds.tail(channels.free_delays ? 1 : 0);
-    if (channels.free_delays) theta[theta.size() - 1] = delay / units[units.size() - 1];
+    const Vector b_seconds = seconds.segment(channels.b_place(0, 0), at.m + 1);
+    Matrix coefficients(at.m + 1, at.K);
+    for (Index i = 0; i < at.K; ++i)
+        coefficients.col(i) = start.theta.segment(start.structure.b_place(0, i), at.m + 1).cwiseQuotient(b_seconds);
+    Vector theta(at.count()), units(at.count());
+    units << seconds.head(at.n), b_seconds.head(at.m), Vector::Ones(at.K), seconds.tail(at.delay ? 1 : 0);
+    theta.head(at.n) = start.theta.head(at.n).cwiseQuotient(seconds.head(at.n));
+    const Product product = closest_product(coefficients, theta[at.n - 1]);
+    theta.segment(at.n, at.m) = product.b.head(at.m);
+    theta.segment(at.gains(), at.K) = product.c;
+    if (at.delay) theta[at.count() - 1] = delay / units[at.count() - 1];
 
-    const HammersteinOutput model(output, channels, product.b[m]);
     const Vector y = output.target();
     const OutputErrorSolution solution =
-        minimise_output_error(model, y, theta, {options.MaxIter, options.Tol, options.cancel});
-    set_parameters(estimate, solution, model.numerator(solution.theta), units, n, K, delay);
-    double variation = 0;
-    for (const Experiment& experiment : data.experiments)
-        variation += (experiment.y.array() - experiment.y.mean()).square().sum();
-    estimate.loss = solution.loss;
-    estimate.noise_variance = solution.noise_variance;
-    estimate.condition_number = solution.condition_number;
-    estimate.fit_percent = fit_percent_of_sums(solution.loss * static_cast<double>(y.size()), variation);
-    estimate.termination = solution.termination;
-    estimate.iterations = static_cast<Index>(solution.trace.size());
-    add_warnings(estimate, options);
-    estimate.message = "Hammerstein model with " + std::to_string(K) + " values of the characteristic, after " +
-                       iterations_text(solution.trace.size()) + ": fit " + number_text(estimate.fit_percent, 4) +
-                       " % (simulation), against " + number_text(estimate.linear_fit_percent, 4) +
-                       " % of the best linear model.";
-    for (const std::string& warning : estimate.warnings) estimate.message += ' ' + warning;
-    return estimate;
+        minimise_output_error(hammerstein_output(output, channels, at, product.b[at.m]), y, theta,
+                              {options.max_iterations, options.tolerance, options.cancel});
+    set_parameters(fit, solution, at, product.b[at.m], units, delay);
+    fit.loss = solution.loss;
+    fit.noise_variance = Vector::Constant(1, solution.noise_variance);
+    fit.condition_number = solution.condition_number;
+    fit.fit_percent = Vector::Constant(
+        1, fit_percent_of_sums(solution.loss * static_cast<double>(y.size()), output_variations(data)[0]));
+    fit.start = {options.initial_state, false};
+    fit.termination = solution.termination;
+    fit.trace = solution.trace;
+    add_warnings(fit, options);
+    set_message(fit, "Hammerstein model with " + std::to_string(at.K) + " values of the characteristic, after " +
+                         iterations_text(fit.trace.size()) + ": " + simulation_text(fit) + ", against " +
+                         number_text(characteristic.linear_fit_percent, 4) + " % of the best linear model.");
+    return fit;
 }
 
 }  // namespace dynlab::inline numerics

@@ -1,35 +1,17 @@
 #pragma once
-#include "numerics/fit/transfer_estimate.h"
+#include "numerics/fit/fit.h"
 
 namespace dynlab::inline numerics {
 
 /// Options of the linear part, of which initial_state may be kZero or kSteady and offset must be kNone (a constant is
-/// part of the static characteristic); lambda, Td... as for srivc.
-struct HammersteinOptions : TransferOptions {
-    int Bins = 10;       ///< equal bins between the smallest and the largest input
-    Vector Breakpoints;  ///< the bins' edges (increasing, two at least), when given instead of Bins
+/// part of the static characteristic); lambda and delays as for srivc.
+struct HammersteinOptions : FitOptions {
+    int bins = 10;       ///< equal bins between the smallest and the largest input
+    Vector breakpoints;  ///< the bins' edges (increasing, two at least), when given instead of `bins`
 
     HammersteinOptions() { initial_state = InitialState::kSteady; }
     /// Throws InvalidArgument naming the option.
     void validate() const;
-};
-
-struct HammersteinEstimate {
-    Vector breakpoints;              ///< K edges of the bins, in units of the input
-    Vector levels, levels_std;       ///< K values of the static characteristic there, in units of the output
-    TransferFunction model;          ///< of steady-state gain one
-    std::vector<std::string> names;  ///< of theta: a1.., b0.. but for the last b, which is a_n, then f1..fK, then Td
-    Vector theta, std;
-    Matrix covariance;              ///< for white errors
-    double fit_percent = 0;         ///< simulation
-    double linear_fit_percent = 0;  ///< of the best linear model of the same orders
-    double noise_variance = 0;      ///< sum of squared errors/(N - d)
-    double loss = 0;                ///< mean square of the errors
-    double condition_number = 0;    ///< of the column-scaled sensitivities
-    Termination termination = Termination::kConverged;
-    Index iterations = 0;
-    std::vector<std::string> warnings;  ///< whole sentences
-    std::string message;                ///< one sentence, then the warnings
 };
 
 /// Hammerstein model: a static characteristic f and then linear dynamics of steady-state gain one,
@@ -45,8 +27,7 @@ struct HammersteinEstimate {
 /// experiments. Throws InvalidArgument for other data or options (check_transfer_data), a free delay beyond the record,
 /// or fewer than two edges that the input visits. Non-convergence and doubtful results are told in `warnings`.
 /// Reference: Bai (1998), Automatica 34, 333-338; Giri and Bai (2010), Block-oriented Nonlinear System Identification.
-HammersteinEstimate hammerstein(const IdData& data, const TransferStructure& structure,
-                                const HammersteinOptions& options = {});
+Fit hammerstein(const IdData& data, const TransferStructure& structure, const HammersteinOptions& options = {});
 
 /// The hat functions of the edges at each value of u (N x K): 1 at the edge, 0 at its neighbours and beyond, on
 /// straight lines between; constant outside. Their sum is 1, and their product with `levels` is f(u).

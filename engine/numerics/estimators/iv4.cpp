@@ -85,7 +85,7 @@ Vector noise_filter(const std::vector<Vector>& errors, const PolynomialOrders& o
 
 }  // namespace
 
-PolynomialEstimate iv4(const IdData& data, const PolynomialOrders& orders) {
+Fit iv4(const IdData& data, const PolynomialOrders& orders) {
     check_equation_error("iv4", data, orders);
     const PolynomialModel first(orders, solve_rich_arx("iv4", data, orders).theta, data.Ts);
     const ArxEquations equations(data, orders);
@@ -101,7 +101,7 @@ PolynomialEstimate iv4(const IdData& data, const PolynomialOrders& orders) {
                               " samples is too short for the noise filter of order " + std::to_string(L.size() - 1));
     const InstrumentEstimate solution = solve_instruments(last, ArxEquations(instruments, orders));
 
-    PolynomialEstimate estimate(orders, solution.theta, data.Ts);
+    Fit estimate = polynomial_fit(orders, solution.theta, data.Ts);
     report_equation_error(estimate, data);
     estimate.covariance = mean_square(last.errors(solution.theta), last.parameters()) * solution.unscaled_covariance;
     estimate.condition_number = solution.condition_number;

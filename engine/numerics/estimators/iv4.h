@@ -1,5 +1,5 @@
 #pragma once
-#include "numerics/fit/polynomial_estimate.h"
+#include "numerics/fit/fit.h"
 #include "numerics/signals/iddata.h"
 
 namespace dynlab::inline numerics {
@@ -17,6 +17,6 @@ namespace dynlab::inline numerics {
 /// the instruments are simulated from rest. `noise_variance` and `loss` are those of v, `std` uses that of e. Data,
 /// orders and what throws: as arx; also a record too short for step 3. Reference: Ljung (1999), section 15.3
 /// (15.21-24).
-PolynomialEstimate iv4(const IdData& data, const PolynomialOrders& orders);
+Fit iv4(const IdData& data, const PolynomialOrders& orders);
 
 }  // namespace dynlab::inline numerics

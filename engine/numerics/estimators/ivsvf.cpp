@@ -2,17 +2,18 @@
 
 #include <cmath>
 
+#include "numerics/criteria/denominator_group.h"
 #include "numerics/error.h"
-#include "numerics/fit/simulation_report.h"
+#include "numerics/fit/diagnosis.h"
 #include "numerics/linalg/decompositions.h"
 
 namespace dynlab::inline numerics {
 
-TransferEstimate ivsvf(const IdData& data, const TransferStructure& structure, const SvfOptions& options) {
+Fit ivsvf(const IdData& data, const TransferStructure& structure, const SvfOptions& options) {
     options.validate();
     check_carx("ivsvf", structure);
     check_transfer_data("ivsvf", data, structure);
-    TransferEstimate estimate;
+    Fit estimate;
     estimate.structure = structure;
     estimate.theta.resize(structure.parameter_count());
     estimate.covariance = Matrix::Zero(estimate.theta.size(), estimate.theta.size());
@@ -46,12 +47,12 @@ TransferEstimate ivsvf(const IdData& data, const TransferStructure& structure, c
         estimate.condition_number = std::max(estimate.condition_number, condition);
     }
     estimate.termination = Termination::kConverged;
-    report_errors(estimate);
+    describe_models(estimate);
     if (mirrored)
         estimate.warnings.push_back(
             "The first model, from least squares, was unstable; its poles were mirrored for the instruments.");
     warn_of_cutoff(estimate, options.lambda);
-    set_message(estimate, "Instrumental variables on filtered signals");
+    set_message(estimate, "Instrumental variables on filtered signals.");
     return estimate;
 }
 

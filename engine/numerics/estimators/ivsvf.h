@@ -10,6 +10,6 @@ namespace dynlab::inline numerics {
 /// Consistent for any noise that is independent of the inputs, unlike lssvf; its scatter depends on lambda. Covariance
 /// variance (Z'Phi)^-1 Z'Z (Phi'Z)^-1. Options, structures and errors as for lssvf; (beta/(p + lambda))^n makes it
 /// ivgpmf. References: Young and Jakeman (1980); Garnier and Wang (2008), section 1.4.
-TransferEstimate ivsvf(const IdData& data, const TransferStructure& structure, const SvfOptions& options);
+Fit ivsvf(const IdData& data, const TransferStructure& structure, const SvfOptions& options);
 
 }  // namespace dynlab::inline numerics

@@ -2,8 +2,9 @@
 
 #include <cmath>
 
+#include "numerics/criteria/denominator_group.h"
 #include "numerics/error.h"
-#include "numerics/fit/simulation_report.h"
+#include "numerics/fit/diagnosis.h"
 #include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
@@ -20,7 +21,7 @@ void SvfOptions::validate() const {
 
 void check_carx(const char* method, const TransferStructure& structure) {
     if (structure.free_delays)
-        throw InvalidArgument(std::string(method) + ": delays are fixed here; tfsrivc and tfcoe estimate them");
+        throw InvalidArgument(std::string(method) + ": delays are fixed here; srivc and coe estimate them");
     for (Index output = 0; output < structure.outputs; ++output)
         for (Index input = 1; input < structure.inputs; ++input)
             if (structure.channel(output, input).denominator != structure.channel(output, 0).denominator)
@@ -29,7 +30,7 @@ void check_carx(const char* method, const TransferStructure& structure) {
                                       "its own");
 }
 
-void warn_of_cutoff(TransferEstimate& estimate, double lambda) {
+void warn_of_cutoff(Fit& estimate, double lambda) {
     constexpr double kFar = 8;
     double fastest = 0;
     for (const TransferFunction& G : estimate.models) fastest = std::max(fastest, G.poles().cwiseAbs().maxCoeff());
@@ -39,11 +40,11 @@ void warn_of_cutoff(TransferEstimate& estimate, double lambda) {
                                     " rad/s): the usual choice is a bit above the bandwidth.");
 }
 
-TransferEstimate lssvf(const IdData& data, const TransferStructure& structure, const SvfOptions& options) {
+Fit lssvf(const IdData& data, const TransferStructure& structure, const SvfOptions& options) {
     options.validate();
     check_carx("lssvf", structure);
     check_transfer_data("lssvf", data, structure);
-    TransferEstimate estimate;
+    Fit estimate;
     estimate.structure = structure;
     estimate.theta.resize(structure.parameter_count());
     estimate.covariance = Matrix::Zero(estimate.theta.size(), estimate.theta.size());
@@ -65,9 +66,9 @@ TransferEstimate lssvf(const IdData& data, const TransferStructure& structure, c
         estimate.condition_number = std::max(estimate.condition_number, condition);
     }
     estimate.termination = Termination::kConverged;
-    report_errors(estimate);
+    describe_models(estimate);
     warn_of_cutoff(estimate, options.lambda);
-    set_message(estimate, "Least squares on filtered signals");
+    set_message(estimate, "Least squares on filtered signals.");
     return estimate;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "numerics/fit/transfer_estimate.h"
+#include "numerics/fit/fit.h"
 
 namespace dynlab::inline numerics {
 
@@ -21,15 +21,15 @@ struct SvfOptions {
 /// Exact filters from rest; inputs as the data's hold says, delays fixed and of any size. Biased by noise on the
 /// output: see ivsvf, srivc. Standard errors are those of least squares with a white equation error. All inputs of an
 /// output share a denominator (kPerOutput or kCommon). Memory does not grow with the
-/// record. The fit of the simulation is not measured (measure_fit does). Throws InvalidArgument for
+/// record. The fit of the simulation is not measured (measure_simulation does). Throws InvalidArgument for
 /// unsuitable data (check_transfer_data), denominators per channel with several inputs, or free delays.
 /// Reference: Young (1981); Garnier and Wang (2008), section 1.3.
-TransferEstimate lssvf(const IdData& data, const TransferStructure& structure, const SvfOptions& options);
+Fit lssvf(const IdData& data, const TransferStructure& structure, const SvfOptions& options);
 
 /// Throws InvalidArgument for a structure that is no CARX equation with fixed delays.
 void check_carx(const char* method, const TransferStructure& structure);
 
 /// Adds the warning that lambda lies far from the model's band, with the usual choice.
-void warn_of_cutoff(TransferEstimate& estimate, double lambda);
+void warn_of_cutoff(Fit& estimate, double lambda);
 
 }  // namespace dynlab::inline numerics

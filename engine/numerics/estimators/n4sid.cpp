@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "numerics/error.h"
-#include "numerics/fit/polynomial_estimate.h"
+#include "numerics/fit/diagnosis.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/triangular_factor.h"
@@ -41,7 +41,7 @@ Index chosen_block_rows(const IdData& data, int order, int wanted) {
     const Index least = order + 1;
     Index s = wanted > 0 ? wanted : std::max(kUsualBlockRows, 2 * least - 2);
     if (wanted > 0 && wanted < least)
-        throw InvalidArgument("n4sid: BlockRows must be greater than the order, " + std::to_string(order) +
+        throw InvalidArgument("n4sid: `block_rows` must be greater than the order, " + std::to_string(order) +
                               ", and is " + std::to_string(wanted));
     while (wanted == 0 && s > least && !fits(data, s)) --s;
     if (fits(data, s)) return s;
@@ -91,7 +91,7 @@ void require_rich_inputs(const Matrix& R, const Sizes& sizes) {
     if (solve_least_squares(inputs, Vector::Zero(f)).condition_number < kAmbiguousCondition) return;
     throw InvalidArgument("n4sid: the input is too poor to tell " + std::to_string(sizes.s) +
                           " samples of it apart (as a constant or a few sines are): excite the system with an input "
-                          "that changes more, or lower BlockRows");
+                          "that changes more, or lower `block_rows`");
 }
 
 struct Observability {
@@ -251,11 +251,12 @@ SubspaceWeighting parse_subspace_weighting(const std::string& text) {
     if (text == "MOESP") return SubspaceWeighting::kMoesp;
     if (text == "N4SID") return SubspaceWeighting::kN4sid;
     if (text == "CVA") return SubspaceWeighting::kCva;
-    throw InvalidArgument("Weighting must be \"MOESP\", \"N4SID\" or \"CVA\", and is \"" + text + "\"");
+    throw InvalidArgument("`weighting` must be \"MOESP\", \"N4SID\" or \"CVA\", and is \"" + text + "\"");
 }
 
 void SubspaceOptions::validate() const {
-    if (BlockRows < 0) throw InvalidArgument("BlockRows must not be negative, and is " + std::to_string(BlockRows));
+    if (block_rows < 0)
+        throw InvalidArgument("`block_rows` must not be negative, and is " + std::to_string(block_rows));
 }
 
 SubspaceEstimate n4sid(const IdData& data, int order, const SubspaceOptions& options) {
@@ -265,20 +266,20 @@ SubspaceEstimate n4sid(const IdData& data, int order, const SubspaceOptions& opt
                               std::to_string(kMostStates) + ", and is " + std::to_string(order));
     check_sampled_data("n4sid", data);
     const Sizes sizes{order, data.input_count(), data.output_count(),
-                      chosen_block_rows(data, order, options.BlockRows)};
+                      chosen_block_rows(data, order, options.block_rows)};
     IdData scaled = data;
     const Vector scale = scale_outputs(scaled);
     const Matrix R = past_and_future(scaled, sizes);
     require_rich_inputs(R, sizes);
 
-    const auto [directions, singular_values] = observability(R, sizes, options.Weighting);
+    const auto [directions, singular_values] = observability(R, sizes, options.weighting);
     const Index shifted = (sizes.s - 1) * sizes.ny;
     bool reflected = false;
     const Matrix A = with_stable_eigenvalues(
         solve_by_pivoted_qr(directions.topRows(shifted), directions.bottomRows(shifted)), reflected);
     const Matrix C = directions.topRows(sizes.ny);
 
-    const InputEquations equations(scaled, sizes, A, C, options.Feedthrough);
+    const InputEquations equations(scaled, sizes, A, C, options.feedthrough);
     if (data.sample_count() * sizes.ny <= equations.unknowns())
         throw InvalidArgument("n4sid needs more samples than the " + std::to_string(equations.unknowns()) +
                               " values it estimates, and the record holds " + std::to_string(data.sample_count()));

@@ -18,11 +18,10 @@ enum class SubspaceWeighting {
 /// Throws InvalidArgument that lists the words.
 SubspaceWeighting parse_subspace_weighting(const std::string& text);
 
-/// Fields carry the names of the scripting language's options.
 struct SubspaceOptions {
-    int BlockRows = 0;  ///< s: samples of past and of future; 0 for 15, or 2 order if that is more, or what fits
-    SubspaceWeighting Weighting = SubspaceWeighting::kMoesp;
-    bool Feedthrough = false;  ///< D is estimated rather than zero
+    int block_rows = 0;  ///< s: samples of past and of future; 0 for 15, or 2 order if that is more, or what fits
+    SubspaceWeighting weighting = SubspaceWeighting::kMoesp;
+    bool feedthrough = false;  ///< D is estimated rather than zero
 
     /// Throws InvalidArgument naming the option.
     void validate() const;
@@ -44,7 +43,7 @@ struct SubspaceEstimate {
 /// x(k+1) = A x(k) + B u(k), y(k) = C x(k) + D u(k) + v(k) by subspace identification, without any iteration. With the
 /// block rows s, the future outputs y(k)..y(k+s-1), less what the future inputs explain, are regressed on the past
 /// inputs and outputs (one orthogonal triangularisation of all of them together, in which nothing is stored that grows
-/// with the record); the n largest singular values of that regression, weighed as Weighting says, tell the extended
+/// with the record); the n largest singular values of that regression, weighed as `weighting` says, tell the extended
 /// observability matrix [C; C A; C A^2; ..], whose shift gives A and C. B, D and the initial state of each experiment
 /// then follow by linear least squares on the simulated output. Eigenvalues outside the unit circle are mirrored into
 /// it. Consistent for any stationary v that is independent of the inputs, which must be rich enough for s; less precise

@@ -4,7 +4,7 @@
 
 namespace dynlab::inline numerics {
 
-PolynomialEstimate oe(const IdData& data, const PolynomialOrders& orders, const PolynomialOptions& options) {
+Fit oe(const IdData& data, const PolynomialOrders& orders, const FitOptions& options) {
     return fit_discrete_output("oe", data, orders, options, output_error_search(options));
 }
 

@@ -1,18 +1,18 @@
 #pragma once
-#include "numerics/fit/polynomial_estimate.h"
+#include "numerics/fit/fit.h"
 #include "numerics/signals/iddata.h"
 
 namespace dynlab::inline numerics {
 
 /// y(k) = sum_i B_i(q)/F_i(q) u_i(k) + e(k), output error:
 ///     minimise sum_k (y(k) - sum_i B_i/F_i u_i(k) - free motion(k) - offset)^2
-/// by damped Gauss-Newton with exact sensitivities (kernels/output_error.h, kernels/discrete_output.h). It starts where
-/// a few rough passes of SRIV lead (kernels/instrument_iteration.h), so that no guess is needed. Consistent for any
+/// by damped Gauss-Newton with exact sensitivities (fit/output_error.h, criteria/discrete_output.h). It starts where
+/// a few rough passes of SRIV lead (fit/instrument_iteration.h), so that no guess is needed. Consistent for any
 /// noise independent of the inputs; the maximum-likelihood estimate when e is white and Gaussian, for which the
 /// covariance is right. Data: one output, any number of inputs and experiments, regular sampling; `orders` holds nb, nf
-/// and nk only. Initial state and offset as in kernels/discrete_output.h. Throws InvalidArgument for other data or
+/// and nk only. Initial state and offset as in criteria/discrete_output.h. Throws InvalidArgument for other data or
 /// orders, an input that is zero, or no more samples than values to estimate. Non-convergence and doubtful results are
 /// told in `warnings`, never thrown. Reference: Ljung (1999), sections 4.2 and 10.2.
-PolynomialEstimate oe(const IdData& data, const PolynomialOrders& orders, const PolynomialOptions& options = {});
+Fit oe(const IdData& data, const PolynomialOrders& orders, const FitOptions& options = {});
 
 }  // namespace dynlab::inline numerics

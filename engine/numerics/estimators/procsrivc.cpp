@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
-#include <sstream>
 
 #include "numerics/criteria/process_output.h"
 #include "numerics/error.h"
+#include "numerics/fit/diagnosis.h"
 #include "numerics/fit/output_error.h"
-#include "numerics/fit/polynomial_estimate.h"
 #include "numerics/fit/process_start.h"
-#include "numerics/fit/transfer_data.h"
+#include "numerics/fit/refined_iteration.h"
+#include "numerics/fit/start_choice.h"
 #include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
@@ -19,103 +18,63 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr Index kSamplesPerProcessParameter = 3;
+constexpr Index kProcessTrialSamples = 20'000;  // the start for a much longer record is found on its beginning
+constexpr double kToldApart = 0.25;             // of a time constant or gain: a larger standard error is no start
+constexpr double kCloseEvidence = 12;           // N BIC: start conditions that near are all fitted to the whole record
 
-struct Problem {
-    IdData data;  // from which the estimate is made: without operating points, with Offset "remove"
-    std::vector<OperatingPoint> removed;
-    std::vector<ProcessInput> inputs;
-    Vector y;                           // of all experiments
-    double spread = 0;                  // sum of squares of y about each experiment's mean
-    double unit = 1;                    // s, the time unit: the sampling time, or the mean step
-    double least_delay, largest_delay;  // units
-    double longest = 0;                 // s, of the longest record
-    bool flat = true;                   // no input ever changes
+/// What is fitted, under any start condition.
+struct ProcessProblem {
+    const ProcessStructure& structure;
+    DelayRange range;
+    const FitOptions& options;
+
+    TransferOutput output(const IdData& data, const StartCondition& condition) const {
+        return {transfer_structure(structure), condition, data, range.least, range.largest, structure.integrator};
+    }
+    Index value_count(const IdData& data, const StartCondition& condition) const {
+        const Index initial =
+            condition.state == InitialState::kEstimate ? structure.poles + (structure.integrator ? 1 : 0) : 0;
+        return static_cast<Index>(structure.parameter_names().size()) +
+               (initial + (condition.offset ? 1 : 0)) * static_cast<Index>(data.experiments.size());
+    }
+    bool enough(const IdData& data, const StartCondition& condition) const {
+        return data.sample_count() >= kSamplesPerProcessParameter * value_count(data, condition);
+    }
 };
 
-void check_data(const IdData& data) {
+/// What came of one start condition, in seconds.
+struct ProcessSolution {
+    StartCondition condition;
+    OutputErrorSolution search;
+    ProcessScan scan;
+    Termination termination;
+};
+using ProcessCandidate = Candidate<ProcessSolution>;
+
+void check_process_data(const IdData& data) {
     if (data.experiments.empty() || data.input_count() != 1 || data.output_count() != 1)
         throw InvalidArgument("procsrivc: the data must have one input and one output, and have " +
                               std::to_string(data.input_count()) + " input(s) and " +
                               std::to_string(data.output_count()) + " output(s): select one of each");
-    const auto all = [&](auto&& flat) { return std::all_of(data.experiments.begin(), data.experiments.end(), flat); };
-    if (all([](const Experiment& experiment) { return experiment.u.isZero(0); }))
-        throw InvalidArgument(
-            "procsrivc: the input is zero throughout, so it excites nothing and nothing can be learnt");
-    if (all([](const Experiment& experiment) { return (experiment.y.array() == experiment.y(0, 0)).all(); }))
-        throw InvalidArgument("procsrivc: the output never changes, so nothing can be learnt");
+    check_signals("procsrivc", data);
 }
 
-Problem problem_of(const IdData& data, const ProcsrivcOptions& options) {
-    check_data(data);
-    Problem problem{data, std::vector<OperatingPoint>(data.experiments.size()), {}, {}, 0, data.mean_step(), 0, 0, 0,
-                    true};
-    if (options.offset == Offset::kRemove) {
-        CentredData centred = without_operating_points(data);
-        problem.data = std::move(centred.data);
-        for (std::size_t e = 0; e < problem.removed.size(); ++e)
-            problem.removed[e] = {centred.removed[e][0].inputs[0], centred.removed[e][0].output};
-    }
-    problem.y.resize(data.sample_count());
-    Index row = 0;
-    for (std::size_t e = 0; e < data.experiments.size(); ++e) {
-        const Experiment& experiment = problem.data.experiments[e];
-        ProcessInput input{experiment.u.col(0), data.hold, {}};
-        if (!data.regular()) input.t = (experiment.t.array() - experiment.t[0]) / problem.unit;
-        problem.flat = problem.flat && (input.u.array() == input.u[0]).all();
-        problem.inputs.push_back(std::move(input));
-        problem.y.segment(row, experiment.y.rows()) = experiment.y;
-        row += experiment.y.rows();
-        problem.spread += (experiment.y.array() - experiment.y.mean()).square().sum();
-        problem.longest = std::max(problem.longest, data.duration(e));
-    }
-    TransferOptions bounds;
-    bounds.TdMin = options.TdMin;
-    bounds.TdMax = options.TdMax;
-    const DelayRange range = delay_range(data, bounds);
-    problem.least_delay = range.least / problem.unit;
-    problem.largest_delay = range.largest / problem.unit;
-    return problem;
-}
-
-struct Fit {
-    StartCondition condition;
-    OutputErrorSolution solution;
-    ProcessScan scan;
-    double bic = std::numeric_limits<double>::infinity();
-};
-
-Index value_count(const Problem& problem, const ProcessStructure& structure, const StartCondition& condition) {
-    const Index own = initial_value_count(structure, condition) + (condition.offset ? 1 : 0);
-    return static_cast<Index>(structure.parameter_names().size()) + own * static_cast<Index>(problem.inputs.size());
-}
-
-Fit fit_condition(const Problem& problem, const ProcessStructure& structure, const StartCondition& condition,
-                  const ProcsrivcOptions& options) {
-    const ProcessOutput model(structure, condition, problem.inputs, problem.least_delay, problem.largest_delay);
-    const Index N = problem.y.size(), d = model.parameter_count();
-    Fit fit{condition, {}, scan_process_grid(model, problem.y, options.NumTd)};
-    fit.solution =
-        minimise_output_error(model, problem.y, fit.scan.starts, {options.MaxIter, options.Tol, options.cancel});
-    fit.bic = bic_of_loss(fit.solution.loss, problem.y.squaredNorm() / static_cast<double>(N), N, d);
-    return fit;
-}
-
-// What the options and the inputs allow. The free motion of an integrator is a constant itself, and it has no rest but
-// that at zero input.
-std::vector<StartCondition> conditions_for(const Problem& problem, const ProcessStructure& structure,
-                                           const ProcsrivcOptions& options) {
-    std::vector<StartCondition> conditions = start_conditions(problem.data, options.initial_state, options.offset);
+/// What the options and the inputs allow. The free motion of an integrator is a constant itself, and it has no rest but
+/// that at zero input.
+std::vector<StartCondition> conditions_for(const IdData& data, const ProcessStructure& structure,
+                                           const FitOptions& options) {
+    std::vector<StartCondition> conditions = start_conditions(data, options.initial_state, options.offset);
     if (!structure.integrator) return conditions;
-    const bool rests = std::all_of(problem.inputs.begin(), problem.inputs.end(),
-                                   [](const ProcessInput& input) { return input.u[0] == 0; });
+    const bool rests = std::all_of(data.experiments.begin(), data.experiments.end(),
+                                   [](const Experiment& experiment) { return experiment.u(0, 0) == 0; });
     if (options.initial_state == InitialState::kSteady && !rests)
         throw InvalidArgument(
-            "A process with an integrator rests at zero input only, so InitialState \"steady\" does not suit: use "
+            "A process with an integrator rests at zero input only, so `initial_state` \"steady\" does not suit: use "
             "\"zero\", \"estimate\" or \"auto\"");
     if (options.initial_state == InitialState::kEstimate && options.offset == Offset::kEstimate)
         throw InvalidArgument(
-            "The initial state of a process with an integrator holds its level already: with InitialState "
-            "\"estimate\", let Offset be \"none\", \"remove\" or \"auto\"");
+            "The initial state of a process with an integrator holds its level already: with `initial_state` "
+            "\"estimate\", let `offset` be \"none\", \"remove\" or \"auto\"");
     std::erase_if(conditions, [&](const StartCondition& condition) {
         return (condition.state == InitialState::kEstimate && condition.offset) ||
                (condition.state == InitialState::kSteady && options.initial_state == InitialState::kAuto);
@@ -123,55 +82,108 @@ std::vector<StartCondition> conditions_for(const Problem& problem, const Process
     return conditions;
 }
 
-Fit best_fit(const Problem& problem, const ProcessStructure& structure, const ProcsrivcOptions& options) {
-    const auto conditions = conditions_for(problem, structure, options);
-    const Index N = problem.y.size(),
-                fewest = kSamplesPerProcessParameter * value_count(problem, structure, conditions[0]);
-    if (N < fewest)
-        throw InvalidArgument("procsrivc: at least " + std::to_string(fewest) + " samples are needed for " +
-                              std::to_string(fewest / kSamplesPerProcessParameter) + " values, and the data hold " +
-                              std::to_string(N));
-    Fit best = fit_condition(problem, structure, conditions.front(), options);
-    for (std::size_t i = 1; i < conditions.size(); ++i) {
-        if (best.solution.termination == Termination::kCancelled) break;
-        if (N < kSamplesPerProcessParameter * value_count(problem, structure, conditions[i])) continue;
-        Fit fit = fit_condition(problem, structure, conditions[i], options);
-        if (fit.bic < best.bic) best = std::move(fit);
-    }
-    if (problem.flat && best.solution.termination != Termination::kCancelled)
-        require_transient("procsrivc",
-                          {best.solution.loss, problem.spread / static_cast<double>(N),
-                           problem.y.squaredNorm() / static_cast<double>(N), N,
-                           value_count(problem, structure, best.condition), static_cast<Index>(problem.inputs.size())});
-    return best;
+/// The search under one start condition, from the best points of a grid unless a start (s) is given.
+ProcessCandidate fit_condition(const ProcessProblem& problem, const IdData& data, const StartCondition& condition,
+                               const Vector& start = {}) {
+    const TransferOutput output = problem.output(data, condition);
+    const Vector y = output.target(), seconds = process_seconds(problem.structure, output);
+    const FitOptions& options = problem.options;
+    ProcessScan scan;
+    if (start.size() > 0)
+        scan.starts = {start.cwiseQuotient(seconds)};
+    else
+        scan = scan_process_grid(problem.structure, output, options.delay_count);
+    scan.delays *= output.time_unit();
+    OutputErrorSolution search = minimise_output_error(process_output(problem.structure, output), y, scan.starts,
+                                                       {options.max_iterations, options.tolerance, options.cancel});
+    search.theta = search.theta.cwiseProduct(seconds).eval();
+    search.covariance = (seconds.asDiagonal() * search.covariance * seconds.asDiagonal()).eval();
+    for (FitIteration& iteration : search.trace) iteration.theta = iteration.theta.cwiseProduct(seconds).eval();
+    const Index N = y.size();
+    const double bic =
+        bic_of_loss(search.loss, y.squaredNorm() / static_cast<double>(N), N, problem.value_count(data, condition));
+    const Termination termination = search.termination;
+    return {{condition, std::move(search), std::move(scan), termination}, bic};
 }
 
-// The factor from time units to seconds of each estimated value.
-Vector units(const Problem& problem, const ProcessStructure& structure, const Fit& fit) {
-    Vector factor = Vector::Ones(fit.solution.theta.size());
-    const auto names = structure.parameter_names();
-    Index i = 0;
-    for (const std::string& name : names) factor[i++] = name.front() == 'T' ? problem.unit : 1;
-    if (structure.integrator) factor[0] = 1 / problem.unit;
-    for (std::size_t e = 0; e < problem.inputs.size(); ++e)
-        for (Index j = 0; j < initial_value_count(structure, fit.condition); ++j)
-            factor[i++] = std::pow(problem.unit, -static_cast<double>(j));
-    return factor;
+ProcessSolution best_fit(const ProcessProblem& problem, const IdData& data,
+                         const std::vector<StartCondition>& conditions) {
+    return smallest_bic(
+        conditions, [&](const StartCondition& condition) { return problem.enough(data, condition); },
+        [&](const StartCondition& condition) { return fit_condition(problem, data, condition); });
 }
 
-void set_start_values(ProcsrivcResult& result, const Problem& problem, const Fit& fit, const Vector& all) {
-    const Index values = initial_value_count(result.model.structure, fit.condition);
-    const auto experiments = static_cast<Index>(problem.inputs.size());
-    for (Index e = 0; values > 0 && e < experiments; ++e)
-        result.initial_values.emplace_back(all.segment(result.theta.size() + e * values, values));
-    result.offsets = fit.condition.offset ? Vector(all.tail(experiments)) : Vector(Vector::Zero(experiments));
-    result.output = fit.solution.output;
-    Index row = 0;
-    for (std::size_t e = 0; e < problem.inputs.size(); ++e) {
-        result.output.segment(row, problem.inputs[e].u.size()).array() += problem.removed[e].output;
-        row += problem.inputs[e].u.size();
+/// Whether a beginning of the record tells gain and time constants well enough to start from.
+bool is_a_start(const ProcessProblem& problem, const OutputErrorSolution& search) {
+    if (search.termination != Termination::kConverged && search.termination != Termination::kNoProgress) return false;
+    if (!(search.condition_number < kAmbiguousCondition)) return false;
+    const auto names = problem.structure.parameter_names();
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const Index k = static_cast<Index>(i);
+        const bool scales = names[i] == "Kp" || names[i] == "Tw" || names[i].starts_with("Tp");
+        const double std = std::sqrt(std::max(0.0, search.covariance(k, k)));
+        if (search.at_bound[i] || (scales && !(std <= kToldApart * std::abs(search.theta[k])))) return false;
     }
-    result.removed = problem.removed;
+    return true;
+}
+
+/// The conditions worth a fit to the whole record of N samples. An initial state shows at the beginning, so that the
+/// evidence for it, n ln V of the beginning's n samples, is that of the whole; an offset shows the better the longer
+/// the record, so that there both are worth it.
+std::vector<ProcessSolution> worth_a_fit(std::vector<ProcessCandidate> trials, const ProcessProblem& problem,
+                                         const IdData& beginning, Index N) {
+    const auto evidence = [&](const ProcessCandidate& trial) {
+        const double n = static_cast<double>(beginning.sample_count());
+        const double values = static_cast<double>(problem.value_count(beginning, trial.result.condition));
+        return n * trial.bic + values * (std::log(static_cast<double>(N)) - std::log(n));
+    };
+    std::vector<ProcessSolution> chosen;
+    for (ProcessCandidate& trial : trials) {
+        const bool behind = std::any_of(trials.begin(), trials.end(), [&](const ProcessCandidate& other) {
+            return other.result.condition.offset == trial.result.condition.offset &&
+                   evidence(other) + kCloseEvidence < evidence(trial);
+        });
+        if (!behind) chosen.push_back(trial.result);
+    }
+    return chosen;
+}
+
+bool input_changes(const IdData& data) {
+    return std::any_of(data.experiments.begin(), data.experiments.end(),
+                       [](const Experiment& e) { return (e.u.array() != e.u(0, 0)).any(); });
+}
+
+/// A long record: every start condition on its beginning, then those worth it on the whole, from where these ended.
+ProcessSolution best_fit_to_long(const ProcessProblem& problem, const IdData& data,
+                                 const std::vector<StartCondition>& conditions) {
+    const IdData beginning = beginning_of(data, kProcessTrialSamples);
+    ProcessProblem trial = problem;
+    if (!problem.options.largest_delay)
+        trial.range.largest =
+            std::max(problem.range.least, std::min(problem.range.largest, shortest_record(beginning) / 4));
+    if (data.sample_count() < 2 * beginning.sample_count() || !input_changes(beginning) ||
+        shortest_record(beginning) <= trial.range.largest)
+        return best_fit(problem, data, conditions);
+    std::vector<ProcessCandidate> trials;
+    for (const StartCondition& condition : conditions) {
+        trials.push_back(fit_condition(trial, beginning, condition));
+        if (trials.back().result.termination == Termination::kCancelled) return best_fit(problem, data, {condition});
+    }
+    std::vector<ProcessSolution> starts = worth_a_fit(std::move(trials), problem, beginning, data.sample_count());
+    if (!std::all_of(starts.begin(), starts.end(),
+                     [&](const ProcessSolution& start) { return is_a_start(problem, start.search); }))
+        return best_fit(problem, data, conditions);
+    std::vector<StartCondition> worth;
+    for (const ProcessSolution& start : starts) worth.push_back(start.condition);
+    std::size_t next = 0;
+    return smallest_bic(
+        worth, [](const StartCondition&) { return true; },
+        [&](const StartCondition& condition) {
+            ProcessSolution& start = starts[next++];
+            ProcessCandidate candidate = fit_condition(problem, data, condition, start.search.theta);
+            candidate.result.scan = std::move(start.scan);
+            return candidate;
+        });
 }
 
 Index real_lag_count(const ProcessStructure& structure) {
@@ -188,8 +200,8 @@ void sort_time_constants(const ProcessStructure& structure, Vector& theta, Matri
     covariance = covariance(order, order).eval();
 }
 
-void warn_of_times(ProcsrivcResult& result, double Ts, double longest) {
-    const ProcessStructure& structure = result.model.structure;
+void warn_of_times(Fit& result, double Ts, double longest) {
+    const ProcessStructure& structure = result.process->structure;
     for (std::size_t i = 1; i < result.names.size(); ++i) {
         const std::string& name = result.names[i];
         const double value = result.theta[static_cast<Index>(i)];
@@ -214,8 +226,8 @@ void warn_of_times(ProcsrivcResult& result, double Ts, double longest) {
                                   std::to_string(structure.poles) + " without U suits it.");
 }
 
-void warn_of_zero(ProcsrivcResult& result) {
-    const double Tz = result.model.parameter("Tz");
+void warn_of_zero(Fit& result) {
+    const double Tz = result.process->parameter("Tz");
     for (std::size_t i = 1; i < result.names.size(); ++i) {
         const double value = result.theta[static_cast<Index>(i)];
         if (result.names[i].starts_with("Tp") && std::abs(Tz - value) < 0.02 * value)
@@ -224,92 +236,78 @@ void warn_of_zero(ProcsrivcResult& result) {
     }
 }
 
-void warn_of_delay(ProcsrivcResult& result, double least, double largest) {
-    const double Td = result.theta[result.theta.size() - 1], edge = 1e-9 * largest;
-    if (Td >= largest - edge && largest > least)
-        result.warnings.push_back("The delay lies at TdMax = " + number_text(largest) +
-                                  " s, the edge of what was searched: raise TdMax.");
-    else if (Td <= least + edge && least > 0)
-        result.warnings.push_back("The delay lies at TdMin = " + number_text(least) +
-                                  " s, the edge of what was searched: lower TdMin.");
-    else if (Td <= edge && largest > 0)
-        result.warnings.push_back("No delay is visible: a structure without D suits.");
+std::string process_message(const Fit& fit) {
+    return "Output error " + ending_text(fit) + ", simulating " + description(fit.start) + ": fit " +
+           number_text(fit.fit_percent[0], 4) + " %.";
 }
 
-void warn_of_search(ProcsrivcResult& result, double condition_number, const ProcsrivcOptions& options) {
-    if (result.termination == Termination::kIterationLimit)
-        result.warnings.push_back("The search had not settled after MaxIter = " + std::to_string(options.MaxIter) +
-                                  " iterations; the best point so far is given.");
-    if (result.termination == Termination::kCancelled)
-        result.warnings.push_back("The search was stopped before its end; the best point so far is given.");
-    if (!(condition_number < kAmbiguousCondition)) {
-        result.warnings.push_back("The data do not tell all parameters apart (condition number " +
-                                  number_text(condition_number, 2) +
-                                  "): a simpler structure or a richer input is wanted.");
-        return;
+/// With the time constants in order.
+Fit fit_of(const ProcessProblem& problem, const IdData& data, ProcessSolution solution) {
+    const TransferOutput output = problem.output(data, solution.condition);
+    Vector all = solution.search.theta;
+    Matrix covariance = solution.search.covariance;
+    sort_time_constants(problem.structure, all, covariance);
+    const Index linear = output.linear_count(), q = all.size() - linear;
+    Fit fit;
+    fit.process.emplace(problem.structure, all.head(q));
+    fit.models = {fit.process->transfer_function()};
+    fit.names = problem.structure.parameter_names();
+    fit.theta = all.head(q);
+    fit.covariance = covariance.topLeftCorner(q, q);
+    fit.std = fit.covariance.diagonal().cwiseMax(0).cwiseSqrt();
+    fit.noise_variance = Vector::Constant(1, solution.search.noise_variance);
+    fit.loss = solution.search.loss;
+    fit.condition_number = solution.search.condition_number;
+    fit.start = solution.condition;
+    const Index first = output.parameter_count() - linear;  // of what is not the process's own, in output's parameters
+    fit.offsets = Matrix::Zero(static_cast<Index>(data.experiments.size()), 1);
+    for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+        if (output.initial_count(0) > 0)
+            fit.initial_values.emplace_back(
+                all.segment(q + output.initial_place(e, 0) - first, output.initial_count(0)));
+        if (solution.condition.offset)
+            fit.offsets(static_cast<Index>(e), 0) = all[q + output.offset_place(e, 0) - first];
     }
-    for (std::size_t i = 0; i < result.names.size(); ++i) {
-        const Index k = static_cast<Index>(i);
-        if (result.std[k] > std::abs(result.theta[k]) && result.names[i] != "Td")
-            result.warnings.push_back("The data hardly determine " + result.names[i] +
-                                      ": its standard error is larger than its value.");
-    }
-}
-
-std::string message_of(const ProcsrivcResult& result) {
-    const bool done = result.termination == Termination::kConverged || result.termination == Termination::kNoProgress;
-    std::ostringstream text;
-    text << "Output error " << (done ? "converged" : "stopped") << " after " << iterations_text(result.trace.size())
-         << ", simulating " << description(result.start) << ": fit " << number_text(result.fit_percent, 4) << " %.";
-    for (const std::string& warning : result.warnings) text << ' ' << warning;
-    return text.str();
+    fit.fit_percent = Vector::Constant(
+        1, fit_percent_of_sums(fit.loss * static_cast<double>(data.sample_count()), output_variations(data)[0]));
+    fit.output = std::move(solution.search.output);
+    fit.delay_grid = solution.scan.delays;
+    fit.delay_loss = solution.scan.losses;
+    fit.termination = solution.termination;
+    fit.trace = std::move(solution.search.trace);
+    return fit;
 }
 
 }  // namespace
 
-void ProcsrivcOptions::validate() const {
-    OutputErrorOptions{MaxIter, Tol, {}}.validate();
-    if (!(TdMin >= 0) || !std::isfinite(TdMin))
-        throw InvalidArgument("TdMin must not be negative, and is " + number_text(TdMin));
-    if (TdMax && (!(*TdMax >= TdMin) || !std::isfinite(*TdMax)))
-        throw InvalidArgument("TdMax must be at least TdMin = " + number_text(TdMin) + ", and is " +
-                              number_text(*TdMax));
-    if (NumTd < 1) throw InvalidArgument("NumTd must be at least 1, and is " + std::to_string(NumTd));
-}
-
-ProcsrivcResult procsrivc(const IdData& data, const ProcessStructure& structure, const ProcsrivcOptions& options) {
+Fit procsrivc(const IdData& data, const ProcessStructure& structure, const ProcsrivcOptions& options) {
     options.validate();
-    const Problem problem = problem_of(data, options);
-    Fit fit = best_fit(problem, structure, options);
-
-    const Vector factor = units(problem, structure, fit);
-    Vector all = fit.solution.theta.cwiseProduct(factor);
-    Matrix covariance = factor.asDiagonal() * fit.solution.covariance * factor.asDiagonal();
-    sort_time_constants(structure, all, covariance);
-    const auto names = structure.parameter_names();
-    const Index q = static_cast<Index>(names.size());
-
-    ProcsrivcResult result(ProcessModel(structure, all.head(q)));
-    result.names = names;
-    result.theta = all.head(q);
-    result.covariance = covariance.topLeftCorner(q, q);
-    result.std = result.covariance.diagonal().cwiseMax(0).cwiseSqrt();
-    result.noise_variance = fit.solution.noise_variance;
-    result.loss = fit.solution.loss;
-    result.start = fit.condition;
-    set_start_values(result, problem, fit, all);
-    result.fit_percent = 100 * (1 - (problem.y - fit.solution.output).norm() / std::sqrt(problem.spread));
-    result.delay_grid = fit.scan.delays * problem.unit;
-    result.delay_loss = fit.scan.losses;
-    result.termination = fit.solution.termination;
-    result.trace = std::move(fit.solution.trace);
-    warn_of_search(result, fit.solution.condition_number, options);
-    warn_of_times(result, problem.unit, problem.longest);
-    if (structure.zero) warn_of_zero(result);
-    if (structure.delay)
-        warn_of_delay(result, problem.least_delay * problem.unit, problem.largest_delay * problem.unit);
-    result.message = message_of(result);
-    return result;
+    check_process_data(data);
+    const CentredData record = centred_for(data, options.offset);
+    const ProcessProblem problem{structure, delay_range(data, options), options};
+    const auto conditions = conditions_for(record.data, structure, options);
+    const Index values = problem.value_count(data, conditions[0]), fewest = kSamplesPerProcessParameter * values;
+    if (data.sample_count() < fewest)
+        throw InvalidArgument("procsrivc: at least " + std::to_string(fewest) + " samples are needed for " +
+                              std::to_string(values) + " values, and the data hold " +
+                              std::to_string(data.sample_count()));
+    Fit fit = fit_of(problem, record.data, best_fit_to_long(problem, record.data, conditions));
+    check_transient("procsrivc", record.data, fit, problem.value_count(data, fit.start));
+    Index row = 0;
+    for (std::size_t e = 0; e < record.removed.size(); ++e) {
+        fit.output.segment(row, data.sample_count(e)).array() += record.removed[e][0].output;
+        row += data.sample_count(e);
+    }
+    fit.removed = record.removed;
+    warn_of_search(fit, options);
+    warn_of_doubtful_parameters(fit);
+    double longest = 0;
+    for (std::size_t e = 0; e < data.experiments.size(); ++e) longest = std::max(longest, data.duration(e));
+    warn_of_times(fit, data.mean_step(), longest);
+    if (structure.zero) warn_of_zero(fit);
+    if (structure.delay) warn_of_delay(fit, fit.theta[fit.theta.size() - 1], problem.range, "");
+    set_message(fit, process_message(fit));
+    return fit;
 }
 
 }  // namespace dynlab::inline numerics

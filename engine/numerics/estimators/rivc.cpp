@@ -8,10 +8,8 @@
 #include "numerics/criteria/transfer_output.h"
 #include "numerics/error.h"
 #include "numerics/estimators/srivc.h"
+#include "numerics/fit/diagnosis.h"
 #include "numerics/fit/output_error.h"
-#include "numerics/fit/simulation_report.h"
-#include "numerics/fit/transfer_data.h"
-#include "numerics/fit/transfer_report.h"
 #include "numerics/linalg/polynomial.h"
 
 namespace dynlab::inline numerics {
@@ -90,7 +88,7 @@ class WhitenedOutput : public OutputErrorModel {
 };
 
 /// srivc's estimate as a point of the search.
-Vector first_point(const TransferOutput& model, const TransferEstimate& start) {
+Vector first_point(const TransferOutput& model, const Fit& start) {
     Vector theta = Vector::Zero(model.parameter_count());
     theta.head(start.theta.size()) = start.theta;
     for (std::size_t e = 0; e < start.initial_values.size(); ++e)
@@ -111,13 +109,13 @@ double largest_change(const Vector& next, const Vector& before, const Vector& er
 /// The passes between the noise model and the instrumental equations.
 class Passes {
   public:
-    Passes(const TransferOutput& model, const Vector& y, const NoiseOrders& orders, const TransferOptions& options)
+    Passes(const TransferOutput& model, const Vector& y, const NoiseOrders& orders, const FitOptions& options)
         : model_(model), y_(y), orders_(orders), options_(options) {}
 
     void run(const Vector& start) {
         theta_ = start;
         noise_ = ArmaNoise::white(orders_.nc, orders_.nd);
-        for (int pass = 0; pass < std::max(1, options_.MaxIter); ++pass) {
+        for (int pass = 0; pass < std::max(1, options_.max_iterations); ++pass) {
             if (pass > 0 && options_.cancel && options_.cancel()) {
                 termination_ = Termination::kCancelled;
                 break;
@@ -125,7 +123,7 @@ class Passes {
             const double change = one_pass(pass > 0);
             const Vector errors = y_ - simulated();
             trace_.push_back({seconds(theta_), errors.squaredNorm() / static_cast<double>(y_.size()), change});
-            if (change <= options_.Tol) {
+            if (change <= options_.tolerance) {
                 termination_ = Termination::kConverged;
                 break;
             }
@@ -150,7 +148,7 @@ class Passes {
     double variance_ = 0;
     bool without_noise_ = false;
     Termination termination_ = Termination::kIterationLimit;
-    std::vector<TransferIteration> trace_;
+    std::vector<FitIteration> trace_;
 
   private:
     std::vector<Vector> residual_records() const {
@@ -164,14 +162,14 @@ class Passes {
     /// Largest relative change of theta and the noise model.
     double one_pass(bool noise_known) {
         const ArmaNoise before = noise_;
-        const double tolerance = std::min(options_.Tol, 1e-6);
+        const double tolerance = std::min(options_.tolerance, 1e-6);
         without_noise_ = exact(y_ - simulated());
         noise_ = without_noise_ ? ArmaNoise::white(orders_.nc, orders_.nd)
                                 : estimate_arma(residual_records(), orders_.nc, orders_.nd, tolerance,
                                                 noise_known ? &before : nullptr);
         const WhitenedOutput whitened_output(model_, noise_, y_);
         solution_ = minimise_output_error(whitened_output, whitened_output.target(), theta_,
-                                          {options_.MaxIter, tolerance, options_.cancel});
+                                          {options_.max_iterations, tolerance, options_.cancel});
         const Vector last = theta_;
         theta_ = solution_.theta;
         const Vector ones = Vector::Constant(std::max(noise_.C.size(), noise_.D.size()), 1);
@@ -191,28 +189,26 @@ class Passes {
     const TransferOutput& model_;
     const Vector& y_;
     NoiseOrders orders_;
-    TransferOptions options_;
+    FitOptions options_;
 };
 
-void fill_noise(RivcResult& result, const Passes& passes, const NoiseOrders& orders) {
-    result.C = passes.noise_.C;
-    result.D = passes.noise_.D;
+void fill_noise(Fit& result, const Passes& passes, const NoiseOrders& orders) {
     result.noise_covariance = passes.noise_.covariance;
     const Vector std = result.noise_covariance.diagonal().cwiseMax(0).cwiseSqrt();
-    result.C_std = Vector::Zero(orders.nc + 1);
-    result.D_std = Vector::Zero(orders.nd + 1);
-    result.C_std.tail(orders.nc) = std.head(orders.nc);
-    result.D_std.tail(orders.nd) = std.tail(orders.nd);
+    NoiseModel& noise = result.noise.emplace(
+        NoiseModel{passes.noise_.C, passes.noise_.D, Vector::Zero(orders.nc + 1), Vector::Zero(orders.nd + 1)});
+    noise.C_std.tail(orders.nc) = std.head(orders.nc);
+    noise.D_std.tail(orders.nd) = std.tail(orders.nd);
     const bool asked = orders.nc + orders.nd > 0;
     if (asked && passes.without_noise_)
         result.warnings.push_back("Nothing but rounding is left of the output, so there is no noise to model.");
-    for (const auto& [name, p] : {std::pair{"C", result.C}, std::pair{"D", result.D}})
+    for (const auto& [name, p] : {std::pair{"C", noise.C}, std::pair{"D", noise.D}})
         if (p.tail(p.size() - 1).any() && roots(p).cwiseAbs().maxCoeff() > kNearUnitCircle)
             result.warnings.push_back(std::string("A root of ") + name +
                                       " lies nearly on the unit circle: the noise drifts, or its orders do not suit.");
 }
 
-void fill_model(RivcResult& result, const TransferOutput& model, const Passes& passes, const Vector& y) {
+void fill_model(Fit& result, const TransferOutput& model, const Passes& passes, const Vector& y, double variation) {
     const Index count = result.structure.parameter_count();
     const Vector all = passes.seconds(passes.theta_), seconds = model.seconds().head(count);
     result.theta = all.head(count);
@@ -222,17 +218,13 @@ void fill_model(RivcResult& result, const TransferOutput& model, const Passes& p
     result.noise_variance = Vector::Constant(1, passes.variance_);
     for (std::size_t e = 0; e < result.initial_values.size(); ++e)
         result.initial_values[e] = all.segment(model.initial_place(e, 0), result.initial_values[e].size());
-    double variation = 0;
-    for (std::size_t e = 0; e < model.experiment_count(); ++e) {
-        const Vector of_experiment = y.segment(model.row(e, 0), model.rows(e));
-        variation += (of_experiment.array() - of_experiment.mean()).square().sum();
-        if (result.start.offset) result.offsets(static_cast<Index>(e), 0) = all[model.offset_place(e, 0)];
-    }
+    for (std::size_t e = 0; e < model.experiment_count() && result.start.offset; ++e)
+        result.offsets(static_cast<Index>(e), 0) = all[model.offset_place(e, 0)];
     const double squares = (y - passes.simulated()).squaredNorm();
-    result.fit_percent = Vector::Constant(1, 100 * (1 - std::sqrt(squares / variation)));
+    result.fit_percent = Vector::Constant(1, fit_percent_of_sums(squares, variation));
     result.loss = squares / static_cast<double>(y.size());
     result.termination = passes.termination_;
-    for (const TransferIteration& pass : passes.trace_)
+    for (const FitIteration& pass : passes.trace_)
         result.trace.push_back({pass.theta.head(count), pass.loss, pass.change});
 }
 
@@ -244,27 +236,25 @@ void NoiseOrders::validate() const {
                               std::to_string(nc) + " and " + std::to_string(nd));
 }
 
-RivcResult rivc(const IdData& data, const TransferStructure& structure, const NoiseOrders& orders,
-                const TransferOptions& options) {
+Fit rivc(const IdData& data, const TransferStructure& structure, const NoiseOrders& orders, const FitOptions& options) {
     options.validate();
     check(data, orders, structure);
     check_transfer_data("rivc", data, structure);
-    RivcResult result;
-    static_cast<TransferEstimate&>(result) = srivc(data, structure, options);
+    Fit result = srivc(data, structure, options);
     result.warnings.clear();
     result.trace.clear();
-    TransferOptions wanted = options;
-    if (structure.free_delays && !wanted.TdMax) wanted.TdMax = result.delay_grid[result.delay_grid.size() - 1];
+    FitOptions wanted = options;
+    if (structure.free_delays && !wanted.largest_delay)
+        wanted.largest_delay = result.delay_grid[result.delay_grid.size() - 1];
     const DelayRange range = structure.free_delays ? delay_range(data, wanted) : DelayRange{};
-    const bool centre = options.offset == Offset::kRemove;
-    const CentredData centred = centre ? without_operating_points(data) : CentredData{};
-    const TransferOutput model(structure, result.start, centre ? centred.data : data, range.least, range.largest);
+    const CentredData centred = centred_for(data, options.offset);
+    const TransferOutput model(structure, result.start, centred.data, range.least, range.largest);
     const Vector y = model.target();
     Passes passes(model, y, orders, wanted);
     passes.run(first_point(model, result));
-    fill_model(result, model, passes, y);
+    fill_model(result, model, passes, y, output_variations(data)[0]);
     fill_noise(result, passes, orders);
-    describe_refinement(result, data, "RIVC", wanted, range);
+    describe_search(result, data, "RIVC", wanted, range);
     return result;
 }
 

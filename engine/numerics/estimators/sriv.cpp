@@ -4,10 +4,10 @@
 
 namespace dynlab::inline numerics {
 
-PolynomialEstimate sriv(const IdData& data, const PolynomialOrders& orders, const PolynomialOptions& options) {
+Fit sriv(const IdData& data, const PolynomialOrders& orders, const FitOptions& options) {
     return fit_discrete_output("sriv", data, orders, options, [&](const DiscreteOutput& model, const Vector& y) {
-        return iterate_instruments(model, y, instrument_start(model, y, options.cancel), options.MaxIter, options.Tol,
-                                   options.cancel);
+        return iterate_instruments(model, y, instrument_start(model, y, options.cancel), options.max_iterations,
+                                   options.tolerance, options.cancel);
     });
 }
 

@@ -1,7 +1,8 @@
 #include "numerics/estimators/srivc.h"
 
+#include "numerics/fit/diagnosis.h"
 #include "numerics/fit/refined_iteration.h"
-#include "numerics/fit/simulation_report.h"
+#include "numerics/fit/simulation_error.h"
 #include "numerics/fit/transfer_search.h"
 
 namespace dynlab::inline numerics {
@@ -12,8 +13,7 @@ constexpr int kReweightings = 3;
 constexpr double kHardlyChanged = 1e-6;  // relative; the last pass changes errors by 20 times that at most
 
 /// (sum Z'Z/noise variance)^-1 of each denominator group; `last_gram` is sum Z'Z of the last pass, or empty.
-void set_covariance(TransferEstimate& estimate, const IdData& data, const TransferOptions& options,
-                    const Matrix& last_gram) {
+void set_covariance(Fit& estimate, const IdData& data, const FitOptions& options, const Matrix& last_gram) {
     const TransferStructure& structure = estimate.structure;
     estimate.covariance = Matrix::Zero(estimate.theta.size(), estimate.theta.size());
     for (std::size_t g = 0; g < structure.poles.size(); ++g) {
@@ -35,9 +35,9 @@ bool outputs_share_a_denominator(const TransferStructure& structure) {
 }
 
 /// The passes; where outputs share a denominator, more of them with each output weighted by its noise.
-RefinedSolution solve(const IdData& data, const TransferStructure& structure, const TransferOptions& options) {
-    RefinedOptions refined{options.MaxIter, options.Tol, options.hold_y, options.cancel, {}, false};
-    refined.with_gram = structure.outputs == 1 && options.Tol <= kHardlyChanged;
+RefinedSolution solve(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
+    RefinedOptions refined{options.max_iterations, options.tolerance, options.hold_y, options.cancel, {}, false};
+    refined.with_gram = structure.outputs == 1 && options.tolerance <= kHardlyChanged;
     RefinedSolution solution = iterate_refined(data, structure, start_at(data, structure, options), refined);
     for (int i = 0; outputs_share_a_denominator(structure) && i < kReweightings; ++i) {
         refined.weights.resize(structure.outputs);
@@ -53,7 +53,7 @@ RefinedSolution solve(const IdData& data, const TransferStructure& structure, co
 }
 
 /// Whether the passes alone give the whole answer.
-bool passes_suffice(const TransferStructure& structure, const TransferOptions& options) {
+bool passes_suffice(const TransferStructure& structure, const FitOptions& options) {
     if (structure.free_delays || options.initial_state != InitialState::kZero || options.offset != Offset::kNone)
         return false;
     for (Index output = 0; output < structure.outputs; ++output)
@@ -62,43 +62,44 @@ bool passes_suffice(const TransferStructure& structure, const TransferOptions& o
     return true;
 }
 
-TransferEstimate estimate_by_passes(const IdData& data, const TransferStructure& structure,
-                                    const TransferOptions& options) {
+Fit estimate_by_passes(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
     check_transfer_data("srivc", data, structure);
-    TransferEstimate estimate;
+    Fit estimate;
     estimate.structure = structure;
     RefinedSolution solution = solve(data, structure, options);
     estimate.theta = std::move(solution.theta);
     estimate.termination = solution.termination;
     estimate.trace = std::move(solution.trace);
-    measure_fit(estimate, data);
-    check_transient("srivc", data, estimate);
+    measure_simulation(estimate, data);
+    check_transient("srivc", data, estimate, estimate.theta.size());
     set_covariance(estimate, data, options, solution.mirrored ? Matrix() : solution.gram);
-    report_errors(estimate);
+    describe_models(estimate);
     const std::string passes =
         std::to_string(estimate.trace.size()) + (estimate.trace.size() == 1 ? " pass" : " passes");
     if (estimate.termination == Termination::kConverged)
-        set_message(estimate, "SRIVC converged after " + passes);
+        set_message(estimate, "SRIVC converged after " + passes + ": " + simulation_text(estimate) + ".");
     else
-        set_message(estimate, "SRIVC had not settled after " + passes + "; the best of them is given");
+        set_message(estimate, "SRIVC had not settled after " + passes +
+                                  "; the best of them is given: " + simulation_text(estimate) + ".");
     return estimate;
 }
 
 /// Where the passes do not settle, the minimum of the criterion that they aim at, if the search for it ends lower.
-TransferEstimate better_by_search(TransferEstimate estimate, const IdData& data, const TransferOptions& options) {
-    TransferEstimate searched = search_transfer("srivc", data, estimate.structure, options);
+Fit better_by_search(Fit estimate, const IdData& data, const FitOptions& options) {
+    Fit searched = search_transfer("srivc", data, estimate.structure, options);
     if (!(searched.loss < estimate.loss)) return estimate;
     set_message(searched, "SRIVC had not settled after " + std::to_string(estimate.trace.size()) +
-                              " passes; this is the minimum of the output error, which they aim at");
+                              " passes; this is the minimum of the output error, which they aim at: " +
+                              simulation_text(searched) + ".");
     return searched;
 }
 
 }  // namespace
 
-TransferEstimate srivc(const IdData& data, const TransferStructure& structure, const TransferOptions& options) {
+Fit srivc(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
     options.validate();
     if (!passes_suffice(structure, options)) return search_transfer("srivc", data, structure, options);
-    TransferEstimate estimate = estimate_by_passes(data, structure, options);
+    Fit estimate = estimate_by_passes(data, structure, options);
     const bool settled =
         estimate.termination == Termination::kConverged || estimate.termination == Termination::kCancelled;
     return settled ? estimate : better_by_search(std::move(estimate), data, options);

@@ -1,5 +1,5 @@
 #pragma once
-#include "numerics/fit/transfer_estimate.h"
+#include "numerics/fit/fit.h"
 
 namespace dynlab::inline numerics {
 
@@ -10,12 +10,16 @@ namespace dynlab::inline numerics {
 /// output as instruments; unstable poles are mirrored. With the exact instruments the fixed point is the output-error
 /// optimum in finite samples (see coe), so the estimate is efficient for white noise and consistent for any noise
 /// independent of the inputs. Covariance noise_variance (Z'Z)^-1.
-/// Several inputs, each with its denominator, by back-fitting; several outputs and experiments; regular or irregular
-/// sampling; inputs and delays exactly as the data's hold says. Where delays are free, an initial state or offset is
-/// estimated, or denominators differ within an output, the passes give the start of a joint Gauss-Newton refinement of
-/// the same criterion, and that refinement is tried as well where the passes do not settle. Non-convergence and
-/// doubtful results are told in `warnings`. Throws InvalidArgument for unsuitable data (check_transfer_data) or
-/// options. References: Young and Jakeman (1980); Young, Garnier and Gilson in Garnier and Wang (2008), chapter 4.
-TransferEstimate srivc(const IdData& data, const TransferStructure& structure, const TransferOptions& options = {});
+/// Several inputs, outputs and experiments; regular or irregular sampling; inputs and delays exactly as the data's hold
+/// says.
+///
+/// THE PASSES GIVE THE WHOLE ANSWER only for fixed delays, a start from rest without offset, and one denominator for
+/// each output. With a free delay, an estimated or steady initial state, an offset, or inputs with denominators of
+/// their own they give no more than a start: the estimate is then one Levenberg-Marquardt search of the output error
+/// over all parameters, the very same as coe makes (fit/transfer_search.h), with the same result. That search is tried
+/// as well where the passes do not settle, and its end is given if it lies lower. Non-convergence and doubtful results
+/// are told in `warnings`. Throws InvalidArgument for unsuitable data (check_transfer_data) or options. References:
+/// Young and Jakeman (1980); Young, Garnier and Gilson in Garnier and Wang (2008), chapter 4.
+Fit srivc(const IdData& data, const TransferStructure& structure, const FitOptions& options = {});
 
 }  // namespace dynlab::inline numerics

@@ -29,15 +29,15 @@ struct Sums {
     double variation = 0, prediction_error = 0, simulation_error = 0;
 };
 
-Sums sums_of_squares(const IdData& data, const ArxEquations& equations, const PolynomialEstimate& estimate) {
+Sums sums_of_squares(const IdData& data, const ArxEquations& equations, const Fit& estimate) {
     Sums sums;
     for (const Vector& errors : equations.errors(estimate.theta)) sums.prediction_error += errors.squaredNorm();
     for (const Experiment& experiment : data.experiments) {
         const Index past = estimate.orders.past(), rows = experiment.y.rows() - past;
         if (rows <= 0) continue;
         const auto y = experiment.y.col(0).tail(rows);
-        const Vector simulated = free_run(estimate.model.A.tail(estimate.orders.na),
-                                          driven_part(estimate.model, experiment.u), experiment.y.col(0), past);
+        const Vector simulated = free_run(estimate.polynomial->A.tail(estimate.orders.na),
+                                          driven_part(*estimate.polynomial, experiment.u), experiment.y.col(0), past);
         sums.variation += (y.array() - y.mean()).matrix().squaredNorm();
         sums.simulation_error += (simulated.tail(rows) - y).squaredNorm();
     }
@@ -67,27 +67,26 @@ ArxSolution solve_rich_arx(const std::string& method, const IdData& data, const 
     return solution;
 }
 
-void report_equation_error(PolynomialEstimate& estimate, const IdData& data) {
+void report_equation_error(Fit& estimate, const IdData& data) {
     const ArxEquations equations(data, estimate.orders);
     const Index count = equations.count(), d = estimate.theta.size();
     const Sums sums = sums_of_squares(data, equations, estimate);
     estimate.loss = sums.prediction_error / static_cast<double>(count);
-    estimate.noise_variance = sums.prediction_error / static_cast<double>(count - d);
-    estimate.fit_percent = fit_percent_of_sums(sums.simulation_error, sums.variation);
+    estimate.noise_variance = Vector::Constant(1, sums.prediction_error / static_cast<double>(count - d));
+    estimate.fit_percent = Vector::Constant(1, fit_percent_of_sums(sums.simulation_error, sums.variation));
     estimate.prediction_fit_percent = fit_percent_of_sums(sums.prediction_error, sums.variation);
     estimate.start = {InitialState::kEstimate, false};
-    estimate.offsets = Vector::Zero(static_cast<Index>(data.experiments.size()));
+    estimate.offsets = Matrix::Zero(static_cast<Index>(data.experiments.size()), 1);
 }
 
-void describe_equation_error(PolynomialEstimate& estimate, const std::string& how, Index equations) {
+void describe_equation_error(Fit& estimate, const std::string& how, Index equations) {
     estimate.std = estimate.covariance.diagonal().cwiseMax(0).cwiseSqrt();
     warn_of_doubtful_parameters(estimate);
-    if (!estimate.model.noise_model().stable())
+    if (!estimate.polynomial->noise_model().stable())
         estimate.warnings.push_back("The model is unstable, so its simulation grows without bound.");
-    estimate.message = how + " over " + std::to_string(equations) + " equations: fit " +
-                       number_text(estimate.prediction_fit_percent, 4) + " % predicting one step, " +
-                       number_text(estimate.fit_percent, 4) + " % simulating from the recorded past.";
-    for (const std::string& warning : estimate.warnings) estimate.message += ' ' + warning;
+    set_message(estimate, how + " over " + std::to_string(equations) + " equations: fit " +
+                              number_text(estimate.prediction_fit_percent, 4) + " % predicting one step, " +
+                              number_text(estimate.fit_percent[0], 4) + " % simulating from the recorded past.");
 }
 
 }  // namespace dynlab::inline numerics

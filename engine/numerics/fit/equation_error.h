@@ -2,7 +2,7 @@
 #include <string>
 
 #include "numerics/criteria/arx_equations.h"
-#include "numerics/fit/polynomial_estimate.h"
+#include "numerics/fit/diagnosis.h"
 
 namespace dynlab::inline numerics {
 
@@ -17,9 +17,9 @@ ArxSolution solve_rich_arx(const std::string& method, const IdData& data, const 
 
 /// Fills loss, noise variance, fits and offsets from the errors of the equations and a simulation that begins with the
 /// recorded past of the first sample.
-void report_equation_error(PolynomialEstimate& estimate, const IdData& data);
+void report_equation_error(Fit& estimate, const IdData& data);
 
 /// Standard errors from the covariance, warnings and message, whose first words are `how`.
-void describe_equation_error(PolynomialEstimate& estimate, const std::string& how, Index equations);
+void describe_equation_error(Fit& estimate, const std::string& how, Index equations);
 
 }  // namespace dynlab::inline numerics

@@ -155,7 +155,7 @@ InstrumentSolution iterate_instruments(const DiscreteOutput& model, const Vector
         const Vector size = here.theta.cwiseAbs() + spread * lengths.cwiseInverse();
         const double change = step.cwiseAbs().cwiseQuotient(size).maxCoeff();
         best.reflected = move(model, y, step, here) || best.reflected;
-        best.trace.push_back({here.loss, change});
+        best.trace.push_back({{}, here.loss, change});
         const bool converged = change <= tolerance;
         if (here.loss < best.loss || converged) {
             best.theta = here.theta;

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "numerics/criteria/discrete_output.h"
-#include "numerics/fit/polynomial_estimate.h"
+#include "numerics/fit/fit.h"
 
 namespace dynlab::inline numerics {
 
@@ -11,7 +11,7 @@ struct InstrumentSolution {
     Vector theta;     ///< of the DiscreteOutput
     double loss = 0;  ///< mean square of its simulation error
     Termination termination = Termination::kIterationLimit;
-    std::vector<PolynomialIteration> trace;
+    std::vector<FitIteration> trace;
     bool reflected = false;  ///< poles were mirrored into the unit circle on the way
 };
 

@@ -7,8 +7,7 @@ namespace dynlab::inline numerics {
 
 IdData integrated_inputs(const IdData& data) {
     if (data.hold != Hold::kZoh)
-        throw InvalidArgument(
-            "Integration needs a held input (InterSample zoh), whose integral runs on straight lines");
+        throw InvalidArgument("`integration` needs a held input (zoh), whose integral runs on straight lines");
     IdData integrated = data;
     integrated.hold = Hold::kFoh;
     for (std::size_t e = 0; e < data.experiments.size(); ++e) {
@@ -22,11 +21,6 @@ IdData integrated_inputs(const IdData& data) {
     return integrated;
 }
 
-void append_integrator(TransferEstimate& estimate) {
-    const TransferFunction integrator(Vector::Ones(1), Vector::Unit(2, 0));
-    for (TransferFunction& G : estimate.models) G = G * integrator;
-}
-
 IdData summed_inputs(const IdData& data) {
     IdData summed = data;
     for (Experiment& experiment : summed.experiments)
@@ -34,8 +28,11 @@ IdData summed_inputs(const IdData& data) {
     return summed;
 }
 
-void append_integrator(PolynomialEstimate& estimate) {
-    for (Vector& F : estimate.model.F) F = multiply(F, Eigen::Vector2d(1, -1));
+void append_integrator(Fit& fit) {
+    const TransferFunction integrator(Vector::Ones(1), Vector::Unit(2, 0));
+    for (TransferFunction& G : fit.models) G = G * integrator;
+    if (!fit.polynomial) return;
+    for (Vector& F : fit.polynomial->F) F = multiply(F, Eigen::Vector2d(1, -1));
 }
 
 }  // namespace dynlab::inline numerics

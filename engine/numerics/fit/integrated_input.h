@@ -1,7 +1,5 @@
 #pragma once
-#include "numerics/fit/polynomial_estimate.h"
-#include "numerics/fit/transfer_estimate.h"
-#include "numerics/signals/iddata.h"
+#include "numerics/fit/fit.h"
 
 namespace dynlab::inline numerics {
 
@@ -9,11 +7,12 @@ namespace dynlab::inline numerics {
 /// lines: an estimation from these data, followed by append_integrator(), is exact. Inputs become their integrals from
 /// each experiment's first sample on. Throws InvalidArgument unless inputs are held (zoh).
 IdData integrated_inputs(const IdData& data);
-/// Models B/F become B/(p F); theta, its covariance and the fits stay as they are.
-void append_integrator(TransferEstimate& estimate);
 
 /// The same in discrete time: B/F of the running sum of the inputs is B/((1 - q^-1) F) of the inputs.
 IdData summed_inputs(const IdData& data);
-void append_integrator(PolynomialEstimate& estimate);
+
+/// The models of a fit to such data, B/F, become B/(p F) or B/((1 - q^-1) F); theta, its covariance and the fit stay
+/// as they are.
+void append_integrator(Fit& fit);
 
 }  // namespace dynlab::inline numerics

@@ -27,6 +27,7 @@ class Search {
         rounding_ = std::pow(std::numeric_limits<double>::epsilon() * y.norm(), 2);
     }
 
+    /// The end of the search, and its trace.
     OutputErrorSolution run(const Vector& start) {
         theta_ = start.cwiseMax(model_.lower()).cwiseMin(model_.upper());
         evaluate_here();
@@ -41,13 +42,36 @@ class Search {
                 termination = Termination::kNoProgress;
                 break;
             }
-            trace_.push_back({square_sum_ / samples(), used_damping_, change, theta_});
+            trace_.push_back({theta_, square_sum_ / samples(), change});
             if (change <= options_.tolerance) {
                 termination = Termination::kConverged;
                 break;
             }
         }
-        return solution(termination);
+        OutputErrorSolution result;
+        result.theta = theta_;
+        result.loss = square_sum_ / samples();
+        result.termination = termination;
+        result.trace = trace_;
+        return result;
+    }
+
+    /// Adds what the sensitivities at the end say of it.
+    OutputErrorSolution complete(OutputErrorSolution result) const {
+        const Index count = theta_.size();
+        std::vector<Index> free;
+        for (Index i = 0; i < count; ++i)
+            if (!held_[static_cast<std::size_t>(i)]) free.push_back(i);
+        result.at_bound = held_;
+        result.noise_variance = square_sum_ / (samples() - static_cast<double>(free.size()));
+        result.covariance = Matrix::Zero(count, count);
+        model_.simulate(theta_, result.output, nullptr);
+        const Matrix gram = scale_.asDiagonal() * gram_ * scale_.asDiagonal();
+        const SensitivityPrecision precision = sensitivity_precision(model_, theta_, gram, free);
+        if (precision.inverse_gram.size() == 0) return result;
+        result.covariance(free, free) = result.noise_variance * precision.inverse_gram;
+        result.condition_number = precision.condition_number;
+        return result;
     }
 
   private:
@@ -114,7 +138,6 @@ class Search {
         while (damping_ <= kLargestDamping) {
             const Vector next = candidate();
             const double change = relative_change(next);
-            used_damping_ = damping_;
             if (next.allFinite()) {
                 // Close to the solution the decrease drowns in rounding, and the step is right all the same.
                 const double limit = square_sum_ * (1 + 1e-12) + rounding_;
@@ -131,41 +154,14 @@ class Search {
         return -1;
     }
 
-    OutputErrorSolution solution(Termination termination) const {
-        OutputErrorSolution result;
-        const Index count = theta_.size();
-        std::vector<Index> free;
-        for (Index i = 0; i < count; ++i)
-            if (!held_[static_cast<std::size_t>(i)]) free.push_back(i);
-        result.theta = theta_;
-        result.at_bound = held_;
-        result.loss = square_sum_ / samples();
-        result.noise_variance = square_sum_ / (samples() - static_cast<double>(free.size()));
-        set_uncertainty(result, free);
-        result.termination = termination;
-        result.trace = trace_;
-        return result;
-    }
-
-    void set_uncertainty(OutputErrorSolution& result, const std::vector<Index>& free) const {
-        const Index count = theta_.size();
-        result.covariance = Matrix::Zero(count, count);
-        model_.simulate(theta_, result.output, nullptr);
-        const Matrix gram = scale_.asDiagonal() * gram_ * scale_.asDiagonal();
-        const SensitivityPrecision precision = sensitivity_precision(model_, theta_, gram, free);
-        if (precision.inverse_gram.size() == 0) return;
-        result.covariance(free, free) = result.noise_variance * precision.inverse_gram;
-        result.condition_number = precision.condition_number;
-    }
-
     const OutputErrorModel& model_;
     const VectorView& y_;
     const OutputErrorOptions& options_;
-    double spread_ = 0, rounding_ = 0, square_sum_ = 0, damping_ = kFirstDamping, used_damping_ = 0;
+    double spread_ = 0, rounding_ = 0, square_sum_ = 0, damping_ = kFirstDamping;
     Vector theta_, scale_, descent_;
     Matrix gram_;  // of the sensitivities with their columns scaled to norm one
     std::vector<bool> held_;
-    std::vector<OutputErrorIteration> trace_;
+    std::vector<FitIteration> trace_;
 };
 
 }  // namespace
@@ -173,9 +169,9 @@ class Search {
 void OutputErrorOptions::validate() const {
     std::ostringstream text;
     if (max_iterations < 0)
-        text << "MaxIter must not be negative, and is " << max_iterations;
+        text << "`max_iterations` must not be negative, and is " << max_iterations;
     else if (!(tolerance > 0) || !std::isfinite(tolerance))
-        text << "Tol must be positive, and is " << tolerance;
+        text << "`tolerance` must be positive, and is " << tolerance;
     else
         return;
     throw InvalidArgument(text.str());
@@ -203,8 +199,10 @@ SensitivityPrecision sensitivity_precision(const OutputErrorModel& model, const 
     return {fit.inverse_gram, fit.condition_number};
 }
 
-OutputErrorSolution minimise_output_error(const OutputErrorModel& model, const VectorView& y, const Vector& start,
-                                          const OutputErrorOptions& options) {
+namespace {
+
+Search search_for(const OutputErrorModel& model, const VectorView& y, const Vector& start,
+                  const OutputErrorOptions& options) {
     options.validate();
     const Index count = model.parameter_count();
     std::ostringstream text;
@@ -214,17 +212,27 @@ OutputErrorSolution minimise_output_error(const OutputErrorModel& model, const V
         text << "The record holds " << y.size() << " samples, and more than " << count
              << " are needed for as many parameters";
     else
-        return Search(model, y, options).run(start);
+        return Search(model, y, options);
     throw InvalidArgument(text.str());
+}
+
+}  // namespace
+
+OutputErrorSolution minimise_output_error(const OutputErrorModel& model, const VectorView& y, const Vector& start,
+                                          const OutputErrorOptions& options) {
+    Search search = search_for(model, y, start, options);
+    return search.complete(search.run(start));
 }
 
 OutputErrorSolution minimise_output_error(const OutputErrorModel& model, const VectorView& y,
                                           const std::vector<Vector>& starts, const OutputErrorOptions& options) {
+    if (starts.size() == 1) return minimise_output_error(model, y, starts.front(), options);
     const OutputErrorOptions rough{std::min(kRoughIterations, options.max_iterations),
                                    std::max(kRoughTolerance, options.tolerance), options.cancel};
-    OutputErrorSolution best = minimise_output_error(model, y, starts.front(), rough);
+    const auto follow = [&](const Vector& start) { return search_for(model, y, start, rough).run(start); };
+    OutputErrorSolution best = follow(starts.front());
     for (std::size_t i = 1; i < starts.size() && best.termination != Termination::kCancelled; ++i) {
-        OutputErrorSolution other = minimise_output_error(model, y, starts[i], rough);
+        OutputErrorSolution other = follow(starts[i]);
         if (other.loss < (1 - kRoughTolerance) * best.loss) best = std::move(other);
     }
     OutputErrorSolution end = minimise_output_error(model, y, best.theta, options);

@@ -18,13 +18,6 @@ struct OutputErrorOptions {
     void validate() const;
 };
 
-struct OutputErrorIteration {
-    double loss;     ///< sum of squared output errors over N after the iteration
-    double damping;  ///< Levenberg-Marquardt parameter it was made with
-    double change;   ///< largest relative parameter change
-    Vector theta;    ///< after the iteration
-};
-
 struct OutputErrorSolution {
     Vector theta;
     Matrix covariance;            ///< noise_variance (J'J)^-1; rows and columns of parameters held at a bound are zero
@@ -34,7 +27,7 @@ struct OutputErrorSolution {
     std::vector<bool> at_bound;   ///< per parameter: the solution lies on a bound and wants to leave through it
     Vector output;                ///< N
     Termination termination = Termination::kIterationLimit;
-    std::vector<OutputErrorIteration> trace;
+    std::vector<FitIteration> trace;
 };
 
 /// What the sensitivities J at `theta` tell of the precision of the parameters `free`: by the sums of products while

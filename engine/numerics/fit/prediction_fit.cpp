@@ -23,22 +23,6 @@ double variation_of(const Vector& y, const std::vector<Index>& lengths) {
     return sum;
 }
 
-void add_warnings(PolynomialEstimate& estimate, const PolynomialOptions& options) {
-    warn_of_termination(estimate, options.MaxIter);
-    warn_of_doubtful_parameters(estimate);
-    bool stable = true;
-    for (std::size_t input = 0; input < estimate.orders.inputs(); ++input)
-        stable = stable && estimate.model.transfer_function(input).stable();
-    if (!stable) estimate.warnings.push_back("The model has a pole outside or on the unit circle.");
-}
-
-std::string message_of(const PolynomialEstimate& estimate) {
-    std::string text = ending_text(estimate) + ": fit " + number_text(estimate.prediction_fit_percent, 4) +
-                       " % predicting one step, " + number_text(estimate.fit_percent, 4) + " % simulating.";
-    for (const std::string& warning : estimate.warnings) text += ' ' + warning;
-    return text;
-}
-
 }  // namespace
 
 double output_power(const IdData& data) {
@@ -58,9 +42,8 @@ ArmaNoise start_noise(const std::vector<Vector>& errors, int nc, int nd, double 
     return estimate_arma(errors, nc, nd, 1e-3);
 }
 
-PolynomialEstimate fit_prediction(const std::string& method, const PredictionModel& model, const StartCondition& start,
-                                  double Ts, const std::vector<Vector>& starts, const Vector& removed_outputs,
-                                  const PolynomialOptions& options) {
+Fit fit_prediction(const std::string& method, const PredictionModel& model, const StartCondition& start, double Ts,
+                   const std::vector<Vector>& starts, const FitOptions& options) {
     const Vector y = model.target();
     if (y.size() <= model.parameter_count())
         throw InvalidArgument(method + " needs more samples than the " + std::to_string(model.parameter_count()) +
@@ -68,30 +51,33 @@ PolynomialEstimate fit_prediction(const std::string& method, const PredictionMod
                               " after those without a recorded past");
     std::vector<Vector> complete;
     for (const Vector& values : starts) complete.push_back(model.completed(values));
-    const OutputErrorSolution solution =
-        minimise_output_error(model, y, complete, {options.MaxIter, options.Tol, options.cancel});
+    OutputErrorSolution solution =
+        minimise_output_error(model, y, complete, {options.max_iterations, options.tolerance, options.cancel});
 
     const Index d = model.orders().parameter_count();
-    PolynomialEstimate estimate(model.orders(), solution.theta.head(d), Ts);
-    const double variation = variation_of(y, model.lengths()), N = static_cast<double>(y.size());
-    estimate.loss = solution.loss;
-    estimate.noise_variance = solution.noise_variance;
-    estimate.prediction_fit_percent = fit_percent_of_sums(N * solution.loss, variation);
-    estimate.fit_percent = fit_percent_of_sums((y - model.simulated(solution.theta)).squaredNorm(), variation);
-    estimate.covariance = solution.covariance.topLeftCorner(d, d);
-    estimate.std = estimate.covariance.diagonal().cwiseMax(0).cwiseSqrt();
-    estimate.condition_number = solution.condition_number;
-    estimate.start = start;
-    estimate.offsets = removed_outputs;
-    if (start.offset)
-        for (Index e = 0; e < removed_outputs.size(); ++e)
-            estimate.offsets[e] += solution.theta[model.offset_place(static_cast<std::size_t>(e))];
-    estimate.termination = solution.termination;
-    for (const OutputErrorIteration& iteration : solution.trace)
-        estimate.trace.push_back({iteration.loss, iteration.change});
-    add_warnings(estimate, options);
-    estimate.message = message_of(estimate);
-    return estimate;
+    Fit fit = polynomial_fit(model.orders(), solution.theta.head(d), Ts);
+    const std::vector<Index> lengths = model.lengths();
+    const double variation = variation_of(y, lengths), N = static_cast<double>(y.size());
+    fit.loss = solution.loss;
+    fit.noise_variance = Vector::Constant(1, solution.noise_variance);
+    fit.prediction_fit_percent = fit_percent_of_sums(N * solution.loss, variation);
+    const double simulation_error = (y - model.simulated(solution.theta)).squaredNorm();
+    fit.fit_percent = Vector::Constant(1, fit_percent_of_sums(simulation_error, variation));
+    fit.covariance = solution.covariance.topLeftCorner(d, d);
+    fit.std = fit.covariance.diagonal().cwiseMax(0).cwiseSqrt();
+    fit.condition_number = solution.condition_number;
+    fit.start = start;
+    fit.offsets = Matrix::Zero(static_cast<Index>(lengths.size()), 1);
+    for (std::size_t e = 0; e < lengths.size() && start.offset; ++e)
+        fit.offsets(static_cast<Index>(e), 0) = solution.theta[model.offset_place(e)];
+    fit.termination = solution.termination;
+    fit.trace = std::move(solution.trace);
+    warn_of_search(fit, options);
+    warn_of_doubtful_parameters(fit);
+    warn_of_unstable_polynomials(fit);
+    set_message(fit, "The search " + ending_text(fit) + ": fit " + number_text(fit.prediction_fit_percent, 4) +
+                         " % predicting one step, " + number_text(fit.fit_percent[0], 4) + " % simulating.");
+    return fit;
 }
 
 }  // namespace dynlab::inline numerics

@@ -2,18 +2,17 @@
 #include <string>
 #include <vector>
 
-#include "numerics/fit/polynomial_estimate.h"
+#include "numerics/fit/diagnosis.h"
 #include "numerics/fit/prediction_model.h"
 
 namespace dynlab::inline numerics {
 
 /// What armax and bj have in common: minimises the prediction error from the `starts` (values of the orders'
 /// parameters; each is followed a little way, the best to the end) by damped Gauss-Newton with exact sensitivities, and
-/// describes the result. `removed_outputs` stands in `offsets`. Throws InvalidArgument, which begins with `method`,
+/// describes the result. Throws InvalidArgument, which begins with `method`,
 /// when there are no more samples than values to estimate.
-PolynomialEstimate fit_prediction(const std::string& method, const PredictionModel& model, const StartCondition& start,
-                                  double Ts, const std::vector<Vector>& starts, const Vector& removed_outputs,
-                                  const PolynomialOptions& options);
+Fit fit_prediction(const std::string& method, const PredictionModel& model, const StartCondition& start, double Ts,
+                   const std::vector<Vector>& starts, const FitOptions& options);
 
 /// The noise model of the errors of a first model, for a start; white when they are nothing but rounding against
 /// outputs of mean square `output_power`.

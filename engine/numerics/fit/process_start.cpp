@@ -58,11 +58,27 @@ std::vector<Vector> shapes(const ProcessStructure& structure, Index N) {
     return all;
 }
 
-// Whole samples to add to the least delay.
-std::vector<Index> delay_shifts(const ProcessOutput& model, int count) {
-    if (!model.structure().delay) return {0};
-    const Index last = model.model_parameters() - 1;
-    const double range = std::floor(model.upper()[last] - model.lower()[last] + 1e-9);
+// What the grid is laid for: a process model, its output in both ways, and where its parameters are.
+struct GridProblem {
+    GridProblem(const ProcessStructure& process, const TransferOutput& transfer)
+        : structure(process), output(transfer), model(process_output(process, transfer)) {
+        parameters = model.parameter_count() - output.linear_count();
+        for (std::size_t e = 0; e < output.experiment_count(); ++e) longest = std::max(longest, output.rows(e));
+    }
+    auto input(std::size_t experiment) const { return output.inputs(experiment).col(0); }
+    bool regular(std::size_t experiment) const { return output.times(experiment).size() == 0; }
+
+    const ProcessStructure& structure;
+    const TransferOutput& output;
+    Reparametrised model;
+    Index parameters = 0, longest = 0;  // of the process alone; rows
+};
+
+// Whole time units to add to the least delay.
+std::vector<Index> delay_shifts(const GridProblem& problem, int count) {
+    if (!problem.structure.delay) return {0};
+    const Index last = problem.parameters - 1;
+    const double range = std::floor(problem.model.upper()[last] - problem.model.lower()[last] + 1e-9);
     const double spacing = std::max(1.0, std::ceil(range / std::max(1, count - 1)));
     std::vector<Index> shifts;
     for (double shift = 0; shift <= range; shift += spacing) shifts.push_back(static_cast<Index>(shift));
@@ -73,22 +89,26 @@ std::vector<Index> delay_shifts(const ProcessOutput& model, int count) {
 // whole samples, otherwise on a fine even grid, the input held or drawn between its samples, and interpolated.
 class Responses {
   public:
-    Responses(const ProcessInput& input, const Vector& den, const std::vector<Vector>& nums, double least_delay) {
-        regular_ = input.t.size() == 0;
-        const Vector u = regular_ ? input.u : even_input(input);
+    Responses(const GridProblem& problem, std::size_t experiment, const Vector& den, const std::vector<Vector>& nums,
+              double least_delay) {
+        regular_ = problem.regular(experiment);
+        const Hold hold = problem.output.hold();
+        const Vector u = regular_ ? Vector(problem.input(experiment))
+                                  : even_input(problem.input(experiment), problem.output.times(experiment), hold);
         columns_.resize(u.size(), static_cast<Index>(nums.size()));
         for (std::size_t i = 0; i < nums.size(); ++i)
             columns_.col(static_cast<Index>(i)) =
-                transfer_response(nums[i], den, regular_ ? least_delay : 0, u, regular_ ? 1 : kFineStep, input.hold);
+                transfer_response(nums[i], den, regular_ ? least_delay : 0, u, regular_ ? 1 : kFineStep, hold);
         if (!regular_) later_ = least_delay;
     }
 
     // The motions from unit values of y, dy/dt, ... at the rows 0, stride, ...
-    static Matrix motions(const ProcessInput& input, const Vector& den, Index stride) {
-        const auto chosen = Eigen::seq(0, input.u.size() - 1, stride);
-        if (input.t.size() == 0) return free_responses(den, input.u.size(), 1)(chosen, Eigen::all);
-        const Matrix even = free_responses(den, even_count(input), kFineStep);
-        const Vector t = input.t(chosen);
+    static Matrix motions(const GridProblem& problem, std::size_t experiment, const Vector& den, Index stride) {
+        const Index N = problem.output.rows(experiment);
+        const auto chosen = Eigen::seq(0, N - 1, stride);
+        if (problem.regular(experiment)) return free_responses(den, N, 1)(chosen, Eigen::all);
+        const Matrix even = free_responses(den, even_count(problem.output.times(experiment)), kFineStep);
+        const Vector t = problem.output.times(experiment)(chosen);
         Matrix rows(t.size(), even.cols());
         for (Index j = 0; j < even.cols(); ++j)
             for (Index i = 0; i < t.size(); ++i) rows(i, j) = interpolated(even.col(j), t[i]);
@@ -112,20 +132,18 @@ class Responses {
   private:
     static constexpr double kFineStep = 0.25;  // of the mean step
 
-    static Index even_count(const ProcessInput& input) {
-        return static_cast<Index>(std::ceil(input.t[input.t.size() - 1] / kFineStep)) + 2;
-    }
+    static Index even_count(const Vector& t) { return static_cast<Index>(std::ceil(t[t.size() - 1] / kFineStep)) + 2; }
 
-    static Vector even_input(const ProcessInput& input) {
-        const Index N = input.u.size(), count = even_count(input);
+    static Vector even_input(const VectorView& input, const Vector& t, Hold hold) {
+        const Index N = input.size(), count = even_count(t);
         Vector u(count);
         Index now = 0;
         for (Index i = 0; i < count; ++i) {
             const double time = static_cast<double>(i) * kFineStep;
-            while (now + 1 < N && input.t[now + 1] <= time) ++now;
-            u[i] = input.u[now];
-            if (input.hold == Hold::kFoh && now + 1 < N)
-                u[i] += (time - input.t[now]) / (input.t[now + 1] - input.t[now]) * (input.u[now + 1] - input.u[now]);
+            while (now + 1 < N && t[now + 1] <= time) ++now;
+            u[i] = input[now];
+            if (hold == Hold::kFoh && now + 1 < N)
+                u[i] += (time - t[now]) / (t[now + 1] - t[now]) * (input[now + 1] - input[now]);
         }
         return u;
     }
@@ -147,19 +165,19 @@ class Responses {
 // Least squares on evenly chosen rows, where only the gain's columns change with the delay.
 class LinearPart {
   public:
-    LinearPart(const ProcessOutput& model, const VectorView& y, const Vector& shape)
-        : model_(model), shape_(shape), gains_(model.structure().zero ? 2 : 1) {
+    LinearPart(const GridProblem& problem, const VectorView& y, const Vector& shape)
+        : problem_(problem), output_(problem.output), shape_(shape), gains_(problem.structure.zero ? 2 : 1) {
         stride_ = (y.size() + kRows - 1) / kRows;
         Index rows = 0;
-        for (std::size_t e = 0; e < model.experiment_count(); ++e) {
+        for (std::size_t e = 0; e < output_.experiment_count(); ++e) {
             first_rows_.push_back(rows);
-            rows += (model.rows(e) + stride_ - 1) / stride_;
+            rows += (output_.rows(e) + stride_ - 1) / stride_;
         }
         first_rows_.push_back(rows);
-        rest_ = Matrix::Zero(rows, model.parameter_count() - model.model_parameters() + 1);
+        rest_ = Matrix::Zero(rows, output_.linear_count() + 1);
         varying_.resize(rows, gains_);
         set_responses();
-        for (std::size_t e = 0; e < model.experiment_count(); ++e) set_rest(e, y);
+        for (std::size_t e = 0; e < output_.experiment_count(); ++e) set_rest(e, y);
         const Index count = gains_ + rest_.cols() - 1;
         gram_ = Matrix::Zero(count, count);
         moment_ = Vector::Zero(count);
@@ -188,25 +206,25 @@ class LinearPart {
         theta[0] = solution_[0];
         if (gains_ == 2 && solution_[0] != 0) theta[zero_place()] = solution_[1] / solution_[0];
         theta.tail(fixed()) = solution_.tail(fixed());
-        return theta.cwiseMax(model_.lower()).cwiseMin(model_.upper());
+        return theta.cwiseMax(problem_.model.lower()).cwiseMin(problem_.model.upper());
     }
 
   private:
     Index fixed() const { return rest_.cols() - 1; }
     Index row_count(std::size_t experiment) const { return first_rows_[experiment + 1] - first_rows_[experiment]; }
-    Index zero_place() const { return model_.model_parameters() - 1 - (model_.structure().delay ? 1 : 0); }
+    Index zero_place() const { return problem_.parameters - 1 - (problem_.structure.delay ? 1 : 0); }
 
     Vector theta_at(Index shift) const {
-        Vector theta = Vector::Zero(model_.parameter_count());
+        Vector theta = Vector::Zero(problem_.model.parameter_count());
         theta[0] = 1;
         theta.segment(1, shape_.size()) = shape_;
-        const Index last = model_.model_parameters() - 1;
-        if (model_.structure().delay) theta[last] = model_.lower()[last] + static_cast<double>(shift);
+        const Index last = problem_.parameters - 1;
+        if (problem_.structure.delay) theta[last] = problem_.model.lower()[last] + static_cast<double>(shift);
         return theta;
     }
 
     ProcessCoefficients coefficients() const {
-        return process_coefficients(model_.structure(), theta_at(0).head(model_.model_parameters()));
+        return process_coefficients(problem_.structure, theta_at(0).head(problem_.parameters));
     }
 
     // For unit gain; with a zero also the derivative of that response.
@@ -215,28 +233,28 @@ class LinearPart {
         const double g = c.num.tail(1)[0];
         std::vector<Vector> nums = {Vector{{g}}};
         if (gains_ == 2) nums.push_back(Vector{{g, 0.0}});
-        for (std::size_t e = 0; e < model_.experiment_count(); ++e)
-            responses_.emplace_back(model_.input(e), c.den, nums, c.delay);
+        for (std::size_t e = 0; e < output_.experiment_count(); ++e)
+            responses_.emplace_back(problem_, e, c.den, nums, c.delay);
     }
 
     // The chosen rows of what does not change with the delay: free motions and constants, and y.
     void set_rest(std::size_t experiment, const VectorView& y) {
-        const auto chosen = Eigen::seq(0, model_.rows(experiment) - 1, stride_);
+        const auto chosen = Eigen::seq(0, output_.rows(experiment) - 1, stride_);
         auto own = rest_.middleRows(first_rows_[experiment], row_count(experiment));
-        const Index before = model_.model_parameters(), values = model_.initial_values();
+        const Index before = output_.parameter_count() - output_.linear_count(), values = output_.initial_count(0);
         if (values > 0)
-            own.middleCols(model_.initial_place(experiment) - before, values) =
-                Responses::motions(model_.input(experiment), coefficients().den, stride_);
-        if (model_.has_offset()) own.col(model_.offset_place(experiment) - before).setOnes();
-        own.col(fixed()) = y.segment(model_.row(experiment), model_.rows(experiment))(chosen);
+            own.middleCols(output_.initial_place(experiment, 0) - before, values) =
+                Responses::motions(problem_, experiment, coefficients().den, stride_);
+        if (output_.has_offset()) own.col(output_.offset_place(experiment, 0) - before).setOnes();
+        own.col(fixed()) = y.segment(output_.row(experiment, 0), output_.rows(experiment))(chosen);
     }
 
     void set_gain_columns(Index shift) {
         for (std::size_t e = 0; e < responses_.size(); ++e)
             for (Index column = 0; column < gains_; ++column) {
                 auto own = varying_.col(column).segment(first_rows_[e], row_count(e));
-                responses_[e].rows(column, stride_, model_.input(e).t, shift, own);
-                if (column == 0) own.array() += model_.resting_input(e);
+                responses_[e].rows(column, stride_, output_.times(e), shift, own);
+                if (column == 0) own.array() += output_.resting_inputs(e)[0];
             }
         for (Index column = 0; column < gains_; ++column) {
             const Vector products = rest_.transpose() * varying_.col(column);
@@ -248,7 +266,8 @@ class LinearPart {
         }
     }
 
-    const ProcessOutput& model_;
+    const GridProblem& problem_;
+    const TransferOutput& output_;
     Vector shape_;
     Index gains_, stride_ = 1;
     std::vector<Responses> responses_;
@@ -281,14 +300,16 @@ std::vector<GridPoint> best_that_differ(std::vector<GridPoint> points, const std
 
 }  // namespace
 
-ProcessScan scan_process_grid(const ProcessOutput& model, const VectorView& y, int delay_count) {
-    const std::vector<Vector> all_shapes = shapes(model.structure(), model.longest());
-    const std::vector<Index> shifts = delay_shifts(model, delay_count);
+ProcessScan scan_process_grid(const ProcessStructure& structure, const TransferOutput& output, int delay_count) {
+    const GridProblem problem(structure, output);
+    const Vector y = output.target();
+    const std::vector<Vector> all_shapes = shapes(structure, problem.longest);
+    const std::vector<Index> shifts = delay_shifts(problem, delay_count);
     Vector losses = Vector::Constant(static_cast<Index>(shifts.size()), std::numeric_limits<double>::infinity());
     std::vector<GridPoint> points;
     points.reserve(all_shapes.size() * shifts.size());
     for (std::size_t shape = 0; shape < all_shapes.size(); ++shape) {
-        LinearPart linear(model, y, all_shapes[shape]);
+        LinearPart linear(problem, y, all_shapes[shape]);
         for (std::size_t i = 0; i < shifts.size(); ++i) {
             const double loss = linear.solve(shifts[i]);
             if (!std::isfinite(loss)) continue;
@@ -299,12 +320,12 @@ ProcessScan scan_process_grid(const ProcessOutput& model, const VectorView& y, i
     }
     ProcessScan scan;
     for (const GridPoint& point : best_that_differ(std::move(points), all_shapes)) {
-        LinearPart linear(model, y, all_shapes[point.shape]);
+        LinearPart linear(problem, y, all_shapes[point.shape]);
         linear.solve(shifts[point.shift]);
         scan.starts.push_back(linear.theta(shifts[point.shift]));
     }
-    if (!model.structure().delay) return scan;
-    const double least_delay = model.lower()[model.model_parameters() - 1];
+    if (!structure.delay) return scan;
+    const double least_delay = problem.model.lower()[problem.parameters - 1];
     scan.losses = losses;
     scan.delays.resize(losses.size());
     for (Index i = 0; i < losses.size(); ++i)

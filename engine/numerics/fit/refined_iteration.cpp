@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "numerics/error.h"
-#include "numerics/fit/simulation_report.h"
+#include "numerics/fit/simulation_error.h"
 #include "numerics/simulation/lsim.h"
 
 namespace dynlab::inline numerics {
@@ -227,7 +227,7 @@ RefinedSolution iterate_refined(const IdData& data, const TransferStructure& str
         }
     }
     double best = simulation_loss(data, structure, solution.theta);
-    for (const TransferIteration& iteration : solution.trace) {
+    for (const FitIteration& iteration : solution.trace) {
         const double loss = simulation_loss(data, structure, iteration.theta);
         if (loss < best) {
             best = loss;

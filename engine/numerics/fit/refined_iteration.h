@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "numerics/criteria/denominator_group.h"
-#include "numerics/fit/transfer_estimate.h"
+#include "numerics/fit/fit.h"
 
 namespace dynlab::inline numerics {
 
@@ -22,8 +22,8 @@ struct RefinedOptions {
 struct RefinedSolution {
     Vector theta;
     Termination termination = Termination::kIterationLimit;
-    std::vector<TransferIteration> trace;  ///< without losses, which would cost a pass each
-    bool mirrored = false;                 ///< unstable poles were met on the way
+    std::vector<FitIteration> trace;  ///< without losses, which would cost a pass each
+    bool mirrored = false;            ///< unstable poles were met on the way
     /// With with_gram, sum z z' of the last pass, each group's block on the diagonal: at the theta before the last
     /// change.
     Matrix gram;

@@ -2,6 +2,8 @@
 #include <cstddef>
 #include <string>
 
+#include "numerics/linalg/types.h"
+
 namespace dynlab::inline numerics {
 
 /// Why an iteration ended. None of these is an error: the best point found is always returned.
@@ -11,6 +13,12 @@ enum class Termination {
     kNoProgress,      ///< no step, however short, lowered the loss any more
     kDiverged,        ///< the loss grew without bound (a step size that is too large)
     kCancelled,       ///< the cancel callback asked to stop
+};
+
+struct FitIteration {
+    Vector theta;       ///< after the iteration; empty where only the loss is kept
+    double loss = 0;    ///< mean square of the errors there
+    double change = 0;  ///< largest relative parameter change
 };
 
 /// "1 iteration", "2 iterations".

@@ -6,11 +6,8 @@
 #include "numerics/criteria/denominator_group.h"
 #include "numerics/criteria/transfer_output.h"
 #include "numerics/error.h"
+#include "numerics/fit/diagnosis.h"
 #include "numerics/fit/output_error.h"
-#include "numerics/fit/polynomial_estimate.h"
-#include "numerics/fit/simulation_report.h"
-#include "numerics/fit/transfer_data.h"
-#include "numerics/fit/transfer_report.h"
 #include "numerics/fit/transfer_split.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/polynomial.h"
@@ -22,20 +19,6 @@ namespace {
 constexpr int kWeightRounds = 2;
 constexpr double kFirstTolerance = 1e-3;
 constexpr double kLeastRelativeError = 1e-6;  // of the output's own size: smaller errors count as rounding
-
-// Sum of squares of each output about the mean of each experiment.
-Vector variations(const IdData& data) {
-    Vector sums = Vector::Zero(data.output_count());
-    for (const Experiment& experiment : data.experiments)
-        sums += (experiment.y.rowwise() - experiment.y.colwise().mean()).colwise().squaredNorm().transpose();
-    return sums;
-}
-
-Vector powers(const IdData& data) {
-    Vector sums = Vector::Zero(data.output_count());
-    for (const Experiment& experiment : data.experiments) sums += experiment.y.colwise().squaredNorm().transpose();
-    return sums / static_cast<double>(data.sample_count());
-}
 
 // Per output: the sum of squared errors without the weights.
 Vector squared_errors(const TransferOutput& model, const Vector& output) {
@@ -106,12 +89,13 @@ void set_weights(TransferOutput& model, const Vector& output, const Vector& powe
 }
 
 OutputErrorSolution search(TransferOutput& model, const TransferStructure& structure, const IdData& data,
-                           const Vector& start, const TransferOptions& options) {
-    OutputErrorOptions search_options{options.MaxIter, options.Tol, options.cancel};
+                           const Vector& start, const FitOptions& options) {
+    OutputErrorOptions search_options{options.max_iterations, options.tolerance, options.cancel};
     Vector theta = start;
     if (structure.outputs > 1) {
-        const OutputErrorOptions rough{options.MaxIter, std::max(options.Tol, kFirstTolerance), options.cancel};
-        const Vector power = powers(data);
+        const OutputErrorOptions rough{options.max_iterations, std::max(options.tolerance, kFirstTolerance),
+                                       options.cancel};
+        const Vector power = output_powers(data);
         Vector output;
         model.simulate(theta, output, nullptr);
         set_weights(model, output, power);
@@ -126,9 +110,8 @@ OutputErrorSolution search(TransferOutput& model, const TransferStructure& struc
     return minimise_output_error(model, model.target(), starts, search_options);
 }
 
-void fill_errors(TransferEstimate& estimate, const TransferOutput& model, const IdData& data,
-                 const OutputErrorSolution& solution) {
-    const Vector squares = squared_errors(model, solution.output), variation = variations(data);
+void fill_errors(Fit& estimate, const TransferOutput& model, const IdData& data, const OutputErrorSolution& solution) {
+    const Vector squares = squared_errors(model, solution.output), variation = output_variations(data);
     const double N = static_cast<double>(model.sample_count());
     estimate.noise_variance.resize(squares.size());
     estimate.fit_percent.resize(squares.size());
@@ -142,8 +125,7 @@ void fill_errors(TransferEstimate& estimate, const TransferOutput& model, const 
     estimate.loss = squares.sum() / (N * static_cast<double>(squares.size()));
 }
 
-void fill_start(TransferEstimate& estimate, const TransferOutput& model, const StartCondition& condition,
-                const Vector& theta) {
+void fill_start(Fit& estimate, const TransferOutput& model, const StartCondition& condition, const Vector& theta) {
     const Index experiments = static_cast<Index>(model.experiment_count()), outputs = estimate.structure.outputs;
     estimate.start = condition;
     estimate.offsets = Matrix::Zero(experiments, outputs);
@@ -158,15 +140,15 @@ void fill_start(TransferEstimate& estimate, const TransferOutput& model, const S
     }
 }
 
-TransferEstimate refine_jointly(const IdData& data, const TransferStructure& structure, const StartCondition& condition,
-                                const Vector& theta_start, const TransferOptions& options) {
+Fit refine_jointly(const IdData& data, const TransferStructure& structure, const StartCondition& condition,
+                   const Vector& theta_start, const FitOptions& options) {
     const DelayRange range = structure.free_delays ? delay_range(data, options) : DelayRange{};
     TransferOutput model(structure, condition, data, range.least, range.largest);
     const OutputErrorSolution solution =
         search(model, structure, data, first_point(model, structure, theta_start), options);
     const Index count = structure.parameter_count();
     const Vector all = solution.theta.cwiseProduct(model.seconds()), seconds = model.seconds().head(count);
-    TransferEstimate estimate;
+    Fit estimate;
     estimate.structure = structure;
     estimate.names = structure.parameter_names();
     estimate.theta = all.head(count);
@@ -176,16 +158,15 @@ TransferEstimate refine_jointly(const IdData& data, const TransferStructure& str
     fill_errors(estimate, model, data, solution);
     fill_start(estimate, model, condition, all);
     estimate.termination = solution.termination;
-    for (const OutputErrorIteration& iteration : solution.trace)
+    for (const FitIteration& iteration : solution.trace)
         estimate.trace.push_back({iteration.theta.head(count).cwiseProduct(seconds), iteration.loss, iteration.change});
     return estimate;
 }
 
-TransferEstimate refine_each_output(const IdData& data, const TransferStructure& structure,
-                                    const StartCondition& condition, const Vector& theta_start,
-                                    const TransferOptions& options) {
+Fit refine_each_output(const IdData& data, const TransferStructure& structure, const StartCondition& condition,
+                       const Vector& theta_start, const FitOptions& options) {
     std::vector<OutputProblem> problems;
-    std::vector<TransferEstimate> estimates;
+    std::vector<Fit> estimates;
     for (Index output = 0; output < structure.outputs; ++output) {
         problems.push_back(output_problem(data, structure, output));
         const OutputProblem& problem = problems.back();
@@ -211,9 +192,9 @@ Index value_count(const TransferStructure& structure, const StartCondition& cond
     return structure.parameter_count() + experiments * values;
 }
 
-double bic_of(const TransferEstimate& estimate, const IdData& data) {
+double bic_of(const Fit& estimate, const IdData& data) {
     const Index N = data.sample_count(), experiments = static_cast<Index>(data.experiments.size());
-    const Vector variation = variations(data), power = powers(data);
+    const Vector variation = output_variations(data), power = output_powers(data);
     Index values = value_count(estimate.structure, estimate.start, experiments);
     double sum = 0;
     for (Index output = 0; output < data.output_count(); ++output) {
@@ -224,23 +205,19 @@ double bic_of(const TransferEstimate& estimate, const IdData& data) {
     return sum;
 }
 
-TransferEstimate refine_output_error(const IdData& data, const TransferStructure& structure,
-                                     const StartCondition& condition, const Vector& theta_start,
-                                     const TransferOptions& options) {
+Fit refine_output_error(const IdData& data, const TransferStructure& structure, const StartCondition& condition,
+                        const Vector& theta_start, const FitOptions& options) {
     check_transfer_data("Output error", data, structure);
     if (theta_start.size() != structure.parameter_count())
         throw InvalidArgument("The search needs " + std::to_string(structure.parameter_count()) +
                               " start values, and " + std::to_string(theta_start.size()) + " were given");
     const Index values = value_count(structure, condition, static_cast<Index>(data.experiments.size()));
-    if (data.sample_count() * structure.outputs <= values)
-        throw InvalidArgument("Output error needs more samples than the " + std::to_string(values) +
-                              " values it estimates, and the data hold " +
-                              std::to_string(data.sample_count() * structure.outputs));
-    TransferEstimate estimate = structure.outputs > 1 && outputs_are_separate(structure)
-                                    ? refine_each_output(data, structure, condition, theta_start, options)
-                                    : refine_jointly(data, structure, condition, theta_start, options);
+    check_sample_count("Output error", data.sample_count() * structure.outputs, values);
+    Fit estimate = structure.outputs > 1 && outputs_are_separate(structure)
+                       ? refine_each_output(data, structure, condition, theta_start, options)
+                       : refine_jointly(data, structure, condition, theta_start, options);
     const DelayRange range = structure.free_delays ? delay_range(data, options) : DelayRange{};
-    describe_refinement(estimate, data, "Output error", options, range);
+    describe_search(estimate, data, "Output error", options, range);
     return estimate;
 }
 

@@ -1,32 +1,32 @@
 #pragma once
-#include "numerics/fit/transfer_estimate.h"
+#include "numerics/fit/fit.h"
 
 namespace dynlab::inline numerics {
 
 /// Output-error estimate from a given start:
 ///     minimise sum_k w_i^2 (y_i(k) - sum_j B_ij/A_ij u_j(k - delay) - free motion - offset)^2
 /// over all parameters of the structure together with the initial values and offsets that `condition` asks for, in
-/// all experiments, by Levenberg-Marquardt with exact sensitivities (kernels/transfer_output.h). `theta_start` holds
+/// all experiments, by Levenberg-Marquardt with exact sensitivities (criteria/transfer_output.h). `theta_start` holds
 /// the parameters of the structure (s); unstable starts are mirrored when their simulation has no end, initial values
-/// and offsets start from least squares. Free delays stay between TdMin and TdMax of the options (delay_range); where
-/// the output is not smooth in them, the search also sets out from the two neighbouring sampling intervals. Steps to
-/// models whose simulation grows beyond bounds raise the loss and are never taken.
+/// and offsets start from least squares. Free delays stay between least_delay and largest_delay of the options
+/// (delay_range); where the output is not smooth in them, the search also sets out from the two neighbouring sampling
+/// intervals. Steps to models whose simulation grows beyond bounds raise the loss and are never taken.
 ///
 /// Outputs that share no denominator are problems of their own and are solved one by one. Others are weighted with one
 /// over the standard deviation of their errors, which is found in two rounds; the trace counts weighted squares then.
 ///
-/// `TransferOptions` count here: TdMin, TdMax, MaxIter, Tol, cancel. The data are taken as they are: an operating point
-/// has to be removed before (without_operating_points). Fills every field but delay_grid and delay_loss; doubtful
-/// results are told in `warnings`, never thrown. Throws InvalidArgument for data that do not fit the structure
-/// (check_transfer_data), for another length of theta_start, or for no more samples than values to estimate.
-TransferEstimate refine_output_error(const IdData& data, const TransferStructure& structure,
-                                     const StartCondition& condition, const Vector& theta_start,
-                                     const TransferOptions& options);
+/// `FitOptions` count here: least_delay, largest_delay, max_iterations, tolerance, cancel. The data are taken as they
+/// are: an operating point has to be removed before (without_operating_points). Fills every field but delay_grid and
+/// delay_loss; doubtful results are told in `warnings`, never thrown. Throws InvalidArgument for data that do not fit
+/// the structure (check_transfer_data), for another length of theta_start, or for no more samples than values to
+/// estimate.
+Fit refine_output_error(const IdData& data, const TransferStructure& structure, const StartCondition& condition,
+                        const Vector& theta_start, const FitOptions& options);
 
 /// All values estimated under a start condition: parameters, initial values and offsets.
 Index value_count(const TransferStructure& structure, const StartCondition& condition, Index experiments);
 
 /// BIC of an estimate: of all outputs together, each with its own noise.
-double bic_of(const TransferEstimate& estimate, const IdData& data);
+double bic_of(const Fit& estimate, const IdData& data);
 
 }  // namespace dynlab::inline numerics

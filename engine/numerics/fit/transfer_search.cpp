@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "numerics/fit/data_checks.h"
 #include "numerics/fit/refined_iteration.h"
-#include "numerics/fit/simulation_report.h"
-#include "numerics/fit/transfer_data.h"
+#include "numerics/fit/start_choice.h"
 #include "numerics/fit/transfer_refinement.h"
 #include "numerics/signals/correlation.h"
 
@@ -40,15 +40,15 @@ Vector with_delays(const TransferStructure& free, const TransferStructure& at, c
     return all;
 }
 
-struct Candidate {
+struct DelayPoint {
     Vector theta;
     double loss = kInfinity;
 };
 
 /// The best of a few passes from each start.
-Candidate best_after_passes(const IdData& data, const TransferStructure& structure, const std::vector<Vector>& starts,
-                            const TransferOptions& options) {
-    Candidate best;
+DelayPoint best_after_passes(const IdData& data, const TransferStructure& structure, const std::vector<Vector>& starts,
+                             const FitOptions& options) {
+    DelayPoint best;
     for (const Vector& start : starts) {
         if (!start.allFinite()) continue;
         const RefinedSolution trial = iterate_refined(
@@ -59,15 +59,15 @@ Candidate best_after_passes(const IdData& data, const TransferStructure& structu
     return best;
 }
 
-Vector fresh_start(const IdData& data, const TransferStructure& structure, const TransferOptions& options) {
+Vector fresh_start(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
     if (!options.lambda) return find_start(data, structure, options.hold_y, options.cancel);
     return filtered_start(data, structure, *options.lambda, options.hold_y);
 }
 
 /// The loss over one channel's delay; `structure` has the others' delays, and leaves with the best one.
-std::vector<Candidate> scan_channel(const IdData& data, TransferStructure& structure, std::size_t channel,
-                                    const Vector& delays, const TransferOptions& options) {
-    std::vector<Candidate> found(static_cast<std::size_t>(delays.size()));
+std::vector<DelayPoint> scan_channel(const IdData& data, TransferStructure& structure, std::size_t channel,
+                                     const Vector& delays, const FitOptions& options) {
+    std::vector<DelayPoint> found(static_cast<std::size_t>(delays.size()));
     Vector neighbour;
     for (Index i = 0; i < delays.size(); ++i) {
         if (options.cancel && options.cancel()) break;
@@ -75,18 +75,18 @@ std::vector<Candidate> scan_channel(const IdData& data, TransferStructure& struc
         std::vector<Vector> starts;
         if (neighbour.size() > 0) starts.push_back(neighbour);
         if (starts.empty() || i % kFreshStart == 0) starts.push_back(fresh_start(data, structure, options));
-        Candidate& here = found[static_cast<std::size_t>(i)];
+        DelayPoint& here = found[static_cast<std::size_t>(i)];
         here = best_after_passes(data, structure, starts, options);
         if (std::isfinite(here.loss)) neighbour = here.theta;
     }
     const auto best = std::min_element(found.begin(), found.end(),
-                                       [](const Candidate& a, const Candidate& b) { return a.loss < b.loss; });
+                                       [](const DelayPoint& a, const DelayPoint& b) { return a.loss < b.loss; });
     structure.channels[channel].delay = delays[best - found.begin()];
     return found;
 }
 
 /// Places of the lowest local minima, lowest first.
-std::vector<std::size_t> valleys(const std::vector<Candidate>& curve) {
+std::vector<std::size_t> valleys(const std::vector<DelayPoint>& curve) {
     std::vector<std::size_t> places;
     for (std::size_t i = 0; i < curve.size(); ++i) {
         const bool left = i == 0 || curve[i].loss <= curve[i - 1].loss;
@@ -99,22 +99,16 @@ std::vector<std::size_t> valleys(const std::vector<Candidate>& curve) {
 }
 
 /// The best joint refinement from several starts.
-TransferEstimate refine_from(const IdData& data, const TransferStructure& structure, const StartCondition& condition,
-                             const std::vector<Vector>& starts, const TransferOptions& options) {
-    TransferEstimate best;
+Fit refine_from(const IdData& data, const TransferStructure& structure, const StartCondition& condition,
+                const std::vector<Vector>& starts, const FitOptions& options) {
+    Fit best;
     best.loss = kInfinity;
     for (const Vector& start : starts) {
-        TransferEstimate estimate = refine_output_error(data, structure, condition, start, options);
+        Fit estimate = refine_output_error(data, structure, condition, start, options);
         if (best.theta.size() == 0 || estimate.loss < best.loss) best = std::move(estimate);
         if (best.termination == Termination::kCancelled) break;
     }
     return best;
-}
-
-void add_removed_levels(TransferEstimate& estimate, const CentredData& centred) {
-    for (std::size_t e = 0; e < centred.removed.size(); ++e)
-        for (std::size_t o = 0; o < centred.removed[e].size(); ++o)
-            estimate.offsets(static_cast<Index>(e), static_cast<Index>(o)) += centred.removed[e][o].output;
 }
 
 }  // namespace
@@ -146,7 +140,7 @@ double likely_largest_delay(const IdData& data) {
     return data.regular() ? largest : std::min(largest, shortest_record(data) / 4);
 }
 
-Vector start_at(const IdData& data, const TransferStructure& structure, const TransferOptions& options) {
+Vector start_at(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
     const auto start_of = [&](const IdData& record) {
         const Vector theta = fresh_start(record, structure, options);
         return theta.allFinite() ? theta : find_start(record, structure, options.hold_y, options.cancel);
@@ -155,21 +149,22 @@ Vector start_at(const IdData& data, const TransferStructure& structure, const Tr
     const IdData beginning = beginning_of(data, kTrialSamples);
     const RefinedSolution trial =
         iterate_refined(beginning, structure, start_of(beginning),
-                        {options.MaxIter, kTrialTolerance, options.hold_y, options.cancel, {}, false});
+                        {options.max_iterations, kTrialTolerance, options.hold_y, options.cancel, {}, false});
     return trial.termination == Termination::kConverged ? trial.theta : start_of(data);
 }
 
-DelayScan scan_delays(const IdData& data, const TransferStructure& structure, const TransferOptions& options) {
+DelayScan scan_delays(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
     const DelayRange range = delay_range(data, options);
     const IdData beginning = beginning_of(data, kTrialSamples);
-    const double step = std::max(data.mean_step(), (range.largest - range.least) / std::max(1, options.NumTd - 1));
+    const double step =
+        std::max(data.mean_step(), (range.largest - range.least) / std::max(1, options.delay_count - 1));
     const Index count = 1 + static_cast<Index>(std::floor((range.largest - range.least) / step + 1e-9));
     DelayScan scan;
     scan.delays.resize(count);
     for (Index i = 0; i < count; ++i) scan.delays[i] = range.least + static_cast<double>(i) * step;
     TransferStructure at = fixed(structure);
     for (TransferChannel& channel : at.channels) channel.delay = range.least;
-    std::vector<Candidate> curve;
+    std::vector<DelayPoint> curve;
     std::size_t last = 0;
     const int rounds = at.channels.size() > 1 ? 2 : 1;
     for (int round = 0; round < rounds; ++round)
@@ -188,11 +183,12 @@ DelayScan scan_delays(const IdData& data, const TransferStructure& structure, co
     return scan;
 }
 
-TransferEstimate search_transfer(const char* method, const IdData& data, const TransferStructure& structure,
-                                 const TransferOptions& given, const Vector& start) {
+Fit search_transfer(const char* method, const IdData& data, const TransferStructure& structure, const FitOptions& given,
+                    const Vector& start) {
     check_transfer_data(method, data, structure);
-    TransferOptions options = given;
-    if (structure.free_delays && !options.TdMax) options.TdMax = std::max(options.TdMin, likely_largest_delay(data));
+    FitOptions options = given;
+    if (structure.free_delays && !options.largest_delay)
+        options.largest_delay = std::max(options.least_delay, likely_largest_delay(data));
     const bool centre = options.offset != Offset::kNone || options.initial_state != InitialState::kZero;
     const CentredData centred = centre ? without_operating_points(data) : CentredData{};
     const IdData& for_start = centre ? centred.data : data;
@@ -203,21 +199,19 @@ TransferEstimate search_transfer(const char* method, const IdData& data, const T
         scan = scan_delays(for_start, structure, options);
     else
         scan.starts = {start.size() > 0 ? start : start_at(for_start, structure, options)};
-    TransferEstimate best;
-    double best_bic = kInfinity;
-    for (const StartCondition& condition : start_conditions(record, options.initial_state, options.offset)) {
-        const Index values = value_count(structure, condition, static_cast<Index>(record.experiments.size()));
-        if (best.theta.size() > 0 && record.sample_count() * structure.outputs <= values) continue;
-        TransferEstimate estimate = refine_from(record, structure, condition, scan.starts, options);
-        const double bic = bic_of(estimate, record);
-        if (best.theta.size() == 0 || bic < best_bic) {
-            best = std::move(estimate);
-            best_bic = bic;
-        }
-        if (best.termination == Termination::kCancelled) break;
-    }
-    check_transient(method, record, best);
-    if (options.offset == Offset::kRemove) add_removed_levels(best, centred);
+    const auto experiments = static_cast<Index>(record.experiments.size());
+    Fit best = smallest_bic(
+        start_conditions(record, options.initial_state, options.offset),
+        [&](const StartCondition& condition) {
+            return record.sample_count() * structure.outputs > value_count(structure, condition, experiments);
+        },
+        [&](const StartCondition& condition) {
+            Fit fit = refine_from(record, structure, condition, scan.starts, options);
+            const double bic = bic_of(fit, record);
+            return Candidate{std::move(fit), bic};
+        });
+    check_transient(method, record, best, value_count(structure, best.start, experiments));
+    if (options.offset == Offset::kRemove) add_operating_points(best, centred.removed);
     best.delay_grid = scan.delays;
     best.delay_loss = scan.losses;
     return best;

@@ -1,5 +1,5 @@
 #pragma once
-#include "numerics/fit/transfer_estimate.h"
+#include "numerics/fit/fit.h"
 
 namespace dynlab::inline numerics {
 
@@ -14,20 +14,20 @@ struct DelayScan {
 /// more; at least a few samples, at most a quarter of the shortest record.
 double likely_largest_delay(const IdData& data);
 
-/// Loss over the delay of every channel in turn (the others as found so far), from TdMin to TdMax of the options in at
-/// most NumTd steps of at least one mean sampling time. At each delay a few passes of srivc run from filtered starts
-/// and from the neighbour's result. The curve is the last channel's.
-DelayScan scan_delays(const IdData& data, const TransferStructure& structure, const TransferOptions& options);
+/// Loss over the delay of every channel in turn (the others as found so far), from least_delay to largest_delay of the
+/// options in at most delay_count steps of at least one mean sampling time. At each delay a few passes of srivc run
+/// from filtered starts and from the neighbour's result. The curve is the last channel's.
+DelayScan scan_delays(const IdData& data, const TransferStructure& structure, const FitOptions& options);
 
 /// Output-error estimate under all options: offsets and operating points, start conditions tried where they are
 /// "auto" (smallest BIC), delays looked for on a grid when the structure has them free; the best starts are refined
 /// jointly (transfer_refinement.h). `method` begins messages of errors. `start`: where the search for fixed delays
 /// begins, when it is given.
-TransferEstimate search_transfer(const char* method, const IdData& data, const TransferStructure& structure,
-                                 const TransferOptions& options, const Vector& start = {});
+Fit search_transfer(const char* method, const IdData& data, const TransferStructure& structure,
+                    const FitOptions& options, const Vector& start = {});
 
 /// A start from rest for fixed delays: the first estimate at options.lambda or at the best of several cut-off
 /// frequencies, on the beginning of a long record.
-Vector start_at(const IdData& data, const TransferStructure& structure, const TransferOptions& options);
+Vector start_at(const IdData& data, const TransferStructure& structure, const FitOptions& options);
 
 }  // namespace dynlab::inline numerics

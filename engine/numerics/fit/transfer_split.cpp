@@ -27,11 +27,11 @@ Termination worse(Termination a, Termination b) {
     return rank(a) < rank(b) ? b : a;
 }
 
-std::vector<TransferIteration> joined_trace(Index parameters, const std::vector<OutputProblem>& problems,
-                                            const std::vector<TransferEstimate>& estimates) {
+std::vector<FitIteration> joined_trace(Index parameters, const std::vector<OutputProblem>& problems,
+                                       const std::vector<Fit>& estimates) {
     std::size_t length = 0;
-    for (const TransferEstimate& estimate : estimates) length = std::max(length, estimate.trace.size());
-    std::vector<TransferIteration> trace(length);
+    for (const Fit& estimate : estimates) length = std::max(length, estimate.trace.size());
+    std::vector<FitIteration> trace(length);
     for (std::size_t k = 0; k < length; ++k) {
         trace[k].theta.resize(parameters);
         for (std::size_t i = 0; i < estimates.size(); ++i) {
@@ -88,10 +88,10 @@ OutputProblem output_problem(const IdData& data, const TransferStructure& struct
     return problem;
 }
 
-TransferEstimate join_outputs(const TransferStructure& structure, const std::vector<OutputProblem>& problems,
-                              const std::vector<TransferEstimate>& estimates) {
+Fit join_outputs(const TransferStructure& structure, const std::vector<OutputProblem>& problems,
+                 const std::vector<Fit>& estimates) {
     const Index count = structure.parameter_count(), outputs = structure.outputs;
-    TransferEstimate all;
+    Fit all;
     all.structure = structure;
     all.names = structure.parameter_names();
     all.theta.resize(count);
@@ -103,7 +103,7 @@ TransferEstimate join_outputs(const TransferStructure& structure, const std::vec
     all.offsets.resize(estimates.front().offsets.rows(), outputs);
     all.termination = Termination::kConverged;
     for (std::size_t i = 0; i < estimates.size(); ++i) {
-        const TransferEstimate& one = estimates[i];
+        const Fit& one = estimates[i];
         const auto& places = problems[i].places;
         const Index output = static_cast<Index>(i);
         all.theta(places) = one.theta;

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "numerics/fit/transfer_estimate.h"
+#include "numerics/fit/fit.h"
 
 namespace dynlab::inline numerics {
 
@@ -19,8 +19,8 @@ OutputProblem output_problem(const IdData& data, const TransferStructure& struct
 
 /// The estimates of all outputs as one estimate of the whole structure: covariance block by block, the worst
 /// termination and condition number; iteration k of the trace has each output at its k-th or last iteration. Standard
-/// errors, warnings and message are left empty: describe_refinement writes them.
-TransferEstimate join_outputs(const TransferStructure& structure, const std::vector<OutputProblem>& problems,
-                              const std::vector<TransferEstimate>& estimates);
+/// errors, warnings and message are left empty: describe_search writes them.
+Fit join_outputs(const TransferStructure& structure, const std::vector<OutputProblem>& problems,
+                 const std::vector<Fit>& estimates);
 
 }  // namespace dynlab::inline numerics

@@ -13,7 +13,7 @@ enum class Hold { kZoh, kFoh };
 struct Experiment {
     Matrix y;               ///< N x ny outputs
     Matrix u;               ///< N x nu inputs (nu = 0 for a time series)
-    Vector t;               ///< sampling instants in TimeUnit when sampled irregularly, else empty
+    Vector t;               ///< sampling instants in time_unit when sampled irregularly, else empty
     double start_time = 0;  ///< time of the first sample
     std::string name;
 };

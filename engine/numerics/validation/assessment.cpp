@@ -6,6 +6,7 @@
 #include "numerics/criteria/process_output.h"
 #include "numerics/criteria/transfer_sensitivity.h"
 #include "numerics/error.h"
+#include "numerics/fit/data_checks.h"
 #include "numerics/fit/discrete_fit.h"
 #include "numerics/fit/prediction_model.h"
 #include "numerics/linalg/least_squares.h"
@@ -210,11 +211,25 @@ Assessment assess_channels(const IdData& data, const std::vector<ChannelPlaces>&
     return assessment;
 }
 
-}  // namespace
+/// The data as the estimator counted them.
+IdData counted_data(const IdData& data, const Fit& fit) {
+    IdData counted = data;
+    if (fit.removed.empty()) return counted;
+    if (fit.removed.size() != counted.experiments.size())
+        throw InvalidArgument("The estimate comes from " + std::to_string(fit.removed.size()) +
+                              " experiment(s) and the data hold " + std::to_string(counted.experiments.size()));
+    for (std::size_t e = 0; e < fit.removed.size(); ++e) {
+        const auto& points = fit.removed[e];
+        counted.experiments[e].u.rowwise() -= points.front().inputs.transpose();
+        for (std::size_t o = 0; o < points.size(); ++o)
+            counted.experiments[e].y.col(static_cast<Index>(o)).array() -= points[o].output;
+    }
+    return counted;
+}
 
-Assessment assess(const IdData& data, const TransferEstimate& estimate, const ResidualOptions& options) {
-    const TransferStructure& structure = estimate.structure;
-    const std::vector<TransferFunction> models = structure.models(estimate.theta);
+Assessment assess_transfer(const IdData& data, const Fit& fit, const ResidualOptions& options) {
+    const TransferStructure& structure = fit.structure;
+    const std::vector<TransferFunction> models = structure.models(fit.theta);
     std::vector<ChannelPlaces> channels;
     for (Index i = 0; i < structure.outputs; ++i)
         for (Index j = 0; j < structure.inputs; ++j) {
@@ -223,32 +238,23 @@ Assessment assess(const IdData& data, const TransferEstimate& estimate, const Re
                                 structure.b_place(i, j), structure.delay_place(i, j)});
         }
     const Index d = structure.parameter_count();
-    return assess_channels(data, channels, estimate.start, Matrix::Identity(d, d), estimate.covariance, options);
+    return assess_channels(data, channels, fit.start, Matrix::Identity(d, d), fit.covariance, options);
 }
 
-Assessment assess(const IdData& data, const ProcsrivcResult& estimate, const ResidualOptions& options) {
-    IdData counted = data;
-    if (estimate.removed.size() != counted.experiments.size())
-        throw InvalidArgument("The estimate comes from " + std::to_string(estimate.removed.size()) +
-                              " experiment(s) and the data hold " + std::to_string(counted.experiments.size()));
-    for (std::size_t e = 0; e < estimate.removed.size(); ++e) {
-        counted.experiments[e].u.array() -= estimate.removed[e].input;
-        counted.experiments[e].y.array() -= estimate.removed[e].output;
-    }
-    const TransferFunction G = estimate.model.transfer_function();
+Assessment assess_process(const IdData& data, const Fit& fit, const ResidualOptions& options) {
+    const TransferFunction G = fit.process->transfer_function();
     const Index n = G.pole_count(), b_count = G.num().size();
-    const ChannelPlaces channel{G, 0, 0, n, estimate.model.structure.delay ? n + b_count : -1};
-    return assess_channels(counted, {channel}, estimate.start, coefficients_by_parameter(estimate.model),
-                           estimate.covariance, options);
+    const ChannelPlaces channel{G, 0, 0, n, fit.process->structure.delay ? n + b_count : -1};
+    return assess_channels(data, {channel}, fit.start, coefficients_by_parameter(*fit.process), fit.covariance,
+                           options);
 }
 
-Assessment assess(const IdData& data, const PolynomialEstimate& estimate, Offset offset,
-                  const ResidualOptions& options) {
-    check_polynomial_data("assess", data, estimate.orders);
-    const std::vector<SampledExperiment> experiments = sampled_experiments(data, offset);
-    const PredictionModel model(estimate.orders, estimate.start, experiments);
-    const Index d = estimate.theta.size(), linear_unknowns = model.linear_count();
-    const Vector theta = model.completed(estimate.theta);
+Assessment assess_prediction(const IdData& data, const Fit& fit, const ResidualOptions& options) {
+    check_polynomial_data("assess", data, fit.orders);
+    const std::vector<SampledExperiment> experiments = sampled_experiments(data);
+    const PredictionModel model(fit.orders, fit.start, experiments);
+    const Index d = fit.theta.size(), linear_unknowns = model.linear_count();
+    const Vector theta = model.completed(fit.theta);
     Vector output;
     Matrix sensitivities;
     model.simulate(theta, output, &sensitivities);
@@ -269,9 +275,23 @@ Assessment assess(const IdData& data, const PolynomialEstimate& estimate, Offset
     }
     assessment.whiteness = {whiteness_test(records, options)};
     assessment.white = assessment.whiteness.front().white;
-    finish(assessment, Psi, errors, lengths, 1, estimate.covariance, linear_unknowns);
+    finish(assessment, Psi, errors, lengths, 1, fit.covariance, linear_unknowns);
     assessment.verdict = verdict_of(assessment, data.output_names);
     return assessment;
+}
+
+}  // namespace
+
+Assessment assess(const IdData& data, const Fit& fit, const ResidualOptions& options) {
+    const IdData counted = counted_data(data, fit);
+    if (fit.polynomial) return assess_prediction(counted, fit, options);
+    return fit.process ? assess_process(counted, fit, options) : assess_transfer(counted, fit, options);
+}
+
+std::optional<Assessment> assess_if_affordable(const IdData& data, const Fit& fit) {
+    if (!fit.process && data.sample_count() > kMostAssessed) return std::nullopt;
+    if (fit.polynomial && !fit.std.allFinite()) return std::nullopt;
+    return assess(data, fit);
 }
 
 }  // namespace dynlab::inline numerics

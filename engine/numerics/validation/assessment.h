@@ -1,10 +1,9 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "numerics/estimators/procsrivc.h"
-#include "numerics/fit/polynomial_estimate.h"
-#include "numerics/fit/transfer_estimate.h"
+#include "numerics/fit/fit.h"
 #include "numerics/signals/iddata.h"
 #include "numerics/validation/residual_tests.h"
 
@@ -25,16 +24,17 @@ struct Assessment {
 /// that enter linearly (initial state, offset) projected out, then handed to robust_covariance() and
 /// whiteness_test(). Each output counts with one over the standard deviation of its errors, as in the fit of outputs
 /// that share a denominator. Errors of different experiments count as independent of each other, those of different
-/// outputs need not be. Parameters whose plain variance is zero (held at a bound) keep it. `data` are those the
-/// estimator saw, with any operating point already removed. Throws InvalidArgument for data that do not fit the
-/// estimate's channels.
-Assessment assess(const IdData& data, const TransferEstimate& estimate, const ResidualOptions& options = {});
-/// The same for a process model; the operating point the result names is removed here.
-Assessment assess(const IdData& data, const ProcsrivcResult& estimate, const ResidualOptions& options = {});
-/// The same for models of difference equations (not of iv4, whose instruments it does not know), with the `offset` they
-/// were asked for, so that operating points are removed here: of their prediction errors, which for oe and sriv are the
-/// simulation errors. Throws InvalidArgument where the model's output grows beyond all bounds.
-Assessment assess(const IdData& data, const PolynomialEstimate& estimate, Offset offset,
-                  const ResidualOptions& options = {});
+/// outputs need not be. Parameters whose plain variance is zero (held at a bound) keep it. Models of difference
+/// equations (not of iv4, whose instruments it does not know) are assessed by their prediction errors, which for oe and
+/// sriv are the simulation errors. `data` are those the estimator was given; the operating points that the fit names
+/// are removed here. Throws InvalidArgument for data that do not fit the estimate's channels, and where a model's
+/// output grows beyond all bounds.
+Assessment assess(const IdData& data, const Fit& fit, const ResidualOptions& options = {});
+
+/// Samples: robust errors of longer records would take longer than the fit, but for process models.
+inline constexpr Index kMostAssessed = 200'000;
+/// The assessment of a fit where it costs little beside it and has a meaning: nothing for longer records, nor for
+/// difference equations without finite standard errors.
+std::optional<Assessment> assess_if_affordable(const IdData& data, const Fit& fit);
 
 }  // namespace dynlab::inline numerics

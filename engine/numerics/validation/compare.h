@@ -24,7 +24,7 @@ struct CompareResult {
 };
 
 /// Simulates G on the input of one experiment with one input and one output and compares with its output. What the
-/// model cannot know, the initial state and a constant, is handled as the options say (kernels/initial_conditions.h):
+/// model cannot know, the initial state and a constant, is handled as the options say (criteria/initial_conditions.h):
 /// it enters the output linearly and is found by least squares; "auto" takes the condition of smallest BIC. With zero
 /// and none the plain lsim is compared. Throws InvalidArgument for an improper G, a discrete G of another sampling
 /// time, other data, or a constant output.

@@ -13,10 +13,11 @@ constexpr double kChance = 6.635;  // 99 % quantile of chi-square with one degre
 constexpr double kFarSteps = 2, kFarErrors = 3;
 
 void check_options(const DelaySearchOptions& options) {
-    const TransferOptions& estimation = options.estimation;
-    if (estimation.TdMax && !(*estimation.TdMax > estimation.TdMin))
-        throw InvalidArgument("TdMax must be above TdMin (" + number_text(estimation.TdMin) + " s), but " +
-                              number_text(*estimation.TdMax) + " was given: there is no delay to look for");
+    const FitOptions& estimation = options.estimation;
+    if (estimation.largest_delay && !(*estimation.largest_delay > estimation.least_delay))
+        throw InvalidArgument("`largest_delay` must be above `least_delay` (" + number_text(estimation.least_delay) +
+                              " s), but " + number_text(*estimation.largest_delay) +
+                              " was given: there is no delay to look for");
 }
 
 /// The loss of a model that does not answer at all, which is there at every delay.
@@ -79,7 +80,7 @@ DelaySearch search_delay(const IdData& data, const DelaySearchOptions& options) 
     selecting.cancel = options.cancel;
     selecting.estimation = options.estimation;
     const OrderSelection selection =
-        select_order(data, order_grid(options.poles, options.zeros, {options.estimation.TdMin}, true), selecting);
+        select_order(data, order_grid(options.poles, options.zeros, {options.estimation.least_delay}, true), selecting);
     DelaySearch search;
     search.cancelled = selection.cancelled;
     if (search.cancelled) return search;

@@ -8,9 +8,9 @@
 namespace dynlab::inline numerics {
 
 struct DelaySearchOptions {
-    std::pair<int, int> poles{1, 3}, zeros{0, 1};         ///< structures among which the recommended one is taken
-    TransferOptions estimation = {};                      ///< TdMin, TdMax, NumTd and all else for every structure
-    int threads = 0;                                      ///< all cores when 0; never more than there are
+    std::pair<int, int> poles{1, 3}, zeros{0, 1};  ///< structures among which the recommended one is taken
+    FitOptions estimation = {};  ///< least_delay, largest_delay, delay_count and all else for every structure
+    int threads = 0;             ///< all cores when 0; never more than there are
     std::function<void(std::size_t done)> progress = {};  ///< structures done; called by one thread at a time
     std::function<bool()> cancel = {};                    ///< asked before every structure, by one thread at a time
 };
@@ -30,11 +30,11 @@ struct DelaySearch {
 };
 
 /// The delay between one input and one output, any number of experiments. A model of too low an order has a longer
-/// delay, so every structure of the ranges is estimated by srivc with its delay free (kernels/transfer_search.h: a grid
-/// between TdMin and TdMax, then a joint refinement), and the structure recommended by choose_order counts. A second
-/// valley of the loss is a rival when N ln(V/V_min) stays below the 99 % quantile of chi-square with one degree of
-/// freedom, and it is farther away than two grid steps and three standard errors. Throws InvalidArgument for other
-/// data, empty ranges, TdMax not above TdMin, and when no structure could be estimated.
+/// delay, so every structure of the ranges is estimated by srivc with its delay free (fit/transfer_search.h: a grid
+/// between least_delay and largest_delay, then a joint refinement), and the structure recommended by choose_order
+/// counts. A second valley of the loss is a rival when N ln(V/V_min) stays below the 99 % quantile of chi-square with
+/// one degree of freedom, and it is farther away than two grid steps and three standard errors. Throws InvalidArgument
+/// for other data, empty ranges, largest_delay not above least_delay, and when no structure could be estimated.
 DelaySearch search_delay(const IdData& data, const DelaySearchOptions& options = {});
 
 }  // namespace dynlab::inline numerics

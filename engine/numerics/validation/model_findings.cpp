@@ -100,7 +100,7 @@ void find_dead_time(const Fitted& fit, std::vector<RecordFinding>& findings) {
     findings.push_back(about(fit, "dead_time", Weight::kNote,
                              fit.output() + " answers about " + number_text(delay, 3) + " " + fit.data.time_unit +
                                  " (" + number_text(delay / Ts, 3) + " samples) after " + fit.input() +
-                                 ": give the model a dead time (TdMax of tfsrivc, the D of procsrivc).",
+                                 ": give the model a dead time (`largest_delay` of tfsrivc, the D of procsrivc).",
                              delay));
 }
 
@@ -112,17 +112,18 @@ void find_offset(const Fitted& fit, std::vector<RecordFinding>& findings) {
                              fit.output() + " stands at about " + number_text(offset, 4) + fit.unit() + " when " +
                                  fit.input() +
                                  " is zero. A linear model goes through the origin: take the offset off with "
-                                 "data:remove_mean() or data:detrend(\"start\"), or use Offset = \"estimate\".",
+                                 "data:remove_mean() or data:detrend(\"start\"), or use `offset` = \"estimate\".",
                              offset));
 }
 
 void find_running_start(const Fitted& fit, std::vector<RecordFinding>& findings) {
     if (fit.simulation.start.state != InitialState::kEstimate) return;
-    findings.push_back(about(fit, "running_start", Weight::kWarning,
-                             "The record begins in the middle of a movement of " + fit.output() +
-                                 ": no start from rest explains its first samples. Use InitialState = \"estimate\", or "
-                                 "begin the record later.",
-                             fit.simulation.initial_values.size() > 0 ? fit.simulation.initial_values[0] : 0));
+    findings.push_back(
+        about(fit, "running_start", Weight::kWarning,
+              "The record begins in the middle of a movement of " + fit.output() +
+                  ": no start from rest explains its first samples. Use `initial_state` = \"estimate\", or "
+                  "begin the record later.",
+              fit.simulation.initial_values.size() > 0 ? fit.simulation.initial_values[0] : 0));
 }
 
 /// rad/s up to which the output answers: where the gain is 3 dB below its steady value, or of a band-pass below its

@@ -26,7 +26,7 @@ struct ValidationOutputs {
     Vector measured, simulated;
 };
 
-ValidationOutputs outputs_of(const IdData& data, const TransferEstimate& estimate, Offset asked) {
+ValidationOutputs outputs_of(const IdData& data, const Fit& estimate, Offset asked) {
     const Offset chosen = estimate.start.offset ? Offset::kEstimate : Offset::kNone;
     const Comparison comparison =
         compare_all(data, estimate.models, {estimate.start.state, asked == Offset::kRemove ? Offset::kRemove : chosen});
@@ -41,7 +41,7 @@ ValidationOutputs outputs_of(const IdData& data, const TransferEstimate& estimat
     return all;
 }
 
-std::vector<std::string> undetermined_parameters(const TransferEstimate& estimate) {
+std::vector<std::string> undetermined_parameters(const Fit& estimate) {
     std::vector<std::string> names;
     for (Index i = 0; i < estimate.theta.size(); ++i)
         if (!(estimate.std[i] <= std::abs(estimate.theta[i])) && estimate.names[static_cast<std::size_t>(i)] != "Td")
@@ -58,7 +58,7 @@ bool cancel(const RootUncertainty& pole, const RootUncertainty& zero) {
     return gap <= 0.1 * size && !(gap > 3 * spread);
 }
 
-bool has_cancellation(const TransferEstimate& estimate) {
+bool has_cancellation(const Fit& estimate) {
     if (!estimate.covariance.allFinite()) return false;
     const UncertainModel model(estimate.models.front(), estimate.covariance);
     const std::vector<RootUncertainty> zeros = zero_uncertainty(model);
@@ -74,7 +74,7 @@ bool has_constant_inputs(const IdData& data) {
 }
 
 /// Minus infinity for an unstable model that leaves the range of numbers.
-double validation_fit(const IdData& data, const TransferEstimate& estimate, Offset offset) {
+double validation_fit(const IdData& data, const Fit& estimate, Offset offset) {
     // With a constant input a free motion and a constant together would hide the gain.
     const bool hidden = offset == Offset::kEstimate && has_constant_inputs(data);
     const InitialState state = hidden ? InitialState::kAuto : InitialState::kEstimate;
@@ -83,7 +83,7 @@ double validation_fit(const IdData& data, const TransferEstimate& estimate, Offs
 }
 
 void measure(OrderCandidate& candidate, const IdData& data, const OrderSelectionOptions& options) {
-    const TransferEstimate& estimate = candidate.estimate;
+    const Fit& estimate = candidate.estimate;
     const Offset offset = options.estimation.offset;
     const ValidationOutputs outputs = outputs_of(data, estimate, offset);
     const Index N = data.sample_count(), d = estimate.theta.size();

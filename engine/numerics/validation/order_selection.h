@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "numerics/fit/transfer_estimate.h"
+#include "numerics/fit/fit.h"
 
 namespace dynlab::inline numerics {
 
@@ -16,7 +16,7 @@ struct OrderCandidate {
     int poles = 1, zeros = 0;
     double delay = 0;     ///< s, fixed or estimated
     std::string failure;  ///< why there is no estimate; empty when there is one, and nothing below holds otherwise
-    TransferEstimate estimate;
+    Fit estimate;
     double r_squared = 0, yic = 0, aic = 0, bic = 0, fpe = 0;
     double log_condition = 0;  ///< log10 of the column-scaled equations' condition number
     int iterations = 0;
@@ -42,13 +42,14 @@ struct OrderSelection {
 struct OrderSelectionOptions {
     const IdData* validation = nullptr;                   ///< another record of the same channels
     int threads = 0;                                      ///< all cores when 0; never more than there are
-    TransferOptions estimation = {};                      ///< the same for every structure
+    FitOptions estimation = {};                           ///< the same for every structure
     std::function<void(std::size_t done)> progress = {};  ///< called by one thread at a time
     std::function<bool()> cancel = {};                    ///< asked before every candidate, by one thread at a time
 };
 
 /// All strictly proper structures with poles and zeros from .. to, and each of the delays (s); with `free_delay` the
-/// delay is estimated from TransferOptions' TdMin to TdMax instead. Throws InvalidArgument for empty or absurd ranges.
+/// delay is estimated from FitOptions' least_delay to largest_delay instead. Throws InvalidArgument for empty or absurd
+/// ranges.
 std::vector<TransferStructure> order_grid(std::pair<int, int> poles, std::pair<int, int> zeros,
                                           const std::vector<double>& delays, bool free_delay = false);
 

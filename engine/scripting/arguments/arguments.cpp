@@ -8,6 +8,7 @@
 #include "platform/error.h"
 #include "platform/interrupt.h"
 #include "platform/spelling.h"
+#include "scripting/arguments/option_words.h"
 #include "scripting/objects/boxed.h"
 #include "scripting/objects/numeric_tables.h"
 
@@ -333,7 +334,7 @@ int run_guarded(lua_State* L, Binding body) {
     } catch (const std::bad_alloc&) {
         message = "there is not enough memory for this";
     } catch (const std::exception& error) {
-        message = error.what();
+        message = in_lua_words(error.what());
     }
     if (message.empty()) raise_stop(L, StopReason::kInterrupted);
     const char* name = static_cast<const char*>(lua_touserdata(L, lua_upvalueindex(1)));

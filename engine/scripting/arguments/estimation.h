@@ -5,13 +5,13 @@
 #include <utility>
 #include <vector>
 
-#include "numerics/fit/transfer_estimate.h"
+#include "numerics/fit/fit.h"
 #include "scripting/arguments/arguments.h"
 
 namespace dynlab::inline scripting {
 
 /// An estimation as a script asked for it, its arguments checked: ready for any data, in any thread.
-using Estimation = std::function<TransferEstimate(const IdData&)>;
+using Estimation = std::function<Fit(const IdData&)>;
 
 /// Reads the arguments of one method from the second on; the first, where the data stand, is not looked at.
 using EstimationReader = Estimation (*)(const Call& call);
@@ -27,10 +27,7 @@ EstimationReader find_estimation_reader(const std::string& method);
 /// Names of all methods that have one.
 std::vector<std::string> estimation_names();
 
-/// Samples: robust errors of longer records would take longer than the fit.
-inline constexpr Index kMostAssessed = 200'000;
-
 /// Pushes an estimate as the model that the method's own function gives, without robust standard errors.
-int give_transfer_estimate(const Call& call, const char* method, const TransferEstimate& estimate);
+int give_transfer_estimate(const Call& call, const char* method, const Fit& estimate);
 
 }  // namespace dynlab::inline scripting

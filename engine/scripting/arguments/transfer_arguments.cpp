@@ -90,13 +90,10 @@ StructureMaker structure_of_orders(std::span<const OrderEntry> entries, const st
     };
 }
 
-StructureMaker structure_of_counts(const Call& call, const Options& options, TransferOptions& wanted) {
-    wanted.TdMin = options.number("TdMin", wanted.TdMin);
-    wanted.TdMax = options.optional_number("TdMax");
-    wanted.NumTd = static_cast<int>(options.size("NumTd", wanted.NumTd));
-    std::vector<double> delays{wanted.TdMin};
+StructureMaker structure_of_counts(const Call& call, const Options& options, const FitOptions& wanted) {
+    std::vector<double> delays{wanted.least_delay};
     if (options.has("IODelay")) delays = delays_option(options);
-    const bool free_delays = !options.has("IODelay") && wanted.TdMax.value_or(1) > wanted.TdMin;
+    const bool free_delays = !options.has("IODelay") && wanted.largest_delay.value_or(1) > wanted.least_delay;
     return [poles = counts_argument(call, 2, "np"), zeros = counts_argument(call, 3, "nz"), delays,
             sharing = sharing_of(options), free_delays](const IdData& data) {
         TransferStructure structure = structure_for(data, sharing, poles, zeros, delays);
@@ -113,49 +110,17 @@ Hold hold_y_of(const Options& options) {
     return options.choice("hold_y", {"foh", "zoh"}, 0) == 0 ? Hold::kFoh : Hold::kZoh;
 }
 
-void read_common_options(const Options& options, TransferOptions& wanted) {
+void read_fit_options(const Options& options, FitOptions& wanted) {
     wanted.lambda = options.optional_number("lambda");
     wanted.hold_y = hold_y_of(options);
-    wanted.initial_state = parse_initial_state(options.text("InitialState", "zero"));
-    wanted.offset = parse_offset(options.text("Offset", "none"));
-    wanted.MaxIter = static_cast<int>(options.size("MaxIter", wanted.MaxIter));
-    wanted.Tol = options.number("Tol", wanted.Tol);
+    if (options.has("InitialState")) wanted.initial_state = parse_initial_state(options.text("InitialState", ""));
+    if (options.has("Offset")) wanted.offset = parse_offset(options.text("Offset", ""));
+    wanted.least_delay = options.number("TdMin", wanted.least_delay);
+    wanted.largest_delay = options.optional_number("TdMax");
+    wanted.delay_count = static_cast<int>(options.size("NumTd", wanted.delay_count));
+    wanted.max_iterations = static_cast<int>(options.size("MaxIter", wanted.max_iterations));
+    wanted.tolerance = options.number("Tol", wanted.tolerance);
     wanted.cancel = options.call().cancel();
-}
-
-Estimate estimate_of(const char* method, const TransferEstimate& result) {
-    Estimate estimate = common_estimate(method, result);
-    estimate.numbers = {{"fit_percent", result.fit_percent[0]},
-                        {"noise_variance", result.noise_variance[0]},
-                        {"loss", result.loss},
-                        {"condition_number", result.condition_number},
-                        {"iterations", static_cast<double>(result.trace.size())}};
-    estimate.vectors = {{"fits", result.fit_percent},
-                        {"delay_grid", result.delay_grid},
-                        {"delay_loss", result.delay_loss},
-                        {"initial_values", result.initial_values.empty() ? Vector() : result.initial_values.front()},
-                        {"offsets", result.offsets.col(0)}};
-    Vector changes(static_cast<Index>(result.trace.size()));
-    Matrix path(changes.size(), result.theta.size());
-    for (Index i = 0; i < changes.size(); ++i) {
-        const TransferIteration& iteration = result.trace[static_cast<std::size_t>(i)];
-        changes[i] = iteration.change;
-        path.row(i) = iteration.theta.transpose();
-    }
-    estimate.vectors.emplace_back("changes", changes);
-    estimate.matrices = {{"path", path}};
-    return estimate;
-}
-
-int give_estimate(const Call& call, Estimate estimate, const TransferEstimate& result) {
-    Model model{result.models.front()};
-    if (result.models.size() > 1) {
-        model.channels = result.models;
-        model.outputs = static_cast<std::size_t>(result.structure.outputs);
-    }
-    model.estimate = std::make_shared<Estimate>(std::move(estimate));
-    push_object(call.state(), std::move(model));
-    return 1;
 }
 
 }  // namespace dynlab::inline scripting

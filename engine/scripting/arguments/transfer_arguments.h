@@ -4,10 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "numerics/fit/transfer_estimate.h"
+#include "numerics/fit/fit.h"
 #include "scripting/arguments/arguments.h"
 #include "scripting/arguments/order_vector.h"
-#include "scripting/objects/model.h"
 
 namespace dynlab::inline scripting {
 
@@ -24,19 +23,13 @@ using StructureMaker = std::function<TransferStructure(const IdData&)>;
 /// From the orders at argument 2. The entries hold kNb, kNk, and na or nf.
 StructureMaker structure_of_orders(std::span<const OrderEntry> entries, const std::vector<std::vector<int>>& orders,
                                    Denominators sharing);
-/// From np and nz at arguments 2 and 3 and the options of delays, which are written into `wanted` too: the delay is
-/// free unless IODelay or TdMax = TdMin says otherwise.
-StructureMaker structure_of_counts(const Call& call, const Options& options, TransferOptions& wanted);
+/// From np and nz at arguments 2 and 3; the delay is free unless IODelay or TdMax = TdMin (in `wanted`) says otherwise.
+StructureMaker structure_of_counts(const Call& call, const Options& options, const FitOptions& wanted);
 
 /// The option CommonDenominator.
 Denominators sharing_of(const Options& options);
 Hold hold_y_of(const Options& options);
-/// The options that srivc, coe, rivc and their tf twins share.
-void read_common_options(const Options& options, TransferOptions& wanted);
-
-/// What a script can ask of the result.
-Estimate estimate_of(const char* method, const TransferEstimate& result);
-/// The model with all its channels.
-int give_estimate(const Call& call, Estimate estimate, const TransferEstimate& result);
+/// The options of fits, those of them that the binding knows; for others `wanted` keeps what it holds.
+void read_fit_options(const Options& options, FitOptions& wanted);
 
 }  // namespace dynlab::inline scripting

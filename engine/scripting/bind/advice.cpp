@@ -2,6 +2,7 @@
 #include <array>
 
 #include "numerics/validation/advice.h"
+#include "scripting/arguments/option_words.h"
 #include "scripting/arguments/table_fields.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/data_object.h"
@@ -28,7 +29,7 @@ void push_finding(const Call& call, const RecordFinding& finding) {
     set_text(call, "code", finding.code);
     set_flag(L, "warning", finding.weight == Weight::kWarning);
     set_text(call, "channel", finding.channel);
-    set_text(call, "message", finding.message);
+    set_text(call, "message", in_lua_words(finding.message));
     set_number(L, "value", finding.value);
     set_whole(L, "experiment", static_cast<Index>(finding.experiment + 1));
     push_segments(L, finding.sections);
@@ -38,9 +39,9 @@ void push_finding(const Call& call, const RecordFinding& finding) {
 std::string text_of(const Advice& advice, std::size_t experiments) {
     std::string text;
     for (const RecordFinding& finding : advice.findings)
-        text +=
-            fmt::format("{} {}{}\n", finding.weight == Weight::kWarning ? "!" : "-",
-                        experiments > 1 ? fmt::format("Experiment {}: ", finding.experiment + 1) : "", finding.message);
+        text += fmt::format("{} {}{}\n", finding.weight == Weight::kWarning ? "!" : "-",
+                            experiments > 1 ? fmt::format("Experiment {}: ", finding.experiment + 1) : "",
+                            in_lua_words(finding.message));
     if (advice.clean()) text += "Nothing stands against fitting a model to this record.\n";
     return text;
 }

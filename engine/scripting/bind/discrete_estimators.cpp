@@ -9,10 +9,11 @@
 #include "numerics/fit/integrated_input.h"
 #include "scripting/arguments/estimation.h"
 #include "scripting/arguments/order_vector.h"
+#include "scripting/arguments/transfer_arguments.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
-#include "scripting/objects/model.h"
+#include "scripting/objects/fit_model.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -26,26 +27,6 @@ constexpr std::array kArxOrders = {kDiscreteNa, kDiscreteNb, kDiscreteNk};
 constexpr std::array kArmaxOrders = {kDiscreteNa, kDiscreteNb, kDiscreteNc, kDiscreteNk};
 constexpr std::array kDiscreteOutputErrorOrders = {kDiscreteNb, kDiscreteNf, kDiscreteNk};
 constexpr std::array kBoxJenkinsOrders = {kDiscreteNb, kDiscreteNc, kDiscreteNd, kDiscreteNf, kDiscreteNk};
-
-Estimate estimate_of(const char* method, const PolynomialEstimate& result) {
-    Estimate estimate = common_estimate(method, result);
-    estimate.numbers = {
-        {"fit_percent", result.fit_percent},           {"prediction_fit_percent", result.prediction_fit_percent},
-        {"noise_variance", result.noise_variance},     {"loss", result.loss},
-        {"condition_number", result.condition_number}, {"iterations", static_cast<double>(result.trace.size())}};
-    Vector losses(static_cast<Index>(result.trace.size()));
-    for (Index i = 0; i < losses.size(); ++i) losses[i] = result.trace[static_cast<std::size_t>(i)].loss;
-    estimate.vectors = {{"offsets", result.offsets}, {"losses", losses}};
-    return estimate;
-}
-
-int give_estimate(const Call& call, Estimate estimate, const PolynomialEstimate& result) {
-    Model model{result.model.transfer_function()};
-    model.estimate = std::make_shared<Estimate>(std::move(estimate));
-    model.polynomial = std::make_shared<PolynomialModel>(result.model);
-    push_object(call.state(), std::move(model));
-    return 1;
-}
 
 /// The entry of an order vector that is one number for all inputs.
 int only_value(const std::vector<int>& entry, const OrderEntry& what) {
@@ -65,33 +46,18 @@ int estimate_equation_error(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const auto orders = order_lists(call, 2, kArxOrders);
     const bool integration = Options(call, 3, {"Integration"}).flag("Integration", false);
-    PolynomialEstimate result = kMethod(
-        data_for(data, integration), PolynomialOrders::arx(only_value(orders[0], kDiscreteNa), orders[1], orders[2]));
+    Fit result = kMethod(data_for(data, integration),
+                         PolynomialOrders::arx(only_value(orders[0], kDiscreteNa), orders[1], orders[2]));
     if (integration) append_integrator(result);
-    return give_estimate(call, estimate_of(call.function_name(), result), result);
-}
-
-void read_search_options(const Options& options, PolynomialOptions& wanted) {
-    wanted.MaxIter = static_cast<int>(options.size("MaxIter", wanted.MaxIter));
-    wanted.Tol = options.number("Tol", wanted.Tol);
-    wanted.cancel = options.call().cancel();
-}
-
-PolynomialOptions polynomial_options(const Options& options) {
-    PolynomialOptions wanted;
-    wanted.initial_state = parse_initial_state(options.text("InitialState", "zero"));
-    wanted.offset = parse_offset(options.text("Offset", "none"));
-    read_search_options(options, wanted);
-    return wanted;
+    return give_fit(call, estimate_of(call.function_name(), result), result);
 }
 
 /// With robust standard errors, where the record is not too long for them.
-int give_assessed(Call& call, const IdData& data, PolynomialEstimate result, Offset offset, bool integration) {
+int give_assessed(Call& call, const IdData& data, Fit result, bool integration) {
     Estimate estimate = estimate_of(call.function_name(), result);
-    if (data.sample_count() <= kMostAssessed && result.std.allFinite())
-        estimate.assessment = std::make_shared<Assessment>(assess(data, result, offset));
+    estimate.set_assessment(assess_if_affordable(data, result));
     if (integration) append_integrator(result);
-    return give_estimate(call, std::move(estimate), result);
+    return give_fit(call, std::move(estimate), result);
 }
 
 /// oe, sriv and bj.
@@ -99,10 +65,11 @@ template <auto kMethod>
 int estimate_simulation(Call& call, const PolynomialOrders& orders) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const Options options(call, 3, {"InitialState", "Offset", "MaxIter", "Tol", "Integration"});
-    const PolynomialOptions wanted = polynomial_options(options);
+    FitOptions wanted;
+    read_fit_options(options, wanted);
     const bool integration = options.flag("Integration", false);
     const IdData seen = data_for(data, integration);
-    return give_assessed(call, seen, kMethod(seen, orders, wanted), wanted.offset, integration);
+    return give_assessed(call, seen, kMethod(seen, orders, wanted), integration);
 }
 
 template <auto kMethod>
@@ -120,11 +87,11 @@ int estimate_armax(Call& call) {
     PolynomialOrders orders = PolynomialOrders::arx(only_value(lists[0], kDiscreteNa), lists[1], lists[3]);
     orders.nc = only_value(lists[2], kDiscreteNc);
     const Options options(call, 3, {"MaxIter", "Tol", "Integration"});
-    PolynomialOptions wanted;
-    read_search_options(options, wanted);
+    FitOptions wanted;
+    read_fit_options(options, wanted);
     const bool integration = options.flag("Integration", false);
     const IdData seen = data_for(data, integration);
-    return give_assessed(call, seen, armax(seen, orders, wanted), Offset::kNone, integration);
+    return give_assessed(call, seen, armax(seen, orders, wanted), integration);
 }
 
 int estimate_bj(Call& call) {

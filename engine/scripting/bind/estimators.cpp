@@ -3,11 +3,12 @@
 #include "figures/step_construction.h"
 #include "numerics/estimators/procsrivc.h"
 #include "numerics/estimators/step_test.h"
+#include "scripting/arguments/transfer_arguments.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
-#include "scripting/objects/model.h"
+#include "scripting/objects/fit_model.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -53,45 +54,16 @@ int draw_construction(Call& call) {
     return give_figure(call, step_construction(construction));
 }
 
-ProcsrivcOptions procsrivc_options(const Call& call, int index) {
-    const Options options(call, index, {"InitialState", "Offset", "TdMin", "TdMax", "NumTd", "MaxIter", "Tol"});
-    ProcsrivcOptions wanted;
-    wanted.initial_state = parse_initial_state(options.text("InitialState", "auto"));
-    wanted.offset = parse_offset(options.text("Offset", "auto"));
-    wanted.TdMin = options.number("TdMin", wanted.TdMin);
-    wanted.TdMax = options.optional_number("TdMax");
-    wanted.NumTd = static_cast<int>(options.size("NumTd", wanted.NumTd));
-    wanted.MaxIter = static_cast<int>(options.size("MaxIter", wanted.MaxIter));
-    wanted.Tol = options.number("Tol", wanted.Tol);
-    wanted.cancel = call.cancel();
-    return wanted;
-}
-
-Estimate estimate_of(const ProcsrivcResult& result) {
-    Estimate estimate = common_estimate("procsrivc", result);
-    estimate.numbers = {{"fit_percent", result.fit_percent},
-                        {"noise_variance", result.noise_variance},
-                        {"loss", result.loss},
-                        {"offset", result.offsets[0]},
-                        {"iterations", static_cast<double>(result.trace.size())}};
-    estimate.vectors = {{"output", result.output},
-                        {"initial_values", result.initial_values.empty() ? Vector() : result.initial_values.front()},
-                        {"offsets", result.offsets},
-                        {"delay_grid", result.delay_grid},
-                        {"delay_loss", result.delay_loss}};
-    return estimate;
-}
-
 int estimate_process_model(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const ProcessStructure structure = ProcessStructure::parse(call.text(2, "structure"));
-    const ProcsrivcResult result = procsrivc(data, structure, procsrivc_options(call, 3));
-    Estimate estimate = estimate_of(result);
-    estimate.assessment = std::make_shared<Assessment>(assess(data, result));
-    push_object(call.state(),
-                Model{result.model.transfer_function(), result.model, std::make_shared<Estimate>(std::move(estimate))});
-    return 1;
+    ProcsrivcOptions wanted;
+    read_fit_options(Options(call, 3, {"InitialState", "Offset", "TdMin", "TdMax", "NumTd", "MaxIter", "Tol"}), wanted);
+    const Fit result = procsrivc(data, structure, wanted);
+    Estimate estimate = estimate_of("procsrivc", result);
+    estimate.set_assessment(assess_if_affordable(data, result));
+    return give_fit(call, std::move(estimate), result);
 }
 
 constexpr const char* kStep = "step tests";

@@ -7,6 +7,7 @@
 #include "scripting/bind/bindings.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
+#include "scripting/objects/fit_model.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -21,28 +22,25 @@ int noise_order(const std::vector<int>& entry, const OrderEntry& what) {
         fmt::format("{} is one number for the noise of the output, but {} were given", what.name, entry.size()));
 }
 
-/// An estimation with the options it was asked for.
+/// An estimation as it was asked for.
 struct NoisyReading {
     bool integration;  ///< the models have an integrator besides
-    std::function<RivcResult(const IdData&)> estimation;
+    Estimation estimation;
 };
 
 int give_with_noise(Call& call, const IdData& data, const NoisyReading& reading) {
-    const RivcResult result = reading.estimation(data);
+    const Fit result = reading.estimation(data);
     Estimate estimate = estimate_of(call.function_name(), result);
     estimate.of_coefficients = !reading.integration;
-    estimate.noise = std::make_shared<NoiseModel>(NoiseModel{result.C, result.D, result.C_std, result.D_std});
-    estimate.vectors.insert(estimate.vectors.end(), {{"C_std", result.C_std}, {"D_std", result.D_std}});
-    estimate.matrices.emplace_back("noise_covariance", result.noise_covariance);
-    return give_estimate(call, std::move(estimate), result);
+    return give_fit(call, std::move(estimate), result);
 }
 
 NoisyReading reading_of(const StructureMaker& structure, const NoiseOrders& noise, const Options& options,
-                        const TransferOptions& wanted) {
+                        const FitOptions& wanted) {
     const bool integration = options.flag("Integration", false);
     return {integration, [=](const IdData& data) {
                 if (!integration) return rivc(data, structure(data), noise, wanted);
-                RivcResult result = rivc(integrated_inputs(data), structure(data), noise, wanted);
+                Fit result = rivc(integrated_inputs(data), structure(data), noise, wanted);
                 append_integrator(result);
                 return result;
             }};
@@ -53,8 +51,8 @@ NoisyReading read_rivc(const Call& call) {
     const auto orders = order_lists(call, 2, kNoiseModelOrders);
     const Options options(
         call, 3, {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator", "Integration"});
-    TransferOptions wanted;
-    read_common_options(options, wanted);
+    FitOptions wanted;
+    read_fit_options(options, wanted);
     return reading_of(structure_of_orders(kNoiseModelOrders, orders, sharing_of(options)),
                       {noise_order(orders[1], kNc), noise_order(orders[2], kNd)}, options, wanted);
 }
@@ -64,8 +62,8 @@ NoisyReading read_tfrivc(const Call& call) {
     const Options options(call, 4,
                           {"nc", "nd", "lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol",
                            "CommonDenominator", "Integration", "TdMin", "TdMax", "NumTd", "IODelay"});
-    TransferOptions wanted;
-    read_common_options(options, wanted);
+    FitOptions wanted;
+    read_fit_options(options, wanted);
     const StructureMaker structure = structure_of_counts(call, options, wanted);
     const NoiseOrders noise{static_cast<int>(options.size("nc", 0)), static_cast<int>(options.size("nd", 1))};
     return reading_of(structure, noise, options, wanted);

@@ -6,8 +6,10 @@
 #include "numerics/validation/delay_search.h"
 #include "platform/terminal/progress.h"
 #include "scripting/arguments/estimation.h"
+#include "scripting/arguments/option_words.h"
 #include "scripting/arguments/order_vector.h"
 #include "scripting/arguments/table_fields.h"
+#include "scripting/arguments/transfer_arguments.h"
 #include "scripting/bind/study_bindings.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
@@ -88,17 +90,9 @@ bool is_list(const Call& call, int index) {
     return found;
 }
 
-TransferOptions estimation_options(const Options& options) {
-    TransferOptions wanted;
-    wanted.lambda = options.optional_number("lambda");
-    wanted.initial_state = parse_initial_state(options.text("InitialState", "zero"));
-    wanted.offset = parse_offset(options.text("Offset", "none"));
-    wanted.TdMin = options.number("TdMin", wanted.TdMin);
-    wanted.TdMax = options.optional_number("TdMax");
-    wanted.NumTd = static_cast<int>(options.size("NumTd", wanted.NumTd));
-    wanted.MaxIter = static_cast<int>(options.size("MaxIter", wanted.MaxIter));
-    wanted.Tol = options.number("Tol", wanted.Tol);
-    wanted.cancel = options.call().cancel();
+FitOptions estimation_options(const Options& options) {
+    FitOptions wanted;
+    read_fit_options(options, wanted);
     return wanted;
 }
 
@@ -168,7 +162,7 @@ void push_search(const Call& call, const IdData& data, const DelaySearch& search
     set_vector(call, "losses", search.losses());
     set_whole(L, "poles", search.candidate.poles);
     set_whole(L, "zeros", search.candidate.zeros);
-    set_text(call, "message", search.explanation);
+    set_text(call, "message", in_lua_words(search.explanation));
     give_transfer_estimate(call, "srivc", search.candidate.estimate);
     lua_setfield(L, -2, "model");
 }
@@ -189,7 +183,7 @@ int estimate_delay(Call& call) {
     wanted.progress = [&bar](std::size_t done) { bar.advance(done); };
     const DelaySearch search = search_delay(data, wanted);
     poll_stop(call.state());
-    call.print(search.explanation + "\n");
+    call.print(in_lua_words(search.explanation) + "\n");
     call.give(search.delay);
     give_figure(call, delay_plot(search));
     push_search(call, data, search);

@@ -13,7 +13,7 @@
 namespace dynlab::inline scripting {
 namespace {
 
-MonteCarloEstimate estimate_of(const TransferEstimate& result) {
+MonteCarloEstimate estimate_of(const Fit& result) {
     return {result.theta, result.std, result.names, true, result.termination == Termination::kConverged};
 }
 

@@ -2,6 +2,7 @@
 
 #include "figures/plots/monte_carlo_plot.h"
 #include "scripting/arguments/estimation.h"
+#include "scripting/arguments/option_words.h"
 #include "scripting/arguments/table_fields.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/study_objects.h"
@@ -37,7 +38,7 @@ int push_result(const Call& call, const MonteCarloResult& result) {
     set_whole(L, "estimated", result.estimated);
     set_whole(L, "failed", result.failed);
     set_whole(L, "not_converged", result.not_converged);
-    set_text(call, "first_failure", result.first_failure);
+    set_text(call, "first_failure", in_lua_words(result.first_failure));
     return 1;
 }
 
@@ -107,7 +108,7 @@ void push_candidate(const Call& call, const OrderCandidate& candidate) {
     set_whole(L, "zeros", candidate.zeros);
     set_number(L, "delay", candidate.delay);
     if (!candidate.failure.empty()) {
-        set_text(call, "failure", candidate.failure);
+        set_text(call, "failure", in_lua_words(candidate.failure));
         return;
     }
     for (const auto& [name, value] :

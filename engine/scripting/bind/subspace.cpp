@@ -1,6 +1,7 @@
 #include <array>
 
 #include "numerics/estimators/n4sid.h"
+#include "scripting/arguments/option_words.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
@@ -12,7 +13,7 @@ namespace {
 Estimate estimate_of(const SubspaceEstimate& result) {
     Estimate estimate;
     estimate.method = "n4sid";
-    estimate.message = result.message;
+    estimate.message = in_lua_words(result.message);
     estimate.warnings = result.warnings;
     estimate.numbers = {{"fit_percent", result.fit_percent[0]},
                         {"loss", result.loss},
@@ -29,9 +30,9 @@ int estimate_n4sid(Call& call) {
     const Index order = call.size(2, "order");
     const Options options(call, 3, {"BlockRows", "Weighting", "Feedthrough"});
     SubspaceOptions wanted;
-    wanted.BlockRows = static_cast<int>(options.size("BlockRows", wanted.BlockRows));
-    wanted.Weighting = parse_subspace_weighting(options.text("Weighting", "MOESP"));
-    wanted.Feedthrough = options.flag("Feedthrough", wanted.Feedthrough);
+    wanted.block_rows = static_cast<int>(options.size("BlockRows", wanted.block_rows));
+    wanted.weighting = parse_subspace_weighting(options.text("Weighting", "MOESP"));
+    wanted.feedthrough = options.flag("Feedthrough", wanted.feedthrough);
     const SubspaceEstimate result = n4sid(data, static_cast<int>(order), wanted);
     Model model{result.models.front()};
     if (result.models.size() > 1) model.channels = result.models;

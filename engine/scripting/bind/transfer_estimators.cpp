@@ -5,13 +5,13 @@
 #include "numerics/estimators/lssvf.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/fit/integrated_input.h"
-#include "numerics/fit/simulation_report.h"
-#include "numerics/fit/transfer_data.h"
+#include "numerics/fit/simulation_error.h"
 #include "scripting/arguments/estimation.h"
 #include "scripting/arguments/transfer_arguments.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/objects/data_object.h"
+#include "scripting/objects/fit_model.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -39,42 +39,33 @@ Estimation read_filtered(const Call& call) {
 template <auto kMethod, bool kMomentFunctionals>
 int estimate_filtered(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    TransferEstimate result = read_filtered<kMethod, kMomentFunctionals>(call)(data);
-    measure_fit(result, data);
+    Fit result = read_filtered<kMethod, kMomentFunctionals>(call)(data);
+    measure_simulation(result, data);
     Estimate estimate = estimate_of(call.function_name(), result);
     estimate.carx = true;
-    return give_estimate(call, std::move(estimate), result);
+    return give_fit(call, std::move(estimate), result);
 }
 
-/// What the estimator saw: without the operating points for Offset "remove".
-std::shared_ptr<const Assessment> assessment_of(const IdData& data, const TransferEstimate& result,
-                                                const TransferOptions& options) {
-    if (data.sample_count() > kMostAssessed) return {};
-    if (options.offset != Offset::kRemove) return std::make_shared<Assessment>(assess(data, result));
-    return std::make_shared<Assessment>(assess(without_operating_points(data).data, result));
-}
-
-/// An output-error estimation with the options it was asked for.
+/// An output-error estimation as it was asked for.
 struct RefinedReading {
-    TransferOptions options;
     bool integration;  ///< the models have an integrator besides
     Estimation estimation;
 };
 
 int give_refined(Call& call, const IdData& data, const RefinedReading& reading) {
-    const TransferEstimate result = reading.estimation(data);
+    const Fit result = reading.estimation(data);
     Estimate estimate = estimate_of(call.function_name(), result);
     estimate.of_coefficients = !reading.integration;
-    estimate.assessment = assessment_of(reading.integration ? integrated_inputs(data) : data, result, reading.options);
-    return give_estimate(call, std::move(estimate), result);
+    estimate.set_assessment(assess_if_affordable(reading.integration ? integrated_inputs(data) : data, result));
+    return give_fit(call, std::move(estimate), result);
 }
 
 template <auto kMethod>
-RefinedReading reading_of(const StructureMaker& structure, const Options& options, const TransferOptions& wanted) {
+RefinedReading reading_of(const StructureMaker& structure, const Options& options, const FitOptions& wanted) {
     const bool integration = options.flag("Integration", false);
-    return {wanted, integration, [structure, wanted, integration](const IdData& data) {
+    return {integration, [structure, wanted, integration](const IdData& data) {
                 if (!integration) return kMethod(data, structure(data), wanted);
-                TransferEstimate estimate = kMethod(integrated_inputs(data), structure(data), wanted);
+                Fit estimate = kMethod(integrated_inputs(data), structure(data), wanted);
                 append_integrator(estimate);
                 return estimate;
             }};
@@ -87,8 +78,8 @@ RefinedReading read_refined(const Call& call) {
     const auto orders = order_lists(call, 2, kOutputErrorOrders);
     const Options options(
         call, 3, {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator", "Integration"});
-    TransferOptions wanted;
-    read_common_options(options, wanted);
+    FitOptions wanted;
+    read_fit_options(options, wanted);
     return reading_of<kMethod>(structure_of_orders(kOutputErrorOrders, orders, sharing_of(options)), options, wanted);
 }
 
@@ -99,8 +90,8 @@ RefinedReading read_transfer_function(const Call& call) {
     const Options options(call, 4,
                           {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator",
                            "Integration", "TdMin", "TdMax", "NumTd", "IODelay"});
-    TransferOptions wanted;
-    read_common_options(options, wanted);
+    FitOptions wanted;
+    read_fit_options(options, wanted);
     const StructureMaker structure = structure_of_counts(call, options, wanted);
     return reading_of<kMethod>(structure, options, wanted);
 }
@@ -157,8 +148,8 @@ EstimationReaders transfer_estimation_readers() {
     return kTransferEstimatorsReaders;
 }
 
-int give_transfer_estimate(const Call& call, const char* method, const TransferEstimate& estimate) {
-    return give_estimate(call, estimate_of(method, estimate), estimate);
+int give_transfer_estimate(const Call& call, const char* method, const Fit& estimate) {
+    return give_fit(call, estimate_of(method, estimate), estimate);
 }
 
 FunctionEntries transfer_estimator_functions() {

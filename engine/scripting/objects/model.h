@@ -6,21 +6,13 @@
 #include <vector>
 
 #include "numerics/estimators/step_test.h"
-#include "numerics/fit/termination.h"
-#include "numerics/models/polynomial_model.h"
-#include "numerics/models/process_model.h"
+#include "numerics/fit/fit.h"
 #include "numerics/models/state_space.h"
-#include "numerics/models/transfer_function.h"
 #include "numerics/validation/assessment.h"
 #include "numerics/validation/uncertainty.h"
 #include "scripting/objects/boxed.h"
 
 namespace dynlab::inline scripting {
-
-/// Noise v = C(q^-1)/D(q^-1) e of an estimated model, monic, with standard errors (zero for the leading ones).
-struct NoiseModel {
-    Vector C, D, C_std, D_std;
-};
 
 /// What an estimation method says of a model besides its coefficients.
 struct Estimate {
@@ -42,25 +34,13 @@ struct Estimate {
     std::shared_ptr<const Assessment> assessment = {};
     std::shared_ptr<const NoiseModel> noise = {};  ///< of rivc
 
+    void set_assessment(std::optional<Assessment> found) {
+        if (found) assessment = std::make_shared<Assessment>(std::move(*found));
+    }
     bool errors_are_coloured() const { return assessment && !assessment->white; }
     /// The robust covariance when the output errors are coloured.
     const Matrix& trusted_covariance() const { return errors_are_coloured() ? assessment->covariance : covariance; }
 };
-
-/// What the results of all iterative methods have in common.
-template <class Result>
-Estimate common_estimate(const char* method, const Result& result) {
-    Estimate estimate;
-    estimate.method = method;
-    estimate.names = result.names;
-    estimate.theta = result.theta;
-    estimate.std = result.std;
-    estimate.covariance = result.covariance;
-    estimate.message = result.message;
-    estimate.warnings = result.warnings;
-    estimate.converged = result.termination == Termination::kConverged;
-    return estimate;
-}
 
 /// A model as scripts hold it: a transfer function, with its process parameters, polynomials and estimate where it has
 /// them. With several inputs or outputs G is the first channel's.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scripting/arguments/option_words.h"
 #include "scripting/objects/text_form.h"
 
 namespace dynlab::inline scripting {
@@ -50,7 +51,7 @@ std::string troubles_of(const MonteCarloResult& result, int runs) {
     std::string text;
     if (result.failed > 0)
         text += fmt::format("{}: {} of {} runs failed and are left out; the first one says: {}.\n", result.label,
-                            result.failed, runs, result.first_failure);
+                            result.failed, runs, in_lua_words(result.first_failure));
     if (result.not_converged > 0)
         text += fmt::format("{}: {} of {} runs did not converge; their last values are counted.\n", result.label,
                             result.not_converged, runs);
@@ -69,7 +70,7 @@ std::string notes_on(const OrderCandidate& candidate) {
 std::string candidate_row(const OrderCandidate& candidate, bool chosen, bool validated, bool delays) {
     std::string row = fmt::format("{} {:>5} {:>5}", chosen ? '*' : ' ', candidate.poles, candidate.zeros);
     if (delays) row += fmt::format(" {:>9}", number_text(candidate.delay, 4));
-    if (!candidate.failure.empty()) return row + "  not estimated: " + candidate.failure + "\n";
+    if (!candidate.failure.empty()) return row + "  not estimated: " + in_lua_words(candidate.failure) + "\n";
     row += fmt::format(" {:>9.5f} {:>8.3f} {:>9.4f} {:>9.4f} {:>10} {:>8.2f} {:>5} {:>7.2f}", candidate.r_squared,
                        candidate.yic, candidate.aic, candidate.bic, number_text(candidate.fpe, 4),
                        candidate.log_condition, candidate.iterations, candidate.fit_percent);

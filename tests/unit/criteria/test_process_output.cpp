@@ -11,13 +11,17 @@ namespace test_process_output {
 using namespace dynlab;
 using namespace dynlab::test;
 
-ProcessInput some_input(Index N, bool regular) {
-    ProcessInput input{RandomStream(5).normal(N), Hold::kFoh, {}};
-    for (Index k = 0; k < N; ++k) input.u[k] = input.u[k - k % 9] + 0.4;
-    if (regular) return input;
-    input.t.resize(N);
-    for (Index k = 0; k < N; ++k) input.t[k] = static_cast<double>(k) + 0.3 * std::sin(static_cast<double>(k));
-    return input;
+/// Sampled about once a second.
+IdData some_record(Index N, bool regular) {
+    Vector u = RandomStream(5).normal(N), t(N);
+    for (Index k = 0; k < N; ++k) {
+        u[k] = u[k - k % 9] + 0.4;
+        t[k] = static_cast<double>(k) + 0.3 * std::sin(static_cast<double>(k));
+    }
+    const Matrix y = Vector::Zero(N);
+    IdData data = regular ? IdData(y, Matrix(u), 1) : IdData(y, Matrix(u), t);
+    data.hold = Hold::kFoh;
+    return data;
 }
 
 TEST(process_output, coefficients_are_those_of_the_model) {  // oracle: second route, the transfer function
@@ -53,9 +57,11 @@ TEST(process_output, sensitivities_agree_with_differences) {  // oracle: central
     for (const ProcessModel& model : every_process(4.0))
         for (const bool regular : {true, false})
             for (const bool estimate : {false, true}) {
-                const ProcessOutput output(model.structure,
-                                           {estimate ? InitialState::kEstimate : InitialState::kSteady, true},
-                                           {some_input(60, regular), some_input(41, regular)}, 0, 20);
+                const IdData data = IdData::merge({some_record(60, regular), some_record(41, regular)});
+                const TransferOutput transfer(transfer_structure(model.structure),
+                                              {estimate ? InitialState::kEstimate : InitialState::kSteady, true}, data,
+                                              0, 20, model.structure.integrator);
+                const Reparametrised output = process_output(model.structure, transfer);
                 Vector theta = Vector::Constant(output.parameter_count(), 0.3), y, plus, minus;
                 theta.head(model.parameters.size()) = model.parameters;
                 Matrix sensitivities;

@@ -28,10 +28,10 @@ IdData record(Index N, double noise, std::uint32_t seed) {
     return IdData(Matrix(y.tail(N)), Matrix(u.tail(N)), 1);
 }
 
-PolynomialOptions tight() {
-    PolynomialOptions options;
-    options.Tol = 1e-10;
-    options.MaxIter = 200;
+FitOptions tight() {
+    FitOptions options;
+    options.tolerance = 1e-10;
+    options.max_iterations = 200;
     return options;
 }
 
@@ -50,7 +50,7 @@ double loss_of(const IdData& data, const Vector& theta) {
 TEST(armax, recovers_noise_free_systems) {  // oracle: the simulated system
     const auto result = armax(record(500, 0, 1), kOrders, tight());
     EXPECT_LT((result.theta - kTheta).head(4).cwiseAbs().maxCoeff(), 1e-9) << result.message;
-    EXPECT_GT(result.fit_percent, 100 - 1e-6);
+    EXPECT_GT(result.fit_percent[0], 100 - 1e-6);
 }
 
 TEST(armax, without_c_it_is_arx) {  // oracle: the linear solution
@@ -60,7 +60,7 @@ TEST(armax, without_c_it_is_arx) {  // oracle: the linear solution
     EXPECT_LT((result.theta - linear.theta).cwiseAbs().maxCoeff(), 1e-9);
     EXPECT_LT((result.std - linear.std).cwiseAbs().maxCoeff(), 1e-9);
     EXPECT_NEAR(result.loss, linear.loss, 1e-10);
-    EXPECT_NEAR(result.fit_percent, linear.fit_percent, 1e-7);
+    EXPECT_NEAR(result.fit_percent[0], linear.fit_percent[0], 1e-7);
     EXPECT_NEAR(result.prediction_fit_percent, linear.prediction_fit_percent, 1e-7);
 }
 
@@ -107,16 +107,16 @@ TEST(armax, two_inputs_and_a_delay) {  // oracle: the simulated system
 
 TEST(armax, prediction_errors_are_tested_for_whiteness) {  // oracle: statistics with a fixed seed
     const IdData data = record(2000, 0.5, 5);
-    const auto right = assess(data, armax(data, kOrders), Offset::kNone);
+    const auto right = assess(data, armax(data, kOrders));
     EXPECT_TRUE(right.white) << right.verdict;
     const auto right_fit = armax(data, kOrders);
     for (Index i = 0; i < 6; ++i) EXPECT_NEAR(right.std[i] / right_fit.std[i], 1, 0.3);
-    const auto poor = assess(data, armax(data, orders_of(2, {2}, 0, {1})), Offset::kNone);
+    const auto poor = assess(data, armax(data, orders_of(2, {2}, 0, {1})));
     EXPECT_FALSE(poor.white);
 }
 
 TEST(armax, can_be_cancelled) {  // oracle: definition
-    PolynomialOptions options;
+    FitOptions options;
     options.cancel = [] { return true; };
     EXPECT_EQ(armax(record(300, 0.5, 1), kOrders, options).termination, Termination::kCancelled);
 }

@@ -50,9 +50,9 @@ TEST(arx, recovers_a_noise_free_system) {  // oracle: the simulated system
     for (double Ts : {0.1, 1e-6}) {
         const auto result = arx(record(400, 0, 1, Ts), kSecond);
         EXPECT_LT(worst(result.theta, kTruth), 1e-12);
-        EXPECT_GT(result.fit_percent, 100 - 1e-9);
-        EXPECT_EQ(result.model.Ts, Ts);
-        EXPECT_EQ(result.model.B[0], (Vector{{0, 0, result.theta[2], result.theta[3]}}));
+        EXPECT_GT(result.fit_percent[0], 100 - 1e-9);
+        EXPECT_EQ(result.polynomial->Ts, Ts);
+        EXPECT_EQ(result.polynomial->B[0], (Vector{{0, 0, result.theta[2], result.theta[3]}}));
     }
 }
 
@@ -63,8 +63,8 @@ TEST(arx, solves_the_normal_equations) {       // oracle: the definition, orthog
     const Vector residuals = y - Phi * result.theta;
     EXPECT_LT((Phi.transpose() * residuals).norm(), 1e-10 * Phi.norm() * residuals.norm());
     EXPECT_NEAR(result.loss, residuals.squaredNorm() / 4997, 1e-12);
-    EXPECT_NEAR(result.noise_variance, residuals.squaredNorm() / (4997 - 4), 1e-12);
-    const Matrix covariance = result.noise_variance * (Phi.transpose() * Phi).inverse();
+    EXPECT_NEAR(result.noise_variance[0], residuals.squaredNorm() / (4997 - 4), 1e-12);
+    const Matrix covariance = result.noise_variance[0] * (Phi.transpose() * Phi).inverse();
     EXPECT_LT((result.covariance - covariance).norm(), 1e-9 * covariance.norm());
     EXPECT_LT(worst(result.std, covariance.diagonal().cwiseSqrt()), 1e-10);
 }
@@ -91,7 +91,7 @@ TEST(arx, several_inputs_and_experiments) {  // oracle: second route, orthogonal
     const auto reversed = arx(IdData::merge({parts[2], parts[0], parts[1]}), orders);
     EXPECT_LT(worst(result.theta, reversed.theta), 1e-13);
     EXPECT_LT((result.covariance - reversed.covariance).norm(), 1e-12 * result.covariance.norm());
-    EXPECT_NEAR(result.fit_percent, reversed.fit_percent, 1e-10);
+    EXPECT_NEAR(result.fit_percent[0], reversed.fit_percent[0], 1e-10);
 }
 
 TEST(arx, nearly_dependent_regressors_go_the_orthogonal_way) {  // oracle: the simulated system
@@ -105,7 +105,7 @@ TEST(arx, nearly_dependent_regressors_go_the_orthogonal_way) {  // oracle: the s
     const auto result = arx(IdData(Matrix(y), Matrix(u), 1e-4), orders);
     EXPECT_GT(result.condition_number, 1e3);
     EXPECT_LT(worst(result.theta, truth), 1e-10);
-    const TransferFunction back = d2c(result.model.transfer_function());
+    const TransferFunction back = d2c(result.polynomial->transfer_function());
     EXPECT_NEAR(back.den()[1], 4, 1e-3);
     EXPECT_NEAR(back.den()[2], 3, 1e-3);
 }
@@ -118,13 +118,13 @@ TEST(arx,
     EXPECT_GT(result.condition_number, 1e3);
     const auto [Phi, right] = equations(u, y, kSecond);
     EXPECT_LT(worst(result.theta, Phi.colPivHouseholderQr().solve(right)), 1e-9);
-    EXPECT_NEAR(result.noise_variance, (right - Phi * result.theta).squaredNorm() / (2997 - 4), 1e-9);
+    EXPECT_NEAR(result.noise_variance[0], (right - Phi * result.theta).squaredNorm() / (2997 - 4), 1e-9);
 }
 
 TEST(arx, too_high_orders_are_told) {  // oracle: the simulated system
     const auto result = arx(record(400, 0, 1), PolynomialOrders::arx(4, {4}, {2}));
     EXPECT_THAT(result.message, HasSubstr("do not tell all parameters apart"));
-    EXPECT_GT(result.fit_percent, 100 - 1e-5);
+    EXPECT_GT(result.fit_percent[0], 100 - 1e-5);
 }
 
 TEST(arx, doubtful_results_come_with_a_sentence) {  // oracle: the simulated system

@@ -29,10 +29,10 @@ IdData record(Index N, double noise, std::uint32_t seed, Index cut = 0) {
     return IdData(Matrix(y.tail(N - cut)), Matrix(u.tail(N - cut)), 1);
 }
 
-PolynomialOptions tight(InitialState state = InitialState::kZero, Offset offset = Offset::kNone) {
-    PolynomialOptions options;
-    options.Tol = 1e-10;
-    options.MaxIter = 200;
+FitOptions tight(InitialState state = InitialState::kZero, Offset offset = Offset::kNone) {
+    FitOptions options;
+    options.tolerance = 1e-10;
+    options.max_iterations = 200;
     options.initial_state = state;
     options.offset = offset;
     return options;
@@ -63,7 +63,7 @@ TEST(bj, without_c_and_d_it_is_oe) {  // oracle: oe, whose search is another pro
             EXPECT_LT((result.theta - expected.theta).cwiseAbs().maxCoeff(), 1e-7);
             EXPECT_LT((result.std - expected.std).cwiseAbs().maxCoeff(), 1e-6);
             EXPECT_LT((result.offsets - expected.offsets).cwiseAbs().maxCoeff(), 1e-6);
-            EXPECT_NEAR(result.fit_percent, expected.fit_percent, 1e-6);
+            EXPECT_NEAR(result.fit_percent[0], expected.fit_percent[0], 1e-6);
         }
 }
 
@@ -110,13 +110,13 @@ TEST(bj, a_record_cut_from_a_running_experiment) {  // oracle: the simulated sys
     const auto result = bj(data, kOrders, tight(InitialState::kAuto, Offset::kAuto));
     for (Index i = 0; i < kTheta.size(); ++i) EXPECT_NEAR(result.theta[i], kTheta[i], 4 * result.std[i]) << i;
     EXPECT_TRUE(result.start.offset);
-    EXPECT_NEAR(result.offsets[0], 7, 0.3);
+    EXPECT_NEAR(result.offsets(0, 0), 7, 0.3);
 }
 
 TEST(bj, prediction_errors_are_tested_for_whiteness) {  // oracle: statistics with a fixed seed
     const IdData data = record(2000, 0.3, 5);
-    EXPECT_TRUE(assess(data, bj(data, kOrders), Offset::kNone).white);
-    EXPECT_FALSE(assess(data, bj(data, orders_of(0, 0)), Offset::kNone).white);
+    EXPECT_TRUE(assess(data, bj(data, kOrders)).white);
+    EXPECT_FALSE(assess(data, bj(data, orders_of(0, 0))).white);
 }
 
 TEST(bj, refuses_what_it_cannot_fit) {  // oracle: definitions

@@ -15,9 +15,9 @@ using testing::HasSubstr;
 
 const TransferStructure kCourse = TransferStructure::single(2, 0);
 
-TransferOptions exact() {
-    TransferOptions options;
-    options.Tol = 1e-10;
+FitOptions exact() {
+    FitOptions options;
+    options.tolerance = 1e-10;
     return options;
 }
 
@@ -34,7 +34,7 @@ Vector with_noise(const Vector& x, double decibel, std::uint32_t seed) {
 }
 
 /// Each value within so many standard errors of the truth.
-void expect_near_truth(const TransferEstimate& found, const Vector& truth, double errors) {
+void expect_near_truth(const Fit& found, const Vector& truth, double errors) {
     for (Index i = 0; i < truth.size(); ++i)
         EXPECT_LT(std::abs(found.theta[i] - truth[i]), errors * found.std[i])
             << found.names[static_cast<std::size_t>(i)] << ": " << found.theta[i] << " for " << truth[i] << "; "
@@ -49,7 +49,7 @@ TEST(coe, equals_srivc_on_noisy_sets) {  // oracle: the fixed point of SRIVC is 
     for (const char* set : {"sys2_s0.2_seed1", "sys2_s0.4_seed1", "rg_snr10_seed1"}) {
         const IdData data = reference_record(set, 0.01);
         const TransferStructure structure = set[0] == 'r' ? TransferStructure::single(4, 1) : kCourse;
-        const TransferEstimate a = coe(data, structure, exact()), b = srivc(data, structure, exact());
+        const Fit a = coe(data, structure, exact()), b = srivc(data, structure, exact());
         EXPECT_LT(relative_difference(a.theta, b.theta), 1e-8) << set;
         EXPECT_LT(relative_difference(a.std, b.std), 1e-7) << set;
     }
@@ -70,7 +70,7 @@ TEST(coe, delay_trap_is_avoided_from_default_settings) {
     for (const std::uint32_t seed : {1, 2, 3}) {
         const IdData data(Matrix(with_noise(x, 15, seed)), Matrix(u), 0.1);
         for (const auto method : {coe, srivc}) {
-            const TransferEstimate found = method(data, with_free_delay(2, 1), {});
+            const Fit found = method(data, with_free_delay(2, 1), {});
             EXPECT_NEAR(found.models[0].delay(), 8, 0.1) << found.message;
             EXPECT_LT(std::abs(found.theta[0] - 1), 4 * found.std[0]) << found.message;
             EXPECT_LT(std::abs(found.theta[1] - 4), 4 * found.std[1]) << found.message;
@@ -82,13 +82,13 @@ TEST(coe, delay_trap_is_avoided_from_default_settings) {
 TEST(coe, delays_between_samples_are_found_with_their_error) {  // oracle: the simulated system and its scatter
     const Vector u = prbs(7, 12);
     const Vector x = lsim(TransferFunction(values({3}), values({1, 2, 5}), 0, 0.437), u, 0.05);
-    TransferOptions options;
-    options.TdMax = 2;
+    FitOptions options;
+    options.largest_delay = 2;
     Vector delays(20);
     double reported = 0;
     for (Index k = 0; k < delays.size(); ++k) {
         const IdData data(Matrix(with_noise(x, 15, static_cast<std::uint32_t>(k + 1))), Matrix(u), 0.05);
-        const TransferEstimate found = srivc(data, with_free_delay(2, 0), options);
+        const Fit found = srivc(data, with_free_delay(2, 0), options);
         delays[k] = found.theta[3];
         reported += found.std[3] / 20;
     }
@@ -136,15 +136,15 @@ TEST(coe, initial_state_and_offset_are_recovered_and_chosen) {
     const Vector x = lsim(TransferFunction(values({5}), values({1, 0.6, 9})), u, 0.05);
     const Vector y = with_noise(x, 20, 5).array() + 1.5;
     const IdData cut(Matrix(y.tail(700)), Matrix(u.tail(700)), 0.05);
-    TransferOptions options;
+    FitOptions options;
     options.initial_state = InitialState::kEstimate;
     options.offset = Offset::kEstimate;
-    const TransferEstimate estimated = srivc(cut, kCourse, options);
+    const Fit estimated = srivc(cut, kCourse, options);
     expect_near_truth(estimated, values({0.6, 9, 5}), 3);
     EXPECT_NEAR(estimated.offsets(0, 0), 1.5, 0.05);
     options.initial_state = InitialState::kAuto;
     options.offset = Offset::kAuto;
-    const TransferEstimate chosen = srivc(cut, kCourse, options);
+    const Fit chosen = srivc(cut, kCourse, options);
     EXPECT_EQ(chosen.start.state, InitialState::kEstimate) << chosen.message;
     EXPECT_TRUE(chosen.start.offset);
     EXPECT_GT(chosen.fit_percent[0], srivc(cut, kCourse, {}).fit_percent[0] + 5);
@@ -177,7 +177,7 @@ TEST(coe, running_experiment) {  // oracle: the simulated system, cut from a run
     const Vector x = lsim(TransferFunction(values({2}), values({1, 0.4, 3})), u, 0.05).array() + 6;
     const Index first = 131, last = 900;
     const IdData whole = record(x, u, 0.05), noisy_data = IdData(Matrix(with_noise(x, 20, 1)), Matrix(u), 0.05);
-    TransferOptions options = exact();
+    FitOptions options = exact();
     options.initial_state = InitialState::kEstimate;
     options.offset = Offset::kEstimate;
     const auto found = coe(whole.range(first, last), kCourse, options);
@@ -196,7 +196,7 @@ TEST(coe, running_experiment) {  // oracle: the simulated system, cut from a run
 
 TEST(coe, rest_is_recognised) {  // oracle: the simulated system, from rest without offset
     const IdData data = course_record(0.2, 4);
-    TransferOptions options;
+    FitOptions options;
     options.initial_state = InitialState::kAuto;
     options.offset = Offset::kAuto;
     const auto found = coe(data, kCourse, options);
@@ -207,7 +207,7 @@ TEST(coe, rest_is_recognised) {  // oracle: the simulated system, from rest with
 TEST(coe, operating_point_can_be_removed) {  // oracle: the simulated system, about an operating point
     const Vector u = prbs(8, 5);
     const Vector x = lsim(TransferFunction(values({2}), values({1, 4, 3})), u, 0.05);
-    TransferOptions options = exact();
+    FitOptions options = exact();
     const auto expected = coe(record(x.array() - x.mean(), u.array() - u.mean(), 0.05), kCourse, options);
     options.offset = Offset::kRemove;
     const auto found = coe(record(x.array() + 40, u.array() + 7, 0.05), kCourse, options);
@@ -228,7 +228,7 @@ TEST(coe, whole_sample_shifts_are_delays) {  // oracle: invariance
 }
 
 TEST(coe, stops_when_asked_to_and_still_gives_a_model) {  // oracle: definition of the callback
-    TransferOptions options;
+    FitOptions options;
     options.cancel = [] { return true; };
     const auto found = coe(course_record(0.2, 1), kCourse, options);
     EXPECT_EQ(found.termination, Termination::kCancelled);
@@ -237,7 +237,7 @@ TEST(coe, stops_when_asked_to_and_still_gives_a_model) {  // oracle: definition 
 
 TEST(coe, refuses_bad_input_in_words) {  // oracle: the sentence names what is wrong
     const IdData data = course_record(0.2, 1);
-    const auto refusal = [](const IdData& d, const TransferStructure& structure, const TransferOptions& options = {}) {
+    const auto refusal = [](const IdData& d, const TransferStructure& structure, const FitOptions& options = {}) {
         return thrown_message([&] { coe(d, structure, options); });
     };
     EXPECT_THAT(refusal(data.range(1, 8), kCourse), HasSubstr("9 samples"));
@@ -250,15 +250,15 @@ TEST(coe, refuses_bad_input_in_words) {  // oracle: the sentence names what is w
     EXPECT_THAT(refusal(data, TransferStructure::single(2, 0, 20)), HasSubstr("not shorter than the record"));
     EXPECT_THAT(refusal(data, TransferStructure::grid(1, 2, Denominators::kCommon, {2}, {0}, {0.0})),
                 HasSubstr("2 input(s)"));
-    TransferOptions options;
-    options.Tol = 0;
-    EXPECT_THAT(refusal(data, kCourse, options), HasSubstr("Tol"));
+    FitOptions options;
+    options.tolerance = 0;
+    EXPECT_THAT(refusal(data, kCourse, options), HasSubstr("`tolerance`"));
     options = {};
-    options.TdMax = 30;
-    EXPECT_THAT(refusal(data, with_free_delay(2, 0), options), HasSubstr("TdMax must be shorter"));
-    options.TdMax = 1;
-    options.TdMin = 2;
-    EXPECT_THAT(refusal(data, with_free_delay(2, 0), options), HasSubstr("at least TdMin"));
+    options.largest_delay = 30;
+    EXPECT_THAT(refusal(data, with_free_delay(2, 0), options), HasSubstr("`largest_delay` must be shorter"));
+    options.largest_delay = 1;
+    options.least_delay = 2;
+    EXPECT_THAT(refusal(data, with_free_delay(2, 0), options), HasSubstr("at least `least_delay`"));
 }
 
 TEST(coe, zero_input_tells_nothing) {  // oracle: the criterion
@@ -269,12 +269,14 @@ TEST(coe, zero_input_tells_nothing) {  // oracle: the criterion
 
 TEST(coe, refuses_bad_options_in_words) {  // oracle: the sentence names the option
     const IdData data = course_record(0.2, 1);
-    TransferOptions options;
-    options.TdMax = 20;
-    EXPECT_NE(thrown_message([&] { coe(data, with_free_delay(2, 0), options); }).find("TdMax"), std::string::npos);
-    options.TdMin = 1;
-    options.TdMax = 0.5;
-    EXPECT_NE(thrown_message([&] { coe(data, with_free_delay(2, 0), options); }).find("TdMax"), std::string::npos);
+    FitOptions options;
+    options.largest_delay = 20;
+    EXPECT_NE(thrown_message([&] { coe(data, with_free_delay(2, 0), options); }).find("`largest_delay`"),
+              std::string::npos);
+    options.least_delay = 1;
+    options.largest_delay = 0.5;
+    EXPECT_NE(thrown_message([&] { coe(data, with_free_delay(2, 0), options); }).find("`largest_delay`"),
+              std::string::npos);
 }
 
 }  // namespace test_coe

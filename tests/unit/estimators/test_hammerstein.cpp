@@ -58,8 +58,8 @@ IdData record(const TransferFunction& G, double noise, std::uint32_t seed, Index
 
 HammersteinOptions at_edges(const Vector& edges) {
     HammersteinOptions options;
-    options.Breakpoints = edges;
-    options.Tol = 1e-9;
+    options.breakpoints = edges;
+    options.tolerance = 1e-9;
     return options;
 }
 
@@ -76,12 +76,12 @@ TEST(hammerstein, hat_functions_share_out_every_value) {  // oracle: definition
 TEST(hammerstein, recovers_a_dead_band_without_noise) {  // oracle: the simulated system
     for (const System& system : {without_zero(), with_zero()}) {
         const auto result = hammerstein(record(system.G, 0, 1), system.structure, at_edges(kEdges));
-        EXPECT_LT((result.levels - kLevels).cwiseAbs().maxCoeff(), 1e-6) << result.message;
-        EXPECT_LT((result.model.den() - system.G.den()).cwiseAbs().maxCoeff(), 1e-5);
-        EXPECT_LT((result.model.num() - system.G.num()).cwiseAbs().maxCoeff(), 1e-5);
-        EXPECT_NEAR(result.model.dc_gain(), 1, 1e-12);
-        EXPECT_GT(result.fit_percent, 100 - 1e-4);
-        EXPECT_LT(result.linear_fit_percent, 95);
+        EXPECT_LT((result.characteristic->levels - kLevels).cwiseAbs().maxCoeff(), 1e-6) << result.message;
+        EXPECT_LT((result.models[0].den() - system.G.den()).cwiseAbs().maxCoeff(), 1e-5);
+        EXPECT_LT((result.models[0].num() - system.G.num()).cwiseAbs().maxCoeff(), 1e-5);
+        EXPECT_NEAR(result.models[0].dc_gain(), 1, 1e-12);
+        EXPECT_GT(result.fit_percent[0], 100 - 1e-4);
+        EXPECT_LT(result.characteristic->linear_fit_percent, 95);
     }
 }
 
@@ -90,7 +90,7 @@ TEST(hammerstein, finds_the_delay_together_with_the_rest) {  // oracle: the simu
     system.structure.free_delays = true;
     const auto result = hammerstein(record(system.G, 0.01, 2), system.structure, at_edges(kEdges));
     ASSERT_EQ(result.names.back(), "Td");
-    EXPECT_NEAR(result.model.delay(), 0.13, 4 * result.std[result.std.size() - 1]) << result.message;
+    EXPECT_NEAR(result.models[0].delay(), 0.13, 4 * result.std[result.std.size() - 1]) << result.message;
     EXPECT_LT(result.std[result.std.size() - 1], 0.01);
 }
 
@@ -137,12 +137,12 @@ TEST(hammerstein, bins_do_without_edges_that_the_input_does_not_visit) {  // ora
     const System system = without_zero();
     IdData data = record(system.G, 0.02, 4);
     HammersteinOptions options;
-    options.Bins = 8;
+    options.bins = 8;
     const auto equal = hammerstein(data, system.structure, options);
-    EXPECT_EQ(equal.breakpoints.size(), 9);
-    EXPECT_GT(equal.fit_percent, equal.linear_fit_percent + 5) << equal.message;
+    EXPECT_EQ(equal.characteristic->breakpoints.size(), 9);
+    EXPECT_GT(equal.fit_percent[0], equal.characteristic->linear_fit_percent + 5) << equal.message;
     const auto wide = hammerstein(data, system.structure, at_edges(values({-9, -5, -1, -0.2, 0.2, 1, 4})));
-    EXPECT_EQ(wide.breakpoints.size(), 4) << wide.breakpoints.transpose();
+    EXPECT_EQ(wide.characteristic->breakpoints.size(), 4) << wide.characteristic->breakpoints.transpose();
     EXPECT_THAT(wide.message, HasSubstr("edges of bins were left out"));
 }
 
@@ -157,8 +157,10 @@ TEST(hammerstein, an_input_of_few_values_has_these_as_edges) {
     const IdData data{Matrix(y), Matrix(u), 0.05};
     for (const Vector& edges : {kEdges, values({-1, -0.5, 0.5, 1})}) {
         const auto result = hammerstein(data, without_zero().structure, at_edges(edges));
-        ASSERT_EQ(result.breakpoints, values({-1, 0, 1})) << result.message;
-        EXPECT_LT((result.levels - characteristic(result.breakpoints)).cwiseAbs().maxCoeff(), 1e-6);
+        ASSERT_EQ(result.characteristic->breakpoints, values({-1, 0, 1})) << result.message;
+        EXPECT_LT(
+            (result.characteristic->levels - characteristic(result.characteristic->breakpoints)).cwiseAbs().maxCoeff(),
+            1e-6);
         EXPECT_THAT(result.message, HasSubstr("The input takes only 3 values"));
     }
     const auto as_asked = hammerstein(data, without_zero().structure, at_edges(values({-1, 0, 1})));
@@ -172,11 +174,11 @@ TEST(hammerstein, of_a_binary_input_is_the_linear_model_with_an_offset) {
     const Vector x = lsim(without_zero().G, f.array() - f[0], 0.05).array() + f[0];
     const IdData data(Matrix(x + 0.2 * RandomStream(1).normal(u.size())), Matrix(u), 0.05);
     const auto result = hammerstein(data, without_zero().structure, at_edges(values({-1, 1})));
-    TransferOptions options;
+    FitOptions options;
     options.initial_state = InitialState::kSteady;
     options.offset = Offset::kEstimate;
-    options.Tol = 1e-9;
-    const TransferEstimate linear = coe(data, without_zero().structure, options);
+    options.tolerance = 1e-9;
+    const Fit linear = coe(data, without_zero().structure, options);
     EXPECT_LT((result.theta.head(2) - linear.theta.head(2)).cwiseQuotient(linear.theta.head(2)).norm(), 1e-6);
     EXPECT_NEAR(result.loss / linear.loss, 1, 1e-9);
 }
@@ -187,8 +189,10 @@ TEST(hammerstein, tells_when_a_line_would_do) {  // oracle: the simulated system
     const IdData data(Matrix(y + 0.05 * RandomStream(1).normal(1500)), Matrix(u), 0.05);
     const auto result = hammerstein(data, TransferStructure::single(2, 0), HammersteinOptions());
     EXPECT_THAT(result.message, HasSubstr("A linear model fits as well"));
-    for (Index i = 0; i < result.levels.size(); ++i)
-        EXPECT_NEAR(result.levels[i], result.breakpoints[i], 4 * result.levels_std[i]) << i;
+    for (Index i = 0; i < result.characteristic->levels.size(); ++i)
+        EXPECT_NEAR(result.characteristic->levels[i], result.characteristic->breakpoints[i],
+                    4 * result.characteristic->levels_std[i])
+            << i;
 }
 
 TEST(hammerstein, refuses_what_it_cannot_fit) {  // oracle: definitions
@@ -197,14 +201,14 @@ TEST(hammerstein, refuses_what_it_cannot_fit) {  // oracle: definitions
     const auto refusal = [&](const IdData& given, const HammersteinOptions& options) {
         return thrown_message([&] { hammerstein(given, system.structure, options); });
     };
-    EXPECT_THAT(refusal(data, at_edges(values({1, 0}))), HasSubstr("Breakpoints must increase"));
+    EXPECT_THAT(refusal(data, at_edges(values({1, 0}))), HasSubstr("`breakpoints` must increase"));
     EXPECT_THAT(refusal(data, at_edges(values({20, 30}))), HasSubstr("edges of the bins"));
     HammersteinOptions options;
-    options.Bins = 0;
-    EXPECT_THAT(refusal(data, options), HasSubstr("Bins must lie"));
+    options.bins = 0;
+    EXPECT_THAT(refusal(data, options), HasSubstr("`bins` must lie"));
     options = {};
     options.offset = Offset::kEstimate;
-    EXPECT_THAT(refusal(data, options), HasSubstr("Offset must be"));
+    EXPECT_THAT(refusal(data, options), HasSubstr("`offset` must be"));
     IdData other = data;
     other.hold = Hold::kFoh;
     EXPECT_THAT(refusal(other, {}), HasSubstr("held input"));

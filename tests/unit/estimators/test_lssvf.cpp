@@ -26,7 +26,7 @@ TEST(lssvf, equals_least_squares_on_the_columns_of_svf) {  // oracle: second rou
     Matrix Phi(y.rows(), 3);
     Phi << -y.col(1), -y.col(2), u.col(2);
     const LeastSquares expected = solve_least_squares(Phi, y.col(0));
-    const TransferEstimate found = lssvf(data, kCourse, cutoff(3));
+    const Fit found = lssvf(data, kCourse, cutoff(3));
     EXPECT_LT(relative_difference(found.theta, expected.solution), 1e-11);
     const double variance = expected.residuals.squaredNorm() / static_cast<double>(y.rows() - 3);
     EXPECT_LT(relative_difference(found.covariance.diagonal(), variance * expected.inverse_gram.diagonal()), 1e-9);
@@ -39,8 +39,8 @@ TEST(lssvf, delay_of_whole_samples_equals_shifted_input) {  // oracle: shift inv
     Matrix late = Matrix::Zero(u.rows(), 1);
     late.bottomRows(u.rows() - 7) = u.topRows(u.rows() - 7);
     const IdData shifted(data.experiments[0].y, late, 0.01);
-    const TransferEstimate a = lssvf(shifted, kCourse, cutoff(3));
-    const TransferEstimate b = lssvf(data, TransferStructure::single(2, 0, 0.07), cutoff(3));
+    const Fit a = lssvf(shifted, kCourse, cutoff(3));
+    const Fit b = lssvf(data, TransferStructure::single(2, 0, 0.07), cutoff(3));
     EXPECT_LT(relative_difference(a.theta, b.theta), 1e-10);
     EXPECT_EQ(b.models[0].delay(), 0.07);
 }
@@ -60,7 +60,7 @@ TEST(lssvf, fast_sampling_without_noise_gives_the_truth_for_several_inputs) {  /
     Matrix u(1200, 2);
     u << u1, u2;
     const TransferStructure structure = TransferStructure::grid(1, 2, Denominators::kPerOutput, {2}, {1, 0}, {0, 0.05});
-    const TransferEstimate found = lssvf(IdData(Matrix(y), u, 0.01), structure, cutoff(4));
+    const Fit found = lssvf(IdData(Matrix(y), u, 0.01), structure, cutoff(4));
     EXPECT_LT(relative_difference(found.theta, values({2, 4, 3, 1, -2})), 1e-3);  // y is not straight between samples
     EXPECT_EQ(found.names, (std::vector<std::string>{"a1", "a2", "b0_u1", "b1_u1", "b0_u2"}));
 }

@@ -64,9 +64,9 @@ const SubspaceWeighting kWeightings[] = {SubspaceWeighting::kMoesp, SubspaceWeig
 
 SubspaceOptions with(SubspaceWeighting weighting, bool feedthrough, int block_rows = 0) {
     SubspaceOptions options;
-    options.Weighting = weighting;
-    options.Feedthrough = feedthrough;
-    options.BlockRows = block_rows;
+    options.weighting = weighting;
+    options.feedthrough = feedthrough;
+    options.block_rows = block_rows;
     return options;
 }
 

@@ -42,9 +42,9 @@ IdData simulated(const Case& c, Index N, double noise, std::uint32_t seed) {
     return IdData(Matrix(x + noise * RandomStream(seed).normal(N)), u, 0.1);
 }
 
-PolynomialOptions tight() {
-    PolynomialOptions options;
-    options.Tol = 1e-10;
+FitOptions tight() {
+    FitOptions options;
+    options.tolerance = 1e-10;
     return options;
 }
 
@@ -56,7 +56,7 @@ TEST(oe, recovers_noise_free_systems) {  // oracle: the simulated system
     for (const Case& c : cases()) {
         const auto result = oe(simulated(c, 800, 0, 1), c.orders, tight());
         EXPECT_LT(worst_relative(result.theta, c.theta), 1e-8) << result.message;
-        EXPECT_GT(result.fit_percent, 100 - 1e-6);
+        EXPECT_GT(result.fit_percent[0], 100 - 1e-6);
     }
 }
 
@@ -74,7 +74,7 @@ TEST(oe, errors_are_orthogonal_to_the_sensitivities) {  // oracle: the definitio
         for (Index i = 0; i < J.cols(); ++i)
             EXPECT_LT(std::abs(J.col(i).dot(error)), 1e-7 * J.col(i).norm() * error.norm()) << result.message;
         EXPECT_NEAR(result.loss, error.squaredNorm() / 800, 1e-10);
-        EXPECT_NEAR(result.noise_variance, error.squaredNorm() / static_cast<double>(800 - J.cols()), 1e-10);
+        EXPECT_NEAR(result.noise_variance[0], error.squaredNorm() / static_cast<double>(800 - J.cols()), 1e-10);
         EXPECT_EQ(result.termination, Termination::kConverged) << result.message;
     }
 }
@@ -84,12 +84,12 @@ TEST(oe, a_record_cut_from_a_running_experiment) {  // oracle: the simulated sys
         const IdData whole = simulated(c, 900, 0, 3);
         IdData data = whole.range(101, 900);
         data.experiments[0].y.array() += 7;
-        PolynomialOptions options = tight();
+        FitOptions options = tight();
         options.initial_state = InitialState::kEstimate;
         options.offset = Offset::kEstimate;
         const auto result = oe(data, c.orders, options);
         EXPECT_LT(worst_relative(result.theta, c.theta), 1e-6) << result.message;
-        EXPECT_NEAR(result.offsets[0], 7, 1e-6);
+        EXPECT_NEAR(result.offsets(0, 0), 7, 1e-6);
         options.initial_state = InitialState::kAuto;
         options.offset = Offset::kAuto;
         const auto chosen = oe(data, c.orders, options);
@@ -110,22 +110,22 @@ TEST(oe, operating_point_is_removed) {  // oracle: the same record without it
     const auto centred = oe(data, c.orders, tight());
     experiment.u.array() += 5;
     experiment.y.array() += 40;
-    PolynomialOptions options = tight();
+    FitOptions options = tight();
     options.offset = Offset::kRemove;
     const auto result = oe(data, c.orders, options);
     EXPECT_LT(worst_relative(result.theta, centred.theta), 1e-8);
-    EXPECT_NEAR(result.offsets[0], 40, 1e-9);
+    EXPECT_NEAR(result.offsets(0, 0), 40, 1e-9);
 }
 
 TEST(oe, experiments_count_together_in_any_order) {  // oracle: invariance
     for (const Case& c : {cases()[1], cases()[5]}) {
         const IdData a = simulated(c, 300, 0.3, 1), b = simulated(c, 500, 0.3, 2);
-        PolynomialOptions options = tight();
+        FitOptions options = tight();
         options.initial_state = InitialState::kEstimate;
         const auto ab = oe(IdData::merge({a, b}), c.orders, options), ba = oe(IdData::merge({b, a}), c.orders, options);
         EXPECT_LT(worst_relative(ab.theta, ba.theta), 1e-8);
         EXPECT_LT(worst_relative(ab.std, ba.std), 1e-7);
-        EXPECT_NEAR(ab.fit_percent, ba.fit_percent, 1e-8);
+        EXPECT_NEAR(ab.fit_percent[0], ba.fit_percent[0], 1e-8);
         const auto alone = oe(a, c.orders, options);
         EXPECT_LT(ab.std[0], alone.std[0]);
     }
@@ -141,23 +141,23 @@ TEST(oe, a_step_is_enough) {  // oracle: the simulated system
 
 TEST(oe, doubtful_results_come_with_a_sentence) {  // oracle: the simulated system
     const Case& c = cases()[1];
-    PolynomialOptions hurried;
-    hurried.MaxIter = 1;
-    hurried.Tol = 1e-14;
+    FitOptions hurried;
+    hurried.max_iterations = 1;
+    hurried.tolerance = 1e-14;
     const auto result = oe(simulated(c, 300, 0.5, 1), c.orders, hurried);
     EXPECT_EQ(result.termination, Termination::kIterationLimit);
-    EXPECT_THAT(result.message, HasSubstr("MaxIter = 1"));
-    EXPECT_GT(result.fit_percent, 0);
+    EXPECT_THAT(result.message, HasSubstr("`max_iterations` = 1"));
+    EXPECT_GT(result.fit_percent[0], 0);
     const Matrix noise = RandomStream(8).normal(300);
     EXPECT_THAT(oe(IdData(noise, inputs(300, 1, 1), 1), PolynomialOrders::output_error({5}, {0}, {1})).message,
                 HasSubstr("hardly determine"));
     const auto high = oe(simulated(c, 300, 0, 1), PolynomialOrders::output_error({3}, {3}, {1}));
     EXPECT_THAT(high.message, HasSubstr("do not tell all parameters apart"));
-    EXPECT_GT(high.fit_percent, 99.99);
+    EXPECT_GT(high.fit_percent[0], 99.99);
 }
 
 TEST(oe, can_be_cancelled) {  // oracle: definition
-    PolynomialOptions options;
+    FitOptions options;
     int asked = 0;
     options.cancel = [&] { return ++asked > 3; };
     const auto result = oe(simulated(cases()[1], 300, 0.1, 1), cases()[1].orders, options);
@@ -169,7 +169,7 @@ TEST(oe, refuses_what_it_cannot_fit) {
     const Case& c = cases()[1];
     const IdData data = simulated(c, 100, 0.1, 1);
     const Matrix u = data.experiments[0].u, y = data.experiments[0].y;
-    const auto refusal = [&](const IdData& given, const PolynomialOptions& options = {}) {
+    const auto refusal = [&](const IdData& given, const FitOptions& options = {}) {
         return thrown_message([&] { oe(given, c.orders, options); });
     };
     EXPECT_THAT(refusal(IdData(y, Matrix::Zero(100, 1), 1)), HasSubstr("oe: the input u1 is zero"));
@@ -179,12 +179,12 @@ TEST(oe, refuses_what_it_cannot_fit) {
     EXPECT_THAT(refusal(IdData(y, u, Vector::LinSpaced(100, 0, 1))), HasSubstr("regularly"));
     EXPECT_THAT(refusal(data.range(1, 4)), HasSubstr("more samples than the 4 values"));
     EXPECT_EQ(refusal(data.range(1, 20)), "");
-    PolynomialOptions options;
-    options.Tol = 0;
-    EXPECT_THAT(refusal(data, options), HasSubstr("Tol"));
+    FitOptions options;
+    options.tolerance = 0;
+    EXPECT_THAT(refusal(data, options), HasSubstr("`tolerance`"));
     options = {};
-    options.MaxIter = -1;
-    EXPECT_THAT(refusal(data, options), HasSubstr("MaxIter"));
+    options.max_iterations = -1;
+    EXPECT_THAT(refusal(data, options), HasSubstr("`max_iterations`"));
     EXPECT_THAT(thrown_message([&] { oe(data, PolynomialOrders::arx(2, {1}, {1})); }), HasSubstr("na, nc and nd"));
 }
 

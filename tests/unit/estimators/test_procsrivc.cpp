@@ -6,6 +6,7 @@
 
 #include "numerics/error.h"
 #include "numerics/estimators/procsrivc.h"
+#include "numerics/estimators/srivc.h"
 #include "numerics/rigs/heat_exchanger.h"
 #include "numerics/rigs/suspension.h"
 #include "numerics/signals/random.h"
@@ -34,17 +35,17 @@ TransferFunction model_of(const char* structure, const Vector& parameters) {
     return ProcessModel(ProcessStructure::parse(structure), parameters).transfer_function();
 }
 
-ProcsrivcResult fit(const IdData& data, const char* structure, const ProcsrivcOptions& options = {}) {
+Fit fit(const IdData& data, const char* structure, const ProcsrivcOptions& options = {}) {
     return procsrivc(data, ProcessStructure::parse(structure), options);
 }
 
 ProcsrivcOptions tight() {
     ProcsrivcOptions options;
-    options.Tol = 1e-10;
+    options.tolerance = 1e-10;
     return options;
 }
 
-bool warned(const ProcsrivcResult& result, const std::string& text) {
+bool warned(const Fit& result, const std::string& text) {
     return result.message.find(text) != std::string::npos;
 }
 
@@ -120,7 +121,7 @@ TEST(procsrivc, thinned_irregular_step) {  // oracle: the simulated system of th
         const Vector t = 0.01 * Vector::LinSpaced(330, 0, 329);
         const IdData thinned(Matrix(y(kept)), Matrix(u(kept)), Vector(t(kept)));
         ProcsrivcOptions options;
-        options.TdMax = 1.5;
+        options.largest_delay = 1.5;
         for (const IdData& data : {siso(y, u, 0.01), thinned}) {
             const auto result = fit(data, "P2DU", options);
             for (Index i = 0; i < 4; ++i) EXPECT_NEAR(result.theta[i], truth[i], 4 * result.std[i]) << result.message;
@@ -182,9 +183,9 @@ TEST(procsrivc, experiments_keep_their_own_states_and_offsets) {  // oracle: the
                 EXPECT_NEAR(result.theta[i] / model.parameters[i], 1, 1e-7) << structure.text() << result.message;
             ASSERT_EQ(result.initial_values.size(), 2u);
             if (structure.integrator) continue;
-            EXPECT_NEAR(result.offsets[0], 5, 1e-6) << structure.text();
-            EXPECT_NEAR(result.offsets[1], -7, 1e-6) << structure.text();
-            EXPECT_NEAR(result.fit_percent, 100, 1e-6);
+            EXPECT_NEAR(result.offsets(0, 0), 5, 1e-6) << structure.text();
+            EXPECT_NEAR(result.offsets(1, 0), -7, 1e-6) << structure.text();
+            EXPECT_NEAR(result.fit_percent[0], 100, 1e-6);
         }
 }
 
@@ -201,15 +202,15 @@ TEST(procsrivc, the_same_record_twice_halves_the_variance) {  // oracle: least s
         EXPECT_NEAR(twice.theta[i] / single.theta[i], 1, 1e-8);
         EXPECT_NEAR(twice.std[i] / single.std[i], std::sqrt((N - 6) / (2 * N - 9)), 1e-6);
     }
-    EXPECT_NEAR(twice.fit_percent, single.fit_percent, 1e-8);
-    EXPECT_NEAR(twice.offsets[1], twice.offsets[0], 1e-8);
+    EXPECT_NEAR(twice.fit_percent[0], single.fit_percent[0], 1e-8);
+    EXPECT_NEAR(twice.offsets(1, 0), twice.offsets(0, 0), 1e-8);
 }
 
 TEST(procsrivc, a_held_input_cannot_place_the_delay_of_a_jump) {  // oracle: two parameter sets, one sampled system
     const Vector u = rough_input(700, 12);
     const Vector y = lsim(model_of("P1DZ", Vector{{1.3, 1.7, -0.45, 0.373}}), u, 0.05);
     const auto result = fit(siso(y, u, 0.05), "P1DZ", tight());
-    EXPECT_GT(result.fit_percent, 100 - 1e-6);
+    EXPECT_GT(result.fit_percent[0], 100 - 1e-6);
     EXPECT_TRUE(warned(result, "do not tell all parameters apart")) << result.message;
 }
 
@@ -251,7 +252,7 @@ TEST(procsrivc, initial_state_and_offset_are_found) {  // oracle: the simulated 
         const auto result = fit(siso(y.tail(950), u.tail(950), 0.05), c.structure, options);
         for (Index i = 0; i < c.truth.size(); ++i)
             EXPECT_NEAR(result.theta[i] / c.truth[i], 1, 1e-8) << c.structure << " " << result.message;
-        EXPECT_NEAR(result.offsets[0], 12, 1e-6) << c.structure;
+        EXPECT_NEAR(result.offsets(0, 0), 12, 1e-6) << c.structure;
         EXPECT_NEAR(result.initial_values[0][0], y[50] - 12 - c.truth[0] * u[50], 1e-6) << c.structure;
         const auto chosen = fit(siso(y.tail(950), u.tail(950), 0.05), c.structure);
         EXPECT_EQ(chosen.start.state, InitialState::kEstimate) << c.structure;
@@ -269,7 +270,7 @@ TEST(procsrivc, heat_exchanger_just_works) {  // oracle: physical truth, standar
         EXPECT_TRUE(result.start.offset);
         EXPECT_NEAR(result.theta[0], truth.gain, 4 * result.std[0]) << seed;
         EXPECT_NEAR(result.theta[1], truth.time_constant, 4 * result.std[1]) << seed;
-        EXPECT_NEAR(result.offsets[0], truth.output_at_zero_input, 0.2) << seed;
+        EXPECT_NEAR(result.offsets(0, 0), truth.output_at_zero_input, 0.2) << seed;
         EXPECT_LT(result.std[1], 0.02 * truth.time_constant);
         EXPECT_TRUE(result.warnings.empty()) << result.message;
     }
@@ -285,7 +286,7 @@ TEST(procsrivc, heat_exchanger_with_the_operating_point_removed) {  // oracle: p
     const auto result = fit(siso(record.y, record.u, p.Ts), "P1", options);
     EXPECT_NEAR(result.theta[0] / truth.gain, 1, 1e-9);
     EXPECT_NEAR(result.theta[1] / truth.time_constant, 1, 1e-9);
-    EXPECT_NEAR(result.removed[0].output, truth.initial_output, 1e-12);
+    EXPECT_NEAR(result.removed[0][0].output, truth.initial_output, 1e-12);
     EXPECT_LT((result.output - record.y).cwiseAbs().maxCoeff(), 1e-8);
 }
 
@@ -298,7 +299,7 @@ TEST(procsrivc, suspension_just_works) {  // oracle: physical truth, standard er
         EXPECT_NEAR(result.theta[0], truth.gain, 4 * result.std[0]) << seed << result.message;
         EXPECT_NEAR(result.theta[1], 1 / truth.natural_frequency, 4 * result.std[1]) << seed;
         EXPECT_NEAR(result.theta[2], truth.damping_ratio, 4 * result.std[2]) << seed;
-        EXPECT_GT(result.fit_percent, 90);
+        EXPECT_GT(result.fit_percent[0], 90);
         EXPECT_TRUE(result.warnings.empty()) << result.message;
     }
 }
@@ -311,7 +312,7 @@ TEST(procsrivc, unit_step_at_sample_one_with_an_offset) {  // oracle: the simula
         const auto result = fit(siso(y, u, 0.05), c.structure, tight());
         for (Index i = 0; i < c.truth.size(); ++i)
             EXPECT_NEAR(result.theta[i] / c.truth[i], 1, 1e-7) << c.structure << " " << result.message;
-        EXPECT_NEAR(result.offsets[0], -3, 1e-7) << c.structure;
+        EXPECT_NEAR(result.offsets(0, 0), -3, 1e-7) << c.structure;
     }
 }
 
@@ -320,7 +321,7 @@ TEST(procsrivc, delay_needs_the_grid) {  // oracle: the simulated system; a loca
     const Vector u = rough_input(600, 40);
     const Vector y = lsim(model_of("P2DU", truth), u, 0.01) + 0.3 * RandomStream(1).normal(600);
     ProcsrivcOptions options;
-    options.TdMax = 1.5;
+    options.largest_delay = 1.5;
     const auto result = fit(siso(y, u, 0.01), "P2DU", options);
     for (Index i = 0; i < 4; ++i) EXPECT_NEAR(result.theta[i], truth[i], 4 * result.std[i]) << result.message;
     Index best = 0;
@@ -335,17 +336,17 @@ TEST(procsrivc, delay_options_bound_the_answer) {  // oracle: the simulated syst
     const Vector u = rough_input(600, 40);
     const IdData data = siso(lsim(model_of("P1D", Vector{{2.0, 0.3, 0.7}}), u, 0.01), u, 0.01);
     ProcsrivcOptions options;
-    options.TdMax = 0.5;
+    options.largest_delay = 0.5;
     const auto low = fit(data, "P1D", options);
     EXPECT_NEAR(low.theta[2], 0.5, 1e-9);
-    EXPECT_TRUE(warned(low, "raise TdMax")) << low.message;
+    EXPECT_TRUE(warned(low, "raise `largest_delay`")) << low.message;
     EXPECT_EQ(low.std[2], 0);
-    options.TdMax = 2;
-    options.TdMin = 0.8;
+    options.largest_delay = 2;
+    options.least_delay = 0.8;
     const auto high = fit(data, "P1D", options);
     EXPECT_NEAR(high.theta[2], 0.8, 1e-9);
-    EXPECT_TRUE(warned(high, "lower TdMin")) << high.message;
-    options.TdMin = options.TdMax.emplace(0.7);
+    EXPECT_TRUE(warned(high, "lower `least_delay`")) << high.message;
+    options.least_delay = options.largest_delay.emplace(0.7);
     const auto known = fit(data, "P1D", options);
     EXPECT_NEAR(known.theta[1], 0.3, 1e-6);
     EXPECT_NEAR(known.theta[2], 0.7, 1e-15);
@@ -362,11 +363,11 @@ TEST(procsrivc, doubtful_results_come_with_a_sentence) {  // oracle: the simulat
                        "P2 without U suits"));
     EXPECT_TRUE(warned(fit(siso(e, u, 0.05), "P1"), "hardly determine"));
     ProcsrivcOptions hurried;
-    hurried.MaxIter = 1;
+    hurried.max_iterations = 1;
     const auto result = fit(siso(y + e, u, 0.05), "P1", hurried);
     EXPECT_EQ(result.termination, Termination::kIterationLimit);
-    EXPECT_TRUE(warned(result, "MaxIter")) << result.message;
-    EXPECT_GT(result.fit_percent, 0);
+    EXPECT_TRUE(warned(result, "`max_iterations` = 1")) << result.message;
+    EXPECT_GT(result.fit_percent[0], 0);
 }
 
 TEST(procsrivc, can_be_cancelled) {  // oracle: definition
@@ -382,24 +383,65 @@ TEST(procsrivc, can_be_cancelled) {  // oracle: definition
 TEST(procsrivc, refuses_what_it_cannot_fit) {
     const Vector u = rough_input(100, 10), y = lsim(model_of("P1", Vector{{2.0, 0.5}}), u, 0.05);
     const IdData data = siso(y, u, 0.05);
-    EXPECT_THAT(refusal([&] { fit(siso(y, Vector::Zero(100), 0.05), "P1"); }), HasSubstr("input is zero"));
+    EXPECT_THAT(refusal([&] { fit(siso(y, Vector::Zero(100), 0.05), "P1"); }), HasSubstr("is zero throughout"));
     EXPECT_THAT(refusal([&] { fit(siso(Vector::Ones(100), u, 0.05), "P1"); }), HasSubstr("never changes"));
     EXPECT_THAT(refusal([&] { fit(siso(y.head(5), u.head(5), 0.05), "P1"); }), HasSubstr("at least 6 samples"));
     EXPECT_THAT(refusal([&] { fit(IdData(Matrix(y), Matrix::Random(100, 2), 0.05), "P1"); }),
                 HasSubstr("one input and one output"));
     ProcsrivcOptions options;
-    options.TdMin = 2;
-    options.TdMax = 1;
-    EXPECT_THAT(refusal([&] { fit(data, "P1D", options); }), HasSubstr("TdMax must be at least"));
+    options.least_delay = 2;
+    options.largest_delay = 1;
+    EXPECT_THAT(refusal([&] { fit(data, "P1D", options); }), HasSubstr("`largest_delay` must be at least"));
     options = {};
-    options.TdMax = 100;
+    options.largest_delay = 100;
     EXPECT_THAT(refusal([&] { fit(data, "P1D", options); }), HasSubstr("shorter than the record"));
     options = {};
-    options.Tol = -1;
-    EXPECT_THAT(refusal([&] { fit(data, "P1", options); }), HasSubstr("Tol"));
+    options.tolerance = -1;
+    EXPECT_THAT(refusal([&] { fit(data, "P1", options); }), HasSubstr("`tolerance`"));
     options = {};
-    options.NumTd = 0;
-    EXPECT_THAT(refusal([&] { fit(data, "P1", options); }), HasSubstr("NumTd"));
+    options.delay_count = 0;
+    EXPECT_THAT(refusal([&] { fit(data, "P1", options); }), HasSubstr("`delay_count`"));
+}
+
+// Long records get their start from the beginning: the end must be that of the whole record all the same.
+TEST(procsrivc, a_long_record_ends_at_its_own_optimum) {  // oracle: second route, srivc without a structure of lags
+    const Index N = 60'000;
+    const Vector u = rough_input(N, 12), e = 0.3 * RandomStream(9).normal(N);
+    const IdData data = siso(lsim(model_of("P2", Vector{{1.2, 1.0, 0.4}}), u, 0.05) + e, u, 0.05);
+    const auto result = fit(data, "P2", tight());
+    FitOptions options;
+    options.tolerance = 1e-11;
+    const Fit free = srivc(data, TransferStructure::single(2, 0), options);
+    const TransferFunction &G = result.models[0], &expected = free.models[0];
+    EXPECT_LT((G.den() - expected.den()).cwiseAbs().maxCoeff(), 1e-7) << result.message;
+    EXPECT_LT((G.num() - expected.num()).cwiseAbs().maxCoeff(), 1e-7);
+    EXPECT_NEAR(result.loss, free.loss, 1e-12);
+    EXPECT_EQ(result.start.state, InitialState::kZero) << result.message;
+}
+
+TEST(procsrivc, a_long_record_chooses_its_start_as_a_whole) {  // oracle: the simulated system
+    const Index N = 100'000;
+    const double gain = 1.2, offset = 0.0022;  // six standard errors of the whole, three of the beginning
+    const Vector u = rough_input(N, 12, 0.5), e = 0.1 * RandomStream(9).normal(N);
+    const Vector y = lsim(model_of("P1", Vector{{gain, 0.8}}), Vector(u.array() - u[0]), 0.05).array() + gain * u[0];
+    const auto result = fit(siso(Vector(y + e).array() + offset, u, 0.05), "P1");
+    EXPECT_EQ(result.start.state, InitialState::kSteady) << result.message;
+    EXPECT_TRUE(result.start.offset) << result.message;
+    EXPECT_NEAR(result.offsets(0, 0), offset, 4 * 0.1 / std::sqrt(1e5));
+    for (const auto& [i, truth] : {std::pair{0, gain}, std::pair{1, 0.8}})
+        EXPECT_NEAR(result.theta[i], truth, 4 * result.std[i]);
+}
+
+TEST(procsrivc, a_beginning_that_tells_nothing_is_no_start) {  // oracle: the simulated system
+    const Index N = 60'000, silent = 25'000;
+    Vector u = rough_input(N, 12);
+    u.head(silent).setZero();
+    const Vector slow{{1.2, 2000.0}}, e = 0.05 * RandomStream(9).normal(N);  // as long as the beginning
+    for (const Vector& truth : {Vector{{1.2, 0.8}}, slow}) {
+        if (truth == slow) u = rough_input(N, 3000);
+        const auto result = fit(siso(lsim(model_of("P1", truth), u, 0.05) + e, u, 0.05), "P1");
+        for (Index i = 0; i < 2; ++i) EXPECT_NEAR(result.theta[i], truth[i], 4 * result.std[i]) << result.message;
+    }
 }
 
 }  // namespace test_procsrivc

@@ -13,14 +13,14 @@ using namespace dynlab::test;
 
 const TransferStructure kCourse = TransferStructure::single(2, 0);
 
-TransferOptions exact() {
-    TransferOptions options;
-    options.Tol = 1e-10;
+FitOptions exact() {
+    FitOptions options;
+    options.tolerance = 1e-10;
     return options;
 }
 
 TEST(rivc, noise_free_records_give_the_truth) {  // oracle: the simulated system
-    const RivcResult found = rivc(course_record(0, 1), kCourse, {1, 2}, exact());
+    const Fit found = rivc(course_record(0, 1), kCourse, {1, 2}, exact());
     EXPECT_LT(relative_difference(found.theta, values({4, 3, 2})), 1e-9) << found.message;
     EXPECT_TRUE(found.std.allFinite());
 }
@@ -29,35 +29,35 @@ TEST(rivc, without_a_noise_model_it_is_srivc) {  // oracle: srivc's fixed point
     for (const char* set : {"sys2_s0.2_seed1", "sys2_s0.4_seed1", "rg_snr10_seed1"}) {
         const IdData data = reference_record(set, 0.01);
         const TransferStructure structure = set[0] == 'r' ? TransferStructure::single(4, 1) : kCourse;
-        const RivcResult a = rivc(data, structure, {0, 0}, exact());
-        const TransferEstimate b = srivc(data, structure, exact());
+        const Fit a = rivc(data, structure, {0, 0}, exact());
+        const Fit b = srivc(data, structure, exact());
         EXPECT_LT(relative_difference(a.theta, b.theta), 1e-8) << set;
         EXPECT_LT(relative_difference(a.std, b.std), 1e-6) << set;
-        EXPECT_EQ(a.C, Vector::Ones(1));
-        EXPECT_EQ(a.D, Vector::Ones(1));
+        EXPECT_EQ(a.noise->C, Vector::Ones(1));
+        EXPECT_EQ(a.noise->D, Vector::Ones(1));
     }
 }
 
 // oracle: the published test problem's system and noise
 TEST(rivc, finds_model_and_noise_within_their_errors) {
     for (const std::uint32_t seed : {1, 2, 3}) {
-        const RivcResult found = rivc(ColouredProblem().record(seed), kCourse, {1, 2});
+        const Fit found = rivc(ColouredProblem().record(seed), kCourse, {1, 2});
         EXPECT_EQ(found.termination, Termination::kConverged) << found.message;
         const Vector truth = values({4, 3, 2});
         for (Index i = 0; i < 3; ++i) EXPECT_NEAR(found.theta[i], truth[i], 3 * found.std[i]) << seed;
-        EXPECT_NEAR(found.C[1], 0.9, 3 * found.C_std[1]) << seed;
-        EXPECT_NEAR(found.D[1], -1, 3 * found.D_std[1]) << seed;
-        EXPECT_NEAR(found.D[2], 0.2, 3 * found.D_std[2]) << seed;
+        EXPECT_NEAR(found.noise->C[1], 0.9, 3 * found.noise->C_std[1]) << seed;
+        EXPECT_NEAR(found.noise->D[1], -1, 3 * found.noise->D_std[1]) << seed;
+        EXPECT_NEAR(found.noise->D[2], 0.2, 3 * found.noise->D_std[2]) << seed;
     }
 }
 
 // oracle: the definition, instruments orthogonal to the prediction error, with sensitivities by differences
 TEST(rivc, instruments_are_orthogonal_to_the_prediction_error) {
     const IdData data = ColouredProblem().record(4);
-    const RivcResult found = rivc(data, kCourse, {1, 2}, exact());
+    const Fit found = rivc(data, kCourse, {1, 2}, exact());
     ArmaNoise noise = ArmaNoise::white(1, 2);
-    noise.C = found.C;
-    noise.D = found.D;
+    noise.C = found.noise->C;
+    noise.D = found.noise->D;
     const Vector u = data.experiments[0].u.col(0), y = data.experiments[0].y.col(0);
     const auto error = [&](const Vector& theta) -> Vector {
         return whitened(noise, y - lsim(TransferFunction(theta.tail(1), values({1, theta[0], theta[1]})), u, 0.05));
@@ -78,12 +78,12 @@ TEST(rivc, delays_offsets_inputs_and_experiments) {  // oracle: the simulated sy
     const Vector v = 0.05 * arma_signal(values({1}), values({1, -0.8}), u.size(), 3);
     TransferStructure free = kCourse;
     free.free_delays = true;
-    TransferOptions options;
+    FitOptions options;
     options.offset = Offset::kEstimate;
-    const RivcResult late = rivc(IdData(Matrix(x.array() + 5 + v.array()), Matrix(u), 0.05), free, {0, 1}, options);
+    const Fit late = rivc(IdData(Matrix(x.array() + 5 + v.array()), Matrix(u), 0.05), free, {0, 1}, options);
     EXPECT_NEAR(late.theta[3], 0.33, 4 * late.std[3]) << late.message;
     EXPECT_NEAR(late.offsets(0, 0), 5, 0.2) << late.message;
-    EXPECT_NEAR(late.D[1], -0.8, 4 * late.D_std[1]);
+    EXPECT_NEAR(late.noise->D[1], -0.8, 4 * late.noise->D_std[1]);
     EXPECT_GE(late.delay_grid.size(), 5);
 
     Matrix inputs(u.size(), 2);
@@ -92,7 +92,7 @@ TEST(rivc, delays_offsets_inputs_and_experiments) {  // oracle: the simulated sy
     const Vector first = lsim(TransferFunction(values({2}), values({1, 4, 3})), u, 0.05);
     const IdData one(Matrix(first + second + v), inputs, 0.05);
     const auto structure = TransferStructure::grid(1, 2, Denominators::kPerChannel, {2, 1}, {0, 0}, {0, 0});
-    const RivcResult both = rivc(IdData::merge({one, one}), structure, {0, 1});
+    const Fit both = rivc(IdData::merge({one, one}), structure, {0, 1});
     const Vector truth = values({4, 3, 2, 0.8, 1});
     for (Index i = 0; i < 5; ++i) EXPECT_NEAR(both.theta[i], truth[i], 6 * both.std[i]) << both.message;
 }
@@ -117,12 +117,12 @@ TEST(rivc, refuses_what_it_cannot_do) {
 }
 
 TEST(rivc, always_answers) {
-    TransferOptions options;
-    options.MaxIter = 1;
-    const RivcResult stopped = rivc(ColouredProblem().record(1), kCourse, {1, 2}, options);
+    FitOptions options;
+    options.max_iterations = 1;
+    const Fit stopped = rivc(ColouredProblem().record(1), kCourse, {1, 2}, options);
     EXPECT_EQ(stopped.termination, Termination::kIterationLimit);
     EXPECT_TRUE(stopped.theta.allFinite() && stopped.std.allFinite());
-    EXPECT_NE(stopped.message.find("MaxIter = 1"), std::string::npos);
+    EXPECT_NE(stopped.message.find("`max_iterations` = 1"), std::string::npos);
     options.cancel = [] { return true; };
     EXPECT_TRUE(rivc(ColouredProblem().record(1), kCourse, {1, 2}, options).theta.allFinite());
 }

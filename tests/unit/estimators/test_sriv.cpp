@@ -27,10 +27,10 @@ IdData simulated(const PolynomialOrders& orders, const Vector& theta, Index N, d
     return IdData(Matrix(x + noise * RandomStream(seed).normal(N)), u, 1);
 }
 
-PolynomialOptions tight() {
-    PolynomialOptions options;
-    options.Tol = 1e-11;
-    options.MaxIter = 200;
+FitOptions tight() {
+    FitOptions options;
+    options.tolerance = 1e-11;
+    options.max_iterations = 200;
     return options;
 }
 
@@ -62,13 +62,13 @@ TEST(sriv, agrees_with_oe_whatever_the_start) {  // oracle: second route, a cut 
     IdData data = simulated(kOrders, kTruth, 500, 0.5, 3).range(51, 500);
     data.experiments[0].y.array() += 20;
     for (InitialState state : {InitialState::kZero, InitialState::kSteady, InitialState::kEstimate}) {
-        PolynomialOptions options = tight();
+        FitOptions options = tight();
         options.initial_state = state;
         options.offset = Offset::kEstimate;
         const auto iv = sriv(data, kOrders, options), output_error = oe(data, kOrders, options);
         EXPECT_EQ(iv.termination, Termination::kConverged) << iv.message;
         EXPECT_LT(worst_relative(iv.theta, output_error.theta), 1e-8) << iv.message;
-        EXPECT_NEAR(iv.offsets[0], output_error.offsets[0], 1e-7);
+        EXPECT_NEAR(iv.offsets(0, 0), output_error.offsets(0, 0), 1e-7);
     }
 }
 
@@ -81,7 +81,7 @@ TEST(sriv, fast_sampling_needs_no_guess) {  // oracle: the continuous-time syste
     for (std::uint32_t seed = 1; seed <= 5; ++seed) {
         const IdData data(Matrix(x + 0.1 * RandomStream(seed).normal(3000)), Matrix(u), 0.01);
         const auto result = sriv(data, kOrders);
-        const double noise = std::sqrt(result.noise_variance);
+        const double noise = std::sqrt(result.noise_variance[0]);
         EXPECT_NEAR(noise, 0.1, 0.01) << result.message;
         EXPECT_LT(std::sqrt(result.loss), 0.1 * 1.05);
     }
@@ -106,19 +106,19 @@ TEST(sriv, experiments_count_together_in_any_order) {  // oracle: invariance
 }
 
 TEST(sriv, always_answers) {  // oracle: definition
-    PolynomialOptions hurried;
-    hurried.MaxIter = 0;
+    FitOptions hurried;
+    hurried.max_iterations = 0;
     const auto rough = sriv(simulated(kOrders, kTruth, 300, 0.5, 1), kOrders, hurried);
     EXPECT_EQ(rough.termination, Termination::kIterationLimit);
-    EXPECT_THAT(rough.message, HasSubstr("MaxIter = 0"));
-    EXPECT_GT(rough.fit_percent, 50);
+    EXPECT_THAT(rough.message, HasSubstr("`max_iterations` = 0"));
+    EXPECT_GT(rough.fit_percent[0], 50);
     int asked = 0;
     hurried.cancel = [&] { return ++asked > 2; };
     EXPECT_EQ(sriv(simulated(kOrders, kTruth, 300, 0.5, 1), kOrders, hurried).theta.size(), 4);
     const Matrix u = simulated(kOrders, kTruth, 300, 0.5, 1).experiments[0].u;
     const auto nothing = sriv(IdData(Matrix(RandomStream(8).normal(300)), u, 1), kOrders);
     EXPECT_TRUE(nothing.theta.allFinite());
-    EXPECT_GE(nothing.fit_percent, -1e-9);
+    EXPECT_GE(nothing.fit_percent[0], -1e-9);
 }
 
 TEST(sriv, refuses_what_it_cannot_fit) {

@@ -18,15 +18,15 @@ using namespace dynlab::test;
 
 const TransferStructure kCourse = TransferStructure::single(2, 0);
 
-TransferOptions exact() {
-    TransferOptions options;
-    options.Tol = 1e-10;
+FitOptions exact() {
+    FitOptions options;
+    options.tolerance = 1e-10;
     return options;
 }
 
 TEST(srivc, output_error_is_orthogonal_to_its_sensitivities) {  // oracle: stationarity of the output-error criterion
     const IdData data = course_record(0.4, 11);
-    const TransferEstimate found = srivc(data, kCourse, exact());
+    const Fit found = srivc(data, kCourse, exact());
     EXPECT_EQ(found.termination, Termination::kConverged);
     const Vector den = found.models[0].den(), num = found.models[0].num();
     const Matrix all = transfer_sensitivities(num, den, 0, data.experiments[0].u.col(0), 0.01, Hold::kZoh);
@@ -49,7 +49,7 @@ TEST(srivc, noise_free_records_give_the_truth) {  // oracle: the simulated syste
 
 TEST(srivc, hold_of_the_output_does_not_move_the_result) {  // oracle: the criterion knows no hold of y
     const IdData data = course_record(0.2, 12);
-    TransferOptions zoh = exact();
+    FitOptions zoh = exact();
     zoh.hold_y = Hold::kZoh;
     EXPECT_LT(relative_difference(srivc(data, kCourse, zoh).theta, srivc(data, kCourse, exact()).theta), 1e-8);
 }
@@ -58,7 +58,7 @@ TEST(srivc, start_does_not_move_the_result) {  // oracle: the fixed point knows 
     const IdData data = course_record(0.2, 13);
     const Vector expected = srivc(data, kCourse, exact()).theta;
     for (const double lambda : {0.5, 3.0, 25.0}) {
-        TransferOptions options = exact();
+        FitOptions options = exact();
         options.lambda = lambda;
         EXPECT_LT(relative_difference(srivc(data, kCourse, options).theta, expected), 1e-8) << lambda;
     }
@@ -72,7 +72,7 @@ TEST(srivc, separate_denominators_are_found_by_back_fitting) {  // oracle: the s
     u << u1, u2;
     const TransferStructure structure =
         TransferStructure::grid(1, 2, Denominators::kPerChannel, {2}, {0}, {0.03, 0.05});
-    const TransferEstimate found = srivc(IdData(Matrix(y), u, 0.01), structure, exact());
+    const Fit found = srivc(IdData(Matrix(y), u, 0.01), structure, exact());
     EXPECT_LT(relative_difference(found.theta, values({2, 4, 4, 1, 1, 1})), 1e-8) << found.message;
 }
 
@@ -87,7 +87,7 @@ TEST(srivc, irregular_sampling_without_noise_gives_the_truth) {  // oracle: the 
         time += 0.01 + 0.09 * random.uniform();
     }
     IdData data(Matrix(lsim(TransferFunction(values({5}), values({1, 2.8, 4})), u, t)), Matrix(u), t);
-    const TransferEstimate found = srivc(data, kCourse, exact());
+    const Fit found = srivc(data, kCourse, exact());
     EXPECT_LT(relative_difference(found.theta, values({2.8, 4, 5})), 1e-8) << found.message;
 }
 
@@ -96,7 +96,7 @@ TEST(srivc, long_records_start_on_their_beginning) {  // oracle: the same fixed 
     const TransferFunction G(values({2}), values({1, 4, 3}));
     const Vector y = lsim(G, u, 0.01) + 0.2 * RandomStream(3).normal(u.size());
     const IdData data{Matrix(y), Matrix(u), 0.01};
-    const TransferEstimate found = srivc(data, kCourse, exact());
+    const Fit found = srivc(data, kCourse, exact());
     EXPECT_EQ(found.termination, Termination::kConverged);
     const Matrix all = transfer_sensitivities(found.models[0].num(), found.models[0].den(), 0, u, 0.01, Hold::kZoh);
     const Vector error = y - all.col(0);
@@ -112,7 +112,7 @@ TEST(srivc, superfluous_poles_do_not_spoil_the_model) {
     for (const std::uint32_t seed : {1, 2, 3}) {
         const IdData data(x + 0.1 * RandomStream(seed).normal(x.size()), u, 0.05);
         for (const int poles : {3, 4}) {
-            const TransferEstimate large = srivc(data, TransferStructure::single(poles, 0));
+            const Fit large = srivc(data, TransferStructure::single(poles, 0));
             EXPECT_LT(large.loss, 1.01 * srivc(data, kCourse).loss) << poles << ": " << large.message;
         }
     }
@@ -120,11 +120,11 @@ TEST(srivc, superfluous_poles_do_not_spoil_the_model) {
 
 TEST(srivc, stops_when_asked_to_and_still_gives_a_model) {  // oracle: definition of the callback
     const IdData data = course_record(0.2, 14);
-    TransferOptions options;
+    FitOptions options;
     options.lambda = 3;
     int asked = 0;
     options.cancel = [&] { return ++asked > 2; };
-    const TransferEstimate found = srivc(data, kCourse, options);
+    const Fit found = srivc(data, kCourse, options);
     EXPECT_EQ(found.termination, Termination::kCancelled);
     EXPECT_TRUE(found.theta.allFinite());
     EXPECT_EQ(found.trace.size(), 2u);
@@ -132,9 +132,9 @@ TEST(srivc, stops_when_asked_to_and_still_gives_a_model) {  // oracle: definitio
 
 TEST(srivc, refuses_bad_input_in_words) {  // oracle: the sentence names what is wrong
     const IdData data = course_record(0.2, 1);
-    TransferOptions options;
-    options.Tol = -1;
-    EXPECT_NE(thrown_message([&] { srivc(data, kCourse, options); }).find("Tol"), std::string::npos);
+    FitOptions options;
+    options.tolerance = -1;
+    EXPECT_NE(thrown_message([&] { srivc(data, kCourse, options); }).find("`tolerance`"), std::string::npos);
     EXPECT_NE(thrown_message([&] { srivc(data.range(1, 8), kCourse, {}); }).find("9 samples"), std::string::npos);
     EXPECT_NE(thrown_message([&] { TransferStructure::single(2, 3); }).find("zeros"), std::string::npos);
     EXPECT_NE(thrown_message([&] { TransferStructure::single(0, 0); }).find("poles"), std::string::npos);
@@ -149,7 +149,7 @@ TEST(srivc, outputs_with_a_common_denominator_share_what_they_know) {
     const Vector truth = values({2, 9, 3, -1, 2});
     EXPECT_LT(relative_difference(srivc(IdData(y, Matrix(u), 0.01), structure, exact()).theta, truth), 1e-8);
     y.col(0) += 0.3 * RandomStream(2).normal(u.size());
-    const TransferEstimate found = srivc(IdData(y, Matrix(u), 0.01), structure, exact());
+    const Fit found = srivc(IdData(y, Matrix(u), 0.01), structure, exact());
     EXPECT_LT(relative_difference(found.theta.head(2), truth.head(2)), 1e-6) << found.message;
     EXPECT_LT(std::abs(found.theta[2] - 3), 4 * found.std[2]);
     EXPECT_GT(found.trace.front().change, 1e-6) << "the trace begins with the first of all passes";
@@ -162,7 +162,7 @@ TEST(srivc, tells_of_delays_that_held_inputs_cannot_show) {
     const Vector x = lsim(TransferFunction(values({0.5, 1, 2}), a, 0, 0.33), u, 0.05);
     const IdData data(Matrix(x), Matrix(u), 0.05);
     TransferStructure fixed = TransferStructure::single(2, 2, 0.31);
-    const TransferEstimate other = srivc(data, fixed);
+    const Fit other = srivc(data, fixed);
     EXPECT_LT(other.loss, 1e-12 * x.squaredNorm());
     fixed.free_delays = true;
     const char* doubt = "is only known to within one sampling time";

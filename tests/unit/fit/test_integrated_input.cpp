@@ -18,9 +18,9 @@ const TransferFunction kPosition(values({3}), values({1, 2, 0}), 0, 0.12);  // a
 TEST(integrated_input, models_get_the_integrator_of_the_system) {  // oracle: the simulated system
     const Vector u = prbs(7, 6);
     const IdData data(Matrix(lsim(kPosition, u, 0.05)), Matrix(u), 0.05);
-    TransferOptions options;
-    options.Tol = 1e-10;
-    TransferEstimate estimate = srivc(integrated_inputs(data), TransferStructure::single(1, 0, 0.12), options);
+    FitOptions options;
+    options.tolerance = 1e-10;
+    Fit estimate = srivc(integrated_inputs(data), TransferStructure::single(1, 0, 0.12), options);
     append_integrator(estimate);
     EXPECT_LT((estimate.models[0].den() - kPosition.den()).cwiseAbs().maxCoeff(), 1e-6) << estimate.message;
     EXPECT_LT((estimate.models[0].num() - kPosition.num()).cwiseAbs().maxCoeff(), 1e-6);
@@ -36,9 +36,9 @@ TEST(integrated_input, irregular_sampling_counts_every_step) {  // oracle: the s
     const Vector u = random_levels(400, 7, 2);
     const TransferFunction G = kPosition.with_delay(0);
     const IdData data(Matrix(lsim(G, u, t)), Matrix(u), t);
-    TransferOptions options;
-    options.Tol = 1e-10;
-    TransferEstimate estimate = srivc(integrated_inputs(data), TransferStructure::single(1, 0), options);
+    FitOptions options;
+    options.tolerance = 1e-10;
+    Fit estimate = srivc(integrated_inputs(data), TransferStructure::single(1, 0), options);
     append_integrator(estimate);
     EXPECT_LT((estimate.models[0].den() - G.den()).cwiseAbs().maxCoeff(), 1e-5) << estimate.message;
 }
@@ -48,10 +48,10 @@ TEST(integrated_input, running_sums_do_the_same_in_discrete_time) {  // oracle: 
     const PolynomialModel truth(orders, Vector{{-1.7, 0.7, 1, 0.5}}, 0.1);  // poles 1 and 0.7
     const Vector u = random_levels(500, 4, 1);
     const IdData data(Matrix(model_output(truth, u, Vector::Zero(500))), Matrix(u), 0.1);
-    PolynomialEstimate estimate = oe(summed_inputs(data), PolynomialOrders::output_error({2}, {1}, {1}));
+    Fit estimate = oe(summed_inputs(data), PolynomialOrders::output_error({2}, {1}, {1}));
     append_integrator(estimate);
-    EXPECT_LT((estimate.model.F[0] - truth.F[0]).cwiseAbs().maxCoeff(), 1e-8) << estimate.message;
-    EXPECT_LT((estimate.model.B[0] - truth.B[0]).cwiseAbs().maxCoeff(), 1e-8);
+    EXPECT_LT((estimate.polynomial->F[0] - truth.F[0]).cwiseAbs().maxCoeff(), 1e-8) << estimate.message;
+    EXPECT_LT((estimate.polynomial->B[0] - truth.B[0]).cwiseAbs().maxCoeff(), 1e-8);
 }
 
 TEST(integrated_input, needs_a_held_input) {  // oracle: definition

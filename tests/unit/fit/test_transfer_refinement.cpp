@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "numerics/error.h"
-#include "numerics/fit/transfer_data.h"
+#include "numerics/fit/data_checks.h"
 #include "numerics/fit/transfer_refinement.h"
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
@@ -41,9 +41,9 @@ IdData simulated(const TransferStructure& structure, const Vector& theta, Index 
     return IdData(y, u, kTs);
 }
 
-TransferOptions tight() {
-    TransferOptions options;
-    options.Tol = 1e-10;
+FitOptions tight() {
+    FitOptions options;
+    options.tolerance = 1e-10;
     return options;
 }
 
@@ -101,8 +101,8 @@ TEST(transfer_refinement, delays_between_samples_are_estimated) {  // oracle: th
                 truth << 1, 4, -1, 2, delay;
             Vector start = truth;
             start[3 + zeros] = 0.3;
-            TransferOptions options = tight();
-            options.TdMax = 2;
+            FitOptions options = tight();
+            options.largest_delay = 2;
             const auto result =
                 refine_output_error(simulated(structure, truth, 500, 0), structure, kRest, start, options);
             expect_values(result.theta, truth, 1e-8);
@@ -198,9 +198,10 @@ TEST(transfer_refinement, doubts_are_told) {  // oracle: the simulated system
     const auto cancelling =
         refine_output_error(data, TransferStructure::single(2, 1), kRest, Vector{{3.0, 2.0, 2.0, 4.0}}, {});
     EXPECT_THAT(cancelling.message, HasSubstr("nearly cancel")) << cancelling.theta;
-    TransferOptions options;
-    options.MaxIter = 1;
-    EXPECT_THAT(refine_output_error(data, plain, kRest, Vector{{3.0, 1.0}}, options).message, HasSubstr("MaxIter = 1"));
+    FitOptions options;
+    options.max_iterations = 1;
+    EXPECT_THAT(refine_output_error(data, plain, kRest, Vector{{3.0, 1.0}}, options).message,
+                HasSubstr("`max_iterations` = 1"));
     options = {};
     options.cancel = [] { return true; };
     EXPECT_THAT(refine_output_error(data, plain, kRest, Vector{{3.0, 1.0}}, options).message,
@@ -209,14 +210,14 @@ TEST(transfer_refinement, doubts_are_told) {  // oracle: the simulated system
     delayed.free_delays = true;
     const IdData late = simulated(delayed, Vector{{0.8, 2.0, 1.0}}, 400, 0.01);
     options = {};
-    options.TdMax = 0.6;
+    options.largest_delay = 0.6;
     EXPECT_THAT(refine_output_error(late, delayed, kRest, Vector{{0.8, 2.0, 0.5}}, options).message,
-                HasSubstr("raise TdMax"));
-    options.TdMin = 1.3;
-    options.TdMax = 2;
+                HasSubstr("raise `largest_delay`"));
+    options.least_delay = 1.3;
+    options.largest_delay = 2;
     EXPECT_THAT(refine_output_error(late, delayed, kRest, Vector{{0.8, 2.0, 1.5}}, options).message,
-                HasSubstr("lower TdMin"));
-    options.TdMin = 0;
+                HasSubstr("lower `least_delay`"));
+    options.least_delay = 0;
     EXPECT_THAT(refine_output_error(data, delayed, kRest, Vector{{0.8, 2.0, 0.05}}, options).message,
                 HasSubstr("without one suits"));
 }

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "numerics/fit/data_checks.h"
 #include "numerics/fit/refined_iteration.h"
-#include "numerics/fit/transfer_data.h"
 #include "numerics/fit/transfer_search.h"
 #include "numerics/signals/random.h"
 #include "support/transfer_cases.h"
@@ -37,8 +37,8 @@ TEST(transfer_search, the_order_of_unequal_experiments_does_not_matter) {  // or
     TransferStructure structure = TransferStructure::single(2, 0);
     structure.free_delays = true;
     EXPECT_EQ(likely_largest_delay(orders.fast_first), likely_largest_delay(orders.slow_first));
-    TransferOptions options;
-    options.TdMax = 1.4;
+    FitOptions options;
+    options.largest_delay = 1.4;
     const DelayScan one = scan_delays(orders.fast_first, structure, options);
     const DelayScan other = scan_delays(orders.slow_first, structure, options);
     ASSERT_EQ(one.delays.size(), other.delays.size());

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "numerics/estimators/oe.h"
+#include "numerics/estimators/procsrivc.h"
 #include "numerics/estimators/sriv.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/signals/prbs.h"
@@ -39,8 +40,8 @@ Matrix differences(const std::function<Vector(const Vector&)>& output, const Vec
     return Psi;
 }
 
-TransferEstimate estimate_of(const TransferStructure& structure, const Vector& theta, const StartCondition& start) {
-    TransferEstimate estimate;
+Fit estimate_of(const TransferStructure& structure, const Vector& theta, const StartCondition& start) {
+    Fit estimate;
     estimate.structure = structure;
     estimate.theta = theta;
     estimate.models = structure.models(theta);
@@ -148,7 +149,7 @@ TEST(assessment, an_output_given_twice_in_two_units_teaches_nothing_new) {  // o
     Matrix both(y.size(), 2);
     both << y, -1000 * y;
     const IdData one(Matrix(y), Matrix(u), kTs), two(both, Matrix(u), kTs);
-    const TransferEstimate alone = srivc(one, single), joint = srivc(two, twice);
+    const Fit alone = srivc(one, single), joint = srivc(two, twice);
     EXPECT_LT((joint.theta.head(3) - alone.theta).cwiseQuotient(alone.theta).norm(), 1e-4);
     const Vector expected = assess(one, alone).std, std = assess(two, joint).std;
     // The windows are those of 3 and of 4 parameters.
@@ -235,13 +236,13 @@ TEST(assessment, difference_equations) {  // oracle: differences of the simulati
     const Vector u = prbs(6, 8), x = simulated(Vector{{f[0], f[1], b}}, u), v = 0.02 * ar1(u.size(), 0.8, 4);
     const Index N = 400;
     const auto orders = PolynomialOrders::output_error({1}, {2}, {1});
-    PolynomialOptions options;
-    options.Tol = 1e-10;
+    FitOptions options;
+    options.tolerance = 1e-10;
     const IdData whole(Matrix(x + v), Matrix(u), kTs);
     const auto rest = oe(whole, orders, options);
     const auto of_rest = [&](const Vector& theta) { return simulated(theta, u); };
     const auto expected = robust_covariance(differences(of_rest, rest.theta), x + v - of_rest(rest.theta));
-    const Assessment actual = assess(whole, rest, options.offset);
+    const Assessment actual = assess(whole, rest);
     EXPECT_FALSE(actual.white);
     EXPECT_EQ(actual.bandwidth, expected.bandwidth);
     EXPECT_LT((actual.covariance - expected.covariance).norm(), 1e-5 * actual.covariance.norm());
@@ -262,7 +263,7 @@ TEST(assessment, difference_equations) {  // oracle: differences of the simulati
         return driven + linear * linear.colPivHouseholderQr().solve(y - driven);
     };
     const auto of_cut = robust_covariance(differences(refitted, running.theta), y - refitted(running.theta));
-    const Assessment cut_actual = assess(cut, running, options.offset);
+    const Assessment cut_actual = assess(cut, running);
     const double freedom = static_cast<double>(N - 3) / static_cast<double>(N - 6);
     EXPECT_LT((cut_actual.covariance - freedom * of_cut.covariance).norm(), 1e-3 * cut_actual.covariance.norm());
 }
@@ -272,7 +273,7 @@ TEST(assessment, parameters_held_at_a_bound_stay_certain) {  // oracle: the defi
     const TransferFunction G(Vector{{2.0}}, Vector{{1.0, 1.0}});
     const IdData data(Matrix(lsim(G, u, kTs) + 0.1 * ar1(u.size(), 0.8, 1)), Matrix(u), kTs);
     const auto structure = TransferStructure::single(1, 0);
-    TransferEstimate estimate = estimate_of(structure, Vector{{1.0, 2.0}}, {InitialState::kZero, false});
+    Fit estimate = estimate_of(structure, Vector{{1.0, 2.0}}, {InitialState::kZero, false});
     estimate.covariance(0, 0) = 0;
     const Assessment held = assess(data, estimate);
     EXPECT_EQ(held.std[0], 0);

@@ -54,7 +54,7 @@ TEST(delay_search, curve_is_the_loss_of_the_best_model_at_each_delay) {  // orac
     Index lowest;
     search.losses().minCoeff(&lowest);
     EXPECT_NEAR(search.grid()[lowest], 8, 0.2);
-    const TransferEstimate fixed = srivc(data, TransferStructure::single(2, 1, search.grid()[lowest]));
+    const Fit fixed = srivc(data, TransferStructure::single(2, 1, search.grid()[lowest]));
     EXPECT_NEAR(search.losses()[lowest], fixed.loss, 1e-3 * fixed.loss);
     EXPECT_LE(search.loss(), search.losses()[lowest] * (1 + 1e-9));
 }
@@ -64,7 +64,7 @@ TEST(delay_search, no_delay_is_worse_than_no_model) {  // oracle: a gain of zero
     DelaySearchOptions options;
     options.poles = {2, 2};
     options.zeros = {0, 0};
-    options.estimation.TdMax = 5;
+    options.estimation.largest_delay = 5;
     const DelaySearch search = search_delay(data, options);
     EXPECT_LE(search.losses().maxCoeff(), data.experiments.front().y.squaredNorm() / 1016 * (1 + 1e-12));
     EXPECT_TRUE(search.losses().allFinite());
@@ -85,7 +85,7 @@ TEST(delay_search, rivals_of_periodic_inputs_are_told) {
     DelaySearchOptions options;
     options.poles = {1, 1};
     options.zeros = {0, 0};
-    options.estimation.TdMax = 6;
+    options.estimation.largest_delay = 6;
     const DelaySearch search = search_delay(data, options);
     ASSERT_TRUE(search.rival);
     EXPECT_THAT(search.explanation, HasSubstr("explains them nearly as well"));
@@ -112,9 +112,10 @@ TEST(delay_search, stops_when_asked_to) {
 TEST(delay_search, refuses_what_cannot_be_searched) {
     const IdData data = record(kTrap, prbs(8, 5), 0.1, 15, 1);
     DelaySearchOptions options;
-    options.estimation.TdMin = options.estimation.TdMax.emplace(2);
-    EXPECT_THAT(thrown_message([&] { search_delay(data, options); }), HasSubstr("TdMax must be above TdMin (2 s)"));
-    options.estimation.TdMax = 1000;
+    options.estimation.least_delay = options.estimation.largest_delay.emplace(2);
+    EXPECT_THAT(thrown_message([&] { search_delay(data, options); }),
+                HasSubstr("`largest_delay` must be above `least_delay` (2 s)"));
+    options.estimation.largest_delay = 1000;
     EXPECT_THROW(search_delay(data, options), InvalidArgument);
     options = {};
     options.poles = {3, 2};

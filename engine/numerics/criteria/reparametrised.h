@@ -1,0 +1,34 @@
+#pragma once
+#include <functional>
+
+#include "numerics/criteria/output_error_model.h"
+
+namespace dynlab::inline numerics {
+
+/// An output-error model in other parameters: with theta leading smoothly to the inner model's parameters q(theta), its
+/// output is that of q(theta), and by the chain rule its sensitivities are those of the inner model times dq/dtheta.
+class Reparametrised : public OutputErrorModel {
+  public:
+    struct Point {
+        Vector inner;        ///< q(theta)
+        Matrix derivatives;  ///< dq/dtheta, inner parameters x parameters
+    };
+    using Map = std::function<Point(const Vector& theta)>;
+
+    /// Keeps a reference to `inner`. The bounds, of equal length, are those of theta.
+    Reparametrised(const OutputErrorModel& inner, Map map, Vector lower, Vector upper);
+
+    Index parameter_count() const override { return lower_.size(); }
+    const Vector& lower() const override { return lower_; }
+    const Vector& upper() const override { return upper_; }
+    void simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const override;
+    OutputErrorProducts products(const Vector& theta, const VectorView& y) const override;
+    bool products_come_cheap() const override { return inner_.products_come_cheap(); }
+
+  private:
+    const OutputErrorModel& inner_;
+    Map map_;
+    Vector lower_, upper_;
+};
+
+}  // namespace dynlab::inline numerics

@@ -1,0 +1,77 @@
+#include "numerics/fit/fit.h"
+
+#include <cmath>
+
+#include "numerics/error.h"
+#include "numerics/number_text.h"
+
+namespace dynlab::inline numerics {
+
+void FitOptions::validate() const {
+    if (lambda && (!(*lambda > 0) || !std::isfinite(*lambda)))
+        throw InvalidArgument("lambda must be a positive number of rad/s, and is " + number_text(*lambda));
+    if (!(least_delay >= 0) || !std::isfinite(least_delay))
+        throw InvalidArgument("`least_delay` must not be negative, and is " + number_text(least_delay));
+    if (largest_delay && (!(*largest_delay >= least_delay) || !std::isfinite(*largest_delay)))
+        throw InvalidArgument("`largest_delay` must be at least `least_delay` = " + number_text(least_delay) +
+                              ", and is " + number_text(*largest_delay));
+    if (delay_count < 1)
+        throw InvalidArgument("`delay_count` must be at least 1, and is " + std::to_string(delay_count));
+    if (max_iterations < 0)
+        throw InvalidArgument("`max_iterations` must not be negative, and is " + std::to_string(max_iterations));
+    if (!(tolerance > 0) || !std::isfinite(tolerance))
+        throw InvalidArgument("`tolerance` must be positive, and is " + number_text(tolerance));
+}
+
+Fit polynomial_fit(const PolynomialOrders& orders, const VectorView& theta, double Ts) {
+    Fit fit;
+    fit.orders = orders;
+    fit.polynomial.emplace(orders, theta, Ts);
+    fit.names = orders.parameter_names();
+    fit.theta = theta;
+    return fit;
+}
+
+double fit_percent_of_sums(double squared_errors, double squared_variations) {
+    return 100 * (1 - std::sqrt(squared_errors / squared_variations));
+}
+
+Vector output_variations(const IdData& data) {
+    Vector sums = Vector::Zero(data.output_count());
+    for (const Experiment& experiment : data.experiments)
+        sums += (experiment.y.rowwise() - experiment.y.colwise().mean()).colwise().squaredNorm().transpose();
+    return sums;
+}
+
+Vector output_powers(const IdData& data) {
+    Vector sums = Vector::Zero(data.output_count());
+    for (const Experiment& experiment : data.experiments) sums += experiment.y.colwise().squaredNorm().transpose();
+    return sums / static_cast<double>(data.sample_count());
+}
+
+CentredData without_operating_points(const IdData& data) {
+    CentredData centred{data, {}};
+    for (Experiment& experiment : centred.data.experiments) {
+        auto& removed = centred.removed.emplace_back();
+        const Matrix u = experiment.u;
+        for (Index output = 0; output < experiment.y.cols(); ++output) {
+            removed.push_back(joint_operating_point(u, experiment.y.col(output)));
+            experiment.y.col(output).array() -= removed.back().output;
+        }
+        if (!removed.empty()) experiment.u.rowwise() -= removed.front().inputs.transpose();
+    }
+    return centred;
+}
+
+CentredData centred_for(const IdData& data, Offset offset) {
+    return offset == Offset::kRemove ? without_operating_points(data) : CentredData{data, {}};
+}
+
+void add_operating_points(Fit& fit, std::vector<std::vector<JointOperatingPoint>> removed) {
+    for (std::size_t e = 0; e < removed.size(); ++e)
+        for (std::size_t o = 0; o < removed[e].size(); ++o)
+            fit.offsets(static_cast<Index>(e), static_cast<Index>(o)) += removed[e][o].output;
+    fit.removed = std::move(removed);
+}
+
+}  // namespace dynlab::inline numerics

@@ -1,0 +1,104 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "numerics/criteria/initial_conditions.h"
+#include "numerics/fit/termination.h"
+#include "numerics/models/polynomial_model.h"
+#include "numerics/models/process_model.h"
+#include "numerics/models/transfer_structure.h"
+#include "numerics/signals/iddata.h"
+
+namespace dynlab::inline numerics {
+
+/// What all iterative estimators ask. Methods for difference equations have no use for lambda, hold_y and delays.
+/// Messages write the names of options in backticks: `max_iterations`.
+struct FitOptions {
+    InitialState initial_state = InitialState::kZero;
+    Offset offset = Offset::kNone;
+    double least_delay = 0;               ///< s; of a free delay
+    std::optional<double> largest_delay;  ///< s; from the data unless given
+    int delay_count = 100;                ///< most delays on the grid between the two
+    int max_iterations = 50;
+    double tolerance = 1e-6;       ///< on the largest relative parameter change, made or still to come
+    std::optional<double> lambda;  ///< rad/s, cut-off of the filter of the first estimate; several are tried without
+    Hold hold_y = Hold::kFoh;      ///< how the output behaves between its samples inside the filters
+    std::function<bool()> cancel;  ///< asked before every iteration
+
+    /// Throws InvalidArgument naming the option.
+    void validate() const;
+};
+
+/// Noise v = C(q^-1)/D(q^-1) e of an estimated model, monic, with standard errors (zero for the leading ones). C and D
+/// are in powers of q^-1.
+struct NoiseModel {
+    Vector C, D, C_std, D_std;
+};
+
+/// The static part of a Hammerstein model: straight lines between K levels at the edges of bins.
+struct StaticCharacteristic {
+    Vector breakpoints;             ///< K edges of the bins, in units of the input
+    Vector levels, levels_std;      ///< K values there, in units of the output
+    double linear_fit_percent = 0;  ///< of the best linear model of the same orders
+};
+
+/// The result of every estimator with parameters. e are the errors that its model takes as white: of the simulation
+/// (srivc, coe, procsrivc, hammerstein, oe, sriv), of the prediction (rivc, armax, bj), of the equation (arx, iv4,
+/// lssvf, ivsvf).
+struct Fit {
+    TransferStructure structure;           ///< of continuous-time models
+    PolynomialOrders orders;               ///< of difference equations
+    std::vector<TransferFunction> models;  ///< continuous-time: of the channels, row by row
+    std::optional<ProcessModel> process;   ///< time constants in falling order
+    std::optional<PolynomialModel> polynomial;
+    std::optional<StaticCharacteristic> characteristic;
+    std::optional<NoiseModel> noise;  ///< of rivc
+
+    std::vector<std::string> names;  ///< of theta
+    Vector theta, std;               ///< in seconds and rad/s; see the structure, the process model or the orders
+    Matrix covariance;               ///< noise_variance (Psi'Psi)^-1, Psi the regressors, instruments or sensitivities
+    Matrix noise_covariance;         ///< rivc: of [c_1..c_nc d_1..d_nd]
+    Vector noise_variance;           ///< per output, of e: sum of squares/(N - d), d the values that bear on the output
+    Vector fit_percent;              ///< per output: simulation, over all experiments
+    double prediction_fit_percent = 0;  ///< difference equations: one step ahead
+    double loss = 0;                    ///< mean square of e over all outputs; for rivc of the simulation error
+    double condition_number = 0;        ///< of the column-scaled Psi
+
+    StartCondition start{InitialState::kZero, false};  ///< assumed or chosen; kEstimate where nothing is assumed
+    std::vector<Vector> initial_values;  ///< per experiment, when estimated: y, dy/dt, ... of each output's free motion
+    Matrix offsets;                      ///< experiments x outputs, added to the simulation; zeros without
+    /// Per experiment, of each output: the operating point that Offset::kRemove took off; empty otherwise.
+    std::vector<std::vector<JointOperatingPoint>> removed;
+    Vector output;                  ///< procsrivc: simulated, all experiments, offset and operating point included
+    Vector delay_grid, delay_loss;  ///< s and mean square error, when a delay was looked for
+
+    Termination termination = Termination::kConverged;
+    std::vector<FitIteration> trace;
+    std::vector<std::string> warnings;  ///< whole sentences
+    std::string message;                ///< one sentence, then the warnings
+};
+
+/// A fit of difference equations, its model and names made from the values; all else is to be filled.
+Fit polynomial_fit(const PolynomialOrders& orders, const VectorView& theta, double Ts);
+
+/// 100 (1 - |error|/|y - mean(y)|), the means taken experiment by experiment, from the two sums of squares.
+double fit_percent_of_sums(double squared_errors, double squared_variations);
+
+/// Per output: the sum of squares about the mean of each experiment, and the mean square.
+Vector output_variations(const IdData& data);
+Vector output_powers(const IdData& data);
+
+/// The data counted from each experiment's operating point, and those points: [experiment][output].
+struct CentredData {
+    IdData data;
+    std::vector<std::vector<JointOperatingPoint>> removed;
+};
+CentredData without_operating_points(const IdData& data);
+/// The data as they are, and no points, unless `offset` is kRemove.
+CentredData centred_for(const IdData& data, Offset offset);
+/// Adds the removed outputs to the fit's offsets and keeps the points.
+void add_operating_points(Fit& fit, std::vector<std::vector<JointOperatingPoint>> removed);
+
+}  // namespace dynlab::inline numerics

@@ -1,0 +1,15 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dynlab::inline scripting {
+
+/// Numerics names its options in backticks, `max_iterations`, and knows no word of Lua: here they become the names that
+/// scripts use, MaxIter. Other text in backticks stays as it is.
+std::string in_lua_words(std::string_view message);
+
+/// The names of numerics' options that in_lua_words() knows.
+std::vector<std::string> translated_options();
+
+}  // namespace dynlab::inline scripting

@@ -1,0 +1,95 @@
+#include "scripting/objects/fit_model.h"
+
+#include "scripting/arguments/option_words.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+Vector initial_values_of(const Fit& fit) {
+    return fit.initial_values.empty() ? Vector() : fit.initial_values.front();
+}
+
+void add_transfer_fields(Estimate& estimate, const Fit& fit) {
+    const auto passes = static_cast<Index>(fit.trace.size());
+    Vector changes(passes);
+    Matrix path(passes, fit.theta.size());
+    for (Index i = 0; i < passes; ++i) {
+        const FitIteration& iteration = fit.trace[static_cast<std::size_t>(i)];
+        changes[i] = iteration.change;
+        path.row(i) = iteration.theta.transpose();
+    }
+    estimate.vectors = {{"fits", fit.fit_percent},       {"delay_grid", fit.delay_grid},
+                        {"delay_loss", fit.delay_loss},  {"initial_values", initial_values_of(fit)},
+                        {"offsets", fit.offsets.col(0)}, {"changes", changes}};
+    estimate.matrices = {{"path", path}};
+}
+
+void add_noise_fields(Estimate& estimate, const Fit& fit) {
+    estimate.noise = std::make_shared<NoiseModel>(*fit.noise);
+    estimate.vectors.insert(estimate.vectors.end(), {{"C_std", fit.noise->C_std}, {"D_std", fit.noise->D_std}});
+    estimate.matrices.emplace_back("noise_covariance", fit.noise_covariance);
+}
+
+void add_process_fields(Estimate& estimate, const Fit& fit) {
+    estimate.numbers.emplace_back("offset", fit.offsets(0, 0));
+    estimate.vectors = {{"output", fit.output},
+                        {"initial_values", initial_values_of(fit)},
+                        {"offsets", fit.offsets.col(0)},
+                        {"delay_grid", fit.delay_grid},
+                        {"delay_loss", fit.delay_loss}};
+}
+
+void add_polynomial_fields(Estimate& estimate, const Fit& fit) {
+    estimate.numbers.emplace_back("prediction_fit_percent", fit.prediction_fit_percent);
+    Vector losses(static_cast<Index>(fit.trace.size()));
+    for (Index i = 0; i < losses.size(); ++i) losses[i] = fit.trace[static_cast<std::size_t>(i)].loss;
+    estimate.vectors = {{"offsets", fit.offsets.col(0)}, {"losses", losses}};
+}
+
+void add_characteristic_fields(Estimate& estimate, const StaticCharacteristic& characteristic) {
+    estimate.of_coefficients = false;
+    estimate.numbers.emplace_back("linear_fit_percent", characteristic.linear_fit_percent);
+    estimate.vectors = {{"breakpoints", characteristic.breakpoints},
+                        {"levels", characteristic.levels},
+                        {"levels_std", characteristic.levels_std}};
+}
+
+}  // namespace
+
+Estimate estimate_of(const char* method, const Fit& fit) {
+    Estimate estimate;
+    estimate.method = method;
+    estimate.names = fit.names;
+    estimate.theta = fit.theta;
+    estimate.std = fit.std;
+    estimate.covariance = fit.covariance;
+    estimate.message = in_lua_words(fit.message);
+    for (const std::string& warning : fit.warnings) estimate.warnings.push_back(in_lua_words(warning));
+    estimate.converged = fit.termination == Termination::kConverged;
+    estimate.numbers = {{"fit_percent", fit.fit_percent[0]},
+                        {"noise_variance", fit.noise_variance[0]},
+                        {"loss", fit.loss},
+                        {"condition_number", fit.condition_number},
+                        {"iterations", static_cast<double>(fit.trace.size())}};
+    if (!fit.structure.channels.empty()) add_transfer_fields(estimate, fit);
+    if (fit.noise) add_noise_fields(estimate, fit);
+    if (fit.process) add_process_fields(estimate, fit);
+    if (fit.polynomial) add_polynomial_fields(estimate, fit);
+    if (fit.characteristic) add_characteristic_fields(estimate, *fit.characteristic);
+    return estimate;
+}
+
+int give_fit(const Call& call, Estimate estimate, const Fit& fit) {
+    Model model{fit.polynomial ? fit.polynomial->transfer_function() : fit.models.front()};
+    if (fit.models.size() > 1) {
+        model.channels = fit.models;
+        model.outputs = static_cast<std::size_t>(fit.structure.outputs);
+    }
+    model.process = fit.process;
+    if (fit.polynomial) model.polynomial = std::make_shared<PolynomialModel>(*fit.polynomial);
+    model.estimate = std::make_shared<Estimate>(std::move(estimate));
+    push_object(call.state(), std::move(model));
+    return 1;
+}
+
+}  // namespace dynlab::inline scripting

@@ -1,0 +1,62 @@
+// What a user reads names the options as scripts write them. Oracle: the sentences that the help pages' options
+// promise.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "script_run.h"
+#include "scripting/arguments/option_words.h"
+
+namespace test_option_words {
+
+using namespace dynlab;
+using testing::HasSubstr;
+
+TEST(option_words, names_in_backticks_become_those_of_lua) {  // oracle: definition
+    EXPECT_EQ(in_lua_words("raise `largest_delay` = 2, or `tolerance`"), "raise TdMax = 2, or Tol");
+    EXPECT_EQ(in_lua_words("`max_iterations`"), "MaxIter");
+    EXPECT_EQ(in_lua_words("a `foreign` word and `offset`"), "a `foreign` word and Offset");
+    EXPECT_EQ(in_lua_words("one ` alone, max_iterations"), "one ` alone, max_iterations");
+    EXPECT_EQ(in_lua_words(""), "");
+}
+
+const std::string kRecord =
+    "rng(1) local u = prbs(7, 4)\n"
+    "local y = lsim(tf({2}, {1, 4, 3}, {IODelay = 0.5}), u, 0.05) + 0.01*randn(#u, 1)\n"
+    "local d = iddata(y, u, 0.05)\n";
+
+TEST(option_words, errors_name_the_options_of_scripts) {
+    for (const auto& [call, said] : std::vector<std::pair<std::string, std::string>>{
+             {"procsrivc(d, 'P1D', {TdMin = 2, TdMax = 1})", "TdMax must be at least TdMin = 2, and is 1"},
+             {"tfsrivc(d, 2, 0, {TdMax = 1000})", "TdMax must be shorter than the record"},
+             {"tfcoe(d, 2, 0, {TdMin = -1})", "TdMin must not be negative, and is -1"},
+             {"tfsrivc(d, 2, 0, {NumTd = 0})", "NumTd must be at least 1"},
+             {"coe(d, {1, 2, 0}, {InitialState = 'warm'})", "InitialState is \"zero\", \"steady\""},
+             {"oe(d, {1, 2, 1}, {Offset = 'big'})", "Offset is \"none\", \"remove\""},
+             {"procsrivc(d, 'P1I', {InitialState = 'estimate', Offset = 'estimate'})",
+              "with InitialState \"estimate\""},
+             {"srivc(d, {1, 2, 0}, {Tol = 0})", "Tol must be positive, and is 0"},
+             {"hammerstein(d, 2, 0, {Bins = 0})", "Bins must lie between 1 and 1000"},
+             {"hammerstein(d, 2, 0, {Breakpoints = {2, 1}})", "Breakpoints must increase"},
+             {"n4sid(d, 3, {BlockRows = 2})", "BlockRows must be greater than the order"}}) {
+        const std::string error = dynlab::test::error_of(kRecord + call);
+        EXPECT_THAT(error, HasSubstr(said)) << call;
+        EXPECT_THAT(error, testing::Not(HasSubstr("`"))) << call;
+    }
+}
+
+TEST(option_words, messages_name_the_options_of_scripts) {
+    for (const auto& [call, said] : std::vector<std::pair<std::string, std::string>>{
+             {"procsrivc(d, 'P1D', {TdMax = 0.2})",
+              "The delay lies at TdMax = 0.2 s, the edge of what was searched: "
+              "raise TdMax."},
+             {"tfsrivc(d, 2, 0, {TdMin = 0.8, TdMax = 1.5})", "lower TdMin"},
+             {"coe(d, {1, 2, 0}, {MaxIter = 1})", "had not settled after MaxIter = 1 iterations"},
+             {"oe(d, {2, 2, 1}, {MaxIter = 0})", "had not settled after MaxIter = 0 iterations"},
+             {"tfcoe(d, 1, 1, {TdMax = 1})", "Fix the delay with IODelay"}}) {
+        const std::string message = dynlab::test::printed(kRecord + "print(" + call + ".report.message)");
+        EXPECT_THAT(message, HasSubstr(said)) << call;
+        EXPECT_THAT(message, testing::Not(HasSubstr("`"))) << call;
+    }
+}
+
+}  // namespace test_option_words

@@ -1,0 +1,113 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "numerics/fit/diagnosis.h"
+#include "support/transfer_cases.h"
+
+namespace test_diagnosis {
+
+using namespace dynlab;
+using namespace dynlab::test;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// A fit of one channel, every parameter known to 1 %.
+Fit fit_of(int poles, int zeros, const Vector& theta) {
+    Fit fit;
+    fit.structure = TransferStructure::single(poles, zeros);
+    fit.theta = theta;
+    fit.covariance = (0.01 * theta).cwiseAbs2().asDiagonal();
+    fit.condition_number = 10;
+    fit.fit_percent = values({93.214});
+    return fit;
+}
+
+TEST(diagnosis, of_models) {  // oracle: poles and zeros written down
+    Fit plain = fit_of(2, 0, values({4, 3, 2}));
+    describe_models(plain);
+    EXPECT_THAT(plain.warnings, IsEmpty());
+    EXPECT_THAT(plain.names, ElementsAre("a1", "a2", "b0"));
+    EXPECT_LT((plain.std - values({0.04, 0.03, 0.02})).cwiseAbs().maxCoeff(), 1e-15);
+    EXPECT_NEAR(plain.models.front().dc_gain(), 2.0 / 3, 1e-15);
+    Fit cancelling = fit_of(2, 1, values({4, 3, 2, 2.001}));  // (s + 1)(s + 3) over 2 (s + 1.0005)
+    describe_models(cancelling);
+    EXPECT_THAT(cancelling.warnings, ElementsAre(HasSubstr("A pole near -1 and a zero nearly cancel")));
+    Fit unstable = fit_of(2, 0, values({-1, 3, 2}));
+    describe_models(unstable);
+    EXPECT_THAT(unstable.warnings, ElementsAre("The model is unstable."));
+}
+
+TEST(diagnosis, of_parameters) {  // oracle: the definition
+    Fit fit = fit_of(2, 0, values({4, 3, 2}));
+    fit.names = {"a1", "a2", "b0"};
+    fit.std = values({5, 1, 3});
+    warn_of_doubtful_parameters(fit);
+    EXPECT_THAT(fit.warnings, ElementsAre(HasSubstr("hardly determine a1, b0")));
+    fit.warnings.clear();
+    fit.names[0] = "Td";  // zero is a delay's own bound
+    warn_of_doubtful_parameters(fit);
+    EXPECT_THAT(fit.warnings, ElementsAre(HasSubstr("hardly determine b0")));
+    fit.warnings.clear();
+    fit.condition_number = 1e12;
+    warn_of_doubtful_parameters(fit, "fewer bins");
+    EXPECT_THAT(fit.warnings, ElementsAre(testing::AllOf(HasSubstr("do not tell all parameters apart"),
+                                                         HasSubstr("fewer bins or a richer input"))));
+}
+
+TEST(diagnosis, of_delays) {  // oracle: the definition
+    const auto said = [](double delay, const DelayRange& range) {
+        Fit fit;
+        warn_of_delay(fit, delay, range, " from input 1 to output 2");
+        return fit.warnings;
+    };
+    EXPECT_THAT(said(0.5, {0, 1}), IsEmpty());
+    EXPECT_THAT(said(1, {0, 1}), ElementsAre(HasSubstr("to output 2 lies at `largest_delay` = 1 s")));
+    EXPECT_THAT(said(0.2, {0.2, 1}), ElementsAre(HasSubstr("lower `least_delay`")));
+    EXPECT_THAT(said(0, {0, 1}), ElementsAre(HasSubstr("No delay from input 1 to output 2 is visible")));
+    EXPECT_THAT(said(0.7, {0.7, 0.7}), ElementsAre(HasSubstr("`least_delay`")));
+}
+
+TEST(diagnosis, of_the_search) {  // oracle: the sentences that scripts promise
+    Fit fit = fit_of(1, 0, values({1, 2}));
+    FitOptions options;
+    options.max_iterations = 7;
+    fit.trace.resize(7);
+    EXPECT_EQ(ending_text(fit), "converged after 7 iterations");
+    fit.termination = Termination::kIterationLimit;
+    describe_search(fit, course_record(0, 1), "Method", options, {});
+    EXPECT_THAT(fit.message, HasSubstr("Method stopped after 7 iterations, simulated from rest at zero input: fit "
+                                       "93.21 % (simulation). The search had not settled after `max_iterations` = 7"));
+    fit.termination = Termination::kCancelled;
+    fit.warnings.clear();
+    warn_of_search(fit, options);
+    EXPECT_THAT(fit.warnings, ElementsAre(HasSubstr("was stopped before its end")));
+    fit.fit_percent = values({50, 60});
+    EXPECT_EQ(simulation_text(fit), "fit 50 % and 60 % (simulation)");
+    const TransferStructure grid = TransferStructure::grid(2, 2, Denominators::kPerChannel, {1}, {0}, {0});
+    EXPECT_EQ(channel_text(grid, 2), " from input 1 to output 2");
+    EXPECT_EQ(channel_text(TransferStructure::single(1, 0), 0), "");
+}
+
+TEST(diagnosis, a_delay_that_a_direct_term_hides) {  // oracle: the warning's own condition
+    Fit fit = fit_of(1, 1, values({1, 2, 1, 0.3}));
+    fit.structure.free_delays = true;
+    IdData data = course_record(0, 1);
+    describe_search(fit, data, "Method", {}, {0, 1});
+    EXPECT_THAT(fit.message, HasSubstr("Fix the delay with `delay`"));
+    fit.warnings.clear();
+    data.hold = Hold::kFoh;
+    describe_search(fit, data, "Method", {}, {0, 1});
+    EXPECT_THAT(fit.message, testing::Not(HasSubstr("Fix the delay")));
+}
+
+TEST(diagnosis, of_difference_equations) {  // oracle: poles written down
+    Fit stable = polynomial_fit(PolynomialOrders::arx(1, {1}, {1}), values({-0.5, 1}), 1);
+    warn_of_unstable_polynomials(stable);
+    EXPECT_THAT(stable.warnings, IsEmpty());
+    Fit unstable = polynomial_fit(PolynomialOrders::arx(1, {1}, {1}), values({-1.5, 1}), 1);
+    warn_of_unstable_polynomials(unstable);
+    EXPECT_THAT(unstable.warnings, ElementsAre(HasSubstr("pole outside or on the unit circle")));
+}
+
+}  // namespace test_diagnosis

@@ -1,0 +1,74 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "numerics/fit/fit.h"
+#include "support/thrown_message.h"
+#include "support/transfer_cases.h"
+
+namespace test_fit {
+
+using namespace dynlab;
+using namespace dynlab::test;
+using testing::HasSubstr;
+
+std::string refusal(const std::function<void(FitOptions&)>& change) {
+    FitOptions options;
+    change(options);
+    return thrown_message([&] { options.validate(); });
+}
+
+TEST(fit, options_that_make_no_sense_are_named) {  // oracle: the promises of the header
+    EXPECT_NO_THROW(FitOptions{}.validate());
+    EXPECT_THAT(refusal([](FitOptions& o) { o.lambda = -1; }), HasSubstr("lambda must be a positive number"));
+    EXPECT_THAT(refusal([](FitOptions& o) { o.least_delay = -1; }), HasSubstr("`least_delay` must not be negative"));
+    EXPECT_THAT(refusal([](FitOptions& o) { o.least_delay = 2, o.largest_delay = 1; }),
+                HasSubstr("`largest_delay` must be at least `least_delay` = 2, and is 1"));
+    EXPECT_THAT(refusal([](FitOptions& o) { o.delay_count = 0; }), HasSubstr("`delay_count`"));
+    EXPECT_THAT(refusal([](FitOptions& o) { o.max_iterations = -1; }), HasSubstr("`max_iterations`"));
+    EXPECT_THAT(refusal([](FitOptions& o) { o.tolerance = 0; }), HasSubstr("`tolerance` must be positive"));
+}
+
+TEST(fit, the_percentage_is_that_of_the_norms) {  // oracle: the formula on numbers written down
+    EXPECT_DOUBLE_EQ(fit_percent_of_sums(1, 4), 50);
+    EXPECT_DOUBLE_EQ(fit_percent_of_sums(0, 4), 100);
+    EXPECT_DOUBLE_EQ(fit_percent_of_sums(16, 4), -100);
+    Matrix first(3, 2), second(2, 2);
+    first << 1, 0, 2, 0, 3, 6;
+    second << 10, 1, 12, 1;
+    const IdData data = IdData::merge({IdData(first, Matrix::Ones(3, 1), 1), IdData(second, Matrix::Ones(2, 1), 1)});
+    EXPECT_LT((output_variations(data) - values({2 + 2, 24 + 0})).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_LT((output_powers(data) - values({258.0 / 5, 38.0 / 5})).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(fit, operating_points_come_off_and_go_back) {  // oracle: the definition, a step and a record that swings
+    Matrix step(4, 1), swing(4, 1), y(4, 2);
+    step << 2, 2, 5, 5;
+    swing << 1, 3, 1, 3;
+    y << 10, 1, 20, 1, 30, 2, 40, 2;
+    const IdData data = IdData::merge({IdData(y, step, 1), IdData(y, swing, 1)});
+    const CentredData centred = without_operating_points(data);
+    EXPECT_EQ(centred.data.experiments[0].u(0, 0), 0);   // the step rests at its first value,
+    EXPECT_EQ(centred.removed[0][0].output, 20);         // up to the sample of the step: (10 + 20 + 30)/3
+    EXPECT_EQ(centred.data.experiments[1].u(0, 0), -1);  // the other swings about its mean
+    EXPECT_EQ(centred.removed[1][0].output, 25);
+    EXPECT_EQ(centred.removed[1][1].output, 1.5);
+    Fit fit;
+    fit.offsets = Matrix::Constant(2, 2, 0.5);
+    add_operating_points(fit, centred.removed);
+    EXPECT_EQ(fit.offsets(0, 0), 20.5);
+    EXPECT_EQ(fit.offsets(1, 1), 2);
+    EXPECT_EQ(fit.removed.size(), 2u);
+    EXPECT_TRUE(centred_for(data, Offset::kEstimate).removed.empty());
+    EXPECT_EQ(centred_for(data, Offset::kEstimate).data.experiments[0].y, y);
+    EXPECT_EQ(centred_for(data, Offset::kRemove).data.experiments[1].u, centred.data.experiments[1].u);
+}
+
+TEST(fit, of_difference_equations) {  // oracle: the orders' own names
+    const PolynomialOrders orders = PolynomialOrders::arx(1, {2}, {1});
+    const Fit fit = polynomial_fit(orders, values({-0.5, 2, 1}), 0.1);
+    EXPECT_EQ(fit.names, orders.parameter_names());
+    EXPECT_EQ(fit.polynomial->A, values({1, -0.5}));
+    EXPECT_EQ(fit.polynomial->B[0], values({0, 2, 1}));
+}
+
+}  // namespace test_fit

@@ -1,0 +1,40 @@
+#include <gtest/gtest.h>
+
+#include "numerics/fit/simulation_error.h"
+#include "support/transfer_cases.h"
+
+namespace test_simulation_error {
+
+using namespace dynlab;
+using namespace dynlab::test;
+
+TEST(simulation_error, of_two_inputs_and_two_experiments) {  // oracle: second route, lsim channel by channel
+    const TransferStructure structure =
+        TransferStructure::grid(1, 2, Denominators::kPerChannel, {2, 1}, {0, 0}, {0.1, 0.237});
+    const Vector theta = values({4, 3, 2, 1.5, -1});
+    const auto models = structure.models(theta);
+    std::vector<IdData> parts;
+    double squares = 0, spread = 0;
+    for (const std::uint32_t seed : {1u, 2u}) {
+        const Index N = seed == 1 ? 700 : 300;
+        Matrix u(N, 2);
+        u << prbs(8, 5, -1, 1).head(N), RandomStream(seed).normal(N);
+        const Vector noise = 0.2 * RandomStream(seed + 10).normal(N);
+        const Vector y = lsim(models[0], u.col(0), 0.02) + lsim(models[1], u.col(1), 0.02) + noise;
+        squares += noise.squaredNorm();
+        spread += (y.array() - y.mean()).square().sum();
+        parts.emplace_back(Matrix(y), u, 0.02);
+    }
+    const IdData data = IdData::merge(parts);
+    EXPECT_NEAR(simulation_squares(data, structure, theta, 0) / squares, 1, 1e-9);
+    Fit fit;
+    fit.structure = structure;
+    fit.theta = theta;
+    measure_simulation(fit, data);
+    EXPECT_NEAR(fit.loss, squares / 1000, 1e-11);
+    EXPECT_NEAR(fit.noise_variance[0], squares / (1000 - 5), 1e-11);
+    EXPECT_NEAR(fit.fit_percent[0], 100 * (1 - std::sqrt(squares / spread)), 1e-7);
+    EXPECT_EQ(fit.offsets, Matrix::Zero(2, 1));
+}
+
+}  // namespace test_simulation_error
