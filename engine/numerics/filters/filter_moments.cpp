@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "numerics/filters/cascade_moments.h"
 #include "numerics/filters/lane_filter.h"
 #include "numerics/filters/sample_moments.h"
 
@@ -135,8 +134,6 @@ Matrix lane_moments(std::vector<LaneFilter>& filters, const std::vector<Filtered
 
 Matrix filter_moments(const std::vector<FilteredSignal>& signals, const std::vector<Index>& left,
                       const std::vector<Index>& right, const std::vector<OutputSum>& sums) {
-    if (sums.empty())
-        if (std::optional<Matrix> moments = cascade_moments(signals, left, right)) return *std::move(moments);
     const Index N = signals.front().signal.size();
     Index latest = 0;
     for (const FilteredSignal& signal : signals) latest = std::max(latest, signal.system.delay);

@@ -2,20 +2,20 @@
 #include <array>
 #include <type_traits>
 
-#include "numerics/filters/cascade_basis.h"
 #include "numerics/filters/lanes.h"
+#include "numerics/filters/newton_basis.h"
 
 namespace dynlab::inline numerics {
 
-// Cascades (cascade_basis.h) step by step, segments of the record side by side in the lanes of machine vectors; all
-// sizes are known to the compiler, and nothing is allocated.
+// Cascades in the Newton basis (newton_basis.h) step by step, segments of the record side by side in the lanes of
+// machine vectors; all sizes are known to the compiler, and nothing is allocated.
 
 constexpr int kCascadeLanes = Lanes::kWidth;
 constexpr Index kShortestCascadeSegment = 8;  ///< samples a lane; shorter ones are not worth it
 
 /// A signal as its cascade sees it.
 struct CascadeSource {
-    std::array<CascadeBasis::Pair, 2> pairs = {};
+    std::array<PolePair, 2> pairs = {};
     double feed = 0;                                  ///< where only q is a column
     const double* v = nullptr;                        ///< the first sample of the sums
     Eigen::Vector4d state = Eigen::Vector4d::Zero();  ///< there; as many as the cascade has

@@ -53,7 +53,7 @@ class SegmentMemory {
     static Transition transition(const CascadeSource& source) {
         Transition F = Transition::Zero();
         for (int i = 0; i < kOrder; ++i) {
-            const CascadeBasis::Pair& pair = source.pairs[static_cast<std::size_t>(i / 2)];
+            const PolePair& pair = source.pairs[static_cast<std::size_t>(i / 2)];
             F(i, i) = pair.centre;
             if (i > 0) F(i, i - 1) = 1;
             if (i % 2 == 1) F(i - 1, i) = pair.square;

@@ -4,14 +4,23 @@
 #include <cmath>
 #include <limits>
 
-#include "numerics/filters/cascade_basis.h"
+#include "numerics/linalg/types.h"
 
 namespace dynlab::inline numerics {
 
-// What a CascadeBasis is made of, for sizes that the compiler knows.
+// The Newton basis of the poles of a system with n = 2 or 4 states, in which one step takes the fewest multiplications.
+// In pairs, (z - centre)^2 - square being the characteristic polynomial of a pair,
+//     p[k+1] = centre p[k] + square q[k] + v[k],   q[k+1] = centre q[k] + p[k],
+// and q drives the next pair. Then x[k] = to_state [p; q; p; q] + a multiple of v[k]. With
+// N(i) = (F - centre_i I)^2 - square_i I, the columns of to_state are g, (F - centre) g, and the same of N g; the
+// remainder, N N g, is zero by the Cayley-Hamilton theorem.
+
+struct PolePair {
+    double centre = 0, square = 0;
+};
 
 /// The pair of a 2 x 2 block, without cancellation where its poles are close; equal poles are so exactly.
-inline CascadeBasis::Pair pair_of(const Eigen::Matrix2d& F) {
+inline PolePair pair_of(const Eigen::Matrix2d& F) {
     constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
     const double half = 0.5 * (F(0, 0) - F(1, 1)), square = half * half + F(0, 1) * F(1, 0);
     return {0.5 * (F(0, 0) + F(1, 1)), std::abs(square) <= kRounding * half * half ? 0 : square};
@@ -29,11 +38,11 @@ Eigen::Matrix<double, n, 1> solve_scaled(Eigen::Matrix<double, n, n> A, Eigen::M
     return columns.cwiseProduct(A.fullPivLu().solve(b));
 }
 
-/// CascadeBasis::to_state for x[k+1] = F x[k] + g v[k]. `in_order`: the pairs are those of the blocks of F, one after
+/// to_state for x[k+1] = F x[k] + g v[k]. `in_order`: the pairs are those of the blocks of F, one after
 /// the other.
 template <int n>
 Eigen::Matrix<double, n, n> newton_columns(const Eigen::Matrix<double, n, n>& F, Eigen::Matrix<double, n, 1> g,
-                                           const CascadeBasis::Pair* pairs, bool in_order) {
+                                           const PolePair* pairs, bool in_order) {
     Eigen::Matrix<double, n, n> to_state;
     for (Index i = 0; i < n; i += 2) {
         const auto [centre, square] = pairs[i / 2];

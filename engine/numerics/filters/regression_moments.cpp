@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "numerics/filters/delta_regression.h"
 #include "numerics/filters/two_pole_moments.h"
 
 namespace dynlab::inline numerics {
@@ -90,6 +91,7 @@ class Equation {
 
 RegressionMoments svf_moments(const RegressionRecord& record, const VectorView& E, double gain) {
     if (auto moments = two_pole_svf_moments(record, E, gain)) return *std::move(moments);
+    if (auto moments = delta_svf_moments(record, E, gain)) return *std::move(moments);
     const Index n = E.size() - 1;
     Equation equation(record, n);
     equation.add_output(E);
@@ -105,6 +107,7 @@ RegressionMoments svf_moments(const RegressionRecord& record, const VectorView& 
 RegressionMoments auxiliary_moments(const RegressionRecord& record, const VectorView& E, const VectorView& A,
                                     const std::vector<Vector>& B, double gain) {
     if (auto moments = two_pole_auxiliary_moments(record, E, A, B[0], gain)) return *std::move(moments);
+    if (auto moments = delta_auxiliary_moments(record, E, A, B, gain)) return *std::move(moments);
     const Index n = E.size() - 1;
     Equation equation(record, n);
     equation.add_output(E);
@@ -146,6 +149,7 @@ std::vector<Index> add_sensitivities(Equation& equation, const RegressionRecord&
 RegressionMoments refined_moments(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B,
                                   bool with_gram) {
     if (auto moments = two_pole_refined_moments(record, A, B[0], with_gram)) return *std::move(moments);
+    if (auto moments = delta_refined_moments(record, A, B, with_gram)) return *std::move(moments);
     Equation equation(record, A.size() - 1);
     equation.add_output(A);
     const std::vector<Index> z = add_sensitivities(equation, record, A, B);
@@ -163,13 +167,13 @@ double output_error_squares(const RegressionRecord& record, const std::vector<Ve
     std::vector<FilterChain> chains{{record.y, no_filter(), record.hold_y}};
     for (std::size_t j = 0; j < record.u.size(); ++j)
         chains.push_back({record.u[j], transfer_system(B[j], A[j]), record.hold, record.delays[j]});
-    if (record.sampling.Ts > 0 && chains.size() == 2) {
-        // The quickest, where enough digits are left: nearly noise-free data go the long way.
-        constexpr double kLeft = 1e-4;
-        const std::optional<Eigen::Matrix2d> own = two_pole_output_moments(record, A[0], B[0]);
-        const Matrix sums = own ? Matrix(*own) : chain_moments(chains, record.sampling, {0, 1}, {0, 1});
-        const double squares = sums(0, 0) - 2 * sums(0, 1) + sums(1, 1);
-        if (squares > kLeft * std::max(sums(0, 0), sums(1, 1))) return squares;
+    // The quickest, where enough digits are left: nearly noise-free data go the long way.
+    constexpr double kLeft = 1e-4;
+    if (const std::optional<Matrix> sums = delta_output_moments(record, A, B)) {
+        Vector error = Vector::Constant(sums->rows(), -1);
+        error[0] = 1;
+        const double squares = error.dot(*sums * error);
+        if (squares > kLeft * sums->diagonal().maxCoeff()) return squares;
     }
     if (record.sampling.Ts > 0 && record.y.size() <= kStoredSamples) {
         Vector error = record.y;

@@ -1,30 +1,9 @@
 #pragma once
 #include <vector>
 
-#include "numerics/filters/filter_chain.h"
+#include "numerics/filters/regression_record.h"
 
 namespace dynlab::inline numerics {
-
-/// One equation A(p) y = sum_j B_j(p) u_j(t - delay_j) of degree n over one record: what LSSVF, IVSVF and SRIVC solve.
-struct RegressionRecord {
-    SampleView y;
-    std::vector<SampleView> u;
-    std::vector<int> zeros;      ///< degree m_j <= n of each B_j
-    std::vector<double> delays;  ///< s
-    Sampling sampling;
-    Hold hold = Hold::kZoh;    ///< of the inputs
-    Hold hold_y = Hold::kFoh;  ///< of the output inside the filters
-};
-
-/// Sums over the samples of the filtered equation p^n y_f = phi' theta with theta = [a_1..a_n, B_1, B_2, ...],
-///     phi = [-p^(n-1) y_f .. -y_f, p^m_1 u_f,1 .. u_f,1, ...],
-/// multiplied by instruments z (d = number of parameters).
-struct RegressionMoments {
-    Matrix z_phi;    ///< d x d, sum z phi'
-    Vector z_y;      ///< d, sum z p^n y_f
-    Matrix z_z;      ///< d x d, sum z z', when asked for
-    double y_y = 0;  ///< sum (p^n y_f)^2, with z = phi only
-};
 
 /// z = phi, all signals filtered by gain/E(p), E monic of degree n.
 RegressionMoments svf_moments(const RegressionRecord& record, const VectorView& E, double gain = 1);

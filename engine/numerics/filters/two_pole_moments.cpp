@@ -43,10 +43,10 @@ SampledSystem<n, p> sampled(const System<n, p>& system, const Step<n>& step, Hol
     return {step.F, step.H1, step.H0, system.C, system.D};
 }
 
-/// A CascadeBasis of a system at rest.
+/// The Newton basis of a system at rest.
 template <int n, int p>
 struct Basis {
-    std::array<CascadeBasis::Pair, 2> pairs = {};
+    std::array<PolePair, 2> pairs = {};
     Sized<p, n + 1> outputs;  ///< of the states, then the sample
     Sized<n, 1> start;        ///< state at the first sample, for a sample of one
 
@@ -58,7 +58,7 @@ struct Basis {
 };
 
 template <int n, int p>
-Basis<n, p> basis_of(const SampledSystem<n, p>& system, const std::array<CascadeBasis::Pair, 2>& pairs, bool in_order) {
+Basis<n, p> basis_of(const SampledSystem<n, p>& system, const std::array<PolePair, 2>& pairs, bool in_order) {
     Basis<n, p> basis;
     basis.pairs = pairs;
     const Sized<n, 1> g = system.F.lazyProduct(system.next) + system.now;
@@ -72,7 +72,7 @@ Basis<n, p> basis_of(const SampledSystem<n, p>& system, const std::array<Cascade
 /// Of a system with two poles, or of two in series that have the same.
 template <int n, int p>
 Basis<n, p> basis_of(const SampledSystem<n, p>& system) {
-    const CascadeBasis::Pair pair = pair_of(system.F.template topLeftCorner<2, 2>());
+    const PolePair pair = pair_of(system.F.template topLeftCorner<2, 2>());
     return basis_of(system, {pair, pair}, true);
 }
 
@@ -266,7 +266,8 @@ std::optional<RegressionMoments> two_pole_refined_moments(const RegressionRecord
         const auto step = step_of(cascade, record.sampling.Ts);
         if (!step) return {};
         const Step<2> of_filter{step->F.template topLeftCorner<2, 2>(), step->G.template head<2>(),
-                                step->H0.template head<2>(), step->H1.template head<2>()};
+                                step->H0.template head<2>(), step->H1.template head<2>(),
+                                step->E.template topLeftCorner<2, 2>()};
         const auto of_y = basis_of(sampled(output_filter(A), of_filter, record.hold_y));
         const auto of_u = basis_of(sampled(cascade, *step, record.hold));
         const Sized<m + 3, of_input> outputs = of_u.outputs.template leftCols<of_input>();

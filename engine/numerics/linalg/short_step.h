@@ -10,6 +10,7 @@ template <int n, int m>
 struct SizedStep {
     Eigen::Matrix<double, n, n> F;
     Eigen::Matrix<double, n, m> G, H0, H1;
+    Eigen::Matrix<double, n, n> E;  ///< F - I, with all digits however short the step
 };
 
 /// A short step of n states by Taylor's series of phi_2(Z) = sum_k Z^k/(k+2)!, Z = hA (Higham 2008, section 10.7.4):
@@ -30,10 +31,11 @@ std::optional<SizedStep<n, m>> short_step(const Eigen::Matrix<double, n, n>& A, 
     Square phi2 = identity;
     for (int k = terms; k > 0; --k) phi2 = (identity + (1.0 / (k + 2) * Z).lazyProduct(phi2)).eval();
     phi2 /= 2;
-    const Square phi1 = identity + Z.lazyProduct(phi2), F = identity + Z.lazyProduct(phi1);
+    const Square phi1 = identity + Z.lazyProduct(phi2), E = Z.lazyProduct(phi1);
     const Eigen::Matrix<double, n, m> input = scale.cwiseInverse().asDiagonal() * (h * B);
     SizedStep<n, m> step;
-    step.F = scale.asDiagonal() * F * scale.cwiseInverse().asDiagonal();
+    step.E = scale.asDiagonal() * E * scale.cwiseInverse().asDiagonal();
+    step.F = step.E + identity;
     step.G = scale.asDiagonal() * phi1.lazyProduct(input);
     step.H1 = scale.asDiagonal() * phi2.lazyProduct(input);
     step.H0 = step.G - step.H1;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "numerics/filters/lanes.h"
+#include "numerics/filters/regression_moments.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/signals/random.h"
 

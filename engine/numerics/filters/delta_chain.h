@@ -1,0 +1,27 @@
+#pragma once
+#include <array>
+
+#include "numerics/linalg/types.h"
+
+namespace dynlab::inline numerics {
+
+constexpr int kMostDeltaOrder = 9;
+
+/// A signal v filtered by 1/A(delta) with the operator delta = q - 1 (Middleton and Goodwin 1990), and the differences
+/// of what comes out: the columns
+///     X_j = delta^j/A v,  j = 0 .. n,    A = delta^n + alpha_(n-1) delta^(n-1) + ... + alpha_0.
+/// The state is X_0 .. X_(n-1), and X_n = v - sum alpha_j X_j = X_(n-1)[k+1] - X_(n-1)[k]. Every output of a sampled
+/// system with these poles is a combination of the columns, in which derivatives lose no digits: they are differences.
+/// v is zero before the sample `begin` of the record, at which `start` is added to the state, and after `count`
+/// samples.
+struct DeltaChain {
+    int order = 0;  ///< n <= kMostDeltaOrder
+    std::array<double, kMostDeltaOrder> alpha = {}, start = {};
+    const double* samples = nullptr;
+    Index begin = 0, count = 0;
+};
+
+/// Largest matrix of products of two chains' columns, without memory of its own on the heap.
+using ColumnMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostDeltaOrder + 1, kMostDeltaOrder + 1>;
+
+}  // namespace dynlab::inline numerics

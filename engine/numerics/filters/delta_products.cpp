@@ -1,0 +1,397 @@
+#include "numerics/filters/delta_products.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "numerics/filters/lanes.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+using Part = Lanes::Part;
+constexpr int kDeltaLanes = Lanes::kWidth;
+constexpr Index kShortestDeltaSegment = 8;  // samples a lane; shorter ones are not worth it
+constexpr Index kDeltaBlock = 32;           // samples a lane that are looked at at a time
+constexpr Index kDeltaStored = 256;         // a segment as short as this is read only once
+
+/// What both chains have come to, in all lanes.
+struct DeltaState {
+    Part first[kMostDeltaOrder] = {}, second[kMostDeltaOrder] = {};
+};
+/// The products that are summed while filtering.
+struct DeltaSums {
+    Part first[kMostDeltaOrder + 1] = {}, both[2 * kMostDeltaOrder + 1] = {}, second[kMostDeltaOrder + 1] = {};
+};
+/// Where the memory is asked for what is needed soon: by itself, the processor stops at the end of every page.
+struct ReadAhead {
+    const double *first, *second;
+    Index segment;
+};
+
+/// Of the products X_j W_(s-j), the j of the one that is summed.
+constexpr int summed_row(int n1, int n2, int s) {
+    return (std::max(0, s - n2) + std::min(n1, s)) / 2;
+}
+
+using DeltaLoop = void (*)(const DeltaChain&, const DeltaChain&, const Part* v, const Part* w, Index steps,
+                           const ReadAhead& ahead, DeltaState& state, DeltaSums& sums);
+
+template <int n1, int n2, bool kSums>
+void delta_loop(const DeltaChain& first, const DeltaChain& second, const Part* v, const Part* w, Index steps,
+                const ReadAhead& ahead, DeltaState& state, DeltaSums& sums) {
+    Part x[n1 + 1], y[n2 + 1], of_x[n1 + 1], both[n1 + n2 + 1], of_y[n2 + 1];
+    double alpha[n1 + 1], beta[n2 + 1];
+    std::copy_n(first.alpha.data(), n1, alpha);
+    std::copy_n(second.alpha.data(), n2, beta);
+    repeat<n1>([&](auto j) { x[j] = state.first[j]; });
+    repeat<n2>([&](auto j) { y[j] = state.second[j]; });
+    repeat<kSums ? n1 + 1 : 0>([&](auto j) { of_x[j] = sums.first[j]; });
+    repeat<kSums ? n1 + n2 + 1 : 0>([&](auto s) { both[s] = sums.both[s]; });
+    repeat<kSums ? n2 + 1 : 0>([&](auto j) { of_y[j] = sums.second[j]; });
+    Index line = 0;
+    for (Index k = 0; k < steps; ++k) {
+        if constexpr (kSums) {
+            __builtin_prefetch(ahead.first + line);
+            __builtin_prefetch(ahead.second + line);
+            line += ahead.segment;
+            if (k % kDeltaLanes == kDeltaLanes - 1) line += kDeltaLanes - kDeltaLanes * ahead.segment;
+        }
+        x[n1] = v[k];
+        y[n2] = w[k];
+        repeat<n1>([&](auto j) __attribute__((always_inline)) { x[n1] -= alpha[j] * x[j]; });
+        repeat<n2>([&](auto j) __attribute__((always_inline)) { y[n2] -= beta[j] * y[j]; });
+        if constexpr (kSums) {
+            repeat<n1 + 1>([&](auto j) __attribute__((always_inline)) { of_x[j] += x[j] * x[j]; });
+            repeat<n1 + n2 + 1>([&](auto s) __attribute__((always_inline)) {
+                constexpr int j = summed_row(n1, n2, s);
+                both[s] += x[j] * y[s - j];
+            });
+            repeat<n2 + 1>([&](auto j) __attribute__((always_inline)) { of_y[j] += y[j] * y[j]; });
+        }
+        repeat<n1>([&](auto j) __attribute__((always_inline)) { x[j] += x[j + 1]; });
+        repeat<n2>([&](auto j) __attribute__((always_inline)) { y[j] += y[j + 1]; });
+    }
+    repeat<n1>([&](auto j) { state.first[j] = x[j]; });
+    repeat<n2>([&](auto j) { state.second[j] = y[j]; });
+    repeat<kSums ? n1 + 1 : 0>([&](auto j) { sums.first[j] = of_x[j]; });
+    repeat<kSums ? n1 + n2 + 1 : 0>([&](auto s) { sums.both[s] = both[s]; });
+    repeat<kSums ? n2 + 1 : 0>([&](auto j) { sums.second[j] = of_y[j]; });
+}
+
+/// The loops for two orders: filtering alone, and with sums.
+struct DeltaLoops {
+    DeltaLoop filter = nullptr, sum = nullptr;
+};
+
+/// Those that regressions with one to four poles need: an output (or a signal as it is) beside an input, whose order is
+/// that of the model, or twice as much for its sensitivities, and one more for a delay between samples with inputs on
+/// straight lines; and inputs beside each other.
+DeltaLoops loops_for(int order1, int order2) {
+    DeltaLoops loops;
+    const auto pair = [&](auto n1, auto n2) {
+        if (order1 == n1 && order2 == n2) loops = {delta_loop<n1, n2, false>, delta_loop<n1, n2, true>};
+    };
+    repeat<5>([&](auto i) { pair(std::integral_constant<int, 0>(), std::integral_constant<int, i + 1>()); });
+    repeat<4>([&](auto i) {
+        constexpr std::integral_constant<int, i + 1> n;
+        pair(n, std::integral_constant<int, n + 1>());
+        if constexpr (n > 1) pair(n, std::integral_constant<int, 2 * n>());
+        pair(n, std::integral_constant<int, 2 * n + 1>());
+    });
+    repeat<9>([&](auto i) { pair(std::integral_constant<int, i + 1>(), std::integral_constant<int, i + 1>()); });
+    return loops;
+}
+
+/// How the states of two chains move by themselves over a segment, found by filtering nothing from unit states, one in
+/// each lane: powers of matrices or polynomials would lose what slow poles leave beside fast ones.
+class FreeMotion {
+  public:
+    FreeMotion(const DeltaChain& first, const DeltaChain& second, const DeltaLoops& loops, Index segment)
+        : first_(first), second_(second), segment_(segment) {
+        constexpr Index kShort = 512;  // looking is no gain for segments as short as this
+        const Part nothing[kDeltaBlock] = {};
+        for (int column = 0; column < std::max(first.order, second.order); column += kDeltaLanes) {
+            DeltaState state;
+            DeltaSums sums;
+            for (int lane = 0; lane < kDeltaLanes && column + lane < kMostDeltaOrder; ++lane)
+                state.first[column + lane][lane] = state.second[column + lane][lane] = 1;
+            const Index most = column == 0 ? segment : back_;
+            Index k = 0;
+            while (k < most && (segment <= kShort || column > 0 || !forgotten(state))) {
+                const Index steps = std::min(most - k, kDeltaBlock);
+                loops.filter(first, second, nothing, nothing, steps, {nullptr, nullptr, 0}, state, sums);
+                k += steps;
+            }
+            back_ = k;
+            for (int j = 0; j < kMostDeltaOrder; ++j) {
+                columns1_[column / kDeltaLanes][j] = state.first[j];
+                columns2_[column / kDeltaLanes][j] = state.second[j];
+            }
+        }
+    }
+
+    /// Samples before a lane's first one that its state remembers, or all of a segment.
+    Index back() const { return back_; }
+    /// After a run from rest over the end of the segments, each lane's last state is where the next one begins.
+    void hand_over(DeltaState& state) const {
+        hand_over(first_.order, columns1_, state.first);
+        hand_over(second_.order, columns2_, state.second);
+    }
+
+  private:
+    using Columns = Part[(kMostDeltaOrder + kDeltaLanes - 1) / kDeltaLanes][kMostDeltaOrder];
+
+    void hand_over(int order, const Columns& columns, Part* state) const {
+        double x[kMostDeltaOrder] = {};
+        for (int lane = 0; lane < kDeltaLanes; ++lane) {
+            double next[kMostDeltaOrder];
+            for (int j = 0; j < order; ++j) {
+                next[j] = state[j][lane];
+                if (back_ == segment_)
+                    for (int i = 0; i < order; ++i) next[j] += columns[i / kDeltaLanes][j][i % kDeltaLanes] * x[i];
+            }
+            for (int j = 0; j < order; ++j) {
+                state[j][lane] = x[j];
+                x[j] = next[j];
+            }
+        }
+    }
+
+    /// Whether less is left than rounding, differences being measured by the mean pole.
+    bool forgotten(const DeltaState& state) const {
+        return forgotten(first_, state.first) && forgotten(second_, state.second);
+    }
+    static bool forgotten(const DeltaChain& chain, const Part* state) {
+        constexpr double kStateDecay = 1e-19;
+        if (chain.order == 0) return true;
+        const double pole = std::pow(std::abs(chain.alpha[0]), 1.0 / chain.order);
+        double left = 0, row = 1;
+        for (int j = 0; j < chain.order; ++j, row *= pole) {
+            double scale = 1 / row;
+            for (int i = 0; i < std::min(chain.order, kDeltaLanes); ++i, scale *= pole)
+                left = std::max(left, std::abs(state[j][i]) * scale);
+        }
+        return left <= kStateDecay;
+    }
+
+    const DeltaChain &first_, &second_;
+    Index segment_, back_ = 0;
+    Columns columns1_, columns2_;
+};
+
+double total(const Part& part) {
+    double sum = 0;
+    for (int lane = 0; lane < kDeltaLanes; ++lane) sum += part[lane];
+    return sum;
+}
+
+/// The samples of one chain, lane by lane; where the record ends, `one_lane` takes what no segment holds.
+class LaneReader {
+  public:
+    LaneReader(const DeltaChain& chain, Index segment) : chain_(chain), segment_(segment) {}
+
+    /// Steps from .. from + count - 1 of all segments; what was read last is kept.
+    const Part* read(Index from, Index count) {
+        if (from >= from_ && from + count <= from_ + count_) return block_ + (from - from_);
+        from_ = from;
+        count_ = count;
+        const Index first = from - chain_.begin, last = first + (kDeltaLanes - 1) * segment_ + count;
+        Index k = 0;
+        if (first >= 0 && last <= chain_.count) {
+            const double* const v = chain_.samples + first;
+            for (; k + kDeltaLanes <= count; k += kDeltaLanes) Lanes::gather_tile(v + k, segment_, block_ + k);
+        }
+        for (; k < count; ++k)
+            for (int lane = 0; lane < kDeltaLanes; ++lane) block_[k][lane] = sample(from + k + lane * segment_);
+        return block_;
+    }
+    /// The same of one stretch, the other lanes being zero.
+    const Part* one_lane(Index from, Index count) {
+        count_ = 0;
+        for (Index k = 0; k < count; ++k) {
+            block_[k] = Part{};
+            block_[k][0] = sample(from + k);
+        }
+        return block_;
+    }
+    const double* ahead(Index from) const {
+        constexpr Index kAhead = 128;
+        return chain_.samples + (from + kAhead - chain_.begin);
+    }
+
+  private:
+    double sample(Index k) const {
+        const Index place = k - chain_.begin;
+        return place >= 0 && place < chain_.count ? chain_.samples[place] : 0;
+    }
+
+    const DeltaChain& chain_;
+    Index segment_, from_ = 0, count_ = 0;
+    Part block_[kDeltaStored];
+};
+
+/// Growth of the products of states over all stretches, in all lanes.
+class Growth {
+  public:
+    Growth(int n1, int n2) : n1_(n1), n2_(n2) {
+        for (int i = 0; i < n1; ++i) {
+            std::fill_n(both_[i], n2, Part{});
+            std::fill_n(first_[i], n1, Part{});
+        }
+        for (int i = 0; i < n2; ++i) std::fill_n(second_[i], n2, Part{});
+    }
+
+    void add(const DeltaState& state, double sign) {
+        for (int i = 0; i < n1_; ++i) {
+            const Part x = sign * state.first[i];
+            for (int j = 0; j < n2_; ++j) both_[i][j] += x * state.second[j];
+            for (int j = i; j < n1_; ++j) first_[i][j] += x * state.first[j];
+        }
+        for (int i = 0; i < n2_; ++i)
+            for (int j = i; j < n2_; ++j) second_[i][j] += sign * state.second[i] * state.second[j];
+    }
+    double both(int i, int j) const { return total(both_[i][j]); }
+    double first(int i, int j) const { return total(first_[std::min(i, j)][std::max(i, j)]); }
+    double second(int i, int j) const { return total(second_[std::min(i, j)][std::max(i, j)]); }
+
+  private:
+    int n1_, n2_;
+    Part both_[kMostDeltaOrder][kMostDeltaOrder], first_[kMostDeltaOrder][kMostDeltaOrder],
+        second_[kMostDeltaOrder][kMostDeltaOrder];
+};
+
+class DeltaRun {
+  public:
+    DeltaRun(const DeltaChain& first, const DeltaChain& second, const DeltaLoops& loops, Index N)
+        : first_(first),
+          second_(second),
+          loops_(loops),
+          N_(N),
+          segment_(N / kDeltaLanes),
+          reader1_(first, segment_),
+          reader2_(second, segment_),
+          growth_(first.order, second.order) {}
+
+    DeltaProducts products() {
+        find_states();
+        run(0, segment_, true);
+        keep_last_lane();
+        in_lanes_ = false;
+        run(kDeltaLanes * segment_, N_, true);
+        DeltaProducts result;
+        result.first = own_products(first_.order, sums_.first, [&](int i, int j) { return growth_.first(i, j); });
+        result.second = own_products(second_.order, sums_.second, [&](int i, int j) { return growth_.second(i, j); });
+        result.both = common_products();
+        return result;
+    }
+
+  private:
+    /// Each lane's first state: it runs over the end of the segment before its own.
+    void find_states() {
+        const FreeMotion free_motion(first_, second_, loops_, segment_);
+        run(segment_ - free_motion.back(), segment_, false);
+        free_motion.hand_over(state_);
+    }
+
+    /// Steps from .. to - 1, of all segments or, at the end of the record, of one lane.
+    void run(Index from, Index to, bool with_sums) {
+        for (Index k = from; k < to;) {
+            Index next = to;
+            begin_signal(first_, k, state_.first, next);
+            begin_signal(second_, k, state_.second, next);
+            if (with_sums) growth_.add(state_, -1);
+            for (; k < next; k += advance(k, next, with_sums)) continue;
+            if (with_sums) growth_.add(state_, 1);
+        }
+    }
+
+    /// At the step where a signal begins, its start is added in its lane; stops the run there otherwise.
+    void begin_signal(const DeltaChain& chain, Index k, Part* state, Index& next) const {
+        if (chain.begin >= N_) return;
+        const Index lane = in_lanes_ ? chain.begin / segment_ : 0;
+        const Index step = in_lanes_ ? chain.begin % segment_ : chain.begin;
+        if (lane >= kDeltaLanes) return;
+        if (step > k) next = std::min(next, step);
+        if (step != k) return;
+        for (int j = 0; j < chain.order; ++j) state[j][lane] += chain.start[static_cast<std::size_t>(j)];
+    }
+
+    Index advance(Index k, Index to, bool with_sums) {
+        const Index steps = std::min(to - k, in_lanes_ && segment_ > kDeltaStored ? kDeltaBlock : kDeltaStored);
+        const Part* v = nullptr;
+        const Part* w = nullptr;
+        if (!in_lanes_) {
+            v = reader1_.one_lane(k, steps);
+            w = reader2_.one_lane(k, steps);
+        } else {
+            if (segment_ <= kDeltaStored) {
+                reader1_.read(0, segment_);
+                reader2_.read(0, segment_);
+            }
+            v = reader1_.read(k, steps);
+            w = reader2_.read(k, steps);
+        }
+        const ReadAhead ahead{reader1_.ahead(k), reader2_.ahead(k), segment_};
+        (with_sums ? loops_.sum : loops_.filter)(first_, second_, v, w, steps, ahead, state_, sums_);
+        return steps;
+    }
+
+    /// What is left of the record goes on in the first lane from where the last one has come to.
+    void keep_last_lane() {
+        const auto keep = [](Part& part) {
+            const double last = part[kDeltaLanes - 1];
+            part = Part{};
+            part[0] = last;
+        };
+        for (Part& part : state_.first) keep(part);
+        for (Part& part : state_.second) keep(part);
+    }
+
+    /// All products of a chain's columns from their squares.
+    template <class GrowthOf>
+    static ColumnMatrix own_products(int n, const Part* squares, const GrowthOf& growth) {
+        ColumnMatrix S(n + 1, n + 1);
+        for (int s = 2 * n; s >= 0; --s) {
+            int j = s / 2, i = s - j;
+            // 2 X_j X_(j+1) + X_(j+1)^2 is the difference of X_j^2.
+            S(j, i) = S(i, j) = i == j ? total(squares[i]) : (growth(j, j) - S(i, i)) / 2;
+            for (; j > 0 && i < n; --j, ++i)
+                S(j - 1, i + 1) = S(i + 1, j - 1) = growth(j - 1, i) - S(j, i) - S(j, i + 1);
+        }
+        return S;
+    }
+
+    ColumnMatrix common_products() const {
+        const int n1 = first_.order, n2 = second_.order;
+        ColumnMatrix S(n1 + 1, n2 + 1);
+        for (int s = n1 + n2; s >= 0; --s) {
+            const int middle = summed_row(n1, n2, s);
+            S(middle, s - middle) = total(sums_.both[s]);
+            for (int j = middle, i = s - j; j < n1 && i > 0; ++j, --i)
+                S(j + 1, i - 1) = growth_.both(j, i - 1) - S(j, i) - S(j + 1, i);
+            for (int j = middle, i = s - j; j > 0 && i < n2; --j, ++i)
+                S(j - 1, i + 1) = growth_.both(j - 1, i) - S(j, i) - S(j, i + 1);
+        }
+        return S;
+    }
+
+    const DeltaChain &first_, &second_;
+    DeltaLoops loops_;
+    Index N_, segment_;
+    bool in_lanes_ = true;
+    LaneReader reader1_, reader2_;
+    DeltaState state_;
+    DeltaSums sums_;
+    Growth growth_;
+};
+
+}  // namespace
+
+std::optional<DeltaProducts> delta_products(const DeltaChain& first, const DeltaChain& second, Index N) {
+    const DeltaLoops loops = loops_for(first.order, second.order);
+    if (!loops.sum || N < kDeltaLanes * kShortestDeltaSegment) return {};
+    return DeltaRun(first, second, loops, N).products();
+}
+
+}  // namespace dynlab::inline numerics

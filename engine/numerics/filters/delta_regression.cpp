@@ -1,0 +1,355 @@
+#include "numerics/filters/delta_regression.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "numerics/filters/delta_products.h"
+#include "numerics/filters/delta_sampling.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+template <int n>
+StateMatrix<n> companion_of(const VectorView& den) {
+    StateMatrix<n> A = StateMatrix<n>::Zero();
+    for (int i = 0; i < n; ++i) A(0, i) = -den[i + 1];
+    for (int i = 1; i < n; ++i) A(i, i - 1) = 1;
+    return A;
+}
+
+/// p^highest/A .. 1/A as outputs of the companion form, the n-th by identity.
+template <int n>
+struct Derivatives {
+    Eigen::Matrix<double, Eigen::Dynamic, n, 0, n + 1, n> C;
+    Vector D;
+
+    Derivatives(const VectorView& den, int highest) : D(Vector::Zero(highest + 1)) {
+        C.setZero(highest + 1, n);
+        for (int row = 0; row <= highest; ++row)
+            if (n - 1 - highest + row >= 0) C(row, n - 1 - highest + row) = 1;
+        if (highest < n) return;
+        for (int i = 0; i < n; ++i) C(0, i) = -den[i + 1];
+        D[0] = 1;
+    }
+};
+
+/// p^n/A .. 1/A of the output.
+template <int n>
+DeltaSignal filtered_output(const RegressionRecord& record, const VectorView& A) {
+    const DelayedStep<n> step = delayed_step<n>(companion_of<n>(A), record.sampling.Ts, record.hold_y, 0);
+    const Derivatives<n> derivatives(A, n);
+    return delta_signal<n>(step, expansion<n>, derivatives.C, derivatives.D, record.y, false);
+}
+
+/// p^m/A .. 1/A of an input.
+template <int n>
+DeltaSignal filtered_input(const RegressionRecord& record, std::size_t input, const VectorView& A, bool longer) {
+    const DelayedStep<n> step =
+        delayed_step<n>(companion_of<n>(A), record.sampling.Ts, record.hold, record.delays[input]);
+    const Derivatives<n> derivatives(A, record.zeros[input]);
+    return delta_signal<n>(step, expansion<n>, derivatives.C, derivatives.D, record.u[input], longer);
+}
+
+template <int n>
+DeltaSignal simulated(const RegressionRecord& record, std::size_t input, const VectorView& A, const Vector& B,
+                      bool longer) {
+    const DelayedStep<n> step =
+        delayed_step<n>(companion_of<n>(A), record.sampling.Ts, record.hold, record.delays[input]);
+    const Derivatives<n> derivatives(A, static_cast<int>(B.size()) - 1);
+    const Eigen::Matrix<double, 1, n> C = B.transpose() * derivatives.C;
+    return delta_signal<n>(step, expansion<n>, C, Vector::Constant(1, B.dot(derivatives.D)), record.u[input], longer);
+}
+
+/// A signal as it is.
+DeltaSignal unfiltered(const SampleView& samples) {
+    DeltaSignal signal;
+    signal.chain.samples = samples.data();
+    signal.chain.count = samples.size();
+    signal.outputs.setOnes(1, 1);
+    return signal;
+}
+
+/// SRIVC's instruments -p^(n-1) B/A^2 .. -B/A^2, p^m/A .. 1/A of one input: the cascade of z = u/A and w = z/A.
+template <int n>
+DeltaSignal sensitivities(const RegressionRecord& record, std::size_t input, const VectorView& A, const Vector& B,
+                          bool longer) {
+    const int m = static_cast<int>(B.size()) - 1;
+    StateMatrix<2 * n> cascade = StateMatrix<2 * n>::Zero();
+    cascade.template topLeftCorner<n, n>() = companion_of<n>(A);
+    cascade.template bottomRightCorner<n, n>() = cascade.template topLeftCorner<n, n>();
+    cascade(n, n - 1) = 1;
+    // Row r: p^r w, from A(p) w = z for r >= n.
+    StateMatrix<2 * n> derivatives_of_w = StateMatrix<2 * n>::Zero();
+    for (int r = 0; r < 2 * n; ++r) {
+        derivatives_of_w(r, 2 * n - 1 - r) = 1;
+        if (r >= n)
+            for (int i = 1; i <= n; ++i) derivatives_of_w.row(r) -= A[i] * derivatives_of_w.row(r - i);
+    }
+    const Derivatives<n> derivatives_of_z(A, m);
+    Eigen::Matrix<double, Eigen::Dynamic, 2 * n, 0, 2 * n + 1, 2 * n> C;
+    C.setZero(n + m + 1, 2 * n);
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j <= m; ++j) C.row(i) -= B[j] * derivatives_of_w.row(n - 1 - i + m - j);
+    C.bottomLeftCorner(m + 1, n) = derivatives_of_z.C;
+    Vector D = Vector::Zero(n + m + 1);
+    D.tail(m + 1) = derivatives_of_z.D;
+    const DelayedStep<2 * n> step = delayed_step<2 * n>(cascade, record.sampling.Ts, record.hold, record.delays[input]);
+    return delta_signal<2 * n>(step, cascade_expansion<n>, C, D, record.u[input], longer);
+}
+
+/// p^(n-1)/E .. 1/E of the sampled output of B/A, then p^m/E .. 1/E of the input, which is held: products of the
+/// sampled systems' numerators over A E.
+template <int n>
+DeltaSignal auxiliary(const RegressionRecord& record, std::size_t input, const VectorView& E, const VectorView& A,
+                      const Vector& B, const DeltaSignal& filtered_y) {
+    const DeltaSignal of_u = filtered_input<n>(record, input, E, false);
+    const DeltaSignal model = simulated<n>(record, input, A, B, false);
+    const auto polynomial = [](const DeltaChain& chain) {
+        StateVector<n> alpha;
+        std::copy_n(chain.alpha.data(), n, alpha.data());
+        return alpha;
+    };
+    const StateVector<n> of_filter = polynomial(of_u.chain), of_model = polynomial(model.chain);
+    const StateVector<2 * n> alpha = delta_product<n, n>(of_filter, of_model);
+    DeltaSignal signal{model.chain, {}};
+    signal.chain.order = 2 * n;
+    std::copy_n(alpha.data(), 2 * n, signal.chain.alpha.data());
+    const Index inputs = of_u.outputs.rows();
+    signal.outputs.setZero(n + inputs, 2 * n + 1);
+    for (int j = 0; j <= n; ++j) {
+        for (int i = 0; i <= n; ++i)
+            signal.outputs.col(i + j).template head<n>() +=
+                model.outputs(0, j) * filtered_y.outputs.col(i).template tail<n>();
+        signal.outputs.middleCols(j, n + 1).bottomRows(inputs) += (j < n ? of_model[j] : 1) * of_u.outputs;
+    }
+    return signal;
+}
+
+/// The sums of products of all outputs of all signals, numbered through; nothing where a pair has no loop.
+std::optional<Matrix> output_products(const std::vector<DeltaSignal>& signals, Index N) {
+    std::vector<Index> firsts;
+    Index count = 0;
+    for (const DeltaSignal& signal : signals) {
+        firsts.push_back(count);
+        count += signal.outputs.rows();
+    }
+    Matrix total(count, count);
+    const auto set = [&](std::size_t i, std::size_t j, const ColumnMatrix& products) {
+        const ColumnMatrix &left = signals[i].outputs, &right = signals[j].outputs;
+        const ColumnMatrix weighted = left.lazyProduct(products);
+        total.block(firsts[i], firsts[j], left.rows(), right.rows()) = weighted.lazyProduct(right.transpose());
+    };
+    const std::size_t last = signals.size() - 1;
+    for (std::size_t i = 0; i < signals.size(); ++i)
+        for (std::size_t j = std::min(i + 1, last); j < signals.size() && (i < last || last == 0); ++j) {
+            const auto products = delta_products(signals[i].chain, signals[j].chain, N);
+            if (!products) return {};
+            if (j == i + 1 || last == 0) set(i, i, products->first);
+            if (i != j) {
+                set(i, j, products->both);
+                total.block(firsts[j], firsts[i], signals[j].outputs.rows(), signals[i].outputs.rows()) =
+                    total.block(firsts[i], firsts[j], signals[i].outputs.rows(), signals[j].outputs.rows()).transpose();
+            }
+            if (i + 1 == j && j == last) set(j, j, products->second);
+        }
+    return total;
+}
+
+/// Which outputs the equation is made of.
+struct EquationOutputs {
+    Index n = 0;
+    std::vector<Index> instruments;  ///< where the first n instruments of each input begin
+    double sign = 1;                 ///< of these
+    std::vector<Index> inputs;       ///< the derivatives of all inputs; p^n y_f .. y_f are the first outputs
+
+    RegressionMoments moments(const Matrix& products, double gain, bool with_gram) const {
+        const Index d = n + static_cast<Index>(inputs.size());
+        // Rows of z: of p^n y_f .. y_f, then of all inputs' derivatives, then of z itself.
+        const auto times_z = [&](Index output, auto&& column) {
+            for (Index i = 0; i < n; ++i) {
+                double sum = 0;
+                for (const Index first : instruments) sum += products(first + i, output);
+                column[i] = gain * gain * sign * sum;
+            }
+            for (Index i = n; i < d; ++i)
+                column[i] = gain * gain * products(inputs[static_cast<std::size_t>(i - n)], output);
+        };
+        RegressionMoments sums{Matrix(d, d), Vector(d), Matrix(), 0};
+        times_z(0, sums.z_y);
+        for (Index j = 0; j < n; ++j) {
+            times_z(1 + j, sums.z_phi.col(j));
+            sums.z_phi.col(j) *= -1;
+        }
+        for (Index j = n; j < d; ++j) times_z(inputs[static_cast<std::size_t>(j - n)], sums.z_phi.col(j));
+        if (!with_gram) return sums;
+        sums.z_z = Matrix::Zero(d, d);
+        Vector column(d);
+        for (Index j = 0; j < n; ++j)
+            for (const Index first : instruments) {
+                times_z(first + j, column);
+                sums.z_z.col(j) += sign * column;
+            }
+        sums.z_z.rightCols(d - n) = sums.z_phi.rightCols(d - n);
+        return sums;
+    }
+};
+
+bool is_regular(const RegressionRecord& record) {
+    return record.sampling.Ts > 0 && record.y.size() > 1;
+}
+
+/// Whether an input's chain needs another column (delta_signal): all then have one.
+bool needs_longer(const RegressionRecord& record) {
+    return record.hold == Hold::kFoh && std::any_of(record.delays.begin(), record.delays.end(), [&](double delay) {
+               return split_delay(delay, record.sampling.Ts).rest > 0;
+           });
+}
+
+/// f(n) for the number of poles as a constant; nothing for other numbers.
+template <class Result, class Function>
+std::optional<Result> for_order(Index poles, const Function& f) {
+    switch (poles) {
+        case 1:
+            return f(std::integral_constant<int, 1>());
+        case 2:
+            return f(std::integral_constant<int, 2>());
+        case 3:
+            return f(std::integral_constant<int, 3>());
+        case 4:
+            return f(std::integral_constant<int, 4>());
+        default:
+            return {};
+    }
+}
+
+void append_range(std::vector<Index>& places, Index first, Index count) {
+    for (Index i = 0; i < count; ++i) places.push_back(first + i);
+}
+
+}  // namespace
+
+std::optional<RegressionMoments> delta_svf_moments(const RegressionRecord& record, const VectorView& E, double gain) {
+    if (!is_regular(record) || !E.allFinite()) return {};
+    return for_order<RegressionMoments>(E.size() - 1, [&](auto n) -> std::optional<RegressionMoments> {
+        const bool longer = needs_longer(record);
+        EquationOutputs equation{n, {1}, -1, {}};
+        std::vector<DeltaSignal> signals{filtered_output<n>(record, E)};
+        Index outputs = n + 1;
+        for (std::size_t j = 0; j < record.u.size(); ++j) {
+            signals.push_back(filtered_input<n>(record, j, E, longer));
+            append_range(equation.inputs, outputs, signals.back().outputs.rows());
+            outputs += signals.back().outputs.rows();
+        }
+        const std::optional<Matrix> products = output_products(signals, record.y.size());
+        if (!products) return {};
+        RegressionMoments sums = equation.moments(*products, gain, false);
+        sums.z_z = sums.z_phi;
+        sums.y_y = gain * gain * (*products)(0, 0);
+        return sums;
+    });
+}
+
+std::optional<RegressionMoments> delta_auxiliary_moments(const RegressionRecord& record, const VectorView& E,
+                                                         const VectorView& A, const std::vector<Vector>& B,
+                                                         double gain) {
+    if (!is_regular(record) || record.hold != Hold::kZoh || A.size() != E.size() || !A.allFinite()) return {};
+    for (const Vector& numerator : B)
+        if (numerator.size() >= A.size()) return {};
+    return for_order<RegressionMoments>(E.size() - 1, [&](auto n) -> std::optional<RegressionMoments> {
+        EquationOutputs equation{n, {}, -1, {}};
+        std::vector<DeltaSignal> signals{filtered_output<n>(record, E)};
+        Index outputs = n + 1;
+        for (std::size_t j = 0; j < record.u.size(); ++j) {
+            signals.push_back(auxiliary<n>(record, j, E, A, B[j], signals.front()));
+            equation.instruments.push_back(outputs);
+            append_range(equation.inputs, outputs + n, signals.back().outputs.rows() - n);
+            outputs += signals.back().outputs.rows();
+        }
+        const std::optional<Matrix> products = output_products(signals, record.y.size());
+        if (!products) return {};
+        return equation.moments(*products, gain, true);
+    });
+}
+
+namespace {
+
+/// Whether products of the sensitivities, which have each pole twice, would lose more than half of the digits: the
+/// product of the poles is small beside a power of their sum then.
+template <int n>
+bool poles_far_apart(const VectorView& A, double Ts) {
+    constexpr double kFarApart = 1e4;
+    if constexpr (n <= 2) return false;
+    const StateVector<n> alpha = delta_polynomial<n>(step_of<n>(companion_of<n>(A), Ts).E);
+    return std::abs(alpha[0]) * kFarApart < std::pow(alpha[n - 1], n);
+}
+
+/// The inputs' sensitivities for all instruments after the signals that are there already.
+template <int n>
+void add_delta_sensitivities(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B,
+                             std::vector<DeltaSignal>& signals, EquationOutputs& equation) {
+    const bool longer = needs_longer(record);
+    Index outputs = 0;
+    for (const DeltaSignal& signal : signals) outputs += signal.outputs.rows();
+    for (std::size_t j = 0; j < record.u.size(); ++j) {
+        signals.push_back(sensitivities<n>(record, j, A, B[j], longer));
+        equation.instruments.push_back(outputs);
+        append_range(equation.inputs, outputs + n, B[j].size());
+        outputs += signals.back().outputs.rows();
+    }
+}
+
+}  // namespace
+
+std::optional<RegressionMoments> delta_refined_moments(const RegressionRecord& record, const VectorView& A,
+                                                       const std::vector<Vector>& B, bool with_gram) {
+    if (!is_regular(record) || !A.allFinite()) return {};
+    return for_order<RegressionMoments>(A.size() - 1, [&](auto n) -> std::optional<RegressionMoments> {
+        if (poles_far_apart<n>(A, record.sampling.Ts)) return {};
+        EquationOutputs equation{n, {}, 1, {}};
+        std::vector<DeltaSignal> signals{filtered_output<n>(record, A)};
+        add_delta_sensitivities<n>(record, A, B, signals, equation);
+        const std::optional<Matrix> products = output_products(signals, record.y.size());
+        if (!products) return {};
+        return equation.moments(*products, 1, with_gram);
+    });
+}
+
+std::optional<Matrix> delta_sensitivity_moments(const RegressionRecord& record, const VectorView& A,
+                                                const std::vector<Vector>& B) {
+    if (!is_regular(record) || !A.allFinite()) return {};
+    return for_order<Matrix>(A.size() - 1, [&](auto n) -> std::optional<Matrix> {
+        if (poles_far_apart<n>(A, record.sampling.Ts)) return {};
+        EquationOutputs equation{n, {}, 1, {}};
+        std::vector<DeltaSignal> signals;
+        add_delta_sensitivities<n>(record, A, B, signals, equation);
+        const std::optional<Matrix> products = output_products(signals, record.y.size());
+        if (!products) return {};
+        std::vector<std::vector<Index>> z;
+        for (Index i = 0; i < n; ++i) {
+            z.emplace_back();
+            for (const Index first : equation.instruments) z.back().push_back(first + i);
+        }
+        for (const Index input : equation.inputs) z.push_back({input});
+        Matrix sums(z.size(), z.size());
+        for (std::size_t i = 0; i < z.size(); ++i)
+            for (std::size_t j = 0; j < z.size(); ++j)
+                sums(static_cast<Index>(i), static_cast<Index>(j)) = (*products)(z[i], z[j]).sum();
+        return sums;
+    });
+}
+
+std::optional<Matrix> delta_output_moments(const RegressionRecord& record, const std::vector<Vector>& A,
+                                           const std::vector<Vector>& B) {
+    const auto same_degree = [&](const Vector& den) { return den.size() == A[0].size() && den.allFinite(); };
+    if (!is_regular(record) || !std::all_of(A.begin(), A.end(), same_degree)) return {};
+    return for_order<Matrix>(A[0].size() - 1, [&](auto n) {
+        const bool longer = needs_longer(record);
+        std::vector<DeltaSignal> signals{unfiltered(record.y)};
+        for (std::size_t j = 0; j < record.u.size(); ++j)
+            signals.push_back(simulated<n>(record, j, A[j], B[j], longer));
+        return output_products(signals, record.y.size());
+    });
+}
+
+}  // namespace dynlab::inline numerics

@@ -1,0 +1,28 @@
+#pragma once
+#include <optional>
+
+#include "numerics/filters/regression_record.h"
+
+namespace dynlab::inline numerics {
+
+// The sums of regression_moments.h for models of one to four poles with any zeros, inputs and delays, sampled
+// regularly: by delta_products. Nothing is returned for other models and for short records.
+
+std::optional<RegressionMoments> delta_svf_moments(const RegressionRecord& record, const VectorView& E, double gain);
+
+/// For held inputs and models with more poles than zeros, whose output does not jump at the first sample.
+std::optional<RegressionMoments> delta_auxiliary_moments(const RegressionRecord& record, const VectorView& E,
+                                                         const VectorView& A, const std::vector<Vector>& B,
+                                                         double gain);
+
+std::optional<RegressionMoments> delta_refined_moments(const RegressionRecord& record, const VectorView& A,
+                                                       const std::vector<Vector>& B, bool with_gram);
+
+std::optional<Matrix> delta_sensitivity_moments(const RegressionRecord& record, const VectorView& A,
+                                                const std::vector<Vector>& B);
+
+/// Sums of products of y, B_1/A_1 u_1, B_2/A_2 u_2, ..., simulated from rest; all A_j of one degree.
+std::optional<Matrix> delta_output_moments(const RegressionRecord& record, const std::vector<Vector>& A,
+                                           const std::vector<Vector>& B);
+
+}  // namespace dynlab::inline numerics

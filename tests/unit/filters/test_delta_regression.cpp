@@ -1,0 +1,223 @@
+#include "numerics/filters/delta_regression.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "numerics/linalg/polynomial.h"
+#include "numerics/signals/random.h"
+
+namespace test_delta_regression {
+
+using namespace dynlab;
+
+constexpr double kTs = 0.01;
+
+SampleView view(const Vector& x) {
+    return {x.data(), x.size()};
+}
+
+/// p^highest/A .. 1/A of a signal, N x (highest + 1).
+Matrix derivatives(const SampleView& signal, const Vector& A, Index highest, Hold hold, double delay) {
+    return chain_outputs({signal, derivatives_filter(A, highest), hold, delay}, {kTs, {nullptr, 0}});
+}
+
+/// -p^(n-i) B/A^2 of a signal, N x n, p^(n-i) B/A^2 = p^(n-i+m-j) b_j/A^2.
+Matrix sensitivities(const SampleView& signal, const Vector& A, const Vector& B, Hold hold, double delay) {
+    const Index n = A.size() - 1, m = B.size() - 1;
+    const Matrix of_w = derivatives(signal, multiply(A, A), n - 1 + m, hold, delay);
+    Matrix z = Matrix::Zero(signal.size(), n);
+    for (Index i = 0; i < n; ++i)
+        for (Index j = 0; j <= m; ++j) z.col(i) -= B[j] * of_w.col(i + j);
+    return z;
+}
+
+/// p^(n-1)/E .. 1/E of the simulated output of B/A.
+Matrix filtered_simulation(const SampleView& signal, const Vector& E, const Vector& A, const Vector& B, Hold hold_y,
+                           double delay) {
+    FilterChain chain{signal, derivatives_filter(E, E.size() - 2), hold_y};
+    chain.front = FrontModel{transfer_system(B, A), Hold::kZoh, delay};
+    return chain_outputs(chain, {kTs, {nullptr, 0}});
+}
+
+struct Model {
+    const char* name;
+    Vector A;
+    double rounding;  ///< of the products of signals that are filtered twice, relative to the signals' norms
+};
+
+void PrintTo(const Model& model, std::ostream* out) {
+    *out << model.name;
+}
+
+class delta_regression : public testing::TestWithParam<Model> {
+  protected:
+    delta_regression()
+        : y_(RandomStream(3).normal(kSamples)),
+          u_(RandomStream(4).normal(kSamples)),
+          v_(RandomStream(5).normal(kSamples)) {
+        for (Index k = 0; k < kSamples; ++k) {  // slow parts as well, for what a filter forgets late
+            y_[k] += 2 * std::sin(0.01 * static_cast<double>(k)) + 1;
+            u_[k] += k < kSamples / 2 ? 1.5 : -0.5;
+        }
+    }
+    /// Every hold, delay and degree of the numerator, with one and two inputs.
+    template <class Function>
+    void for_all(const Function& f) const {
+        const int n = static_cast<int>(model_.A.size()) - 1;
+        for (const Hold hold : {Hold::kZoh, Hold::kFoh})
+            for (const Hold hold_y : {Hold::kZoh, Hold::kFoh})
+                for (const double delay : {0.0, 0.03, 0.034, 2.413})
+                    for (int m = 0; m <= n; ++m)
+                        for (int inputs = 1; inputs <= 2; ++inputs) {
+                            SCOPED_TRACE(std::string("input ") + (hold == Hold::kZoh ? "zoh" : "foh") + ", output " +
+                                         (hold_y == Hold::kZoh ? "zoh" : "foh") + ", delay " + std::to_string(delay) +
+                                         " s, " + std::to_string(m) + " zeros, " + std::to_string(inputs) + " inputs");
+                            RegressionRecord record{view(y_), {view(u_)}, {m}, {delay}, {kTs}, hold, hold_y};
+                            std::vector<Vector> B{Vector::LinSpaced(m + 1, 0.7, 2)};
+                            if (inputs == 2) {
+                                record.u.push_back(view(v_));
+                                record.zeros.push_back(0);
+                                record.delays.push_back(0.02);
+                                B.push_back(Vector::Ones(1));
+                            }
+                            f(record, B);
+                        }
+    }
+    /// [phi, p^n y_f] with signals filtered by 1/A.
+    static Matrix regressors(const RegressionRecord& record, const Vector& A) {
+        const Index n = A.size() - 1;
+        const Matrix of_y = derivatives(record.y, A, n, record.hold_y, 0);
+        Matrix phi = -of_y.rightCols(n);
+        for (std::size_t j = 0; j < record.u.size(); ++j)
+            append(phi, derivatives(record.u[j], A, record.zeros[j], record.hold, record.delays[j]));
+        append(phi, of_y.leftCols(1));
+        return phi;
+    }
+    static void append(Matrix& columns, const Matrix& more) {
+        Matrix joined(more.rows(), columns.cols() + more.cols());
+        joined << columns, more;
+        columns = std::move(joined);
+    }
+    /// Largest difference from the products of these signals, relative to their norms.
+    static double difference(const Matrix& sums, const Matrix& left, const Matrix& right) {
+        const Matrix scale = left.colwise().norm().transpose() * right.colwise().norm();
+        return ((sums - left.transpose() * right).array() / scale.array()).abs().maxCoeff();
+    }
+    static void expect_sums(const RegressionMoments& sums, const Matrix& z, const Matrix& phi, double rounding) {
+        const Index d = z.cols();
+        EXPECT_LT(difference(sums.z_phi, z, phi.leftCols(d)), rounding);
+        EXPECT_LT(difference(sums.z_y, z, phi.rightCols(1)), rounding);
+        EXPECT_LT(difference(sums.z_z, z, z), rounding);
+    }
+
+    static constexpr Index kSamples = 1503;
+    const Model& model_ = GetParam();
+    Vector y_, u_, v_;
+};
+
+// oracle of all: second route, every filtered signal stored by ExactFilter and multiplied out
+
+TEST_P(delta_regression, svf_sums_are_those_of_stored_signals) {
+    for_all([&](const RegressionRecord& record, const std::vector<Vector>&) {
+        const auto sums = delta_svf_moments(record, model_.A, 1);
+        ASSERT_TRUE(sums);
+        const Matrix phi = regressors(record, model_.A);
+        expect_sums(*sums, phi.leftCols(phi.cols() - 1), phi, 1e-11);
+        EXPECT_NEAR(sums->y_y / phi.rightCols(1).squaredNorm(), 1, 1e-11);
+        const auto scaled = delta_svf_moments(record, model_.A, 3);
+        ASSERT_TRUE(scaled);
+        EXPECT_NEAR(scaled->y_y / sums->y_y, 9, 1e-14 * 9);
+    });
+}
+
+TEST_P(delta_regression, refined_sums_are_those_of_stored_signals) {
+    for_all([&](const RegressionRecord& record, const std::vector<Vector>& B) {
+        const auto sums = delta_refined_moments(record, model_.A, B, true);
+        ASSERT_TRUE(sums);
+        const Index n = model_.A.size() - 1;
+        const Matrix phi = regressors(record, model_.A);
+        Matrix z = phi.leftCols(phi.cols() - 1);
+        z.leftCols(n).setZero();
+        for (std::size_t j = 0; j < B.size(); ++j)
+            z.leftCols(n) += sensitivities(record.u[j], model_.A, B[j], record.hold, record.delays[j]);
+        expect_sums(*sums, z, phi, model_.rounding);
+        const auto gram = delta_sensitivity_moments(record, model_.A, B);
+        ASSERT_TRUE(gram);
+        EXPECT_LT(difference(*gram, z, z), model_.rounding);
+        const auto without_gram = delta_refined_moments(record, model_.A, B, false);
+        ASSERT_TRUE(without_gram);
+        EXPECT_EQ(without_gram->z_z.size(), 0);
+        EXPECT_EQ(without_gram->z_phi, sums->z_phi);
+    });
+}
+
+TEST_P(delta_regression, auxiliary_sums_are_those_of_stored_signals) {
+    const Index n = model_.A.size() - 1;
+    const Vector E = power(Eigen::Vector2d(1, 2.5), static_cast<int>(n));
+    for_all([&](const RegressionRecord& record, const std::vector<Vector>& B) {
+        const auto sums = delta_auxiliary_moments(record, E, model_.A, B, 1);
+        ASSERT_EQ(sums.has_value(), record.hold == Hold::kZoh && B[0].size() <= n);
+        if (!sums) return;
+        const Matrix phi = regressors(record, E);
+        Matrix z = phi.leftCols(phi.cols() - 1);
+        z.leftCols(n).setZero();
+        for (std::size_t j = 0; j < B.size(); ++j)
+            z.leftCols(n) -= filtered_simulation(record.u[j], E, model_.A, B[j], record.hold_y, record.delays[j]);
+        expect_sums(*sums, z, phi, 1e-10);
+    });
+}
+
+TEST_P(delta_regression, output_sums_are_those_of_stored_signals) {
+    for_all([&](const RegressionRecord& record, const std::vector<Vector>& B) {
+        const std::vector<Vector> A(B.size(), model_.A);
+        const auto sums = delta_output_moments(record, A, B);
+        ASSERT_TRUE(sums);
+        Matrix signals = record.y;
+        for (std::size_t j = 0; j < B.size(); ++j)
+            append(signals, chain_outputs({record.u[j], transfer_system(B[j], A[j]), record.hold, record.delays[j]},
+                                          {kTs, {nullptr, 0}}));
+        EXPECT_LT(difference(*sums, signals, signals), 1e-12);
+    });
+}
+
+INSTANTIATE_TEST_SUITE_P(of, delta_regression,
+                         testing::Values(Model{"one_pole", Eigen::Vector2d(1, 3), 1e-11},
+                                         Model{"two_poles", Eigen::Vector3d(1, 4, 3), 1e-11},
+                                         Model{"two_resonant_poles", Eigen::Vector3d(1, 0.6, 40), 1e-11},
+                                         Model{"three_poles", Eigen::Vector4d(1, 6, 11, 6), 1e-9},
+                                         Model{"three_equal_poles", Eigen::Vector4d(1, 9, 27, 27), 1e-9},
+                                         Model{"three_fast_poles", Eigen::Vector4d(1, 120, 12000, 400000), 1e-9},
+                                         Model{"four_poles", (Vector(5) << 1, 10, 35, 50, 24).finished(), 1e-9},
+                                         // Poles of 2 rad/s and 20 rad/s, damped by 0.1 and 0.25 (Rao and Garnier).
+                                         Model{"four_resonant_poles", (Vector(5) << 1, 10.4, 408, 416, 1600).finished(),
+                                               1e-9}),
+                         [](const auto& instance) { return std::string(instance.param.name); });
+
+TEST(delta_regression_limits, other_kinds_are_left_to_the_general_way) {
+    const Vector y = RandomStream(1).normal(1000), u = RandomStream(2).normal(1000);
+    const RegressionRecord record{view(y), {view(u)}, {0}, {0}, {kTs}};
+    const std::vector<Vector> B{Vector::Ones(1)};
+    const auto made = [&](const RegressionRecord& of, const Vector& A) {
+        const bool refined = delta_refined_moments(of, A, B, false).has_value();
+        EXPECT_EQ(delta_svf_moments(of, A, 1).has_value(), refined);
+        EXPECT_EQ(delta_auxiliary_moments(of, A, A, B, 1).has_value(), refined);
+        EXPECT_EQ(delta_sensitivity_moments(of, A, B).has_value(), refined);
+        EXPECT_EQ(delta_output_moments(of, {A}, B).has_value(), refined);
+        return refined;
+    };
+    EXPECT_TRUE(made(record, Eigen::Vector3d(1, 4, 3)));
+    EXPECT_FALSE(made(record, power(Eigen::Vector2d(1, 3), 5))) << "five poles";
+    EXPECT_FALSE(made(record, Eigen::Vector3d(1, std::nan(""), 3))) << "not finite";
+    const Vector t = Vector::LinSpaced(1000, 0, 9.99);
+    const RegressionRecord irregular{view(y), {view(u)}, {0}, {0}, {0, view(t)}};
+    EXPECT_FALSE(made(irregular, Eigen::Vector3d(1, 4, 3))) << "irregular";
+    const RegressionRecord brief{SampleView(y.data(), 15), {SampleView(u.data(), 15)}, {0}, {0}, {kTs}};
+    EXPECT_FALSE(made(brief, Eigen::Vector3d(1, 4, 3))) << "few samples";
+    // Each pole twice, and three decades apart: only the sensitivities would suffer.
+    const Vector far = multiply(Eigen::Vector3d(1, 4.4, 1.6), Eigen::Vector3d(1, 440, 16000));
+    EXPECT_FALSE(delta_refined_moments(record, far, B, false));
+    EXPECT_TRUE(delta_svf_moments(record, far, 1));
+}
+
+}  // namespace test_delta_regression
