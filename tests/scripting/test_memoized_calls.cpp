@@ -196,6 +196,16 @@ TEST_F(memoized_calls, short_calls_and_failed_ones_are_not_kept) {
     EXPECT_EQ(run_with_cache(failing).printed, first.printed);
 }
 
+// A binding may put what it reads in the arguments' places, a vector for a table of numbers.
+TEST_F(memoized_calls, calls_are_known_by_the_arguments_that_were_given) {
+    const std::string code = "print(tfsrivc(d, {2}, {0}, {TdMax = 0.5}))\n";
+    const Use first = run_with_cache(code), second = run_with_cache(code);
+    EXPECT_EQ(first.computed, 1u);
+    EXPECT_EQ(second.computed, 0u);
+    EXPECT_EQ(second.recalled, 1u);
+    EXPECT_EQ(first.printed, second.printed);
+}
+
 // Oracle: the files below the cache folder. Where nothing was kept of a call's shape, its arguments are not looked at;
 // where nothing can be kept, nothing is written.
 TEST_F(memoized_calls, quick_calls_and_calls_without_a_cache_leave_nothing) {
@@ -212,16 +222,34 @@ TEST_F(memoized_calls, quick_calls_and_calls_without_a_cache_leave_nothing) {
     EXPECT_FALSE(std::filesystem::exists(home_.path() / "dynlab/calls"));
 }
 
-std::optional<std::string> text_of(Runtime& runtime, const std::string& arguments, LargeArguments large) {
+std::optional<std::string> text_of(Runtime& runtime, const std::string& arguments, LargeArguments large,
+                                   const char* function = "f") {
     EXPECT_FALSE(runtime.run_code("call = table.pack(" + arguments + ")", "text.lua").error) << arguments;
     lua_State* L = runtime.state();
     lua_getglobal(L, "call");
     const int packed = lua_gettop(L);
     const int count = static_cast<int>(lua_rawlen(L, packed));
     for (int i = 1; i <= count; ++i) lua_rawgeti(L, packed, i);
-    auto text = call_text(L, "f", packed + 1, packed + count, large);
+    auto text = call_text(L, function, packed + 1, packed + count, large);
     lua_settop(L, packed - 1);
     return text;
+}
+
+// Oracle: definition; what is kept of a shape makes later calls of it be looked up, which quick ones are not worth.
+TEST_F(memoized_calls, shapes_whose_calls_turn_out_quick_are_forgotten) {
+    const Cache cache;
+    CallCache calls(cache);
+    RunOptions options;
+    options.call_cache = &calls;
+    GnuplotRenderer renderer;
+    Runtime runtime(options, renderer);
+    ASSERT_FALSE(runtime.run_code(kData, "data.lua").error);
+    const auto shape = text_of(runtime, "d[{1, 200}], {1, 2, 0}", LargeArguments::kBySize, "srivc");
+    ASSERT_TRUE(shape);
+    calls.remember(*shape, "another call of this shape", "its result");
+    ASSERT_TRUE(calls.knows(*shape));
+    ASSERT_FALSE(runtime.run_code("srivc(d[{1, 200}], {1, 2, 0})", "quick.lua").error);
+    EXPECT_FALSE(calls.knows(*shape));
 }
 
 struct Arguments {
