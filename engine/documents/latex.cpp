@@ -6,6 +6,7 @@
 #include <csignal>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <regex>
 
 #include "documents/text_lines.h"
@@ -39,9 +40,11 @@ std::string references(const fs::path& folder, bool has_contents) {
 class KeptAuxiliaryFiles {
   public:
     explicit KeptAuxiliaryFiles(const LatexJob& job) : job_(job) {
-        if (!job.use_cache || !cache_.lasting()) return;
+        if (!job.use_cache) return;
+        cache_.emplace();
+        if (!cache_->lasting()) return;
         entry_ = EntryName("latex-references").add(job.identity).add(job.layout.language).text();
-        before_ = cache_.recall(entry_).value_or("");
+        before_ = cache_->recall(entry_).value_or("");
         const auto files = nlohmann::json::from_cbor(before_, true, false);
         for (const char* name : kAuxiliaryFiles)
             if (const std::string content = files.is_object() ? files.value(name, "") : ""; !content.empty())
@@ -53,12 +56,12 @@ class KeptAuxiliaryFiles {
         nlohmann::json files;
         for (const char* name : kAuxiliaryFiles) files[name] = read_work_file(job_.work_folder / name);
         const std::vector<std::uint8_t> bytes = nlohmann::json::to_cbor(files);
-        if (const std::string now(bytes.begin(), bytes.end()); now != before_) cache_.remember(entry_, now);
+        if (const std::string now(bytes.begin(), bytes.end()); now != before_) cache_->remember(entry_, now);
     }
 
   private:
     const LatexJob& job_;
-    const Cache cache_;
+    std::optional<Cache> cache_;  ///< none where nothing is to be found or left
     std::string entry_, before_;
 };
 
