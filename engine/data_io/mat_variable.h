@@ -18,8 +18,8 @@ struct MatFileDeleter {
 };
 using MatFile = std::unique_ptr<mat_t, MatFileDeleter>;
 
-/// Loads libmatio unless it is loaded: before processes are forked that read one file each. Throws EnvironmentError when
-/// it is not there.
+/// Loads libmatio unless it is loaded: before processes are forked that read one file each. Throws EnvironmentError
+/// when it is not there.
 void load_matio();
 
 /// Looks at a variable whose header has been read, before its data are: throws EnvironmentError when it or a part

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace dynlab::inline numerics {
 
@@ -18,22 +19,66 @@ struct ColumnPack {
 
     /// out = raw D/C, row by row from `first` on; the first `silent` of them stay zero.
     void filter(const Vector& C, const Vector& D, Index first, Index rows, Index silent) {
-        const Index nc = C.size() - 1, nd = D.size() - 1;
         out.middleCols(first, std::min(silent, rows)).setZero();
         if (silent >= rows) return;
-        EightColumns last = out.col(first + silent - 1);
-        for (Index k = first + silent; k < first + rows; ++k) {
-            EightColumns z = raw.col(k);
-            for (Index i = 1; i <= nd; ++i) z += D[i] * raw.col(k - i);
-            for (Index j = nc; j >= 2; --j) z -= C[j] * out.col(k - j);
-            if (nc > 0) z -= C[1] * last;
-            out.col(k) = last = z;
-        }
+        const Index nc = C.size() - 1, nd = D.size() - 1;
+        if (nc > kSizedOrder || nd > kSizedOrder)
+            filter_any(C, D, first + silent, first + rows);
+        else
+            filter_by_order(C, D, first + silent, first + rows, std::make_index_sequence<kOrderPairs>());
     }
 
     void keep(Index past, Index rows) {
         raw.leftCols(past) = raw.middleCols(rows, past).eval();
         out.leftCols(past) = out.middleCols(rows, past).eval();
+    }
+
+  private:
+    static constexpr int kSizedOrder = 3;
+    static constexpr std::size_t kOrderPairs = (kSizedOrder + 1) * (kSizedOrder + 1);
+
+    void filter_any(const Vector& C, const Vector& D, Index first, Index end) {
+        for (Index k = first; k < end; ++k) {
+            EightColumns z = raw.col(k);
+            for (Index i = 1; i < D.size(); ++i) z += D[i] * raw.col(k - i);
+            for (Index j = 1; j < C.size(); ++j) z -= C[j] * out.col(k - j);
+            out.col(k) = z;
+        }
+    }
+
+    /// The rows before stay in registers; what depends on the last one comes last.
+    template <std::size_t nc, std::size_t nd>
+    void filter_sized(const Vector& C, const Vector& D, Index first, Index end) {
+        std::array<EightColumns, nc> past_out, c;
+        std::array<EightColumns, nd> past_raw, d;
+        for (std::size_t j = 0; j < nc; ++j) {
+            const auto lag = static_cast<Index>(j) + 1;
+            past_out[j] = out.col(first - lag);
+            c[j] = EightColumns::Constant(C[lag]);
+        }
+        for (std::size_t i = 0; i < nd; ++i) {
+            const auto lag = static_cast<Index>(i) + 1;
+            past_raw[i] = raw.col(first - lag);
+            d[i] = EightColumns::Constant(D[lag]);
+        }
+        for (Index k = first; k < end; ++k) {
+            const EightColumns x = raw.col(k);
+            EightColumns z = x;
+            for (std::size_t i = 0; i < nd; ++i) z += d[i] * past_raw[i];
+            for (std::size_t j = nc; j-- > 0;) z -= c[j] * past_out[j];
+            for (std::size_t j = nc; j-- > 1;) past_out[j] = past_out[j - 1];
+            for (std::size_t i = nd; i-- > 1;) past_raw[i] = past_raw[i - 1];
+            if constexpr (nc > 0) past_out[0] = z;
+            if constexpr (nd > 0) past_raw[0] = x;
+            out.col(k) = z;
+        }
+    }
+
+    template <std::size_t... pair>
+    void filter_by_order(const Vector& C, const Vector& D, Index first, Index end, std::index_sequence<pair...>) {
+        const auto wanted = static_cast<std::size_t>((C.size() - 1) * (kSizedOrder + 1) + D.size() - 1);
+        ((pair == wanted ? filter_sized<pair / (kSizedOrder + 1), pair % (kSizedOrder + 1)>(C, D, first, end) : void()),
+         ...);
     }
 };
 
@@ -63,7 +108,7 @@ void add_products(const ColumnPack& a, Index used, const ColumnPack& b, Index fi
 class FilteredColumns {
   public:
     FilteredColumns(const std::vector<LateColumn>& columns, const LateColumn& error, const Vector& C, const Vector& D)
-        : columns_(columns), error_(error), C_(C), D_(D), past_(std::max<Index>({C.size() - 1, D.size() - 1, 1})) {
+        : columns_(columns), error_(error), C_(C), D_(D), past_(std::max<Index>({C.size() - 1, D.size() - 1, 3})) {
         const Index lanes = round_up(driven()) + round_up(noise());
         packs_.assign(static_cast<std::size_t>(lanes / kColumnsTogether), ColumnPack(past_ + block()));
         sums_ = Matrix::Zero(lanes, lanes);

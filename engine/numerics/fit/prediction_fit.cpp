@@ -10,6 +10,37 @@ namespace {
 
 constexpr double kPredictionRounding = 1e-24;  // of the output's mean square: smaller errors hold no noise
 
+constexpr Index kStartSamples = 100000;  // of each record, on which starts are refined and compared
+
+/// The experiments up to so many samples.
+std::vector<SampledExperiment> first_samples(const std::vector<SampledExperiment>& experiments) {
+    std::vector<SampledExperiment> brief;
+    for (const SampledExperiment& one : experiments) {
+        const Index count = std::min(kStartSamples, one.y.size());
+        brief.push_back({one.u.topRows(count), one.y.head(count)});
+    }
+    return brief;
+}
+
+/// One start in the place of many for a long record: the best one of its beginning, provided that it predicts the whole
+/// record better than all others do.
+std::vector<Vector> promising_starts(const PredictionModel& model, const StartCondition& condition,
+                                     std::vector<Vector> starts, const OutputErrorOptions& options) {
+    if (model.target().size() < 4 * kStartSamples) return starts;
+    const std::vector<SampledExperiment> experiments = first_samples(model.experiments());
+    const PredictionModel brief(model.orders(), condition, experiments);
+    const Index d = model.orders().parameter_count();
+    std::vector<Vector> own;
+    for (const Vector& start : starts) own.push_back(brief.completed(start.head(d)));
+    const Vector found = minimise_output_error(brief, brief.target(), own, options).theta;
+    if (!found.allFinite()) return starts;
+    const Vector whole = model.completed(found.head(d)), y = model.target();
+    const double squares = model.products(whole, y).squares;
+    for (const Vector& start : starts)
+        if (!(squares <= model.products(start, y).squares)) return starts;
+    return {whole};
+}
+
 /// Sum of squares about the mean of each experiment.
 double variation_of(const Vector& y, const std::vector<Index>& lengths) {
     double sum = 0;
@@ -39,7 +70,9 @@ ArmaNoise start_noise(const std::vector<Vector>& errors, int nc, int nd, double 
         count += record.size();
     }
     if (squares <= kPredictionRounding * output_power * static_cast<double>(count)) return ArmaNoise::white(nc, nd);
-    return estimate_arma(errors, nc, nd, 1e-3);
+    std::vector<Vector> beginnings;
+    for (const Vector& record : errors) beginnings.push_back(record.head(std::min(kStartSamples, record.size())));
+    return estimate_arma(beginnings, nc, nd, 1e-3);
 }
 
 Fit fit_prediction(const std::string& method, const PredictionModel& model, const StartCondition& start, double Ts,
@@ -51,8 +84,9 @@ Fit fit_prediction(const std::string& method, const PredictionModel& model, cons
                               " after those without a recorded past");
     std::vector<Vector> complete;
     for (const Vector& values : starts) complete.push_back(model.completed(values));
-    OutputErrorSolution solution =
-        minimise_output_error(model, y, complete, {options.max_iterations, options.tolerance, options.cancel});
+    const OutputErrorOptions search{options.max_iterations, options.tolerance, options.cancel};
+    complete = promising_starts(model, start, std::move(complete), search);
+    OutputErrorSolution solution = minimise_output_error(model, y, complete, search);
 
     const Index d = model.orders().parameter_count();
     Fit fit = polynomial_fit(model.orders(), solution.theta.head(d), Ts);

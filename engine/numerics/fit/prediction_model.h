@@ -38,6 +38,7 @@ class PredictionModel : public OutputErrorModel {
     Index linear_count() const { return parameter_count() - orders_.parameter_count(); }
     Index offset_place(std::size_t experiment) const;
     const PolynomialOrders& orders() const { return orders_; }
+    const std::vector<SampledExperiment>& experiments() const { return experiments_; }
 
   private:
     Index dynamic_count() const { return orders_.c_place() - orders_.na; }  // coefficients of all F and B

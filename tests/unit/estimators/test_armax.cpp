@@ -3,6 +3,8 @@
 
 #include "numerics/estimators/armax.h"
 #include "numerics/estimators/arx.h"
+#include "numerics/fit/output_error.h"
+#include "numerics/fit/prediction_model.h"
 #include "numerics/validation/assessment.h"
 #include "support/difference_equation.h"
 #include "support/thrown_message.h"
@@ -132,6 +134,23 @@ TEST(armax, refuses_what_it_cannot_fit) {  // oracle: definitions
     IdData constant = record(100, 0.1, 1);
     constant.experiments[0].u.setOnes();
     EXPECT_THAT(refusal(constant, kOrders), HasSubstr("armax: the input u1 is too poor"));
+}
+
+/// Oracle: the search over all samples from the truth. The second record says next to nothing in its first quarter.
+TEST(armax, long_records_end_where_the_search_from_the_truth_ends) {
+    constexpr Index kLong = 420000;
+    Vector u = random_levels(kLong, 2, 7);
+    for (const Index quiet : {Index{0}, kLong / 4}) {
+        u.head(quiet).setZero();
+        const Vector e = 0.5 * RandomStream(3).normal(kLong);
+        const IdData data(Matrix(model_output(PolynomialModel(kOrders, kTheta, 1), u, e)), Matrix(u), 1);
+        const Fit found = armax(data, kOrders, tight());
+        const std::vector<SampledExperiment> experiments{{data.experiments[0].u, data.experiments[0].y.col(0)}};
+        const PredictionModel model(kOrders, {InitialState::kEstimate, false}, experiments);
+        const OutputErrorSolution best = minimise_output_error(model, model.target(), kTheta, {200, 1e-10, {}});
+        EXPECT_LT((found.theta - best.theta).cwiseAbs().maxCoeff(), 1e-7);
+        EXPECT_LT((found.theta - kTheta).cwiseQuotient(found.std).cwiseAbs().maxCoeff(), 4.5);
+    }
 }
 
 }  // namespace test_armax

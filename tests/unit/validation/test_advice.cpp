@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "numerics/linalg/decompositions.h"
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
@@ -159,6 +160,37 @@ TEST(advice, a_running_start_is_told) {  // oracle: the record cut out of a move
     (r.x.segment(101, 400) - r.x.segment(100, 400)).cwiseAbs().maxCoeff(&fastest);
     const IdData cut = r.data().range(fastest + 101, 1000);
     EXPECT_THAT(said(advise(cut), "running_start"), HasSubstr("in the middle of a movement"));
+}
+
+/// The rank of 20 copies of u, each later by the lag at which its autocorrelation has fallen to one half.
+double excited_parameters(Vector u) {
+    const Index N = u.size();
+    u.array() -= u.mean();
+    Index shift = 1;
+    while (u.tail(N - shift).dot(u.head(N - shift)) >= 0.5 * u.squaredNorm()) ++shift;
+    const Index rows = N - 19 * shift;
+    Matrix copies(rows, 20);
+    for (Index i = 0; i < 20; ++i) copies.col(i) = u.segment(i * shift, rows);
+    copies.rowwise() -= copies.colwise().mean().eval();
+    const Vector singular = singular_values(copies);
+    return static_cast<double>((singular.array() > 5e-3 * singular[0]).count());
+}
+
+TEST(advice, counts_what_an_input_can_determine) {  // oracle: singular values of the copies written out
+    for (const int sines : {3, 4, 6}) {
+        Record r = record();
+        for (Index k = 0; k < r.u.size(); ++k) {
+            const double t = static_cast<double>(k);
+            r.u[k] = 0;
+            for (int i = 1; i <= sines; ++i) r.u[k] += std::sin(0.11 * i * t + i * i);
+        }
+        r.y = lsim(TransferFunction(Vector{{2.0}}, Vector{{1.0, 1.0, 4.0}}), r.u, kTs) + r.y - r.x;
+        const Advice advice = advise(r.data());
+        const RecordFinding* found = advice.find(advice.has("excitation") ? "excitation" : "poor_excitation");
+        ASSERT_NE(found, nullptr) << codes(advice);
+        EXPECT_EQ(found->value, excited_parameters(r.u)) << sines;
+        EXPECT_EQ(found->value, 2 * sines);
+    }
 }
 
 TEST(advice, poor_excitation_is_told) {  // oracle: one sine determines two parameters, a PRBS many
