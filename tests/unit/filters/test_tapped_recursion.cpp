@@ -51,6 +51,29 @@ TEST(tapped_recursion, agrees_with_finer_sampling_without_a_fraction_of_a_delay)
         }
 }
 
+// oracle: definition, the formulas of TappedSystem written out
+TEST(tapped_recursion, is_what_the_system_says) {
+    TappedSystem system = two_lags(0.5, Hold::kFoh, 0.2);
+    system.first_D = Vector{{0.3, -2.0}};
+    for (const Index d : {0, 1, 4}) {
+        system.delay = d;
+        const Vector u = RandomStream(2).normal(9);
+        const Matrix y = outputs_of(system, u);
+        Vector x = Vector::Zero(2);
+        for (Index k = 0; k < u.size(); ++k) {
+            const Index now = k - d;
+            Vector expected = system.C * x;
+            if (now == 0) expected += system.first_D * u[0];
+            if (now > 0) expected += system.D * Vector{{u[now], u[now - 1]}};
+            EXPECT_LT((y.row(k).transpose() - expected).norm(), 1e-14) << "sample " << k << ", delay " << d;
+            if (now + 1 >= u.size()) break;
+            x = (system.F * x).eval();
+            if (now == 0) x += system.first_G * Vector{{u[1], u[0]}};
+            if (now > 0) x += system.G * Vector{{u[now + 1], u[now], u[now - 1]}};
+        }
+    }
+}
+
 // oracle: definition, the state is what the recursion was set to
 TEST(tapped_recursion, goes_on_from_a_state_that_is_set) {
     const Vector u = Vector::Zero(5);
