@@ -10,7 +10,7 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr int kReweightings = 3;
-constexpr double kHardlyChanged = 1e-6;  // relative; the last pass changes errors by 20 times that at most
+constexpr double kGramTolerance = 1e-6;  // relative; the last pass changes errors by 20 times that at most
 
 /// (sum Z'Z/noise variance)^-1 of each denominator group; `last_gram` is sum Z'Z of the last pass, or empty.
 void set_covariance(Fit& estimate, const IdData& data, const FitOptions& options, const Matrix& last_gram) {
@@ -37,7 +37,7 @@ bool outputs_share_a_denominator(const TransferStructure& structure) {
 /// The passes; where outputs share a denominator, more of them with each output weighted by its noise.
 RefinedSolution solve(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
     RefinedOptions refined{options.max_iterations, options.tolerance, options.hold_y, options.cancel, {}, false};
-    refined.with_gram = structure.outputs == 1 && options.tolerance <= kHardlyChanged;
+    refined.with_gram = structure.outputs == 1 && options.tolerance <= kGramTolerance;
     RefinedSolution solution = iterate_refined(data, structure, start_at(data, structure, options), refined);
     for (int i = 0; outputs_share_a_denominator(structure) && i < kReweightings; ++i) {
         refined.weights.resize(structure.outputs);

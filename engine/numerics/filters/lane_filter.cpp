@@ -7,7 +7,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr double kForgotten = 1e-19;  // what is left of a state after so many steps is less than rounding
+constexpr double kStateDecay = 1e-19;  // what is left of a state after so many steps is less than rounding
 
 /// Steps after which the free motion is below rounding, a power of two, at most `most`.
 Index memory_length(const Matrix& F, Index most) {
@@ -15,7 +15,7 @@ Index memory_length(const Matrix& F, Index most) {
     if (most <= kShort) return most;
     Matrix power = F, square = F;
     Index steps = 1;
-    for (; steps < most && power.norm() > kForgotten; steps *= 2) {
+    for (; steps < most && power.norm() > kStateDecay; steps *= 2) {
         square.noalias() = power.lazyProduct(power);
         power.swap(square);
     }

@@ -35,11 +35,11 @@ class SegmentMemory {
 
   private:
     void measure(const CascadeSource& source, Index segment) {
-        constexpr double kForgotten = 1e-19;  // what is left of a state after so many steps is less than rounding
+        constexpr double kStateDecay = 1e-19;  // what is left of a state after so many steps is less than rounding
         Transition power = transition(source);
         through_.setIdentity();
         Index reached = 1;  // `power` is the transition over so many steps, `through_` that over `segment` modulo these
-        for (; reached < segment && power.cwiseAbs().maxCoeff() > kForgotten; reached *= 2) {
+        for (; reached < segment && power.cwiseAbs().maxCoeff() > kStateDecay; reached *= 2) {
             if (segment & reached) through_ = power.lazyProduct(through_).eval();
             power = power.lazyProduct(power).eval();
         }

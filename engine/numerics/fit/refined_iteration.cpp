@@ -16,8 +16,9 @@ namespace {
 constexpr int kCutoffs = 8;       // frequencies that find_start tries
 constexpr int kTrialPasses = 4;   // passes after each of them
 constexpr int kMostHalvings = 3;  // of a pass that raises the loss
-constexpr double kHardlyGained = 0.7;
-constexpr double kQuickest = 0.05;  // of a change is trusted to be left after a pass, however little the last one left
+constexpr double kContractionLimit = 0.7;
+constexpr double kLeastContraction =
+    0.05;  // of a change is trusted to be left after a pass, however little the last one left
 
 Vector simulate(const IdData& data, const Experiment& experiment, const TransferFunction& G, Index input) {
     const auto u = experiment.u.col(input);
@@ -102,8 +103,8 @@ double largest_change(const Vector& next, const Vector& theta) {
 
 /// How far the passes still are from where they lead: the changes shrink by a factor that hardly varies.
 double change_to_come(double change, double last_change) {
-    const double factor = std::max(kQuickest, change / last_change);
-    return factor < kHardlyGained ? change * factor / (1 - factor) : kInfinity;
+    const double factor = std::max(kLeastContraction, change / last_change);
+    return factor < kContractionLimit ? change * factor / (1 - factor) : kInfinity;
 }
 
 double longest_record(const IdData& data) {
@@ -212,7 +213,7 @@ RefinedSolution iterate_refined(const IdData& data, const TransferStructure& str
         Vector next = groups.mirrored(found, solution.mirrored);
         const bool settled =
             change <= options.tolerance || (pass > 0 && change_to_come(change, last_change) <= options.tolerance);
-        if (!settled && change > kHardlyGained * last_change) {
+        if (!settled && change > kContractionLimit * last_change) {
             const double loss = simulation_loss(data, structure, solution.theta);
             for (int i = 0; i < kMostHalvings && simulation_loss(data, structure, next) > loss; ++i)
                 next = groups.mirrored(0.5 * (next + solution.theta), solution.mirrored);
