@@ -6,20 +6,35 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <tuple>
 
 #include "course/names/pdf_places.h"
 #include "course/names/plain_words.h"
+#include "data_io/values/cbor_values.h"
 #include "documents/work_file.h"
 #include "platform/temporary_folder.h"
 
 namespace dynlab::inline course {
+
+constexpr std::array<const char*, 13> names_of(PdfPlace) {
+    return {"text",     "hidden", "metadata", "attachment",  "annotation", "form",  "link",
+            "bookmark", "layer",  "image",    "figure_file", "remains",    "inside"};
+}
+
+constexpr std::array<const char*, 5> names_of(NameKind) {
+    return {"name", "number", "mail", "group", "home"};
+}
+
+template <Is<NameHit> T, class V>
+void describe(T& object, V& member) {
+    auto& [who, kind, certain, begin, end] = object;
+    member("who", who), member("kind", kind), member("certain", certain), member("begin", begin), member("end", end);
+}
+
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 constexpr std::size_t kMostNested = 5, kMostVersions = 5, kMostFindings = 40;
 constexpr double kNameGap = 0.2;  ///< of the size: more is a space
@@ -61,20 +76,26 @@ struct Found {
     NameHit hit;
 };
 
-json json_of(const Found& found) {
-    return {found.place, found.page, found.detail, found.excerpt, found.hit.who, found.hit.kind, found.hit.certain};
+/// What is found inside of a PDF.
+struct SearchedObjects {
+    std::vector<Found> found;
+    std::vector<std::string> authors, nested;  ///< nested: PDFs embedded in it
+    std::string trouble;
+    std::string shown;  ///< the PDF with everything shown
+};
+
+template <Is<Found> T, class V>
+void describe(T& object, V& member) {
+    auto& [place, page, detail, excerpt, hit] = object;
+    member("place", place), member("page", page), member("detail", detail), member("excerpt", excerpt);
+    member("hit", hit);
 }
 
-Found found_of(const json& value) {
-    Found found;
-    found.place = value[0];
-    found.page = value[1];
-    found.detail = value[2];
-    found.excerpt = value[3];
-    found.hit.who = value[4];
-    found.hit.kind = value[5];
-    found.hit.certain = value[6];
-    return found;
+template <Is<SearchedObjects> T, class V>
+void describe(T& object, V& member) {
+    auto& [found, authors, nested, trouble, shown] = object;
+    member("found", found), member("authors", authors), member("nested", nested), member("trouble", trouble);
+    member("shown", shown);
 }
 
 std::string what_is_named(const NameHit& hit) {
@@ -156,14 +177,14 @@ class NameSearch {
 
     void search_inside(const fs::path& file, bool versions) {
         try {
-            const json read = searched_objects(file);
-            for (const json& one : read.at("found")) found_.push_back(found_of(one));
-            for (const json& author : read.at("authors")) authors_.insert(author.get<std::string>());
-            trouble_ = read.at("trouble");
-            search_all_shown(read.at("shown").get_binary());
-            const json& nested = read.at("nested");
+            SearchedObjects read = searched_objects(file);
+            std::move(read.found.begin(), read.found.end(), std::back_inserter(found_));
+            authors_.insert(read.authors.begin(), read.authors.end());
+            trouble_ = read.trouble;
+            search_all_shown(read.shown);
+            const std::vector<std::string>& nested = read.nested;
             for (std::size_t i = 0; i < nested.size() && i < kMostNested; ++i)
-                search_nested(nested[i].get_binary(), PdfPlace::kAttachment);
+                search_nested(nested[i], PdfPlace::kAttachment);
             if (nested.size() > kMostNested)
                 trouble_ = fmt::format("More than {} PDFs are embedded in it.", kMostNested);
         } catch (const PdfRefusal& refusal) {
@@ -172,40 +193,36 @@ class NameSearch {
         if (versions) search_versions(file);
     }
 
-    json searched_objects(const fs::path& file) const {
-        return json::from_msgpack(
-            work_on_pdf_objects(file, limits_.objects, [this](QPDF& pdf, const std::string& bytes) {
-                const std::vector<std::uint8_t> packed = json::to_msgpack(found_in(pdf, bytes));
-                return std::string(packed.begin(), packed.end());
-            }));
+    SearchedObjects searched_objects(const fs::path& file) const {
+        const std::string answer =
+            work_on_pdf_objects(file, limits_.objects,
+                                [this](QPDF& pdf, const std::string& bytes) { return cbor_of(found_in(pdf, bytes)); });
+        try {
+            return from_cbor<SearchedObjects>(answer);
+        } catch (const ValueError&) {
+            throw PdfRefusal(PdfFault::kDamaged, "Searching it gives nothing that can be read.");
+        }
     }
 
-    /// What is found, and the PDF with everything shown.
-    json found_in(QPDF& pdf, const std::string& bytes) const {
-        json found = json::array(), nested = json::array(), authors = json::array();
-        std::string trouble = visit_places(
+    SearchedObjects found_in(QPDF& pdf, const std::string& bytes) const {
+        SearchedObjects read;
+        read.trouble = visit_places(
             pdf, bytes, limits_.objects.bytes_inside,
             [&](const PlacedText& placed) {
                 const std::vector<NameHit> hits = sought_.find(placed.text, placed.manner);
                 for (const NameHit& hit : hits)
-                    found.push_back(
-                        json_of({placed.place, placed.page, placed.detail, excerpt_of(placed.text, hit), hit}));
+                    read.found.push_back({placed.place, placed.page, placed.detail, excerpt_of(placed.text, hit), hit});
                 const bool author = placed.place == PdfPlace::kMetadata && placed.detail == "Author";
                 if (author && hits.empty() && !plain_words(placed.text).empty())
-                    authors.push_back(printable(placed.text, 200));
+                    read.authors.push_back(printable(placed.text, 200));
             },
             [&](const std::string&, const std::string& inner) {
-                if (nested.size() <= kMostNested) nested.push_back(binary(inner));
+                if (read.nested.size() <= kMostNested) read.nested.push_back(inner);
             });
         show_everything(pdf);
-        return {{"found", std::move(found)},
-                {"nested", std::move(nested)},
-                {"authors", std::move(authors)},
-                {"trouble", std::move(trouble)},
-                {"shown", binary(written_pdf(pdf, limits_.objects.bytes_inside))}};
+        read.shown = written_pdf(pdf, limits_.objects.bytes_inside);
+        return read;
     }
-
-    static json binary(const std::string& bytes) { return json::binary({bytes.begin(), bytes.end()}); }
 
     template <class Bytes>
     fs::path written(const char* name, const Bytes& bytes) const {

@@ -10,17 +10,37 @@
 #include <cmath>
 #include <fstream>
 #include <memory>
-#include <nlohmann/json.hpp>
 
+#include "data_io/values/cbor_values.h"
 #include "documents/pdf/guarded_pdf.h"
 #include "documents/pdf/plain_streams.h"
 #include "documents/work_file.h"
 
 namespace dynlab::inline documents {
+
+template <Is<PdfWord> T, class V>
+void describe(T& object, V& member) {
+    auto& [left, top, right, bottom, size, bold, fixed_width, rotated, space_after, text] = object;
+    member("left", left), member("top", top), member("right", right), member("bottom", bottom), member("size", size);
+    member("bold", bold), member("fixed_width", fixed_width), member("rotated", rotated);
+    member("space_after", space_after), member("text", text);
+}
+
+template <Is<PdfPage> T, class V>
+void describe(T& object, V& member) {
+    auto& [width, height, words] = object;
+    member("width", width), member("height", height), member("words", words);
+}
+
+template <Is<PdfLayout> T, class V>
+void describe(T& object, V& member) {
+    auto& [protected_by_password, pages] = object;
+    member("protected", protected_by_password), member("pages", pages);
+}
+
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 constexpr std::size_t kEnd = 2048;  ///< bytes at the end of a file within which its last mark stands
 
@@ -61,7 +81,7 @@ std::string lower(std::string text) {
     return text;
 }
 
-json word_of(const poppler::text_box& box) {
+PdfWord word_of(const poppler::text_box& box) {
     const poppler::rectf at = box.bbox();
     const poppler::byte_array bytes = box.text().to_utf8();
     const std::string font = lower(box.get_font_name());
@@ -84,7 +104,7 @@ json word_of(const poppler::text_box& box) {
 void ignore_message(const std::string&, void*) {}
 
 /// Runs in the guarded copy.
-json read_all(const fs::path& file, const PdfLimits& limits) {
+PdfLayout read_all(const fs::path& file, const PdfLimits& limits) {
     poppler::set_debug_error_function(ignore_message, nullptr);
     const std::string pdf = with_plain_streams(read_work_file(file));
     const std::unique_ptr<poppler::document> document(
@@ -97,27 +117,22 @@ json read_all(const fs::path& file, const PdfLimits& limits) {
         refuse(PdfFault::kTooLarge,
                fmt::format("The file has {} pages; at most {} are looked at.", count, limits.pages));
     }
-    json pages = json::array();
+    PdfLayout layout{document->is_encrypted(), {}};
     int words = 0;
     for (int i = 0; i < count; ++i) {
         const std::unique_ptr<poppler::page> page(document->create_page(i));
         if (!page) refuse(PdfFault::kDamaged, fmt::format("The file is damaged: page {} cannot be read.", i + 1));
-        json list = json::array();
+        const poppler::rectf size = page->page_rect();
+        PdfPage& added = layout.pages.emplace_back(PdfPage{size.width(), size.height(), {}});
         for (const poppler::text_box& box : page->text_list(poppler::page::text_list_include_font)) {
             if (++words > limits.words) {
                 refuse(PdfFault::kTooLarge,
                        fmt::format("The file has more than {} words, more than a report can have.", limits.words));
             }
-            list.push_back(word_of(box));
+            added.words.push_back(word_of(box));
         }
-        const poppler::rectf size = page->page_rect();
-        pages.push_back({{"width", size.width()}, {"height", size.height()}, {"words", std::move(list)}});
     }
-    return {{"protected", document->is_encrypted()}, {"pages", std::move(pages)}};
-}
-
-PdfWord word_from(const json& value) {
-    return {value[0], value[1], value[2], value[3], value[4], value[5], value[6], value[7], value[8], value[9]};
+    return layout;
 }
 
 bool is_placed(const PdfWord& word) {
@@ -125,30 +140,21 @@ bool is_placed(const PdfWord& word) {
     return std::all_of(std::begin(numbers), std::end(numbers), [](double x) { return std::abs(x) < 1e6; });
 }
 
-PdfLayout layout_from(const json& read) {
-    PdfLayout layout;
-    layout.protected_by_password = read.at("protected");
-    for (const json& page : read.at("pages")) {
-        PdfPage& added = layout.pages.emplace_back(PdfPage{page.at("width"), page.at("height"), {}});
-        for (const json& value : page.at("words")) {
-            PdfWord word = word_from(value);
-            if (is_placed(word)) added.words.push_back(std::move(word));
-        }
-    }
-    return layout;
-}
-
 }  // namespace
 
 PdfLayout read_pdf_layout(const fs::path& file, const PdfLimits& limits) {
     check_outside(file, limits);
-    const auto work = [&] {
-        const std::vector<std::uint8_t> packed = json::to_msgpack(read_all(file, limits));
-        return std::string(packed.begin(), packed.end());
-    };
-    const json read =
-        json::from_msgpack(run_guarded_on_pdf(work, {limits.time, limits.memory_bytes, limits.memory_bytes}));
-    return layout_from(read);
+    const auto work = [&] { return cbor_of(read_all(file, limits)); };
+    const std::string answer = run_guarded_on_pdf(work, {limits.time, limits.memory_bytes, limits.memory_bytes});
+    ValueLimits bounds;
+    bounds.memory = limits.memory_bytes;
+    try {
+        auto layout = from_cbor<PdfLayout>(answer, bounds);
+        for (PdfPage& page : layout.pages) std::erase_if(page.words, [](const PdfWord& w) { return !is_placed(w); });
+        return layout;
+    } catch (const ValueError&) {
+        refuse(PdfFault::kDamaged, "The file is damaged: what is read in it makes no pages.");
+    }
 }
 
 }  // namespace dynlab::inline documents
