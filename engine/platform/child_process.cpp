@@ -120,7 +120,7 @@ struct ChildProcess::State {
 };
 
 ChildProcess::ChildProcess(const ChildOptions& options, const std::string& package)
-    : state_(std::make_unique<State>(start(options, package))) {}
+    : state_(new State{start(options, package)}) {}
 ChildProcess::~ChildProcess() = default;
 ChildProcess::ChildProcess(ChildProcess&&) noexcept = default;
 ChildProcess& ChildProcess::operator=(ChildProcess&&) noexcept = default;

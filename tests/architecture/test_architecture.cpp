@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -41,6 +43,17 @@ std::vector<fs::path> files_below(const fs::path& folder, const std::set<std::st
 
 std::vector<fs::path> sources_below(const fs::path& folder) {
     return files_below(folder, {".h", ".cpp"});
+}
+
+/// What a shell command prints.
+std::string output_of(const std::string& command) {
+    std::string text;
+    FILE* pipe = popen(command.c_str(), "r");
+    if (pipe == nullptr) return text;
+    std::array<char, 65536> part;
+    for (std::size_t length; (length = fread(part.data(), 1, part.size(), pipe)) > 0;) text.append(part.data(), length);
+    pclose(pipe);
+    return text;
 }
 
 std::vector<std::string> matches(const std::string& text, const std::string& pattern) {
@@ -138,6 +151,89 @@ TEST(architecture, a_function_is_declared_in_one_header) {
         }
     }
     EXPECT_GT(headers.size(), 500u);
+    EXPECT_THAT(offences, IsEmpty());
+}
+
+// The linker takes either of two definitions of one name, and tells nobody: types are compared in the headers, symbols
+// in the libraries. Strong symbols only; templates and inline functions stand in many objects on purpose.
+TEST(architecture, a_type_has_its_name_for_itself) {
+    std::map<std::string, fs::path> headers;
+    std::vector<std::string> offences;
+    for (const fs::path& file : files_below(kRoot / "engine", {".h"})) {
+        for (const std::string& name :
+             matches(text_of(file), R"(\n(?:struct|class|enum class) (\w+)(?: :[^;{]*| final)? \{)")) {
+            const auto [known, first] = headers.emplace(name, file);
+            if (!first) offences.push_back(name + " in " + place_of(known->second) + " and " + place_of(file));
+        }
+    }
+    EXPECT_GT(headers.size(), 200u);
+    EXPECT_THAT(offences, IsEmpty());
+}
+
+TEST(architecture, no_symbol_is_defined_twice) {
+    const std::string listed = output_of("nm -A -C --defined-only " DYNLAB_LIBRARIES);
+    std::map<std::string, std::string> objects;
+    std::vector<std::string> offences;
+    const std::regex strong("([^:\\n]+:[^:\\n]+):[0-9a-f]+ [TDBR] ([^\\n]+)");
+    for (std::sregex_iterator it(listed.begin(), listed.end(), strong), end; it != end; ++it) {
+        const auto [known, first] = objects.emplace((*it)[2], (*it)[1]);
+        if (!first && known->second != (*it)[1])
+            offences.push_back((*it)[2].str() + " in " + known->second + " and " + (*it)[1].str());
+    }
+    EXPECT_GT(objects.size(), 1000u);
+    EXPECT_THAT(offences, IsEmpty());
+}
+
+TEST(architecture, every_room_of_the_core_has_its_own_test) {
+    std::vector<std::string> untested;
+    for (const char* room : {"filters", "criteria", "fit", "estimators"}) {
+        for (const fs::path& file : files_below(kRoot / "engine/numerics" / room, {".cpp"})) {
+            const fs::path test = kRoot / "tests/unit" / room / ("test_" + file.filename().string());
+            if (!fs::exists(test)) untested.push_back(place_of(file));
+        }
+    }
+    EXPECT_THAT(untested, IsEmpty());
+}
+
+/// The declarations of functions outside classes in a header that no comment of theirs or of the block they stand in
+/// explains.
+std::vector<std::string> undocumented_functions(const std::string& header) {
+    std::vector<std::string> found;
+    std::istringstream lines(header);
+    bool documented = false;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("///")) documented = true;
+        if (line.empty()) documented = false;
+        static const std::regex declaration(
+            R"((?!namespace|template|struct|class|enum|using|static_assert)[A-Za-z][^=]* (\w+)\(.*)");
+        if (std::smatch parts;
+            !documented && std::regex_match(line, parts, declaration) && line.find("///") == line.npos)
+            found.push_back(parts[1]);
+    }
+    return found;
+}
+
+// What a caller must know of numerics: what a function is for, what it refuses, in which unit it wants and gives what
+// has one.
+TEST(architecture, headers_of_numerics_tell_purpose_errors_and_units) {
+    const std::regex refuses("\\bthrow |\\brequire\\w*\\("), told("[Tt]hrow|InvalidArgument|[Rr]efuse");
+    const std::regex dimensioned(
+        "\\b(Ts|delay|duration|cutoff|frequency|frequencies|period|lambda|time)\\b(?= ?[,)=;])");
+    const std::regex unit("\\b(s|rad/s|Hz|samples?|seconds|time unit|rad|unit)\\b");
+    std::vector<std::string> offences;
+    for (const fs::path& file : files_below(kRoot / "engine/numerics", {".h"})) {
+        const std::string header = text_of(file);
+        std::string comments;
+        for (const std::string& comment : matches(header, "//([^\n]*)")) comments += comment + "\n";
+        const std::string code = std::regex_replace(header, std::regex("//[^\n]*"), "");
+        for (const std::string& function : undocumented_functions(header))
+            offences.push_back(place_of(file) + ": no comment on " + function);
+        const fs::path source = fs::path(file).replace_extension(".cpp");
+        if (fs::exists(source) && std::regex_search(text_of(source), refuses) && !std::regex_search(comments, told))
+            offences.push_back(place_of(file) + ": no word on what is refused");
+        if (std::regex_search(code, dimensioned) && !std::regex_search(comments, unit))
+            offences.push_back(place_of(file) + ": no unit");
+    }
     EXPECT_THAT(offences, IsEmpty());
 }
 

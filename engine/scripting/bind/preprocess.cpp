@@ -36,7 +36,7 @@ std::vector<Segment> segments_argument(const Call& call) {
         throw InvalidArgument(
             "the stretches are lists of two sample numbers, {{1, 200}, {350, 900}}: the first and the last of each");
     std::vector<Segment> segments;
-    for (const auto row : rows.rowwise()) segments.push_back({static_cast<Index>(row[0]), static_cast<Index>(row[1])});
+    for (const auto& row : rows.rowwise()) segments.push_back({static_cast<Index>(row[0]), static_cast<Index>(row[1])});
     return segments;
 }
 

@@ -48,8 +48,8 @@ class LocalsToAssignments {
             code_.insert(*place, " = nil");
     }
 
-    std::string code() && { return std::move(code_); }
-    std::vector<std::string> names() && { return std::move(names_); }
+    const std::string& code() const { return code_; }
+    const std::vector<std::string>& names() const { return names_; }
 
   private:
     bool is(std::size_t i, std::string_view word) const { return i < tokens_.size() && tokens_[i].is(word); }
@@ -127,9 +127,9 @@ PromptStatement read_statement(const std::string& source) {
     }
     const Syntax as_chunk = syntax_of(source);
     if (as_chunk == Syntax::kRight) {
-        LocalsToAssignments rewritten(source, tokens);
-        statement.code = std::move(rewritten).code();
-        statement.variables = std::move(rewritten).names();
+        const LocalsToAssignments rewritten(source, tokens);
+        statement.code = rewritten.code();
+        statement.variables = rewritten.names();
     } else if (as_chunk == Syntax::kIncomplete || as_expression == Syntax::kIncomplete) {
         statement.kind = PromptStatement::Kind::kIncomplete;
     }
