@@ -12,22 +12,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct CheckWords {
+struct CheckArguments {
     std::string subject, template_name, roster;
     int pages = 0;
     bool as_json = false, document_only = false;
 };
 
 /// The people of the roster, and whoever's account this is.
-std::shared_ptr<const SoughtNames> sought_by(const CheckWords& words) {
+std::shared_ptr<const SoughtNames> sought_by(const CheckArguments& words) {
     auto names = std::make_shared<SoughtNames>();
     if (!words.roster.empty()) *names = SoughtNames(Roster(words.roster));
     if (const char* home = std::getenv("HOME")) names->add_account(home);
     return names;
 }
 
-int check(const CheckWords& words) {
-    CheckWishes wishes;
+int check(const CheckArguments& words) {
+    CheckOptions wishes;
     CheckResult result;
     if (words.pages > 0) wishes.pages = words.pages;
     wishes.lesson_checks = !words.document_only;
@@ -53,7 +53,7 @@ int check(const CheckWords& words) {
 }  // namespace
 
 void add_check(CLI::App& app, Action& action) {
-    auto words = std::make_shared<CheckWords>();
+    auto words = std::make_shared<CheckArguments>();
     CLI::App* command =
         app.add_subcommand("check", "Look at a report as an instructor does first: what must be mended");
     command->add_option("FOLDER|FILE.pdf", words->subject, "A folder made by dynlab new, or a PDF from anywhere")

@@ -17,10 +17,10 @@ namespace {
 namespace fs = std::filesystem;
 
 void add_init(CLI::App& course, Action& action) {
-    struct Words {
+    struct Arguments {
         std::string folder, name, zone = "UTC";
     };
-    auto words = std::make_shared<Words>();
+    auto words = std::make_shared<Arguments>();
     CLI::App* command = course.add_subcommand("init", "Make a course: a folder with its store and its key");
     command->add_option("DIR", words->folder, "The course's folder; it may exist")->required();
     command->add_option("--name", words->name, "The course's name, for receipts; the folder's unless given");
@@ -44,7 +44,7 @@ void add_init(CLI::App& course, Action& action) {
     });
 }
 
-void add_roster(CLI::App& course, CourseWords& where, Action& action) {
+void add_roster(CLI::App& course, CourseArguments& where, Action& action) {
     CLI::App* roster = course.add_subcommand("roster", "Students and groups: import, drop, return");
     roster->require_subcommand(1);
     auto file = std::make_shared<std::string>();
@@ -94,14 +94,14 @@ add_move("drop", "A group has dropped out", true);
 add_move("return", "A group that had dropped out is back", false);
 }  // namespace dynlab::inline cli
 
-struct AssignmentWords {
+struct AssignmentArguments {
     std::string name, kind = "report", lesson, first, review, final, grace = "0",
                       criteria = "data:5,steps:5,conclusions:5,strength:5,suggestions:5";
     int reviews = 2;
     std::uint32_t seed = 0;
 };
 
-int add_one(const CourseWords& where, const AssignmentWords& words) {
+int add_one(const CourseArguments& where, const AssignmentArguments& words) {
     Course course(where.folder);
     Assignment a;
     a.name = words.name, a.kind = words.kind, a.lesson = words.lesson, a.reviews = words.reviews, a.seed = words.seed;
@@ -119,10 +119,10 @@ int add_one(const CourseWords& where, const AssignmentWords& words) {
     return kDone;
 }
 
-void add_assignment_commands(CLI::App& course, CourseWords& where, Action& action) {
+void add_assignment_commands(CLI::App& course, CourseArguments& where, Action& action) {
     CLI::App* assignment = course.add_subcommand("assignment", "What is to be handed in, and when");
     assignment->require_subcommand(1);
-    auto words = std::make_shared<AssignmentWords>();
+    auto words = std::make_shared<AssignmentArguments>();
     CLI::App* add = assignment->add_subcommand("add", "Add an assignment, or give more time for one");
     add->add_option("NAME", words->name, "A short word, such as crane")->required();
     add->add_option("--kind", words->kind, "report: reviewed and improved; presentation: slides and script")
@@ -149,11 +149,11 @@ void add_assignment_commands(CLI::App& course, CourseWords& where, Action& actio
     add->callback([&where, words, &action] { action = [&where, words] { return add_one(where, *words); }; });
 }
 
-void add_status(CLI::App& course, CourseWords& where, Action& action) {
-    struct Words {
+void add_status(CLI::App& course, CourseArguments& where, Action& action) {
+    struct Arguments {
         std::string assignment, at;
     };
-    auto words = std::make_shared<Words>();
+    auto words = std::make_shared<Arguments>();
     CLI::App* command = course.add_subcommand("status", "What came, what is late, and what to do about it");
     command->add_option("ASSIGNMENT", words->assignment, "All unless given");
     command->footer(
@@ -192,7 +192,7 @@ Instant time_of(const Course& course, const std::string& text) {
 }
 
 void add_course(CLI::App& app, Action& action) {
-    static CourseWords where;
+    static CourseArguments where;
     CLI::App* course = app.add_subcommand("course", "A course from roster to marks: hand-ins, peer review, export");
     course->require_subcommand(1);
     course->add_option("--course", where.folder, "The course's folder; this one, or one above it, unless given")

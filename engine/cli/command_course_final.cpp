@@ -14,12 +14,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct ChangesWords {
+struct ChangesArguments {
     std::vector<std::string> groups;
     std::string assignment, out, isolation = "full";
 };
 
-int changes(const CourseWords& where, const ChangesWords& words) {
+int changes(const CourseArguments& where, const ChangesArguments& words) {
     const Isolation level = words.isolation == "full" ? Isolation::kFull : Isolation::kProcess;
     if (const auto obstacle = obstacle_to(level)) throw EnvironmentError(*obstacle);
     Course course(where.folder);
@@ -44,8 +44,8 @@ int changes(const CourseWords& where, const ChangesWords& words) {
 
 }  // namespace
 
-void add_final_changes(CLI::App& final, CourseWords& where, Action& action) {
-    auto words = std::make_shared<ChangesWords>();
+void add_final_changes(CLI::App& final, CourseArguments& where, Action& action) {
+    auto words = std::make_shared<ChangesArguments>();
     CLI::App* command =
         final.add_subcommand("changes", "What groups changed after their reviews, and what became of each remark");
     command->add_option("GROUP", words->groups, "All unless given");

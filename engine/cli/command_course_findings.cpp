@@ -11,7 +11,7 @@
 namespace dynlab::inline cli {
 namespace {
 
-struct FindingsWords {
+struct FindingsArguments {
     std::string group, assignment, stage = "first";
     std::optional<std::int64_t> version;
 };
@@ -20,7 +20,7 @@ std::string stage_in_words(const std::string& stage) {
     return stage == "first" ? "first version" : stage == "review" ? "reviews" : "final version";
 }
 
-int show_findings(const CourseWords& where, const FindingsWords& words) {
+int show_findings(const CourseArguments& where, const FindingsArguments& words) {
     Course course(where.folder);
     const Assignment assignment = assignment_named(course, words.assignment);
     const Group group = group_named(course, words.group);
@@ -42,8 +42,8 @@ int show_findings(const CourseWords& where, const FindingsWords& words) {
 
 }  // namespace
 
-void add_findings_command(CLI::App& course, CourseWords& where, Action& action) {
-    auto words = std::make_shared<FindingsWords>();
+void add_findings_command(CLI::App& course, CourseArguments& where, Action& action) {
+    auto words = std::make_shared<FindingsArguments>();
     CLI::App* command = course.add_subcommand("findings", "What was found in a group's files when they came");
     command->add_option("GROUP", words->group)->required();
     command->add_option("--assignment", words->assignment, "Which; needed when there are several")->type_name("NAME");

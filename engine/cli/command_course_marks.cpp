@@ -14,12 +14,12 @@
 namespace dynlab::inline cli {
 namespace {
 
-struct MarkWords {
+struct MarkArguments {
     std::string assignment, file, group, what, reason, at, out, from = ".";
     double percent = 0;
     bool json = false;
 };
-using Run = int (*)(const CourseWords&, const MarkWords&);
+using Run = int (*)(const CourseArguments&, const MarkArguments&);
 
 int give_out(const std::string& text, const std::string& file) {
     if (file.empty()) {
@@ -32,7 +32,7 @@ int give_out(const std::string& text, const std::string& file) {
     return kDone;
 }
 
-int scores(const CourseWords& where, const MarkWords& words) {
+int scores(const CourseArguments& where, const MarkArguments& words) {
     Course course(where.folder);
     const Assignment a = assignment_named(course, words.assignment);
     const Instant now = time_of(course, words.at);
@@ -42,7 +42,7 @@ int scores(const CourseWords& where, const MarkWords& words) {
     return kDone;
 }
 
-int sheet(const CourseWords& where, const MarkWords& words) {
+int sheet(const CourseArguments& where, const MarkArguments& words) {
     Course course(where.folder);
     return give_out(oral_sheet(course, assignment_named(course, words.assignment)), words.out);
 }
@@ -51,7 +51,7 @@ std::string percent(const std::optional<double>& mark, bool overridden) {
     return mark ? fmt::format("{:.1f}{}", *mark, overridden ? " (yours)" : "") : "-";
 }
 
-int marks(const CourseWords& where, const MarkWords& words) {
+int marks(const CourseArguments& where, const MarkArguments& words) {
     Course course(where.folder);
     const Assignment a = assignment_named(course, words.assignment);
     const Marks all = course_marks(course, a);
@@ -79,7 +79,7 @@ int marks(const CourseWords& where, const MarkWords& words) {
     return kDone;
 }
 
-int set_mark(const CourseWords& where, const MarkWords& words) {
+int set_mark(const CourseArguments& where, const MarkArguments& words) {
     Course course(where.folder);
     const Assignment a = assignment_named(course, words.assignment);
     override_mark(course, a, words.group, words.what, words.percent, words.reason, time_of(course, words.at));
@@ -88,13 +88,13 @@ int set_mark(const CourseWords& where, const MarkWords& words) {
     return kDone;
 }
 
-int export_course(const CourseWords& where, const MarkWords& words) {
+int export_course(const CourseArguments& where, const MarkArguments& words) {
     Course course(where.folder);
     return give_out(words.json ? course_json(course) : marks_csv(course, assignment_named(course, words.assignment)),
                     words.out);
 }
 
-int import(const CourseWords&, const MarkWords& words) {
+int import(const CourseArguments&, const MarkArguments& words) {
     import_course(words.file, words.from, words.out);
     std::cout << fmt::format("Course made in {} from {}.\n", words.out, words.file);
     return kDone;
@@ -102,12 +102,12 @@ int import(const CourseWords&, const MarkWords& words) {
 
 struct MarkCommand {
     CLI::App* app;
-    std::shared_ptr<MarkWords> words;
+    std::shared_ptr<MarkArguments> words;
 };
 
-MarkCommand add_one(CLI::App& course, const char* name, const char* about, CourseWords& where, Action& action,
+MarkCommand add_one(CLI::App& course, const char* name, const char* about, CourseArguments& where, Action& action,
                     Run run) {
-    auto words = std::make_shared<MarkWords>();
+    auto words = std::make_shared<MarkArguments>();
     CLI::App* command = course.add_subcommand(name, about);
     command->callback([&where, words, run, &action] { action = [&where, words, run] { return run(where, *words); }; });
     return {command, words};
@@ -115,7 +115,7 @@ MarkCommand add_one(CLI::App& course, const char* name, const char* about, Cours
 
 }  // namespace
 
-void add_mark_commands(CLI::App& course, CourseWords& where, Action& action) {
+void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action) {
     const auto scored = add_one(course, "scores", "Read scores: of reviewers, or of the oral", where, action, scores);
     scored.app->add_option("ASSIGNMENT", scored.words->assignment)->required();
     scored.app->add_option("CSV", scored.words->file, "Columns reviewer, report (or group, at the oral), criteria")

@@ -11,12 +11,12 @@
 namespace dynlab::inline cli {
 namespace {
 
-struct PeerWords {
+struct PeerArguments {
     std::string assignment, at;
     bool early = false;
 };
 
-int assign(const CourseWords& where, const PeerWords& words) {
+int assign(const CourseArguments& where, const PeerArguments& words) {
     Course course(where.folder);
     const Assignment assignment = assignment_named(course, words.assignment);
     const AssignOutcome done = assign_reviews(course, assignment, time_of(course, words.at), words.early);
@@ -28,7 +28,7 @@ int assign(const CourseWords& where, const PeerWords& words) {
     return kDone;
 }
 
-int show_pairs(const CourseWords& where, const PeerWords& words) {
+int show_pairs(const CourseArguments& where, const PeerArguments& words) {
     Course course(where.folder);
     std::vector<std::vector<std::string>> rows;
     const Assignment assignment = assignment_named(course, words.assignment);
@@ -66,7 +66,7 @@ AnonymousCopier anonymous_copier() {
     };
 }
 
-int send(const CourseWords& where, const PeerWords& words, Way way) {
+int send(const CourseArguments& where, const PeerArguments& words, Way way) {
     Course course(where.folder);
     const Assignment assignment = assignment_named(course, words.assignment);
     const SendOutcome done =
@@ -77,16 +77,16 @@ int send(const CourseWords& where, const PeerWords& words, Way way) {
     return done.stopped == 0 ? kDone : kFailed;
 }
 
-int send_reports(const CourseWords& where, const PeerWords& words) {
+int send_reports(const CourseArguments& where, const PeerArguments& words) {
     return send(where, words, Way::kToReviewers);
 }
-int release(const CourseWords& where, const PeerWords& words) {
+int release(const CourseArguments& where, const PeerArguments& words) {
     return send(where, words, Way::kToAuthors);
 }
 
-CLI::App* add_one(CLI::App& parent, const char* name, const char* about, CourseWords& where, Action& action,
-                  int (*run)(const CourseWords&, const PeerWords&)) {
-    auto words = std::make_shared<PeerWords>();
+CLI::App* add_one(CLI::App& parent, const char* name, const char* about, CourseArguments& where, Action& action,
+                  int (*run)(const CourseArguments&, const PeerArguments&)) {
+    auto words = std::make_shared<PeerArguments>();
     CLI::App* command = parent.add_subcommand(name, about);
     command->add_option("ASSIGNMENT", words->assignment, "Needed when there are several");
     add_time_option(*command, words->at);
@@ -98,7 +98,7 @@ CLI::App* add_one(CLI::App& parent, const char* name, const char* about, CourseW
 
 }  // namespace
 
-void add_peer_commands(CLI::App& course, CourseWords& where, Action& action) {
+void add_peer_commands(CLI::App& course, CourseArguments& where, Action& action) {
     CLI::App* peer = course.add_subcommand("peer", "Who reviews whom");
     peer->require_subcommand(1);
     add_one(*peer, "assign", "Allot the reviews at random, or mend that after late-comers and drop-outs", where, action,

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct ReceiveWords {
+struct ReceiveArguments {
     std::vector<std::string> files;
     std::string assignment, from, of, at, isolation = "full";
     bool no_checks = false, first = false;
@@ -62,7 +62,7 @@ void show(const ReceiveOutcome& outcome, const std::string& stage) {
     for (const std::string& refused : outcome.refused) std::cerr << "dynlab: " << terminal_text(refused) << '\n';
 }
 
-int receive_files(const CourseWords& where, const ReceiveWords& words, const std::string& stage) {
+int receive_files(const CourseArguments& where, const ReceiveArguments& words, const std::string& stage) {
     Course course(where.folder);
     ReceiveRequest request;
     for (const std::string& file : words.files) request.files.emplace_back(file);
@@ -81,8 +81,8 @@ int receive_files(const CourseWords& where, const ReceiveWords& words, const std
 }
 
 void add_receive(CLI::App& parent, const char* name, const char* about, const std::string& stage,
-                 const std::string& example, CourseWords& where, Action& action) {
-    auto words = std::make_shared<ReceiveWords>();
+                 const std::string& example, CourseArguments& where, Action& action) {
+    auto words = std::make_shared<ReceiveArguments>();
     CLI::App* command = parent.add_subcommand(name, about);
     command->add_option("FILE", words->files, "PDFs, packs, folders, or the zip that Moodle or Canvas exports")
         ->required();
@@ -111,7 +111,7 @@ void add_receive(CLI::App& parent, const char* name, const char* about, const st
     });
 }
 
-int verify(const CourseWords& where, const std::vector<std::string>& receipts) {
+int verify(const CourseArguments& where, const std::vector<std::string>& receipts) {
     Course course(where.folder);
     bool well = true;
     for (const std::string& file : receipts) {
@@ -129,7 +129,7 @@ int verify(const CourseWords& where, const std::vector<std::string>& receipts) {
     return well ? kDone : kFailed;
 }
 
-void add_verify(CLI::App& course, CourseWords& where, Action& action) {
+void add_verify(CLI::App& course, CourseArguments& where, Action& action) {
     auto receipts = std::make_shared<std::vector<std::string>>();
     CLI::App* command = course.add_subcommand("verify", "Whether receipts are genuine; without one, the whole store");
     command->add_option("RECEIPT", *receipts, "Receipts that students show");
@@ -140,7 +140,7 @@ void add_verify(CLI::App& course, CourseWords& where, Action& action) {
         [&where, receipts, &action] { action = [&where, receipts] { return verify(where, *receipts); }; });
 }
 
-void add_key(CLI::App& course, CourseWords& where, Action& action) {
+void add_key(CLI::App& course, CourseArguments& where, Action& action) {
     CLI::App* command = course.add_subcommand("key", "Show the public key, by which students verify receipts");
     command->footer(
         "The file course.pub holds the same: give it to your students, on the course's page say. The secret "
@@ -159,7 +159,7 @@ void add_key(CLI::App& course, CourseWords& where, Action& action) {
 
 }  // namespace
 
-void add_receive_commands(CLI::App& course, CourseWords& where, Action& action) {
+void add_receive_commands(CLI::App& course, CourseArguments& where, Action& action) {
     add_receive(course, "receive", "Take what groups handed in: first versions, slides, scripts", "first",
                 "dynlab course receive \"Crane-12345.zip\" --assignment crane", where, action);
     CLI::App* review = course.add_subcommand("review", "Reviews that came back");

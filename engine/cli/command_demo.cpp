@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct DemoWords {
+struct DemoArguments {
     std::string name;
     bool list = false;
 };
@@ -109,7 +109,7 @@ int menu() {
 }  // namespace
 
 void add_demo(CLI::App& app, Action& action) {
-    auto words = std::make_shared<DemoWords>();
+    auto words = std::make_shared<DemoArguments>();
     CLI::App* command = app.add_subcommand("demo", "Show what can be done: short guided demonstrations");
     auto* name = command->add_option("NAME", words->name, "The demonstration; without it a menu on a terminal");
     command->add_flag("--list", words->list, "List the demonstrations, name and one line each")->excludes(name);

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct GradeWords {
+struct GradeArguments {
     std::string submissions, lesson, out, checks, secret, roster, deadlines, isolation = "full";
     std::vector<std::string> only;
     int jobs = 0, timeout = 60;
@@ -27,7 +27,7 @@ std::optional<fs::path> given(const std::string& path) {
     return path.empty() ? std::nullopt : std::optional<fs::path>(path);
 }
 
-int grade(const GradeWords& words) {
+int grade(const GradeArguments& words) {
     GradingRequest request;
     request.submissions = words.submissions;
     request.out = words.out;
@@ -60,7 +60,7 @@ int grade(const GradeWords& words) {
 }  // namespace
 
 void add_grade(CLI::App& app, Action& action) {
-    auto words = std::make_shared<GradeWords>();
+    auto words = std::make_shared<GradeArguments>();
     CLI::App* command = app.add_subcommand("grade", "Grade the submissions of a class: marks, feedback, summary");
     command
         ->add_option("FOLDER", words->submissions,

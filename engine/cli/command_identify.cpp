@@ -10,7 +10,7 @@
 namespace dynlab::inline cli {
 namespace {
 
-struct IdentifyWords {
+struct IdentifyArguments {
     IdentifyRequest request;
     std::string report;
     bool script = false;
@@ -30,7 +30,7 @@ void print_at_once(const std::string& text) {
     std::fflush(stdout);
 }
 
-int identify(const IdentifyWords& words) {
+int identify(const IdentifyArguments& words) {
     const std::string script = identification_script(words.request);
     if (words.script) {
         print_at_once(script);
@@ -46,7 +46,7 @@ int identify(const IdentifyWords& words) {
 }  // namespace
 
 void add_identify(CLI::App& app, Action& action) {
-    auto words = std::make_shared<IdentifyWords>();
+    auto words = std::make_shared<IdentifyArguments>();
     IdentifyRequest& request = words->request;
     CLI::App* command = app.add_subcommand("identify", "A model and a report from a data file, without writing Lua");
     command->add_option("DATA", request.data, "The record: a .csv or .mat file, or a data set's name")->required();

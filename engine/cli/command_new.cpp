@@ -8,12 +8,12 @@
 namespace dynlab::inline cli {
 namespace {
 
-struct NewWords {
+struct NewArguments {
     std::string lesson, folder, language;
     std::optional<std::uint32_t> group_seed;
 };
 
-int make_new(const NewWords& words) {
+int make_new(const NewArguments& words) {
     if (words.lesson == "review") {
         make_review_folder(words.folder, words.language);
         std::cout << words.folder << ": report.md has the five questions, analysis.lua takes scores.\n"
@@ -35,7 +35,7 @@ int make_new(const NewWords& words) {
 }  // namespace
 
 void add_new(CLI::App& app, Action& action) {
-    auto words = std::make_shared<NewWords>();
+    auto words = std::make_shared<NewArguments>();
     CLI::App* command =
         app.add_subcommand("new", "Make your own copy of a lesson, without its solutions, or a folder for a review");
     command->add_option("LESSON", words->lesson, "The lesson's number or name, or review")->required();

@@ -12,11 +12,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct PackWords {
+struct PackArguments {
     std::string subject, output;
 };
 
-int pack(const PackWords& words) {
+int pack(const PackArguments& words) {
     fs::path folder = fs::absolute(words.subject).lexically_normal();
     if (!folder.has_filename()) folder = folder.parent_path();
     const fs::path file = words.output.empty() ? fs::path(folder.filename().string() + ".zip") : fs::path(words.output);
@@ -29,7 +29,7 @@ int pack(const PackWords& words) {
     return kDone;
 }
 
-int bundle(const PackWords& words) {
+int bundle(const PackArguments& words) {
     const Lesson lesson = find_lesson(words.subject);
     const fs::path file = words.output.empty() ? fs::path(lesson.slug + ".zip") : fs::path(words.output);
     for (const std::string& name : bundle_lesson(lesson, file)) std::cout << terminal_text(name) << '\n';
@@ -40,7 +40,7 @@ int bundle(const PackWords& words) {
 }  // namespace
 
 void add_pack(CLI::App& app, Action& action) {
-    auto words = std::make_shared<PackWords>();
+    auto words = std::make_shared<PackArguments>();
     CLI::App* command = app.add_subcommand("pack", "Make one file of your folder, to hand in");
     command->add_option("DIR", words->subject, "The folder that dynlab new made")
         ->required()
@@ -53,7 +53,7 @@ void add_pack(CLI::App& app, Action& action) {
 }
 
 void add_bundle(CLI::App& app, Action& action) {
-    auto words = std::make_shared<PackWords>();
+    auto words = std::make_shared<PackArguments>();
     CLI::App* command = app.add_subcommand("bundle", "Make the students' zip of a lesson, without solutions");
     command->add_option("LESSON", words->subject, "The lesson's number or name")->required();
     command->add_option("-o,--output", words->output, "The zip to make; NN_name.zip here unless given")

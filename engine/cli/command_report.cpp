@@ -5,13 +5,13 @@
 namespace dynlab::inline cli {
 namespace {
 
-struct ReportWords {
+struct ReportArguments {
     std::string subject, output, record, language;
     bool timings = false;
     SeedOption seed;
 };
 
-int report(const ReportWords& words) {
+int report(const ReportArguments& words) {
     ReportRequest request = report_of(words.subject, words.output, words.language);
     request.seed = words.seed.value().value_or(request.seed);
     request.record = words.record;
@@ -21,7 +21,7 @@ int report(const ReportWords& words) {
 }  // namespace
 
 void add_report(CLI::App& app, Action& action) {
-    auto words = std::make_shared<ReportWords>();
+    auto words = std::make_shared<ReportArguments>();
     CLI::App* command = app.add_subcommand("report", "Make the PDF of a lesson, or of your own folder");
     command->add_option("LESSON|FOLDER", words->subject, "A lesson's number or name, or a folder made by dynlab new")
         ->required();

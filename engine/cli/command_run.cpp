@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct RunWords {
+struct RunArguments {
     std::string file, code, out;
     SeedOption seed;
 };
@@ -41,7 +41,7 @@ RunRecord run_showing_activity(RunRequest& request, GnuplotRenderer& renderer) {
     return run_script(request, renderer);
 }
 
-int run(const RunWords& words) {
+int run(const RunArguments& words) {
     const bool from_file = !words.file.empty();
     RunRequest request;
     request.script = from_file ? read_percent_script(words.file) : parse_percent_script(words.code, "command line");
@@ -69,7 +69,7 @@ int run(const RunWords& words) {
 }  // namespace
 
 void add_run(CLI::App& app, Action& action) {
-    auto words = std::make_shared<RunWords>();
+    auto words = std::make_shared<RunArguments>();
     CLI::App* command = app.add_subcommand("run", "Run a Lua script, or code given on the command line");
     auto* file = command->add_option("FILE", words->file, "The script");
     auto* code = command->add_option("-e", words->code, "Code to run instead of a file")->type_name("CODE");

@@ -5,13 +5,13 @@
 namespace dynlab::inline cli {
 namespace {
 
-struct WeaveWords {
+struct WeaveArguments {
     std::string script, output;
     bool timings = false;
     SeedOption seed;
 };
 
-int weave(const WeaveWords& words) {
+int weave(const WeaveArguments& words) {
     ReportRequest request = report_of_script(read_percent_script(words.script), words.output);
     request.seed = words.seed.value().value_or(request.seed);
     return make_document(std::move(request), words.timings);
@@ -20,7 +20,7 @@ int weave(const WeaveWords& words) {
 }  // namespace
 
 void add_weave(CLI::App& app, Action& action) {
-    auto words = std::make_shared<WeaveWords>();
+    auto words = std::make_shared<WeaveArguments>();
     CLI::App* command = app.add_subcommand("weave", "Run any script and make a document of its text, code and results");
     command->add_option("FILE", words->script, "The script (percent format: -- %% starts a cell)")->required();
     command->add_option("-o,--output", words->output, "The document: .pdf, .html or .md")

@@ -10,7 +10,7 @@
 namespace dynlab::inline cli {
 
 /// What all commands of `dynlab course` share.
-struct CourseWords {
+struct CourseArguments {
     std::string folder = ".";
 };
 
@@ -35,18 +35,18 @@ class WorkBar {
 };
 
 /// final changes: below the command final.
-void add_final_changes(CLI::App& final, CourseWords& where, Action& action);
+void add_final_changes(CLI::App& final, CourseArguments& where, Action& action);
 
 /// receive, review receive, final receive, verify, key.
-void add_receive_commands(CLI::App& course, CourseWords& where, Action& action);
+void add_receive_commands(CLI::App& course, CourseArguments& where, Action& action);
 
 /// peer assign, peer send, peer show, release.
-void add_peer_commands(CLI::App& course, CourseWords& where, Action& action);
+void add_peer_commands(CLI::App& course, CourseArguments& where, Action& action);
 
 /// findings.
-void add_findings_command(CLI::App& course, CourseWords& where, Action& action);
+void add_findings_command(CLI::App& course, CourseArguments& where, Action& action);
 
 /// scores, oral, marks, override, export, import.
-void add_mark_commands(CLI::App& course, CourseWords& where, Action& action);
+void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action);
 
 }  // namespace dynlab::inline cli

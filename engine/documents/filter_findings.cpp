@@ -168,10 +168,10 @@ std::string formula_in(const std::string& line) {
 
 }  // namespace
 
-FilterFindings read_filter_findings(const std::string& error_output, const MarkdownText& markdown,
+FilterMessages read_filter_findings(const std::string& error_output, const MarkdownText& markdown,
                                     const std::filesystem::path& template_file, const RunRecord& record,
                                     Complaints& complaints) {
-    FilterFindings findings;
+    FilterMessages findings;
     const Sentences sentences(markdown, record);
     for (const std::string& line : lines_of(error_output)) {
         const std::vector<std::string> fields = split_at(line, '\t');

@@ -16,12 +16,12 @@ struct UsedPicture {
 };
 
 /// What our Pandoc filter and Pandoc itself wrote on standard error.
-struct FilterFindings {
+struct FilterMessages {
     std::vector<UsedPicture> pictures;
 };
 
 /// Adds a sentence with its place in the source for every error of the filter and every warning of Pandoc.
-FilterFindings read_filter_findings(const std::string& error_output, const MarkdownText& markdown,
+FilterMessages read_filter_findings(const std::string& error_output, const MarkdownText& markdown,
                                     const std::filesystem::path& template_file, const RunRecord& record,
                                     Complaints& complaints);
 

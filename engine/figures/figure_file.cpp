@@ -31,7 +31,7 @@ FigureFormat figure_format(const std::filesystem::path& file) {
                                       file.filename().string()));
 }
 
-bool is_whole(const std::filesystem::path& file, FigureFormat format) {
+bool is_complete(const std::filesystem::path& file, FigureFormat format) {
     struct Ends {
         std::string_view begin, end;
     };

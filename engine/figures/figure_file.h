@@ -6,7 +6,7 @@
 namespace dynlab::inline figures {
 
 /// Whether a file has the beginning and the end that its format requires; a full disk leaves none.
-bool is_whole(const std::filesystem::path& file, FigureFormat format);
+bool is_complete(const std::filesystem::path& file, FigureFormat format);
 
 /// Gives the texts of an SVG file fonts to fall back on where the reader's machine lacks the document's own, and drops
 /// empty groups: how many there are depends on what gnuplot drew before, and equal figures are to be equal files.

@@ -27,22 +27,22 @@ namespace {
 namespace fs = std::filesystem;
 
 /// While one lives, writing to a gnuplot that has ended fails instead of ending this program too.
-class BrokenPipeHeld {
+class BrokenPipeBlock {
   public:
-    BrokenPipeHeld() {
+    BrokenPipeBlock() {
         sigemptyset(&broken_pipe_);
         sigaddset(&broken_pipe_, SIGPIPE);
         pthread_sigmask(SIG_BLOCK, &broken_pipe_, &before_);
     }
-    ~BrokenPipeHeld() {
+    ~BrokenPipeBlock() {
         const timespec now{};
         if (!sigismember(&before_, SIGPIPE))
             while (sigtimedwait(&broken_pipe_, nullptr, &now) > 0) {
             }
         pthread_sigmask(SIG_SETMASK, &before_, nullptr);
     }
-    BrokenPipeHeld(const BrokenPipeHeld&) = delete;
-    BrokenPipeHeld& operator=(const BrokenPipeHeld&) = delete;
+    BrokenPipeBlock(const BrokenPipeBlock&) = delete;
+    BrokenPipeBlock& operator=(const BrokenPipeBlock&) = delete;
 
   private:
     sigset_t broken_pipe_, before_;
@@ -164,7 +164,7 @@ class GnuplotRenderer::Work {
     }
 
     void send(const std::string& script, const fs::path& target) {
-        const BrokenPipeHeld held;
+        const BrokenPipeBlock held;
         running_->gnuplot << script << std::flush;
         if (running_->gnuplot) return;
         throw_if_interrupted();
@@ -176,7 +176,7 @@ class GnuplotRenderer::Work {
         const std::optional<std::string> complaints = running_->child.wait_for_report(figure.number);
         if (!complaints) fail_as_ended(figure.target);
         if (const auto error = first_error(*complaints)) return error;
-        if (!is_whole(figure.temporary, figure.format)) return "the file is not complete (is the disk full?)";
+        if (!is_complete(figure.temporary, figure.format)) return "the file is not complete (is the disk full?)";
         if (figure.format == FigureFormat::kPdf) blank_creation_date(figure.temporary);
         if (figure.format == FigureFormat::kSvg) finish_svg(figure.temporary);
         ++use_.made;

@@ -57,7 +57,7 @@ class LeakCorpus : public CheckTest {
 
     /// What is found about names, as "id page"; hints in brackets.
     std::vector<std::string> found(const std::filesystem::path& pdf) const {
-        CheckWishes wishes;
+        CheckOptions wishes;
         wishes.standard = standard_;
         wishes.names = names_;
         std::vector<std::string> result;

@@ -48,7 +48,7 @@ Texts traced(const std::string& final_text, const std::string& remark) {
     const ReportText first = report_text_of_markdown(kFirst);
     const TextChanges changes = text_changes(first, report_text_of_markdown(final_text));
     Texts found;
-    for (const Trace& trace : TraceFinder(first, changes).traces({"", remark, 1, true})) {
+    for (const RemarkMatch& trace : RemarkMatcher(first, changes).traces({"", remark, 1, true})) {
         std::string why = changes.passages[trace.passage].text_of('+') + " <";
         for (const std::string& place : trace.places) why += " " + place;
         for (const std::string& word : trace.words) why += " " + word;

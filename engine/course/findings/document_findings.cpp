@@ -73,7 +73,7 @@ DocumentStandard usual_standard(const DocumentText& text) {
     return sections_in(text, review) > sections_in(text, report) ? review : report;
 }
 
-DocumentStandard standard_for(const DocumentText& text, const CheckWishes& wishes) {
+DocumentStandard standard_for(const DocumentText& text, const CheckOptions& wishes) {
     DocumentStandard standard = wishes.standard ? *wishes.standard : usual_standard(text);
     if (wishes.pages) {
         standard.rules.pages = *wishes.pages;
@@ -144,7 +144,7 @@ DocumentStandard standard_of(const std::string& name) {
     return {fs::path(name).stem(), document_rules(read_template(file)), guidance_of(read_text(file)), std::nullopt};
 }
 
-CheckResult check_pdf(const fs::path& file, const CheckWishes& wishes, const PdfLimits& limits) {
+CheckResult check_pdf(const fs::path& file, const CheckOptions& wishes, const PdfLimits& limits) {
     CheckResult result;
     result.subject = file.string();
     try {

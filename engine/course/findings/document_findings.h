@@ -25,7 +25,7 @@ struct DocumentStandard {
 DocumentStandard standard_of(const std::string& template_name_or_file);
 
 /// What is asked for instead of what the document's kind demands.
-struct CheckWishes {
+struct CheckOptions {
     std::optional<DocumentStandard> standard;
     std::optional<int> pages;   ///< at most so many altogether
     bool lesson_checks = true;  ///< of a folder: try the lesson's checks on its answers too
@@ -49,7 +49,7 @@ struct CheckResult {
 /// layout_findings.h and leftover_findings.h. Without a standard, slides (landscape) are held against the template
 /// "slides", documents with more headings of the form "peer_review" than of "lab_report" against that, and others
 /// against "lab_report". Throws PdfRefusal when there is no such file or it may not be read.
-CheckResult check_pdf(const std::filesystem::path& file, const CheckWishes& wishes = {}, const PdfLimits& limits = {});
+CheckResult check_pdf(const std::filesystem::path& file, const CheckOptions& wishes = {}, const PdfLimits& limits = {});
 
 void sort_findings(Findings& findings);  ///< rules first, then by page
 

@@ -39,7 +39,7 @@ class FolderCheck {
         fs::create_directory(out());
     }
 
-    CheckResult check(CheckWishes wishes) {
+    CheckResult check(CheckOptions wishes) {
         if (!has_its_files() || !copied()) return result_;
         const std::optional<PercentScript> script = readable_script();
         const bool made = script && makes_report();
@@ -214,13 +214,13 @@ class FolderCheck {
     }
 
     /// The authors themselves are looked for, whoever else is.
-    void add_members(CheckWishes& wishes) const {
+    void add_members(CheckOptions& wishes) const {
         SoughtNames names = wishes.names ? *wishes.names : SoughtNames();
         for (const Student& member : members_of(copy() / "group.toml")) names.add(member, true);
         wishes.names = std::make_shared<const SoughtNames>(std::move(names));
     }
 
-    void check_report(const fs::path& file, const CheckWishes& wishes) {
+    void check_report(const fs::path& file, const CheckOptions& wishes) {
         const CheckResult found = check_pdf(file, wishes, limits_.pdf);
         result_.template_name = found.template_name;
         result_.language = found.language;
@@ -269,7 +269,7 @@ class FolderCheck {
 
 }  // namespace
 
-CheckResult check_folder(const fs::path& folder, const fs::path& program, const CheckWishes& wishes,
+CheckResult check_folder(const fs::path& folder, const fs::path& program, const CheckOptions& wishes,
                          const FolderLimits& limits) {
     return FolderCheck(folder, program, limits).check(wishes);
 }

@@ -23,6 +23,6 @@ struct FolderLimits {
 /// is the template that the header of analysis.lua names, or report.md's own header when that demands nothing. Throws
 /// MissingProgram when something is missing on this machine rather than in the folder.
 CheckResult check_folder(const std::filesystem::path& folder, const std::filesystem::path& program,
-                         const CheckWishes& wishes = {}, const FolderLimits& limits = {});
+                         const CheckOptions& wishes = {}, const FolderLimits& limits = {});
 
 }  // namespace dynlab::inline course

@@ -40,9 +40,9 @@ std::optional<std::string> objection_to(const fs::path& path) {
     return {};
 }
 
-class Unpacking {
+class Unpacker {
   public:
-    explicit Unpacking(const UnpackJob& job)
+    explicit Unpacker(const UnpackJob& job)
         : to_(job.to),
           bytes_left_(job.bytes),
           files_left_(job.files),
@@ -133,7 +133,7 @@ Unpacked unpack_archive(const UnpackJob& job) {
     limits.file_bytes = job.bytes;
     confine_process(limits);
     try {
-        return Unpacking(job).unpack();
+        return Unpacker(job).unpack();
     } catch (const std::runtime_error& error) {
         return {{}, error.what()};
     }

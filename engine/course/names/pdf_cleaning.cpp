@@ -44,9 +44,9 @@ const std::set<std::string>& active_kinds() {
     return kinds;
 }
 
-class Cleaning {
+class PdfCleaner {
   public:
-    explicit Cleaning(QPDF& pdf) : pdf_(pdf) {}
+    explicit PdfCleaner(QPDF& pdf) : pdf_(pdf) {}
 
     void clean() {
         Object trailer = pdf_.getTrailer();
@@ -180,7 +180,7 @@ class Cleaning {
 
 std::string clean_pdf(const std::filesystem::path& file, const PdfObjectLimits& limits) {
     return work_on_pdf_objects(file, limits, [&](QPDF& pdf, const std::string&) {
-        Cleaning(pdf).clean();
+        PdfCleaner(pdf).clean();
         return written_pdf(pdf, limits.bytes_inside,
                            [](QPDFWriter& writer) { writer.setObjectStreamMode(qpdf_o_generate); });
     });

@@ -47,7 +47,7 @@ std::string printable(std::string_view utf8, std::size_t most) {
         if (count++ == most) return result + "…";
         const std::string_view before = utf8;
         const char32_t c = next_character(utf8);
-        result += is_obeyed(c) ? "?" : std::string(before.substr(0, before.size() - utf8.size()));
+        result += is_terminal_control(c) ? "?" : std::string(before.substr(0, before.size() - utf8.size()));
     }
     return result;
 }

@@ -66,9 +66,9 @@ class Board {
     std::vector<int> writes_, gets_;
 };
 
-class Allotting {
+class Allocator {
   public:
-    explicit Allotting(const AllocationProblem& problem) : problem_(problem), board_(problem), random_(problem.seed) {
+    explicit Allocator(const AllocationProblem& problem) : problem_(problem), board_(problem), random_(problem.seed) {
         for (int i = 0; i < problem.groups; ++i)
             if (problem.active[static_cast<std::size_t>(i)]) order_.push_back(i);
         shuffle(order_, random_);
@@ -294,7 +294,7 @@ class Allotting {
 }  // namespace
 
 Allocation allocate_reviews(const AllocationProblem& problem) {
-    return Allotting(problem).run();
+    return Allocator(problem).run();
 }
 
 }  // namespace dynlab::inline course

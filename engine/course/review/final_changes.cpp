@@ -34,13 +34,13 @@ class TaskMaker {
         Task task;
         GroupChanges& changes = task.changes;
         changes.group = group.name;
-        changes.left = group.left;
-        read_versions(group, changes.came);
-        if (changes.came.empty()) return {};
-        const std::string first_pdf = choose(changes.came, "first", "report", version_that_was_read(group)),
-                          first_pack = choose(changes.came, "first", "pack", 0),
-                          final_pdf = choose(changes.came, "final", "report", 0),
-                          final_pack = choose(changes.came, "final", "pack", 0);
+        changes.dropped_out = group.dropped_out;
+        read_versions(group, changes.received);
+        if (changes.received.empty()) return {};
+        const std::string first_pdf = choose(changes.received, "first", "report", version_that_was_read(group)),
+                          first_pack = choose(changes.received, "first", "pack", 0),
+                          final_pdf = choose(changes.received, "final", "report", 0),
+                          final_pack = choose(changes.received, "final", "pack", 0);
         task.first = {place(first_pdf), place(first_pack)};
         task.final = {place(final_pdf), place(final_pack)};
         changes.has_first = task.first.pdf || task.first.pack;
@@ -51,13 +51,13 @@ class TaskMaker {
     }
 
   private:
-    void read_versions(const Group& group, std::vector<CameFile>& came) {
+    void read_versions(const Group& group, std::vector<ReceivedFile>& came) {
         for (Rows rows = course_.database().query(
                  "SELECT id, stage, part, number, name, hash, received_at, late FROM versions WHERE assignment = ? AND "
                  "group_id = ? AND stage <> 'review' ORDER BY stage = 'final', received_at, id",
                  assignment_.id, group.id);
              rows.next();) {
-            CameFile file;
+            ReceivedFile file;
             file.id = rows.integer(0), file.stage = rows.text(1), file.part = rows.text(2);
             file.number = rows.integer(3), file.name = rows.text(4), file.hash = rows.text(5);
             file.at = rows.integer(6), file.late = rows.integer(7);
@@ -75,10 +75,10 @@ class TaskMaker {
     }
 
     /// Marks the wanted version of a part, else its newest; returns its hash.
-    static std::string choose(std::vector<CameFile>& came, const std::string& stage, const std::string& part,
+    static std::string choose(std::vector<ReceivedFile>& came, const std::string& stage, const std::string& part,
                               std::int64_t wanted) {
-        CameFile* chosen = nullptr;
-        for (CameFile& file : came) {
+        ReceivedFile* chosen = nullptr;
+        for (ReceivedFile& file : came) {
             if (file.stage != stage || file.part != part) continue;
             if (chosen == nullptr || chosen->id != wanted) chosen = &file;
         }
@@ -147,7 +147,7 @@ void compare(Task& task, Isolation level, const fs::path& program) {
                            : "Compared: a pack's source with a PDF's text, which differ in "
                              "formulas and tables although nothing changed.";
     changes.text = text_changes(*before, *after);
-    const TraceFinder finder(*before, *changes.text);
+    const RemarkMatcher finder(*before, *changes.text);
     for (AnsweredReview& review : changes.reviews)
         for (AnsweredRemark& answered : review.remarks)
             if (answered.remark.wants_answer) answered.traces = finder.traces(answered.remark);

@@ -14,7 +14,7 @@
 namespace dynlab::inline course {
 
 /// A file of a first or final version.
-struct CameFile {
+struct ReceivedFile {
     std::string stage, part, name, hash;
     std::int64_t id = 0, number = 0, late = 0;
     Instant at = 0;
@@ -23,7 +23,7 @@ struct CameFile {
 
 struct AnsweredRemark {
     Remark remark;
-    std::vector<Trace> traces;
+    std::vector<RemarkMatch> traces;
 };
 
 /// A review as its authors got it.
@@ -37,8 +37,8 @@ struct AnsweredReview {
 /// What a group made of its report between the first and the final version.
 struct GroupChanges {
     std::string group;
-    bool left = false;  ///< dropped out
-    std::vector<CameFile> came;
+    bool dropped_out = false;  ///< dropped out
+    std::vector<ReceivedFile> received;
     bool has_first = false, has_final = false, same_files = false;
     std::optional<int> pages_before, pages_after;
     std::optional<TextChanges> text;

@@ -63,7 +63,7 @@ class Composition {
 
     RecordedTable came() const {
         RecordedTable table{{"version", "file", "its name", "came", "", "compared"}, {}};
-        for (const CameFile& file : g_.came)
+        for (const ReceivedFile& file : g_.received)
             table.rows.push_back({file.stage == "first" ? "first" : "final",
                                   fmt::format("{} v{}", file.part, file.number), text_.cell(file.name, 40, 28),
                                   clock_.show(file.at), file.late > 0 ? "late " + duration_text(file.late) : "in time",
@@ -189,7 +189,7 @@ class Composition {
         if (!g_.text) return "→ *Not known: the versions could not be compared.*\n";
         if (answered.traces.empty()) return std::string("→ **") + kNoTrace + "**\n";
         std::string text;
-        for (const Trace& trace : answered.traces) {
+        for (const RemarkMatch& trace : answered.traces) {
             std::vector<std::string> reasons;
             if (!trace.places.empty()) reasons.push_back(fmt::format("it names {}", fmt::join(trace.places, ", ")));
             if (!trace.words.empty()) reasons.push_back(fmt::format("words: {}", fmt::join(trace.words, ", ")));

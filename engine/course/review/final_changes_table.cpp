@@ -31,7 +31,7 @@ std::string sections_cell(const TextChanges& text) {
 
 /// What the instructor may want to look at.
 std::string to_look_at(const GroupChanges& g) {
-    if (!g.has_final) return g.left ? "dropped out" : "no final version";
+    if (!g.has_final) return g.dropped_out ? "dropped out" : "no final version";
     if (!g.has_first) return "no first version to compare with";
     if (g.same_files) return "the final version is the first one, byte for byte";
     if (!g.text) return g.troubles.empty() ? "cannot be compared" : g.troubles.back();

@@ -11,9 +11,9 @@
 namespace dynlab::inline course {
 namespace {
 
-class Assigning {
+class ReviewAssigner {
   public:
-    Assigning(Course& course, const Assignment& assignment, Instant now)
+    ReviewAssigner(Course& course, const Assignment& assignment, Instant now)
         : course_(course), db_(course.database()), assignment_(assignment), now_(now), groups_(groups_of(course)) {
         for (std::size_t i = 0; i < groups_.size(); ++i) place_[groups_[i].id] = static_cast<int>(i);
     }
@@ -38,7 +38,7 @@ class Assigning {
                  assignment_.id);
              rows.next();) {
             const auto place = static_cast<std::size_t>(place_.at(rows.integer(0)));
-            problem_.active[place] = !groups_[place].left;
+            problem_.active[place] = !groups_[place].dropped_out;
             outcome_.groups += problem_.active[place];
         }
         for (const auto& [a, b] : kindred_groups(course_))
@@ -125,7 +125,7 @@ AssignOutcome assign_reviews(Course& course, const Assignment& assignment, Insta
                                           assignment.name,
                                           course.clock().show(assignment.first_due + assignment.grace)));
     Transaction transaction(course.database());
-    AssignOutcome outcome = Assigning(course, assignment, now).run();
+    AssignOutcome outcome = ReviewAssigner(course, assignment, now).run();
     transaction.commit();
     return outcome;
 }

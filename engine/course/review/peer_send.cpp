@@ -28,9 +28,9 @@ std::optional<Version> newest(Course& course, const Assignment& assignment, std:
     return Version{rows.integer(0), rows.text(1), rows.text(2)};
 }
 
-class Sending {
+class CopySender {
   public:
-    Sending(Course& course, const Assignment& assignment, Way way, Instant now, const AnonymousCopier& copier)
+    CopySender(Course& course, const Assignment& assignment, Way way, Instant now, const AnonymousCopier& copier)
         : course_(course),
           assignment_(assignment),
           way_(way),
@@ -137,7 +137,7 @@ SendOutcome send_copies(Course& course, const Assignment& assignment, Way way, I
         throw InvalidArgument(fmt::format("the reviews of {} may still come until {}; wait, or say --early",
                                           assignment.name,
                                           course.clock().show(assignment.review_due.value_or(0) + assignment.grace)));
-    return Sending(course, assignment, way, now, copier).run();
+    return CopySender(course, assignment, way, now, copier).run();
 }
 
 }  // namespace dynlab::inline course

@@ -89,7 +89,7 @@ bool words_agree(const std::string& a, const std::string& b) {
     return common >= 5 && 5 * common >= 3 * longer;
 }
 
-TraceFinder::TraceFinder(const ReportText& first, const TextChanges& changes) : changes_(changes) {
+RemarkMatcher::RemarkMatcher(const ReportText& first, const TextChanges& changes) : changes_(changes) {
     for (const ReportSentence& sentence : first.sentences) {
         if (sentence.heading) continue;
         ++sentences_;
@@ -97,7 +97,7 @@ TraceFinder::TraceFinder(const ReportText& first, const TextChanges& changes) : 
     }
 }
 
-bool TraceFinder::is_uncommon(const std::string& word) const {
+bool RemarkMatcher::is_uncommon(const std::string& word) const {
     if (is_number(word) ? word.size() < 2 : word.size() < kShortestWord) return false;
     if (is_common_word(word)) return false;
     const auto found = frequency_.find(word);
@@ -105,7 +105,7 @@ bool TraceFinder::is_uncommon(const std::string& word) const {
     return found == frequency_.end() || found->second <= few;
 }
 
-std::vector<Trace> TraceFinder::traces(const Remark& remark, std::size_t most) const {
+std::vector<RemarkMatch> RemarkMatcher::traces(const Remark& remark, std::size_t most) const {
     const std::set<Place> named = places_in(remark.text);
     std::set<std::string> uncommon;
     for (const std::string& word : words_of(remark.text)) {
@@ -113,10 +113,10 @@ std::vector<Trace> TraceFinder::traces(const Remark& remark, std::size_t most) c
             std::any_of(named.begin(), named.end(), [&](const Place& place) { return place.number == word; });
         if (is_uncommon(word) && !number_of_place) uncommon.insert(word);
     }
-    std::vector<Trace> found;
+    std::vector<RemarkMatch> found;
     for (std::size_t i = 0; i < changes_.passages.size(); ++i) {
         const Passage& passage = changes_.passages[i];
-        Trace trace{i, {}, {}, 0};
+        RemarkMatch trace{i, {}, {}, 0};
         const std::string &was = passage.text_before, came = passage.text_of('+');
         const std::set<Place> there = places_in(was);
         for (const Place& place : named) {
@@ -144,7 +144,8 @@ std::vector<Trace> TraceFinder::traces(const Remark& remark, std::size_t most) c
         }
         if (trace.points >= kShown) found.push_back(std::move(trace));
     }
-    std::stable_sort(found.begin(), found.end(), [](const Trace& a, const Trace& b) { return a.points > b.points; });
+    std::stable_sort(found.begin(), found.end(),
+                     [](const RemarkMatch& a, const RemarkMatch& b) { return a.points > b.points; });
     if (found.size() > most) found.resize(most);
     return found;
 }

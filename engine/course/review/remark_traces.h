@@ -9,7 +9,7 @@
 namespace dynlab::inline course {
 
 /// A change that may answer a remark, and why it is shown.
-struct Trace {
+struct RemarkMatch {
     std::size_t passage = 0;          ///< of TextChanges::passages
     std::vector<std::string> places;  ///< that the remark names and that changed there: "Figure 2", "Section 3"
     std::vector<std::string> words;   ///< uncommon words that both have
@@ -24,11 +24,11 @@ struct Trace {
 ///   1 point   for one in the unchanged rest of an edited passage or in its section's title,
 /// and is shown from 4 points on. Uncommon are words that stand in few sentences of the first version and are no
 /// function words and not those that reviews are made of. Words agree when they begin alike.
-class TraceFinder {
+class RemarkMatcher {
   public:
-    TraceFinder(const ReportText& first, const TextChanges& changes);
+    RemarkMatcher(const ReportText& first, const TextChanges& changes);
     /// The best first, at most `most`.
-    std::vector<Trace> traces(const Remark& remark, std::size_t most = 3) const;
+    std::vector<RemarkMatch> traces(const Remark& remark, std::size_t most = 3) const;
 
   private:
     bool is_uncommon(const std::string& word) const;

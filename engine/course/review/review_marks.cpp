@@ -25,9 +25,9 @@ std::optional<double> mean(const std::vector<double>& values) {
     return sum / static_cast<double>(values.size());
 }
 
-class Marking {
+class ReviewMarker {
   public:
-    Marking(const std::vector<Criterion>& criteria, const std::vector<ScoredReview>& reviews)
+    ReviewMarker(const std::vector<Criterion>& criteria, const std::vector<ScoredReview>& reviews)
         : criteria_(criteria), reviews_(reviews) {}
 
     GroupMark group(std::int64_t id) const {
@@ -94,7 +94,7 @@ class Marking {
 
 Marks marks_of(const std::vector<Criterion>& criteria, const std::vector<ScoredReview>& reviews,
                const std::vector<std::int64_t>& groups) {
-    const Marking marking(criteria, reviews);
+    const ReviewMarker marking(criteria, reviews);
     Marks marks;
     for (const std::int64_t id : groups) marks.groups.push_back(marking.group(id));
     for (const ScoredReview& review : reviews) marks.reviews.push_back(marking.review(review));

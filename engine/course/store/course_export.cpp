@@ -119,7 +119,7 @@ std::string marks_csv(Course& course, const Assignment& a) {
                                            all > 0 ? fmt::format("{} of {}", written, all) : "",
                                            all > 0 ? fmt::format("{}", late) : "", percent_text(mark.reviews_mark()),
                                            mark.reviews_reason});
-            std::string remark = group->second.left ? "dropped out" : "";
+            std::string remark = group->second.dropped_out ? "dropped out" : "";
             if (const auto own = remarks.find(id); own != remarks.end())
                 remark += (remark.empty() ? "" : "; ") + own->second;
             row.push_back(remark);

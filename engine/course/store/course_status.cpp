@@ -84,7 +84,7 @@ class Status {
             return found == stages.end() ? HandedInParts() : found->second;
         };
         const HandedInParts first = parts("first"), last = parts("final");
-        if (group.left && first.empty() && last.empty()) return;
+        if (group.dropped_out && first.empty() && last.empty()) return;
         ++groups_;
         const std::string members = fmt::format("{}", group.members.size());
         if (!assignment_.is_report()) {
@@ -105,7 +105,7 @@ class Status {
         const auto share = [](int part, int whole) {
             return whole == 0 ? std::string("-") : fmt::format("{} of {}", part, whole);
         };
-        open_reviews_ += group.left ? 0 : to_write - written;
+        open_reviews_ += group.dropped_out ? 0 : to_write - written;
         rows_.push_back({group.name, members, cell_of(first, main_),
                          share(written, to_write) + (late > 0 ? fmt::format(", {} late", late) : ""),
                          share(got, to_get), cell_of(last, main_), to_do(group, first, last)});
@@ -113,7 +113,7 @@ class Status {
     }
 
     void count(const Group& group, const HandedInParts& first, const HandedInParts& last) {
-        if (group.left) return;
+        if (group.dropped_out) return;
         const auto found = first.find(main_);
         if (found == first.end()) {
             ++missing_;
@@ -137,7 +137,7 @@ class Status {
 
     /// What the instructor may want to do about this group.
     std::string to_do(const Group& group, const HandedInParts& first, const HandedInParts& last) const {
-        if (group.left) return "dropped out";
+        if (group.dropped_out) return "dropped out";
         std::vector<std::string> things;
         const auto due_over = [&](std::optional<Instant> due) { return due && now_ > *due + assignment_.grace; };
         const auto found = first.find(main_);
@@ -235,7 +235,7 @@ std::string assignment_status(Course& course, const Assignment& assignment, Inst
 
 std::string course_summary(Course& course, Instant now) {
     int active = 0, left = 0;
-    for (const Group& group : groups_of(course)) ++(group.left ? left : active);
+    for (const Group& group : groups_of(course)) ++(group.dropped_out ? left : active);
     std::string text = fmt::format("{}: {}{}\n", course.name(), plural(active, "group"),
                                    left > 0 ? fmt::format(", {} dropped out", left) : "");
     std::vector<std::vector<std::string>> rows;

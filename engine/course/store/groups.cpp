@@ -176,18 +176,19 @@ RosterChange import_roster(Course& course, const std::filesystem::path& file, bo
     return change;
 }
 
-void set_group_left(Course& course, const std::string& name, bool left, const std::string& reason) {
+void set_group_left(Course& course, const std::string& name, bool dropped_out, const std::string& reason) {
     Transaction transaction(course.database());
     const Group group = group_named(course, name);
-    if (group.left == left)
-        throw InvalidArgument(fmt::format("{} {} already", group.name, left ? "has dropped out" : "is in the course"));
+    if (group.dropped_out == dropped_out)
+        throw InvalidArgument(
+            fmt::format("{} {} already", group.name, dropped_out ? "has dropped out" : "is in the course"));
     const Instant now = CourseClock::now();
     course.database().run("UPDATE groups SET left_at = ?, left_reason = ? WHERE id = ?",
-                          left ? std::optional(now) : std::nullopt, left ? std::optional(reason) : std::nullopt,
-                          group.id);
-    course.note(
-        fmt::format("{} {}{}", group.name, left ? "dropped out" : "came back", reason.empty() ? "" : ": " + reason),
-        now);
+                          dropped_out ? std::optional(now) : std::nullopt,
+                          dropped_out ? std::optional(reason) : std::nullopt, group.id);
+    course.note(fmt::format("{} {}{}", group.name, dropped_out ? "dropped out" : "came back",
+                            reason.empty() ? "" : ": " + reason),
+                now);
     transaction.commit();
 }
 

@@ -12,7 +12,7 @@ namespace dynlab::inline course {
 struct Group {
     std::int64_t id = 0;
     std::string name;
-    bool left = false;                 ///< dropped out
+    bool dropped_out = false;          ///< dropped out
     std::vector<std::string> members;  ///< ids of the students who belong to it now
 };
 
@@ -38,7 +38,7 @@ struct RosterChange {
 RosterChange import_roster(Course& course, const std::filesystem::path& file, bool no_groups = false);
 
 /// The group has dropped out, or is back. Its work stays. Throws InvalidArgument where that was so before.
-void set_group_left(Course& course, const std::string& name, bool left, const std::string& reason);
+void set_group_left(Course& course, const std::string& name, bool dropped_out, const std::string& reason);
 
 /// Pairs of groups who share a member, or did at any time.
 std::vector<std::pair<std::int64_t, std::int64_t>> kindred_groups(Course& course);

@@ -54,9 +54,9 @@ struct Candidate {
     Inspection inspection;
 };
 
-class Receiving {
+class HandInReceiver {
   public:
-    Receiving(Course& course, const ReceiveRequest& request)
+    HandInReceiver(Course& course, const ReceiveRequest& request)
         : course_(course), request_(request), senders_(course), incoming_(way()) {
         outcome_.assignment = assignment_named(course, request.assignment);
         due_ = due_of(outcome_.assignment, request.stage);
@@ -336,7 +336,7 @@ fs::path write_receipt(Course& course, std::int64_t version) {
 }
 
 ReceiveOutcome receive(Course& course, const ReceiveRequest& request) {
-    return Receiving(course, request).run();
+    return HandInReceiver(course, request).run();
 }
 
 }  // namespace dynlab::inline course

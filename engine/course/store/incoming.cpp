@@ -11,12 +11,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_folder_itself(const fs::path& path) {
+bool names_the_folder_itself(const fs::path& path) {
     return fs::symlink_status(path).type() == fs::file_type::directory;
 }
 
 /// Entries that a person put there, sorted; not what macOS or the platform adds.
-std::vector<fs::path> entries_of_a_person(const fs::path& folder) {
+std::vector<fs::path> entries_of_one_person(const fs::path& folder) {
     std::vector<fs::path> entries;
     for (const auto& entry : fs::directory_iterator(folder)) {
         const std::string name = entry.path().filename();
@@ -77,8 +77,8 @@ void Incoming::add_found(const fs::path& file, const std::string& source) {
 
 void Incoming::add_batch(const fs::path& folder, const std::string& source) {
     batch_ = true;
-    const std::vector<fs::path> entries = entries_of_a_person(folder);
-    const bool wrapped = entries.size() == 1 && is_folder_itself(entries.front()) &&
+    const std::vector<fs::path> entries = entries_of_one_person(folder);
+    const bool wrapped = entries.size() == 1 && names_the_folder_itself(entries.front()) &&
                          !way_.knows(sender_of(entries.front().filename())) &&
                          sender_of(entries.front().filename()).lms_id.empty();
     if (wrapped) {
@@ -87,7 +87,7 @@ void Incoming::add_batch(const fs::path& folder, const std::string& source) {
     }
     for (const fs::path& entry : entries) {
         const std::string name = entry.filename(), place = source + "/" + name;
-        if (is_folder_itself(entry)) {
+        if (names_the_folder_itself(entry)) {
             Submission sender;
             sender.name = name;
             read_lms_name(sender);
@@ -100,10 +100,10 @@ void Incoming::add_batch(const fs::path& folder, const std::string& source) {
 
 void Incoming::add_folder_of(const Submission& sender, const fs::path& folder, const std::string& source,
                              const std::string& own) {
-    for (const fs::path& entry : entries_of_a_person(folder)) {
+    for (const fs::path& entry : entries_of_one_person(folder)) {
         const std::string place = source + "/" + entry.filename().string();
         if (entry.filename() == "data") continue;  // the course's records, or a link to them
-        if (is_folder_itself(entry)) {
+        if (names_the_folder_itself(entry)) {
             add_folder_of(sender, entry, place, own);
             continue;
         }

@@ -27,7 +27,7 @@ class Inspector {
     Inspection inspect(const std::filesystem::path& pdf, const std::string& part) const;
 
   private:
-    std::map<std::string, CheckWishes> wishes_;  ///< by part
+    std::map<std::string, CheckOptions> wishes_;  ///< by part
 };
 
 /// The same from the JSON that the store holds.

@@ -171,7 +171,7 @@ std::string oral_sheet(Course& course, const Assignment& a) {
     for (const Criterion& c : a.criteria) table.names.push_back(c.name);
     const auto points = oral_points(course, a);
     for (const Group& group : groups_of(course)) {
-        if (group.left) continue;
+        if (group.dropped_out) continue;
         std::vector<std::string> row = {group.name};
         const auto own = points.find(group.id);
         for (std::size_t c = 0; c < a.criteria.size(); ++c)

@@ -11,7 +11,8 @@ namespace dynlab::inline numerics {
 ///     dy/da_i = -p^(n-i) B/A^2 u,   dy/db_j = p^(m-j)/A u,   dy/d delay = -p B/A u.
 /// With m = n - 1 the last one jumps where a zero-order-held input does: when the delay is a multiple of Ts, the
 /// value just after the jump is given. With m = n the output itself jumps there, which its derivative leaves out.
-/// Each function takes a sampling time (s) or the instants `t` of irregular sampling, strictly increasing.
+/// Each function takes a sampling time (s) or the instants `t` of irregular sampling, strictly increasing;
+/// all throw InvalidArgument for an improper B/A or one without poles.
 
 /// N outputs.
 Vector transfer_response(const VectorView& num, const VectorView& den, double delay, const VectorView& u, double Ts,

@@ -8,6 +8,7 @@ namespace dynlab::inline numerics {
 // The sums of regression_moments.h for models of one to four poles with any zeros, inputs and delays, sampled
 // regularly: by delta_products. Nothing is returned for other models and for short records.
 
+/// Signals filtered by gain/E, of the equation error.
 std::optional<RegressionMoments> delta_svf_moments(const RegressionRecord& record, const VectorView& E, double gain);
 
 /// For held inputs and models with more poles than zeros, whose output does not jump at the first sample.
@@ -15,9 +16,11 @@ std::optional<RegressionMoments> delta_auxiliary_moments(const RegressionRecord&
                                                          const VectorView& A, const std::vector<Vector>& B,
                                                          double gain);
 
+/// Signals filtered by 1/A, with the exact sensitivities of the simulated output as instruments.
 std::optional<RegressionMoments> delta_refined_moments(const RegressionRecord& record, const VectorView& A,
                                                        const std::vector<Vector>& B, bool with_gram);
 
+/// Sums of products of these sensitivities.
 std::optional<Matrix> delta_sensitivity_moments(const RegressionRecord& record, const VectorView& A,
                                                 const std::vector<Vector>& B);
 

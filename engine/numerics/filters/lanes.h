@@ -107,23 +107,21 @@ class Lanes {
     }
 
   private:
-    typedef long Places __attribute__((vector_size(kWidth * sizeof(double))));
+    /// Of two rows one after the other, in blocks of `size` columns: the upper's odd blocks and the lower's even ones.
+    template <int size, int... lane>
+    [[gnu::always_inline]] static void exchange(Part& upper, Part& lower, std::integer_sequence<int, lane...>) {
+        const Part first = upper, second = lower;
+        upper = __builtin_shufflevector(first, second, (lane & size ? kWidth + lane - size : lane)...);
+        lower = __builtin_shufflevector(first, second, (lane & size ? kWidth + lane : lane + size)...);
+    }
 
     /// Of blocks of so many rows and columns, two at a time, those that are not on the diagonal change places.
     template <int size>
     [[gnu::always_inline]] static void transpose(Part* rows) {
         if constexpr (size < kWidth) {
-            Places upper, lower;  // of two rows one after the other
-            for (int lane = 0; lane < kWidth; ++lane) {
-                upper[lane] = lane & size ? kWidth + lane - size : lane;
-                lower[lane] = lane & size ? kWidth + lane : lane + size;
-            }
             repeat<kWidth>([&](auto i) __attribute__((always_inline)) {
-                if constexpr (!(i & size)) {
-                    const Part first = rows[i], second = rows[i + size];
-                    rows[i] = __builtin_shuffle(first, second, upper);
-                    rows[i + size] = __builtin_shuffle(first, second, lower);
-                }
+                if constexpr (!(i & size))
+                    exchange<size>(rows[i], rows[i + size], std::make_integer_sequence<int, kWidth>());
             });
             transpose<2 * size>(rows);
         }

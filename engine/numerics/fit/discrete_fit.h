@@ -19,8 +19,8 @@ std::vector<SampledExperiment> sampled_experiments(const IdData& data);
 
 /// What oe and sriv have in common: checks data and orders (nb, nf and nk), takes the operating point off when
 /// `offset` is "remove", fits every start condition the options and the inputs allow and
-/// keeps the one of smallest BIC, and describes the result. `method` begins messages. Errors, warnings and references:
-/// see estimators/oe.h and sriv.h.
+/// keeps the one of smallest BIC, and describes the result. `method` begins messages. Throws InvalidArgument as
+/// estimators/oe.h says; warnings and references: see estimators/oe.h and sriv.h.
 Fit fit_discrete_output(const std::string& method, const IdData& data, const PolynomialOrders& orders,
                         const FitOptions& options, const DiscreteSearch& search);
 

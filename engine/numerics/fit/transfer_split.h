@@ -15,6 +15,7 @@ struct OutputProblem {
 /// Whether no denominator serves channels of two outputs.
 bool outputs_are_separate(const TransferStructure& structure);
 
+/// The fit of one output (0-based) by itself.
 OutputProblem output_problem(const IdData& data, const TransferStructure& structure, Index output);
 
 /// The estimates of all outputs as one estimate of the whole structure: covariance block by block, the worst

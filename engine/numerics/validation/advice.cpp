@@ -32,11 +32,11 @@ bool Advice::clean() const {
 }
 
 Advice advise(const IdData& data, const std::function<bool()>& cancel) {
-    Advice advice{signal_findings(data), {}};
+    Advice advice{signal_advice(data), {}};
     const bool usable = std::none_of(advice.findings.begin(), advice.findings.end(), forbids_a_model);
     if (usable && data.input_count() == 1 && data.regular())
         for (Index output = 1; output <= data.output_count(); ++output)
-            for (RecordFinding& finding : model_findings(data.select({output}, {1}), cancel))
+            for (RecordFinding& finding : model_advice(data.select({output}, {1}), cancel))
                 advice.findings.push_back(std::move(finding));
     std::stable_sort(advice.findings.begin(), advice.findings.end(),
                      [](const RecordFinding& a, const RecordFinding& b) { return a.weight > b.weight; });

@@ -34,14 +34,14 @@ struct Advice {
 /// What the signals alone tell: "constant" channels, a "time_column", the "same_column" twice, "saturation",
 /// "quantisation", "outliers", "degrees" declared as radians, "mixed_sampling" and "gaps" between the instants, and
 /// "excitation": how many parameters each input can determine. Any number of channels and experiments.
-std::vector<RecordFinding> signal_findings(const IdData& data);
+std::vector<RecordFinding> signal_advice(const IdData& data);
 
 /// What a linear model with one to three poles and a free delay (search_delay) tells of a record with one input, one
 /// output and regular sampling: "noise" (signal-to-noise ratio), "dead_time", "offset", "running_start",
 /// "slow_sampling" or "fast_sampling" against the bandwidth, "causality" (the output seems to come first: columns
 /// exchanged, or feedback), "nonlinear" sections that the model does not follow although it follows the rest. Empty
 /// when nothing can be fitted.
-std::vector<RecordFinding> model_findings(const IdData& data, const std::function<bool()>& cancel = {});
+std::vector<RecordFinding> model_advice(const IdData& data, const std::function<bool()>& cancel = {});
 
 /// Both, in the order of weight. A record with several outputs and one input is judged output by output.
 Advice advise(const IdData& data, const std::function<bool()>& cancel = {});

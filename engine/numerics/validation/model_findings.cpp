@@ -209,7 +209,7 @@ void find_causality(const Fitted& fit, std::vector<RecordFinding>& findings) {
 
 }  // namespace
 
-std::vector<RecordFinding> model_findings(const IdData& data, const std::function<bool()>& cancel) {
+std::vector<RecordFinding> model_advice(const IdData& data, const std::function<bool()>& cancel) {
     std::vector<RecordFinding> findings;
     if (data.sample_count(0) < kFewest) {
         findings.push_back({"short",

@@ -311,7 +311,7 @@ void find_sampling(const IdData& data, std::vector<RecordFinding>& findings) {
 
 }  // namespace
 
-std::vector<RecordFinding> signal_findings(const IdData& data) {
+std::vector<RecordFinding> signal_advice(const IdData& data) {
     std::vector<RecordFinding> findings;
     find_sampling(data, findings);
     const std::vector<Channel> channels = channels_of(data);

@@ -18,16 +18,16 @@ std::mutex current_mutex;
 ActivityLine* current_line = nullptr;  // guarded by current_mutex
 
 /// While one lives, signals go to other threads than those that begin.
-class SignalsHeld {
+class SignalBlock {
   public:
-    SignalsHeld() {
+    SignalBlock() {
         sigset_t all;
         sigfillset(&all);
         pthread_sigmask(SIG_SETMASK, &all, &before_);
     }
-    ~SignalsHeld() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-    SignalsHeld(const SignalsHeld&) = delete;
-    SignalsHeld& operator=(const SignalsHeld&) = delete;
+    ~SignalBlock() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+    SignalBlock(const SignalBlock&) = delete;
+    SignalBlock& operator=(const SignalBlock&) = delete;
 
   private:
     sigset_t before_;
@@ -43,7 +43,7 @@ std::string lasting_text(const std::string& what, double seconds) {
 
 ActivityLine::ActivityLine() : on_terminal_(::isatty(STDERR_FILENO) == 1) {
     if (!on_terminal_) return;
-    const SignalsHeld held;
+    const SignalBlock held;
     refresher_ = std::thread([this] { refresh_now_and_then(); });
     const std::lock_guard lock(current_mutex);
     current_line = this;

@@ -4,7 +4,7 @@
 
 namespace dynlab::inline platform {
 
-bool is_obeyed(char32_t c) {
+bool is_terminal_control(char32_t c) {
     return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0x061C || (c >= 0x200B && c <= 0x200F) ||
            (c >= 0x2028 && c <= 0x202E) || (c >= 0x2066 && c <= 0x2069) || c == kNoCharacter;
 }
@@ -14,7 +14,7 @@ std::string terminal_text(std::string_view utf8) {
     while (!utf8.empty()) {
         const std::string_view before = utf8;
         const char32_t c = next_character(utf8);
-        if (is_obeyed(c) && c != U'\n' && c != U'\t')
+        if (is_terminal_control(c) && c != U'\n' && c != U'\t')
             result += '?';
         else
             result += before.substr(0, before.size() - utf8.size());

@@ -6,10 +6,10 @@ namespace dynlab::inline platform {
 
 /// Whether a terminal, or whatever shows a text, would obey the character instead of showing it: control characters,
 /// those without width, those that turn the direction of writing; U+FFFD too.
-bool is_obeyed(char32_t c);
+bool is_terminal_control(char32_t c);
 
-/// A text of any origin as it may be shown on a terminal or kept in a log: what is_obeyed, line ends and tabs excepted,
-/// and broken UTF-8 become '?'.
+/// A text of any origin as it may be shown on a terminal or kept in a log: what is_terminal_control, line ends and tabs
+/// excepted, and broken UTF-8 become '?'.
 std::string terminal_text(std::string_view utf8);
 
 }  // namespace dynlab::inline platform

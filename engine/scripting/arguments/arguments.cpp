@@ -123,7 +123,7 @@ double Call::number(int index, const char* what) const {
 double Call::number_or(int index, const char* what, double fallback) const {
     return given(index) ? number(index, what) : fallback;
 }
-Index Call::whole(int index, const char* what) const {
+Index Call::integer(int index, const char* what) const {
     if (index > arguments_) wrong_argument(state_, index, what, "whole number");
     return whole_at(state_, index, argument_label(index, what));
 }
@@ -182,7 +182,7 @@ void Call::print(const std::string& text) const {
 int Call::give(double value) const {
     return lua_pushnumber(state_, value), 1;
 }
-int Call::give_whole(Index value) const {
+int Call::give_integer(Index value) const {
     return lua_pushinteger(state_, value), 1;
 }
 int Call::give(bool value) const {

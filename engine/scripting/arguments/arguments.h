@@ -29,7 +29,7 @@ class Call {
 
     double number(int index, const char* what) const;
     double number_or(int index, const char* what, double fallback) const;
-    Index whole(int index, const char* what) const;
+    Index integer(int index, const char* what) const;
     Index size(int index, const char* what) const;  ///< a whole number from 0 on
     std::string text(int index, const char* what) const;
 
@@ -43,7 +43,7 @@ class Call {
     void print(const std::string& text) const;  ///< into the record, and live
 
     int give(double value) const;
-    int give_whole(Index value) const;
+    int give_integer(Index value) const;
     int give(bool value) const;
     int give(const std::string& value) const;
     int give_vector(const VectorView& v) const;

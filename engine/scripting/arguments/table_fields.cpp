@@ -12,7 +12,7 @@ void set_number(lua_State* L, const char* name, double value) {
     lua_pushnumber(L, value);
     lua_setfield(L, -2, name);
 }
-void set_whole(lua_State* L, const char* name, Index value) {
+void set_integer(lua_State* L, const char* name, Index value) {
     lua_pushinteger(L, value);
     lua_setfield(L, -2, name);
 }

@@ -9,7 +9,7 @@ namespace dynlab::inline scripting {
 
 /// Each sets a field of the table on top of the stack, which stays there.
 void set_number(lua_State* L, const char* name, double value);
-void set_whole(lua_State* L, const char* name, Index value);
+void set_integer(lua_State* L, const char* name, Index value);
 void set_flag(lua_State* L, const char* name, bool value);
 void set_text(const Call& call, const char* name, const std::string& value);
 void set_texts(const Call& call, const char* name, const std::vector<std::string>& texts);

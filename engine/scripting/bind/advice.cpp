@@ -31,7 +31,7 @@ void push_finding(const Call& call, const RecordFinding& finding) {
     set_text(call, "channel", finding.channel);
     set_text(call, "message", in_lua_words(finding.message));
     set_number(L, "value", finding.value);
-    set_whole(L, "experiment", static_cast<Index>(finding.experiment + 1));
+    set_integer(L, "experiment", static_cast<Index>(finding.experiment + 1));
     push_segments(L, finding.sections);
     lua_setfield(L, -2, "sections");
 }

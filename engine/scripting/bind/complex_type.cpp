@@ -42,7 +42,7 @@ int vector_arg(Call& call) {
     return call.give_vector(complex_vector_self(call).cwiseArg());
 }
 int complex_vector_length(Call& call) {
-    return call.give_whole(complex_vector_self(call).size());
+    return call.give_integer(complex_vector_self(call).size());
 }
 int complex_vector_tostring(Call& call) {
     return call.give(complex_vector_text(complex_vector_self(call)));
@@ -50,7 +50,7 @@ int complex_vector_tostring(Call& call) {
 
 int vector_element(Call& call) {
     const ComplexVector& v = complex_vector_self(call);
-    const Index place = call.whole(2, "element");
+    const Index place = call.integer(2, "element");
     if (place < 1 || place > v.size())
         throw InvalidArgument(fmt::format("the element {} does not exist: there are 1 to {}", place, v.size()));
     push_object(call.state(), Complex(v[place - 1]));

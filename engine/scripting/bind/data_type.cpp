@@ -49,16 +49,16 @@ int field_Ts(Call& call) {
     return call.give(data_self(call).Ts);
 }
 int field_N(Call& call) {
-    return call.give_whole(data_self(call).sample_count());
+    return call.give_integer(data_self(call).sample_count());
 }
 int field_ny(Call& call) {
-    return call.give_whole(data_self(call).output_count());
+    return call.give_integer(data_self(call).output_count());
 }
 int field_nu(Call& call) {
-    return call.give_whole(data_self(call).input_count());
+    return call.give_integer(data_self(call).input_count());
 }
 int field_experiments(Call& call) {
-    return call.give_whole(static_cast<Index>(data_self(call).experiments.size()));
+    return call.give_integer(static_cast<Index>(data_self(call).experiments.size()));
 }
 int field_hold(Call& call) {
     return call.give(std::string(data_self(call).hold == Hold::kZoh ? "zoh" : "foh"));
@@ -72,7 +72,7 @@ int field_output_name(Call& call) {
 
 int part(Call& call) {
     call.at_most(3);
-    return give_data(call, data_self(call).range(call.whole(2, "first"), call.whole(3, "last")));
+    return give_data(call, data_self(call).range(call.integer(2, "first"), call.integer(3, "last")));
 }
 
 Index whole_place(double number) {
@@ -96,7 +96,7 @@ int part_by_table(Call& call) {
 int experiment(Call& call) {
     call.at_most(2);
     IdData data = data_self(call);
-    const Index number = call.whole(2, "experiment");
+    const Index number = call.integer(2, "experiment");
     if (number < 1 || number > static_cast<Index>(data.experiments.size()))
         throw InvalidArgument(
             fmt::format("experiment {} does not exist: there are 1 to {}", number, data.experiments.size()));
@@ -112,7 +112,7 @@ int split(Call& call) {
 }
 
 std::vector<Index> channels(Call& call, int index, const char* what) {
-    if (call.type(index) == LUA_TNUMBER) return {call.whole(index, what)};
+    if (call.type(index) == LUA_TNUMBER) return {call.integer(index, what)};
     const VectorMap list = call.vector(index, what);
     std::vector<Index> places;
     for (const double number : list) places.push_back(whole_place(number));
@@ -131,7 +131,7 @@ int select(Call& call) {
 
 int shift(Call& call) {
     call.at_most(2);
-    return give_data(call, data_self(call).shifted(call.whole(2, "samples")));
+    return give_data(call, data_self(call).shifted(call.integer(2, "samples")));
 }
 
 int remove_mean_of(Call& call) {

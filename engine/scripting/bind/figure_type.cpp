@@ -18,7 +18,7 @@ Panel& panel_of(Figure& figure, Index number) {
 
 /// The panel that argument `index` numbers, the first one unless given.
 Panel& panel_argument(Call& call, int index) {
-    return panel_of(figure_self(call), call.given(index) ? call.whole(index, "panel") : 1);
+    return panel_of(figure_self(call), call.given(index) ? call.integer(index, "panel") : 1);
 }
 
 /// Methods give the figure back, so that they can be chained.
@@ -94,7 +94,7 @@ int figure_to_text(Call& call) {
 }
 
 int panel_count(Call& call) {
-    return call.give_whole(static_cast<Index>(figure_self(call).panels.size()));
+    return call.give_integer(static_cast<Index>(figure_self(call).panels.size()));
 }
 
 constexpr std::array kFigureTypeFields = {Member{"panels", guarded<panel_count>}};

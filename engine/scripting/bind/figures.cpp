@@ -137,7 +137,7 @@ int figure(Call& call) {
     call.at_most(1);
     if (!call.given(1)) return 0;
     if (call.type(1) == LUA_TNUMBER) {
-        call.context().recorder.set_next_figure_number(call.whole(1, "number"));
+        call.context().recorder.set_next_figure_number(call.integer(1, "number"));
         return 0;
     }
     const Options options(

@@ -16,7 +16,7 @@ NumericBlock& matrix_self(Call& call) {
 }
 
 Index place(Call& call, int index, const char* what, Index size) {
-    const Index value = call.whole(index, what);
+    const Index value = call.integer(index, what);
     if (value < 1 || value > size)
         throw InvalidArgument(fmt::format("{} {} does not exist: there are 1 to {}", what, value, size));
     return value - 1;
@@ -55,10 +55,10 @@ int matrix_transpose(Call& call) {
     return call.give_matrix(matrix_self(call).matrix().transpose());
 }
 int matrix_rows(Call& call) {
-    return call.give_whole(matrix_self(call).rows);
+    return call.give_integer(matrix_self(call).rows);
 }
 int matrix_columns(Call& call) {
-    return call.give_whole(matrix_self(call).columns);
+    return call.give_integer(matrix_self(call).columns);
 }
 int matrix_tostring(Call& call) {
     return call.give(matrix_text(matrix_self(call).matrix()));

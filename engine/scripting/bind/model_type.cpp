@@ -215,7 +215,7 @@ TransferFunction over(const TransferFunction& a, const TransferFunction& b) {
 }
 
 int raise_to_power(Call& call) {
-    return give_model(call, pow(model_argument(call, 1, "base").G, static_cast<int>(call.whole(2, "exponent"))));
+    return give_model(call, pow(model_argument(call, 1, "base").G, static_cast<int>(call.integer(2, "exponent"))));
 }
 int negate(Call& call) {
     const TransferFunction& G = only_channel(call);

@@ -73,7 +73,7 @@ int connect_parallel(Call& call) {
 }
 int connect_feedback(Call& call) {
     call.at_most(3);
-    const Index sign = call.given(3) ? call.whole(3, "sign") : -1;
+    const Index sign = call.given(3) ? call.integer(3, "sign") : -1;
     if (sign != 1 && sign != -1) throw InvalidArgument("the sign is -1 (negative feedback) or 1 (positive feedback)");
     return give_model(call, feedback(model_argument(call, 1, "forward").G, model_argument(call, 2, "backward").G,
                                      static_cast<int>(sign)));

@@ -88,7 +88,7 @@ int give_impulse(const Call& call, const Options& options, SpectralModels& read,
     set_vector(call, "chance", estimate.null_std);
     set_number(L, "noise_variance", estimate.noise_variance);
     if (estimate.first) {
-        set_whole(L, "first", *estimate.first);
+        set_integer(L, "first", *estimate.first);
         set_number(L, "dead_time", static_cast<double>(std::max<Index>(*estimate.first - 1, 0)) * read.data.Ts);
     }
     set_text(call, "message", estimate.message);

@@ -160,8 +160,8 @@ void push_search(const Call& call, const IdData& data, const DelaySearch& search
     if (search.rival) set_number(L, "rival", *search.rival);
     set_vector(call, "delays", search.grid());
     set_vector(call, "losses", search.losses());
-    set_whole(L, "poles", search.candidate.poles);
-    set_whole(L, "zeros", search.candidate.zeros);
+    set_integer(L, "poles", search.candidate.poles);
+    set_integer(L, "zeros", search.candidate.zeros);
     set_text(call, "message", in_lua_words(search.explanation));
     give_transfer_estimate(call, "srivc", search.candidate.estimate);
     lua_setfield(L, -2, "model");

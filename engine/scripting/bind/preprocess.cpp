@@ -130,7 +130,7 @@ int filter_signals(Call& call) {
 int resample_signals(Call& call) {
     call.at_most(3);
     const Signals signals = signals_argument(call, 1);
-    return give_signals(call, signals, resample(signals.data, call.whole(2, "up"), call.whole(3, "down")));
+    return give_signals(call, signals, resample(signals.data, call.integer(2, "up"), call.integer(3, "down")));
 }
 
 int keep_parts(Call& call) {

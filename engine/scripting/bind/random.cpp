@@ -9,7 +9,7 @@ namespace {
 
 int rng(Call& call) {
     call.at_most(1);
-    const Index seed = call.whole(1, "seed");
+    const Index seed = call.integer(1, "seed");
     if (seed < 0 || seed > 0xFFFFFFFF)
         throw InvalidArgument(
             fmt::format("the seed must be a whole number from 0 to 4294967295, but {} was given", seed));

@@ -41,7 +41,7 @@ int regression_covariance(Call& call) {
     return call.give_matrix(regression_self(call).regression.covariance);
 }
 int field_rank(Call& call) {
-    return call.give_whole(regression_self(call).regression.rank);
+    return call.give_integer(regression_self(call).regression.rank);
 }
 int field_message(Call& call) {
     return call.give(regression_self(call).regression.message);
@@ -188,7 +188,7 @@ int descend(Call& call) {
     call.give(result.step_size), lua_setfield(L, -2, "step");
     call.give(result.largest_step), lua_setfield(L, -2, "largest_step");
     call.give(result.condition_number), lua_setfield(L, -2, "condition_number");
-    call.give_whole(result.iterations), lua_setfield(L, -2, "iterations");
+    call.give_integer(result.iterations), lua_setfield(L, -2, "iterations");
     call.give(result.termination == Termination::kConverged), lua_setfield(L, -2, "converged");
     call.give(result.message), lua_setfield(L, -2, "message");
     return 1;

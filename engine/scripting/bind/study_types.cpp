@@ -35,9 +35,9 @@ int push_result(const Call& call, const MonteCarloResult& result) {
         set_vector(call, "cramer_rao_std", result.least_spread());
         set_matrix(call, "cramer_rao", result.bound);
     }
-    set_whole(L, "estimated", result.estimated);
-    set_whole(L, "failed", result.failed);
-    set_whole(L, "not_converged", result.not_converged);
+    set_integer(L, "estimated", result.estimated);
+    set_integer(L, "failed", result.failed);
+    set_integer(L, "not_converged", result.not_converged);
     set_text(call, "first_failure", in_lua_words(result.first_failure));
     return 1;
 }
@@ -64,7 +64,7 @@ int study_labels(Call& call) {
     return 1;
 }
 int study_runs(Call& call) {
-    return call.give_whole(study_self(call).runs);
+    return call.give_integer(study_self(call).runs);
 }
 int study_sigma(Call& call) {
     return call.give(study_self(call).sigma);
@@ -104,8 +104,8 @@ const OrderTable& table_self(Call& call) {
 void push_candidate(const Call& call, const OrderCandidate& candidate) {
     lua_State* L = call.state();
     lua_createtable(L, 0, 16);
-    set_whole(L, "poles", candidate.poles);
-    set_whole(L, "zeros", candidate.zeros);
+    set_integer(L, "poles", candidate.poles);
+    set_integer(L, "zeros", candidate.zeros);
     set_number(L, "delay", candidate.delay);
     if (!candidate.failure.empty()) {
         set_text(call, "failure", in_lua_words(candidate.failure));
@@ -117,7 +117,7 @@ void push_candidate(const Call& call, const OrderCandidate& candidate) {
           std::pair("log_condition", candidate.log_condition), std::pair("fit_percent", candidate.fit_percent)})
         set_number(L, name, value);
     if (candidate.validation_fit) set_number(L, "validation_fit", *candidate.validation_fit);
-    set_whole(L, "iterations", candidate.iterations);
+    set_integer(L, "iterations", candidate.iterations);
     set_texts(call, "undetermined", candidate.undetermined);
     set_flag(L, "cancellation", candidate.cancellation);
     set_flag(L, "converged", candidate.converged);

@@ -51,7 +51,7 @@ NumericBlock& vector_self(Call& call) {
 }
 
 int vector_length(Call& call) {
-    return call.give_whole(vector_self(call).rows);
+    return call.give_integer(vector_self(call).rows);
 }
 int vector_tostring(Call& call) {
     return call.give(vector_text(vector_self(call).vector()));
@@ -60,7 +60,7 @@ int vector_tostring(Call& call) {
 int vector_range(Call& call) {
     call.at_most(3);
     NumericBlock& v = vector_self(call);
-    const Index first = call.whole(2, "first"), last = call.whole(3, "last");
+    const Index first = call.integer(2, "first"), last = call.integer(3, "last");
     if (first < 1 || last > v.rows || first > last + 1)
         throw InvalidArgument(
             fmt::format("the elements {} to {} do not exist: v has the elements 1 to {}", first, last, v.rows));
@@ -128,7 +128,7 @@ MaskBlock& mask_self(Call& call) {
 }
 
 int mask_length(Call& call) {
-    return call.give_whole(mask_self(call).size);
+    return call.give_integer(mask_self(call).size);
 }
 
 int mask_element(Call& call) {

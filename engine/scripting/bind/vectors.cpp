@@ -137,7 +137,7 @@ int extreme(Call& call) {
     Index place = 0;
     const double value = kLargest ? v.maxCoeff<Eigen::PropagateNumbers>(&place)  // like fmax: nan only if all are
                                   : v.minCoeff<Eigen::PropagateNumbers>(&place);
-    return call.give(value) + call.give_whole(place + 1);
+    return call.give(value) + call.give_integer(place + 1);
 }
 
 /// A function of one number, applied to a number or to every element. `kLowest`: smallest argument it is defined for.

@@ -28,7 +28,7 @@ using Access = std::conditional_t<KeepsDigest<T>, const T, T>;
 
 /// A C++ object inside a userdata, with the bytes it was charged for.
 template <class T>
-struct Box {
+struct BoxedObject {
     T object;
     std::size_t outside_bytes;
     std::optional<Digest> digest = {};  ///< once somebody asked
@@ -36,9 +36,9 @@ struct Box {
 
 template <class T>
 int destroy_box(lua_State* L) {
-    auto* box = static_cast<Box<T>*>(lua_touserdata(L, 1));
+    auto* box = static_cast<BoxedObject<T>*>(lua_touserdata(L, 1));
     context_of(L).memory.remove_outside(box->outside_bytes);
-    box->~Box<T>();
+    box->~BoxedObject<T>();
     return 0;
 }
 
@@ -61,8 +61,8 @@ template <class T>
 Access<T>& push_object(lua_State* L, T object) {
     const std::size_t bytes = Boxed<T>::outside_bytes(object);
     charge_outside_bytes(L, bytes, Boxed<T>::type.name);
-    void* memory = lua_newuserdatauv(L, sizeof(Box<T>), 0);
-    auto* box = new (memory) Box<T>{std::move(object), bytes};
+    void* memory = lua_newuserdatauv(L, sizeof(BoxedObject<T>), 0);
+    auto* box = new (memory) BoxedObject<T>{std::move(object), bytes};
     context_of(L).memory.add_outside(bytes);
     push_box_metatable<T>(L);
     lua_setmetatable(L, -2);
@@ -73,13 +73,13 @@ Access<T>& push_object(lua_State* L, T object) {
 template <class T>
 Access<T>* to_object(lua_State* L, int index) {
     if (!is_object(L, index, Boxed<T>::type)) return nullptr;
-    return &static_cast<Box<T>*>(lua_touserdata(L, index))->object;
+    return &static_cast<BoxedObject<T>*>(lua_touserdata(L, index))->object;
 }
 
 /// The digest of the object at a stack place, which is of this class.
 template <KeepsDigest T>
 Digest digest_of_object(lua_State* L, int index) {
-    auto* box = static_cast<Box<T>*>(lua_touserdata(L, index));
+    auto* box = static_cast<BoxedObject<T>*>(lua_touserdata(L, index));
     if (!box->digest) box->digest = Boxed<T>::digest(box->object);
     return *box->digest;
 }

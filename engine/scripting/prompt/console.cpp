@@ -87,7 +87,7 @@ class Prompt {
 
     /// The place is told where it helps: the line of a longer statement, or that it was an earlier one's.
     static std::string message_of(const std::string& error, const std::string& name, const std::string& source) {
-        const PlacedMessage placed = take_apart(error);
+        const LocatedMessage placed = take_apart(error);
         if (placed.line == 0) return error;
         if (placed.file != name) return fmt::format("{} (in line {} of {})", placed.text, placed.line, placed.file);
         if (source.find('\n') == std::string::npos) return placed.text;

@@ -159,11 +159,11 @@ std::string syntax_sentence(const std::string& text, const std::string& near) {
 
 }  // namespace
 
-std::string PlacedMessage::joined() const {
+std::string LocatedMessage::joined() const {
     return line > 0 ? fmt::format("{}:{}: {}", file, line, text) : text;
 }
 
-PlacedMessage take_apart(const std::string& message) {
+LocatedMessage take_apart(const std::string& message) {
     for (auto colon = message.find(':'); colon != std::string::npos; colon = message.find(':', colon + 1)) {
         auto end = colon + 1;
         while (end < message.size() && std::isdigit(static_cast<unsigned char>(message[end]))) ++end;
@@ -176,13 +176,13 @@ PlacedMessage take_apart(const std::string& message) {
 }
 
 std::string plain_runtime_message(const std::string& message) {
-    PlacedMessage placed = take_apart(message);
+    LocatedMessage placed = take_apart(message);
     placed.text = plain_sentence(placed.text);
     return placed.joined();
 }
 
 std::string plain_syntax_message(const std::string& message, const std::string& source) {
-    PlacedMessage placed = take_apart(message);
+    LocatedMessage placed = take_apart(message);
     if (placed.text.find("attempt to load a binary chunk") != std::string::npos)
         return "this is not Lua text but a compiled chunk, which is not accepted";
     std::string near = between(placed.text, " near '", "").value_or("");
@@ -218,7 +218,7 @@ int translate_error(lua_State* L) {
 std::string memory_message(const RuntimeContext& context) {
     const std::string text = fmt::format("the script needs more memory than the {:.2g} GB it may use",
                                          static_cast<double>(context.memory.limit()) / 1e9);
-    return PlacedMessage{context.script_name, context.refusal_line, text}.joined();
+    return LocatedMessage{context.script_name, context.refusal_line, text}.joined();
 }
 
 void push_memory_message(lua_State* L) {

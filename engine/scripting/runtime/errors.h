@@ -15,13 +15,13 @@ std::string memory_message(const RuntimeContext& context);
 void push_memory_message(lua_State* L);
 
 /// "file:line: text" taken apart; line 0 and empty file when the text has no place.
-struct PlacedMessage {
+struct LocatedMessage {
     std::string file;
     int line = 0;
     std::string text;
     std::string joined() const;
 };
-PlacedMessage take_apart(const std::string& message);
+LocatedMessage take_apart(const std::string& message);
 
 /// Plain words for what Lua says at run time, place kept ("attempt to index a nil value (local 'x')" and its like).
 std::string plain_runtime_message(const std::string& message);

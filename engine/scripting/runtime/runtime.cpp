@@ -224,7 +224,7 @@ void Runtime::record_error(int status, const std::string& source) {
     std::string message = lua_isstring(L, -1) ? lua_tostring(L, -1) : "the script failed";
     if (status == LUA_ERRMEM) message = memory_message(context);
     if (status == LUA_ERRSYNTAX) message = plain_syntax_message(message, source);
-    const PlacedMessage placed = take_apart(message);
+    const LocatedMessage placed = take_apart(message);
     const int line = placed.file == context.script_name ? placed.line : 0;
     context.recorder.record().error = RecordedError{std::move(message), line};
 }

@@ -1,0 +1,62 @@
+#include <gtest/gtest.h>
+
+#include "numerics/fit/instrument_iteration.h"
+#include "support/difference_equation.h"
+
+namespace test_instrument_iteration {
+
+using namespace dynlab;
+using namespace dynlab::test;
+
+const PolynomialOrders kOrders = PolynomialOrders::output_error({2}, {2}, {1});
+const Vector kTruth{{-1.5, 0.7, 0.8, -0.3}};
+
+/// A record of the system, from rest, with white noise of this size.
+std::vector<SampledExperiment> record(Index N, double noise) {
+    const Vector u = random_levels(N, 3, 7), none = Vector::Zero(N);
+    const Vector y = model_output(PolynomialModel(kOrders, kTruth, 1), u, none) + noise * RandomStream(11).normal(N);
+    return {{Matrix(u), y}};
+}
+
+TEST(instrument_iteration, an_exact_record_gives_its_system) {  // oracle: the system that made the record
+    const auto experiments = record(400, 0);
+    const DiscreteOutput model(kOrders, {InitialState::kZero, false}, experiments);
+    const Vector y = model.target();
+    for (const Vector& start : {Vector{{-1.2, 0.5, 0.5, 0}}, instrument_start(model, y)}) {
+        const InstrumentSolution found = iterate_instruments(model, y, start, 50, 1e-12);
+        EXPECT_EQ(found.termination, Termination::kConverged);
+        EXPECT_LT((found.theta - kTruth).cwiseAbs().maxCoeff(), 1e-8);
+        EXPECT_LT(found.loss, 1e-16);
+    }
+}
+
+// Oracle: the equations that hold at the end, Psi' (y - output) = 0, with Psi from central differences.
+TEST(instrument_iteration, errors_are_orthogonal_to_the_instruments_at_its_end) {
+    const auto experiments = record(600, 0.3);
+    const DiscreteOutput model(kOrders, {InitialState::kZero, false}, experiments);
+    const Vector y = model.target();
+    const InstrumentSolution found = iterate_instruments(model, y, instrument_start(model, y), 100, 1e-12);
+    ASSERT_EQ(found.termination, Termination::kConverged);
+    Vector output;
+    model.simulate(found.theta, output, nullptr);
+    const Vector e = y - output;
+    EXPECT_NEAR(found.loss, e.squaredNorm() / 600, 1e-12);
+    for (Index i = 0; i < 4; ++i) {
+        constexpr double kStep = 1e-6;
+        Vector ahead, behind;
+        model.simulate(found.theta + kStep * Vector::Unit(4, i), ahead, nullptr);
+        model.simulate(found.theta - kStep * Vector::Unit(4, i), behind, nullptr);
+        const Vector psi = (ahead - behind) / (2 * kStep);
+        EXPECT_LT(std::abs(psi.dot(e)), 1e-6 * psi.norm() * e.norm()) << i;
+    }
+}
+
+TEST(instrument_iteration, ends_when_it_is_told_to) {  // oracle: the call itself
+    const auto experiments = record(200, 0.1);
+    const DiscreteOutput model(kOrders, {InitialState::kZero, false}, experiments);
+    const InstrumentSolution found =
+        iterate_instruments(model, model.target(), Vector{{-1.2, 0.5, 0.5, 0}}, 50, 1e-12, [] { return true; });
+    EXPECT_EQ(found.termination, Termination::kCancelled);
+}
+
+}  // namespace test_instrument_iteration
