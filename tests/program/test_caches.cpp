@@ -88,8 +88,8 @@ TEST_F(caches, spoilt_entries_are_made_anew) {
 TEST_F(caches, two_runs_at_once_give_the_same_document) {
     bench_.write("a.lua", kHeader + kStudy + kSearch + kLate);
     const ChildResult both = bench_.shell(
-        "\"$DYNLAB\" weave a.lua -o 1.html & \"$DYNLAB\" weave a.lua -o 2.html & wait -n && wait -n && cmp 1.html "
-        "2.html");
+        "\"$DYNLAB\" weave a.lua -o 1.html & one=$!; \"$DYNLAB\" weave a.lua -o 2.html & other=$!; "
+        "wait $one && wait $other && cmp 1.html 2.html");
     EXPECT_EQ(both.exit_code, 0) << both.output << both.error_output;
     EXPECT_THAT(weave(kStudy + kSearch + kLate + "print(1)\n"), HasSubstr(calls(0, 3)));
 }

@@ -198,7 +198,9 @@ TEST_F(memoized_calls, short_calls_and_failed_ones_are_not_kept) {
 
 // A binding may put what it reads in the arguments' places, a vector for a table of numbers.
 TEST_F(memoized_calls, calls_are_known_by_the_arguments_that_were_given) {
-    const std::string code = "print(tfsrivc(d, {2}, {0}, {TdMax = 0.5}))\n";
+    const std::string code =
+        "local long = prbs(14, 10)\nlocal e = iddata(lsim(G0, long, 0.01) + 0.2*randn(#long), long, 0.01)\n"
+        "print(tfsrivc(e, {2}, {0}, {TdMax = 0.5}))\n";
     const Use first = run_with_cache(code), second = run_with_cache(code);
     EXPECT_EQ(first.computed, 1u);
     EXPECT_EQ(second.computed, 0u);

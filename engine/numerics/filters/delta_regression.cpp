@@ -195,8 +195,13 @@ struct EquationOutputs {
     }
 };
 
-bool is_regular(const RegressionRecord& record) {
-    return record.sampling.Ts > 0 && record.y.size() > 1;
+/// Regularly sampled, and not so slowly that the filter 1/A forgets everything from one sample to the next: states that
+/// follow their input at once are no combinations of its differences.
+bool is_sampled_for(const RegressionRecord& record, const VectorView& A) {
+    constexpr double kFastestPole = 5;  // mean of the poles times the sampling time
+    const double Ts = record.sampling.Ts;
+    return Ts > 0 && record.y.size() > 1 && A.allFinite() && A.size() > 1 &&
+           std::abs(A[1]) * Ts < kFastestPole * static_cast<double>(A.size() - 1);
 }
 
 /// Whether an input's chain needs another column (delta_signal): all then have one.
@@ -230,7 +235,7 @@ void append_range(std::vector<Index>& places, Index first, Index count) {
 }  // namespace
 
 std::optional<RegressionMoments> delta_svf_moments(const RegressionRecord& record, const VectorView& E, double gain) {
-    if (!is_regular(record) || !E.allFinite()) return {};
+    if (!is_sampled_for(record, E)) return {};
     return for_order<RegressionMoments>(E.size() - 1, [&](auto n) -> std::optional<RegressionMoments> {
         const bool longer = needs_longer(record);
         EquationOutputs equation{n, {1}, -1, {}};
@@ -253,7 +258,8 @@ std::optional<RegressionMoments> delta_svf_moments(const RegressionRecord& recor
 std::optional<RegressionMoments> delta_auxiliary_moments(const RegressionRecord& record, const VectorView& E,
                                                          const VectorView& A, const std::vector<Vector>& B,
                                                          double gain) {
-    if (!is_regular(record) || record.hold != Hold::kZoh || A.size() != E.size() || !A.allFinite()) return {};
+    if (!is_sampled_for(record, E) || record.hold != Hold::kZoh || A.size() != E.size() || !is_sampled_for(record, A))
+        return {};
     for (const Vector& numerator : B)
         if (numerator.size() >= A.size()) return {};
     return for_order<RegressionMoments>(E.size() - 1, [&](auto n) -> std::optional<RegressionMoments> {
@@ -303,7 +309,7 @@ void add_delta_sensitivities(const RegressionRecord& record, const VectorView& A
 
 std::optional<RegressionMoments> delta_refined_moments(const RegressionRecord& record, const VectorView& A,
                                                        const std::vector<Vector>& B, bool with_gram) {
-    if (!is_regular(record) || !A.allFinite()) return {};
+    if (!is_sampled_for(record, A)) return {};
     return for_order<RegressionMoments>(A.size() - 1, [&](auto n) -> std::optional<RegressionMoments> {
         if (poles_far_apart<n>(A, record.sampling.Ts)) return {};
         EquationOutputs equation{n, {}, 1, {}};
@@ -317,7 +323,7 @@ std::optional<RegressionMoments> delta_refined_moments(const RegressionRecord& r
 
 std::optional<Matrix> delta_sensitivity_moments(const RegressionRecord& record, const VectorView& A,
                                                 const std::vector<Vector>& B) {
-    if (!is_regular(record) || !A.allFinite()) return {};
+    if (!is_sampled_for(record, A)) return {};
     return for_order<Matrix>(A.size() - 1, [&](auto n) -> std::optional<Matrix> {
         if (poles_far_apart<n>(A, record.sampling.Ts)) return {};
         EquationOutputs equation{n, {}, 1, {}};
@@ -341,8 +347,8 @@ std::optional<Matrix> delta_sensitivity_moments(const RegressionRecord& record, 
 
 std::optional<Matrix> delta_output_moments(const RegressionRecord& record, const std::vector<Vector>& A,
                                            const std::vector<Vector>& B) {
-    const auto same_degree = [&](const Vector& den) { return den.size() == A[0].size() && den.allFinite(); };
-    if (!is_regular(record) || !std::all_of(A.begin(), A.end(), same_degree)) return {};
+    const auto fits = [&](const Vector& den) { return den.size() == A[0].size() && is_sampled_for(record, den); };
+    if (!std::all_of(A.begin(), A.end(), fits)) return {};
     return for_order<Matrix>(A[0].size() - 1, [&](auto n) {
         const bool longer = needs_longer(record);
         std::vector<DeltaSignal> signals{unfiltered(record.y)};

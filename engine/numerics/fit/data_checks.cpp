@@ -31,24 +31,32 @@ bool starts_from_rest(const Eigen::Ref<const Vector>& y) {
     return std::abs(y[0]) < 0.5 * y.cwiseAbs().maxCoeff();
 }
 
-}  // namespace
-
-void check_signals(const std::string& method, const IdData& data) {
+void check_inputs(const std::string& method, const IdData& data) {
     if (data.input_count() == 0) throw InvalidArgument(method + " needs an input, and the data have no input");
     for (Index input = 0; input < data.input_count(); ++input)
         if (in_all_experiments(data, [&](const Experiment& e) { return e.u.col(input).isZero(0); }))
             throw InvalidArgument(method + ": the input " + data.input_names[static_cast<std::size_t>(input)] +
                                   " is zero throughout, so it excites nothing and nothing can be learnt about its "
                                   "effect");
+}
+
+void check_outputs(const std::string& method, const IdData& data) {
     for (Index output = 0; output < data.output_count(); ++output)
         if (in_all_experiments(data, [&](const Experiment& e) { return is_constant(e.y.col(output)); }))
             throw InvalidArgument(method + ": " + numbered("output", output, data.output_count()) +
                                   " never changes, so nothing can be learnt");
 }
 
+}  // namespace
+
+void check_signals(const std::string& method, const IdData& data) {
+    check_inputs(method, data);
+    check_outputs(method, data);
+}
+
 void check_transfer_data(const std::string& method, const IdData& data, const TransferStructure& structure) {
     structure.validate();
-    check_signals(method, data);
+    check_inputs(method, data);
     if (data.input_count() != structure.inputs || data.output_count() != structure.outputs)
         throw InvalidArgument(method + ": the model has " + std::to_string(structure.inputs) + " input(s) and " +
                               std::to_string(structure.outputs) + " output(s), and the data have " +
@@ -70,6 +78,7 @@ void check_transfer_data(const std::string& method, const IdData& data, const Tr
             throw InvalidArgument(method + ": " + numbered("input", input, data.input_count()) +
                                   " never changes and the output does not start from rest, so there is no excitation "
                                   "to learn from: let the input vary, for instance as a prbs");
+    check_outputs(method, data);
 }
 
 void check_sampled_data(const std::string& method, const IdData& data) {

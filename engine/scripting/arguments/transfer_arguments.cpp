@@ -121,6 +121,7 @@ void read_fit_options(const Options& options, FitOptions& wanted) {
     wanted.max_iterations = static_cast<int>(options.size("MaxIter", wanted.max_iterations));
     wanted.tolerance = options.number("Tol", wanted.tolerance);
     wanted.cancel = options.call().cancel();
+    wanted.validate();
 }
 
 }  // namespace dynlab::inline scripting
