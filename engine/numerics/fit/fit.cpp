@@ -39,7 +39,10 @@ double fit_percent_of_sums(double squared_errors, double squared_variations) {
 Vector output_variations(const IdData& data) {
     Vector sums = Vector::Zero(data.output_count());
     for (const Experiment& experiment : data.experiments)
-        sums += (experiment.y.rowwise() - experiment.y.colwise().mean()).colwise().squaredNorm().transpose();
+        for (Index output = 0; output < sums.size(); ++output) {
+            const auto y = experiment.y.col(output).array();
+            sums[output] += (y - y.mean()).square().sum();
+        }
     return sums;
 }
 

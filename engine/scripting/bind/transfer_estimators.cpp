@@ -56,7 +56,8 @@ int give_refined(Call& call, const IdData& data, const RefinedReading& reading) 
     const Fit result = reading.estimation(data);
     Estimate estimate = estimate_of(call.function_name(), result);
     estimate.of_coefficients = !reading.integration;
-    estimate.set_assessment(assess_if_affordable(reading.integration ? integrated_inputs(data) : data, result));
+    estimate.set_assessment(reading.integration ? assess_if_affordable(integrated_inputs(data), result)
+                                                : assess_if_affordable(data, result));
     return give_fit(call, std::move(estimate), result);
 }
 
