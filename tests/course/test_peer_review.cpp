@@ -176,11 +176,14 @@ TEST(peer_review, survives_being_killed_at_any_moment) {
     for (int i = 1; i <= 8; ++i)
         bench.bench().write("in/" + CourseBench::group(i) + ".pdf", small_pdf("report " + std::to_string(i)));
     const ChildResult killed = bench.bench().shell(
-        "set -e; killed=0; mkdir rounds\n"
+        "set -e; killed=0; mkdir rounds; cp -r k rounds/k; begun=$(date +%s%N)\n"
+        "$DYNLAB course --course rounds/k receive in --no-checks --at '2026-03-01 10:00' >/dev/null\n"
+        "took=$(( ($(date +%s%N) - begun)/1000 )); rm -r rounds/k\n"  // microseconds
         "for round in $(seq 60); do\n"
         "  cp -r k rounds/k\n"
         "  $DYNLAB course --course rounds/k receive in --no-checks --at '2026-03-01 10:00' >/dev/null 2>&1 &\n"
-        "  sleep 0.0$(( (RANDOM % 90) + 10 )); kill -9 $! 2>/dev/null && killed=$((killed + 1)); wait $! 2>/dev/null "
+        "  sleep $(printf 0.%06d $((took*round/60))); kill -9 $! 2>/dev/null && killed=$((killed + 1)); wait $! "
+        "2>/dev/null "
         "|| true\n"
         "  $DYNLAB course --course rounds/k receive in --no-checks --at '2026-03-01 10:00' >/dev/null\n"
         "  $DYNLAB course --course rounds/k verify | grep -q '8 files, 8 versions: all there' || { echo round $round; "

@@ -21,16 +21,52 @@ std::vector<Vector> output_errors(const Fit& estimate, const std::vector<Sampled
     return records;
 }
 
+double mean_square(const std::vector<Vector>& records) {
+    double squares = 0, count = 0;
+    for (const Vector& record : records) {
+        squares += record.squaredNorm();
+        count += static_cast<double>(record.size());
+    }
+    return squares / count;
+}
+
+struct OutputErrorStart {
+    Fit fit;
+    std::vector<Vector> errors;
+};
+
+/// The output-error estimate that the search starts from. The beginning of a long record is enough where its model
+/// explains the whole as well as it explains the beginning.
+OutputErrorStart output_error_start(const IdData& data, const std::vector<SampledExperiment>& experiments,
+                                    const PolynomialOrders& orders, const FitOptions& options) {
+    constexpr Index kLong = 400000, kBeginning = 100000;
+    constexpr double kAsWell = 1.2;
+    const PolynomialOrders system = PolynomialOrders::output_error(orders.nb, orders.nf, orders.nk);
+    const auto fit_to = [&](const IdData& record) {
+        return fit_discrete_output("bj", record, system, options, output_error_search(options));
+    };
+    if (data.experiments.size() == 1 && data.sample_count() >= kLong) {
+        try {
+            const Fit fit = fit_to(data.range(1, kBeginning));
+            const std::vector<Vector> errors = output_errors(fit, experiments);
+            if (mean_square(errors) < kAsWell * fit.loss) return {fit, errors};
+        } catch (const InvalidArgument&) {
+            // too little happens there
+        }
+    }
+    const Fit fit = fit_to(data);
+    return {fit, output_errors(fit, experiments)};
+}
+
 }  // namespace
 
 Fit bj(const IdData& data, const PolynomialOrders& orders, const FitOptions& options) {
     orders.validate();
     if (orders.na > 0) throw InvalidArgument("bj has the orders nb, nc, nd, nf and nk only: na must be zero");
-    const Fit first = fit_discrete_output("bj", data, PolynomialOrders::output_error(orders.nb, orders.nf, orders.nk),
-                                          options, output_error_search(options));
     const CentredData centred = centred_for(data, options.offset);
     const std::vector<SampledExperiment> experiments = sampled_experiments(centred.data);
-    const ArmaNoise noise = start_noise(output_errors(first, experiments), orders.nc, orders.nd, output_power(data));
+    const auto [first, errors] = output_error_start(data, experiments, orders, options);
+    const ArmaNoise noise = start_noise(errors, orders.nc, orders.nd, output_power(data));
     Vector start(orders.parameter_count());
     start << first.theta, noise.C.tail(orders.nc), noise.D.tail(orders.nd);
     Fit fit =

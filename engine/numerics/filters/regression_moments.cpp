@@ -169,7 +169,12 @@ double output_error_squares(const RegressionRecord& record, const std::vector<Ve
         chains.push_back({record.u[j], transfer_system(B[j], A[j]), record.hold, record.delays[j]});
     // The quickest, where enough digits are left: nearly noise-free data go the long way.
     constexpr double kLeft = 1e-4;
-    if (const std::optional<Matrix> sums = delta_output_moments(record, A, B)) {
+    std::optional<Matrix> sums;
+    if (const auto two_poles = two_pole_output_moments(record, A[0], B[0]))
+        sums = *two_poles;
+    else
+        sums = delta_output_moments(record, A, B);
+    if (sums) {
         Vector error = Vector::Constant(sums->rows(), -1);
         error[0] = 1;
         const double squares = error.dot(*sums * error);

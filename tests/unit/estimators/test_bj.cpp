@@ -3,6 +3,8 @@
 
 #include "numerics/estimators/bj.h"
 #include "numerics/estimators/oe.h"
+#include "numerics/fit/output_error.h"
+#include "numerics/fit/prediction_model.h"
 #include "numerics/validation/assessment.h"
 #include "support/difference_equation.h"
 #include "support/thrown_message.h"
@@ -101,6 +103,24 @@ TEST(bj, scatters_as_its_standard_errors_say_and_less_than_oe) {
         if (i < 4) {
             EXPECT_LT(own, 0.7 * spread(others.row(i))) << i;
         }
+    }
+}
+
+/// Oracle: the search over all samples from the truth. The second record's input is silent in its first quarter, from
+/// which nothing can be learnt; the third one's noise is thirty times larger there.
+TEST(bj, long_records_end_where_the_search_from_the_truth_ends) {
+    constexpr Index kLong = 420000, kQuarter = kLong / 4;
+    for (const char* kind : {"even", "silent", "noisy"}) {
+        Vector u = random_levels(kLong, 2, 7), e = 0.5 * RandomStream(3).normal(kLong);
+        if (kind == std::string("silent")) u.head(kQuarter).setZero();
+        if (kind == std::string("noisy")) e.head(kQuarter) *= 30;
+        const IdData data(Matrix(model_output(PolynomialModel(kOrders, kTheta, 1), u, e)), Matrix(u), 1);
+        const Fit found = bj(data, kOrders, tight());
+        const std::vector<SampledExperiment> experiments{{data.experiments[0].u, data.experiments[0].y.col(0)}};
+        const PredictionModel model(kOrders, {InitialState::kZero, false}, experiments);
+        const OutputErrorSolution best =
+            minimise_output_error(model, model.target(), model.completed(kTheta), {200, 1e-10, {}});
+        EXPECT_LT((found.theta - best.theta.head(kTheta.size())).cwiseAbs().maxCoeff(), 1e-7) << kind;
     }
 }
 
