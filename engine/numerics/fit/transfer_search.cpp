@@ -208,7 +208,7 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
         [&](const StartCondition& condition) {
             Fit fit = refine_from(record, structure, condition, scan.starts, options);
             const double bic = bic_of(fit, record);
-            return Candidate{std::move(fit), bic};
+            return Candidate<Fit>{std::move(fit), bic};
         });
     check_transient(method, record, best, value_count(structure, best.start, experiments));
     if (options.offset == Offset::kRemove) add_operating_points(best, centred.removed);
