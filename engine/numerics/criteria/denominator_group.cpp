@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/polynomial.h"
@@ -99,6 +100,34 @@ RegressionMoments DenominatorGroup::auxiliary(const VectorView& E, const VectorV
     const Vector A = denominator(theta);
     return sum_over_records(
         [&](const Member& member) { return auxiliary_moments(member.record, E, A, numerators(member, theta), gain); });
+}
+
+CommonDenominator DenominatorGroup::model(const Member& member, const VectorView& theta) const {
+    return {denominator(theta), numerators(member, theta)};
+}
+
+EstimatingTerms DenominatorGroup::terms(const VectorView& E, double gain, const Vector& theta,
+                                        const Vector* instrument) const {
+    EstimatingTerms all{Matrix::Zero(sample_count(), count_), Vector(sample_count())};
+    Index first = 0;
+    for (const Member& member : members_) {
+        const Index length = member.record.y.size();
+        std::optional<CommonDenominator> auxiliary;
+        if (instrument) auxiliary = model(member, *instrument);
+        const EstimatingTerms own =
+            estimating_terms(member.record, E, gain, model(member, theta), auxiliary ? &*auxiliary : nullptr);
+        all.Z(Eigen::seqN(first, length), member.places) = own.Z;
+        all.errors.segment(first, length) = own.errors;
+        first += length;
+    }
+    return all;
+}
+
+std::vector<Index> DenominatorGroup::record_lengths() const {
+    std::vector<Index> lengths;
+    for (const Member& member : members_)
+        if (member.output == 0) lengths.push_back(member.record.y.size());
+    return lengths;
 }
 
 RegressionMoments DenominatorGroup::refined(const VectorView& theta, bool with_gram) const {

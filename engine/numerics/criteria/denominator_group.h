@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "numerics/criteria/estimating_terms.h"
 #include "numerics/filters/regression_moments.h"
 #include "numerics/models/transfer_structure.h"
 
@@ -26,6 +27,11 @@ class DenominatorGroup {
     RegressionMoments svf(const VectorView& E, double gain = 1) const;
     RegressionMoments auxiliary(const VectorView& E, const VectorView& theta, double gain = 1) const;
     RegressionMoments refined(const VectorView& theta, bool with_gram = false) const;
+    /// The unweighted terms of svf at `theta` or, with the theta of an auxiliary model, of auxiliary: record after
+    /// record, the experiments of the first output before those of the next.
+    EstimatingTerms terms(const VectorView& E, double gain, const Vector& theta,
+                          const Vector* instrument = nullptr) const;
+    std::vector<Index> record_lengths() const;               ///< of the experiments
     Matrix sensitivity_gram(const VectorView& theta) const;  ///< weighted sum z z' of the refined instruments
     Vector denominator(const VectorView& theta) const;       ///< theta of the group
     /// theta with unstable poles mirrored (real part to its negative); tells whether there were any.
@@ -38,6 +44,7 @@ class DenominatorGroup {
         std::size_t output;         // in outputs_
     };
     std::vector<Vector> numerators(const Member& member, const VectorView& theta) const;
+    CommonDenominator model(const Member& member, const VectorView& theta) const;
     template <class Moments>
     RegressionMoments sum_over_records(const Moments& moments_of) const;
 

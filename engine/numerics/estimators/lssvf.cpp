@@ -6,6 +6,7 @@
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/number_text.h"
+#include "numerics/validation/robust_covariance.h"
 
 namespace dynlab::inline numerics {
 
@@ -40,6 +41,20 @@ void warn_of_cutoff(Fit& estimate, double lambda) {
                                     " rad/s): the usual choice is a bit above the bandwidth.");
 }
 
+Matrix equation_covariance(const DenominatorGroup& group, const VectorView& E, double gain, const Matrix& H,
+                           const Vector& theta, const Vector* instrument) {
+    const EstimatingTerms terms = group.terms(E, gain, theta, instrument);
+    return robust_covariance(H, terms.Z, terms.errors, group.record_lengths(),
+                             static_cast<Index>(group.outputs().size()))
+        .covariance;
+}
+
+void warn_of_white_errors(Fit& estimate, const IdData& data) {
+    if (data.sample_count() > kMostColoured)
+        estimate.warnings.push_back("Standard errors of more than " + std::to_string(kMostColoured) +
+                                    " samples take the equation error as white, though the filters colour it.");
+}
+
 Fit lssvf(const IdData& data, const TransferStructure& structure, const SvfOptions& options) {
     options.validate();
     check_carx("lssvf", structure);
@@ -52,22 +67,26 @@ Fit lssvf(const IdData& data, const TransferStructure& structure, const SvfOptio
         const DenominatorGroup group(data, structure, static_cast<Index>(g), options.hold_y);
         const Index d = group.parameter_count();
         const double gain = options.beta ? std::pow(*options.beta, static_cast<double>(group.order())) : 1.0;
-        const RegressionMoments sums = group.svf(filter_denominator(options.lambda, group.order()), gain);
+        const Vector E = filter_denominator(options.lambda, group.order());
+        const RegressionMoments sums = group.svf(E, gain);
         double condition = 0;
         const Vector theta = solve_moments(sums, &condition);
         if (!theta.allFinite())
             throw InvalidArgument(
                 "lssvf: the equations have no unique solution: the input does not excite the system enough for " +
                 std::to_string(d) + " parameters");
+        const Matrix inverse = inverse_gram(sums.z_phi);
         const double squares = std::max(0.0, sums.y_y - 2 * theta.dot(sums.z_y) + theta.dot(sums.z_phi * theta));
-        const double variance = squares / static_cast<double>(group.sample_count() - d);
         estimate.theta.segment(group.place(), d) = theta;
-        estimate.covariance.block(group.place(), group.place(), d, d) = variance * inverse_gram(sums.z_phi);
+        estimate.covariance.block(group.place(), group.place(), d, d) =
+            data.sample_count() <= kMostColoured ? equation_covariance(group, E, gain, inverse, theta)
+                                                 : squares / static_cast<double>(group.sample_count() - d) * inverse;
         estimate.condition_number = std::max(estimate.condition_number, condition);
     }
     estimate.termination = Termination::kConverged;
     describe_models(estimate);
     warn_of_cutoff(estimate, options.lambda);
+    warn_of_white_errors(estimate, data);
     set_message(estimate, "Least squares on filtered signals.");
     return estimate;
 }

@@ -7,6 +7,7 @@
 
 #include "numerics/error.h"
 #include "numerics/linalg/least_squares.h"
+#include "numerics/signals/autoregression.h"
 
 namespace dynlab::inline numerics {
 
@@ -26,14 +27,20 @@ void check_sizes(const MatrixView& H, const MatrixView& Z, const VectorView& e, 
                               " output(s) must add up to the " + std::to_string(N) + " samples");
 }
 
-// v(k): one row for each instant.
-Matrix weighted_errors(const MatrixView& H, const MatrixView& Z, const VectorView& e, Index outputs) {
-    Matrix all = Z * H.transpose();
-    all.array().colwise() *= e.array();
-    const Index instants = Z.rows() / outputs;
-    Matrix V = all.topRows(instants);
-    for (Index i = 1; i < outputs; ++i) V += all.middleRows(i * instants, instants);
-    return V;
+// v(k) = H sum_i x_i(k) w_i(k), one row for each instant: output by output whitened errors and what takes the place of
+// the instruments then.
+Matrix weighted_innovations(const MatrixView& H, const MatrixView& Z, const VectorView& e,
+                            const std::vector<Index>& lengths, std::vector<Autoregression>& whitening) {
+    const Index outputs = static_cast<Index>(whitening.size()), instants = Z.rows() / outputs;
+    Matrix V = Matrix::Zero(instants, Z.cols());
+    for (Index i = 0; i < outputs; ++i) {
+        const auto errors = e.segment(i * instants, instants);
+        Autoregression& model = whitening[static_cast<std::size_t>(i)];
+        model = fit_autoregression(errors, lengths, highest_autoregressive_order(instants));
+        const Matrix X = coloured_backwards(model, Z.middleRows(i * instants, instants), lengths);
+        V += whitened(model, errors, lengths).asDiagonal() * X;
+    }
+    return V * H.transpose();
 }
 
 // Lag-one correlations of the columns of V, no closer to one than Andrews advises.
@@ -81,8 +88,9 @@ RobustCovariance robust_covariance(const MatrixView& H, const MatrixView& Z, con
     const std::vector<Index> lengths = given_lengths.empty() ? std::vector<Index>{Z.rows() / outputs} : given_lengths;
     check_sizes(H, Z, e, lengths, outputs);
     const Index N = Z.rows(), d = Z.cols();
-    const Matrix V = weighted_errors(H, Z, e, outputs);
     RobustCovariance result;
+    result.whitening.resize(static_cast<std::size_t>(outputs));
+    const Matrix V = weighted_innovations(H, Z, e, lengths, result.whitening);
     result.bandwidth = bartlett_bandwidth(lag_one_correlations(V, lengths), V.rows(),
                                           *std::max_element(lengths.begin(), lengths.end()));
     result.covariance = Matrix::Zero(d, d);

@@ -2,31 +2,36 @@
 #include <vector>
 
 #include "numerics/linalg/types.h"
+#include "numerics/signals/autoregression.h"
 
 namespace dynlab::inline numerics {
 
 /// The covariance of an estimate whose errors are coloured, or of changing size.
 struct RobustCovariance {
-    Matrix covariance;    ///< d x d
-    Vector std;           ///< d, its standard errors
-    Index bandwidth = 1;  ///< L below, samples
+    Matrix covariance;                      ///< d x d
+    Vector std;                             ///< d, its standard errors
+    Index bandwidth = 1;                    ///< L below, samples
+    std::vector<Autoregression> whitening;  ///< of each output's errors
 };
 
 /// Sandwich (heteroscedasticity and autocorrelation consistent) covariance of a theta that solves
-/// sum_k z(k) e(k, theta) = 0, after Newey and West (1987) with the Bartlett window:
-///     P = N/(N - d) sum_|l|<L (1 - |l|/L) sum_k v(k) v(k - l)',   v(k) = H z(k) e(k),
-/// with H (d x d) the inverse of -d/dtheta sum z e: (Psi'Psi)^-1 with z = Psi for output-error estimates, (Z'Phi)^-1
-/// for instrumental variables. The window is the one of least mean square error for first-order autoregressive v
-/// (Andrews 1991, section 6, every parameter counting alike):
+/// sum_k z(k) e(k, theta) = 0, with H (d x d) the inverse of -d/dtheta sum z e: (Psi'Psi)^-1 with z = Psi for
+/// output-error estimates, (Z'Phi)^-1 for instrumental variables. The z are known and free of noise, so that the colour
+/// of e alone makes the terms z(k) e(k) depend on each other: e is whitened by an autoregression (signals/
+/// autoregression.h) into w, and z'e = x'w with x the instruments coloured backwards in time. What is left of
+/// dependence is met after Newey and West (1987) with the Bartlett window, as Andrews and Monahan (1992) do with
+/// prewhitened terms:
+///     P = N/(N - d) sum_|l|<L (1 - |l|/L) sum_k v(k) v(k - l)',   v(k) = H x(k) w(k).
+/// The window is the one of least mean square error for first-order autoregressive v (Andrews 1991, section 6, every
+/// parameter counting alike):
 ///     L = 1.1447 (alpha N)^(1/3),   alpha = mean_i 4 rho_i^2/((1 - rho_i)^2 (1 + rho_i)^2),
-/// N the number of instants, rounded up; it grows with the correlation the residuals and sensitivities have in common,
-/// and is 1 (White 1980) without any. The result is positive semidefinite and does not depend on the parameters' units;
-/// the work is O(N d^2) for any L, for the window's double sum is one over squared moving sums. `Z` is N x d, `e` has N
-/// values. Where several `outputs` were fitted together, both hold as many blocks of N/outputs rows, each output's at
-/// the same instants and with the weight that it had in the fit; v(k) is the sum over the outputs at one instant then,
-/// so that the errors of one output may depend on those of another. `lengths` (summing to N/outputs) tells
-/// uninterrupted records apart, which are taken as independent of each other; empty for one. Throws InvalidArgument for
-/// sizes that do not fit or N <= d.
+/// N the number of instants, rounded up; it is 1 (White 1980) without any correlation. The result is positive
+/// semidefinite and does not depend on the parameters' units; the work is O(N d (d + p)), p the autoregression's order.
+/// `Z` is N x d, `e` has N values. Where several `outputs` were fitted together, both hold as many blocks of N/outputs
+/// rows, each output's at the same instants and with the weight that it had in the fit; v(k) is the sum over the
+/// outputs at one instant then, so that the errors of one output may depend on those of another. `lengths` (summing to
+/// N/outputs) tells uninterrupted records apart, which are taken as independent of each other; empty for one. Throws
+/// InvalidArgument for sizes that do not fit, values that are not finite, or N <= d.
 RobustCovariance robust_covariance(const MatrixView& H, const MatrixView& Z, const VectorView& e,
                                    const std::vector<Index>& lengths = {}, Index outputs = 1);
 

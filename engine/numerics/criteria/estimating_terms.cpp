@@ -1,0 +1,93 @@
+#include "numerics/criteria/estimating_terms.h"
+
+#include "numerics/linalg/polynomial.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+/// p^n y_f and phi.
+struct FilteredEquation {
+    Vector y;
+    Matrix Phi;
+};
+
+FilteredEquation filtered_equation(const RegressionRecord& record, const VectorView& E, double gain) {
+    const Index n = E.size() - 1;
+    const Matrix output = gain * chain_outputs({record.y, derivatives_filter(E, n), record.hold_y}, record.sampling);
+    Index d = n;
+    for (const int m : record.zeros) d += m + 1;
+    FilteredEquation equation{output.col(0), Matrix(record.y.size(), d)};
+    equation.Phi.leftCols(n) = -output.rightCols(n);
+    Index first = n;
+    for (std::size_t j = 0; j < record.u.size(); ++j) {
+        const Index count = record.zeros[j] + 1;
+        const FilterChain chain{record.u[j], derivatives_filter(E, record.zeros[j]), record.hold, record.delays[j]};
+        equation.Phi.middleCols(first, count) = gain * chain_outputs(chain, record.sampling);
+        first += count;
+    }
+    return equation;
+}
+
+/// -p^(n-1) x_f .. -x_f of the model's output x, filtered as y is.
+Matrix auxiliary_instruments(const RegressionRecord& record, const VectorView& E, double gain,
+                             const CommonDenominator& model) {
+    const Index n = E.size() - 1;
+    Matrix Z = Matrix::Zero(record.y.size(), n);
+    for (std::size_t j = 0; j < record.u.size(); ++j) {
+        FilterChain chain{record.u[j], derivatives_filter(E, n - 1), record.hold_y};
+        chain.front = FrontModel{transfer_system(model.B[j], model.A), record.hold, record.delays[j]};
+        Z -= gain * chain_outputs(chain, record.sampling);
+    }
+    return Z;
+}
+
+Vector coefficients(const CommonDenominator& model, Index count) {
+    Vector theta(count);
+    theta.head(model.A.size() - 1) = model.A.tail(model.A.size() - 1);
+    Index first = model.A.size() - 1;
+    for (const Vector& b : model.B) {
+        theta.segment(first, b.size()) = b;
+        first += b.size();
+    }
+    return theta;
+}
+
+Vector output_errors(const RegressionRecord& record, const CommonDenominator& model) {
+    Vector errors = record.y;
+    for (std::size_t j = 0; j < record.u.size(); ++j)
+        errors -= chain_outputs({record.u[j], transfer_system(model.B[j], model.A), record.hold, record.delays[j]},
+                                record.sampling);
+    return errors;
+}
+
+/// Columns filtered by A/E from the last sample to the first. From rest a filter of regular samples is a lower
+/// triangular Toeplitz matrix, whose transpose runs backwards.
+Matrix filtered_backwards(const RegressionRecord& record, const VectorView& A, const VectorView& E, const Matrix& Z) {
+    const Matrix reversed = Z.colwise().reverse();
+    Matrix filtered(Z.rows(), Z.cols());
+    for (Index i = 0; i < Z.cols(); ++i)
+        filtered.col(i) =
+            chain_outputs({SampleView(reversed.col(i).data(), reversed.rows()), transfer_system(A, E), record.hold_y},
+                          record.sampling);
+    return filtered.colwise().reverse();
+}
+
+}  // namespace
+
+EstimatingTerms estimating_terms(const RegressionRecord& record, const VectorView& E, double gain,
+                                 const CommonDenominator& model, const CommonDenominator* instrument) {
+    FilteredEquation equation = filtered_equation(record, E, gain);
+    EstimatingTerms terms{equation.Phi, {}};
+    if (instrument) terms.Z.leftCols(E.size() - 1) = auxiliary_instruments(record, E, gain, *instrument);
+    const bool stable = (roots(model.A).real().array() < 0).all();
+    if (record.sampling.Ts > 0 && stable) {
+        terms.Z = gain * filtered_backwards(record, model.A, E, terms.Z);
+        terms.errors = output_errors(record, model);
+    } else {
+        terms.errors = equation.y - equation.Phi * coefficients(model, equation.Phi.cols());
+    }
+    return terms;
+}
+
+}  // namespace dynlab::inline numerics

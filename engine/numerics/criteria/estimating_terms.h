@@ -1,0 +1,27 @@
+#pragma once
+#include "numerics/filters/regression_record.h"
+
+namespace dynlab::inline numerics {
+
+/// A model B_1/A u_1 + B_2/A u_2 + ..., A monic.
+struct CommonDenominator {
+    Vector A;
+    std::vector<Vector> B;
+};
+
+/// An estimate solves sum_k z(k) e(k) = 0: the terms of this sum, N x d and N. What its errors scatter by depends on
+/// how the terms depend on each other.
+struct EstimatingTerms {
+    Matrix Z;
+    Vector errors;
+};
+
+/// The terms of LSSVF (z = phi) or, with an auxiliary model `instrument`, of IVSVF: e = p^n y_f - phi' theta is the
+/// error of the equation with all signals filtered by gain/E, E monic of degree n, theta the coefficients of `model`.
+/// With v = y - sum B_j/A u_j it is e = gain A/E v, but for what the hold of y between its samples changes. For regular
+/// records and a stable model the terms are therefore the instruments filtered by gain A/E backwards in time and the
+/// output errors v, which no filter has coloured.
+EstimatingTerms estimating_terms(const RegressionRecord& record, const VectorView& E, double gain,
+                                 const CommonDenominator& model, const CommonDenominator* instrument = nullptr);
+
+}  // namespace dynlab::inline numerics

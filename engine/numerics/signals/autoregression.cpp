@@ -1,0 +1,139 @@
+#include "numerics/signals/autoregression.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "numerics/error.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+void check_autoregression(Index count, const std::vector<Index>& lengths) {
+    if (std::accumulate(lengths.begin(), lengths.end(), Index{0}) != count)
+        throw InvalidArgument("The lengths of the records of an autoregression must add up to its " +
+                              std::to_string(count) + " values");
+}
+
+/// Errors of prediction forwards and backwards, which Burg's method makes smaller together, order by order.
+class BurgLattice {
+  public:
+    BurgLattice(const VectorView& e, const std::vector<Index>& lengths)
+        : lengths_(lengths), forward_(e), backward_(e) {}
+
+    /// The reflection coefficient of the next order, |k| < 1; the errors are those of that order afterwards.
+    double next() {
+        ++order_;
+        double products = 0, squares = 0;
+        for_each_record([&](auto&& f, auto&& b) {
+            products += f.dot(b);
+            squares += f.squaredNorm() + b.squaredNorm();
+        });
+        const double reflection = squares > 0 ? -2 * products / squares : 0;
+        for_each_record([&](auto&& f, auto&& b) {
+            const Vector before = f;
+            f += reflection * b;
+            b += reflection * before;
+        });
+        return reflection;
+    }
+
+  private:
+    /// f(k) and b(k-1) for k = order .. length-1 of each record. b(k-1) is kept where k - order lies, so that the
+    /// errors of every order begin at the front.
+    template <class Work>
+    void for_each_record(const Work& work) {
+        Index first = 0;
+        for (const Index length : lengths_) {
+            const Index rest = length - order_;
+            if (rest > 0) work(forward_.segment(first + order_, rest), backward_.segment(first, rest));
+            first += length;
+        }
+    }
+
+    const std::vector<Index>& lengths_;
+    Vector forward_, backward_;
+    Index order_ = 0;
+};
+
+/// The predictor of the next order (Levinson's step).
+Vector with_reflection(const Vector& a, double reflection) {
+    const Index p = a.size();
+    Vector next(p + 1);
+    next.head(p) = a + reflection * a.reverse();
+    next[p] = reflection;
+    return next;
+}
+
+/// The predictor of the k-th value of a record: of a lower order while fewer values stand before it.
+const Vector& predictor_at(const Autoregression& model, Index k) {
+    return model.predictors[static_cast<std::size_t>(std::min(k, model.order()))];
+}
+
+}  // namespace
+
+Index highest_autoregressive_order(Index N) {
+    return N < 2 ? 0 : static_cast<Index>(20 * std::log10(static_cast<double>(N)));
+}
+
+Autoregression fit_autoregression(const VectorView& e, const std::vector<Index>& lengths, Index most) {
+    check_autoregression(e.size(), lengths);
+    if (!e.allFinite()) throw InvalidArgument("The values of an autoregression must be finite");
+    const double N = static_cast<double>(e.size());
+    Autoregression model{{Vector()}, e.size() > 0 ? e.squaredNorm() / N : 0};
+    if (model.variance == 0) return model;
+    const Index longest = *std::max_element(lengths.begin(), lengths.end());
+    const Index highest = std::min(most, (longest - 1) / 4);
+    double least = N * std::log(model.variance), variance = model.variance;
+    std::size_t chosen = 0;
+    BurgLattice lattice(e, lengths);
+    for (Index p = 1; p <= highest; ++p) {
+        const double reflection = lattice.next();
+        variance *= 1 - reflection * reflection;
+        if (!(variance > std::numeric_limits<double>::min())) break;
+        model.predictors.push_back(with_reflection(model.predictors.back(), reflection));
+        const double order = static_cast<double>(p);
+        const double criterion = N * std::log(variance) + 2 * order * N / (N - order - 2);
+        if (criterion < least) {
+            least = criterion;
+            chosen = static_cast<std::size_t>(p);
+            model.variance = variance;
+        }
+    }
+    model.predictors.resize(chosen + 1);
+    return model;
+}
+
+Vector whitened(const Autoregression& model, const VectorView& e, const std::vector<Index>& lengths) {
+    check_autoregression(e.size(), lengths);
+    Vector w = e;
+    Index first = 0;
+    for (const Index length : lengths) {
+        for (Index k = 0; k < length; ++k) {
+            const Vector& a = predictor_at(model, k);
+            w[first + k] += a.dot(e.segment(first + k - a.size(), a.size()).reverse());
+        }
+        first += length;
+    }
+    return w;
+}
+
+Matrix coloured_backwards(const Autoregression& model, const MatrixView& Z, const std::vector<Index>& lengths) {
+    check_autoregression(Z.rows(), lengths);
+    if (model.order() == 0) return Z;
+    // One row an instant, so that the columns are worked on side by side.
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> X = Z;
+    Index first = 0;
+    for (const Index length : lengths) {
+        for (Index k = length - 1; k > 0; --k) {
+            const Vector& a = predictor_at(model, k);
+            for (Index i = 0; i < a.size(); ++i) X.row(first + k - 1 - i) -= a[i] * X.row(first + k);
+        }
+        first += length;
+    }
+    return X;
+}
+
+}  // namespace dynlab::inline numerics
