@@ -61,6 +61,22 @@ TEST(script_vectors, are_made_in_the_usual_ways) {
     EXPECT_EQ(printed("print(#range(0, 0.01, 15), range(0, 0.1, 0.3)[4] == 3*0.1)"), "1501\ttrue\n");
 }
 
+// Oracle: the same numbers have the same sums, wherever in memory they lie.
+TEST(script_vectors, sums_do_not_depend_on_the_place_in_memory) {
+    EXPECT_EQ(printed("local v = randn(1001)\n"
+                      "local keep, seen, count = {}, {}, 0\n"
+                      "for i = 1, 300 do\n"
+                      "  keep[#keep + 1] = string.rep('x', 40 + i)\n"
+                      "  local w = v + 0\n"
+                      "  keep[#keep + 1] = w\n"
+                      "  for _, x in ipairs{mean(w), sum(w), std(w), norm(w), dot(w, v)} do\n"
+                      "    if not seen[x] then seen[x] = true; count = count + 1 end\n"
+                      "  end\n"
+                      "end\n"
+                      "print(count)"),
+              "5\n");
+}
+
 TEST(script_vectors, are_summed_up) {
     EXPECT_EQ(
         printed("local v = {4, 1, 3}\nprint(sum(v), mean(v), var(v), std{1, 3}^2, norm{3, 4}, dot({1, 2}, {3, 4}))"),

@@ -29,7 +29,7 @@ Block* block_at(lua_State* L, int index, const ObjectType& type) {
 }
 
 double bytes_of(Index rows, Index columns) {
-    return 8.0 * static_cast<double>(rows) * static_cast<double>(columns);
+    return 8.0 * static_cast<double>(rows) * static_cast<double>(columns) + NumericBlock::kAlignment;
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <lua.hpp>
 
 #include "numerics/linalg/types.h"
@@ -9,10 +10,15 @@ using VectorMap = Eigen::Map<const Vector>;
 using MatrixMap = Eigen::Map<const Matrix>;
 
 /// Numbers that lie inside the userdata itself, so that the collector and the memory limit see them. A vector has one
-/// column and the metatable of vectors; column-major doubles follow this header.
+/// column and the metatable of vectors; column-major doubles follow this header at the next multiple of kAlignment:
+/// sums are vectorised from the first aligned number on, and would otherwise round differently from place to place.
 struct NumericBlock {
+    static constexpr std::size_t kAlignment = 64;  ///< bytes, of the widest registers
     Index rows, columns;
-    double* data() { return reinterpret_cast<double*>(this + 1); }
+    double* data() {
+        const auto behind = reinterpret_cast<std::uintptr_t>(this + 1);
+        return reinterpret_cast<double*>((behind + kAlignment - 1) / kAlignment * kAlignment);
+    }
     Eigen::Map<Matrix> matrix() { return {data(), rows, columns}; }
     Eigen::Map<Vector> vector() { return {data(), rows * columns}; }
 };
