@@ -33,6 +33,7 @@ Fit polynomial_fit(const PolynomialOrders& orders, const VectorView& theta, doub
 }
 
 double fit_percent_of_sums(double squared_errors, double squared_variations) {
+    if (!std::isfinite(squared_errors)) return -kInfinity;
     return 100 * (1 - std::sqrt(squared_errors / squared_variations));
 }
 

@@ -83,7 +83,8 @@ struct Fit {
 /// A fit of difference equations, its model and names made from the values; all else is to be filled.
 Fit polynomial_fit(const PolynomialOrders& orders, const VectorView& theta, double Ts);
 
-/// 100 (1 - |error|/|y - mean(y)|), the means taken experiment by experiment, from the two sums of squares.
+/// 100 (1 - |error|/|y - mean(y)|), the means taken experiment by experiment, from the two sums of squares;
+/// -infinity where the errors are not finite.
 double fit_percent_of_sums(double squared_errors, double squared_variations);
 
 /// Per output: the sum of squares about the mean of each experiment, and the mean square.

@@ -1,5 +1,7 @@
 #include "numerics/fit/simulation_error.h"
 
+#include <cmath>
+
 #include "numerics/filters/regression_moments.h"
 
 namespace dynlab::inline numerics {
@@ -34,11 +36,15 @@ void measure_simulation(Fit& fit, const IdData& data) {
     const double d = static_cast<double>(structure.parameter_count()) / outputs;
     const Vector variations = output_variations(data);
     for (Index output = 0; output < structure.outputs; ++output) {
-        const double squares = simulation_squares(data, structure, fit.theta, output);
+        const double sum = simulation_squares(data, structure, fit.theta, output);
+        const double squares = std::isfinite(sum) ? sum : kInfinity;
         fit.fit_percent[output] = fit_percent_of_sums(squares, variations[output]);
         fit.noise_variance[output] = squares / (N - d);
         fit.loss += squares / N / outputs;
     }
+    if (std::isfinite(fit.loss)) return;
+    fit.warnings.push_back("The simulation of the model grows beyond all bounds over the record: it has no fit.");
+    fit.message += " " + fit.warnings.back();
 }
 
 }  // namespace dynlab::inline numerics

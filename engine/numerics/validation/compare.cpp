@@ -6,6 +6,7 @@
 #include <span>
 
 #include "numerics/error.h"
+#include "numerics/fit/fit.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/number_text.h"
 #include "numerics/simulation/lsim.h"
@@ -255,7 +256,7 @@ Compared compare_record(const ComparedRecord& record, Channels channels, const C
     result.offset += removed_output;
     compared.squares = (record.y - result.output).squaredNorm();
     compared.variation = variation_about_mean(record.y);
-    result.fit_percent = 100 * (1 - std::sqrt(compared.squares / compared.variation));
+    result.fit_percent = fit_percent_of_sums(compared.squares, compared.variation);
     result.message = "Simulated " + description(result.start) + ": fit " + number_text(result.fit_percent, 4) + " %.";
     return compared;
 }
@@ -290,7 +291,7 @@ Comparison compare_all(const IdData& data, const std::vector<TransferFunction>& 
             row.push_back(std::move(compared.result));
         }
     }
-    all.fit_percent = 100 * (1 - (squares.array() / variation.array()).sqrt());
+    all.fit_percent = squares.binaryExpr(variation, &fit_percent_of_sums);
     return all;
 }
 

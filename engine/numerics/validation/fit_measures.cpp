@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "numerics/error.h"
+#include "numerics/fit/fit.h"
 
 namespace dynlab::inline numerics {
 
@@ -32,7 +33,7 @@ double variation_about_mean(const VectorView& y) {
 
 double fit_percent(const VectorView& y, const VectorView& y_sim) {
     require_pair(y, y_sim);
-    return 100 * (1 - (y - y_sim).norm() / std::sqrt(variation_about_mean(y)));
+    return fit_percent_of_sums((y - y_sim).squaredNorm(), variation_about_mean(y));
 }
 
 double r_squared_simulation(const VectorView& y, const VectorView& y_sim) {

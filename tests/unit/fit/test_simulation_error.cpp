@@ -37,4 +37,17 @@ TEST(simulation_error, of_two_inputs_and_two_experiments) {  // oracle: second r
     EXPECT_EQ(fit.offsets, Matrix::Zero(2, 1));
 }
 
+TEST(simulation_error, that_overflows_is_no_fit_and_told) {  // oracle: exp(2 * 500) is no double
+    const IdData data(Matrix(RandomStream(1).normal(1000)), Matrix(prbs(8, 5).head(1000)), 0.5);
+    Fit fit;
+    fit.structure = TransferStructure::single(1, 0);
+    fit.theta = values({-2, 1});
+    fit.message = "Found.";
+    measure_simulation(fit, data);
+    EXPECT_EQ(fit.fit_percent[0], -kInfinity);
+    EXPECT_EQ(fit.loss, kInfinity);
+    EXPECT_EQ(fit.message, "Found. " + fit.warnings.back());
+    EXPECT_NE(fit.message.find("grows beyond all bounds"), std::string::npos);
+}
+
 }  // namespace test_simulation_error
