@@ -53,6 +53,11 @@ TEST(boxed_jobs, come_back) {
     expect_to_come_back(VersionJob{"/box/submission", "/box/made", true});
     expect_to_come_back(CheckResults{{{{"a", "about", "hint", 2, "seed", true, false}, 0.5, "no", "why"}}, {}});
     const ChecksJob back = from_cbor<ChecksJob>(cbor_of(sample_checks()));
+    EXPECT_EQ(back.hidden_folder, "/box/hidden");
+    EXPECT_EQ(back.time_ms, 10000);
+    EXPECT_EQ(back.only, 1);
+    EXPECT_EQ(back.files.at(0).source, "check{id = 'a'}");
+    EXPECT_TRUE(back.files.at(0).visible);
     EXPECT_EQ(back.specimens.at("hidden").at("crane"), 4'000'000'001u);
     EXPECT_EQ(back.submission->findings.at(0).severity, Severity::kHint);
     EXPECT_EQ(back.submission->runs.at("main").error, "analysis.lua:3: no");
