@@ -1,6 +1,10 @@
 // Oracle: the sentences that the language promises, written here by hand.
 #include <gtest/gtest.h>
 
+#include <regex>
+#include <string>
+#include <vector>
+
 #include "script_run.h"
 
 namespace test_script_errors {
@@ -43,6 +47,29 @@ TEST(script_errors, name_the_lua_form_of_a_matlab_function) {
          "lesson.lua:1: there is no function 'fprintf' here; write print(string.format(\"%.3f\", x))"},
         {"local w = 2*pi", "lesson.lua:1: there is no function 'pi' here; write math.pi"},
     });
+}
+
+/// What a hint wants to be called instead: its words before a bracket.
+std::vector<std::string> functions_of(const std::string& hint) {
+    static const std::regex kCall("([a-z][a-z_0-9.]*)\\(");
+    std::vector<std::string> names;
+    for (std::sregex_iterator i(hint.begin(), hint.end(), kCall), end; i != end; ++i) names.push_back((*i)[1]);
+    return names;
+}
+
+// Oracle: the names of the toolboxes' documentation; what a hint calls can be called here.
+TEST(script_errors, lead_from_the_toolboxes_functions_to_those_here) {
+    for (const char* name :
+         {"tfest",    "procest", "ssest",   "polyest", "pem",      "idtf",     "idpoly", "idss",    "idfrd",
+          "frd",      "idinput", "misdata", "simc",    "sim",      "comparec", "residc", "getpvec", "getcov",
+          "isstable", "zpplot",  "zpk",     "tfdata",  "arxstruc", "selstruc", "nlhw",   "nlarx",   "rlssvf",
+          "rsrivc",   "roots",   "fft",     "xcorr",   "filter",   "tic",      "toc"}) {
+        const std::string said = error_of(std::string(name) + "()");
+        const std::string::size_type hint = said.find(" here; ");
+        ASSERT_NE(hint, std::string::npos) << name << ": " << said;
+        for (const std::string& function : functions_of(said.substr(hint)))
+            EXPECT_EQ(printed("print(type(" + function + "))"), "function\n") << name << ": " << said;
+    }
 }
 
 TEST(script_errors, name_the_called_method_once) {
