@@ -1,6 +1,7 @@
 #pragma once
 #include "data_io/values/cbor_values.h"
 #include "scripting/arguments/arguments.h"
+#include "scripting/runtime/recorder.h"
 
 namespace dynlab::inline scripting {
 
@@ -8,7 +9,8 @@ namespace dynlab::inline scripting {
 /// has no lasting content: functions, coroutines, tables that behave in ways of their own or lie too deep.
 bool put_value(lua_State* L, int index, CborWriter& archive);
 
-/// Pushes an equal value. Figures among it count as made by this call. Throws ValueError for bytes that hold none.
-void push_archived_value(const Call& call, CborReader& archive);
+/// Pushes an equal value. The figures among it are added to `figures`; the recorder is not told of them yet. Throws
+/// ValueError for bytes that hold none.
+void push_archived_value(const Call& call, CborReader& archive, std::vector<FigurePointer>& figures);
 
 }  // namespace dynlab::inline scripting
