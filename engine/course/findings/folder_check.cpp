@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
 
@@ -162,9 +161,9 @@ class FolderCheck {
     /// Every answer that the script's header declares is given; of the right kind it is, or the script stops.
     void check_answers(const PercentScript& script) {
         if (script.header.answers.empty()) return;
-        const auto given = nlohmann::json::parse(read_file(record())).at("answers");
+        const RunRecord run = record_from_json(read_file(record()));
         for (const ExpectedAnswer& answer : script.header.answers) {
-            if (given.contains(answer.name)) continue;
+            if (run.answers.contains(answer.name)) continue;
             add("answer-missing", Severity::kRule, "analysis.lua",
                 fmt::format("The answer \"{}\" ({}) is not given.", answer.name, answer.kind),
                 fmt::format("Give it: answer(\"{}\", ...).", answer.name));

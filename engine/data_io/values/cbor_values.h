@@ -79,6 +79,7 @@ class CborReader final : public ValueReader {
     Token take(Type wanted, const char* what);
     [[noreturn]] void refuse_token(const char* wanted);
     std::string_view take_text() override;
+    std::string take_json_text() override { return std::string(take_text()); }
     NumberArray take_array(std::optional<ArrayForm> wanted) override;
     std::size_t open_list() override;
     std::size_t open_map() override;

@@ -24,6 +24,15 @@ class MemberReader {
     void unless_empty(const char* name, M& member) {
         if (reader_.member(name)) read_value(reader_, member);
     }
+    template <class M>
+    void null_if_empty(const char* name, M& member) {
+        if (!reader_.member(name)) reader_.lacks(name);
+        member = M{};
+        if (reader_.next() == ValueReader::Kind::kNothing)
+            reader_.nothing();
+        else
+            read_value(reader_, member);
+    }
 
   private:
     ValueReader& reader_;

@@ -126,7 +126,13 @@ struct JsonReader::Entries {
 };
 
 JsonReader::JsonReader(const json& value, const ValueLimits& limits) : ValueReader(limits), at_(&value) {}
+JsonReader::JsonReader(std::unique_ptr<const json> value, const ValueLimits& limits)
+    : ValueReader(limits), own_(std::move(value)), at_(own_.get()) {}
 JsonReader::~JsonReader() = default;
+
+JsonReader JsonReader::of_text(std::string_view text, const ValueLimits& limits) {
+    return JsonReader(std::make_unique<const json>(parsed_json(text, limits)), limits);
+}
 
 void JsonReader::refuse_json(const char* wanted) const {
     refuse_kind(wanted, std::string("JSON of the type ") + at_->type_name());
@@ -168,6 +174,10 @@ double JsonReader::number() {
 std::string_view JsonReader::take_text() {
     if (!at_->is_string()) refuse_json("a text");
     return at_->get_ref<const std::string&>();
+}
+
+std::string JsonReader::take_json_text() {
+    return at_->dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
 void JsonReader::read_numbers(const json& list, bool complex) {

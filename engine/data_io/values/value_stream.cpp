@@ -59,6 +59,12 @@ std::string ValueReader::text() {
     return limits_.only_utf8 ? in_utf8(text) : std::string(text);
 }
 
+std::string ValueReader::json_text() {
+    std::string text = take_json_text();
+    charge(text.size());
+    return text;
+}
+
 std::size_t ValueReader::one_of(std::span<const char* const> names) {
     const std::string_view name = take_text();
     std::string known;

@@ -68,6 +68,7 @@ class ValueReader {
     virtual std::int64_t whole(std::int64_t low, std::int64_t high) = 0;  ///< at least, at most
     virtual double number() = 0;
     std::string text();
+    std::string json_text();  ///< what ValueWriter::json_text() wrote; of JSON, the value that stands here
     std::size_t one_of(std::span<const char* const> names);  ///< the place of the text among them
     /// Numbers of this form, or of any; they are there until the next call.
     NumberArray array(std::optional<ArrayForm> wanted);
@@ -93,6 +94,7 @@ class ValueReader {
 
   private:
     virtual std::string_view take_text() = 0;
+    virtual std::string take_json_text() = 0;
     virtual NumberArray take_array(std::optional<ArrayForm> wanted) = 0;
     virtual std::size_t open_list() = 0;
     virtual std::size_t open_map() = 0;
