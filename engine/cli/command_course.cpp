@@ -74,18 +74,18 @@ void add_roster(CLI::App& course, CourseArguments& where, Action& action) {
 };
 }  // namespace
 );
-const auto add_move = [&](const char* name, const char* about, bool left) {
+const auto add_move = [&](const char* name, const char* about, bool dropped_out) {
     auto group = std::make_shared<std::string>(), reason = std::make_shared<std::string>();
     CLI::App* command = roster->add_subcommand(name, about);
     command->add_option("GROUP", *group)->required();
     command->add_option("--reason", *reason, "For the journal");
-    command->callback([&where, group, reason, left, &action] {
-        action = [&where, group, reason, left] {
+    command->callback([&where, group, reason, dropped_out, &action] {
+        action = [&where, group, reason, dropped_out] {
             Course opened(where.folder);
-            set_group_left(opened, *group, left, *reason);
+            set_group_dropped_out(opened, *group, dropped_out, *reason);
             std::cout << fmt::format(
                 "{} {}; repeat dynlab course peer assign where reviews are under way.\n", *group,
-                left ? "has dropped out: its work and the reviews it wrote stay" : "is in the course again");
+                dropped_out ? "has dropped out: its work and the reviews it wrote stay" : "is in the course again");
             return kDone;
         };
     });

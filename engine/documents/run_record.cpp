@@ -17,7 +17,7 @@ RunRecord told_record(const RunRecord& record) {
     told.answers = record.answers;
     told.error = record.error;
     for (const auto& [name, figure] : record.figures)
-        told.figures[name] = {{}, figure.caption, figure.file.filename(), figure.place};
+        told.figures[name] = {{}, figure.caption, figure.file.filename(), figure.order};
     for (const auto& [cell, outputs] : record.outputs) {
         auto& pieces = told.outputs[cell];
         for (const CellOutput& output : outputs) {

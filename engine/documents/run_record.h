@@ -30,7 +30,7 @@ struct RecordedFigure {
     Figure figure;
     std::string caption;         ///< Markdown, read as safely as a template
     std::filesystem::path file;  ///< where it was drawn, once it was
-    std::size_t place = 0;       ///< in the order in which the script made its figures
+    std::size_t order = 0;       ///< in the order in which the script made its figures
 };
 
 /// `report.text`: Markdown written by the script.

@@ -38,7 +38,7 @@ struct CurveLook {
 
 /// Colours after Okabe and Ito (2008), ordered so that neighbours differ in luminance and stay apart for colour-blind
 /// readers and in grey print; the dash pattern changes with the colour.
-CurveLook look_of(const Curve& curve, int place);
+CurveLook look_of(const Curve& curve, int index);
 std::string dash_pattern(int dash);
 
 }  // namespace dynlab::inline figures::style

@@ -38,7 +38,7 @@ std::string wrapped(const std::string& sentence, const std::string& first) {
     return result + line + "\n";
 }
 
-std::string place_of(const Finding& finding) {
+std::string location_of(const Finding& finding) {
     if (!finding.place.empty()) return finding.place;
     return finding.page > 0 ? fmt::format("page {}", finding.page) : "";
 }
@@ -72,8 +72,8 @@ class Writer {
     std::string all_of(const std::vector<const Finding*>& findings) const {
         std::string text;
         for (std::size_t i = 0; i < findings.size(); ++i) {
-            const std::string place = place_of(*findings[i]);
-            text += wrapped(printable((place.empty() ? "" : place + ": ") + findings[i]->what, 2000), "    ");
+            const std::string location = location_of(*findings[i]);
+            text += wrapped(printable((location.empty() ? "" : location + ": ") + findings[i]->what, 2000), "    ");
             const bool last = i + 1 == findings.size() || findings[i + 1]->remedy != findings[i]->remedy;
             if (last) text += styled(kFaint, wrapped(printable(findings[i]->remedy, 2000), "    -> "));
         }

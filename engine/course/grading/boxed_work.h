@@ -32,12 +32,12 @@ template <class Job>
 BoxedResult<typename Job::Result> run_boxed(Box& box, const std::filesystem::path& program, const Job& job,
                                             std::chrono::milliseconds timeout,
                                             std::uint64_t output_bytes = Box::Limits{}.output_bytes) {
-    const BoxedResult<std::string> came =
+    const BoxedResult<std::string> child =
         run_boxed_bytes(box, program, Job::kWork, cbor_of(job), timeout, output_bytes);
-    BoxedResult<typename Job::Result> result{{}, came.reason, came.timed_out, came.seconds};
-    if (!came.output) return result;
+    BoxedResult<typename Job::Result> result{{}, child.reason, child.timed_out, child.seconds};
+    if (!child.output) return result;
     try {
-        result.output = from_cbor<typename Job::Result>(*came.output, boxed_limits(output_bytes));
+        result.output = from_cbor<typename Job::Result>(*child.output, boxed_limits(output_bytes));
     } catch (const ValueError&) {
         result.reason = "its result cannot be read";
     }

@@ -22,8 +22,8 @@ struct CheckDescription {
 
 /// A check as its file declares it.
 struct DeclaredCheck : CheckDescription {
-    int test = 0;      ///< place of the function in Lua's registry
-    int mistakes = 0;  ///< place of the list of typical mistakes, 0 for none
+    int test = 0;      ///< index of the function in Lua's registry
+    int mistakes = 0;  ///< index of the list of typical mistakes, 0 for none
 };
 
 /// What a check says of a submission.

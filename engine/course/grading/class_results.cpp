@@ -151,7 +151,7 @@ void add_numbers(const ClassResults& results, const Vector& points, double possi
                                          [](const Entry& entry) { return entry.grade && !entry.grade->whole(); });
     const Index n = points.size();
     value("lesson", results.setup->lesson.slug);
-    value("isolation", name_of(results.setup->isolation));
+    value("isolation", isolation_name(results.setup->isolation));
     value("submissions",
           fmt::format("{} submission{}", results.entries.size(), results.entries.size() == 1 ? "" : "s"));
     value("graded", std::to_string(n));

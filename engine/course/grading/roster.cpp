@@ -44,8 +44,8 @@ Roster::Roster(const std::filesystem::path& file) {
         if (row[*id].empty()) fail("the id is empty");
         if (!seen.insert(row[*id]).second) fail(fmt::format("the id \"{}\" stands there twice", row[*id]));
         const auto cell = [&](const char* column) {
-            const auto place = table.column(column);
-            return place ? row[*place] : std::string();
+            const auto index = table.column(column);
+            return index ? row[*index] : std::string();
         };
         Student student{
             row[*id],       cell("name"),  cell("group"), {}, cell(table.column("email") ? "email" : "mail"),

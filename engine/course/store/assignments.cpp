@@ -59,13 +59,13 @@ bool only_later(Assignment a, const Assignment& b) {
 }
 
 void write_criteria(Database& db, const Assignment& assignment) {
-    int place = 0;
+    int position = 0;
     for (const Criterion& c : assignment.criteria)
         db.run(
             "INSERT INTO criteria VALUES (?, ?, ?, ?) ON CONFLICT DO UPDATE SET name = excluded.name, most = "
             "excluded.most",
-            assignment.id, place++, c.name, c.most);
-    db.run("DELETE FROM criteria WHERE assignment = ? AND place >= ?", assignment.id, place);
+            assignment.id, position++, c.name, c.most);
+    db.run("DELETE FROM criteria WHERE assignment = ? AND place >= ?", assignment.id, position);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ const std::vector<const char*>& course_steps();
 
 /// Brings an opened course to the version of tables that `steps` end with, in one transaction. Throws
 /// EnvironmentError for a course made by a newer dynlab, or for a database that is no course; it stays untouched.
-void migrate_course(Database& database, Database::Opening opening, const std::string& place,
+void migrate_course(Database& database, Database::Opening opening, const std::string& file,
                     const std::vector<const char*>& steps = course_steps());
 
 }  // namespace dynlab::inline course

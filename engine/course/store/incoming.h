@@ -20,7 +20,7 @@ struct IncomingFile {
 
 /// Everything that was given to receive: files, folders, and what Moodle or Canvas exports as one zip. Archives are
 /// unpacked in a box, but for packs, which stay whole.
-class Incoming {
+class IncomingFiles {
   public:
     struct Way {
         Isolation level = Isolation::kFull;
@@ -28,7 +28,7 @@ class Incoming {
         bool one_sender = false;  ///< the instructor names the sender: an archive is that group's pack
         std::function<bool(const Submission&)> knows;  ///< whether a name is a group's or student's of the course
     };
-    explicit Incoming(Way way) : way_(std::move(way)) {}
+    explicit IncomingFiles(Way way) : way_(std::move(way)) {}
 
     /// Throws EnvironmentError where there is no such file, SubmissionError for an archive that cannot be unpacked.
     void add(const std::filesystem::path& given);

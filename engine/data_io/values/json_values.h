@@ -37,7 +37,7 @@ class JsonWriter final : public ValueWriter {
     void end_object() override { open_.pop_back(); }
 
   private:
-    nlohmann::json& place(nlohmann::json&& value);
+    nlohmann::json& put(nlohmann::json&& value);
 
     std::unique_ptr<nlohmann::json> root_;
     std::vector<nlohmann::json*> open_;  ///< lists and objects that are not at their end
@@ -75,8 +75,8 @@ class JsonReader final : public ValueReader {
     std::size_t open_list() override;
     std::size_t open_map() override;
     void open_object() override;
-    void to_element(std::size_t place) override;
-    std::string_view to_entry(std::size_t place) override;
+    void to_element(std::size_t index) override;
+    std::string_view to_entry(std::size_t index) override;
     bool to_member(const char* name) override;
     void close_list() override { open_.pop_back(); }
     void close_map() override;

@@ -99,8 +99,8 @@ class ValueReader {
     virtual std::size_t open_list() = 0;
     virtual std::size_t open_map() = 0;
     virtual void open_object() = 0;
-    virtual void to_element(std::size_t place) = 0;
-    virtual std::string_view to_entry(std::size_t place) = 0;  ///< its key
+    virtual void to_element(std::size_t index) = 0;
+    virtual std::string_view to_entry(std::size_t index) = 0;  ///< its key
     virtual bool to_member(const char* name) = 0;
     virtual void close_list() {}
     virtual void close_map() {}
@@ -109,12 +109,12 @@ class ValueReader {
     /// Where in a list (by number), a map (by key) or an object (by a name that lives on) the reader is.
     struct Step {
         enum class In { kList, kMap, kObject } in;
-        std::size_t place = 0;  ///< of the next one
+        std::size_t index = 0;  ///< of the next one
         std::string key = {};
         const char* name = nullptr;
     };
     void enter(Step step);
-    std::string place_text() const;
+    std::string location_text() const;
 
     ValueLimits limits_;
     std::size_t memory_left_;

@@ -53,9 +53,9 @@ PassBand band_argument(const Call& call) {
 
 /// The signal, and the places of what was replaced.
 int give_repaired(const Call& call, const RepairedSignal& repaired) {
-    Vector places(static_cast<Index>(repaired.replaced.size()));
-    std::copy(repaired.replaced.begin(), repaired.replaced.end(), places.begin());
-    return call.give_vector(repaired.signal) + call.give_vector(places);
+    Vector indices(static_cast<Index>(repaired.replaced.size()));
+    std::copy(repaired.replaced.begin(), repaired.replaced.end(), indices.begin());
+    return call.give_vector(repaired.signal) + call.give_vector(indices);
 }
 
 int fill_gaps(Call& call) {

@@ -14,10 +14,10 @@
 namespace dynlab::inline scripting {
 namespace {
 
-std::string model_name(const Call& call, int index, const std::vector<std::string>& labels, std::size_t place) {
-    if (place < labels.size()) return labels[place];
+std::string model_name(const Call& call, int index, const std::vector<std::string>& labels, std::size_t number) {
+    if (number < labels.size()) return labels[number];
     const Model* model = to_object<Model>(call.state(), index);
-    return model != nullptr && model->estimate ? model->estimate->method : fmt::format("model {}", place + 1);
+    return model != nullptr && model->estimate ? model->estimate->method : fmt::format("model {}", number + 1);
 }
 
 ModelOutput model_output(std::string name, const Comparison& comparison, std::size_t experiment) {

@@ -18,7 +18,7 @@ struct ScriptFigure {
     Figure figure;
     bool used = false;
     std::optional<long long> number;  ///< given by figure(n)
-    std::size_t place = 0;            ///< in the order in which the script made its figures
+    std::size_t order = 0;            ///< in the order in which the script made its figures
 };
 
 using FigurePointer = std::shared_ptr<ScriptFigure>;

@@ -63,12 +63,12 @@ TEST(run_record, numbers_read_back_exactly) {
 TEST(run_record, comes_back_from_cbor_with_all_but_the_curves) {
     RunRecord record = sample();
     record.answers["gain"] = {"number", R"({"kind":"number","value":2.0})"};
-    record.figures["raw"].place = 3;
+    record.figures["raw"].order = 3;
     const RunRecord back = from_cbor<RunRecord>(cbor_of(record));
     EXPECT_EQ(to_json(back), to_json(record));
     EXPECT_EQ(back.timings, record.timings);
     EXPECT_EQ(back.figures.at("raw").file, record.figures.at("raw").file);
-    EXPECT_EQ(back.figures.at("raw").place, 3u);
+    EXPECT_EQ(back.figures.at("raw").order, 3u);
     EXPECT_EQ(back.files_read, record.files_read);
     EXPECT_EQ(back.answers.at("gain").kind, "number");
     EXPECT_EQ(back.answers.at("gain").json, record.answers.at("gain").json);
