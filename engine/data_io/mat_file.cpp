@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 /// Values that one byte of a file can stand for: deflate makes at most 1032 bytes from one.
 constexpr std::size_t kLargestDeflateRatio = 1032;
 
-/// From so many numbers on an array is compressed quickly rather than well, see mat_compression.h.
+/// Arrays of at least this many numbers are compressed quickly rather than well, see mat_compression.h.
 constexpr std::size_t kFastCompressionSize = std::size_t{1} << 19;
 
 /// libmatio reports most damage to its log only. The log is global, so this keeps the first complaint while it

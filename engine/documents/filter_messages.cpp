@@ -86,7 +86,7 @@ class Sentences {
         if (code == "column-width")
             return "a column needs its width in percent, as in ::: {.column width=60%}, not " + quoted(first);
         if (code == "not-a-column")
-            return "a block ::: columns holds nothing but blocks ::: {.column width=50%}, and these stand nowhere else";
+            return "a block ::: columns holds nothing but blocks ::: {.column width=50%}, which occur nowhere else";
         return unknown_class(code, first, second);
     }
 

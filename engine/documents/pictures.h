@@ -9,7 +9,7 @@
 
 namespace dynlab::inline documents {
 
-/// Where a picture of the document lies and what the writer calls it.
+/// A picture file of the document and the name that Pandoc writes for it.
 struct PlacedPicture {
     std::filesystem::path file;
     std::string written_name;  ///< prefix + number + extension

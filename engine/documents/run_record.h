@@ -73,7 +73,7 @@ struct RunRecord {
 /// JSON text (UTF-8, keys sorted, numbers with 17 digits) without timings, so that equal runs give equal
 /// bytes.
 std::string to_json(const RunRecord& record);
-/// What to_json told of a run. Throws ValueError for any other text.
+/// The record that to_json wrote, without what it leaves out. Throws ValueError for any other text.
 RunRecord record_from_json(const std::string& json);
 
 }  // namespace dynlab::inline documents

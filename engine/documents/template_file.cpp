@@ -59,7 +59,7 @@ void read_metadata(const std::vector<std::string>& lines, std::size_t end, Templ
         }
         check_metadata(key, value, where);
         if (!result.metadata.emplace(key, value).second)
-            throw DocumentError(where + "key \"" + key + "\" stands there twice");
+            throw DocumentError(where + "key \"" + key + "\" occurs twice");
     }
 }
 
@@ -151,7 +151,7 @@ MarkdownText with_cells(const TemplateFile& source, const MarkdownText& cells) {
             result.append(lines[i] + "\n", from.file, from.line);
             continue;
         }
-        if (placed) fail(i, "the block ::: {.cells} stands there twice");
+        if (placed) fail(i, "the block ::: {.cells} occurs twice");
         placed = true;
         std::size_t end = i + 1;
         while (end < lines.size() && is_blank(lines[end])) ++end;

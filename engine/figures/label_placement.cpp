@@ -129,7 +129,7 @@ class Placement {
         for (const Rectangle& bar : curve.bars) taken_.add_box(bar, 1);
     }
 
-    /// Takes the candidate that covers least; false texts beyond the frame never win against ones inside.
+    /// Takes the candidate that covers least, moved into the frame where it sticks out.
     PagePoint choose(const std::string& text, const std::vector<Candidate>& candidates) {
         const double half_width = 0.5 * text_width(text, style::kTextSize) + 0.05;
         Rectangle best{};

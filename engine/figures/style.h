@@ -26,10 +26,10 @@ inline constexpr double kFrameWidth = 0.45, kGridWidth = 0.3, kReferenceWidth = 
 
 /// Places in the marker list with a meaning of their own.
 inline constexpr int kOpenCircle = 4, kCross = 8;
-/// The grey beyond the palette's own eight places, for measured data and guiding curves.
+/// The grey beyond the palette's own eight colours, for measured data and guiding curves.
 inline constexpr int kGreyColour = 8;
 
-/// How a curve looks once its place among its panel's curves is known.
+/// How a curve looks, by its index among its panel's curves.
 struct CurveLook {
     std::string colour;  ///< "#rrggbb"
     std::string dash;    ///< gnuplot's dash type

@@ -82,7 +82,7 @@ class FolderCheck {
     bool copied() {
         const FolderCopy outcome = copy_folder(folder_, copy(), limits_.folder_bytes, limits_.files);
         for (const std::string& name : outcome.left_out) {
-            add("link-left-out", Severity::kHint, name, "This is a link or no ordinary file; it is not handed in.",
+            add("link-left-out", Severity::kHint, name, "This is a link or not a regular file; it is not handed in.",
                 "Put the file itself there.");
         }
         if (!outcome.too_large) return true;
@@ -153,7 +153,7 @@ class FolderCheck {
             const bool code = text == "-- YOUR CODE HERE";
             if (!code && text != "-- *Your answer:*") continue;
             add("answer-open", Severity::kRule, fmt::format("analysis.lua:{}", number),
-                fmt::format("The line \"{}\" still stands there.", code ? "YOUR CODE HERE" : "Your answer:"),
+                fmt::format("The line \"{}\" is still there.", code ? "YOUR CODE HERE" : "Your answer:"),
                 "Write your own there and take the line out.");
         }
     }

@@ -11,7 +11,7 @@ namespace dynlab::inline course {
 namespace {
 
 constexpr std::size_t kWindow = 30;      ///< words that are looked at together
-constexpr int kForeignPassageWords = 6;  ///< so many function words of the other language among them are a passage
+constexpr int kForeignPassageWords = 6;  ///< function words of the other language among them that make a passage
 constexpr int kKnownLanguageWords = 15;  ///< function words a document needs for its language to be known
 constexpr std::size_t kMostForeignPassages = 5;
 

@@ -136,7 +136,7 @@ int points_between(Call& call) {
                                       number_text(high, 3), number_text(low, 3)));
 }
 
-/// What a test may return at a stack place: true or false, a share, a judgement.
+/// What a test may return at a stack index: true or false, a share, a judgement.
 Verdict verdict_at(const Call& call, int index) {
     lua_State* L = call.state();
     Verdict verdict;

@@ -35,7 +35,7 @@ struct Verdict {
 
 /// Specimens of the apparatus by data set.
 using Specimens = std::map<std::string, std::uint32_t>;
-inline constexpr char kHiddenRecords[] = "hidden";  ///< stands for a run where specimens are told
+inline constexpr char kHiddenRecords[] = "hidden";  ///< stands for a run where specimens are named
 inline constexpr char kRunOfAnswers[] = "run";      ///< field of a metatable: from which run the answers came
 
 /// What the functions of checks.lua share while a submission is checked.

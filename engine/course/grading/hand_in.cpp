@@ -18,7 +18,7 @@
 namespace dynlab::inline course {
 namespace {
 
-/// What a pack tells of its files.
+/// What the manifest of a pack says of a file.
 struct PackedFile {
     std::uint64_t bytes;
     std::string sha256;
@@ -47,7 +47,7 @@ constexpr std::uint64_t kMostPackedBytes = 200ull << 20;
 constexpr int kMostFiles = 2000;
 constexpr char kManifest[] = "MANIFEST.json";
 
-/// All files below, by their place there.
+/// All files below, by their path there.
 std::map<std::string, std::string> contents_of(const fs::path& folder) {
     std::map<std::string, std::string> contents;
     for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::recursive_directory_iterator(); ++entry) {

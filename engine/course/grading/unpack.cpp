@@ -23,7 +23,7 @@ using Archive = std::unique_ptr<archive, int (*)(archive*)>;
 constexpr std::size_t kReadBlock = 64u << 10;
 constexpr int kDeepestArchive = 20;
 
-/// Why an entry of this name has no place in a folder; nothing where it has one.
+/// Why an entry of this name must not be in a folder; nothing where it may.
 std::optional<std::string> objection_to(const fs::path& path) {
     constexpr std::size_t kLongestName = 255;  // of a file system
     const std::string& text = path.native();
@@ -80,7 +80,7 @@ class Unpacker {
         const fs::path path(text);
         const auto type = archive_entry_filetype(entry);
         const bool ordinary = (type == AE_IFREG || type == AE_IFDIR) && archive_entry_hardlink(entry) == nullptr;
-        const std::optional<std::string> objection = ordinary ? objection_to(path) : "is a link or no ordinary file";
+        const std::optional<std::string> objection = ordinary ? objection_to(path) : "is a link or not a regular file";
         if (objection) return leave_out(entry, fmt::format("\"{}\" {}", name, *objection));
         if (type == AE_IFDIR) {
             fs::create_directories(to_ / path);

@@ -71,7 +71,7 @@ class PatternMatcher {
         return true;
     }
 
-    /// A number is no part of a longer one, nor has it decimals.
+    /// A number is not part of a longer one and has no decimals.
     bool stands_apart() const {
         const bool joined_before = first_ > 0 && tokens_[first_].gap == Gap::kNone;
         const bool joined_behind = next_ < tokens_.size() && tokens_[next_].gap == Gap::kNone;
@@ -95,7 +95,7 @@ bool is_labelled(const Tokens& tokens, std::size_t first) {
     return false;
 }
 
-/// 20214711.5 is no student's number.
+/// 20214711.5 is not a student's number.
 bool has_decimals(const Tokens& tokens, std::size_t end, std::string_view text) {
     const std::size_t point = tokens[end - 1].end;
     return end < tokens.size() && tokens[end].digits && text[point] == '.' && tokens[end].begin == point + 1;

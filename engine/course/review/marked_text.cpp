@@ -14,8 +14,8 @@
 namespace dynlab::inline course {
 namespace {
 
-constexpr std::size_t kLongestUnbrokenWord = 24;  ///< characters of a word that needs no place to break; a longer one
-constexpr std::size_t kBreakDistance = 4;         ///< has one after so many
+constexpr std::size_t kLongestUnbrokenWord = 24;  ///< characters of the longest word that is kept in one piece
+constexpr std::size_t kBreakDistance = 4;         ///< characters between the breaks of a longer one
 constexpr std::size_t kShownEndWords = 10;        ///< words that are shown of each end of a long unchanged stretch
 constexpr char kBreak[] = "\u200B";               ///< a line may break here
 constexpr std::size_t kNoLimit = static_cast<std::size_t>(-1);

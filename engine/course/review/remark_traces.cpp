@@ -12,7 +12,7 @@ namespace dynlab::inline course {
 namespace {
 
 constexpr int kShown = 4, kPlace = 4, kPage = 2, kNewWord = 4, kChangedWord = 2, kNearWord = 1;
-constexpr std::size_t kFewSentences = 2;  ///< a word in so many is uncommon, or in
+constexpr std::size_t kFewSentences = 2;  ///< a word in at most this many is uncommon, or in
 constexpr double kFewOfAll = 0.08;        ///< this share of them
 constexpr std::size_t kNone = std::string::npos;
 constexpr std::size_t kShortestWord = 4, kMostWords = 6;

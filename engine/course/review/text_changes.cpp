@@ -9,7 +9,7 @@
 namespace dynlab::inline course {
 namespace {
 
-constexpr double kEditedShare = 0.5;  ///< of the shorter side's words: so many kept, and a passage is an edited one
+constexpr double kEditedShare = 0.5;  ///< share of the shorter side's words; a passage that keeps more is an edited one
 constexpr std::size_t kShortestMoved = 4;  ///< words of a sentence that is known again elsewhere
 constexpr std::size_t kShortestKept = 2;   ///< words: fewer between two changes are read as changed
 
@@ -189,7 +189,7 @@ class Comparison {
         if (b == b_) add_once(passage.numbers_before, number_around(b, a));
     }
 
-    /// Of the first version's section into which sentences came: that of the neighbour which stands in their section
+    /// Of the first version's section to which sentences were added: that of the neighbour which is in their section
     /// now.
     std::string number_around(std::size_t b, std::size_t a) const {
         const std::size_t section = after_.sentences[a].section;

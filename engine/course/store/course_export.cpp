@@ -27,7 +27,7 @@ std::string percent_text(const std::optional<double>& value) {
     return value ? fmt::format("{:.4g}", *value) : "";
 }
 
-/// When the newest version came, and how late, or which earlier one was in time.
+/// When the newest version was received, and how late, or which earlier one was in time.
 std::pair<std::string, std::string> arrival(Course& course, const HandedInParts& parts, const char* part) {
     const auto found = parts.find(part);
     if (found == parts.end()) return {"missing", ""};
@@ -139,7 +139,7 @@ void insert_row(Database& db, const std::string& table, const StoredRow& row) {
     statement.next();
 }
 
-/// Throws ValueError for a file that is no export.
+/// Throws ValueError for a file that is not an export.
 CourseExport read_export(const fs::path& file) {
     auto read = from_json<CourseExport>(read_file(file));
     for (const char* needed : {"course", "files"})
@@ -231,7 +231,8 @@ void import_course(const fs::path& file, const fs::path& from, const fs::path& f
             handed_in.push_back(from / "files" / hash.substr(0, 2) / hash);
         }
     } catch (const ValueError& error) {
-        throw EnvironmentError(fmt::format("{}: this is no export of dynlab course ({})", file.string(), error.what()));
+        throw EnvironmentError(
+            fmt::format("{}: this is not an export of dynlab course ({})", file.string(), error.what()));
     }
     for (const char* needed : {"name", "zone"})
         if (!settings.contains(needed))

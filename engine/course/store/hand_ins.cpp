@@ -128,9 +128,10 @@ class HandInReceiver {
             throw EnvironmentError(fmt::format("the file has more than {} MB", kMostBytes >> 20));
         const std::string kind = kind_of_file_at(file.name, file.file);
         if (!is_wanted(kind))
-            throw EnvironmentError(outcome_.assignment.is_report()
-                                       ? "this is no PDF and no pack (.zip, .tar.gz); ask for one"
-                                       : "this is no PDF, no script (.lua) and no pack (.zip, .tar.gz); ask for one");
+            throw EnvironmentError(
+                outcome_.assignment.is_report()
+                    ? "this is neither a PDF nor a pack (.zip, .tar.gz); ask for one"
+                    : "this is not a PDF, no script (.lua) and no pack (.zip, .tar.gz); ask for one");
         candidate.part = part_of(outcome_.assignment, request_.stage, kind);
         if (request_.stage == "first" && !request_.take_as_first) refuse_after_reviews(candidate);
         if (request_.stage == "review")
@@ -138,7 +139,7 @@ class HandInReceiver {
         candidates_.push_back(std::move(candidate));
     }
 
-    /// Who hands in a report once it was reviewed means the final version, but for a file that is known.
+    /// A report that is handed in once it was reviewed is the final version, unless the file is known.
     void refuse_after_reviews(const Candidate& candidate) const {
         bool sent = false, released = false;
         for (const ReviewPair& pair : pairs_) {
@@ -250,7 +251,7 @@ class HandInReceiver {
         int fresh = 0;
         std::set<std::string> known_packs;
         for (const Candidate& candidate : candidates_) {
-            // A pack that came before brings nothing back that a newer PDF has replaced.
+            // An earlier pack does not bring back what a newer PDF has replaced.
             if (candidate.from_pack && known_packs.contains(slot_of(candidate, "pack")) &&
                 has_any(candidate, candidate.part))
                 continue;

@@ -47,7 +47,7 @@ void IncomingFiles::add(const fs::path& given) {
         add_batch(given, source);
         return;
     }
-    if (!fs::is_regular_file(given)) throw EnvironmentError(fmt::format("{} is no ordinary file", source));
+    if (!fs::is_regular_file(given)) throw EnvironmentError(fmt::format("{} is not a regular file", source));
     const std::string name = given.filename();
     if (!archive_stem(name) || way_.one_sender || way_.knows(sender_of(name))) {
         add_file(given, source);
@@ -72,7 +72,7 @@ void IncomingFiles::add_found(const fs::path& file, const std::string& source) {
         add_file(file, source);
     else
         left_out_.push_back(fmt::format("{}: {}; it was left out", source,
-                                        type == fs::file_type::symlink ? "a link" : "no ordinary file"));
+                                        type == fs::file_type::symlink ? "a link" : "not a regular file"));
 }
 
 void IncomingFiles::add_batch(const fs::path& folder, const std::string& source) {

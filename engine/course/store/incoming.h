@@ -9,7 +9,7 @@
 
 namespace dynlab::inline course {
 
-/// A file as it came.
+/// A file as it was received.
 struct IncomingFile {
     std::filesystem::path file;  ///< where it can be read
     std::string name;            ///< its own name
@@ -19,7 +19,7 @@ struct IncomingFile {
 };
 
 /// Everything that was given to receive: files, folders, and what Moodle or Canvas exports as one zip. Archives are
-/// unpacked in a box, but for packs, which stay whole.
+/// unpacked in a box, except packs, which are kept as they are.
 class IncomingFiles {
   public:
     struct Way {
@@ -52,7 +52,7 @@ class IncomingFiles {
     std::vector<std::string> left_out_;
 };
 
-/// What a name tells of its sender: an LMS's pattern, or the name without its ending.
+/// The sender that a name shows: an LMS's pattern, or the name without its ending.
 Submission sender_of(const std::string& name);
 
 }  // namespace dynlab::inline course

@@ -23,7 +23,7 @@ class Inspector {
 
     /// Whether PDFs under this part are looked at: "report", "slides", "review".
     bool looks_at(const std::string& part) const { return wishes_.contains(part); }
-    /// A PDF that cannot be read is no failure: it is told in the result.
+    /// A PDF that cannot be read is no failure: the result says so.
     Inspection inspect(const std::filesystem::path& pdf, const std::string& part) const;
 
   private:

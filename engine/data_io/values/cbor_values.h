@@ -37,8 +37,8 @@ class CborWriter final : public ValueWriter {
     std::string bytes_;
 };
 
-/// Reads it again, from anybody: nothing is taken from the bytes but what the caller asks for, and no memory but for
-/// that. The bytes must live as long.
+/// Reads it again, from anybody: only what the caller asks for is taken from the bytes, and memory only for that. The
+/// bytes must live as long as the reader.
 class CborReader final : public ValueReader {
   public:
     explicit CborReader(std::string_view bytes, const ValueLimits& limits = {});

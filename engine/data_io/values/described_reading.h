@@ -38,7 +38,7 @@ class MemberReader {
     ValueReader& reader_;
 };
 
-/// What goes wrong in `make` is told with its place.
+/// An error of `make` as a ValueError that begins with the location.
 template <class Make>
 auto with_location(const ValueReader& reader, const Make& make) {
     try {

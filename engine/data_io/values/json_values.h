@@ -8,7 +8,7 @@
 
 namespace dynlab::inline data_io {
 
-/// JSON, for files that people and other programs read: keys sorted, numbers with 17 digits; those that JSON has not
+/// JSON, for files that people and other programs read: keys sorted, numbers with 17 digits; those that JSON lacks
 /// are the texts "NaN", "Infinity" and "-Infinity". Vectors are lists, matrices {"rows", "columns", "values"} column by
 /// column, complex numbers pairs. Members for programs only are left out.
 class JsonWriter final : public ValueWriter {
@@ -53,7 +53,7 @@ nlohmann::json parsed_json(std::string_view text, const ValueLimits& limits = {}
 /// Reads what JsonWriter made; members in any order, others are passed over.
 class JsonReader final : public ValueReader {
   public:
-    explicit JsonReader(const nlohmann::json& value, const ValueLimits& limits = {});  ///< `value` must live as long
+    explicit JsonReader(const nlohmann::json& value, const ValueLimits& limits = {});  ///< `value` must outlive it
     /// Of parsed_json's value.
     static JsonReader of_text(std::string_view text, const ValueLimits& limits = {});
     ~JsonReader() override;

@@ -51,8 +51,9 @@ class ValueWriter {
     virtual void end_object() = 0;
 };
 
-/// Gives a value piece by piece to who knows what it should be. Every function throws ValueError where something else
-/// stands, or a limit is passed; the message tells the place. Members of an object come in the order they were written.
+/// Gives a value piece by piece to a caller that knows what it should be. Every function throws ValueError where
+/// something else stands, or a limit is passed; the message begins with its location. Members of an object come in the
+/// order they were written.
 class ValueReader {
   public:
     explicit ValueReader(const ValueLimits& limits) : limits_(limits), memory_left_(limits.memory) {}
@@ -69,11 +70,11 @@ class ValueReader {
     virtual double number() = 0;
     std::string text();
     std::string json_text();  ///< what ValueWriter::json_text() wrote; of JSON, the value that stands here
-    std::size_t one_of(std::span<const char* const> names);  ///< the place of the text among them
+    std::size_t one_of(std::span<const char* const> names);  ///< the index of the text among them
     /// Numbers of this form, or of any; they are there until the next call.
     NumberArray array(std::optional<ArrayForm> wanted);
 
-    /// The number of elements, each of which will take so many bytes; call element() before each is read.
+    /// The number of elements, each of which will take `element_bytes`; call element() before each is read.
     std::size_t begin_list(std::size_t element_bytes);
     void element();
     void end_list();

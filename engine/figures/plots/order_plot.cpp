@@ -48,7 +48,7 @@ bool only_delays_differ(const OrderSelection& selection) {
     return selection.candidates.size() > 1;
 }
 
-/// For each curve (number of zeros) the best value at each place of x.
+/// For each curve (number of zeros) the best value at each x.
 std::map<int, std::map<double, double>> best_values(const OrderSelection& selection, const Quantity& quantity,
                                                     bool over_delay) {
     std::map<int, std::map<double, double>> curves;

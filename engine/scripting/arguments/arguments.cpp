@@ -64,8 +64,8 @@ std::string argument_label(int index, const char* what) {
     return fmt::format("argument {} ({})", index, what);
 }
 
-/// A failure told with the called function's name before it, once. Where one method does the work of another, as lssvf
-/// that of lsgpmf, it tells of the one that was called.
+/// A failure with the called function's name before it, once. Where one method does the work of another, as lssvf
+/// that of lsgpmf, the name is that of the one that was called.
 std::string with_name(const std::string& name, const std::string& message) {
     const std::string first = message.substr(0, message.find_first_of(": "));
     if (first == name) return message;

@@ -101,8 +101,8 @@ void check_names(const IdData& data) {
     for (const auto* names : {&data.input_names, &data.output_names})
         for (const std::string& name : *names)
             if (!seen.insert(name).second)
-                throw InvalidArgument(fmt::format(
-                    "the name '{}' stands for two channels: give each its own InputName or OutputName", name));
+                throw InvalidArgument(
+                    fmt::format("the name '{}' names two channels: give each its own InputName or OutputName", name));
 }
 
 int make_iddata(Call& call) {

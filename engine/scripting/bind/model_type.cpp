@@ -23,7 +23,7 @@ const Estimate& estimate_of(Call& call) {
 const TransferFunction& only_channel(Call& call) {
     const Model& model = model_self(call);
     if (model.single_channel()) return model.G;
-    throw InvalidArgument("this field is one channel's, and the model is no single one: " + channels_hint(model));
+    throw InvalidArgument("this field is one channel's, and the model has several channels: " + channels_hint(model));
 }
 
 int field_num(Call& call) {

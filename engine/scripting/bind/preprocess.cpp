@@ -51,7 +51,7 @@ PassBand band_argument(const Call& call) {
     return {edges[0], edges[1]};
 }
 
-/// The signal, and the places of what was replaced.
+/// The signal, and the indices of what was replaced.
 int give_repaired(const Call& call, const RepairedSignal& repaired) {
     Vector indices(static_cast<Index>(repaired.replaced.size()));
     std::copy(repaired.replaced.begin(), repaired.replaced.end(), indices.begin());

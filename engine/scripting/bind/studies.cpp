@@ -69,7 +69,7 @@ MonteCarloEstimate returned_estimate(lua_State* L, int first) {
     return estimate;
 }
 
-/// A function of the script at a stack place, which stays there while the study runs.
+/// A function of the script at a stack index, which stays there while the study runs.
 MonteCarloMethod method_of_function(const Call& call, const std::string& label, int function) {
     lua_State* L = call.state();
     const auto estimate = [L, function](const IdData& data) {

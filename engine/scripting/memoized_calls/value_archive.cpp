@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kDeepestTable = 20;
 
-/// How objects of one type are written and pushed. Their name stands before them.
+/// How objects of one type are written and pushed. Their name is written before them.
 struct ObjectCodec {
     const ObjectType* type;
     void (*put)(lua_State* L, int index, CborWriter& archive);
@@ -145,7 +145,7 @@ void push_table(const Call& call, CborReader& archive, std::vector<FigurePointer
         archive.element();
         push_archived_value(call, archive, figures);
         const bool usable = !lua_isnil(L, -1) && !(lua_isnumber(L, -1) && lua_tonumber(L, -1) != lua_tonumber(L, -1));
-        if (!usable) archive.refuse("this is no key of a table");
+        if (!usable) archive.refuse("this cannot be a key of a table");
         archive.element();
         push_archived_value(call, archive, figures);
         lua_rawset(L, -3);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::array kStyleNames = {"line", "points", "line_points", "stairs", "stems", "bars", "band"};
 
-/// Calls `read` with the stack place of every entry of the list under `name`.
+/// Calls `read` with the stack index of every entry of the list under `name`.
 void for_each_entry(const Call& call, const Options& options, const char* name, const std::function<void(int)>& read) {
     lua_State* L = call.state();
     const int list = options.push(name);

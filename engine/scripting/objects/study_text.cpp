@@ -11,7 +11,7 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr double kSignificantDeviation = 4;  // standard errors of a mean beyond which an offset is no chance
+constexpr double kSignificantDeviation = 4;  // standard errors of a mean beyond which an offset is significant
 
 /// A row of a study's table: who, what, a value for each parameter.
 std::string value_row(const std::string& who, const char* what, const Vector& values, int who_width) {

@@ -86,7 +86,7 @@ class Prompt {
         if (!result.error.empty()) show_error(message_of(result.error, name, statement.source));
     }
 
-    /// The place is told where it helps: the line of a longer statement, or that it was an earlier one's.
+    /// With its location where that helps: the line of a longer statement, or that it was an earlier one's.
     static std::string message_of(const std::string& error, const std::string& name, const std::string& source) {
         const LocatedMessage placed = take_apart(error);
         if (placed.line == 0) return error;

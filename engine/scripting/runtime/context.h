@@ -57,7 +57,7 @@ void poll_stop(lua_State* L);
 /// Passes a stop on that is under way, whatever the script tried to catch.
 void pass_stop_on(lua_State* L);
 [[noreturn]] void raise_stop(lua_State* L, StopReason reason);
-/// Raises "place: message" for the script.
+/// Raises "location: message" for the script.
 [[noreturn]] void raise_error(lua_State* L, const std::string& message);
 
 }  // namespace dynlab::inline scripting

@@ -88,9 +88,9 @@ constexpr std::array kFixed = {
     PlainMessage{"attempt to perform 'n//0'", "a whole number cannot be divided by zero with //"},
     PlainMessage{"attempt to perform 'n%%0'", "the remainder of a division by zero does not exist"},
     PlainMessage{"'for' step is zero", "the step of a for loop must not be zero"},
-    PlainMessage{"index is nil", "the place in the table is nil (it has no value)"},
-    PlainMessage{"table index is nil", "the place in the table is nil (it has no value)"},
-    PlainMessage{"table index is NaN", "the place in the table is not a number (NaN)"},
+    PlainMessage{"index is nil", "the key of the table is nil (it has no value)"},
+    PlainMessage{"table index is nil", "the key of the table is nil (it has no value)"},
+    PlainMessage{"table index is NaN", "the key of the table is not a number (NaN)"},
     PlainMessage{"table overflow", "the table has too many elements"},
     PlainMessage{"resulting string too large", "the text would be too long"},
     PlainMessage{"string length overflow", "the text would be too long"},
@@ -205,7 +205,7 @@ void translate_value_on_top(lua_State* L) {
 int translate_error(lua_State* L) {
     lua_settop(L, 1);
     if (lua_type(L, 1) == LUA_TSTRING && take_apart(lua_tostring(L, 1)).line == 0) {
-        const std::string location = script_location(L);  // errors without a place, such as a stack overflow in C
+        const std::string location = script_location(L);  // errors without a location, such as a stack overflow in C
         if (!location.empty()) {
             lua_pushfstring(L, "%s: %s", location.c_str(), lua_tostring(L, 1));
             lua_replace(L, 1);

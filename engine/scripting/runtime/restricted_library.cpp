@@ -147,7 +147,7 @@ std::vector<int> sorted_keys(lua_State* L, int keys, int count) {
     return order;
 }
 
-/// Iterator of pairs: upvalues are the sorted keys and the place reached. Keys removed meanwhile are skipped.
+/// Iterator of pairs: upvalues are the sorted keys and the index reached. Keys removed meanwhile are skipped.
 int next_pair(lua_State* L) {
     lua_Integer index = lua_tointeger(L, lua_upvalueindex(2));
     for (;;) {

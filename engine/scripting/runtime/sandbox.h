@@ -11,7 +11,7 @@ void open_safe_libraries(lua_State* L);
 /// table `dynlab` shows it, its tables cannot be changed, unknown names are errors with a suggestion.
 void seal_library(lua_State* L);
 
-/// Registry place of the table of functions, for adding to it after it was sealed.
+/// Registry key of the table of functions, for adding to it after it was sealed.
 void push_library(lua_State* L);
 
 /// pcall, xpcall, coroutine.resume, wrap and close that let a stop (Ctrl-C, time limit) through and translate messages.
