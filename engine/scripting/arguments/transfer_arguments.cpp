@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "numerics/fit/integrated_input.h"
 #include "scripting/objects/data_object.h"
 
 namespace dynlab::inline scripting {
@@ -100,6 +101,15 @@ StructureMaker structure_of_counts(const Call& call, const Options& options, con
         structure.free_delays = free_delays;
         return structure;
     };
+}
+
+TransferRequest transfer_request(const Options& options, const Estimation& estimate) {
+    if (!options.flag("Integration", false)) return {false, estimate};
+    return {true, [estimate](const IdData& data) {
+                Fit result = estimate(integrated_inputs(data));
+                append_integrator(result);
+                return result;
+            }};
 }
 
 Denominators sharing_of(const Options& options) {
