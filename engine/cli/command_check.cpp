@@ -63,7 +63,7 @@ void add_check(CLI::App& app, Action& action) {
         ->type_name("NAME|FILE.md");
     command->add_option("--roster", words->roster, "Look for these people too: columns id, name, email, group")
         ->type_name("CSV");
-    command->add_option("--pages", words->pages, "At most so many pages, whatever the template allows")
+    command->add_option("--pages", words->pages, "The most pages that are allowed, whatever the template says")
         ->type_name("N")
         ->check(CLI::Range(1, 1000));
     command->add_flag("--document-only", words->document_only, "Leave out the lesson's checks of the answers");

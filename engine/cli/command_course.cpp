@@ -52,7 +52,7 @@ void add_roster(CLI::App& course, CourseArguments& where, Action& action) {
     CLI::App* import = roster->add_subcommand("import", "Read students and groups from a CSV; may be repeated");
     import->add_option("CSV", *file, "Columns id and group, and optionally name, email (or mail), moodle, canvas")
         ->required();
-    import->add_flag("--no-groups", *no_groups, "The file has no column group: who is new works alone");
+    import->add_flag("--no-groups", *no_groups, "The file has no column group: new students work alone");
     import->footer(
         "A student without a group is one alone; in several, they are joined by |. Who is not in the file stays, and\n"
         "so does what has no column in it. Names and addresses that change are still looked for in anonymous copies.\n"
@@ -74,18 +74,18 @@ void add_roster(CLI::App& course, CourseArguments& where, Action& action) {
 };
 }  // namespace
 );
-const auto add_move = [&](const char* name, const char* about, bool left) {
+const auto add_move = [&](const char* name, const char* about, bool dropped_out) {
     auto group = std::make_shared<std::string>(), reason = std::make_shared<std::string>();
     CLI::App* command = roster->add_subcommand(name, about);
     command->add_option("GROUP", *group)->required();
     command->add_option("--reason", *reason, "For the journal");
-    command->callback([&where, group, reason, left, &action] {
-        action = [&where, group, reason, left] {
+    command->callback([&where, group, reason, dropped_out, &action] {
+        action = [&where, group, reason, dropped_out] {
             Course opened(where.folder);
-            set_group_left(opened, *group, left, *reason);
+            set_group_dropped_out(opened, *group, dropped_out, *reason);
             std::cout << fmt::format(
                 "{} {}; repeat dynlab course peer assign where reviews are under way.\n", *group,
-                left ? "has dropped out: its work and the reviews it wrote stay" : "is in the course again");
+                dropped_out ? "has dropped out: its work and the reviews it wrote stay" : "is in the course again");
             return kDone;
         };
     });
@@ -142,7 +142,8 @@ void add_assignment_commands(CLI::App& course, CourseArguments& where, Action& a
         ->capture_default_str();
     add->add_option("--seed", words->seed, "Of allocation and pseudonyms; drawn unless given")->type_name("N");
     add->footer(
-        "Times are in the course's time zone. The same words again change nothing; once work came in, deadlines can\n"
+        "Times are in the course's time zone. The same command again changes nothing; once work was handed in, "
+        "deadlines can\n"
         "only move to later.\n"
         "Example:  dynlab course assignment add crane --lesson 03_crane --first \"2026-02-28 13:00\" \\\n"
         "            --review \"2026-03-04 13:00\" --final \"2026-03-07 14:00\" --grace 15min --reviews 2");
@@ -154,7 +155,7 @@ void add_status(CLI::App& course, CourseArguments& where, Action& action) {
         std::string assignment, at;
     };
     auto words = std::make_shared<Arguments>();
-    CLI::App* command = course.add_subcommand("status", "What came, what is late, and what to do about it");
+    CLI::App* command = course.add_subcommand("status", "What was handed in, what is late, and what to do about it");
     command->add_option("ASSIGNMENT", words->assignment, "All unless given");
     command->footer(
         "Examples:\n"

@@ -44,7 +44,7 @@ int show_findings(const CourseArguments& where, const FindingsArguments& words) 
 
 void add_findings_command(CLI::App& course, CourseArguments& where, Action& action) {
     auto words = std::make_shared<FindingsArguments>();
-    CLI::App* command = course.add_subcommand("findings", "What was found in a group's files when they came");
+    CLI::App* command = course.add_subcommand("findings", "What was found in a group's files when they were received");
     command->add_option("GROUP", words->group)->required();
     command->add_option("--assignment", words->assignment, "Which; needed when there are several")->type_name("NAME");
     command->add_option("--stage", words->stage, "Of which version")
@@ -53,7 +53,7 @@ void add_findings_command(CLI::App& course, CourseArguments& where, Action& acti
         ->check(CLI::IsMember({"first", "review", "final"}));
     command->add_option("--version", words->version, "An earlier one; the newest unless given")->type_name("N");
     command->footer(
-        "Printed as dynlab check does. Exit codes: 0 no rule is broken, 1 a rule is broken, or nothing came.\n"
+        "Printed as dynlab check does. Exit codes: 0 no rule is broken, 1 a rule is broken, or nothing was received.\n"
         "Example:  dynlab course findings group-07 --stage review");
     command->callback([&where, words, &action] { action = [&where, words] { return show_findings(where, *words); }; });
 }

@@ -101,15 +101,15 @@ CLI::App* add_one(CLI::App& parent, const char* name, const char* about, CourseA
 void add_peer_commands(CLI::App& course, CourseArguments& where, Action& action) {
     CLI::App* peer = course.add_subcommand("peer", "Who reviews whom");
     peer->require_subcommand(1);
-    add_one(*peer, "assign", "Allot the reviews at random, or mend that after late-comers and drop-outs", where, action,
-            assign)
+    add_one(*peer, "assign", "Allocate the reviews at random, or adjust them after late-comers and drop-outs", where,
+            action, assign)
         ->footer(
             "Each group writes, and gets, the same number of reviews; what is written or sent stays. May be repeated.\n"
             "Example:  dynlab course peer assign crane");
     add_one(*peer, "send", "Make anonymous copies of the reports for their reviewers", where, action, send_reports)
         ->footer(
-            "A name found in a copy stops that copy, and you are told where it stands. Repeated, it makes what is new "
-            "only.\n"
+            "A name found in a copy stops that copy, and you are told where it is. Repeated, it makes only what is new."
+            "\n"
             "Example:  dynlab course peer send crane");
     add_one(course, "release", "Make anonymous copies of the reviews for the authors", where, action, release)
         ->footer(

@@ -101,9 +101,11 @@ void add_receive(CLI::App& parent, const char* name, const char* about, const st
         ->check(CLI::IsMember({"full", "process"}));
     command->add_flag("--no-checks", words->no_checks, "Do not look into the PDFs");
     command->footer(
-        "Whose a file is, is told by its name or its folder's: a group, a student's name or id, or what the platform\n"
-        "wrote; never by what stands in it. A pack's report.pdf (slides.pdf, review.pdf), or its only PDF, counts as\n"
-        "if it had come alone. Every version is kept and gets a signed receipt; a file that cannot be read is kept\n"
+        "The sender of a file is known by its name or its folder's: a group, a student's name or id, or what the "
+        "platform\n"
+        "wrote; never by its content. A pack's report.pdf (slides.pdf, review.pdf), or its only PDF, counts as\n"
+        "if it had been handed in alone. Every version is kept and gets a signed receipt; a file that cannot be read "
+        "is kept\n"
         "and flagged. Example:\n  " +
         example);
     command->callback([&where, words, stage, &action] {
@@ -162,7 +164,7 @@ void add_key(CLI::App& course, CourseArguments& where, Action& action) {
 void add_receive_commands(CLI::App& course, CourseArguments& where, Action& action) {
     add_receive(course, "receive", "Take what groups handed in: first versions, slides, scripts", "first",
                 "dynlab course receive \"Crane-12345.zip\" --assignment crane", where, action);
-    CLI::App* review = course.add_subcommand("review", "Reviews that came back");
+    CLI::App* review = course.add_subcommand("review", "Reviews that were handed in");
     review->require_subcommand(1);
     add_receive(*review, "receive", "Take reviews", "review",
                 "dynlab course review receive review-report-07.pdf --from group-02", where, action);

@@ -23,10 +23,10 @@ void show(const std::string& what, const std::string& state, bool well) {
 std::set<std::string> check_programs() {
     std::set<std::string> missing;
     for (const NeededProgram& needed : needed_programs()) {
-        const auto place = find_program(needed.program);
-        if (!place) missing.insert(needed.package);
-        show(needed.program, place ? place->string() + " (" + needed.purpose + ")" : "missing: " + needed.purpose,
-             place.has_value());
+        const auto found = find_program(needed.program);
+        if (!found) missing.insert(needed.package);
+        show(needed.program, found ? found->string() + " (" + needed.purpose + ")" : "missing: " + needed.purpose,
+             found.has_value());
     }
     return missing;
 }

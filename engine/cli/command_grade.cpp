@@ -51,7 +51,7 @@ int grade(const GradeArguments& words) {
     std::cout << fmt::format("{} submission{}: {} graded now, {} unchanged{}; isolation {}\n", outcome.submissions,
                              outcome.submissions == 1 ? "" : "s", outcome.made, outcome.kept,
                              outcome.not_whole > 0 ? fmt::format(", {} with ungraded checks", outcome.not_whole) : "",
-                             name_of(request.setup.isolation))
+                             isolation_name(request.setup.isolation))
               << (request.out / "gradebook.csv").string() << '\n'
               << (request.out / (request.pdf ? "summary.pdf" : "summary.md")).string() << '\n';
     return outcome.not_whole == 0 && outcome.complaints.empty() ? kDone : kFailed;

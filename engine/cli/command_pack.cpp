@@ -23,7 +23,7 @@ int pack(const PackArguments& words) {
     const Pack pack = pack_folder(folder, file);
     for (const std::string& name : pack.files) std::cout << terminal_text(name) << '\n';
     for (const std::string& name : pack.left_out)
-        std::cerr << "dynlab: left out, as it is no ordinary file: " << terminal_text(name) << '\n';
+        std::cerr << "dynlab: left out, because it is not a regular file: " << terminal_text(name) << '\n';
     std::cout << fmt::format("{}: {} file{}, SHA-256 {}\n", file.string(), pack.files.size(),
                              pack.files.size() == 1 ? "" : "s", pack.hash);
     return kDone;

@@ -51,7 +51,7 @@ int verify_receipts(const VerifyWords& words) {
 void add_verify_receipt(CLI::App& app, Action& action) {
     auto words = std::make_shared<VerifyWords>();
     CLI::App* command =
-        app.add_subcommand("verify-receipt", "Whether a course signed a receipt, told by its public key alone");
+        app.add_subcommand("verify-receipt", "Check that a course signed a receipt, by its public key alone");
     command->add_option("RECEIPT", words->receipts, "Receipts of what was handed in")
         ->required()
         ->check(CLI::ExistingFile);

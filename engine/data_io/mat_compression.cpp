@@ -21,15 +21,15 @@ constexpr std::size_t kFileHeader = 128, kElementTag = 8;
 constexpr std::uint32_t kPlainElement = 14, kDeflatedElement = 15;
 constexpr std::size_t kLargeElement = std::size_t{1} << 22;  // bytes from which the choice is made
 constexpr std::size_t kTrial = std::size_t{1} << 16;         // bytes from the middle that tell how well it goes
-constexpr double kWorthwhile = 6.0 / 7;                      // of the bytes that may be left
+constexpr double kLargestCompressedShare = 6.0 / 7;          // of the bytes that may be left
 
 struct ElementTag {
     std::uint32_t type = 0, bytes = 0;
 };
 
-ElementTag tag_at(std::string_view content, std::size_t place) {
+ElementTag tag_at(std::string_view content, std::size_t offset) {
     ElementTag tag;
-    std::memcpy(&tag, content.data() + place, sizeof tag);
+    std::memcpy(&tag, content.data() + offset, sizeof tag);
     return tag;
 }
 
@@ -45,7 +45,7 @@ std::string deflated(std::string_view bytes) {
 
 bool shrinks(std::string_view element) {
     const std::string_view part = element.substr(element.size() / 2, kTrial);
-    return static_cast<double>(deflated(part).size()) < kWorthwhile * static_cast<double>(part.size());
+    return static_cast<double>(deflated(part).size()) < kLargestCompressedShare * static_cast<double>(part.size());
 }
 
 /// A variable as it goes into the new file: its old bytes, or the deflated stream in their place.

@@ -19,10 +19,10 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Values that one byte of a file can stand for: deflate makes at most 1032 bytes from one.
-constexpr std::size_t kDensest = 1032;
+constexpr std::size_t kLargestDeflateRatio = 1032;
 
-/// From so many numbers on an array is compressed quickly rather than well, see mat_compression.h.
-constexpr std::size_t kManyNumbers = std::size_t{1} << 19;
+/// Arrays of at least this many numbers are compressed quickly rather than well, see mat_compression.h.
+constexpr std::size_t kFastCompressionSize = std::size_t{1} << 19;
 
 /// libmatio reports most damage to its log only. The log is global, so this keeps the first complaint while it
 /// lives.
@@ -51,9 +51,9 @@ std::string without_line_end(std::string text) {
 }
 
 /// libmatio does not find the names of tables and other objects, so messages tell their place instead.
-std::string name_of(const matvar_t& variable, std::size_t place, const std::string& last_name) {
+std::string variable_name(const matvar_t& variable, std::size_t number, const std::string& last_name) {
     if (variable.class_type != MAT_C_OPAQUE) return variable.name ? variable.name : "";
-    return fmt::format("number {}{}", place, last_name.empty() ? "" : " (after " + last_name + ")");
+    return fmt::format("number {}{}", number, last_name.empty() ? "" : " (after " + last_name + ")");
 }
 
 VariableTable read_variables(const fs::path& file) {
@@ -61,12 +61,12 @@ VariableTable read_variables(const fs::path& file) {
     const MatioComplaints complaints;
     const MatFile mat(Mat_Open(file.c_str(), MAT_ACC_RDONLY));
     if (!mat) fail_damaged(file, "it cannot be opened as a MATLAB file");
-    const std::size_t most_values = layout.version == MatVersion::k73 ? 0 : kDensest * fs::file_size(file);
+    const std::size_t most_values = layout.version == MatVersion::k73 ? 0 : kLargestDeflateRatio * fs::file_size(file);
     VariableTable variables;
     std::size_t count = 0;
     std::string last_name;
     while (const MatVariable variable{Mat_VarReadNextInfo(mat.get())}) {
-        const std::string name = name_of(*variable, ++count, last_name);
+        const std::string name = variable_name(*variable, ++count, last_name);
         if (name.empty()) continue;  // MATLAB keeps the private data of objects in a nameless variable
         try {
             check_mat_header(*variable, name, most_values);
@@ -132,7 +132,8 @@ void write_mat_file(const fs::path& file, const VariableTable& variables, int di
     bool written = mat != nullptr;
     for (const auto& [name, variable] : variables) {
         const MatVariable converted = to_mat(variable, name, digits);
-        const auto compression = number_count(variable) >= kManyNumbers ? MAT_COMPRESSION_NONE : MAT_COMPRESSION_ZLIB;
+        const auto compression =
+            number_count(variable) >= kFastCompressionSize ? MAT_COMPRESSION_NONE : MAT_COMPRESSION_ZLIB;
         written = written && Mat_VarWrite(mat.get(), converted.get(), compression) == 0;
     }
     written = written && Mat_Close(mat.release()) == 0 && complaints.first().empty();

@@ -19,7 +19,7 @@ VariableTable read_mat_file(const std::filesystem::path& file, bool guarded = tr
 
 /// Writes MAT v5 (compressed; arrays of more than half a million numbers quickly, or not at all where it would save
 /// next to nothing, as with noise), whole or not at all, the same bytes for the same variables. Vectors are written as
-/// columns, lists as cell columns; real numbers are rounded to so many significant digits (17 keep every bit). Throws
+/// columns, lists as cell columns; real numbers are rounded to `digits` significant digits (17 keep every bit). Throws
 /// InvalidArgument for a name MATLAB does not allow (letter first, then letters, digits and _, at most 63),
 /// EnvironmentError when the file cannot be written.
 void write_mat_file(const std::filesystem::path& file, const VariableTable& variables, int digits = 17);

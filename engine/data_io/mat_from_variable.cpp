@@ -34,7 +34,7 @@ MatVariable created(matvar_t* variable) {
     return MatVariable(variable);
 }
 
-/// The nearest number of so many significant digits.
+/// The nearest number with `digits` significant digits.
 double rounded_to_digits(double value, int digits) {
     char text[32];
     const auto [end, error] = std::to_chars(text, text + sizeof text, value, std::chars_format::scientific, digits - 1);

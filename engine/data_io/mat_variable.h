@@ -31,7 +31,7 @@ void check_mat_header(const matvar_t& variable, const std::string& name, std::si
 /// cannot be represented or is inconsistent.
 Variable from_mat(const matvar_t& variable, const std::string& name);
 
-/// The other way; lists become cell columns, real numbers are rounded to so many significant digits. The numbers of
+/// The other way; lists become cell columns, real numbers are rounded to `digits` significant digits. The numbers of
 /// real arrays that keep all 17 stay where they are, so `variable` must live as long as the result. Throws
 /// InvalidArgument for a name MATLAB does not allow.
 MatVariable to_mat(const Variable& variable, const std::string& name, int digits = 17);

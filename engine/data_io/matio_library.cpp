@@ -72,9 +72,9 @@ int Mat_VarReadDataAll(mat_t* file, matvar_t* variable) {
 matvar_t* Mat_VarReadNextInfo(mat_t* file) {
     return dynlab::loaded<decltype(Mat_VarReadNextInfo)>("Mat_VarReadNextInfo")(file);
 }
-matvar_t* Mat_VarSetStructFieldByIndex(matvar_t* variable, std::size_t field, std::size_t place, matvar_t* value) {
+matvar_t* Mat_VarSetStructFieldByIndex(matvar_t* variable, std::size_t field, std::size_t index, matvar_t* value) {
     return dynlab::loaded<decltype(Mat_VarSetStructFieldByIndex)>("Mat_VarSetStructFieldByIndex")(variable, field,
-                                                                                                  place, value);
+                                                                                                  index, value);
 }
 int Mat_VarWrite(mat_t* file, matvar_t* variable, matio_compression compression) {
     return dynlab::loaded<decltype(Mat_VarWrite)>("Mat_VarWrite")(file, variable, compression);

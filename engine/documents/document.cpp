@@ -67,10 +67,10 @@ std::string section_of(const std::string& body, int line) {
 }
 
 /// One document on its way: each member function is one step.
-class Making {
+class DocumentBuilder {
   public:
-    Making(const DocumentSource& source, const fs::path& output, DocumentFormat format,
-           const DocumentMaker::Options& options)
+    DocumentBuilder(const DocumentSource& source, const fs::path& output, DocumentFormat format,
+                    const DocumentMaker::Options& options)
         : source_(source),
           output_(output),
           format_(format),
@@ -231,7 +231,7 @@ DocumentFormat document_format(const fs::path& file) {
 
 void DocumentMaker::make(const DocumentSource& source, const fs::path& output, DocumentFormat format,
                          const std::function<void()>& wait_for_figures) const {
-    Making(source, output, format, options_).make(wait_for_figures);
+    DocumentBuilder(source, output, format, options_).make(wait_for_figures);
 }
 
 }  // namespace dynlab::inline documents

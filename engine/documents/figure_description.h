@@ -58,4 +58,8 @@ void describe(T& object, V& member) {
     member("width_cm", width_cm), member("height_cm", height_cm);
 }
 
+inline void check_value(const Figure& figure, const ValueLimits&) {
+    figure.validate();
+}
+
 }  // namespace dynlab::inline documents

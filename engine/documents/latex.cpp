@@ -5,10 +5,10 @@
 #include <cmath>
 #include <csignal>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <regex>
 
+#include "data_io/values/cbor_values.h"
 #include "documents/text_lines.h"
 #include "documents/work_file.h"
 #include "numerics/number_text.h"
@@ -45,21 +45,27 @@ class KeptAuxiliaryFiles {
         if (!cache_->lasting()) return;
         entry_ = EntryName("latex-references").add(job.identity).add(job.layout.language).text();
         before_ = cache_->recall(entry_).value_or("");
-        const auto files = nlohmann::json::from_cbor(before_, true, false);
-        for (const char* name : kAuxiliaryFiles)
-            if (const std::string content = files.is_object() ? files.value(name, "") : ""; !content.empty())
-                write_work_file(job.work_folder / name, content);
+        if (!before_.empty()) write_files();
     }
 
     void keep() const {
         if (entry_.empty()) return;
-        nlohmann::json files;
-        for (const char* name : kAuxiliaryFiles) files[name] = read_work_file(job_.work_folder / name);
-        const std::vector<std::uint8_t> bytes = nlohmann::json::to_cbor(files);
-        if (const std::string now(bytes.begin(), bytes.end()); now != before_) cache_->remember(entry_, now);
+        std::vector<std::string> files;
+        for (const char* name : kAuxiliaryFiles) files.push_back(read_work_file(job_.work_folder / name));
+        if (const std::string now = cbor_of(files); now != before_) cache_->remember(entry_, now);
     }
 
   private:
+    void write_files() const {
+        std::vector<std::string> files;
+        try {
+            files = from_cbor<std::vector<std::string>>(before_, ValueLimits::own());
+        } catch (const ValueError&) {  // an entry of another form: pdflatex makes one pass more
+        }
+        for (std::size_t i = 0; i < kAuxiliaryFiles.size() && i < files.size(); ++i)
+            if (!files[i].empty()) write_work_file(job_.work_folder / kAuxiliaryFiles[i], files[i]);
+    }
+
     const LatexJob& job_;
     std::optional<Cache> cache_;  ///< none where nothing is to be found or left
     std::string entry_, before_;

@@ -20,7 +20,7 @@ struct LatexJob {
 };
 
 /// LaTeX refused the document: its first real complaint, the line of the body (1-based, 0 unknown) and the text of
-/// that line up to the place where it stopped.
+/// that line up to where it stopped.
 struct LatexRefusal : std::runtime_error {
     LatexRefusal(const std::string& message, int body_line, std::string before)
         : std::runtime_error(message), line(body_line), text_before(std::move(before)) {}

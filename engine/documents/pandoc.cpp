@@ -152,7 +152,7 @@ PandocResult run_pandoc(const PandocJob& job, Complaints& complaints) {
     Complaints found;
     PandocResult result;
     result.pictures =
-        read_filter_findings(run.error_output, job.markdown, job.template_file, *job.record, found).pictures;
+        read_filter_messages(run.error_output, job.markdown, job.template_file, *job.record, found).pictures;
     if (run.exit_code != 0 && found.empty())
         found.add({job.template_file, 0}, "Pandoc stopped with exit code " + std::to_string(run.exit_code));
     if (found.empty()) result.text = std::move(run.output);

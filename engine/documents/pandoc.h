@@ -7,7 +7,7 @@
 #include "documents/complaints.h"
 #include "documents/document.h"
 #include "documents/document_rules.h"
-#include "documents/filter_findings.h"
+#include "documents/filter_messages.h"
 
 namespace dynlab::inline documents {
 

@@ -70,7 +70,7 @@ class CellReader {
         }
         if (value != "true" && value != "false")
             fail(index, "cell option " + key + " is true or false, not \"" + value + "\"");
-        if (!cell.options.emplace(key, value).second) fail(index, "cell option " + key + " stands there twice");
+        if (!cell.options.emplace(key, value).second) fail(index, "cell option " + key + " occurs twice");
     }
 
     /// Takes lines [start, end) as the content of `cell`, blank lines at both ends left out.

@@ -5,11 +5,11 @@
 
 #include "documents/complaints.h"
 #include "documents/document.h"
-#include "documents/filter_findings.h"
+#include "documents/filter_messages.h"
 
 namespace dynlab::inline documents {
 
-/// Where a picture of the document lies and what the writer calls it.
+/// A picture file of the document and the name that Pandoc writes for it.
 struct PlacedPicture {
     std::filesystem::path file;
     std::string written_name;  ///< prefix + number + extension

@@ -22,8 +22,8 @@ void describe(T& object, V& member) {
 
 template <Is<RecordedFigure> T, class V>
 void describe(T& object, V& member) {
-    auto& [figure, caption, file, place] = object;
-    member("caption", caption), member.unless_empty("file", file), member.kept("place", place);
+    auto& [figure, caption, file, order] = object;
+    member("caption", caption), member.unless_empty("file", file), member.kept("order", order);
 }
 
 template <Is<CellOutput> T, class V>

@@ -30,7 +30,7 @@ struct RecordedFigure {
     Figure figure;
     std::string caption;         ///< Markdown, read as safely as a template
     std::filesystem::path file;  ///< where it was drawn, once it was
-    std::size_t place = 0;       ///< in the order in which the script made its figures
+    std::size_t order = 0;       ///< in the order in which the script made its figures
 };
 
 /// `report.text`: Markdown written by the script.
@@ -73,6 +73,7 @@ struct RunRecord {
 /// JSON text (UTF-8, keys sorted, numbers with 17 digits) without timings, so that equal runs give equal
 /// bytes.
 std::string to_json(const RunRecord& record);
-std::string timings_to_json(const RunRecord& record);
+/// The record that to_json wrote, without what it leaves out. Throws ValueError for any other text.
+RunRecord record_from_json(const std::string& json);
 
 }  // namespace dynlab::inline documents

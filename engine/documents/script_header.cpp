@@ -57,7 +57,7 @@ class HeaderReader {
 
     void read_key(const std::string& key, const std::string& value) {
         for (const std::string& known : seen_)
-            if (known == key) fail("key \"" + key + "\" stands there twice");
+            if (known == key) fail("key \"" + key + "\" occurs twice");
         seen_.push_back(key);
         in_answers_ = key == "answers";
         if (in_answers_) {

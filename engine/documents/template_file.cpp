@@ -17,7 +17,7 @@ const std::vector<std::string> kAllowedKeys = {"title",       "subtitle",       
                                                "toc",         "numbersections", "sections", "pages", "appendix_pages",
                                                "least_pages", "layout"};
 
-std::string place(const std::filesystem::path& file, std::size_t index) {
+std::string location_of_line(const std::filesystem::path& file, std::size_t index) {
     return file.string() + ":" + std::to_string(index + 1) + ": ";
 }
 
@@ -45,7 +45,7 @@ void read_metadata(const std::vector<std::string>& lines, std::size_t end, Templ
         const std::string& line = lines[i];
         if (is_blank(line) || line[0] == '#') continue;
         const std::size_t colon = line.find(':');
-        const std::string where = place(result.file, i);
+        const std::string where = location_of_line(result.file, i);
         if (colon == std::string::npos || line[0] == ' ' || line[0] == '-')
             throw DocumentError(where + "\"" + trimmed(line) + "\" is not of the form \"key: value\"");
         const std::string key = trimmed(line.substr(0, colon));
@@ -59,14 +59,14 @@ void read_metadata(const std::vector<std::string>& lines, std::size_t end, Templ
         }
         check_metadata(key, value, where);
         if (!result.metadata.emplace(key, value).second)
-            throw DocumentError(where + "key \"" + key + "\" stands there twice");
+            throw DocumentError(where + "key \"" + key + "\" occurs twice");
     }
 }
 
 std::size_t end_of_metadata(const std::vector<std::string>& lines, const std::filesystem::path& file) {
     for (std::size_t i = 1; i < lines.size(); ++i)
         if (trimmed(lines[i]) == "---" || trimmed(lines[i]) == "...") return i;
-    throw DocumentError(place(file, 0) + "the header is not closed: a line \"---\" is missing after it");
+    throw DocumentError(location_of_line(file, 0) + "the header is not closed: a line \"---\" is missing after it");
 }
 
 /// Which lines of Markdown are inside fenced code.
@@ -142,7 +142,8 @@ MarkdownText with_cells(const TemplateFile& source, const MarkdownText& cells) {
     FenceState fence;
     bool placed = false;
     const auto fail = [&](std::size_t i, const std::string& what) {
-        throw DocumentError(place(source.file, static_cast<std::size_t>(source.body.origin[i].line) - 1) + what);
+        throw DocumentError(location_of_line(source.file, static_cast<std::size_t>(source.body.origin[i].line) - 1) +
+                            what);
     };
     for (std::size_t i = 0; i < lines.size(); ++i) {
         const SourceLine from = source.body.origin[i];
@@ -150,7 +151,7 @@ MarkdownText with_cells(const TemplateFile& source, const MarkdownText& cells) {
             result.append(lines[i] + "\n", from.file, from.line);
             continue;
         }
-        if (placed) fail(i, "the block ::: {.cells} stands there twice");
+        if (placed) fail(i, "the block ::: {.cells} occurs twice");
         placed = true;
         std::size_t end = i + 1;
         while (end < lines.size() && is_blank(lines[end])) ++end;

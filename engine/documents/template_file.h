@@ -26,7 +26,7 @@ void check_metadata(const std::string& key, const std::string& value, const std:
 bool shows_cells(const TemplateFile& source);
 
 /// The body with `cells` in place of the block `::: {.cells}` ... `:::`. Throws DocumentError when the block has
-/// content or stands there twice.
+/// content or occurs twice.
 MarkdownText with_cells(const TemplateFile& source, const MarkdownText& cells);
 
 }  // namespace dynlab::inline documents

@@ -21,7 +21,7 @@ void limit_to_readable(Panel& panel, std::size_t lines, double least_room);
 /// Distance of the numbers on a phase axis: 45 degrees, or a larger divisor of the turn for long ranges.
 double phase_tick_step(const Panel& phase);
 
-/// Gives every curve of the panel the colour of its place, which bands added later must not move.
+/// Gives every curve of the panel the colour of its index, which bands added later must not move.
 void fix_colours(Panel& panel);
 
 }  // namespace dynlab::inline figures

@@ -10,7 +10,7 @@ namespace dynlab::inline figures {
 namespace {
 
 constexpr double kResolution = 2.54 / 300;  // cm
-constexpr double kFarOutside = 1000;        // cm; beyond the frame the exact place no longer matters
+constexpr double kFarOutside = 1000;        // cm; beyond the frame the exact position no longer matters
 constexpr PagePoint kGapPoint = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
 
 double on_page(const Axis& axis, double value, double length) {

@@ -41,7 +41,7 @@ Trace keep_column_extremes(const Trace& trace, double cell) {
         std::ptrdiff_t order[] = {0, lowest - begin, highest - begin, stop - begin - 1};
         std::sort(std::begin(order), std::end(order));
         const auto distinct = std::unique(std::begin(order), std::end(order));
-        for (auto place = std::begin(order); place != distinct; ++place) kept.push_back(begin[*place]);
+        for (auto index = std::begin(order); index != distinct; ++index) kept.push_back(begin[*index]);
     });
     return kept;
 }

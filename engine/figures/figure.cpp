@@ -9,7 +9,7 @@
 namespace dynlab::inline figures {
 namespace {
 
-std::string name_of(const std::string& kind, std::size_t number, const std::string& label) {
+std::string numbered_name(const std::string& kind, std::size_t number, const std::string& label) {
     return label.empty() ? fmt::format("{} {}", kind, number) : fmt::format("{} {} (\"{}\")", kind, number, label);
 }
 
@@ -60,7 +60,7 @@ void check_panel(const Panel& panel, const std::string& where) {
     check_tick_step(panel.y_tick_step, "y", where);
     for (std::size_t i = 0; i < panel.curves.size(); ++i)
         check_curve(panel.curves[i], panel,
-                    fmt::format("{}, {}", where, name_of("curve", i + 1, panel.curves[i].label)));
+                    fmt::format("{}, {}", where, numbered_name("curve", i + 1, panel.curves[i].label)));
     for (const ReferenceLine& line : panel.references)
         if (!drawable(line.at, line.horizontal ? panel.log_y : panel.log_x))
             throw InvalidArgument(fmt::format("{}: a reference line cannot be drawn at {}", where, line.at));
@@ -90,7 +90,8 @@ void Figure::validate() const {
     if (!(height_cm == 0 || (height_cm >= 3 && height_cm <= 200)))
         throw InvalidArgument(fmt::format(
             "the height of a figure must lie between 3 and 200 cm, or be 0 to have it chosen, not {}", height_cm));
-    for (std::size_t i = 0; i < panels.size(); ++i) check_panel(panels[i], name_of("panel", i + 1, panels[i].title));
+    for (std::size_t i = 0; i < panels.size(); ++i)
+        check_panel(panels[i], numbered_name("panel", i + 1, panels[i].title));
 }
 
 }  // namespace dynlab::inline figures

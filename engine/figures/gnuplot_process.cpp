@@ -22,7 +22,7 @@
 namespace dynlab::inline figures {
 namespace {
 
-constexpr auto kPatience = std::chrono::minutes(2);
+constexpr auto kDrawingTimeout = std::chrono::minutes(2);
 
 /// The inherited environment without what steers gnuplot.
 std::vector<std::string> gnuplot_environment() {
@@ -119,7 +119,7 @@ std::string GnuplotProcess::report_command(unsigned number) {
 
 std::optional<std::string> GnuplotProcess::wait_for_report(unsigned number) {
     const std::string report = fmt::format("figure {} done\n", number);
-    const auto give_up = std::chrono::steady_clock::now() + kPatience;
+    const auto give_up = std::chrono::steady_clock::now() + kDrawingTimeout;
     std::unique_lock lock(mutex_);
     for (;;) {
         if (const std::size_t at = text_.find(report); at != std::string::npos) {

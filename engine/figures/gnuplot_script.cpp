@@ -120,9 +120,10 @@ class PanelScript {
 
     void write_references() {
         for (const ReferenceLine& line : panel_.references) {
-            const double place = (line.horizontal ? layout_.y : layout_.x).position(line.at);
-            if (!(place >= 0 && place <= 1)) continue;
-            const PagePoint from = line.horizontal ? PagePoint{0, place * height()} : PagePoint{place * width(), 0};
+            const double position = (line.horizontal ? layout_.y : layout_.x).position(line.at);
+            if (!(position >= 0 && position <= 1)) continue;
+            const PagePoint from =
+                line.horizontal ? PagePoint{0, position * height()} : PagePoint{position * width(), 0};
             const PagePoint to = line.horizontal ? PagePoint{width(), from.y} : PagePoint{from.x, height()};
             segment(from, to, "nohead", kReferenceWidth, kReferenceColour, dash_pattern(line.dash), "back");
         }

@@ -18,22 +18,22 @@ void check_finite(const VectorView& values) {
             throw InvalidArgument(fmt::format("a histogram needs finite values, but value {} is {}", i + 1, values[i]));
 }
 
-void check(const VectorView& values) {
+void check_sample(const VectorView& values) {
     if (values.size() == 0) throw InvalidArgument("a histogram needs at least one value, but there are none");
     check_finite(values);
 }
 
 /// Linear interpolation between the order statistics that enclose the quantile.
 double quantile(const Vector& sorted, double part) {
-    const double place = part * static_cast<double>(sorted.size() - 1);
-    const Index below = static_cast<Index>(place), above = std::min(below + 1, sorted.size() - 1);
-    return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+    const double position = part * static_cast<double>(sorted.size() - 1);
+    const Index below = static_cast<Index>(position), above = std::min(below + 1, sorted.size() - 1);
+    return sorted[below] + (position - static_cast<double>(below)) * (sorted[above] - sorted[below]);
 }
 
 }  // namespace
 
 Index freedman_diaconis_bins(const VectorView& values) {
-    check(values);
+    check_sample(values);
     Vector sorted = values;
     std::sort(sorted.begin(), sorted.end());
     const double n = static_cast<double>(sorted.size()), range = sorted[sorted.size() - 1] - sorted[0];
@@ -44,7 +44,7 @@ Index freedman_diaconis_bins(const VectorView& values) {
 }
 
 HistogramBins histogram_bins(const VectorView& values, Index bins) {
-    check(values);
+    check_sample(values);
     if (bins < 1) throw InvalidArgument(fmt::format("a histogram needs at least one bin, not {}", bins));
     double low = values.minCoeff(), high = values.maxCoeff();
     if (!(low < high)) {

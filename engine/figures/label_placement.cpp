@@ -24,7 +24,7 @@ class Occupancy {
         const auto [left, right] = cells(box.left, box.right, columns_);
         const auto [bottom, top] = cells(box.bottom, box.top, rows_);
         for (int row = bottom; row <= top; ++row)
-            for (int column = left; column <= right; ++column) weight_[place(column, row)] += weight;
+            for (int column = left; column <= right; ++column) weight_[cell_index(column, row)] += weight;
     }
     void add_segment(PagePoint a, PagePoint b, int weight) {
         if (!clip(a, b)) return;
@@ -33,7 +33,7 @@ class Occupancy {
             const double along = static_cast<double>(k) / steps;
             const int column = static_cast<int>((a.x + along * (b.x - a.x)) / kCell);
             const int row = static_cast<int>((a.y + along * (b.y - a.y)) / kCell);
-            weight_[place(std::clamp(column, 0, columns_ - 1), std::clamp(row, 0, rows_ - 1))] += weight;
+            weight_[cell_index(std::clamp(column, 0, columns_ - 1), std::clamp(row, 0, rows_ - 1))] += weight;
         }
     }
     double covered(const Rectangle& box) const {
@@ -41,12 +41,12 @@ class Occupancy {
         const auto [bottom, top] = cells(box.bottom, box.top, rows_);
         double sum = 0;
         for (int row = bottom; row <= top; ++row)
-            for (int column = left; column <= right; ++column) sum += weight_[place(column, row)];
+            for (int column = left; column <= right; ++column) sum += weight_[cell_index(column, row)];
         return sum;
     }
 
   private:
-    std::size_t place(int column, int row) const { return static_cast<std::size_t>(row * columns_ + column); }
+    std::size_t cell_index(int column, int row) const { return static_cast<std::size_t>(row * columns_ + column); }
     static std::pair<int, int> cells(double low, double high, int count) {
         const auto cell = [count](double value) {
             return static_cast<int>(std::clamp(std::floor(value / kCell), -1.0, static_cast<double>(count)));
@@ -129,7 +129,7 @@ class Placement {
         for (const Rectangle& bar : curve.bars) taken_.add_box(bar, 1);
     }
 
-    /// Takes the candidate that covers least; false texts beyond the frame never win against ones inside.
+    /// Takes the candidate that covers least, moved into the frame where it sticks out.
     PagePoint choose(const std::string& text, const std::vector<Candidate>& candidates) {
         const double half_width = 0.5 * text_width(text, style::kTextSize) + 0.05;
         Rectangle best{};

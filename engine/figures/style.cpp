@@ -12,9 +12,9 @@ constexpr std::array kDashOfColour = {0, 1, 3, 2, 0, 1, 3, 2, 0};
 constexpr std::array kPointTypes = {7, 5, 9, 13, 6, 4, 8, 12, 2, 1};
 
 template <class List>
-auto pick(const List& list, int place) {
+auto pick(const List& list, int index) {
     const int size = static_cast<int>(list.size());
-    return list[static_cast<std::size_t>(((place % size) + size) % size)];
+    return list[static_cast<std::size_t>(((index % size) + size) % size)];
 }
 
 }  // namespace
@@ -24,8 +24,8 @@ std::string dash_pattern(int dash) {
     return pick(kPatterns, dash);
 }
 
-CurveLook look_of(const Curve& curve, int place) {
-    const int colour = curve.colour.value_or(place % kGreyColour);
+CurveLook look_of(const Curve& curve, int index) {
+    const int colour = curve.colour.value_or(index % kGreyColour);
     return {pick(kPalette, colour), dash_pattern(curve.dash.value_or(pick(kDashOfColour, colour))),
             pick(kPointTypes, curve.marker.value_or(colour))};
 }

@@ -26,10 +26,10 @@ inline constexpr double kFrameWidth = 0.45, kGridWidth = 0.3, kReferenceWidth = 
 
 /// Places in the marker list with a meaning of their own.
 inline constexpr int kOpenCircle = 4, kCross = 8;
-/// The grey beyond the palette's own eight places, for measured data and guiding curves.
+/// The grey beyond the palette's own eight colours, for measured data and guiding curves.
 inline constexpr int kGreyColour = 8;
 
-/// How a curve looks once its place among its panel's curves is known.
+/// How a curve looks, by its index among its panel's curves.
 struct CurveLook {
     std::string colour;  ///< "#rrggbb"
     std::string dash;    ///< gnuplot's dash type
@@ -38,7 +38,7 @@ struct CurveLook {
 
 /// Colours after Okabe and Ito (2008), ordered so that neighbours differ in luminance and stay apart for colour-blind
 /// readers and in grey print; the dash pattern changes with the colour.
-CurveLook look_of(const Curve& curve, int place);
+CurveLook look_of(const Curve& curve, int index);
 std::string dash_pattern(int dash);
 
 }  // namespace dynlab::inline figures::style

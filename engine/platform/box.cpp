@@ -42,7 +42,7 @@ Words bare_box() {
 
 }  // namespace
 
-std::string name_of(Isolation level) {
+std::string isolation_name(Isolation level) {
     return level == Isolation::kFull ? "full" : "process";
 }
 

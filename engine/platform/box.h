@@ -17,7 +17,7 @@ namespace dynlab::inline platform {
 /// expected to confine itself (confine_process) before it touches what is not trusted.
 enum class Isolation { kFull, kProcess };
 
-std::string name_of(Isolation level);  ///< "full", "process"
+std::string isolation_name(Isolation level);  ///< "full", "process"
 
 /// Why this machine cannot have the level, and what to do about it, in one line; nothing where it can.
 std::optional<std::string> obstacle_to(Isolation level);

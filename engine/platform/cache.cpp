@@ -25,8 +25,8 @@ using namespace std::chrono_literals;
 constexpr char kUnfinished[] = ".new-";
 constexpr char kDropped[] = ".old-";
 constexpr char kGrowth[] = ".growth";  // bytes written since the entries were looked through
-constexpr auto kInUse = 1min;          // an entry used so lately may be open in another process
-constexpr auto kAbandoned = 1h;        // an unfinished entry this old belongs to a process that died
+constexpr auto kInUseTime = 1min;      // an entry used so lately may be open in another process
+constexpr auto kAbandonedAge = 1h;     // an unfinished entry this old belongs to a process that died
 constexpr std::size_t kDigestDigits = 32;
 
 fs::path folder_of_caches() {
@@ -137,7 +137,7 @@ std::vector<Entry> entries_below(const fs::path& root) {
         std::error_code vanished;
         if (begins_with(*kind, kUnfinished) || begins_with(*kind, kDropped)) {
             const auto used = fs::last_write_time(*kind, vanished);
-            if (!vanished && now - used > kAbandoned) fs::remove_all(*kind, vanished);
+            if (!vanished && now - used > kAbandonedAge) fs::remove_all(*kind, vanished);
             continue;
         }
         for (auto at = fs::directory_iterator(*kind, vanished); !vanished && at != fs::end(at);
@@ -261,7 +261,7 @@ void Cache::drop_beyond_limit() const {
     std::uint64_t total = 0;
     for (const Entry& entry : entries) total += entry.bytes;
     for (const Entry& entry : entries) {
-        if (total <= limit_bytes_ || now - entry.used < kInUse) break;
+        if (total <= limit_bytes_ || now - entry.used < kInUseTime) break;
         drop(root_, entry.path);
         total -= entry.bytes;
     }

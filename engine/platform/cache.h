@@ -15,7 +15,7 @@ struct CacheUse {
     std::size_t recalled = 0, made = 0;
 };
 
-/// The name of an entry: its kind, and a digest of what makes such entries (the program, unless another maker is told)
+/// The name of an entry: its kind, and a digest of what makes such entries (the program, unless another maker is given)
 /// and of all they are made from, in its order. Equal names stand for equal contents.
 class EntryName {
   public:

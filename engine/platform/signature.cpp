@@ -23,7 +23,7 @@ std::string hex_of(const unsigned char* bytes, std::size_t size) {
     return digits;
 }
 
-/// False unless the text is exactly so many bytes in lower-case digits: one signature has one text.
+/// False unless the text is exactly kSize bytes in lower-case hexadecimal digits: one signature has one text.
 template <std::size_t kSize>
 bool read_hex(std::string_view digits, std::array<unsigned char, kSize>& bytes) {
     std::size_t size = 0;

@@ -36,7 +36,7 @@ const UNormalizer2* compatibility_forms() {
         udata_setFileAccess(UDATA_NO_FILES, &status);  // ICU's own data, none that lie in the working folder
         const UNormalizer2* const nfkd = unorm2_getNFKDInstance(&status);
         if (U_FAILURE(status))
-            throw EnvironmentError(std::string("the library of Unicode cannot be used: ") + u_errorName(status));
+            throw EnvironmentError(std::string("ICU, the Unicode library, cannot be used: ") + u_errorName(status));
         return nfkd;
     }();
     return forms;
@@ -55,8 +55,8 @@ std::u16string taken_apart(char32_t c) {
 /// Accents over, under and through letters; vowel signs of other scripts are letters here.
 bool is_accent(char32_t c) {
     constexpr int kOverlay = 1, kFirstPlacedAround = 200;  // canonical combining classes, UAX #44
-    const int place = property(c, UCHAR_CANONICAL_COMBINING_CLASS);
-    return place == kOverlay || place >= kFirstPlacedAround;
+    const int combining_class = property(c, UCHAR_CANONICAL_COMBINING_CLASS);
+    return combining_class == kOverlay || combining_class >= kFirstPlacedAround;
 }
 
 bool is_sign(char32_t c) {
@@ -77,8 +77,8 @@ std::string plain_letter(char32_t c) {
     if (small == U'œ') return "oe";
     if (small == U'ß') return "ss";
     if (small == U'þ') return "th";
-    const auto place = kWholeLetters.find(small);
-    return utf8_of(place == std::u32string_view::npos ? small : kPlainLetters[place]);
+    const auto index = kWholeLetters.find(small);
+    return utf8_of(index == std::u32string_view::npos ? small : kPlainLetters[index]);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ std::size_t columns_of(std::string_view utf8);
 
 /// A letter without accent, in lower case: "É" -> "e", "Ł" -> "l", "Æ" -> "ae"; ligatures, full-width and mathematical
 /// letters as the plain ones they show (the compatibility decomposition of Unicode, UAX #15); decimal digits of any
-/// script -> 0 to 9 (UTF-8). Letters that stand for themselves as they are; "" for what is no letter and no digit, also
+/// script -> 0 to 9 (UTF-8). Letters that stand for themselves as they are; "" for any other character, also
 /// raised and lowered ones, which mark a footnote.
 std::string folded_letter(char32_t character);
 

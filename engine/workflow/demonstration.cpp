@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// "delays" for 02_delays.lua.
-std::string name_of(const fs::path& script) {
+std::string demonstration_name(const fs::path& script) {
     const std::string stem = script.stem().string();
     return stem.substr(stem.find('_') + 1);
 }
@@ -45,7 +45,7 @@ std::vector<Demonstration> demonstrations() {
     std::sort(scripts.begin(), scripts.end());
     std::vector<Demonstration> found;
     for (const fs::path& script : scripts)
-        found.push_back({name_of(script), script, read_percent_script(script).header.title});
+        found.push_back({demonstration_name(script), script, read_percent_script(script).header.title});
     return found;
 }
 

@@ -7,7 +7,7 @@
 
 namespace dynlab::inline workflow {
 
-/// A short guided demonstration: a literate script lessons/demos/NN_name.lua, told page by page.
+/// A short guided demonstration: a literate script lessons/demos/NN_name.lua, shown page by page.
 struct Demonstration {
     std::string name;  ///< "getting_started"
     std::filesystem::path script;
@@ -22,7 +22,7 @@ Demonstration find_demonstration(const std::string& name);
 
 /// What a demonstration tells, for a terminal: one page for each code cell, with the text before it, the code (every
 /// line marked with '>'), what it printed and the files of its figures. Text after the last code cell makes a page of
-/// its own. Nothing is told beyond the cell in which an error stopped the run.
+/// its own. Nothing is shown beyond the cell in which an error stopped the run.
 std::vector<std::string> pages_of(const PercentScript& script, const RunRecord& record);
 
 }  // namespace dynlab::inline workflow

@@ -12,7 +12,7 @@
 namespace dynlab::inline workflow {
 namespace {
 
-constexpr double kUnevenSteps = 1e-3;  // relative; instants are often rounded when they are written
+constexpr double kStepTolerance = 1e-3;  // relative; instants are often rounded when they are written
 
 bool is_time(std::string name) {
     std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -58,7 +58,7 @@ void Recording::look_at_instants() {
     const Vector& t = signal(time_);
     if (t.size() < 2) throw EnvironmentError(name_ + " has fewer than two samples");
     const Vector steps = t.tail(t.size() - 1) - t.head(t.size() - 1);
-    even_ = (steps.array() - steps.mean()).abs().maxCoeff() <= kUnevenSteps * steps.mean();
+    even_ = (steps.array() - steps.mean()).abs().maxCoeff() <= kStepTolerance * steps.mean();
     sampling_ = even_ ? "({0}_t[#{0}_t] - {0}_t[1])/(#{0}_t - 1)" : "nil";
 }
 

@@ -94,7 +94,7 @@ std::vector<std::string> figures_in_order(const RunRecord& record) {
     std::vector<std::string> names;
     for (const auto& [name, figure] : record.figures) names.push_back(name);
     std::stable_sort(names.begin(), names.end(), [&](const std::string& a, const std::string& b) {
-        return record.figures.at(a).place < record.figures.at(b).place;
+        return record.figures.at(a).order < record.figures.at(b).order;
     });
     return names;
 }

@@ -17,11 +17,12 @@ namespace dynlab::inline workflow {
 
 struct RunRequest {
     PercentScript script;
-    std::optional<std::uint32_t> seed;                   ///< instead of the script header's
-    std::filesystem::path out_folder;                    ///< where `save` and `save_csv` may write
-    std::function<void(const std::string&)> print;       ///< live output; none when empty
-    std::function<void(const std::string&)> enter_cell;  ///< told of each cell that begins: "cell 4 of 12, validation"
-    CallCache* call_cache = nullptr;                     ///< where results of long calls are kept
+    std::optional<std::uint32_t> seed;              ///< instead of the script header's
+    std::filesystem::path out_folder;               ///< where `save` and `save_csv` may write
+    std::function<void(const std::string&)> print;  ///< live output; none when empty
+    std::function<void(const std::string&)>
+        enter_cell;                   ///< called with each cell that begins: "cell 4 of 12, validation"
+    CallCache* call_cache = nullptr;  ///< where results of long calls are kept
 };
 
 /// Runs a script from top to bottom. An error of the script stands in the record; Ctrl-C throws Interrupted.

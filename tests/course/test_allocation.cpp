@@ -25,7 +25,7 @@ Loads loads_of(const AllocationProblem& problem, const Allocation& allocation) {
 /// The rules that hold whatever happened before: own reports, doubles, kin (what is fixed aside), no orphan.
 void expect_rules(const AllocationProblem& problem, const Allocation& allocation) {
     const std::set<ReviewEdge> once(allocation.pairs.begin(), allocation.pairs.end());
-    ASSERT_EQ(once.size(), allocation.pairs.size()) << "a pair stands there twice";
+    ASSERT_EQ(once.size(), allocation.pairs.size()) << "a pair occurs twice";
     const std::set<ReviewEdge> fixed(problem.fixed.begin(), problem.fixed.end());
     for (const ReviewEdge& pair : fixed) ASSERT_TRUE(once.contains(pair)) << "what is fixed was lost";
     for (const ReviewEdge& pair : allocation.pairs) {

@@ -94,7 +94,7 @@ TEST(course_store, refuses_bad_input_and_stays_untouched) {
     bench.bench().write("columns.csv", "number,name\n1,Ada\n");
     refused({"roster", "import", "columns.csv"}, "the column id is missing; there are number, name");
     bench.bench().write("twice.csv", "id,name\ns8,Ada\ns9,Bo\ns8,Eve\n");
-    refused({"roster", "import", "twice.csv"}, "twice.csv, line 4: the id \"s8\" stands there twice");
+    refused({"roster", "import", "twice.csv"}, "twice.csv, line 4: the id \"s8\" occurs twice");
     bench.bench().write("empty.csv", "id,name\n");
     refused({"roster", "import", "empty.csv"}, "there are no students");
     refused({"receive", "nowhere.pdf"}, "there is no file or folder 'nowhere.pdf'");
@@ -103,9 +103,9 @@ TEST(course_store, refuses_bad_input_and_stays_untouched) {
             "no group and no student of the course is called \"gruop-02\" (the nearest is group-02)");
     refused({"receive", "gruop-02.pdf", "--from", "group-9"}, "there is no group \"group-9\"");
     bench.bench().write("group-02.docx", "PK\x03\x04 words");
-    refused({"receive", "group-02.docx"}, "this is no PDF and no pack");
+    refused({"receive", "group-02.docx"}, "this is neither a PDF nor a pack");
     bench.bench().write("group-02.pdf", "not a document");
-    refused({"receive", "group-02.pdf"}, "this is no PDF and no pack");
+    refused({"receive", "group-02.pdf"}, "this is neither a PDF nor a pack");
     bench.bench().write("group-03.pdf", "");
     refused({"receive", "group-03.pdf"}, "the file is empty");
     refused({"receive", "gruop-02.pdf", "--assignment", "crame"}, "did you mean crane?");
@@ -198,7 +198,7 @@ TEST(course_store, takes_a_platform_s_zip_and_leaves_out_what_leads_outside) {
     EXPECT_THAT(taken.output, AllOf(HasSubstr("2 files taken, 0 late"), HasSubstr("group-01"), HasSubstr("group-03")));
     EXPECT_THAT(taken.error_output,
                 AllOf(HasSubstr("\"../../escaped.pdf\" leads outside"), HasSubstr("called \"elsenobody\""),
-                      HasSubstr("group-04/notes.txt: this is no PDF")));
+                      HasSubstr("group-04/notes.txt: this is not a PDF")));
     EXPECT_FALSE(std::filesystem::exists(bench.bench().path("escaped.pdf")));
     EXPECT_FALSE(std::filesystem::exists("/tmp/escaped.pdf"));
     EXPECT_THAT(bench.course({"verify"}).output, HasSubstr("2 files, 2 versions: all there and unaltered"));
@@ -213,7 +213,7 @@ TEST(course_store, refuses_other_versions_of_the_store) {
     EXPECT_THAT(newer.error_output, HasSubstr("made by a newer dynlab (its tables have version 99"));
     bench.bench().shell("mkdir x && sqlite3 x/course.db 'CREATE TABLE other (a)'");
     EXPECT_THAT(bench.bench().dynlab({"course", "--course", "x", "status"}).error_output,
-                HasSubstr("this is no course"));
+                HasSubstr("this is not a course"));
     bench.bench().shell("mkdir y && echo 'no database at all, but long enough to be read' > y/course.db");
     EXPECT_THAT(bench.bench().dynlab({"course", "--course", "y", "status"}).error_output, HasSubstr("not a database"));
     EXPECT_THAT(bench.bench().dynlab({"course", "init", "k"}).error_output, HasSubstr("newer dynlab"));

@@ -3,11 +3,12 @@
 
 #include "check_fixture.h"
 #include "course/findings/leftover_findings.h"
-#include "documents/pdf/pdf_inspection.h"
+#include "support/pdf_inspection.h"
 
 namespace dynlab {
 namespace test_document_findings {
 
+using test::inspect_pdf;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;

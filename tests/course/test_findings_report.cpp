@@ -71,5 +71,22 @@ TEST(findings_report, json_holds_everything_and_null_where_nothing_is_known) {
     EXPECT_TRUE(nlohmann::json::parse(findings_as_json(CheckResult())).at("pages").is_null());
 }
 
+// Oracle: what was written; the form of files that earlier versions stored, with its members in another order.
+TEST(findings_report, json_comes_back_and_other_texts_are_refused) {
+    const CheckResult back = findings_from_json(findings_as_json(some_result()));
+    EXPECT_EQ(findings_in_words(back, false), findings_in_words(some_result(), false));
+    EXPECT_EQ(findings_as_json(back), findings_as_json(some_result()));
+    const CheckResult stored = findings_from_json(
+        R"({"subject": "report.pdf", "template": null, "language": "en", "pages": null, "passed": false, "checked": [],
+            "findings": [{"id": "damaged", "severity": "rule", "page": null, "place": null, "what": "w",
+                          "remedy": "r"}]})");
+    EXPECT_EQ(stored.template_name, "");
+    EXPECT_EQ(stored.pages, 0);
+    EXPECT_EQ(stored.findings.at(0).severity, Severity::kRule);
+    EXPECT_EQ(stored.findings.at(0).place, "");
+    for (const char* text : {"", "[]", R"({"subject": "x"})"})
+        EXPECT_THROW(findings_from_json(text), EnvironmentError) << text;
+}
+
 }  // namespace test_findings_report
 }  // namespace dynlab

@@ -169,8 +169,8 @@ TEST(packed_hand_ins, takes_folders_as_students_keep_them) {
     bench.bench().shell("ln -s $PWD/records in/group-02/data; mkfifo in/group-02/pipe");
     const ChildResult taken = receive(bench, {"in"}, kInTime);
     EXPECT_THAT(taken.output, AllOf(HasSubstr("1 file taken"), ContainsRegex("group-01 +report +v1")));
-    EXPECT_THAT(taken.error_output, AllOf(HasSubstr("in/group-02/report.md: this is no PDF and no pack"),
-                                          HasSubstr("pipe: no ordinary file"), Not(HasSubstr("group-01")),
+    EXPECT_THAT(taken.error_output, AllOf(HasSubstr("in/group-02/report.md: this is neither a PDF nor a pack"),
+                                          HasSubstr("pipe: not a regular file"), Not(HasSubstr("group-01")),
                                           Not(HasSubstr("filesystem")), Not(HasSubstr("data"))));
 }
 

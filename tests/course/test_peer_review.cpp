@@ -146,7 +146,22 @@ TEST(peer_review, exports_and_imports_an_equal_store) {
     EXPECT_THAT(bench.bench().dynlab({"course", "--course", "copy", "verify"}).output,
                 HasSubstr("4 files, 4 versions: all there and unaltered"));
     EXPECT_THAT(bench.bench().dynlab({"course", "import", "s.csv", "other", "--from", "k"}).error_output,
-                HasSubstr("this is no export of dynlab course"));
+                HasSubstr("this is not an export of dynlab course"));
+    const auto refusal = [&](const std::string& text) {
+        bench.bench().write("bad.json", text);
+        const ChildResult refused = bench.bench().dynlab({"course", "import", "bad.json", "bad", "--from", "k"});
+        EXPECT_EQ(refused.exit_code, 1) << text;
+        return refused.error_output;
+    };
+    EXPECT_THAT(refusal("{}"), HasSubstr("bad.json: this is not an export of dynlab course"));
+    EXPECT_THAT(refusal(R"({"dynlab course": 1, "tables": {"course": []}})"),
+                HasSubstr("the table \"files\" is missing"));
+    EXPECT_THAT(refusal(R"({"dynlab course": 1, "tables": {"course": [{"key": {}}], "files": []}})"),
+                HasSubstr("tables[\"course\"][1][\"key\"]: a text was wanted"));
+    EXPECT_THAT(refusal(R"({"dynlab course": 1, "tables": {"course": [{"key": "name"}], "files": []}})"),
+                HasSubstr("a row lacks the text \"value\""));
+    EXPECT_THAT(refusal(R"({"dynlab course": 1, "tables": {"course": [], "files": []}})"),
+                HasSubstr("the course's name is missing"));
 }
 
 // oracle: the story: every group that stayed writes two reviews and gets two

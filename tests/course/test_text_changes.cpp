@@ -72,6 +72,29 @@ TEST(text_changes, edit_scripts_lead_from_one_list_to_the_other) {
     }
 }
 
+// oracle: the definition of an edit script; two lists that differ in more than is searched for at once
+TEST(text_changes, edit_scripts_of_long_lists_lead_from_one_to_the_other) {
+    Words before, after;
+    for (int i = 0; i < 9000; ++i) {
+        before.push_back((i % 3 == 0 ? "both " : "old ") + std::to_string(i));
+        after.push_back((i % 3 == 0 ? "both " : "new ") + std::to_string(i));
+    }
+    std::size_t b = 0, a = 0, kept = 0;
+    for (const char step : edit_script(before, after)) {
+        if (step == '=') {
+            ASSERT_EQ(before[b], after[a]);
+            ++kept;
+        }
+        b += step != '+', a += step != '-';
+    }
+    EXPECT_EQ(b, before.size());
+    EXPECT_EQ(a, after.size());
+    EXPECT_EQ(kept, 3000u);
+    EXPECT_EQ(edit_script({}, {"a", "b"}), "++");
+    EXPECT_EQ(edit_script({"a", "b"}, {"b"}), "-=");
+    EXPECT_EQ(edit_script({}, {}), "");
+}
+
 // oracle: what a reader takes for the same
 TEST(text_changes, what_a_line_break_does_is_no_change) {
     EXPECT_EQ(comparison_key("pre-processing of data"), comparison_key("preprocessing  of\u00A0data"));

@@ -110,7 +110,7 @@ open('mixed.zip', 'wb').write(data)
                                               HasSubstr("\" has a name that is too long"),
                                               "\"two\nlines.csv\" has a name with control characters",
                                               "the name of a file in it cannot be read",
-                                              "\"link.csv\" is a link or no ordinary file"));
+                                              "\"link.csv\" is a link or not a regular file"));
     }
 }
 

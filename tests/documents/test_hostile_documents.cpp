@@ -5,11 +5,13 @@
 
 #include "document_fixture.h"
 #include "documents/latex.h"
-#include "documents/pdf/pdf_inspection.h"
+#include "support/pdf_inspection.h"
 
 namespace dynlab {
 namespace test_hostile_documents {
 
+using test::inspect_pdf;
+using test::PdfContent;
 using hostile_documents = DocumentTest;
 using testing::HasSubstr;
 using testing::Not;

@@ -5,14 +5,16 @@
 #include <regex>
 
 #include "document_fixture.h"
-#include "documents/pdf/pdf_inspection.h"
 #include "platform/child_process.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
+#include "support/pdf_inspection.h"
 
 namespace dynlab {
 namespace test_latex_documents {
 
+using test::inspect_pdf;
+using test::PdfContent;
 using testing::HasSubstr;
 using testing::Not;
 

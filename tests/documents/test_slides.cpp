@@ -2,12 +2,14 @@
 #include <gmock/gmock.h>
 
 #include "document_fixture.h"
-#include "documents/pdf/pdf_inspection.h"
 #include "platform/child_process.h"
+#include "support/pdf_inspection.h"
 
 namespace dynlab {
 namespace test_slides {
 
+using test::inspect_pdf;
+using test::PdfContent;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;

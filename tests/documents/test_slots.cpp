@@ -1,11 +1,12 @@
 #include <gmock/gmock.h>
 
 #include "document_fixture.h"
-#include "documents/pdf/pdf_inspection.h"
+#include "support/pdf_inspection.h"
 
 namespace dynlab {
 namespace test_slots {
 
+using test::inspect_pdf;
 using slots = DocumentTest;
 using testing::HasSubstr;
 using testing::Not;

@@ -164,8 +164,8 @@ TEST(bad_input, data_are_checked_when_they_are_made) {
         {"iddata({}, {}, 1)", "must have rows or columns, but the table is empty"},
         {"iddata({theta = y, t = u}, u, 1)", "the table holds t, theta: give one of these, such as data.t"},
         {"iddata(y, u, {0, 0.1, 0.3})", "iddata(y, u, nil, {SamplingInstants = t})"},
-        {"iddata(y, matrix{u, e}, 0.05, {InputName = {'a', 'a'}})", "the name 'a' stands for two channels"},
-        {"iddata(y, u, 0.05, {InputName = 'a', OutputName = 'a'})", "the name 'a' stands for two channels"},
+        {"iddata(y, matrix{u, e}, 0.05, {InputName = {'a', 'a'}})", "the name 'a' names two channels"},
+        {"iddata(y, u, 0.05, {InputName = 'a', OutputName = 'a'})", "the name 'a' names two channels"},
         {"iddata(y, u, 0.05, {InputName = {'a', 'b'}})", "has 2 texts, but there are 1 channels"},
     };
     for (const auto& [code, sentence] : kCases)
@@ -173,7 +173,7 @@ TEST(bad_input, data_are_checked_when_they_are_made) {
 }
 
 TEST(bad_input, every_method_refuses_data_it_cannot_use) {
-    const auto excitation = AnyOf(HasSubstr("excit"), HasSubstr("nothing can be learnt"), HasSubstr("no step"),
+    const auto excitation = AnyOf(HasSubstr("excit"), HasSubstr("no dynamics can be estimated"), HasSubstr("no step"),
                                   HasSubstr("does not answer the step"), HasSubstr("not a step"));
     const std::vector<std::pair<std::string, testing::Matcher<std::string>>> kCases = {
         {"iddata({1, 2, 3}, {1, 0, 1}, 0.1)", AnyOf(HasSubstr("sample"), HasSubstr("not a step"))},

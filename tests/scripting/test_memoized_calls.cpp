@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 
+#include "platform/atomic_file.h"
 #include "platform/cache.h"
 #include "platform/temporary_folder.h"
 #include "script_run.h"
@@ -98,7 +99,8 @@ TEST_F(memoized_calls, values_come_back_bit_by_bit) {
         const std::string bytes = archive_of_global(L, "value");
         CborReader archive(bytes);
         const Call call(L);
-        push_archived_value(call, archive);
+        std::vector<FigurePointer> figures;
+        push_archived_value(call, archive, figures);
         EXPECT_TRUE(archive.at_end()) << expression;
         lua_setglobal(L, "again");
         EXPECT_TRUE(bytes == archive_of_global(L, "again")) << expression;
@@ -222,6 +224,48 @@ TEST_F(memoized_calls, quick_calls_and_calls_without_a_cache_leave_nothing) {
         EXPECT_EQ(use.recalled, 0u);
     }
     EXPECT_FALSE(std::filesystem::exists(home_.path() / "dynlab/calls"));
+}
+
+// Oracle: the first run. An entry that was damaged on the disk, or that holds another form of results, is made anew;
+// what is printed and drawn stands there once.
+TEST_F(memoized_calls, damaged_entries_are_computed_again) {
+    const std::string code = "delayest(d, {poles = {1, 3}, TdMax = 0.6})\n";
+    const Use first = run_with_cache(code);
+    ASSERT_EQ(first.computed, 1u);
+    const std::filesystem::path entry = *std::filesystem::directory_iterator(home_.path() / "dynlab/calls");
+    const std::string name = "calls/" + entry.filename().string();
+    const std::string file = read_file(entry), bytes = Cache().recall(name).value();
+    std::string flipped = file;
+    flipped[file.size() / 2] ^= 1;
+    std::string other_kind = bytes;
+    other_kind[0] = '\xf6';
+    const auto expect_made_anew = [&](const char* damage) {
+        const Cache cache;
+        CallCache calls(cache);
+        RunOptions options;
+        options.call_cache = &calls;
+        const RunRecord record = test::run(kData + code, options);
+        ASSERT_FALSE(record.error) << damage << ": " << record.error->message;
+        EXPECT_EQ(calls.use().made, 1u) << damage;
+        EXPECT_EQ(calls.use().recalled, 0u) << damage;
+        EXPECT_EQ(record.figures.size(), 1u) << damage;
+        const Use again = run_with_cache(code);
+        EXPECT_EQ(again.recalled, 1u) << damage;
+        EXPECT_EQ(again.printed, first.printed) << damage;
+    };
+    for (const auto& [damage, content] :
+         {std::pair("an empty file", std::string()), std::pair("half the file", file.substr(0, file.size() / 2)),
+          std::pair("one bit flipped", flipped)}) {
+        write_file_atomically(entry, content);
+        expect_made_anew(damage);
+    }
+    for (const auto& [damage, content] :
+         {std::pair("nothing", std::string()), std::pair("half the result", bytes.substr(0, bytes.size() / 2)),
+          std::pair("all but the last byte", bytes.substr(0, bytes.size() - 1)),
+          std::pair("a byte behind it", bytes + '\0'), std::pair("another kind of value", other_kind)}) {
+        Cache().remember(name, content);
+        expect_made_anew(damage);
+    }
 }
 
 std::optional<std::string> text_of(Runtime& runtime, const std::string& arguments, LargeArguments large,

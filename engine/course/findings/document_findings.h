@@ -27,7 +27,7 @@ DocumentStandard standard_of(const std::string& template_name_or_file);
 /// What is asked for instead of what the document's kind demands.
 struct CheckOptions {
     std::optional<DocumentStandard> standard;
-    std::optional<int> pages;   ///< at most so many altogether
+    std::optional<int> pages;   ///< the most that are allowed altogether
     bool lesson_checks = true;  ///< of a folder: try the lesson's checks on its answers too
     /// Who must not be named; of a folder its members are added. Nobody: of a PDF, names are not looked for.
     std::shared_ptr<const SoughtNames> names = nullptr;

@@ -4,10 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
 
+#include "course/findings/finding_description.h"
 #include "course/names/plain_words.h"
 #include "data_io/values/json_values.h"
 
@@ -38,7 +38,7 @@ std::string wrapped(const std::string& sentence, const std::string& first) {
     return result + line + "\n";
 }
 
-std::string place_of(const Finding& finding) {
+std::string location_of(const Finding& finding) {
     if (!finding.place.empty()) return finding.place;
     return finding.page > 0 ? fmt::format("page {}", finding.page) : "";
 }
@@ -72,8 +72,8 @@ class Writer {
     std::string all_of(const std::vector<const Finding*>& findings) const {
         std::string text;
         for (std::size_t i = 0; i < findings.size(); ++i) {
-            const std::string place = place_of(*findings[i]);
-            text += wrapped(printable((place.empty() ? "" : place + ": ") + findings[i]->what, 2000), "    ");
+            const std::string location = location_of(*findings[i]);
+            text += wrapped(printable((location.empty() ? "" : location + ": ") + findings[i]->what, 2000), "    ");
             const bool last = i + 1 == findings.size() || findings[i + 1]->remedy != findings[i]->remedy;
             if (last) text += styled(kFaint, wrapped(printable(findings[i]->remedy, 2000), "    -> "));
         }
@@ -84,12 +84,14 @@ class Writer {
     bool in_colour_;
 };
 
-nlohmann::json or_null(const std::string& text) {
-    return text.empty() ? nlohmann::json() : nlohmann::json(printable(text, 4000));
-}
-
-nlohmann::json or_null(int number) {
-    return number == 0 ? nlohmann::json() : nlohmann::json(number);
+/// The outcome with nothing in its texts that a terminal would obey, and none of them too long.
+CheckResult printable_result(CheckResult result) {
+    constexpr std::size_t kLongest = 4000;
+    for (std::string* text : {&result.subject, &result.template_name, &result.language})
+        *text = printable(*text, kLongest);
+    for (Finding& finding : result.findings)
+        for (std::string* text : {&finding.place, &finding.what, &finding.remedy}) *text = printable(*text, kLongest);
+    return result;
 }
 
 }  // namespace
@@ -113,43 +115,20 @@ std::string findings_in_words(const CheckResult& result, bool in_colour) {
 }
 
 std::string findings_as_json(const CheckResult& result) {
-    nlohmann::ordered_json out;
-    out["subject"] = printable(result.subject, 4000);
-    out["template"] = or_null(result.template_name);
-    out["language"] = or_null(result.language);
-    out["pages"] = or_null(result.pages);
-    out["passed"] = result.passed();
-    out["checked"] = result.checked;
-    out["findings"] = nlohmann::ordered_json::array();
-    for (const Finding& finding : result.findings) {
-        out["findings"].push_back({{"id", finding.id},
-                                   {"severity", finding.severity == Severity::kRule ? "rule" : "hint"},
-                                   {"page", or_null(finding.page)},
-                                   {"place", or_null(finding.place)},
-                                   {"what", printable(finding.what, 4000)},
-                                   {"remedy", printable(finding.remedy, 4000)}});
-    }
-    return out.dump(2) + "\n";
+    JsonWriter writer;
+    writer.begin_object();
+    write_members(writer, printable_result(result));
+    writer.member("passed");
+    writer.truth(result.passed());
+    writer.end_object();
+    return writer.dump(2) + "\n";
 }
 
 CheckResult findings_from_json(const std::string& json) {
-    const nlohmann::json in = parsed_json(json);
-    const auto text = [](const nlohmann::json& value) { return value.is_null() ? "" : value.get<std::string>(); };
-    const auto number = [](const nlohmann::json& value) { return value.is_null() ? 0 : value.get<int>(); };
     try {
-        CheckResult result;
-        result.subject = in.at("subject");
-        result.template_name = text(in.at("template"));
-        result.language = text(in.at("language"));
-        result.pages = number(in.at("pages"));
-        result.checked = in.at("checked").get<std::vector<std::string>>();
-        for (const nlohmann::json& one : in.at("findings"))
-            result.findings.push_back({one.at("id"), one.at("severity") == "rule" ? Severity::kRule : Severity::kHint,
-                                       number(one.at("page")), text(one.at("place")), one.at("what"),
-                                       one.at("remedy")});
-        return result;
-    } catch (const nlohmann::json::exception&) {
-        throw EnvironmentError("these are not findings that dynlab check wrote");
+        return from_json<CheckResult>(json);
+    } catch (const ValueError& error) {
+        throw EnvironmentError(std::string("these are not findings that dynlab check wrote: ") + error.what());
     }
 }
 

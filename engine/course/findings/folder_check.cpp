@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
 
@@ -83,7 +82,7 @@ class FolderCheck {
     bool copied() {
         const FolderCopy outcome = copy_folder(folder_, copy(), limits_.folder_bytes, limits_.files);
         for (const std::string& name : outcome.left_out) {
-            add("link-left-out", Severity::kHint, name, "This is a link or no ordinary file; it is not handed in.",
+            add("link-left-out", Severity::kHint, name, "This is a link or not a regular file; it is not handed in.",
                 "Put the file itself there.");
         }
         if (!outcome.too_large) return true;
@@ -154,7 +153,7 @@ class FolderCheck {
             const bool code = text == "-- YOUR CODE HERE";
             if (!code && text != "-- *Your answer:*") continue;
             add("answer-open", Severity::kRule, fmt::format("analysis.lua:{}", number),
-                fmt::format("The line \"{}\" still stands there.", code ? "YOUR CODE HERE" : "Your answer:"),
+                fmt::format("The line \"{}\" is still there.", code ? "YOUR CODE HERE" : "Your answer:"),
                 "Write your own there and take the line out.");
         }
     }
@@ -162,9 +161,9 @@ class FolderCheck {
     /// Every answer that the script's header declares is given; of the right kind it is, or the script stops.
     void check_answers(const PercentScript& script) {
         if (script.header.answers.empty()) return;
-        const auto given = nlohmann::json::parse(read_file(record())).at("answers");
+        const RunRecord run = record_from_json(read_file(record()));
         for (const ExpectedAnswer& answer : script.header.answers) {
-            if (given.contains(answer.name)) continue;
+            if (run.answers.contains(answer.name)) continue;
             add("answer-missing", Severity::kRule, "analysis.lua",
                 fmt::format("The answer \"{}\" ({}) is not given.", answer.name, answer.kind),
                 fmt::format("Give it: answer(\"{}\", ...).", answer.name));

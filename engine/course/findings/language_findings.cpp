@@ -10,9 +10,9 @@
 namespace dynlab::inline course {
 namespace {
 
-constexpr std::size_t kWindow = 30;  ///< words that are looked at together
-constexpr int kForeign = 6;          ///< so many function words of the other language among them are a passage
-constexpr int kEnough = 15;          ///< function words a document needs for its language to be known
+constexpr std::size_t kWindow = 30;      ///< words that are looked at together
+constexpr int kForeignPassageWords = 6;  ///< function words of the other language among them that make a passage
+constexpr int kKnownLanguageWords = 15;  ///< function words a document needs for its language to be known
 constexpr std::size_t kMostForeignPassages = 5;
 
 // Words that both languages have ("on", "or", "son", "a", "plus"...) are left out.
@@ -39,7 +39,7 @@ Language language_of(const std::string& word) {
     return language;
 }
 
-const char* name_of(const std::string& language) {
+const char* language_name(const std::string& language) {
     return language == "fr" ? "French" : "English";
 }
 
@@ -62,7 +62,7 @@ Findings passages(const DocumentText& text, const std::vector<Language>& languag
     for (std::size_t end = 0; end < languages.size(); ++end) {
         count(end, 1);
         if (end >= kWindow) count(end - kWindow, -1);
-        if (foreign < kForeign || foreign < 3 * own || findings.size() >= kMostForeignPassages) continue;
+        if (foreign < kForeignPassageWords || foreign < 3 * own || findings.size() >= kMostForeignPassages) continue;
         std::size_t start = end + 1 - std::min(end + 1, kWindow);
         while (languages[start] != other) ++start;
         if (text.words[start].page == last_page) continue;
@@ -82,20 +82,20 @@ LanguageFindings language_findings(const DocumentText& text, const std::optional
     for (const TextWord& word : text.words) languages.push_back(language_of(word.text));
     const auto english = std::count(languages.begin(), languages.end(), Language::kEnglish);
     const auto french = std::count(languages.begin(), languages.end(), Language::kFrench);
-    if (english + french < kEnough) return {};
+    if (english + french < kKnownLanguageWords) return {};
     const bool is_french = french > english;
     LanguageFindings result{is_french ? "fr" : "en", {}};
     const std::string other = is_french ? "en" : "fr";
     if (declared && *declared != result.language) {
         result.findings.push_back(
             {"language-differs", Severity::kHint, 0, "",
-             fmt::format("The header says lang: {}, but the text is in {}.", *declared, name_of(result.language)),
+             fmt::format("The header says lang: {}, but the text is in {}.", *declared, language_name(result.language)),
              fmt::format("Write lang: {} in the header of report.md, so that hyphenation and the "
                          "words for figure and table fit.",
                          result.language)});
     }
-    const Findings mixed = passages(text, languages, is_french ? Language::kEnglish : Language::kFrench, name_of(other),
-                                    name_of(result.language));
+    const Findings mixed = passages(text, languages, is_french ? Language::kEnglish : Language::kFrench,
+                                    language_name(other), language_name(result.language));
     result.findings.insert(result.findings.end(), mixed.begin(), mixed.end());
     return result;
 }

@@ -22,13 +22,13 @@ constexpr Sign kSigns[] = {
     {"{.table", "slot-unfilled", "A slot for a table was not filled", kFill},
     {"{.text", "slot-unfilled", "A slot for a text was not filled", kFill},
     {"(figure:", "slot-unfilled", "A slot for a figure was not filled", kFill},
-    {"{#fig:", "slot-unfilled", "A figure's label stands in print", kFill},
-    {"{#tbl:", "slot-unfilled", "A table's label stands in print", kFill},
-    {"{#eq:", "slot-unfilled", "An equation's label stands in print", kFill},
+    {"{#fig:", "slot-unfilled", "A figure's label is left in the text", kFill},
+    {"{#tbl:", "slot-unfilled", "A table's label is left in the text", kFill},
+    {"{#eq:", "slot-unfilled", "An equation's label is left in the text", kFill},
     {"@fig:", "slot-unfilled", "A reference to a figure was not resolved", kFill},
     {"@tbl:", "slot-unfilled", "A reference to a table was not resolved", kFill},
     {"@eq:", "slot-unfilled", "A reference to an equation was not resolved", kFill},
-    {"<!--", "guidance-left", "A comment stands in print", "Close it with --> or take it out."},
+    {"<!--", "guidance-left", "A comment is left in the text", "Close it with --> or take it out."},
     {"??", "reference-unresolved", "A reference was not resolved", "Give the label that it names, or correct it."},
     {"____", "placeholder-left", "A blank was not filled in", "Fill it in."},
     {"lorem ipsum", "placeholder-left", "Filling text was left in", "Replace it by your own text."},
@@ -85,7 +85,7 @@ void check_guidance(const DocumentText& text, const std::vector<std::string>& gu
         for (const auto& [start, number] : page_starts) page = start <= at + 1 ? number : page;
         findings.push_back(
             leftover("guidance-left", page,
-                     fmt::format("Guidance of the template stands in print: \"{}\".", printable(sentence, 60)),
+                     fmt::format("Guidance of the template is left in the text: \"{}\".", printable(sentence, 60)),
                      "Take it out; between <!-- and --> it is never printed."));
     }
 }

@@ -11,8 +11,8 @@
 namespace dynlab::inline course {
 namespace {
 
-constexpr std::size_t kEmpty = 5, kShort = 25, kShortOnSlides = 8;  ///< words below a heading
-constexpr double kMarginOfPage = 0.25;                              ///< what a page may stay short of
+constexpr std::size_t kEmptySectionWords = 5, kShortSectionWords = 25, kShortSlideWords = 8;  ///< words below a heading
+constexpr double kMarginOfPage = 0.25;  ///< what a page may stay short of
 
 bool is_filler(const std::string& word) {
     static const std::set<std::string> fillers = {"the", "of", "and", "a",   "an", "in", "on", "for", "de",  "du",
@@ -129,12 +129,12 @@ Findings section_findings(const DocumentText& text, const DocumentRules& rules, 
         const Heading& heading = text.headings[*found];
         const std::string shown = printable(heading.text, 60);
         const std::size_t words = words_below(text, *found);
-        if (words < kEmpty) {
+        if (words < kEmptySectionWords) {
             findings.push_back({"section-empty", Severity::kRule, heading.page, "",
                                 fmt::format("The section \"{}\" is empty.", shown),
                                 section.optional ? "Write it, or take its heading out: it is optional."
                                                  : "Write what you did and found there."});
-        } else if (words < (text.is_slides() ? kShortOnSlides : kShort)) {
+        } else if (words < (text.is_slides() ? kShortSlideWords : kShortSectionWords)) {
             findings.push_back({"section-short", Severity::kHint, heading.page, "",
                                 fmt::format("The section \"{}\" has {} words only.", shown, words),
                                 "Say what was done, why, and what came out."});

@@ -38,9 +38,9 @@ RunRecord in_ascii(RunRecord record) {
 void place_all(const fs::path& from, const fs::path& to) {
     for (const auto& entry : fs::recursive_directory_iterator(from)) {
         if (!entry.is_regular_file() || entry.is_symlink()) continue;
-        const fs::path place = to / entry.path().lexically_relative(from);
-        fs::create_directories(place.parent_path());
-        place_file_atomically(entry.path(), place);
+        const fs::path copy = to / entry.path().lexically_relative(from);
+        fs::create_directories(copy.parent_path());
+        place_file_atomically(entry.path(), copy);
     }
 }
 
@@ -69,7 +69,7 @@ void BoxedDocuments::make(const std::string& template_name, const RunRecord& rec
     job.record.tables = record.tables;
     for (const auto& [name, figure] : record.figures) {
         const fs::path file = box.add(figure.file, "/box/figures/" + figure.file.filename().string());
-        job.record.figures[name] = {{}, figure.caption, file, figure.place};
+        job.record.figures[name] = {{}, figure.caption, file, figure.order};
     }
     if (document_format(output) == DocumentFormat::kPdf) job.latex_format = box.add(latex_format(), "/box/format");
     job.to = box.add_writable(made.path(), "/box/made") / output.filename();

@@ -37,7 +37,7 @@ struct BoxedOutcome {
     std::optional<std::string> error;  ///< a sentence; nothing where all went well
 };
 
-/// A document to be made inside a box; all places are those there.
+/// A document to be made inside a box; all paths are those in the box.
 struct DocumentJob {
     static constexpr char kWork[] = "document";
     using Result = BoxedOutcome;

@@ -13,13 +13,13 @@ namespace dynlab::inline course {
 /// and what comes of it, Result, another such; both are CBOR on the pipes.
 template <class Result>
 struct BoxedResult {
-    std::optional<Result> output;  ///< what the work returned; nothing when it came to no end
+    std::optional<Result> output;  ///< what the work returned; nothing when it did not finish
     std::string reason;            ///< then: "it took more than 10 s", "it crashed (signal 11)", ...
     bool timed_out = false;
     double seconds = 0;  ///< wall clock, box and start included
 };
 
-/// The bytes of it, as they came.
+/// The bytes of it, as the box wrote them.
 BoxedResult<std::string> run_boxed_bytes(Box& box, const std::filesystem::path& program, const std::string& work,
                                          const std::string& job, std::chrono::milliseconds timeout,
                                          std::uint64_t output_bytes);
@@ -27,17 +27,17 @@ BoxedResult<std::string> run_boxed_bytes(Box& box, const std::filesystem::path& 
 /// Of what is read inside a box and of what comes out of it: texts are made UTF-8.
 ValueLimits boxed_limits(std::uint64_t bytes = Box::Limits{}.output_bytes);
 
-/// Runs one piece of work, `dynlab boxed WORK`, with `program` (dynlab) in the box; it may give out so many bytes.
+/// Runs one piece of work, `dynlab boxed WORK`, with `program` (dynlab) in the box; its output may have `output_bytes`.
 template <class Job>
 BoxedResult<typename Job::Result> run_boxed(Box& box, const std::filesystem::path& program, const Job& job,
                                             std::chrono::milliseconds timeout,
                                             std::uint64_t output_bytes = Box::Limits{}.output_bytes) {
-    const BoxedResult<std::string> came =
+    const BoxedResult<std::string> child =
         run_boxed_bytes(box, program, Job::kWork, cbor_of(job), timeout, output_bytes);
-    BoxedResult<typename Job::Result> result{{}, came.reason, came.timed_out, came.seconds};
-    if (!came.output) return result;
+    BoxedResult<typename Job::Result> result{{}, child.reason, child.timed_out, child.seconds};
+    if (!child.output) return result;
     try {
-        result.output = from_cbor<typename Job::Result>(*came.output, boxed_limits(output_bytes));
+        result.output = from_cbor<typename Job::Result>(*child.output, boxed_limits(output_bytes));
     } catch (const ValueError&) {
         result.reason = "its result cannot be read";
     }

@@ -61,11 +61,11 @@ int check(Call& call) {
     check.visible = session.visible_file;
     lua_State* L = call.state();
     const auto kept = [&](const char* name, int type, const char* wanted, bool needed) {
-        const int place = options.push(name);
-        if (lua_isnil(L, place) && !needed) return 0;
-        if (lua_type(L, place) != type)
+        const int index = options.push(name);
+        if (lua_isnil(L, index) && !needed) return 0;
+        if (lua_type(L, index) != type)
             throw InvalidArgument(fmt::format("\"{}\" of the check \"{}\" must be {}", name, check.id, wanted));
-        lua_pushvalue(L, place);
+        lua_pushvalue(L, index);
         return luaL_ref(L, LUA_REGISTRYINDEX);
     };
     check.test = kept("test", LUA_TFUNCTION, "a function", true);
@@ -136,7 +136,7 @@ int points_between(Call& call) {
                                       number_text(high, 3), number_text(low, 3)));
 }
 
-/// What a test may return at a stack place: true or false, a share, a judgement.
+/// What a test may return at a stack index: true or false, a share, a judgement.
 Verdict verdict_at(const Call& call, int index) {
     lua_State* L = call.state();
     Verdict verdict;
@@ -191,8 +191,8 @@ int any_of(Call& call) {
 /// Whether two answers differ by more than rounding: what is computed from another record does.
 int differs(Call& call) {
     call.at_most(2);
-    constexpr double kEqual = 1e-9;
-    if (distance(call, false) > kEqual) return give_judgement(call, 1, "");
+    constexpr double kEqualityTolerance = 1e-9;
+    if (distance(call, false) > kEqualityTolerance) return give_judgement(call, 1, "");
     return give_judgement(call, 0, "It is the same on another record: it must be computed from the data.");
 }
 

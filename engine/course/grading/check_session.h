@@ -22,8 +22,8 @@ struct CheckDescription {
 
 /// A check as its file declares it.
 struct DeclaredCheck : CheckDescription {
-    int test = 0;      ///< place of the function in Lua's registry
-    int mistakes = 0;  ///< place of the list of typical mistakes, 0 for none
+    int test = 0;      ///< index of the function in Lua's registry
+    int mistakes = 0;  ///< index of the list of typical mistakes, 0 for none
 };
 
 /// What a check says of a submission.
@@ -35,7 +35,7 @@ struct Verdict {
 
 /// Specimens of the apparatus by data set.
 using Specimens = std::map<std::string, std::uint32_t>;
-inline constexpr char kHiddenRecords[] = "hidden";  ///< stands for a run where specimens are told
+inline constexpr char kHiddenRecords[] = "hidden";  ///< stands for a run where specimens are named
 inline constexpr char kRunOfAnswers[] = "run";      ///< field of a metatable: from which run the answers came
 
 /// What the functions of checks.lua share while a submission is checked.

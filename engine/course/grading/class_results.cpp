@@ -126,11 +126,11 @@ std::string attention_of(const ClassResults& results, const std::vector<std::str
     for (const Entry& entry : results.entries) {
         if (!entry.grade) continue;
         const std::string& name = entry.submission.name;
-        if (!entry.grade->whole()) add(fmt::format("\"{}\" is not graded whole", name));
+        if (!entry.grade->whole()) add(fmt::format("\"{}\" is not graded completely", name));
         if (!entry.grade->trouble.empty())
             add(fmt::format("the script of \"{}\" did not run to its end: {}", name, entry.grade->trouble));
         if (entry.grade->penalty > 0)
-            add(fmt::format("\"{}\" came {:.1f} hours late, which costs {} points", name, entry.grade->late_hours,
+            add(fmt::format("\"{}\" was {:.1f} hours late, which costs {} points", name, entry.grade->late_hours,
                             points_text(entry.grade->penalty)));
     }
     return attention.empty() ? "Nothing.\n" : attention;
@@ -151,7 +151,7 @@ void add_numbers(const ClassResults& results, const Vector& points, double possi
                                          [](const Entry& entry) { return entry.grade && !entry.grade->whole(); });
     const Index n = points.size();
     value("lesson", results.setup->lesson.slug);
-    value("isolation", name_of(results.setup->isolation));
+    value("isolation", isolation_name(results.setup->isolation));
     value("submissions",
           fmt::format("{} submission{}", results.entries.size(), results.entries.size() == 1 ? "" : "s"));
     value("graded", std::to_string(n));

@@ -60,10 +60,10 @@ Deadlines::Deadlines(const fs::path& file) {
                                                table.lines[i], column, wanted, row[*table.column(column)]));
         };
         const auto number = [&](const char* column, double fallback) {
-            const auto place = table.column(column);
-            if (!place || row[*place].empty()) return fallback;
+            const auto index = table.column(column);
+            if (!index || row[*index].empty()) return fallback;
             double value = 0;
-            const std::string& text = row[*place];
+            const std::string& text = row[*index];
             const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
             if (error != std::errc() || end != text.data() + text.size() || !(value >= 0 && value <= 100))
                 fail(column, "a number from 0 to 100");

@@ -10,8 +10,8 @@
 namespace dynlab::inline course {
 
 /// What lateness costs. The table has the columns `submission` (a name, an LMS number, or * for all), `deadline`
-/// (2026-03-01 18:00, local time, seconds optional), and optionally `received` (when it came, if not by the archive's
-/// own time), `percent_per_day` (10 unless given; begun days count) and `most_percent` (100 unless given).
+/// (2026-03-01 18:00, local time, seconds optional), and optionally `received` (when it was received, if not by the
+/// archive's own time), `percent_per_day` (10 unless given; begun days count) and `most_percent` (100 unless given).
 class Deadlines {
   public:
     Deadlines() = default;

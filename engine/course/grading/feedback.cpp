@@ -33,7 +33,7 @@ std::string trouble_of(const Grade& grade, std::string (*escape)(const std::stri
 
 std::string lateness_of(const Grade& grade) {
     if (!(grade.penalty > 0)) return "";
-    return fmt::format("It came {:.1f} hours late, which costs {} points.", grade.late_hours,
+    return fmt::format("It was {:.1f} hours late, which costs {} points.", grade.late_hours,
                        points_text(grade.penalty));
 }
 

@@ -10,26 +10,26 @@ namespace fs = std::filesystem;
 
 constexpr int kDeepestFolder = 20;  ///< folders within folders
 
-class FolderCopying {
+class FolderCopier {
   public:
-    FolderCopying(std::uint64_t bytes_left, int files_left) : bytes_left_(bytes_left), files_left_(files_left) {}
+    FolderCopier(std::uint64_t bytes_left, int files_left) : bytes_left_(bytes_left), files_left_(files_left) {}
 
-    void copy(const fs::path& from, const fs::path& to, const fs::path& place, int depth) {
+    void copy(const fs::path& from, const fs::path& to, const fs::path& inside, int depth) {
         for (const auto& entry : fs::directory_iterator(from)) {
             if (result_.too_large) return;
             const fs::path name = entry.path().filename();
             if (name.string().starts_with('.')) continue;
             const fs::file_type type = entry.symlink_status().type();
-            if (type == fs::file_type::symlink && place.empty() && name == "data") {
+            if (type == fs::file_type::symlink && inside.empty() && name == "data") {
                 fs::create_directory_symlink(shared_folder() / "data", to / name);
             } else if (type == fs::file_type::directory) {
                 result_.too_large = depth == kDeepestFolder;
                 fs::create_directory(to / name);
-                if (!result_.too_large) copy(entry.path(), to / name, place / name, depth + 1);
+                if (!result_.too_large) copy(entry.path(), to / name, inside / name, depth + 1);
             } else if (type == fs::file_type::regular) {
                 copy_file(entry, to / name);
             } else {
-                result_.left_out.push_back((place / name).string());
+                result_.left_out.push_back((inside / name).string());
             }
         }
     }
@@ -54,7 +54,7 @@ class FolderCopying {
 
 FolderCopy copy_folder(const fs::path& from, const fs::path& to, std::uint64_t most_bytes, int most_files) {
     try {
-        FolderCopying copying(most_bytes, most_files);
+        FolderCopier copying(most_bytes, most_files);
         copying.copy(from, to, {}, 0);
         return copying.result();
     } catch (const fs::filesystem_error& error) {

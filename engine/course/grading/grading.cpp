@@ -54,9 +54,9 @@ std::string hash_of_content(const Submission& submission) {
 }
 
 /// The grading of one class, by several threads.
-class ClassGrading {
+class ClassGrader {
   public:
-    ClassGrading(const GradingRequest& request, GradingOutcome& outcome)
+    ClassGrader(const GradingRequest& request, GradingOutcome& outcome)
         : request_(request),
           outcome_(outcome),
           submissions_(submissions_in(opened(request), left_out_)),
@@ -116,7 +116,7 @@ class ClassGrading {
     }
 
     std::vector<std::size_t> chosen() const {
-        std::vector<std::size_t> places;
+        std::vector<std::size_t> indices;
         for (const std::string& name : request_.only) {
             const bool known = std::any_of(submissions_.begin(), submissions_.end(),
                                            [&](const Submission& s) { return s.name == name; });
@@ -125,9 +125,9 @@ class ClassGrading {
         for (std::size_t i = 0; i < submissions_.size(); ++i) {
             const bool wanted = request_.only.empty() || std::find(request_.only.begin(), request_.only.end(),
                                                                    submissions_[i].name) != request_.only.end();
-            if (wanted) places.push_back(i);
+            if (wanted) indices.push_back(i);
         }
-        return places;
+        return indices;
     }
 
     fs::path folder_of(const Submission& submission) const { return request_.out / "results" / submission.name; }
@@ -153,8 +153,8 @@ class ClassGrading {
         }
     }
 
-    void one(std::size_t place) {
-        const Submission& submission = submissions_[place];
+    void one(std::size_t index) {
+        const Submission& submission = submissions_[index];
         const std::string fingerprint = rules_.fingerprint(hash_of_content(submission), seed_of(submission));
         std::optional<Grade> grade = request_.regrade ? std::nullopt : earlier(folder_of(submission));
         const bool keep = grade && grade->fingerprint == fingerprint;
@@ -164,19 +164,19 @@ class ClassGrading {
         }
         const Deadlines::Lateness late = deadlines_.of(submission);
         grade->late_hours = late.hours;
-        finish(submission, *std::move(grade), late.percent, place);
+        finish(submission, *std::move(grade), late.percent, index);
         const std::lock_guard lock(mutex_);
         ++(keep ? outcome_.kept : outcome_.made);
     }
 
     /// What the grader itself cannot do costs nobody points and stops nobody else; nothing is written, so that the next
     /// run tries again.
-    void leave_ungraded(std::size_t place, const std::string& reason) {
-        const std::string& name = submissions_[place].name;
+    void leave_ungraded(std::size_t index, const std::string& reason) {
+        const std::string& name = submissions_[index].name;
         Grade grade = rules_.without_checks(name, "");
         for (CheckGrade& check : grade.checks) check.graded = false;
         const std::lock_guard lock(mutex_);
-        grades_[place] = std::move(grade);
+        grades_[index] = std::move(grade);
         outcome_.complaints.push_back(fmt::format("\"{}\" could not be graded: {}", name, reason));
     }
 
@@ -207,13 +207,13 @@ class ClassGrading {
     }
 
     /// Marks, penalty and files; the file of results last, as it tells that the work is done.
-    void finish(const Submission& submission, Grade grade, double late_percent, std::size_t place) {
+    void finish(const Submission& submission, Grade grade, double late_percent, std::size_t index) {
         grade.penalty = 0;
         Grade marked = manual_.applied(grade);
         grade.penalty = marked.penalty = marked.earned() * late_percent / 100;
         const fs::path folder = folder_of(submission);
         const std::string results = to_results_json(grade, marked);
-        grades_[place] = marked;
+        grades_[index] = marked;
         const bool written = fs::exists(folder / (request_.pdf ? "feedback.pdf" : "feedback.md")) &&
                              fs::exists(folder / "results.json") && read_file(folder / "results.json") == results;
         if (written && !request_.regrade) return;
@@ -276,7 +276,7 @@ class ClassGrading {
 GradingOutcome grade_class(const GradingRequest& request) {
     if (const auto obstacle = obstacle_to(request.setup.isolation)) throw EnvironmentError(*obstacle);
     GradingOutcome outcome;
-    ClassGrading(request, outcome).run();
+    ClassGrader(request, outcome).run();
     return outcome;
 }
 

@@ -278,7 +278,7 @@ Grade GradingRules::without_checks(const std::string& name, const std::string& t
     Grade grade;
     grade.submission = name;
     grade.lesson = setup_.lesson.slug;
-    grade.isolation = name_of(setup_.isolation);
+    grade.isolation = isolation_name(setup_.isolation);
     grade.trouble = trouble;
     for (const CheckDescription& check : checks_) {
         CheckGrade one;
@@ -343,7 +343,7 @@ std::string GradingRules::fingerprint(const std::string& content_hash, const Gro
     Sha256 hash;
     for (const std::string& part :
          {content_hash, program_identity(), setup_.lesson.slug, sha256_of_file(setup_.lesson.script()), setup_.secret,
-          json_of(files_), std::to_string(setup_.timeout.count()), name_of(setup_.isolation),
+          json_of(files_), std::to_string(setup_.timeout.count()), isolation_name(setup_.isolation),
           fmt::format("{}", fmt::join(broken_, " ")), group_seed ? std::to_string(*group_seed) : ""})
         hash.add(std::to_string(part.size()) + ":").add(part);
     return hash.hex();

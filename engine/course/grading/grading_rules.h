@@ -28,7 +28,7 @@ struct GradingSetup {
     Isolation isolation = Isolation::kFull;
     std::chrono::milliseconds timeout{60000};  ///< of each run of a student's script
     std::filesystem::path program;             ///< dynlab
-    int jobs = 1;                              ///< so many boxes may run at once
+    int jobs = 1;                              ///< boxes that may run at once
 };
 
 /// What all submissions of a lesson are held against: the checks, the hidden records, and the check of the checks

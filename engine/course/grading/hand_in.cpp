@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "course/grading/folder_copy.h"
 #include "course/grading/zip_file.h"
 #include "data_io/dataset_index.h"
+#include "data_io/values/json_values.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/hash.h"
@@ -18,13 +18,36 @@
 namespace dynlab::inline course {
 namespace {
 
+/// What the manifest of a pack says of a file.
+struct PackedFile {
+    std::uint64_t bytes;
+    std::string sha256;
+};
+
+struct Manifest {
+    int format = 1;
+    std::map<std::string, PackedFile> files = {};
+};
+
+template <Is<PackedFile> T, class V>
+void describe(T& object, V& member) {
+    auto& [bytes, sha256] = object;
+    member("bytes", bytes), member("sha256", sha256);
+}
+
+template <Is<Manifest> T, class V>
+void describe(T& object, V& member) {
+    auto& [format, files] = object;
+    member("format", format), member("files", files);
+}
+
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMostPackedBytes = 200ull << 20;
 constexpr int kMostFiles = 2000;
 constexpr char kManifest[] = "MANIFEST.json";
 
-/// All files below, by their place there.
+/// All files below, by their path there.
 std::map<std::string, std::string> contents_of(const fs::path& folder) {
     std::map<std::string, std::string> contents;
     for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::recursive_directory_iterator(); ++entry) {
@@ -53,12 +76,12 @@ Pack pack_folder(const fs::path& folder, const fs::path& file) {
                   [](const auto& entry) { return entry.first.ends_with(".zip") || entry.first == kManifest; });
     Pack pack;
     pack.left_out = copied.left_out;
-    nlohmann::json manifest = {{"format", 1}, {"files", nlohmann::json::object()}};
+    Manifest manifest;
     for (const auto& [name, content] : contents) {
         pack.files.push_back(name);
-        manifest["files"][name] = {{"bytes", content.size()}, {"sha256", sha256_of(content)}};
+        manifest.files[name] = {content.size(), sha256_of(content)};
     }
-    contents[kManifest] = manifest.dump(2) + "\n";
+    contents[kManifest] = json_of(manifest, 2) + "\n";
     write_zip(file, contents);
     pack.hash = sha256_of_file(file);
     return pack;

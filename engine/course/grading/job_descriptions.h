@@ -1,4 +1,5 @@
 #pragma once
+#include "course/findings/finding_description.h"
 #include "course/grading/boxed_document.h"
 #include "course/grading/check_run.h"
 #include "course/grading/graded_run.h"
@@ -9,17 +10,6 @@
 namespace dynlab::inline course {
 
 /// Jobs for boxes and what comes of them, as data_io/values/described.h stores them.
-
-constexpr std::array<const char*, 2> names_of(Severity) {
-    return {"rule", "hint"};
-}
-
-template <Is<Finding> T, class V>
-void describe(T& object, V& member) {
-    auto& [id, severity, page, place, what, remedy] = object;
-    member("id", id), member("severity", severity), member("page", page);
-    member("place", place), member("what", what), member("remedy", remedy);
-}
 
 template <Is<GradedRun> T, class V>
 void describe(T& object, V& member) {

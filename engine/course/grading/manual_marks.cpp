@@ -46,8 +46,8 @@ Grade ManualMarks::applied(Grade grade) const {
 std::vector<std::string> ManualMarks::strays(const std::set<std::string>& submissions,
                                              const std::set<std::string>& checks) const {
     std::vector<std::string> sentences;
-    for (const auto& [place, mark] : marks_) {
-        const auto& [submission, check] = place;
+    for (const auto& [key, mark] : marks_) {
+        const auto& [submission, check] = key;
         if (!submissions.contains(submission))
             sentences.push_back(fmt::format("manual.csv: there is no submission \"{}\"", submission));
         else if (!checks.contains(check))

@@ -42,10 +42,10 @@ Roster::Roster(const std::filesystem::path& file) {
             throw EnvironmentError(fmt::format("{}, line {}: {}", file.string(), table.lines[i], what));
         };
         if (row[*id].empty()) fail("the id is empty");
-        if (!seen.insert(row[*id]).second) fail(fmt::format("the id \"{}\" stands there twice", row[*id]));
+        if (!seen.insert(row[*id]).second) fail(fmt::format("the id \"{}\" occurs twice", row[*id]));
         const auto cell = [&](const char* column) {
-            const auto place = table.column(column);
-            return place ? row[*place] : std::string();
+            const auto index = table.column(column);
+            return index ? row[*index] : std::string();
         };
         Student student{
             row[*id],       cell("name"),  cell("group"), {}, cell(table.column("email") ? "email" : "mail"),

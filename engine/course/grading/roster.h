@@ -25,8 +25,8 @@ struct Student {
 /// `moodle` and `canvas`; others are not read.
 class Roster {
   public:
-    /// Throws EnvironmentError with file and line: no column id, an id that is empty or stands there twice,
-    /// a seed that is no whole number.
+    /// Throws EnvironmentError with file and line: no column id, an id that is empty or occurs twice,
+    /// a seed that is not a whole number.
     explicit Roster(const std::filesystem::path& file);
     /// All columns are there.
     explicit Roster(std::vector<Student> students) : students_(std::move(students)) {}

@@ -23,7 +23,7 @@ using Archive = std::unique_ptr<archive, int (*)(archive*)>;
 constexpr std::size_t kReadBlock = 64u << 10;
 constexpr int kDeepestArchive = 20;
 
-/// Why an entry of this name has no place in a folder; nothing where it has one.
+/// Why an entry of this name must not be in a folder; nothing where it may.
 std::optional<std::string> objection_to(const fs::path& path) {
     constexpr std::size_t kLongestName = 255;  // of a file system
     const std::string& text = path.native();
@@ -77,20 +77,20 @@ class Unpacker {
         if (name == nullptr || *name == '\0') return leave_out(entry, "the name of a file in it cannot be read");
         std::string text = name;
         std::replace(text.begin(), text.end(), '\\', '/');
-        const fs::path place(text);
+        const fs::path path(text);
         const auto type = archive_entry_filetype(entry);
         const bool ordinary = (type == AE_IFREG || type == AE_IFDIR) && archive_entry_hardlink(entry) == nullptr;
-        const std::optional<std::string> objection = ordinary ? objection_to(place) : "is a link or no ordinary file";
+        const std::optional<std::string> objection = ordinary ? objection_to(path) : "is a link or not a regular file";
         if (objection) return leave_out(entry, fmt::format("\"{}\" {}", name, *objection));
         if (type == AE_IFDIR) {
-            fs::create_directories(to_ / place);
+            fs::create_directories(to_ / path);
             return;
         }
-        fs::create_directories((to_ / place).parent_path());
-        write(to_ / place);
+        fs::create_directories((to_ / path).parent_path());
+        write(to_ / path);
         if (keep_times_ && archive_entry_mtime_is_set(entry)) {
             const auto time = std::chrono::system_clock::from_time_t(archive_entry_mtime(entry));
-            fs::last_write_time(to_ / place, std::chrono::file_clock::from_sys(time));
+            fs::last_write_time(to_ / path, std::chrono::file_clock::from_sys(time));
         }
     }
 

@@ -22,7 +22,7 @@ struct AnonymousCopySetup {
 
 /// What became of one copy.
 struct AnonymousCopy {
-    bool made = false;     ///< the copy stands at its place
+    bool made = false;     ///< the copy was written
     bool rebuilt = false;  ///< from analysis.lua and report.md; else from the PDF that was handed in
     std::string hash;      ///< SHA-256 of the copy; empty when it was not made
     Findings findings;     ///< what stopped it (rules) and what the instructor may want to look at (hints)

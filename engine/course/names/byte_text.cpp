@@ -113,7 +113,7 @@ const std::map<std::string_view, char32_t>& named_characters() {
     return names;
 }
 
-/// The character that "#xE9", "#233" or "eacute" refers to; none when it is no reference.
+/// The character that "#xE9", "#233" or "eacute" refers to; none for other text.
 std::optional<char32_t> referred_to(std::string_view reference) {
     if (!reference.starts_with('#')) {
         const auto found = named_characters().find(reference);

@@ -13,14 +13,14 @@ bool is_text(std::string_view bytes);
 std::string text_in(std::string_view bytes);
 
 /// Character references of XML and HTML 4 (&#xE9; &amp; &eacute;) as the characters; U+FFFD for a number that is
-/// none's. What is no reference stays as it is.
+/// no character's. Other text stays as it is.
 std::string without_references(const std::string& xml);
 
 /// Comments and metadata of a JPEG: all segments before the picture, and what stands behind its end.
 std::string metadata_of_jpeg(std::string_view bytes);
 
 /// Names and contents of an archive's entries (zip, as word processors write them, tar, gzip), one after the other;
-/// empty for what is no archive.
+/// empty for bytes that are not an archive.
 std::vector<std::string> texts_of_archive(const std::string& bytes);
 
 /// What compressed pieces inside the bytes hold (text chunks of PNG).

@@ -15,7 +15,7 @@ struct NamePattern {
     NameKind kind = NameKind::kName;
     std::string who;
     std::string letters;           ///< of all parts, joined
-    std::set<std::size_t> breaks;  ///< places in `letters` between parts
+    std::set<std::size_t> breaks;  ///< offsets in `letters` between parts
     bool whole = true;             ///< all of the name: not a surname or given name alone
     bool given_only = false;
     bool reversed = false;  ///< surname first

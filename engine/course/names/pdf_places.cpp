@@ -55,7 +55,7 @@ bool has_any(Object dictionary, std::initializer_list<const char*> keys) {
 }
 
 /// What kind of thing a dictionary is, by its own entries.
-PdfPlace place_of(Object dictionary, PdfPlace otherwise) {
+PdfPlace place_in_pdf(Object dictionary, PdfPlace otherwise) {
     const std::string type = text_of(dictionary, "/Type"), subtype = text_of(dictionary, "/Subtype");
     if (type == "Metadata" || has_any(dictionary, {"/Producer", "/Creator"})) return PdfPlace::kMetadata;
     if (type == "Filespec" || type == "F" || type == "EmbeddedFile" || has_any(dictionary, {"/EF"}))
@@ -194,7 +194,7 @@ class Places {
         } else if (value.isArray()) {
             for (const Object& entry : value.getArrayAsVector()) walk(entry, place, key, depth + 1);
         } else if (value.isDictionary()) {
-            const PdfPlace here = place_of(value, place);
+            const PdfPlace here = place_in_pdf(value, place);
             for (const auto& [name, entry] : value.getDictAsMap()) {
                 say(here, "", name.substr(1));
                 walk(entry, place_of_entry(name, here), name, depth + 1);
@@ -207,7 +207,7 @@ class Places {
         walk(entries, PdfPlace::kInside, "", 0);
         const std::string type = text_of(entries, "/Type");
         const bool attached = attachments_.contains(stream.getObjGen());
-        const PdfPlace place = attached ? PdfPlace::kAttachment : place_of(entries, PdfPlace::kInside);
+        const PdfPlace place = attached ? PdfPlace::kAttachment : place_in_pdf(entries, PdfPlace::kInside);
         const std::string data = content_of(stream);
         seen_.insert(std::hash<std::string>()(data));
         if (type == "XRef") return;

@@ -24,9 +24,9 @@ bool is_one_of(const std::string& word, std::initializer_list<const char*> words
 }
 
 /// One try to read a pattern at a token.
-class Reading {
+class PatternMatcher {
   public:
-    Reading(const NamePattern& pattern, const Tokens& tokens, std::size_t first, TextManner manner)
+    PatternMatcher(const NamePattern& pattern, const Tokens& tokens, std::size_t first, TextManner manner)
         : pattern_(pattern), tokens_(tokens), first_(first), next_(first), prose_(manner == TextManner::kProse) {}
 
     bool succeeds() {
@@ -71,7 +71,7 @@ class Reading {
         return true;
     }
 
-    /// A number is no part of a longer one, nor has it decimals.
+    /// A number is not part of a longer one and has no decimals.
     bool stands_apart() const {
         const bool joined_before = first_ > 0 && tokens_[first_].gap == Gap::kNone;
         const bool joined_behind = next_ < tokens_.size() && tokens_[next_].gap == Gap::kNone;
@@ -95,7 +95,7 @@ bool is_labelled(const Tokens& tokens, std::size_t first) {
     return false;
 }
 
-/// 20214711.5 is no student's number.
+/// 20214711.5 is not a student's number.
 bool has_decimals(const Tokens& tokens, std::size_t end, std::string_view text) {
     const std::size_t point = tokens[end - 1].end;
     return end < tokens.size() && tokens[end].digits && text[point] == '.' && tokens[end].begin == point + 1;
@@ -133,13 +133,13 @@ bool looks_cited(const NamePattern& pattern, const Tokens& tokens, std::size_t f
 }
 
 /// Lower case, without white space, accents kept.
-std::string squeezed(std::string_view text, std::vector<std::size_t>* places) {
+std::string squeezed(std::string_view text, std::vector<std::size_t>* offsets) {
     std::string result;
     for (std::size_t i = 0; i < text.size(); ++i) {
         const unsigned char c = static_cast<unsigned char>(text[i]);
         if (c <= ' ') continue;
         result += static_cast<char>(c < 0x80 ? std::tolower(c) : c);
-        if (places) places->push_back(i);
+        if (offsets) offsets->push_back(i);
     }
     return result;
 }
@@ -200,7 +200,7 @@ void SoughtNames::find_patterns(const Tokens& tokens, std::string_view text, Tex
     for (std::size_t i = 0; i < tokens.size(); ++i) {
         for (const NamePattern& pattern : patterns_[static_cast<unsigned char>(tokens[i].letters.front())]) {
             if (manner == TextManner::kBytes && (!pattern.whole || pattern.letters.size() < kSureInBytes)) continue;
-            Reading reading(pattern, tokens, i, manner);
+            PatternMatcher reading(pattern, tokens, i, manner);
             if (!reading.succeeds()) continue;
             const bool whole_text = manner == TextManner::kData && i == 0 && reading.end() == tokens.size();
             if (pattern.labelled && !whole_text && !is_labelled(tokens, i)) continue;
@@ -217,12 +217,12 @@ void SoughtNames::find_patterns(const Tokens& tokens, std::string_view text, Tex
 
 void SoughtNames::find_addresses(std::string_view text, std::vector<NameHit>& hits) const {
     if (addresses_.empty() || text.find('@') == std::string_view::npos) return;
-    std::vector<std::size_t> places;
-    const std::string bare = squeezed(text, &places);
+    std::vector<std::size_t> offsets;
+    const std::string bare = squeezed(text, &offsets);
     for (const auto& [address, who] : addresses_) {
         const std::size_t at = bare.find(address);
         if (at != std::string::npos)
-            hits.push_back({who, NameKind::kMail, true, places[at], places[at + address.size() - 1] + 1});
+            hits.push_back({who, NameKind::kMail, true, offsets[at], offsets[at + address.size() - 1] + 1});
     }
 }
 

@@ -27,11 +27,11 @@ struct NameHit {
 /// Whom a document must not name, and how their names, numbers, mail addresses and home folders are written.
 ///
 /// A full name is found in any order and case, with or without accents and umlauts written out, hyphenated, spaced or
-/// joined, with an initial between. A surname alone counts when it has four letters and is no ordinary word and no name
-/// of the field ("Park", "Young", "Laplace" count together with the given name only); with other initials before it,
-/// "et al." or a year behind it, it is that of a cited author and uncertain. Initials never count. A given name alone
-/// counts, as uncertain, for the document's own authors. A number counts from six digits on, or from five letters and
-/// digits; a shorter one when a word such as "student" or "ID" stands before it. Home folders (/home/NAME,
+/// joined, with an initial between. A surname alone counts when it has four letters and is neither an ordinary word nor
+/// a name of the field ("Park", "Young", "Laplace" count together with the given name only); with other initials before
+/// it, "et al." or a year behind it, it is that of a cited author and uncertain. Initials never count. A given name
+/// alone counts, as uncertain, for the document's own authors. A number counts from six digits on, or from five letters
+/// and digits; a shorter one when a word such as "student" or "ID" stands before it. Home folders (/home/NAME,
 /// C:\Users\NAME) count whoever's they are.
 class SoughtNames {
   public:
@@ -44,7 +44,7 @@ class SoughtNames {
 
     bool empty() const { return people_ == 0; }  ///< nobody is known; home folders are found nevertheless
     std::size_t people() const { return people_; }
-    /// In order of place; each person and kind once, what is certain before what is not.
+    /// In order of their offsets; each person and kind once, what is certain before what is not.
     std::vector<NameHit> find(std::string_view utf8, TextManner manner) const;
 
   private:

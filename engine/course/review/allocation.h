@@ -6,7 +6,7 @@
 
 namespace dynlab::inline course {
 
-/// Reviewer and author, as places in AllocationProblem::groups.
+/// Reviewer and author, as indices into AllocationProblem::groups.
 using ReviewEdge = std::pair<int, int>;
 
 /// Who is to review whom. Groups are 0 .. groups - 1.
@@ -32,7 +32,8 @@ struct Allocation {
 /// who review each other are avoided where exchanges of two can. Equal problems give equal results. Starts from a
 /// random circle (reviewer i takes the next ones), which has no such couples while 2 reviews < groups; what kin and
 /// fixed pairs forbid is repaired by augmenting paths (Berge 1957; each hands loose reviews on along a shortest chain).
-/// Throws InvalidArgument where there are too few active groups for so many reviews and nothing is fixed or loose.
+/// Throws InvalidArgument where there are too few active groups for that number of reviews and nothing is fixed or
+/// loose.
 Allocation allocate_reviews(const AllocationProblem& problem);
 
 }  // namespace dynlab::inline course

@@ -8,8 +8,10 @@ namespace dynlab::inline course {
 /// there) and the kinds of quotation marks. Never holds a line end.
 std::string comparison_key(const std::string& text);
 
-/// How to get from one list to the other, a letter a step: '=' an item that both have, '-' one of `before` only, '+'
-/// one of `after` only. Made by the diff of this machine; throws EnvironmentError when that fails.
+/// How to get from one list to the other, a letter a step: '=' an item that both have (by comparison_key), '-' one of
+/// `before` only, '+' one of `after` only. The shortest way where that has at most kMostEdits steps but '='; longer
+/// ones are put together of such pieces, each the one that leads furthest.
+constexpr int kMostEdits = 4000;
 std::string edit_script(const std::vector<std::string>& before, const std::vector<std::string>& after);
 
 }  // namespace dynlab::inline course

@@ -41,8 +41,8 @@ class TaskMaker {
                           first_pack = choose(changes.received, "first", "pack", 0),
                           final_pdf = choose(changes.received, "final", "report", 0),
                           final_pack = choose(changes.received, "final", "pack", 0);
-        task.first = {place(first_pdf), place(first_pack)};
-        task.final = {place(final_pdf), place(final_pack)};
+        task.first = {stored_file(first_pdf), stored_file(first_pack)};
+        task.final = {stored_file(final_pdf), stored_file(final_pack)};
         changes.has_first = task.first.pdf || task.first.pack;
         changes.has_final = task.final.pdf || task.final.pack;
         changes.same_files = changes.has_first && first_pdf == final_pdf && first_pack == final_pack;
@@ -51,7 +51,7 @@ class TaskMaker {
     }
 
   private:
-    void read_versions(const Group& group, std::vector<ReceivedFile>& came) {
+    void read_versions(const Group& group, std::vector<ReceivedFile>& received) {
         for (Rows rows = course_.database().query(
                  "SELECT id, stage, part, number, name, hash, received_at, late FROM versions WHERE assignment = ? AND "
                  "group_id = ? AND stage <> 'review' ORDER BY stage = 'final', received_at, id",
@@ -61,7 +61,7 @@ class TaskMaker {
             file.id = rows.integer(0), file.stage = rows.text(1), file.part = rows.text(2);
             file.number = rows.integer(3), file.name = rows.text(4), file.hash = rows.text(5);
             file.at = rows.integer(6), file.late = rows.integer(7);
-            came.push_back(std::move(file));
+            received.push_back(std::move(file));
         }
     }
 
@@ -75,10 +75,10 @@ class TaskMaker {
     }
 
     /// Marks the wanted version of a part, else its newest; returns its hash.
-    static std::string choose(std::vector<ReceivedFile>& came, const std::string& stage, const std::string& part,
+    static std::string choose(std::vector<ReceivedFile>& received, const std::string& stage, const std::string& part,
                               std::int64_t wanted) {
         ReceivedFile* chosen = nullptr;
-        for (ReceivedFile& file : came) {
+        for (ReceivedFile& file : received) {
             if (file.stage != stage || file.part != part) continue;
             if (chosen == nullptr || chosen->id != wanted) chosen = &file;
         }
@@ -87,7 +87,7 @@ class TaskMaker {
         return chosen->hash;
     }
 
-    std::optional<fs::path> place(const std::string& hash) const {
+    std::optional<fs::path> stored_file(const std::string& hash) const {
         return hash.empty() ? std::nullopt : std::optional(course_.file(hash));
     }
 

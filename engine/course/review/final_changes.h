@@ -43,7 +43,7 @@ struct GroupChanges {
     std::optional<int> pages_before, pages_after;
     std::optional<TextChanges> text;
     std::string compared;                ///< what was compared: a sentence
-    std::optional<ValueChanges> values;  ///< where both versions came as packs
+    std::optional<ValueChanges> values;  ///< where both versions were handed in as packs
     std::vector<AnsweredReview> reviews;
     std::vector<std::string> troubles;  ///< sentences
 

@@ -38,7 +38,7 @@ class Composition {
             record_.values[name] = {{}, text_.cell(text, 60, 30)};
         };
         value("group", g_.group), value("assignment", assignment.name), value("course", course.name());
-        record_.tables["came"] = came();
+        record_.tables["came"] = received_files();
         const auto text = [&](const char* name, std::string markdown) { record_.texts[name] = {std::move(markdown)}; };
         text("summary", summary()), text("basis", basis()), text("sections", sections()), text("values", values());
         text("passages", passages()), text("remarks", remarks());
@@ -61,7 +61,7 @@ class Composition {
         return fmt::format("{}.\n", fmt::join(parts, "; "));
     }
 
-    RecordedTable came() const {
+    RecordedTable received_files() const {
         RecordedTable table{{"version", "file", "its name", "came", "", "compared"}, {}};
         for (const ReceivedFile& file : g_.received)
             table.rows.push_back({file.stage == "first" ? "first" : "final",
@@ -135,17 +135,17 @@ class Composition {
     }
 
     /// "Change 3, in 4 Validation, page 3".
-    std::string place_of(std::size_t i) const {
+    std::string location_of(std::size_t i) const {
         const Passage& passage = g_.text->passages[i];
-        std::string place = fmt::format("Change {}", i + 1);
-        if (!passage.section.empty()) place += fmt::format(", in \"{}\"", text_.cell(passage.section, 60, 20));
+        std::string location = fmt::format("Change {}", i + 1);
+        if (!passage.section.empty()) location += fmt::format(", in \"{}\"", text_.cell(passage.section, 60, 20));
         if (passage.page_before > 0 && passage.page_before == passage.page_after)
-            place += fmt::format(", page {}", passage.page_after);
+            location += fmt::format(", page {}", passage.page_after);
         else if (passage.page_before > 0 && passage.page_after > 0)
-            place += fmt::format(", page {}, now {}", passage.page_before, passage.page_after);
+            location += fmt::format(", page {}, now {}", passage.page_before, passage.page_after);
         else if (passage.page_before + passage.page_after > 0)
-            place += fmt::format(", page {}", passage.page_before + passage.page_after);
-        return place;
+            location += fmt::format(", page {}", passage.page_before + passage.page_after);
+        return location;
     }
 
     std::string passages() const {
@@ -154,7 +154,7 @@ class Composition {
         if (all.empty()) return "No sentence has changed.\n";
         std::string text;
         for (std::size_t i = 0; i < std::min(all.size(), kMostPassages); ++i) {
-            text += text_.emphasised(place_of(i) + ".");
+            text += text_.emphasised(location_of(i) + ".");
             const std::string lead_in = last_words(all[i].lead_in, kWordsOfLeadIn);
             if (!lead_in.empty()) text += " " + text_.plain(lead_in);
             text += " " + text_.marked(all[i], kWordsOfPassage) + "\n\n";
@@ -193,7 +193,7 @@ class Composition {
             std::vector<std::string> reasons;
             if (!trace.places.empty()) reasons.push_back(fmt::format("it names {}", fmt::join(trace.places, ", ")));
             if (!trace.words.empty()) reasons.push_back(fmt::format("words: {}", fmt::join(trace.words, ", ")));
-            text += fmt::format("→ {} {} {}\n\n", text_.emphasised(place_of(trace.passage) + ":"),
+            text += fmt::format("→ {} {} {}\n\n", text_.emphasised(location_of(trace.passage) + ":"),
                                 text_.marked(g_.text->passages[trace.passage], kWordsOfTrace),
                                 text_.emphasised(fmt::format("({})", fmt::join(reasons, "; "))));
         }

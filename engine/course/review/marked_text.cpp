@@ -14,10 +14,10 @@
 namespace dynlab::inline course {
 namespace {
 
-constexpr std::size_t kUnbroken = 24;  ///< characters of a word that needs no place to break; a longer one
-constexpr std::size_t kPiece = 4;      ///< has one after so many
-constexpr std::size_t kKept = 10;      ///< words that are shown of each end of a long unchanged stretch
-constexpr char kBreak[] = "\u200B";    ///< a line may break here
+constexpr std::size_t kLongestUnbrokenWord = 24;  ///< characters of the longest word that is kept in one piece
+constexpr std::size_t kBreakDistance = 4;         ///< characters between the breaks of a longer one
+constexpr std::size_t kShownEndWords = 10;        ///< words that are shown of each end of a long unchanged stretch
+constexpr char kBreak[] = "\u200B";               ///< a line may break here
 constexpr std::size_t kNoLimit = static_cast<std::size_t>(-1);
 
 std::vector<std::string> characters_of(std::string_view text) {
@@ -33,10 +33,10 @@ std::vector<std::string> characters_of(std::string_view text) {
 /// A word in pieces between which a line may break.
 std::vector<std::string> pieces_of(const std::string& word) {
     const std::vector<std::string> characters = characters_of(word);
-    if (characters.size() <= kUnbroken) return {word};
+    if (characters.size() <= kLongestUnbrokenWord) return {word};
     std::vector<std::string> pieces(1);
     for (std::size_t i = 0; i < characters.size(); ++i) {
-        if (i > 0 && i % kPiece == 0) pieces.emplace_back();
+        if (i > 0 && i % kBreakDistance == 0) pieces.emplace_back();
         pieces.back() += characters[i];
     }
     return pieces;
@@ -90,11 +90,11 @@ std::string MarkedText::marked(const Passage& passage, std::size_t most_words) c
         if (room == 0) return result + " [… more has changed here]";
         result += result.empty() ? "" : " ";
         if (piece.mark == '=') {
-            const bool shortened = words.size() > 2 * kKept + 4;
-            result += shortened ? plain(joined(words, 0, kKept)) + " … " +
-                                      plain(joined(words, words.size() - kKept, words.size()))
+            const bool shortened = words.size() > 2 * kShownEndWords + 4;
+            result += shortened ? plain(joined(words, 0, kShownEndWords)) + " … " +
+                                      plain(joined(words, words.size() - kShownEndWords, words.size()))
                                 : plain(piece.text);
-            shown += std::min(words.size(), 2 * kKept);
+            shown += std::min(words.size(), 2 * kShownEndWords);
             continue;
         }
         const std::size_t left_out = words.size() > room ? words.size() - room : 0;

@@ -8,7 +8,7 @@
 namespace dynlab::inline course {
 
 /// Texts of anybody's as Markdown that means nothing but itself and can be printed: characters that LaTeX lacks become
-/// ?, long words get places where a line may break.
+/// ?, long words may be broken.
 class MarkedText {
   public:
     MarkedText();
@@ -18,9 +18,9 @@ class MarkedText {
 
     std::string plain(const std::string& text) const;
     std::string emphasised(const std::string& text) const;
-    /// Removed words struck out, added ones bold, long unchanged stretches shortened; at most about so many words.
+    /// Removed words struck out, added ones bold, long unchanged stretches shortened; about `most_words` words at most.
     std::string marked(const Passage& passage, std::size_t most_words) const;
-    /// For the cell of a table: not escaped, at most so many characters, words not longer than `longest`.
+    /// For the cell of a table: not escaped, at most `most` characters, words not longer than `longest`.
     std::string cell(const std::string& text, std::size_t most, std::size_t longest) const;
 
   private:
@@ -29,7 +29,7 @@ class MarkedText {
     std::unique_ptr<Printable> printable_;
 };
 
-/// The last words of a text, "… so many of them".
+/// The last `count` words of a text, after "…" where there are more.
 std::string last_words(const std::string& text, std::size_t count);
 
 }  // namespace dynlab::inline course

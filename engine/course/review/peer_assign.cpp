@@ -15,7 +15,7 @@ class ReviewAssigner {
   public:
     ReviewAssigner(Course& course, const Assignment& assignment, Instant now)
         : course_(course), db_(course.database()), assignment_(assignment), now_(now), groups_(groups_of(course)) {
-        for (std::size_t i = 0; i < groups_.size(); ++i) place_[groups_[i].id] = static_cast<int>(i);
+        for (std::size_t i = 0; i < groups_.size(); ++i) index_[groups_[i].id] = static_cast<int>(i);
     }
 
     AssignOutcome run() {
@@ -37,15 +37,15 @@ class ReviewAssigner {
                  "SELECT DISTINCT group_id FROM versions WHERE assignment = ? AND stage = 'first' AND part = 'report'",
                  assignment_.id);
              rows.next();) {
-            const auto place = static_cast<std::size_t>(place_.at(rows.integer(0)));
-            problem_.active[place] = !groups_[place].dropped_out;
-            outcome_.groups += problem_.active[place];
+            const auto index = static_cast<std::size_t>(index_.at(rows.integer(0)));
+            problem_.active[index] = !groups_[index].dropped_out;
+            outcome_.groups += problem_.active[index];
         }
         for (const auto& [a, b] : kindred_groups(course_))
-            if (place_.contains(a) && place_.contains(b)) problem_.kin.emplace_back(place_[a], place_[b]);
+            if (index_.contains(a) && index_.contains(b)) problem_.kin.emplace_back(index_[a], index_[b]);
         for (const ReviewPair& pair : review_pairs(course_, assignment_)) {
             if (pair.ended) continue;
-            const ReviewEdge edge(place_.at(pair.reviewer), place_.at(pair.author));
+            const ReviewEdge edge(index_.at(pair.reviewer), index_.at(pair.author));
             const bool both = problem_.active[static_cast<std::size_t>(edge.first)] &&
                               problem_.active[static_cast<std::size_t>(edge.second)];
             (pair.written || (pair.sent && both) ? problem_.fixed : problem_.loose).push_back(edge);
@@ -81,7 +81,7 @@ class ReviewAssigner {
         outcome_.pairs = static_cast<int>(wanted.size());
         for (const auto& [edge, pair] : known_) {
             if (wanted.contains(edge)) continue;
-            const auto gone = [&](int place) { return !problem_.active[static_cast<std::size_t>(place)]; };
+            const auto gone = [&](int index) { return !problem_.active[static_cast<std::size_t>(index)]; };
             const std::string reason = gone(edge.first)    ? "the reviewer dropped out"
                                        : gone(edge.second) ? "the author dropped out"
                                                            : "handed on to another group";
@@ -110,7 +110,7 @@ class ReviewAssigner {
     const Assignment& assignment_;
     Instant now_;
     std::vector<Group> groups_;
-    std::map<std::int64_t, int> place_;
+    std::map<std::int64_t, int> index_;
     std::map<ReviewEdge, ReviewPair> known_;
     AllocationProblem problem_;
     AssignOutcome outcome_;

@@ -50,14 +50,14 @@ class CopySender {
     bool to_reviewers() const { return way_ == Way::kToReviewers; }
     const char* way_name() const { return to_reviewers() ? "to reviewer" : "to author"; }
 
-    fs::path place(const ReviewPair& pair) const {
+    fs::path outgoing_file(const ReviewPair& pair) const {
         if (to_reviewers()) return outcome_.folder / pair.reviewer_name / (pair.report_pseudonym() + ".pdf");
         return outcome_.folder / pair.author_name / fmt::format("review-by-{}.pdf", pair.reviewer_pseudonym());
     }
 
     void put(const ReviewPair& pair, const std::string& hash) const {
-        fs::create_directories(place(pair).parent_path());
-        if (!fs::exists(place(pair))) write_file_atomically(place(pair), read_file(course_.file(hash)));
+        fs::create_directories(outgoing_file(pair).parent_path());
+        if (!fs::exists(outgoing_file(pair))) write_file_atomically(outgoing_file(pair), read_file(course_.file(hash)));
     }
 
     void send(const ReviewPair& pair) {

@@ -12,7 +12,7 @@ namespace dynlab::inline course {
 namespace {
 
 constexpr int kShown = 4, kPlace = 4, kPage = 2, kNewWord = 4, kChangedWord = 2, kNearWord = 1;
-constexpr std::size_t kFewSentences = 2;  ///< a word in so many is uncommon, or in
+constexpr std::size_t kFewSentences = 2;  ///< a word in at most this many is uncommon, or in
 constexpr double kFewOfAll = 0.08;        ///< this share of them
 constexpr std::size_t kNone = std::string::npos;
 constexpr std::size_t kShortestWord = 4, kMostWords = 6;
@@ -28,7 +28,7 @@ struct Place {
     auto operator<=>(const Place&) const = default;
 };
 
-std::string name_of(const Place& place) {
+std::string place_name(const Place& place) {
     switch (place.kind) {
         case 'f':
             return "Figure " + place.number;
@@ -117,7 +117,7 @@ std::vector<RemarkMatch> RemarkMatcher::traces(const Remark& remark, std::size_t
     for (std::size_t i = 0; i < changes_.passages.size(); ++i) {
         const Passage& passage = changes_.passages[i];
         RemarkMatch trace{i, {}, {}, 0};
-        const std::string &was = passage.text_before, came = passage.text_of('+');
+        const std::string &was = passage.text_before, text_added = passage.text_of('+');
         const std::set<Place> there = places_in(was);
         for (const Place& place : named) {
             const bool here = place.kind == 's'   ? touches_section(passage, place.number)
@@ -125,10 +125,10 @@ std::vector<RemarkMatch> RemarkMatcher::traces(const Remark& remark, std::size_t
                               : place.kind == 'e' ? there.contains(place) || was.find("(" + place.number + ")") != kNone
                                                   : there.contains(place);
             if (!here) continue;
-            trace.places.push_back(name_of(place));
+            trace.places.push_back(place_name(place));
             trace.points += place.kind == 'p' ? kPage : kPlace;
         }
-        const std::set<std::string> added = words_of(came), removed = words_of(passage.text_of('-')),
+        const std::set<std::string> added = words_of(text_added), removed = words_of(passage.text_of('-')),
                                     near = words_of(passage.text_of('=') + " " + passage.section);
         for (const std::string& word : uncommon) {
             const bool brings = any_agrees(added, word), takes = any_agrees(removed, word);

@@ -20,7 +20,7 @@ struct RemarkMatch {
 ///   4 points  for each figure, table, equation or section that the remark names by the first version's number,
 ///   2 points  for a page of the first version that it names,
 ///   4 points  for an uncommon word of the remark that the first version does not have and the change brings,
-///   2 points  for one among the words that came or went,
+///   2 points  for one among the words that were added or removed,
 ///   1 point   for one in the unchanged rest of an edited passage or in its section's title,
 /// and is shown from 4 points on. Uncommon are words that stand in few sentences of the first version and are no
 /// function words and not those that reviews are made of. Words agree when they begin alike.

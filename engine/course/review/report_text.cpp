@@ -206,7 +206,7 @@ class MarkdownReader {
     bool has_title_ = false;
     TextMaker maker_;
     std::string paragraph_;
-    bool in_table_ = false;  ///< rows came, and their caption may follow
+    bool in_table_ = false;  ///< rows were read, and their caption may follow
     std::size_t first_row_ = 0;
 };
 
@@ -324,7 +324,7 @@ ReportText report_text_of_pdf(const DocumentText& text) {
     bool begun = false;
     for (const TextBlock& block : text_blocks(text)) {
         if (block.heading) {
-            // The title of the document is no section.
+            // The title of the document is not a section.
             const bool known = std::any_of(text.headings.begin(), text.headings.end(),
                                            [&](const Heading& h) { return h.text == block.text; });
             if (known || begun) maker.heading(block.text, block.page);

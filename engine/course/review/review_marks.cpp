@@ -7,9 +7,9 @@
 namespace dynlab::inline course {
 namespace {
 
-constexpr double kFarBelow = 0.35;   // of the scale, on average over the criteria
-constexpr double kBadReview = 0.4;   // of all points: what may call for revenge
-constexpr double kZeroDistance = 2;  // half the scale away on average earns nothing
+constexpr double kOutlierDistance = 0.35;  // of the scale, on average over the criteria
+constexpr double kLowScoreShare = 0.4;     // of all points: what may call for revenge
+constexpr double kZeroDistance = 2;        // half the scale away on average earns nothing
 
 std::optional<double> median(std::vector<double> values) {
     if (values.empty()) return {};
@@ -60,7 +60,7 @@ class ReviewMarker {
             below.push_back((*others - *r.points[c]) / criteria_[c].most);
         }
         mark.distance = mean(distances);
-        mark.outlier = !below.empty() && *mean(below) > kFarBelow;
+        mark.outlier = !below.empty() && *mean(below) > kOutlierDistance;
         mark.retaliation = mark.outlier && was_hurt_by(r.reviewer, r.author);
         return mark;
     }
@@ -81,7 +81,7 @@ class ReviewMarker {
             double sum = 0, most = 0;
             for (std::size_t c = 0; c < criteria_.size(); ++c)
                 if (r.points[c]) sum += *r.points[c], most += criteria_[c].most;
-            if (most > 0 && sum < kBadReview * most) return true;
+            if (most > 0 && sum < kLowScoreShare * most) return true;
         }
         return false;
     }

@@ -15,7 +15,7 @@ struct ReviewPair {
     std::int64_t report_number = 0, reviewer_number = 0;  ///< pseudonyms in this assignment
     bool ended = false;                                   ///< taken back before the review was written
     bool sent = false, written = false, released = false;
-    bool late = false;  ///< written, and no version of it came in time
+    bool late = false;  ///< written, but no version of it was in time
 
     std::string report_pseudonym() const;    ///< "report-17": what the reviewer sees
     std::string reviewer_pseudonym() const;  ///< "reviewer-05": what the authors see

@@ -9,7 +9,7 @@
 namespace dynlab::inline course {
 namespace {
 
-constexpr double kEdited = 0.5;  ///< of the shorter side's words: so many kept, and a passage is an edited one
+constexpr double kEditedShare = 0.5;  ///< share of the shorter side's words; a passage that keeps more is an edited one
 constexpr std::size_t kShortestMoved = 4;  ///< words of a sentence that is known again elsewhere
 constexpr std::size_t kShortestKept = 2;   ///< words: fewer between two changes are read as changed
 
@@ -134,8 +134,8 @@ class Comparison {
             b += script[i] != '+';
         }
         for (std::size_t i = 0; i < script.size(); ++i) {
-            const bool came = script[i] == '+' && words_between_spaces(new_keys[a]).size() >= kShortestMoved;
-            const auto found = came ? gone.find(comparison_key(new_keys[a])) : gone.end();
+            const bool may_have_moved = script[i] == '+' && words_between_spaces(new_keys[a]).size() >= kShortestMoved;
+            const auto found = may_have_moved ? gone.find(comparison_key(new_keys[a])) : gone.end();
             a += script[i] != '-' && script[i] != '<';
             if (found == gone.end() || found->second.empty()) continue;
             script[found->second.front()] = '<', script[i] = '>';
@@ -153,14 +153,14 @@ class Comparison {
         const bool begins_section = (b < b_ && before_.sentences[b].heading) || (a < a_ && after_.sentences[a].heading);
         if (b > 0 && !before_.sentences[b - 1].heading && !begins_section)
             passage.lead_in = before_.sentences[b - 1].text;
-        place(passage, b, a);
+        locate(passage, b, a);
         const Words old_words = words_of(before_, b, b_), new_words = words_of(after_, a, a_);
         std::vector<Run> runs;
         if (!old_words.empty() && !new_words.empty()) {
             runs = runs_of(edit_script(words_between_spaces(numbers_.renumbered(sentence_of(old_words))), new_words),
                            old_words, new_words);
             const auto shorter = static_cast<double>(std::min(old_words.size(), new_words.size()));
-            if (static_cast<double>(kept_words(runs)) < kEdited * shorter) runs.clear();
+            if (static_cast<double>(kept_words(runs)) < kEditedShare * shorter) runs.clear();
         }
         if (runs.empty()) runs = {{'-', old_words}, {'+', new_words}};
         count(runs, b, a);
@@ -170,7 +170,7 @@ class Comparison {
     }
 
     /// The changed sentences are those from b and a up to b_ and a_.
-    void place(Passage& passage, std::size_t b, std::size_t a) const {
+    void locate(Passage& passage, std::size_t b, std::size_t a) const {
         if (a < a_) {
             passage.section = title_of(after_.sections[after_.sentences[a].section]);
             passage.page_after = after_.sentences[a].page;
@@ -189,7 +189,7 @@ class Comparison {
         if (b == b_) add_once(passage.numbers_before, number_around(b, a));
     }
 
-    /// Of the first version's section into which sentences came: that of the neighbour which stands in their section
+    /// Of the first version's section to which sentences were added: that of the neighbour which is in their section
     /// now.
     std::string number_around(std::size_t b, std::size_t a) const {
         const std::size_t section = after_.sentences[a].section;

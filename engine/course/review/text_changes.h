@@ -41,9 +41,9 @@ struct TextChanges {
     std::vector<std::pair<std::string, std::string>> renumbered;  ///< "Figure 2" that is "Figure 3" now
 };
 
-/// What differs between two versions of a report: sentences that came, went or were edited (then by words). Sections
-/// belong together by their titles, else by the words that they share. Figures and tables belong together by their
-/// captions: another number alone is no change, and neither is another place of a sentence.
+/// What differs between two versions of a report: sentences that were added, removed or edited (these by words).
+/// Sections belong together by their titles, else by the words that they share. Figures and tables belong together by
+/// their captions: another number alone is no change, and neither is a sentence that moved.
 TextChanges text_changes(const ReportText& before, const ReportText& after);
 
 }  // namespace dynlab::inline course

@@ -32,7 +32,7 @@ struct ReadVersion {
 /// MissingProgram.
 ReadVersion read_version(const VersionFiles& files, Isolation level, const std::filesystem::path& program);
 
-/// A version to be made inside a box; all places are those there.
+/// A version to be made inside a box; all paths are those in the box.
 struct VersionJob {
     static constexpr char kWork[] = "version";
     using Result = BoxedOutcome;

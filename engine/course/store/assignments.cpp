@@ -59,13 +59,13 @@ bool only_later(Assignment a, const Assignment& b) {
 }
 
 void write_criteria(Database& db, const Assignment& assignment) {
-    int place = 0;
+    int position = 0;
     for (const Criterion& c : assignment.criteria)
         db.run(
             "INSERT INTO criteria VALUES (?, ?, ?, ?) ON CONFLICT DO UPDATE SET name = excluded.name, most = "
             "excluded.most",
-            assignment.id, place++, c.name, c.most);
-    db.run("DELETE FROM criteria WHERE assignment = ? AND place >= ?", assignment.id, place);
+            assignment.id, position++, c.name, c.most);
+    db.run("DELETE FROM criteria WHERE assignment = ? AND place >= ?", assignment.id, position);
 }
 
 }  // namespace
@@ -166,7 +166,7 @@ std::vector<Criterion> criteria_of(const std::string& text) {
         if (error != std::errc() || stop != points.data() + points.size() || !(most > 0 && most <= 1000))
             throw InvalidArgument(fmt::format(
                 "the points of criterion {} must be a number from 0 to 1000, but \"{}\" was given", name, points));
-        if (!seen.insert(name).second) throw InvalidArgument(fmt::format("the criterion {} stands there twice", name));
+        if (!seen.insert(name).second) throw InvalidArgument(fmt::format("the criterion {} occurs twice", name));
         criteria.push_back({name, most});
     }
     if (criteria.empty()) throw InvalidArgument("give at least one criterion, such as clarity:5,methods:10");

@@ -29,8 +29,8 @@ struct Assignment {
 
 /// Adds it. The same words again change nothing; other words for an assignment that nobody handed anything in for
 /// change it. Returns whether something changed. Throws InvalidArgument: deadlines out of order, a report without them,
-/// a presentation with those of a review, a name that is no file name, a change after the first hand-in other than
-/// later deadlines or more grace.
+/// a presentation with those of a review, a name that cannot be a file name, a change after the first hand-in other
+/// than later deadlines or more grace.
 bool add_assignment(Course& course, Assignment assignment);
 
 std::vector<Assignment> assignments_of(Course& course);  ///< in the order of their deadlines

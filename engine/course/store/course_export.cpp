@@ -4,14 +4,17 @@
 
 #include <SQLiteCpp/Column.h>
 
+#include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
+#include <variant>
 
+#include "course/names/plain_words.h"
 #include "course/review/review_marks.h"
 #include "course/store/course_schema.h"
 #include "course/store/groups.h"
 #include "course/store/newest_versions.h"
 #include "data_io/text_table.h"
+#include "data_io/values/json_values.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 
@@ -19,13 +22,12 @@ namespace dynlab::inline course {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 std::string percent_text(const std::optional<double>& value) {
     return value ? fmt::format("{:.4g}", *value) : "";
 }
 
-/// When the newest version came, and how late, or which earlier one was in time.
+/// When the newest version was received, and how late, or which earlier one was in time.
 std::pair<std::string, std::string> arrival(Course& course, const HandedInParts& parts, const char* part) {
     const auto found = parts.find(part);
     if (found == parts.end()) return {"missing", ""};
@@ -48,30 +50,101 @@ std::map<std::int64_t, std::string> remarks_by_reviewer(Course& course, const As
 }
 
 /// A whole number, a number, a text or null.
-json cell_value(const SQLite::Column& cell) {
-    if (cell.isInteger()) return cell.getInt64();
-    if (cell.isFloat()) return cell.getDouble();
-    return cell.isNull() ? json() : json(cell.getString());
+struct StoredCell {
+    std::variant<std::monostate, std::int64_t, double, std::string> value;
+};
+
+/// By the names of the columns.
+using StoredRow = std::map<std::string, StoredCell>;
+
+/// The file of an export.
+struct CourseExport {
+    int format = 1;
+    std::optional<std::int64_t> tables_version;  ///< the first exports did not tell it
+    std::map<std::string, std::vector<StoredRow>> tables;
+};
+
+void write_whole_value(ValueWriter& writer, const StoredCell& cell) {
+    std::visit(
+        [&writer](const auto& value) {
+            if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, std::monostate>)
+                writer.nothing();
+            else
+                write_value(writer, value);
+        },
+        cell.value);
 }
 
-/// Inserts a row of column names and values.
-void insert_row(Database& db, const std::string& table, const json& row) {
-    std::vector<std::string> names;
-    for (const auto& [name, value] : row.items()) names.push_back('"' + name + '"');
-    const std::vector<std::string> marks(names.size(), "?");
+void read_whole_value(ValueReader& reader, StoredCell& cell) {
+    switch (reader.next()) {
+        case ValueReader::Kind::kNothing:
+            cell.value = std::monostate();
+            return reader.nothing();
+        case ValueReader::Kind::kWhole:
+            cell.value = read_fresh<std::int64_t>(reader);
+            return;
+        case ValueReader::Kind::kNumber:
+            cell.value = reader.number();
+            return;
+        default:
+            cell.value = reader.text();
+    }
+}
+
+template <Is<CourseExport> T, class V>
+void describe(T& object, V& member) {
+    auto& [format, tables_version, tables] = object;
+    member("dynlab course", format), member("tables version", tables_version), member("tables", tables);
+}
+
+StoredCell stored_cell(const SQLite::Column& cell) {
+    if (cell.isInteger()) return {cell.getInt64()};
+    if (cell.isFloat()) return {cell.getDouble()};
+    if (cell.isNull()) return {};
+    return {cell.getString()};
+}
+
+const std::string& text_in(const StoredRow& row, const std::string& column) {
+    const auto found = row.find(column);
+    const auto* const text = found == row.end() ? nullptr : std::get_if<std::string>(&found->second.value);
+    if (!text) throw ValueError(fmt::format("a row lacks the text \"{}\"", column));
+    return *text;
+}
+
+std::string column_list(const StoredRow& row) {
+    std::string list;
+    for (const auto& [name, cell] : row) {
+        const bool plain =
+            std::all_of(name.begin(), name.end(), [](char c) { return c == '_' || (c >= 'a' && c <= 'z'); });
+        if (!plain || name.empty()) throw ValueError(fmt::format("there is no column \"{}\"", printable(name)));
+        list += (list.empty() ? "" : ", ") + name;
+    }
+    return list;
+}
+
+void insert_row(Database& db, const std::string& table, const StoredRow& row) {
+    const std::vector<std::string> marks(row.size(), "?");
     Rows statement =
-        db.query(fmt::format("INSERT INTO {} ({}) VALUES ({})", table, fmt::join(names, ", "), fmt::join(marks, ", ")));
-    int place = 0;
-    for (const auto& [name, value] : row.items()) {
-        ++place;
-        if (value.is_number_integer())
-            statement.give(place, value.get<std::int64_t>());
-        else if (value.is_number())
-            statement.give(place, value.get<double>());
-        else if (value.is_string())
-            statement.give(place, value.get<std::string>());
+        db.query(fmt::format("INSERT INTO {} ({}) VALUES ({})", table, column_list(row), fmt::join(marks, ", ")));
+    int parameter = 0;
+    for (const auto& [name, cell] : row) {
+        ++parameter;
+        if (const auto* const whole = std::get_if<std::int64_t>(&cell.value))
+            statement.give(parameter, *whole);
+        else if (const auto* const number = std::get_if<double>(&cell.value))
+            statement.give(parameter, *number);
+        else if (const auto* const text = std::get_if<std::string>(&cell.value))
+            statement.give(parameter, *text);
     }
     statement.next();
+}
+
+/// Throws ValueError for a file that is not an export.
+CourseExport read_export(const fs::path& file) {
+    auto read = from_json<CourseExport>(read_file(file));
+    for (const char* needed : {"course", "files"})
+        if (!read.tables.contains(needed)) throw ValueError(fmt::format("the table \"{}\" is missing", needed));
+    return read;
 }
 
 }  // namespace
@@ -132,53 +205,57 @@ std::string marks_csv(Course& course, const Assignment& a) {
 
 std::string course_json(Course& course) {
     Database& db = course.database();
-    json all = {{"dynlab course", 1}};
+    CourseExport all;
     Rows version = db.query("PRAGMA user_version");
     version.next();
-    all["tables version"] = version.integer(0);
+    all.tables_version = version.integer(0);
     for (const std::string& table : course_tables()) {
-        json& rows = all["tables"][table] = json::array();
+        std::vector<StoredRow>& rows = all.tables[table];
         for (Rows row = db.query("SELECT * FROM " + table + " ORDER BY 1, 2"); row.next();) {
-            json fields = json::object();
-            for (int c = 0; c < row.getColumnCount(); ++c) fields[row.getColumnName(c)] = cell_value(row.getColumn(c));
-            rows.push_back(std::move(fields));
+            StoredRow& stored = rows.emplace_back();
+            for (int c = 0; c < row.getColumnCount(); ++c) stored[row.getColumnName(c)] = stored_cell(row.getColumn(c));
         }
     }
-    return all.dump(1, ' ', false, json::error_handler_t::replace) + '\n';
+    return json_of(all, 1) + '\n';
 }
 
 void import_course(const fs::path& file, const fs::path& from, const fs::path& folder) {
-    const json all = json::parse(read_file(file), nullptr, false);
-    if (all.is_discarded() || !all.is_object() || !all.contains("dynlab course") || !all.contains("tables"))
-        throw EnvironmentError(fmt::format("{}: this is no export of dynlab course", file.string()));
-    const auto setting = [&](const std::string& key) {
-        for (const json& row : all["tables"].at("course"))
-            if (row.at("key") == key) return row.at("value").get<std::string>();
-        throw EnvironmentError(fmt::format("{}: the course's {} is missing", file.string(), key));
-    };
-    for (const json& row : all["tables"].at("files")) {
-        const std::string hash = row.at("hash");
-        if (!fs::exists(from / "files" / hash.substr(0, 2) / hash))
-            throw EnvironmentError(fmt::format("{} has no file {}; nothing was made", from.string(), hash));
+    CourseExport all;
+    std::map<std::string, std::string> settings;
+    std::vector<fs::path> handed_in;
+    try {
+        all = read_export(file);
+        for (const StoredRow& row : all.tables["course"]) settings[text_in(row, "key")] = text_in(row, "value");
+        for (const StoredRow& row : all.tables["files"]) {
+            const std::string& hash = text_in(row, "hash");
+            handed_in.push_back(from / "files" / hash.substr(0, 2) / hash);
+        }
+    } catch (const ValueError& error) {
+        throw EnvironmentError(
+            fmt::format("{}: this is not an export of dynlab course ({})", file.string(), error.what()));
     }
+    for (const char* needed : {"name", "zone"})
+        if (!settings.contains(needed))
+            throw EnvironmentError(fmt::format("{}: the course's {} is missing", file.string(), needed));
+    for (const fs::path& kept : handed_in)
+        if (!fs::exists(kept))
+            throw EnvironmentError(
+                fmt::format("{} has no file {}; nothing was made", from.string(), kept.filename().string()));
     fs::create_directories(folder);
     if (!fs::exists(folder / "course.key") && fs::exists(from / "course.key"))
         fs::copy_file(from / "course.key", folder / "course.key");
-    Course::create(folder, setting("name"), setting("zone"));
+    Course::create(folder, settings["name"], settings["zone"]);
     Course course(folder);
     std::vector<std::string> hashes;
-    for (const json& row : all["tables"].at("files")) {
-        const std::string hash = row.at("hash");
-        hashes.push_back(course.keep(read_file(from / "files" / hash.substr(0, 2) / hash)));
-    }
+    for (const fs::path& kept : handed_in) hashes.push_back(course.keep(read_file(kept)));
     course.settle(hashes);
     Database& db = course.database();
     Transaction transaction(db);
     db.execute("DELETE FROM course; DELETE FROM journal");  // what create wrote
-    const bool older = all.value("tables version", std::int64_t{0}) < static_cast<std::int64_t>(course_steps().size());
+    const bool older = all.tables_version.value_or(0) < static_cast<std::int64_t>(course_steps().size());
     for (const std::string& table : course_tables()) {
-        if (older && !all["tables"].contains(table)) continue;  // one that a later version brought
-        for (const json& row : all["tables"].at(table)) insert_row(db, table, row);
+        if (older && !all.tables.contains(table)) continue;  // one that a later version brought
+        for (const StoredRow& row : all.tables[table]) insert_row(db, table, row);
     }
     transaction.commit();
 }

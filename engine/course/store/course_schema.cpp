@@ -80,19 +80,19 @@ const std::vector<const char*>& course_steps() {
     return kSteps;
 }
 
-void migrate_course(Database& database, Database::Opening opening, const std::string& place,
+void migrate_course(Database& database, Database::Opening opening, const std::string& file,
                     const std::vector<const char*>& steps) {
     const auto newest = static_cast<std::int64_t>(steps.size());
     const auto version_of = [&] {
         const std::int64_t version = pragma(database, "user_version"), id = pragma(database, "application_id");
         const bool fresh = opening == Database::Opening::kNew && version == 0;
         if (!fresh && id != kApplicationId)
-            throw EnvironmentError(fmt::format("{}: this is no course; make one with dynlab course init", place));
+            throw EnvironmentError(fmt::format("{}: this is not a course; make one with dynlab course init", file));
         if (version > newest)
             throw EnvironmentError(fmt::format(
                 "{}: this course was made by a newer dynlab (its tables have version {}, this program knows {}); "
                 "use that program",
-                place, version, newest));
+                file, version, newest));
         return version;
     };
     if (version_of() == newest) return;

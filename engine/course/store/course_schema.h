@@ -13,8 +13,8 @@ const std::vector<std::string>& course_tables();
 const std::vector<const char*>& course_steps();
 
 /// Brings an opened course to the version of tables that `steps` end with, in one transaction. Throws
-/// EnvironmentError for a course made by a newer dynlab, or for a database that is no course; it stays untouched.
-void migrate_course(Database& database, Database::Opening opening, const std::string& place,
+/// EnvironmentError for a course made by a newer dynlab, or for a database that is not a course; it stays untouched.
+void migrate_course(Database& database, Database::Opening opening, const std::string& file,
                     const std::vector<const char*>& steps = course_steps());
 
 }  // namespace dynlab::inline course

@@ -234,10 +234,10 @@ std::string assignment_status(Course& course, const Assignment& assignment, Inst
 }
 
 std::string course_summary(Course& course, Instant now) {
-    int active = 0, left = 0;
-    for (const Group& group : groups_of(course)) ++(group.dropped_out ? left : active);
+    int active = 0, dropped_out = 0;
+    for (const Group& group : groups_of(course)) ++(group.dropped_out ? dropped_out : active);
     std::string text = fmt::format("{}: {}{}\n", course.name(), plural(active, "group"),
-                                   left > 0 ? fmt::format(", {} dropped out", left) : "");
+                                   dropped_out > 0 ? fmt::format(", {} dropped out", dropped_out) : "");
     std::vector<std::vector<std::string>> rows;
     for (const Assignment& a : assignments_of(course)) {
         const auto shown = [&](std::optional<Instant> due) { return due ? when(course.clock(), *due, now) : "-"; };

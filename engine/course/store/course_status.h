@@ -5,8 +5,8 @@
 
 namespace dynlab::inline course {
 
-/// The state of an assignment as a table an instructor can act on: deadlines, a row for each group with what came, what
-/// is late, what cannot be read and what is to be done about it, sums, and the next command.
+/// The state of an assignment as a table an instructor can act on: deadlines, a row for each group with what was handed
+/// in, what is late, what cannot be read and what is to be done about it, sums, and the next command.
 std::string assignment_status(Course& course, const Assignment& assignment, Instant now);
 
 /// The course at a glance: groups, assignments and their deadlines.

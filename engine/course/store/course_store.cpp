@@ -145,10 +145,10 @@ fs::path Course::file(const std::string& hash) const {
 
 std::string Course::keep(std::string_view content) const {
     const std::string hash = sha256_of(content);
-    const fs::path place = file(hash);
-    if (fs::exists(place) && sha256_of_file(place) == hash) return hash;
-    make_folder(place.parent_path());
-    write_file_atomically(place, content);
+    const fs::path kept = file(hash);
+    if (fs::exists(kept) && sha256_of_file(kept) == hash) return hash;
+    make_folder(kept.parent_path());
+    write_file_atomically(kept, content);
     return hash;
 }
 

@@ -27,7 +27,7 @@ std::string reason_of(int code, const char* words) {
         case SQLITE_CANTOPEN:
             return "it cannot be opened; see whether file and folder are there and may be written to";
         case SQLITE_NOTADB:
-            return "this is no course: the file is not a database";
+            return "this is not a course: the file is not a database";
         case SQLITE_CORRUPT:
             return "the file is damaged; take a backup, or a JSON export with dynlab course import";
         case SQLITE_IOERR:
@@ -43,7 +43,7 @@ std::string reason_of(int code, const char* words) {
 
 /// Does a piece of work with the open database.
 template <class Work>
-auto told(const SQLite::Database& database, const Work& work) {
+auto with_plain_errors(const SQLite::Database& database, const Work& work) {
     try {
         return work();
     } catch (const SQLite::Exception& error) {
@@ -64,10 +64,11 @@ SQLite::Database opened(const std::filesystem::path& file, int flags) {
 }  // namespace
 
 Rows::Rows(const SQLite::Database& database, const std::string& sql)
-    : SQLite::Statement(told(database, [&] { return SQLite::Statement(database, sql); })), database_(&database) {}
+    : SQLite::Statement(with_plain_errors(database, [&] { return SQLite::Statement(database, sql); })),
+      database_(&database) {}
 
 bool Rows::next() {
-    return told(*database_, [this] { return executeStep(); });
+    return with_plain_errors(*database_, [this] { return executeStep(); });
 }
 
 std::optional<std::int64_t> Rows::optional_integer(int column) const {
@@ -81,15 +82,15 @@ Database::Database(const std::filesystem::path& file, Opening opening)
 }
 
 void Database::execute(const std::string& statements) {
-    told(*this, [&] { return exec(statements); });
+    with_plain_errors(*this, [&] { return exec(statements); });
 }
 
 Transaction::Transaction(Database& database) : database_(database) {
-    told(database, [&] { transaction_.emplace(database, SQLite::TransactionBehavior::IMMEDIATE); });
+    with_plain_errors(database, [&] { transaction_.emplace(database, SQLite::TransactionBehavior::IMMEDIATE); });
 }
 
 void Transaction::commit() {
-    told(database_, [this] { transaction_->commit(); });
+    with_plain_errors(database_, [this] { transaction_->commit(); });
 }
 
 }  // namespace dynlab::inline course

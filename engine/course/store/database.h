@@ -24,14 +24,14 @@ class Rows : public SQLite::Statement {
     double number(int column) const { return getColumn(column).getDouble(); }
     std::string text(int column) const { return getColumn(column).getString(); }  ///< empty where the cell is null
 
-    /// The value of the parameter at `place`, counted from 1. Without a value it is null, as one that was never given.
+    /// The value of parameter `parameter`, counted from 1. Without a value it is null, as one that was never given.
     template <class Value>
-    void give(int place, const Value& value) {
-        bind(place, value);
+    void give(int parameter, const Value& value) {
+        bind(parameter, value);
     }
     template <class Value>
-    void give(int place, const std::optional<Value>& value) {
-        if (value.has_value()) bind(place, *value);
+    void give(int parameter, const std::optional<Value>& value) {
+        if (value.has_value()) bind(parameter, *value);
     }
 
   private:
@@ -50,8 +50,8 @@ class Database : public SQLite::Database {
     template <class... Values>
     Rows query(const std::string& sql, const Values&... values) {
         Rows rows(*this, sql);
-        int place = 0;
-        (rows.give(++place, values), ...);
+        int parameter = 0;
+        (rows.give(++parameter, values), ...);
         return rows;
     }
     template <class... Values>

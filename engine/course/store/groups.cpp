@@ -58,8 +58,8 @@ class Import {
             return;
         }
         const std::vector<std::string> before = {rows.text(0), rows.text(1), rows.text(2), rows.text(3)};
-        const auto kept = [&](const char* column, const std::string& read, std::size_t place) {
-            return roster_.has(column) ? read : before[place];
+        const auto kept = [&](const char* column, const std::string& read, std::size_t index) {
+            return roster_.has(column) ? read : before[index];
         };
         const std::vector<std::string> after = {kept("name", s.name, 0), kept("mail", s.mail, 1),
                                                 kept("moodle", s.moodle, 2), kept("canvas", s.canvas, 3)};
@@ -112,19 +112,19 @@ class Import {
 
 std::vector<Group> groups_of(Course& course) {
     std::vector<Group> groups;
-    std::map<std::int64_t, std::size_t> place;
+    std::map<std::int64_t, std::size_t> index;
     for (Rows rows = course.database().query(
              "SELECT id, name, left_at FROM groups WHERE id IN (SELECT group_id FROM memberships WHERE until IS NULL "
              "UNION SELECT group_id FROM versions UNION SELECT group_id FROM oral_scores UNION SELECT group_id FROM "
              "overrides) ORDER BY name");
          rows.next();) {
-        place[rows.integer(0)] = groups.size();
+        index[rows.integer(0)] = groups.size();
         groups.push_back({rows.integer(0), rows.text(1), !rows.isColumnNull(2), {}});
     }
     for (Rows rows =
              course.database().query("SELECT group_id, student FROM memberships WHERE until IS NULL ORDER BY student");
          rows.next();)
-        groups[place.at(rows.integer(0))].members.push_back(rows.text(1));
+        groups[index.at(rows.integer(0))].members.push_back(rows.text(1));
     return groups;
 }
 
@@ -148,15 +148,15 @@ std::vector<Student> students_of(Course& course) {
              "GROUP BY s.id ORDER BY s.id");
          rows.next();)
         students.push_back({rows.text(0), rows.text(1), rows.text(2), {}, rows.text(3), rows.text(4), rows.text(5)});
-    std::map<std::string, std::size_t> place;
-    for (std::size_t i = 0; i < students.size(); ++i) place[students[i].id] = i;
+    std::map<std::string, std::size_t> index;
+    for (std::size_t i = 0; i < students.size(); ++i) index[students[i].id] = i;
     for (Rows rows = course.database().query("SELECT student, name, mail FROM former_names ORDER BY student, until");
          rows.next();)
-        students[place.at(rows.text(0))].former.push_back({rows.text(1), rows.text(2)});
+        students[index.at(rows.text(0))].former.push_back({rows.text(1), rows.text(2)});
     for (Rows rows = course.database().query(
              "SELECT DISTINCT m.student, g.name FROM memberships m JOIN groups g ON g.id = m.group_id ORDER BY 1, 2");
          rows.next();) {
-        Student& student = students[place.at(rows.text(0))];
+        Student& student = students[index.at(rows.text(0))];
         if (rows.text(1) != student.group) student.other_groups.push_back(rows.text(1));
     }
     return students;
@@ -176,7 +176,7 @@ RosterChange import_roster(Course& course, const std::filesystem::path& file, bo
     return change;
 }
 
-void set_group_left(Course& course, const std::string& name, bool dropped_out, const std::string& reason) {
+void set_group_dropped_out(Course& course, const std::string& name, bool dropped_out, const std::string& reason) {
     Transaction transaction(course.database());
     const Group group = group_named(course, name);
     if (group.dropped_out == dropped_out)

@@ -38,7 +38,7 @@ struct RosterChange {
 RosterChange import_roster(Course& course, const std::filesystem::path& file, bool no_groups = false);
 
 /// The group has dropped out, or is back. Its work stays. Throws InvalidArgument where that was so before.
-void set_group_left(Course& course, const std::string& name, bool dropped_out, const std::string& reason);
+void set_group_dropped_out(Course& course, const std::string& name, bool dropped_out, const std::string& reason);
 
 /// Pairs of groups who share a member, or did at any time.
 std::vector<std::pair<std::int64_t, std::int64_t>> kindred_groups(Course& course);

@@ -79,7 +79,7 @@ class HandInReceiver {
     }
 
   private:
-    Incoming::Way way() {
+    IncomingFiles::Way way() {
         return {request_.level, request_.program, !request_.from.empty(),
                 [this](const Submission& submission) { return senders_.knows(submission); }};
     }
@@ -128,9 +128,10 @@ class HandInReceiver {
             throw EnvironmentError(fmt::format("the file has more than {} MB", kMostBytes >> 20));
         const std::string kind = kind_of_file_at(file.name, file.file);
         if (!is_wanted(kind))
-            throw EnvironmentError(outcome_.assignment.is_report()
-                                       ? "this is no PDF and no pack (.zip, .tar.gz); ask for one"
-                                       : "this is no PDF, no script (.lua) and no pack (.zip, .tar.gz); ask for one");
+            throw EnvironmentError(
+                outcome_.assignment.is_report()
+                    ? "this is neither a PDF nor a pack (.zip, .tar.gz); ask for one"
+                    : "this is not a PDF, no script (.lua) and no pack (.zip, .tar.gz); ask for one");
         candidate.part = part_of(outcome_.assignment, request_.stage, kind);
         if (request_.stage == "first" && !request_.take_as_first) refuse_after_reviews(candidate);
         if (request_.stage == "review")
@@ -138,7 +139,7 @@ class HandInReceiver {
         candidates_.push_back(std::move(candidate));
     }
 
-    /// Who hands in a report once it was reviewed means the final version, but for a file that is known.
+    /// A report that is handed in once it was reviewed is the final version, unless the file is known.
     void refuse_after_reviews(const Candidate& candidate) const {
         bool sent = false, released = false;
         for (const ReviewPair& pair : pairs_) {
@@ -165,17 +166,17 @@ class HandInReceiver {
     }
 
     /// For what a candidate is; of two only one can hold.
-    static std::string place_of(const Candidate& c, const std::string& part) {
+    static std::string slot_of(const Candidate& c, const std::string& part) {
         return fmt::format("{}/{}/{}", c.group.id, part, c.pair ? c.pair->id : 0);
     }
 
     /// Two files of a group for the same thing: nobody can say which holds.
     void refuse_doubles() {
         std::map<std::string, int> count;
-        for (const Candidate& c : candidates_) ++count[place_of(c, c.part)];
+        for (const Candidate& c : candidates_) ++count[slot_of(c, c.part)];
         std::vector<Candidate> single;
         for (Candidate& c : candidates_) {
-            if (count[place_of(c, c.part)] == 1) {
+            if (count[slot_of(c, c.part)] == 1) {
                 single.push_back(std::move(c));
                 continue;
             }
@@ -192,10 +193,10 @@ class HandInReceiver {
     void open_packs() {
         const std::string part = document_part();
         std::set<std::string> present;
-        for (const Candidate& c : candidates_) present.insert(place_of(c, c.part));
+        for (const Candidate& c : candidates_) present.insert(slot_of(c, c.part));
         std::vector<std::size_t> packs;
         for (std::size_t i = 0; i < candidates_.size(); ++i)
-            if (candidates_[i].part == "pack" && !present.contains(place_of(candidates_[i], part))) packs.push_back(i);
+            if (candidates_[i].part == "pack" && !present.contains(slot_of(candidates_[i], part))) packs.push_back(i);
         std::vector<std::optional<PackedDocument>> found(packs.size());
         side_by_side(packs.size(), [&](std::size_t i) {
             Candidate& pack = candidates_[packs[i]];
@@ -250,15 +251,15 @@ class HandInReceiver {
         int fresh = 0;
         std::set<std::string> known_packs;
         for (const Candidate& candidate : candidates_) {
-            // A pack that came before brings nothing back that a newer PDF has replaced.
-            if (candidate.from_pack && known_packs.contains(place_of(candidate, "pack")) &&
+            // An earlier pack does not bring back what a newer PDF has replaced.
+            if (candidate.from_pack && known_packs.contains(slot_of(candidate, "pack")) &&
                 has_any(candidate, candidate.part))
                 continue;
             outcome_.received.push_back(take(candidate));
             if (!outcome_.received.back().known)
                 ++fresh;
             else if (candidate.part == "pack")
-                known_packs.insert(place_of(candidate, "pack"));
+                known_packs.insert(slot_of(candidate, "pack"));
         }
         if (fresh > 0)
             course_.note(fmt::format("{}: {} received, {}", outcome_.assignment.name, fresh, request_.stage),
@@ -313,7 +314,7 @@ class HandInReceiver {
     Course& course_;
     const ReceiveRequest& request_;
     Senders senders_;
-    Incoming incoming_;
+    IncomingFiles incoming_;
     Instant due_ = 0;
     std::optional<Group> from_;
     std::vector<ReviewPair> pairs_;

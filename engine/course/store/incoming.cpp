@@ -36,7 +36,7 @@ Submission sender_of(const std::string& name) {
     return sender;
 }
 
-void Incoming::add(const fs::path& given) {
+void IncomingFiles::add(const fs::path& given) {
     const std::string source = given.string();
     if (!fs::exists(given)) throw EnvironmentError(fmt::format("there is no file or folder '{}'", source));
     if (!files_.empty()) batch_ = true;
@@ -47,7 +47,7 @@ void Incoming::add(const fs::path& given) {
         add_batch(given, source);
         return;
     }
-    if (!fs::is_regular_file(given)) throw EnvironmentError(fmt::format("{} is no ordinary file", source));
+    if (!fs::is_regular_file(given)) throw EnvironmentError(fmt::format("{} is not a regular file", source));
     const std::string name = given.filename();
     if (!archive_stem(name) || way_.one_sender || way_.knows(sender_of(name))) {
         add_file(given, source);
@@ -60,22 +60,22 @@ void Incoming::add(const fs::path& given) {
     add_batch(to, source);
 }
 
-void Incoming::add_file(const fs::path& file, const std::string& source) {
+void IncomingFiles::add_file(const fs::path& file, const std::string& source) {
     const std::string name = file.filename();
     files_.push_back({file, name, source, sender_of(name)});
 }
 
 /// A file of a folder: links could lead to files that nobody handed in.
-void Incoming::add_found(const fs::path& file, const std::string& source) {
+void IncomingFiles::add_found(const fs::path& file, const std::string& source) {
     const fs::file_type type = fs::symlink_status(file).type();
     if (type == fs::file_type::regular)
         add_file(file, source);
     else
         left_out_.push_back(fmt::format("{}: {}; it was left out", source,
-                                        type == fs::file_type::symlink ? "a link" : "no ordinary file"));
+                                        type == fs::file_type::symlink ? "a link" : "not a regular file"));
 }
 
-void Incoming::add_batch(const fs::path& folder, const std::string& source) {
+void IncomingFiles::add_batch(const fs::path& folder, const std::string& source) {
     batch_ = true;
     const std::vector<fs::path> entries = entries_of_one_person(folder);
     const bool wrapped = entries.size() == 1 && names_the_folder_itself(entries.front()) &&
@@ -86,29 +86,29 @@ void Incoming::add_batch(const fs::path& folder, const std::string& source) {
         return;
     }
     for (const fs::path& entry : entries) {
-        const std::string name = entry.filename(), place = source + "/" + name;
+        const std::string name = entry.filename(), shown_source = source + "/" + name;
         if (names_the_folder_itself(entry)) {
             Submission sender;
             sender.name = name;
             read_lms_name(sender);
-            add_folder_of(sender, entry, place, place);
+            add_folder_of(sender, entry, shown_source, shown_source);
         } else {
-            add_found(entry, place);
+            add_found(entry, shown_source);
         }
     }
 }
 
-void Incoming::add_folder_of(const Submission& sender, const fs::path& folder, const std::string& source,
-                             const std::string& own) {
+void IncomingFiles::add_folder_of(const Submission& sender, const fs::path& folder, const std::string& source,
+                                  const std::string& own) {
     for (const fs::path& entry : entries_of_one_person(folder)) {
-        const std::string place = source + "/" + entry.filename().string();
+        const std::string shown_source = source + "/" + entry.filename().string();
         if (entry.filename() == "data") continue;  // the course's records, or a link to them
         if (names_the_folder_itself(entry)) {
-            add_folder_of(sender, entry, place, own);
+            add_folder_of(sender, entry, shown_source, own);
             continue;
         }
         const std::size_t before = files_.size();
-        add_found(entry, place);
+        add_found(entry, shown_source);
         if (files_.size() > before) files_.back().sender = sender, files_.back().folder = own;
     }
 }

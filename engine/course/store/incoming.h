@@ -9,7 +9,7 @@
 
 namespace dynlab::inline course {
 
-/// A file as it came.
+/// A file as it was received.
 struct IncomingFile {
     std::filesystem::path file;  ///< where it can be read
     std::string name;            ///< its own name
@@ -19,8 +19,8 @@ struct IncomingFile {
 };
 
 /// Everything that was given to receive: files, folders, and what Moodle or Canvas exports as one zip. Archives are
-/// unpacked in a box, but for packs, which stay whole.
-class Incoming {
+/// unpacked in a box, except packs, which are kept as they are.
+class IncomingFiles {
   public:
     struct Way {
         Isolation level = Isolation::kFull;
@@ -28,7 +28,7 @@ class Incoming {
         bool one_sender = false;  ///< the instructor names the sender: an archive is that group's pack
         std::function<bool(const Submission&)> knows;  ///< whether a name is a group's or student's of the course
     };
-    explicit Incoming(Way way) : way_(std::move(way)) {}
+    explicit IncomingFiles(Way way) : way_(std::move(way)) {}
 
     /// Throws EnvironmentError where there is no such file, SubmissionError for an archive that cannot be unpacked.
     void add(const std::filesystem::path& given);
@@ -52,7 +52,7 @@ class Incoming {
     std::vector<std::string> left_out_;
 };
 
-/// What a name tells of its sender: an LMS's pattern, or the name without its ending.
+/// The sender that a name shows: an LMS's pattern, or the name without its ending.
 Submission sender_of(const std::string& name);
 
 }  // namespace dynlab::inline course

@@ -1,11 +1,26 @@
 #include "course/store/inspection.h"
 
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "course/findings/findings_report.h"
 
 namespace dynlab::inline course {
+namespace {
+
+Inspection summary_of(const CheckResult& result, const std::string& json) {
+    static const std::set<std::string> unreadable = {"not-pdf", "encrypted", "damaged", "too-large", "scanned"};
+    Inspection inspection;
+    inspection.json = json;
+    for (const Finding& finding : result.findings) {
+        if (finding.severity != Severity::kRule) continue;
+        ++inspection.rules_broken;
+        if (unreadable.contains(finding.id)) inspection.trouble = finding.id;
+        inspection.names = inspection.names || finding.id.starts_with("name-");
+    }
+    return inspection;
+}
+
+}  // namespace
 
 Inspector::Inspector(std::shared_ptr<const SoughtNames> names) {
     const auto hold_against = [this](const char* part, const char* template_name) {
@@ -20,24 +35,11 @@ Inspector::Inspector(std::shared_ptr<const SoughtNames> names) {
 Inspection Inspector::inspect(const std::filesystem::path& pdf, const std::string& part) const {
     CheckResult result = check_pdf(pdf, wishes_.at(part));
     result.subject = part + ".pdf";
-    return inspection_from(findings_as_json(result));
+    return summary_of(result, findings_as_json(result));
 }
 
 Inspection inspection_from(const std::string& json) {
-    static const std::set<std::string> unreadable = {"not-pdf", "encrypted", "damaged", "too-large", "scanned"};
-    Inspection inspection;
-    if (json.empty()) return inspection;
-    inspection.json = json;
-    const nlohmann::json report = nlohmann::json::parse(json);
-    if (report.at("pages").is_number()) inspection.pages = report.at("pages");
-    for (const auto& finding : report.at("findings")) {
-        if (finding.at("severity") != "rule") continue;
-        ++inspection.rules_broken;
-        const std::string id = finding.at("id");
-        if (unreadable.contains(id)) inspection.trouble = id;
-        inspection.names = inspection.names || id.starts_with("name-");
-    }
-    return inspection;
+    return json.empty() ? Inspection() : summary_of(findings_from_json(json), json);
 }
 
 }  // namespace dynlab::inline course

@@ -8,7 +8,7 @@
 namespace dynlab::inline course {
 
 struct Inspection {
-    int rules_broken = 0, pages = 0;
+    int rules_broken = 0;
     bool names = false;   ///< somebody of the course is named
     std::string trouble;  ///< id of the finding that keeps the file from being read: damaged, ...; else empty
     std::string json;     ///< findings_as_json; empty when nothing was looked at
@@ -23,14 +23,14 @@ class Inspector {
 
     /// Whether PDFs under this part are looked at: "report", "slides", "review".
     bool looks_at(const std::string& part) const { return wishes_.contains(part); }
-    /// A PDF that cannot be read is no failure: it is told in the result.
+    /// A PDF that cannot be read is no failure: the result says so.
     Inspection inspect(const std::filesystem::path& pdf, const std::string& part) const;
 
   private:
     std::map<std::string, CheckOptions> wishes_;  ///< by part
 };
 
-/// The same from the JSON that the store holds.
+/// The same from the JSON that the store holds. Throws EnvironmentError for any other text.
 Inspection inspection_from(const std::string& json);
 
 }  // namespace dynlab::inline course

@@ -10,7 +10,7 @@ namespace dynlab::inline course {
 struct HandedIn {
     std::int64_t version = 0, late = 0;
     Instant received_at = 0;
-    std::int64_t in_time = 0;  ///< of a late one: the newest earlier version that came in time and can be read, or 0
+    std::int64_t in_time = 0;  ///< of a late one: the newest earlier version that was in time and can be read, or 0
     int rules_broken = 0;
     std::string trouble;  ///< why it cannot be read; else empty
     bool is_late() const { return late > 0 && in_time == 0; }

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// All PDFs below, but for what systems hide or add.
+/// All PDFs below, without what systems hide or add.
 std::vector<fs::path> pdfs_in(const fs::path& folder) {
     std::vector<fs::path> pdfs;
     for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::recursive_directory_iterator(); ++entry) {

@@ -10,7 +10,7 @@ namespace dynlab::inline course {
 /// The PDF that a pack brings.
 struct PackedDocument {
     std::filesystem::path file;
-    std::string name;  ///< its place in the pack
+    std::string name;  ///< its path in the pack
 };
 
 /// Unpacks a pack into `to`, an empty folder that is made, in a box by `program`, and finds the PDF that is its

@@ -38,7 +38,7 @@ struct ReceiptFile {
     ReceiptKind kind = ReceiptKind::kSigned;
 };
 
-/// Nothing for what is no receipt.
+/// Nothing for any other text.
 std::optional<ReceiptFile> read_receipt(std::string_view text) {
     ReceiptFile file;
     std::istringstream lines{std::string(text)};
@@ -58,11 +58,12 @@ std::optional<ReceiptFile> read_receipt(std::string_view text) {
 }
 
 const ReceiptVerdict kGenuine{true, "genuine"};
-const ReceiptVerdict kNoReceipt{false, "NOT genuine: this is no receipt"};
+const ReceiptVerdict kNoReceipt{false, "NOT genuine: this is not a receipt"};
 const ReceiptVerdict kNotGenuine{false, "NOT genuine: altered, or signed by another course"};
-const ReceiptVerdict kNeedsCourse{false,
-                                  "cannot be told: it has no signature but a code, as courses gave before; only the "
-                                  "course can verify it (dynlab course verify)"};
+const ReceiptVerdict kNeedsCourse{
+    false,
+    "cannot be decided: it has a code instead of a signature, as earlier courses gave; only the "
+    "course can verify it (dynlab course verify)"};
 
 ReceiptVerdict verify_signature(const ReceiptFile& file, std::string_view public_key) {
     return is_signature(file.signature, file.content, public_key) ? kGenuine : kNotGenuine;

@@ -32,7 +32,7 @@ struct ReceiptVerdict {
 };
 
 /// Whether this text is a receipt that the owner of this public key signed, not a letter changed (line ends and blank
-/// lines aside). Coded receipts are told apart: they need the course.
+/// lines aside). Coded receipts are recognised: they need the course.
 ReceiptVerdict verify_receipt(std::string_view text, std::string_view public_key);
 /// The same by the course itself, coded receipts too.
 ReceiptVerdict verify_receipt(std::string_view text, const Course& course);

@@ -66,15 +66,15 @@ class ScoreSheet {
 
     std::size_t rows() const { return table_.rows.size(); }
     std::string cell(std::size_t row, const char* name) const {
-        const auto place = table_.column(name);
-        return place ? table_.rows[row][*place] : "";
+        const auto index = table_.column(name);
+        return index ? table_.rows[row][*index] : "";
     }
     std::string owner(std::size_t row) const { return cell(row, owner_); }
     std::optional<double> points(std::size_t row, std::size_t criterion) const {
         const Criterion& c = assignment_.criteria[criterion];
-        const auto place = column(c.name);
-        if (!place || table_.rows[row][*place].empty()) return {};
-        const std::string& text = table_.rows[row][*place];
+        const auto index = column(c.name);
+        if (!index || table_.rows[row][*index].empty()) return {};
+        const std::string& text = table_.rows[row][*index];
         double value = 0;
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
         if (error != std::errc() || end != text.data() + text.size() || !(value >= 0 && value <= c.most))

@@ -37,8 +37,8 @@ class CborWriter final : public ValueWriter {
     std::string bytes_;
 };
 
-/// Reads it again, from anybody: nothing is taken from the bytes but what the caller asks for, and no memory but for
-/// that. The bytes must live as long.
+/// Reads it again, from anybody: only what the caller asks for is taken from the bytes, and memory only for that. The
+/// bytes must live as long as the reader.
 class CborReader final : public ValueReader {
   public:
     explicit CborReader(std::string_view bytes, const ValueLimits& limits = {});
@@ -79,6 +79,7 @@ class CborReader final : public ValueReader {
     Token take(Type wanted, const char* what);
     [[noreturn]] void refuse_token(const char* wanted);
     std::string_view take_text() override;
+    std::string take_json_text() override { return std::string(take_text()); }
     NumberArray take_array(std::optional<ArrayForm> wanted) override;
     std::size_t open_list() override;
     std::size_t open_map() override;

@@ -28,7 +28,8 @@ namespace dynlab::inline data_io {
 ///
 /// A structured binding must name all members, so that one that is added to the class and not here does not compile.
 /// `member.kept(...)` is for programs only (CBOR): JSON, which people read, leaves it out. `member.unless_empty(...)`
-/// is left out where it is empty, an optional one where it has no value. After reading, `check_value(object, limits)`,
+/// is left out where it is empty, an optional one where it has no value; `member.null_if_empty(...)` is null there, for
+/// texts and numbers (0) of files in which every member always stands. After reading, `check_value(object, limits)`,
 /// where there is one, throws std::exception for what does not fit together.
 template <class T, class Class>
 concept Is = std::same_as<std::remove_const_t<T>, Class>;

@@ -24,14 +24,23 @@ class MemberReader {
     void unless_empty(const char* name, M& member) {
         if (reader_.member(name)) read_value(reader_, member);
     }
+    template <class M>
+    void null_if_empty(const char* name, M& member) {
+        if (!reader_.member(name)) reader_.lacks(name);
+        member = M{};
+        if (reader_.next() == ValueReader::Kind::kNothing)
+            reader_.nothing();
+        else
+            read_value(reader_, member);
+    }
 
   private:
     ValueReader& reader_;
 };
 
-/// What goes wrong in `make` is told with its place.
+/// An error of `make` as a ValueError that begins with the location.
 template <class Make>
-auto told_with_place(const ValueReader& reader, const Make& make) {
+auto with_location(const ValueReader& reader, const Make& make) {
     try {
         return make();
     } catch (const ValueError&) {
@@ -47,7 +56,7 @@ void read_members(ValueReader& reader, T& value) {
     describe(value, member);
     reader.end_members();
     if constexpr (requires { check_value(value, reader.limits()); })
-        if (reader.limits().checked) told_with_place(reader, [&] { check_value(value, reader.limits()); });
+        if (reader.limits().checked) with_location(reader, [&] { check_value(value, reader.limits()); });
 }
 
 template <class T>
@@ -114,7 +123,7 @@ void read_value(ValueReader& reader, T& value) {
         read_whole_value(reader, value);
     } else if constexpr (value_kinds::StoredAsOther<T>) {
         auto form = read_fresh<typename StoredAs<T>::Form>(reader);
-        value = told_with_place(reader, [&] { return StoredAs<T>::value(std::move(form)); });
+        value = with_location(reader, [&] { return StoredAs<T>::value(std::move(form)); });
     } else if constexpr (std::same_as<T, bool>) {
         value = reader.truth();
     } else if constexpr (std::integral<T>) {

@@ -32,6 +32,14 @@ class MemberWriter {
     void unless_empty(const char* name, const M& member) {
         if (!member.empty()) (*this)(name, member);
     }
+    template <class M>
+    void null_if_empty(const char* name, const M& member) {
+        writer_.member(name);
+        if (member == M{})
+            writer_.nothing();
+        else
+            write_value(writer_, member);
+    }
 
   private:
     ValueWriter& writer_;

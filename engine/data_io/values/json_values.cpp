@@ -45,7 +45,7 @@ json list_of_numbers(const NumberArray& array) {
 JsonWriter::JsonWriter() : root_(std::make_unique<json>()) {}
 JsonWriter::~JsonWriter() = default;
 
-json& JsonWriter::place(json&& value) {
+json& JsonWriter::put(json&& value) {
     if (open_.empty()) return *root_ = std::move(value);
     json& parent = *open_.back();
     if (parent.is_object()) return parent[name_] = std::move(value);
@@ -58,45 +58,45 @@ std::string JsonWriter::dump(int indent) const {
 }
 
 void JsonWriter::json_text(const std::string& value) {
-    place(json::parse(value));
+    put(json::parse(value));
 }
 
 void JsonWriter::nothing() {
-    place(nullptr);
+    put(nullptr);
 }
 
 void JsonWriter::truth(bool value) {
-    place(value);
+    put(value);
 }
 
 void JsonWriter::whole(std::int64_t value) {
-    place(value);
+    put(value);
 }
 
 void JsonWriter::number(double value) {
-    place(json_number(value));
+    put(json_number(value));
 }
 
 void JsonWriter::text(std::string_view value) {
-    place(std::string(value));
+    put(std::string(value));
 }
 
 void JsonWriter::array(const NumberArray& value) {
     const bool list = value.form == ArrayForm::kVector || value.form == ArrayForm::kComplexVector;
     if (list)
-        place(list_of_numbers(value));
+        put(list_of_numbers(value));
     else
-        place({{"rows", value.rows}, {"columns", value.columns}, {"values", list_of_numbers(value)}});
+        put({{"rows", value.rows}, {"columns", value.columns}, {"values", list_of_numbers(value)}});
 }
 
 void JsonWriter::begin_list(std::size_t size) {
-    json& list = place(json::array());
+    json& list = put(json::array());
     list.get_ref<json::array_t&>().reserve(size);
     open_.push_back(&list);
 }
 
 void JsonWriter::begin_object() {
-    open_.push_back(&place(json::object()));
+    open_.push_back(&put(json::object()));
 }
 
 std::string in_utf8(std::string_view text) {
@@ -126,7 +126,13 @@ struct JsonReader::Entries {
 };
 
 JsonReader::JsonReader(const json& value, const ValueLimits& limits) : ValueReader(limits), at_(&value) {}
+JsonReader::JsonReader(std::unique_ptr<const json> value, const ValueLimits& limits)
+    : ValueReader(limits), own_(std::move(value)), at_(own_.get()) {}
 JsonReader::~JsonReader() = default;
+
+JsonReader JsonReader::of_text(std::string_view text, const ValueLimits& limits) {
+    return JsonReader(std::make_unique<const json>(parsed_json(text, limits)), limits);
+}
 
 void JsonReader::refuse_json(const char* wanted) const {
     refuse_kind(wanted, std::string("JSON of the type ") + at_->type_name());
@@ -168,6 +174,10 @@ double JsonReader::number() {
 std::string_view JsonReader::take_text() {
     if (!at_->is_string()) refuse_json("a text");
     return at_->get_ref<const std::string&>();
+}
+
+std::string JsonReader::take_json_text() {
+    return at_->dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
 void JsonReader::read_numbers(const json& list, bool complex) {
@@ -239,8 +249,8 @@ void JsonReader::open_object() {
     open_.push_back(at_);
 }
 
-void JsonReader::to_element(std::size_t place) {
-    at_ = &(*open_.back())[place];
+void JsonReader::to_element(std::size_t index) {
+    at_ = &(*open_.back())[index];
 }
 
 std::string_view JsonReader::to_entry(std::size_t) {

@@ -8,7 +8,7 @@
 
 namespace dynlab::inline data_io {
 
-/// JSON, for files that people and other programs read: keys sorted, numbers with 17 digits; those that JSON has not
+/// JSON, for files that people and other programs read: keys sorted, numbers with 17 digits; those that JSON lacks
 /// are the texts "NaN", "Infinity" and "-Infinity". Vectors are lists, matrices {"rows", "columns", "values"} column by
 /// column, complex numbers pairs. Members for programs only are left out.
 class JsonWriter final : public ValueWriter {
@@ -37,7 +37,7 @@ class JsonWriter final : public ValueWriter {
     void end_object() override { open_.pop_back(); }
 
   private:
-    nlohmann::json& place(nlohmann::json&& value);
+    nlohmann::json& put(nlohmann::json&& value);
 
     std::unique_ptr<nlohmann::json> root_;
     std::vector<nlohmann::json*> open_;  ///< lists and objects that are not at their end
@@ -53,7 +53,9 @@ nlohmann::json parsed_json(std::string_view text, const ValueLimits& limits = {}
 /// Reads what JsonWriter made; members in any order, others are passed over.
 class JsonReader final : public ValueReader {
   public:
-    explicit JsonReader(const nlohmann::json& value, const ValueLimits& limits = {});
+    explicit JsonReader(const nlohmann::json& value, const ValueLimits& limits = {});  ///< `value` must outlive it
+    /// Of parsed_json's value.
+    static JsonReader of_text(std::string_view text, const ValueLimits& limits = {});
     ~JsonReader() override;
     const nlohmann::json& here() const { return *at_; }  ///< the value that is read next
 
@@ -68,18 +70,22 @@ class JsonReader final : public ValueReader {
     [[noreturn]] void refuse_json(const char* wanted) const;
     void read_numbers(const nlohmann::json& list, bool complex);
     std::string_view take_text() override;
+    std::string take_json_text() override;
     NumberArray take_array(std::optional<ArrayForm> wanted) override;
     std::size_t open_list() override;
     std::size_t open_map() override;
     void open_object() override;
-    void to_element(std::size_t place) override;
-    std::string_view to_entry(std::size_t place) override;
+    void to_element(std::size_t index) override;
+    std::string_view to_entry(std::size_t index) override;
     bool to_member(const char* name) override;
     void close_list() override { open_.pop_back(); }
     void close_map() override;
     void close_object() override { open_.pop_back(); }
 
+    JsonReader(std::unique_ptr<const nlohmann::json> value, const ValueLimits& limits);
+
     struct Entries;
+    std::unique_ptr<const nlohmann::json> own_;
     const nlohmann::json* at_;
     std::vector<const nlohmann::json*> open_;
     std::vector<Entries> entries_;  ///< of the maps among them
@@ -96,6 +102,13 @@ std::string json_of(const T& value, int indent = -1) {
 template <class T>
 T value_of_json(const nlohmann::json& json, const ValueLimits& limits = {}) {
     JsonReader reader(json, limits);
+    return read_fresh<T>(reader);
+}
+
+/// Throws ValueError.
+template <class T>
+T from_json(std::string_view text, const ValueLimits& limits = {}) {
+    JsonReader reader = JsonReader::of_text(text, limits);
     return read_fresh<T>(reader);
 }
 

@@ -23,7 +23,7 @@ struct ValueLimits {
     }
 };
 
-/// A value that is not what was wanted. The message begins with its place: "experiments[2].y: ...".
+/// A value that is not what was wanted. The message begins with its location: "experiments[2].y: ...".
 class ValueError : public EnvironmentError {
   public:
     using EnvironmentError::EnvironmentError;

@@ -17,12 +17,12 @@ std::string shown_key(const std::string& key) {
 
 }  // namespace
 
-std::string ValueReader::place_text() const {
+std::string ValueReader::location_text() const {
     std::string text;
     for (const Step& step : steps_) {
-        if (step.in == Step::In::kList && step.place > 0)
-            text += fmt::format("[{}]", step.place);
-        else if (step.in == Step::In::kMap && step.place > 0)
+        if (step.in == Step::In::kList && step.index > 0)
+            text += fmt::format("[{}]", step.index);
+        else if (step.in == Step::In::kMap && step.index > 0)
             text += fmt::format("[\"{}\"]", shown_key(step.key));
         else if (step.in == Step::In::kObject && step.name)
             text += (text.empty() ? "" : ".") + std::string(step.name);
@@ -31,7 +31,7 @@ std::string ValueReader::place_text() const {
 }
 
 void ValueReader::refuse(const std::string& sentence) const {
-    throw ValueError(place_text() + ": " + sentence);
+    throw ValueError(location_text() + ": " + sentence);
 }
 
 void ValueReader::refuse_kind(const std::string& wanted, const std::string& given) const {
@@ -59,6 +59,12 @@ std::string ValueReader::text() {
     return limits_.only_utf8 ? in_utf8(text) : std::string(text);
 }
 
+std::string ValueReader::json_text() {
+    std::string text = take_json_text();
+    charge(text.size());
+    return text;
+}
+
 std::size_t ValueReader::one_of(std::span<const char* const> names) {
     const std::string_view name = take_text();
     std::string known;
@@ -84,7 +90,7 @@ std::size_t ValueReader::begin_list(std::size_t element_bytes) {
 }
 
 void ValueReader::element() {
-    to_element(steps_.back().place++);
+    to_element(steps_.back().index++);
 }
 
 void ValueReader::end_list() {
@@ -102,7 +108,7 @@ std::size_t ValueReader::begin_map(std::size_t entry_bytes) {
 }
 
 std::string ValueReader::key() {
-    const std::string_view key = to_entry(steps_.back().place++);
+    const std::string_view key = to_entry(steps_.back().index++);
     charge(key.size());
     return steps_.back().key = limits_.only_utf8 ? in_utf8(key) : std::string(key);
 }

@@ -51,8 +51,9 @@ class ValueWriter {
     virtual void end_object() = 0;
 };
 
-/// Gives a value piece by piece to who knows what it should be. Every function throws ValueError where something else
-/// stands, or a limit is passed; the message tells the place. Members of an object come in the order they were written.
+/// Gives a value piece by piece to a caller that knows what it should be. Every function throws ValueError where
+/// something else stands, or a limit is passed; the message begins with its location. Members of an object come in the
+/// order they were written.
 class ValueReader {
   public:
     explicit ValueReader(const ValueLimits& limits) : limits_(limits), memory_left_(limits.memory) {}
@@ -68,11 +69,12 @@ class ValueReader {
     virtual std::int64_t whole(std::int64_t low, std::int64_t high) = 0;  ///< at least, at most
     virtual double number() = 0;
     std::string text();
-    std::size_t one_of(std::span<const char* const> names);  ///< the place of the text among them
+    std::string json_text();  ///< what ValueWriter::json_text() wrote; of JSON, the value that stands here
+    std::size_t one_of(std::span<const char* const> names);  ///< the index of the text among them
     /// Numbers of this form, or of any; they are there until the next call.
     NumberArray array(std::optional<ArrayForm> wanted);
 
-    /// The number of elements, each of which will take so many bytes; call element() before each is read.
+    /// The number of elements, each of which will take `element_bytes`; call element() before each is read.
     std::size_t begin_list(std::size_t element_bytes);
     void element();
     void end_list();
@@ -93,12 +95,13 @@ class ValueReader {
 
   private:
     virtual std::string_view take_text() = 0;
+    virtual std::string take_json_text() = 0;
     virtual NumberArray take_array(std::optional<ArrayForm> wanted) = 0;
     virtual std::size_t open_list() = 0;
     virtual std::size_t open_map() = 0;
     virtual void open_object() = 0;
-    virtual void to_element(std::size_t place) = 0;
-    virtual std::string_view to_entry(std::size_t place) = 0;  ///< its key
+    virtual void to_element(std::size_t index) = 0;
+    virtual std::string_view to_entry(std::size_t index) = 0;  ///< its key
     virtual bool to_member(const char* name) = 0;
     virtual void close_list() {}
     virtual void close_map() {}
@@ -107,12 +110,12 @@ class ValueReader {
     /// Where in a list (by number), a map (by key) or an object (by a name that lives on) the reader is.
     struct Step {
         enum class In { kList, kMap, kObject } in;
-        std::size_t place = 0;  ///< of the next one
+        std::size_t index = 0;  ///< of the next one
         std::string key = {};
         const char* name = nullptr;
     };
     void enter(Step step);
-    std::string place_text() const;
+    std::string location_text() const;
 
     ValueLimits limits_;
     std::size_t memory_left_;

@@ -9,7 +9,7 @@
 namespace dynlab::inline figures {
 namespace {
 
-void check(const ModelOutput& model, const Matrix& measured) {
+void check_model_output(const ModelOutput& model, const Matrix& measured) {
     if (model.y.rows() == measured.rows() && model.y.cols() == measured.cols() &&
         model.fit_percent.size() == measured.cols())
         return;
@@ -18,14 +18,14 @@ void check(const ModelOutput& model, const Matrix& measured) {
         measured.rows(), measured.cols(), measured.cols(), model.y.rows(), model.y.cols(), model.fit_percent.size()));
 }
 
-Curve model_curve(const ModelOutput& model, Index output, const Vector& t, int place) {
+Curve model_curve(const ModelOutput& model, Index output, const Vector& t, int index) {
     static constexpr int kColours[] = {0, 6, 3, 4, 1, 7, 5};  // apart from the grey of the data
     Curve curve;
     curve.x = t;
     curve.y = model.y.col(output);
     curve.label = fmt::format("{}: {:.1f} %", model.name, model.fit_percent[output]);
-    curve.colour = kColours[place % 7];
-    curve.dash = place % 4;
+    curve.colour = kColours[index % 7];
+    curve.dash = index % 4;
     return curve;
 }
 
@@ -36,16 +36,16 @@ Figure compare_plot(const IdData& data, const std::vector<ModelOutput>& models, 
         throw InvalidArgument(
             fmt::format("there is no experiment {}; the data hold {}", experiment + 1, data.experiments.size()));
     const Matrix& measured = data.experiments[experiment].y;
-    for (const ModelOutput& model : models) check(model, measured);
+    for (const ModelOutput& model : models) check_model_output(model, measured);
     const Vector t = data.time(experiment);
     Figure figure;
     figure.rows = static_cast<int>(measured.cols());
     for (Index output = 0; output < measured.cols(); ++output) {
         Panel panel;
-        const auto place = static_cast<std::size_t>(output);
+        const auto index = static_cast<std::size_t>(output);
         panel.y_label = axis_label(
-            place < data.output_names.size() ? data.output_names[place] : fmt::format("y_{{{}}}", output + 1),
-            place < data.output_units.size() ? data.output_units[place] : "");
+            index < data.output_names.size() ? data.output_names[index] : fmt::format("y_{{{}}}", output + 1),
+            index < data.output_units.size() ? data.output_units[index] : "");
         Curve curve;
         curve.x = t;
         curve.y = measured.col(output);

@@ -18,14 +18,14 @@ struct Channel {
 std::string label_of(const Channel& channel, const IdData& data) {
     const auto& names = channel.output ? data.output_names : data.input_names;
     const auto& units = channel.output ? data.output_units : data.input_units;
-    const auto place = static_cast<std::size_t>(channel.number);
-    const std::string name = place < names.size() && !names[place].empty()
-                                 ? names[place]
+    const auto index = static_cast<std::size_t>(channel.number);
+    const std::string name = index < names.size() && !names[index].empty()
+                                 ? names[index]
                                  : fmt::format("{}_{{{}}}", channel.output ? "y" : "u", channel.number + 1);
-    return axis_label(name, place < units.size() ? units[place] : "");
+    return axis_label(name, index < units.size() ? units[index] : "");
 }
 
-void check(const std::vector<const IdData*>& data, const std::vector<std::string>& labels) {
+void check_channels(const std::vector<const IdData*>& data, const std::vector<std::string>& labels) {
     if (data.empty()) throw InvalidArgument("there are no data to plot");
     if (!labels.empty() && labels.size() != data.size())
         throw InvalidArgument(fmt::format("{} data objects need as many labels, not {}", data.size(), labels.size()));
@@ -56,7 +56,7 @@ void add_curve(Panel& panel, Curve curve, bool output) {
 Panel panel_of(const Channel& channel, const std::vector<const IdData*>& data, const std::vector<std::string>& labels) {
     Panel panel;
     panel.y_label = label_of(channel, *data.front());
-    int place = 0;
+    int index = 0;
     for (std::size_t i = 0; i < data.size(); ++i)
         for (std::size_t k = 0; k < data[i]->experiments.size(); ++k) {
             const Experiment& experiment = data[i]->experiments[k];
@@ -73,7 +73,7 @@ Panel panel_of(const Channel& channel, const std::vector<const IdData*>& data, c
                     experiment.name.empty() ? fmt::format("experiment {}", k + 1) : experiment.name;
                 curve.label += (curve.label.empty() ? "" : ", ") + name;
             }
-            curve.colour = place++;
+            curve.colour = index++;
             curve.dash = 0;
             add_curve(panel, std::move(curve), channel.output);
         }
@@ -97,7 +97,7 @@ std::string axis_label(const std::string& name, const std::string& unit) {
 }
 
 Figure id_plot(const std::vector<const IdData*>& data, const std::vector<std::string>& labels) {
-    check(data, labels);
+    check_channels(data, labels);
     std::vector<Channel> channels;
     for (Index i = 0; i < data.front()->output_count(); ++i) channels.push_back({true, i});
     for (Index i = 0; i < data.front()->input_count(); ++i) channels.push_back({false, i});

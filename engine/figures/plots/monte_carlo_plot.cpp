@@ -16,8 +16,8 @@
 namespace dynlab::inline figures {
 namespace {
 
-constexpr double kShownShare = 0.99;  // of all estimates, in the middle
-constexpr double kSqueezing = 0.5;    // times the range of those: what lies farther out would squeeze the picture
+constexpr double kShownShare = 0.99;     // of all estimates, in the middle
+constexpr double kRangeExtension = 0.5;  // times the range of those: what lies farther out would squeeze the picture
 constexpr double kTruthWidth = 2.5;
 constexpr int kTruthColour = 6;  // seen on top of any cloud
 
@@ -29,7 +29,7 @@ Vector estimates_of(const MonteCarloResult& result, Index column) {
     return Eigen::Map<const Vector>(values.data(), static_cast<Index>(values.size()));
 }
 
-Index place_of(const MonteCarloResult& result, const std::string& name) {
+Index index_of_parameter(const MonteCarloResult& result, const std::string& name) {
     const auto found = std::find(result.names.begin(), result.names.end(), name);
     if (found == result.names.end())
         throw InvalidArgument(fmt::format("{} has no parameter '{}'; its parameters are {}", result.label, name,
@@ -46,7 +46,7 @@ std::string symbol_of(const std::string& name) {
                        part[5].matched ? "," : "", part[5].str());
 }
 
-void check(const MonteCarlo& study) {
+void check_study(const MonteCarlo& study) {
     if (study.results.empty()) throw InvalidArgument("the study has no results to draw");
     for (const MonteCarloResult& result : study.results) {
         if (result.estimated == 0)
@@ -64,11 +64,11 @@ std::pair<double, double> range_of(const std::vector<Vector>& estimates, std::op
     std::vector<double> all;
     for (const Vector& values : estimates) all.insert(all.end(), values.begin(), values.end());
     std::sort(all.begin(), all.end());
-    const auto place = [&](double share) {
+    const auto index_at = [&](double share) {
         return static_cast<std::size_t>(share * static_cast<double>(all.size() - 1));
     };
-    const double low = all[place((1 - kShownShare) / 2)], high = all[place((1 + kShownShare) / 2)];
-    const double margin = kSqueezing * (high - low);
+    const double low = all[index_at((1 - kShownShare) / 2)], high = all[index_at((1 + kShownShare) / 2)];
+    const double margin = kRangeExtension * (high - low);
     Extent extent(false);
     for (const double value : all)
         if (value >= low - margin && value <= high + margin) extent.include(value);
@@ -76,9 +76,9 @@ std::pair<double, double> range_of(const std::vector<Vector>& estimates, std::op
     return extent.padded(0.05);
 }
 
-std::optional<double> truth_of(const MonteCarloResult& result, Index place) {
+std::optional<double> truth_of(const MonteCarloResult& result, Index index) {
     if (result.truth.size() == 0) return std::nullopt;
-    return result.truth[place];
+    return result.truth[index];
 }
 
 Panel histogram_panel(const Vector& values, std::pair<double, double> range, std::optional<double> truth, int colour) {
@@ -162,7 +162,7 @@ void add_truth(Panel& panel, const MonteCarloResult& result, Index x, Index y, d
 }  // namespace
 
 Figure monte_carlo_histograms(const MonteCarlo& study) {
-    check(study);
+    check_study(study);
     const auto d = static_cast<Index>(study.results.front().names.size());
     std::vector<std::pair<double, double>> ranges;
     for (Index i = 0; i < d; ++i) {
@@ -176,11 +176,11 @@ Figure monte_carlo_histograms(const MonteCarlo& study) {
     for (std::size_t j = 0; j < study.results.size(); ++j) {
         const MonteCarloResult& result = study.results[j];
         for (Index i = 0; i < d; ++i) {
-            const auto place = static_cast<std::size_t>(i);
+            const auto index = static_cast<std::size_t>(i);
             Panel panel =
-                histogram_panel(estimates_of(result, i), ranges[place], truth_of(result, i), static_cast<int>(j));
+                histogram_panel(estimates_of(result, i), ranges[index], truth_of(result, i), static_cast<int>(j));
             panel.y_label = i == 0 ? result.label : "";
-            panel.x_label = j + 1 == study.results.size() ? symbol_of(result.names[place]) : "";
+            panel.x_label = j + 1 == study.results.size() ? symbol_of(result.names[index]) : "";
             figure.panels.push_back(std::move(panel));
         }
     }
@@ -198,7 +198,8 @@ Figure monte_carlo_scatter(const MonteCarlo& study, const std::string& x_name, c
     for (std::size_t j = 0; j < study.results.size(); ++j) {
         const MonteCarloResult& result = study.results[j];
         if (result.estimated == 0) continue;
-        panel.curves.push_back(cloud(result, place_of(result, x_name), place_of(result, y_name), static_cast<int>(j)));
+        panel.curves.push_back(
+            cloud(result, index_of_parameter(result, x_name), index_of_parameter(result, y_name), static_cast<int>(j)));
         xs.push_back(panel.curves.back().x);
         ys.push_back(panel.curves.back().y);
         if (reference == nullptr && result.truth.size() > 0) reference = &result;
@@ -206,7 +207,7 @@ Figure monte_carlo_scatter(const MonteCarlo& study, const std::string& x_name, c
     if (panel.curves.empty()) throw InvalidArgument("there is nothing to draw: no method gave estimates");
     std::optional<double> true_x, true_y;
     if (reference != nullptr) {
-        const Index x = place_of(*reference, x_name), y = place_of(*reference, y_name);
+        const Index x = index_of_parameter(*reference, x_name), y = index_of_parameter(*reference, y_name);
         true_x = reference->truth[x], true_y = reference->truth[y];
         add_truth(panel, *reference, x, y, level);
     }

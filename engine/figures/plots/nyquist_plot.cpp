@@ -49,7 +49,7 @@ Figure nyquist_plot(const std::vector<NamedModel>& models, const Vector& w) {
     panel.x_label = "real part";
     panel.y_label = "imaginary part";
     panel.equal_axes = true;
-    int place = 0;
+    int index = 0;
     for (const NamedModel& model : models) {
         ComplexVector response = frequency_response(model.G, grid);
         leave_out_far_points(response);
@@ -57,7 +57,7 @@ Figure nyquist_plot(const std::vector<NamedModel>& models, const Vector& w) {
         curve.x = response.real();
         curve.y = response.imag();
         curve.label = model.name;
-        curve.colour = place++;
+        curve.colour = index++;
         curve.dash = 0;
         panel.curves.push_back(curve);
         curve.y = -curve.y;

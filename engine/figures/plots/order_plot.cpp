@@ -48,7 +48,7 @@ bool only_delays_differ(const OrderSelection& selection) {
     return selection.candidates.size() > 1;
 }
 
-/// For each curve (number of zeros) the best value at each place of x.
+/// For each curve (number of zeros) the best value at each x.
 std::map<int, std::map<double, double>> best_values(const OrderSelection& selection, const Quantity& quantity,
                                                     bool over_delay) {
     std::map<int, std::map<double, double>> curves;
@@ -56,21 +56,21 @@ std::map<int, std::map<double, double>> best_values(const OrderSelection& select
         if (!candidate.failure.empty()) continue;
         const double value = quantity.value(candidate), x = over_delay ? candidate.delay : candidate.poles;
         if (!std::isfinite(value)) continue;
-        auto [place, is_new] = curves[candidate.zeros].try_emplace(x, value);
-        if (!is_new && (quantity.larger_is_better ? value > place->second : value < place->second))
-            place->second = value;
+        auto [entry, is_new] = curves[candidate.zeros].try_emplace(x, value);
+        if (!is_new && (quantity.larger_is_better ? value > entry->second : value < entry->second))
+            entry->second = value;
     }
     return curves;
 }
 
-Curve curve_of(const std::map<double, double>& values, int zeros, int place) {
+Curve curve_of(const std::map<double, double>& values, int zeros, int index) {
     Curve curve;
     curve.x.resize(static_cast<Index>(values.size()));
     curve.y.resize(curve.x.size());
     Index i = 0;
     for (const auto& [x, y] : values) curve.x[i] = x, curve.y[i++] = y;
     curve.style = CurveStyle::kLinePoints;
-    curve.colour = place;
+    curve.colour = index;
     curve.label = zeros == 0 ? "no zero" : std::to_string(zeros) + (zeros == 1 ? " zero" : " zeros");
     return curve;
 }
@@ -94,10 +94,10 @@ Figure order_plot(const OrderSelection& selection, OrderCriterion criterion, con
     const bool over_delay = only_delays_differ(selection);
     Panel panel;
     Extent x_extent(false), y_extent(false);
-    int place = 0;
+    int index = 0;
     for (const auto& [zeros, values] : best_values(selection, quantity, over_delay)) {
         if (values.empty()) continue;
-        panel.curves.push_back(curve_of(values, zeros, place++));
+        panel.curves.push_back(curve_of(values, zeros, index++));
         x_extent.include(panel.curves.back().x);
         y_extent.include(panel.curves.back().y);
     }

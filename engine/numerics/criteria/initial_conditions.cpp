@@ -117,8 +117,8 @@ void require_transient(const std::string& caller, const StepFit& fit) {
     const double constant = bic_of_loss(fit.spread, fit.output_power, fit.samples, fit.experiments);
     if (bic_of_loss(fit.loss, fit.output_power, fit.samples, fit.parameters) < constant) return;
     throw InvalidArgument(caller +
-                          ": the input never changes and the output shows no transient, so there is no excitation to "
-                          "learn from: let the input vary, for instance as a prbs");
+                          ": the input never changes and the output shows no transient, so there is no excitation: "
+                          "let the input vary, for instance as a prbs");
 }
 
 }  // namespace dynlab::inline numerics

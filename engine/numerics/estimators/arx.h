@@ -13,7 +13,7 @@ namespace dynlab::inline numerics {
 /// One pass over the data adds up the Gram matrix of the regressors; when its condition number is above 1e3 an
 /// orthogonal triangularisation, block by block, takes its place. Neither stores the regressors. `fit_percent` is that
 /// of a simulation which begins with the recorded past of the first sample. Throws InvalidArgument for other data or
-/// orders, no more equations than parameters, or an input too poor to tell the coefficients of its B apart. Doubtful
+/// orders, no more equations than parameters, or an input not persistently exciting enough for its B. Doubtful
 /// results are told in `warnings`. Reference: Ljung (1999), sections 7.3 and 10.1.
 Fit arx(const IdData& data, const PolynomialOrders& orders);
 

@@ -212,7 +212,7 @@ void check(const IdData& data, const TransferStructure& structure, const Hammers
             "of any other");
     for (const Experiment& experiment : data.experiments)
         if ((experiment.u.array() != experiment.u(0, 0)).any()) return;
-    throw InvalidArgument("hammerstein: the input never changes, so there is no excitation to learn from");
+    throw InvalidArgument("hammerstein: the input never changes, so it does not excite the system");
 }
 
 }  // namespace

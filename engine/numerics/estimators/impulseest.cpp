@@ -49,8 +49,9 @@ void fit_plainly(const Regression& regression, ImpulseEstimate& estimate) {
     const LeastSquares fit = solve_least_squares(regression.Phi, regression.y);
     if (fit.rank < regression.Phi.cols() || fit.condition_number > 1e8)
         throw InvalidArgument(
-            "impulseest: the input is too poor to tell the " + std::to_string(regression.Phi.cols()) +
-            " samples of the impulse response apart; use the smooth estimate, fewer lags, or resample the data to a "
+            "impulseest: the input is not persistently exciting enough to determine the " +
+            std::to_string(regression.Phi.cols()) +
+            " samples of the impulse response; use the smooth estimate, fewer lags, or resample the data to a "
             "lower rate first");
     estimate.response = fit.solution;
     estimate.noise_variance = fit.residuals.squaredNorm() / degrees_of(regression);

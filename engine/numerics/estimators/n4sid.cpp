@@ -89,8 +89,9 @@ void require_rich_inputs(const Matrix& R, const Sizes& sizes) {
     const Index f = sizes.future_inputs();
     const Matrix inputs = R.topLeftCorner(f, f);
     if (solve_least_squares(inputs, Vector::Zero(f)).condition_number < kAmbiguousCondition) return;
-    throw InvalidArgument("n4sid: the input is too poor to tell " + std::to_string(sizes.s) +
-                          " samples of it apart (as a constant or a few sines are): excite the system with an input "
+    throw InvalidArgument("n4sid: the input is not persistently exciting enough to determine " +
+                          std::to_string(sizes.s) +
+                          " samples of its effect (a constant or a few sines are not): excite the system with an input "
                           "that changes more, or lower `block_rows`");
 }
 
@@ -229,10 +230,10 @@ void add_warnings(SubspaceEstimate& estimate, bool reflected) {
     const auto seen = (values.array() > kNoSignal * values[0]).count();
     if (seen < estimate.system.order())
         estimate.warnings.push_back("The data show " + std::to_string(seen) +
-                                    " states only: what the others say is rounding, so a lower order is wanted.");
+                                    " states only: the others are rounding, so a lower order suffices.");
     if (reflected) estimate.warnings.push_back("Eigenvalues outside the unit circle were mirrored into it.");
     if (estimate.condition_number > kAmbiguousCondition)
-        estimate.warnings.push_back("The data do not tell all entries of B apart (condition number " +
+        estimate.warnings.push_back("The data do not determine all entries of B separately (condition number " +
                                     number_text(estimate.condition_number, 2) + ").");
 }
 

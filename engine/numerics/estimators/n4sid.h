@@ -50,8 +50,8 @@ struct SubspaceEstimate {
 /// than an output-error or prediction-error estimate, for which it is a start that needs no guess. No standard errors.
 /// Outputs are scaled to equal size beforehand, so that their units have no say.
 /// Data: any number of inputs, outputs and experiments, regular sampling. Throws InvalidArgument for other data, an
-/// order below 1 or not below s, a record too short or an input too poor for s. Reference: Verhaegen and Dewilde
-/// (1992); Verhaegen (1994), Automatica 30, 61-74; Ljung (1999), section 10.6.
+/// order below 1 or not below s, a record too short or an input not persistently exciting enough for s. Reference:
+/// Verhaegen and Dewilde (1992); Verhaegen (1994), Automatica 30, 61-74; Ljung (1999), section 10.6.
 SubspaceEstimate n4sid(const IdData& data, int order, const SubspaceOptions& options = {});
 
 }  // namespace dynlab::inline numerics

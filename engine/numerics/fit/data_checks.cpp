@@ -36,15 +36,15 @@ void check_inputs(const std::string& method, const IdData& data) {
     for (Index input = 0; input < data.input_count(); ++input)
         if (in_all_experiments(data, [&](const Experiment& e) { return e.u.col(input).isZero(0); }))
             throw InvalidArgument(method + ": the input " + data.input_names[static_cast<std::size_t>(input)] +
-                                  " is zero throughout, so it excites nothing and nothing can be learnt about its "
-                                  "effect");
+                                  " is zero throughout: it does not excite the system, and its effect cannot be "
+                                  "estimated");
 }
 
 void check_outputs(const std::string& method, const IdData& data) {
     for (Index output = 0; output < data.output_count(); ++output)
         if (in_all_experiments(data, [&](const Experiment& e) { return is_constant(e.y.col(output)); }))
             throw InvalidArgument(method + ": " + numbered("output", output, data.output_count()) +
-                                  " never changes, so nothing can be learnt");
+                                  " never changes, so no dynamics can be estimated");
 }
 
 }  // namespace
@@ -76,8 +76,8 @@ void check_transfer_data(const std::string& method, const IdData& data, const Tr
                 return is_constant(e.u.col(input)) && !starts_from_rest(e.y.col(0));
             }))
             throw InvalidArgument(method + ": " + numbered("input", input, data.input_count()) +
-                                  " never changes and the output does not start from rest, so there is no excitation "
-                                  "to learn from: let the input vary, for instance as a prbs");
+                                  " never changes and the output does not start from rest, so there is no excitation: "
+                                  "let the input vary, for instance as a prbs");
     check_outputs(method, data);
 }
 

@@ -60,9 +60,9 @@ void warn_of_search(Fit& fit, const FitOptions& options) {
 
 void warn_of_doubtful_parameters(Fit& fit, const std::string& simpler) {
     if (!(fit.condition_number < kAmbiguousCondition)) {
-        fit.warnings.push_back(
-            "The data do not tell all parameters apart (badly conditioned: " + number_text(fit.condition_number, 2) +
-            "): " + simpler + " or a richer input is wanted.");
+        fit.warnings.push_back("The data do not determine all parameters separately (badly conditioned: " +
+                               number_text(fit.condition_number, 2) + "): " + simpler +
+                               " or a richer input is wanted.");
         return;
     }
     std::string names;

@@ -19,8 +19,8 @@ void require_rich_inputs(const std::string& method, const MatrixView& R, const P
         if (solve_least_squares(columns, Vector::Zero(R.rows())).condition_number < kAmbiguousCondition) continue;
         throw InvalidArgument(
             method + ": the input " + data.input_names[input] +
-            " is too poor to tell nb = " + std::to_string(orders.nb[input]) +
-            " coefficients apart (as a constant or a single sine is): excite the system with an input "
+            " is not persistently exciting enough to determine nb = " + std::to_string(orders.nb[input]) +
+            " coefficients (a constant or a single sine is not): excite the system with an input "
             "that changes more, or lower nb");
     }
 }

@@ -12,7 +12,7 @@ namespace dynlab::inline numerics {
 /// equations than parameters.
 void check_equation_error(const std::string& method, const IdData& data, const PolynomialOrders& orders);
 
-/// Least squares. Throws InvalidArgument for an input too poor to tell the coefficients of its B apart.
+/// Least squares. Throws InvalidArgument for an input not persistently exciting enough for its B.
 ArxSolution solve_rich_arx(const std::string& method, const IdData& data, const PolynomialOrders& orders);
 
 /// Fills loss, noise variance, fits and offsets from the errors of the equations and a simulation that begins with the

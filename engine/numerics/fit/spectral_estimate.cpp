@@ -13,7 +13,7 @@ namespace {
 
 void check_channels(const std::string& caller, const IdData& data) {
     if (data.input_count() == 0)
-        throw InvalidArgument(caller + ": the data have no input, so there is nothing that the output could answer to");
+        throw InvalidArgument(caller + ": the data have no input, so there is no response to estimate");
     if (data.input_count() != 1 || data.output_count() != 1)
         throw InvalidArgument(caller + ": the data must have one input and one output, but they have " +
                               std::to_string(data.input_count()) + " and " + std::to_string(data.output_count()) +
@@ -38,8 +38,8 @@ IdData nonparametric_data(const std::string& caller, const IdData& data, Index f
         input_changes = input_changes || changes(experiment.u);
         output_changes = output_changes || changes(experiment.y);
     }
-    if (!input_changes) throw InvalidArgument(caller + ": the input never changes, so it excites nothing");
-    if (!output_changes) throw InvalidArgument(caller + ": the output never changes, so nothing can be learnt from it");
+    if (!input_changes) throw InvalidArgument(caller + ": the input never changes, so it does not excite the dynamics");
+    if (!output_changes) throw InvalidArgument(caller + ": the output never changes, so no dynamics can be estimated");
     return remove_means ? remove_mean(data).data : data;
 }
 

@@ -23,7 +23,7 @@ void check_arguments(double x, double degrees) {
 
 void check_probability(double probability) {
     if (!(probability > 0 && probability < 1))
-        throw InvalidArgument("A probability between 0 and 1 is wanted, and got " + std::to_string(probability));
+        throw InvalidArgument("A probability must lie between 0 and 1, but it is " + std::to_string(probability));
 }
 
 }  // namespace

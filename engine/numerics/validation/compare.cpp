@@ -304,4 +304,16 @@ CompareResult compare(const IdData& data, const TransferFunction& G, const Compa
     return compare_all(data, {G}, options).results.front().front();
 }
 
+LevelledOutputs levelled_outputs(const IdData& data, const Comparison& comparison) {
+    LevelledOutputs all{Vector(data.sample_count()), Vector(data.sample_count())};
+    Index first = 0;
+    for (std::size_t k = 0; k < data.experiments.size(); ++k) {
+        const auto y = data.experiments[k].y.col(0);
+        all.measured.segment(first, y.size()) = y.array() - y.mean();
+        all.simulated.segment(first, y.size()) = comparison.results[k].front().output.array() - y.mean();
+        first += y.size();
+    }
+    return all;
+}
+
 }  // namespace dynlab::inline numerics

@@ -43,4 +43,11 @@ struct Comparison {
 Comparison compare_all(const IdData& data, const std::vector<TransferFunction>& channels,
                        const CompareOptions& options = {});
 
+/// The first output of all experiments one after the other, N values, each counted from the mean of its experiment's
+/// measured output.
+struct LevelledOutputs {
+    Vector measured, simulated;
+};
+LevelledOutputs levelled_outputs(const IdData& data, const Comparison& comparison);
+
 }  // namespace dynlab::inline numerics

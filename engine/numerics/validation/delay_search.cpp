@@ -62,7 +62,7 @@ std::string explanation_of(const DelaySearch& search, const IdData& data) {
     if (std::isfinite(search.std)) text += ", standard error " + number_text(search.std, 2) + " s";
     text += ", in a model with " + orders_of(search.candidate) + " that fits " +
             number_text(search.candidate.fit_percent, 4) + " %.";
-    if (search.delay <= 2 * search.std) text += " The data do not tell it from no delay at all.";
+    if (search.delay <= 2 * search.std) text += " It does not differ significantly from no delay.";
     if (search.rival)
         text += " A delay of " + number_text(*search.rival) +
                 " s explains them nearly as well: look at the curve, and decide by what you know of the plant.";

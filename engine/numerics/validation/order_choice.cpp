@@ -120,7 +120,7 @@ std::string passed_over(const OrderSelection& selection, const Places& estimated
     if (closest == chosen) return "";
     const std::string subject = " With " + structure_text(other) + " the " +
                                 (selection.validated ? "validation fit" : "BIC") + " would be better still, but ";
-    if (!other.sound()) return subject + "that model has " + faults_of(other) + ", which tells of too many parameters.";
+    if (!other.sound()) return subject + "that model has " + faults_of(other) + ", a sign of too many parameters.";
     if (other.parameters() > taken.parameters())
         return subject + "not by enough to pay for " +
                counted(other.parameters() - taken.parameters(), "more parameter") + ".";

@@ -22,23 +22,11 @@ constexpr int kMostCandidates = 2000;
 constexpr double kRoundingShare = 1e-20;  // of the output's mean square: smaller errors are rounding
 
 /// Measured and simulated output of all experiments, each counted from the mean of its measured output.
-struct ValidationOutputs {
-    Vector measured, simulated;
-};
-
-ValidationOutputs outputs_of(const IdData& data, const Fit& estimate, Offset asked) {
+LevelledOutputs outputs_of(const IdData& data, const Fit& estimate, Offset asked) {
     const Offset chosen = estimate.start.offset ? Offset::kEstimate : Offset::kNone;
-    const Comparison comparison =
-        compare_all(data, estimate.models, {estimate.start.state, asked == Offset::kRemove ? Offset::kRemove : chosen});
-    ValidationOutputs all{Vector(data.sample_count()), Vector(data.sample_count())};
-    Index first = 0;
-    for (std::size_t k = 0; k < data.experiments.size(); ++k) {
-        const auto y = data.experiments[k].y.col(0);
-        all.measured.segment(first, y.size()) = y.array() - y.mean();
-        all.simulated.segment(first, y.size()) = comparison.results[k].front().output.array() - y.mean();
-        first += y.size();
-    }
-    return all;
+    return levelled_outputs(data,
+                            compare_all(data, estimate.models,
+                                        {estimate.start.state, asked == Offset::kRemove ? Offset::kRemove : chosen}));
 }
 
 std::vector<std::string> undetermined_parameters(const Fit& estimate) {
@@ -85,7 +73,7 @@ double validation_fit(const IdData& data, const Fit& estimate, Offset offset) {
 void measure(OrderCandidate& candidate, const IdData& data, const OrderSelectionOptions& options) {
     const Fit& estimate = candidate.estimate;
     const Offset offset = options.estimation.offset;
-    const ValidationOutputs outputs = outputs_of(data, estimate, offset);
+    const LevelledOutputs outputs = outputs_of(data, estimate, offset);
     const Index N = data.sample_count(), d = estimate.theta.size();
     const auto samples = static_cast<double>(N), count = static_cast<double>(d);
     const double mean_square = (outputs.measured - outputs.simulated).squaredNorm() / samples;

@@ -223,7 +223,7 @@ std::string conclusion(const OutputResiduals& output) {
     if (!independent)
         return "Dynamics are missing: try another delay, one more pole or one more zero, and then look for a "
                "nonlinearity or a drift.";
-    if (output.whiteness.white) return "The model says all that the data can tell, and its standard errors hold.";
+    if (output.whiteness.white) return "The model explains all that the data show, and its standard errors hold.";
     if (!tested)
         return "Missing dynamics or a coloured disturbance: without an input that changes the record cannot tell "
                "which.";

@@ -71,11 +71,12 @@ void find_step_at_the_start(const Channel& channel, std::vector<RecordFinding>& 
 }
 
 void find_constant(const Channel& channel, std::vector<RecordFinding>& findings) {
-    findings.push_back(about(channel, "constant", Weight::kWarning,
-                             subject(channel) + " stays at " + with_unit(channel.x[0], channel.unit) +
-                                 " throughout, so nothing can be learnt from it. It is at a limit all the time, its "
-                                 "sensor or wire is dead, or a wrong column was read.",
-                             channel.x[0]));
+    findings.push_back(
+        about(channel, "constant", Weight::kWarning,
+              subject(channel) + " stays at " + with_unit(channel.x[0], channel.unit) +
+                  " throughout, so no dynamics can be estimated from it. It is at a limit all the time, its "
+                  "sensor or wire is dead, or a wrong column was read.",
+              channel.x[0]));
 }
 
 void find_time_column(const Channel& channel, std::vector<RecordFinding>& findings) {

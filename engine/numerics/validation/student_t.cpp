@@ -20,7 +20,7 @@ double student_t_quantile(double probability, double degrees) {
         throw InvalidArgument("Student's t needs a positive number of degrees of freedom, and got " +
                               std::to_string(degrees) + ": use more samples than parameters");
     if (!(probability > 0 && probability < 1))
-        throw InvalidArgument("A probability between 0 and 1 is wanted, and got " + std::to_string(probability));
+        throw InvalidArgument("A probability must lie between 0 and 1, but it is " + std::to_string(probability));
     return quantile(StudentT(degrees), probability);
 }
 

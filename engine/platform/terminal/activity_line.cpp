@@ -11,8 +11,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kLong = 1s;
-constexpr auto kBetweenLooks = 200ms;
+constexpr auto kFirstShownAfter = 1s;
+constexpr auto kRefreshInterval = 200ms;
 
 std::mutex current_mutex;
 ActivityLine* current_line = nullptr;  // guarded by current_mutex
@@ -94,7 +94,7 @@ bool ActivityLine::show_bar(const std::string& bar) {
 
 void ActivityLine::refresh_now_and_then() {
     std::unique_lock lock(mutex_);
-    while (!over_.wait_for(lock, kBetweenLooks, [this] { return ending_; }))
+    while (!over_.wait_for(lock, kRefreshInterval, [this] { return ending_; }))
         if (!part_.empty()) draw();
 }
 
@@ -103,7 +103,8 @@ void ActivityLine::draw() {
     if (!on_terminal_ || in_text_) return;
     const auto lasting = Clock::now() - part_since_;
     std::string line = step_.empty() ? step_ : step_ + " ...";
-    if (!part_.empty() && lasting >= kLong) line = lasting_text(part_, std::chrono::duration<double>(lasting).count());
+    if (!part_.empty() && lasting >= kFirstShownAfter)
+        line = lasting_text(part_, std::chrono::duration<double>(lasting).count());
     if (!bar_.empty()) line += (line.empty() ? "" : "  ") + bar_;
     if (line.empty()) return erase();
     show_terminal_line(line);

@@ -8,7 +8,7 @@
 
 namespace dynlab::inline platform {
 
-/// "cell 4 of 12, Validation  2 min 5 s": what has been done for so many seconds.
+/// "cell 4 of 12, Validation  2 min 5 s": what has been running, and for how long.
 std::string lasting_text(const std::string& what, double seconds);
 
 /// The last line of a terminal while a long piece of work goes on: its step at once, or the part of a step that has

@@ -16,7 +16,7 @@ class ProgressBar {
     ~ProgressBar();  ///< clears the line
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
-    void advance(std::size_t done);         ///< so many of the total are done now
+    void advance(std::size_t done);         ///< `done` of the total are done now
     void message(const std::string& text);  ///< replaces the description (for steps instead of counts)
 
   private:

@@ -17,7 +17,7 @@ std::size_t terminal_width() {
     return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80u;
 }
 
-/// As much of a text as so many columns hold.
+/// The beginning of a text that fits into `columns` columns.
 std::string beginning_of(const std::string& text, std::size_t columns) {
     std::string_view rest = text;
     for (std::size_t used = 0; !rest.empty();) {

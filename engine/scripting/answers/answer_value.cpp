@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <nlohmann/json.hpp>
-
 #include "data_io/values/json_values.h"
 #include "documents/percent_script.h"
 #include "scripting/objects/data_object.h"
@@ -237,8 +235,7 @@ AnswerValue answer_value(lua_State* L, int index) {
 void push_answer_value(lua_State* L, const std::string& text) {
     try {
         const ValueLimits limits = answer_limits();
-        const nlohmann::json answer = parsed_json(text, limits);
-        JsonReader reader(answer, limits);
+        JsonReader reader = JsonReader::of_text(text, limits);
         push_answer(L, reader, 0);
     } catch (const ValueError& error) {
         throw InvalidArgument(std::string("the answer is damaged: ") + error.what());

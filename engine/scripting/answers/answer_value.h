@@ -11,7 +11,7 @@ struct AnswerValue {
     std::string kind, json;
 };
 
-/// The value at stack place `index`. Throws InvalidArgument, in words for the script's writer, for values of other
+/// The value at stack index `index`. Throws InvalidArgument, in words for the script's writer, for values of other
 /// kinds (functions, figures), tables that contain themselves or are nested deeper than 8, and more than 500,000
 /// numbers.
 AnswerValue answer_value(lua_State* L, int index);

@@ -64,8 +64,8 @@ std::string argument_label(int index, const char* what) {
     return fmt::format("argument {} ({})", index, what);
 }
 
-/// A failure told with the called function's name before it, once. Where one method does the work of another, as lssvf
-/// that of lsgpmf, it tells of the one that was called.
+/// A failure with the called function's name before it, once. Where one method does the work of another, as lssvf
+/// that of lsgpmf, the name is that of the one that was called.
 std::string with_name(const std::string& name, const std::string& message) {
     const std::string first = message.substr(0, message.find_first_of(": "));
     if (first == name) return message;
@@ -245,8 +245,8 @@ int Options::push(const char* name) const {
 }
 
 bool Options::has(const char* name) const {
-    const int place = push(name);
-    const bool found = !lua_isnil(call_.state(), place);
+    const int index = push(name);
+    const bool found = !lua_isnil(call_.state(), index);
     lua_pop(call_.state(), 1);
     return found;
 }
@@ -271,9 +271,9 @@ Index Options::size(const char* name, Index fallback) const {
 
 bool Options::flag(const char* name, bool fallback) const {
     if (!has(name)) return fallback;
-    const int place = push(name);
-    if (!lua_isboolean(call_.state(), place)) wrong_value(call_.state(), place, label(name), "true or false");
-    const bool value = lua_toboolean(call_.state(), place) != 0;
+    const int index = push(name);
+    if (!lua_isboolean(call_.state(), index)) wrong_value(call_.state(), index, label(name), "true or false");
+    const bool value = lua_toboolean(call_.state(), index) != 0;
     lua_pop(call_.state(), 1);
     return value;
 }
@@ -287,15 +287,15 @@ std::string Options::text(const char* name, const std::string& fallback) const {
 
 std::vector<std::string> Options::texts(const char* name) const {
     lua_State* L = call_.state();
-    const int place = push(name);
+    const int index = push(name);
     std::vector<std::string> values;
-    if (lua_type(L, place) == LUA_TTABLE) {
-        for (lua_Integer i = 1; lua_rawgeti(L, place, i) != LUA_TNIL; lua_pop(L, 1), ++i)
+    if (lua_type(L, index) == LUA_TTABLE) {
+        for (lua_Integer i = 1; lua_rawgeti(L, index, i) != LUA_TNIL; lua_pop(L, 1), ++i)
             values.push_back(text_at(L, -1, label(name)));
-    } else if (!lua_isnil(L, place)) {
-        values.push_back(text_at(L, place, label(name)));
+    } else if (!lua_isnil(L, index)) {
+        values.push_back(text_at(L, index, label(name)));
     }
-    lua_settop(L, place - 1);
+    lua_settop(L, index - 1);
     return values;
 }
 

@@ -55,13 +55,13 @@ class Call {
 };
 
 [[noreturn]] void wrong_argument(lua_State* L, int index, const char* what, const char* wanted);
-/// What stands at a stack place, in words: "a text", "nil", "a vector of 5 values".
+/// What stands at a stack index, in words: "a text", "nil", "a vector of 5 values".
 std::string given_text(lua_State* L, int index);
 
 /// A table {name = value} whose names are all known; an unknown one throws InvalidArgument with the nearest known name.
 class Options {
   public:
-    /// An absent table stands for all defaults. `index` may be any stack place.
+    /// An absent table stands for all defaults. `index` may be any stack index.
     Options(const Call& call, int index, std::initializer_list<const char*> known);
 
     bool has(const char* name) const;
@@ -76,7 +76,7 @@ class Options {
     /// Place of the text among `choices`; throws for any other text, naming them.
     std::size_t choice(const char* name, std::initializer_list<const char*> choices, std::size_t fallback) const;
     const Call& call() const { return call_; }
-    /// Pushes the option's value (nil when absent) and returns its stack place.
+    /// Pushes the option's value (nil when absent) and returns its stack index.
     int push(const char* name) const;
 
   private:

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "numerics/fit/integrated_input.h"
 #include "scripting/objects/data_object.h"
 
 namespace dynlab::inline scripting {
@@ -38,10 +39,10 @@ std::vector<double> delays_option(const Options& options) {
     return {delays.begin(), delays.end()};
 }
 
-std::size_t place_of(std::span<const OrderEntry> entries, std::string_view name) {
-    std::size_t place = 0;
-    while (place < entries.size() && name != entries[place].name) ++place;
-    return place;
+std::size_t index_of_entry(std::span<const OrderEntry> entries, std::string_view name) {
+    std::size_t index = 0;
+    while (index < entries.size() && name != entries[index].name) ++index;
+    return index;
 }
 
 /// At least one pole, and as many coefficients as a proper model has; lists of unequal lengths are paired as
@@ -80,8 +81,8 @@ TransferStructure structure_for(const IdData& data, Denominators sharing, const 
 
 StructureMaker structure_of_orders(std::span<const OrderEntry> entries, const std::vector<std::vector<int>>& orders,
                                    Denominators sharing) {
-    const std::string_view poles_entry = place_of(entries, kNa.name) < entries.size() ? kNa.name : kNf.name;
-    const auto list = [&](std::string_view name) { return orders[place_of(entries, name)]; };
+    const std::string_view poles_entry = index_of_entry(entries, kNa.name) < entries.size() ? kNa.name : kNf.name;
+    const auto list = [&](std::string_view name) { return orders[index_of_entry(entries, name)]; };
     check_coefficients(entries, poles_entry, list(poles_entry), list(kNb.name));
     std::vector<int> zeros = list(kNb.name);
     for (int& count : zeros) --count;
@@ -100,6 +101,15 @@ StructureMaker structure_of_counts(const Call& call, const Options& options, con
         structure.free_delays = free_delays;
         return structure;
     };
+}
+
+TransferRequest transfer_request(const Options& options, const Estimation& estimate) {
+    if (!options.flag("Integration", false)) return {false, estimate};
+    return {true, [estimate](const IdData& data) {
+                Fit result = estimate(integrated_inputs(data));
+                append_integrator(result);
+                return result;
+            }};
 }
 
 Denominators sharing_of(const Options& options) {

@@ -1,11 +1,9 @@
 #pragma once
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "numerics/fit/fit.h"
-#include "scripting/arguments/arguments.h"
+#include "scripting/arguments/estimation.h"
 #include "scripting/arguments/order_vector.h"
 
 namespace dynlab::inline scripting {
@@ -25,6 +23,13 @@ StructureMaker structure_of_orders(std::span<const OrderEntry> entries, const st
                                    Denominators sharing);
 /// From np and nz at arguments 2 and 3; the delay is free unless IODelay or TdMax = TdMin (in `wanted`) says otherwise.
 StructureMaker structure_of_counts(const Call& call, const Options& options, const FitOptions& wanted);
+
+/// An estimation as it was asked for; with the option Integration, of models that have an integrator besides.
+struct TransferRequest {
+    bool integration;
+    Estimation estimate;
+};
+TransferRequest transfer_request(const Options& options, const Estimation& estimate);
 
 /// The option CommonDenominator.
 Denominators sharing_of(const Options& options);

@@ -42,7 +42,7 @@ std::string text_of(const Advice& advice, std::size_t experiments) {
         text += fmt::format("{} {}{}\n", finding.weight == Weight::kWarning ? "!" : "-",
                             experiments > 1 ? fmt::format("Experiment {}: ", finding.experiment + 1) : "",
                             in_lua_words(finding.message));
-    if (advice.clean()) text += "Nothing stands against fitting a model to this record.\n";
+    if (advice.clean()) text += "There is no objection to fitting a model to this record.\n";
     return text;
 }
 

@@ -34,9 +34,9 @@ int answer(Call& call) {
     if (!call.given(2)) wrong_argument(call.state(), 2, "value", "the answer's value");
     AnswerValue value = answer_value(call.state(), 2);
     check_declared(recorder.expected_answers(), name, value.kind);
-    RecordedAnswer& place = recorder.record().answers[name];
-    if (!place.json.empty()) throw InvalidArgument(fmt::format("the answer \"{}\" was given already", name));
-    place = {std::move(value.kind), std::move(value.json)};
+    RecordedAnswer& answer = recorder.record().answers[name];
+    if (!answer.json.empty()) throw InvalidArgument(fmt::format("the answer \"{}\" was given already", name));
+    answer = {std::move(value.kind), std::move(value.json)};
     return 0;
 }
 

@@ -25,9 +25,9 @@ int find(Call& call) {
     call.at_most(1);
     MaskBlock* mask = call.given(1) ? to_mask(call.state(), 1) : nullptr;
     if (mask == nullptr) wrong_argument(call.state(), 1, "mask", "mask, as gt, lt, ge, le and eq give it");
-    double* place = push_vector(call.state(), std::count(mask->data(), mask->data() + mask->size, true)).data();
+    double* next = push_vector(call.state(), std::count(mask->data(), mask->data() + mask->size, true)).data();
     for (Index i = 0; i < mask->size; ++i)
-        if (mask->data()[i]) *place++ = static_cast<double>(i + 1);
+        if (mask->data()[i]) *next++ = static_cast<double>(i + 1);
     return 1;
 }
 

@@ -50,10 +50,10 @@ int complex_vector_tostring(Call& call) {
 
 int vector_element(Call& call) {
     const ComplexVector& v = complex_vector_self(call);
-    const Index place = call.integer(2, "element");
-    if (place < 1 || place > v.size())
-        throw InvalidArgument(fmt::format("the element {} does not exist: there are 1 to {}", place, v.size()));
-    push_object(call.state(), Complex(v[place - 1]));
+    const Index number = call.integer(2, "element");
+    if (number < 1 || number > v.size())
+        throw InvalidArgument(fmt::format("the element {} does not exist: there are 1 to {}", number, v.size()));
+    push_object(call.state(), Complex(v[number - 1]));
     return 1;
 }
 

@@ -13,24 +13,24 @@
 namespace dynlab::inline scripting {
 namespace {
 
-/// `place` is the name by which messages speak of what is pushed, such as crane.steps.
-void push_variable(const Call& call, const Variable& variable, const std::string& place);
+/// `path` is the name by which messages speak of what is pushed, such as crane.steps.
+void push_variable(const Call& call, const Variable& variable, const std::string& path);
 
-void push_variables(const Call& call, const VariableTable& variables, const std::string& place) {
+void push_variables(const Call& call, const VariableTable& variables, const std::string& path) {
     luaL_checkstack(call.state(), 8, "the data are nested too deeply");
     lua_createtable(call.state(), 0, static_cast<int>(variables.size()));
     for (const auto& [name, variable] : variables) {
-        push_variable(call, variable, place + "." + name);
+        push_variable(call, variable, path + "." + name);
         lua_setfield(call.state(), -2, name.c_str());
     }
-    refuse_unknown_fields(call.state(), place);
+    refuse_unknown_fields(call.state(), path);
 }
 
-void push_list(const Call& call, const VariableList& list, const std::string& place) {
+void push_list(const Call& call, const VariableList& list, const std::string& path) {
     luaL_checkstack(call.state(), 8, "the data are nested too deeply");
     lua_createtable(call.state(), static_cast<int>(list.size()), 0);
     for (std::size_t i = 0; i < list.size(); ++i) {
-        push_variable(call, list[i], fmt::format("{}[{}]", place, i + 1));
+        push_variable(call, list[i], fmt::format("{}[{}]", path, i + 1));
         lua_rawseti(call.state(), -2, static_cast<lua_Integer>(i + 1));
     }
 }
@@ -38,7 +38,7 @@ void push_list(const Call& call, const VariableList& list, const std::string& pl
 /// What each kind of variable becomes in Lua.
 struct Pusher {
     const Call& call;
-    const std::string& place;
+    const std::string& path;
     void operator()(double value) const { call.give(value); }
     void operator()(bool value) const { call.give(value); }
     void operator()(const std::string& value) const { call.give(value); }
@@ -52,12 +52,12 @@ struct Pusher {
         call.give_matrix(value.imag());
         lua_setfield(call.state(), -2, "im");
     }
-    void operator()(const std::shared_ptr<VariableTable>& value) const { push_variables(call, *value, place); }
-    void operator()(const std::shared_ptr<VariableList>& value) const { push_list(call, *value, place); }
+    void operator()(const std::shared_ptr<VariableTable>& value) const { push_variables(call, *value, path); }
+    void operator()(const std::shared_ptr<VariableList>& value) const { push_list(call, *value, path); }
 };
 
-void push_variable(const Call& call, const Variable& variable, const std::string& place) {
-    std::visit(Pusher{call, place}, variable.value);
+void push_variable(const Call& call, const Variable& variable, const std::string& path) {
+    std::visit(Pusher{call, path}, variable.value);
 }
 
 /// Where a script is graded it reads the course's data and what lies in its own folder, and nothing else.
@@ -101,8 +101,8 @@ void check_names(const IdData& data) {
     for (const auto* names : {&data.input_names, &data.output_names})
         for (const std::string& name : *names)
             if (!seen.insert(name).second)
-                throw InvalidArgument(fmt::format(
-                    "the name '{}' stands for two channels: give each its own InputName or OutputName", name));
+                throw InvalidArgument(
+                    fmt::format("the name '{}' names two channels: give each its own InputName or OutputName", name));
 }
 
 int make_iddata(Call& call) {

@@ -75,7 +75,7 @@ int part(Call& call) {
     return give_data(call, data_self(call).range(call.integer(2, "first"), call.integer(3, "last")));
 }
 
-Index whole_place(double number) {
+Index whole_index(double number) {
     if (number != std::floor(number))
         throw InvalidArgument(
             fmt::format("samples and channels are counted in whole numbers, but {} was given", number_text(number)));
@@ -90,7 +90,7 @@ int part_by_table(Call& call) {
     if (bounds.size() != 2)
         throw InvalidArgument(
             fmt::format("the samples i to j are data[{{i, j}}], but {} numbers were given", bounds.size()));
-    return give_data(call, data_self(call).range(whole_place(bounds[0]), whole_place(bounds[1])));
+    return give_data(call, data_self(call).range(whole_index(bounds[0]), whole_index(bounds[1])));
 }
 
 int experiment(Call& call) {
@@ -114,9 +114,9 @@ int split(Call& call) {
 std::vector<Index> channels(Call& call, int index, const char* what) {
     if (call.type(index) == LUA_TNUMBER) return {call.integer(index, what)};
     const VectorMap list = call.vector(index, what);
-    std::vector<Index> places;
-    for (const double number : list) places.push_back(whole_place(number));
-    return places;
+    std::vector<Index> indices;
+    for (const double number : list) indices.push_back(whole_index(number));
+    return indices;
 }
 
 /// data:select(outputs, inputs)

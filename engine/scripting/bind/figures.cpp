@@ -26,7 +26,7 @@ std::vector<double> numbers(const Options& options, const char* name) {
     return {list.begin(), list.end()};
 }
 
-/// The number as a place in a list of looks.
+/// The number as an index into a list of looks.
 int place_of_look(double number, const char* name) {
     if (number < 0 || number != std::floor(number) || number > 1000)
         throw InvalidArgument(

@@ -15,7 +15,7 @@ NumericBlock& matrix_self(Call& call) {
     return *A;
 }
 
-Index place(Call& call, int index, const char* what, Index size) {
+Index index_argument(Call& call, int index, const char* what, Index size) {
     const Index value = call.integer(index, what);
     if (value < 1 || value > size)
         throw InvalidArgument(fmt::format("{} {} does not exist: there are 1 to {}", what, value, size));
@@ -25,14 +25,14 @@ Index place(Call& call, int index, const char* what, Index size) {
 int matrix_at(Call& call) {
     call.at_most(3);
     NumericBlock& A = matrix_self(call);
-    const Index i = place(call, 2, "row", A.rows), j = place(call, 3, "column", A.columns);
+    const Index i = index_argument(call, 2, "row", A.rows), j = index_argument(call, 3, "column", A.columns);
     return call.give(A.matrix()(i, j));
 }
 
 int matrix_set(Call& call) {
     call.at_most(4);
     NumericBlock& A = matrix_self(call);
-    const Index i = place(call, 2, "row", A.rows), j = place(call, 3, "column", A.columns);
+    const Index i = index_argument(call, 2, "row", A.rows), j = index_argument(call, 3, "column", A.columns);
     A.matrix()(i, j) = call.number(4, "value");
     return 0;
 }
@@ -40,14 +40,14 @@ int matrix_set(Call& call) {
 int matrix_row(Call& call) {
     call.at_most(2);
     NumericBlock& A = matrix_self(call);
-    const Index i = place(call, 2, "row", A.rows);
+    const Index i = index_argument(call, 2, "row", A.rows);
     return call.give_vector(A.matrix().row(i).transpose());
 }
 
 int matrix_column(Call& call) {
     call.at_most(2);
     NumericBlock& A = matrix_self(call);
-    const Index j = place(call, 2, "column", A.columns);
+    const Index j = index_argument(call, 2, "column", A.columns);
     return call.give_vector(A.matrix().col(j));
 }
 

@@ -23,7 +23,7 @@ const Estimate& estimate_of(Call& call) {
 const TransferFunction& only_channel(Call& call) {
     const Model& model = model_self(call);
     if (model.single_channel()) return model.G;
-    throw InvalidArgument("this field is one channel's, and the model is no single one: " + channels_hint(model));
+    throw InvalidArgument("this field is one channel's, and the model has several channels: " + channels_hint(model));
 }
 
 int field_num(Call& call) {
@@ -120,10 +120,10 @@ int field_robust_covariance(Call& call) {
 
 int field_names(Call& call) {
     lua_newtable(call.state());
-    lua_Integer place = 0;
+    lua_Integer index = 0;
     for (const std::string& name : parameters_of(model_self(call)).names) {
         lua_pushstring(call.state(), name.c_str());
-        lua_rawseti(call.state(), -2, ++place);
+        lua_rawseti(call.state(), -2, ++index);
     }
     return 1;
 }

@@ -1,8 +1,6 @@
 #include <array>
 
 #include "numerics/estimators/rivc.h"
-#include "numerics/fit/integrated_input.h"
-#include "scripting/arguments/estimation.h"
 #include "scripting/arguments/transfer_arguments.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/memoized_calls/memoized_call.h"
@@ -22,42 +20,30 @@ int noise_order(const std::vector<int>& entry, const OrderEntry& what) {
         fmt::format("{} is one number for the noise of the output, but {} were given", what.name, entry.size()));
 }
 
-/// An estimation as it was asked for.
-struct NoisyReading {
-    bool integration;  ///< the models have an integrator besides
-    Estimation estimation;
-};
-
-int give_with_noise(Call& call, const IdData& data, const NoisyReading& reading) {
-    const Fit result = reading.estimation(data);
+int give_with_noise(Call& call, const IdData& data, const TransferRequest& request) {
+    const Fit result = request.estimate(data);
     Estimate estimate = estimate_of(call.function_name(), result);
-    estimate.of_coefficients = !reading.integration;
+    estimate.of_coefficients = !request.integration;
     return give_fit(call, std::move(estimate), result);
 }
 
-NoisyReading reading_of(const StructureMaker& structure, const NoiseOrders& noise, const Options& options,
-                        const FitOptions& wanted) {
-    const bool integration = options.flag("Integration", false);
-    return {integration, [=](const IdData& data) {
-                if (!integration) return rivc(data, structure(data), noise, wanted);
-                Fit result = rivc(integrated_inputs(data), structure(data), noise, wanted);
-                append_integrator(result);
-                return result;
-            }};
+TransferRequest noisy_request(const StructureMaker& structure, const NoiseOrders& noise, const Options& options,
+                              const FitOptions& wanted) {
+    return transfer_request(options, [=](const IdData& data) { return rivc(data, structure(data), noise, wanted); });
 }
 
-NoisyReading read_rivc(const Call& call) {
+TransferRequest read_rivc(const Call& call) {
     call.at_most(3);
     const auto orders = order_lists(call, 2, kNoiseModelOrders);
     const Options options(
         call, 3, {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator", "Integration"});
     FitOptions wanted;
     read_fit_options(options, wanted);
-    return reading_of(structure_of_orders(kNoiseModelOrders, orders, sharing_of(options)),
-                      {noise_order(orders[1], kNc), noise_order(orders[2], kNd)}, options, wanted);
+    return noisy_request(structure_of_orders(kNoiseModelOrders, orders, sharing_of(options)),
+                         {noise_order(orders[1], kNc), noise_order(orders[2], kNd)}, options, wanted);
 }
 
-NoisyReading read_tfrivc(const Call& call) {
+TransferRequest read_tfrivc(const Call& call) {
     call.at_most(4);
     const Options options(call, 4,
                           {"nc", "nd", "lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol",
@@ -66,7 +52,7 @@ NoisyReading read_tfrivc(const Call& call) {
     read_fit_options(options, wanted);
     const StructureMaker structure = structure_of_counts(call, options, wanted);
     const NoiseOrders noise{static_cast<int>(options.size("nc", 0)), static_cast<int>(options.size("nd", 1))};
-    return reading_of(structure, noise, options, wanted);
+    return noisy_request(structure, noise, options, wanted);
 }
 
 template <auto kRead>
@@ -77,7 +63,7 @@ int estimate_with_noise(Call& call) {
 
 template <auto kRead>
 Estimation read_estimation(const Call& call) {
-    return kRead(call).estimation;
+    return kRead(call).estimate;
 }
 
 constexpr NamedReader kNoiseModelsReaders[] = {{"rivc", read_estimation<read_rivc>},

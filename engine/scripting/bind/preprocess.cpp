@@ -51,11 +51,11 @@ PassBand band_argument(const Call& call) {
     return {edges[0], edges[1]};
 }
 
-/// The signal, and the places of what was replaced.
+/// The signal, and the indices of what was replaced.
 int give_repaired(const Call& call, const RepairedSignal& repaired) {
-    Vector places(static_cast<Index>(repaired.replaced.size()));
-    std::copy(repaired.replaced.begin(), repaired.replaced.end(), places.begin());
-    return call.give_vector(repaired.signal) + call.give_vector(places);
+    Vector indices(static_cast<Index>(repaired.replaced.size()));
+    std::copy(repaired.replaced.begin(), repaired.replaced.end(), indices.begin());
+    return call.give_vector(repaired.signal) + call.give_vector(indices);
 }
 
 int fill_gaps(Call& call) {

@@ -9,9 +9,9 @@
 namespace dynlab::inline scripting {
 namespace {
 
-void give_values(const Call& call, const RigValues& values, const std::string& place);
+void give_values(const Call& call, const RigValues& values, const std::string& path);
 
-void give_value(const Call& call, const RigValue& value, const std::string& place) {
+void give_value(const Call& call, const RigValue& value, const std::string& path) {
     if (const auto* number = std::get_if<double>(&value.value))
         call.give(*number);
     else if (const auto* samples = std::get_if<Vector>(&value.value))
@@ -19,18 +19,18 @@ void give_value(const Call& call, const RigValue& value, const std::string& plac
     else if (const auto* model = std::get_if<TransferFunction>(&value.value))
         give_model(call, *model);
     else
-        give_values(call, std::get<RigValues>(value.value), place + "." + value.name);
+        give_values(call, std::get<RigValues>(value.value), path + "." + value.name);
 }
 
-/// Pushes a table of the values; `place` is the name by which messages speak of it, such as crane.steps.
-void give_values(const Call& call, const RigValues& values, const std::string& place) {
+/// Pushes a table of the values; `path` is the name by which messages speak of it, such as crane.steps.
+void give_values(const Call& call, const RigValues& values, const std::string& path) {
     luaL_checkstack(call.state(), 4, "the values are nested too deeply");
     lua_createtable(call.state(), 0, static_cast<int>(values.size()));
     for (const RigValue& value : values) {
-        give_value(call, value, place);
+        give_value(call, value, path);
         lua_setfield(call.state(), -2, value.name.c_str());
     }
-    refuse_unknown_fields(call.state(), place);
+    refuse_unknown_fields(call.state(), path);
 }
 
 const Rig& rig_of(const Call& call) {

@@ -70,10 +70,10 @@ std::vector<std::string> list_of_texts(lua_State* L, int index) {
 void add_channels(CsvTable& table, const Matrix& channels, const std::vector<std::string>& names,
                   const std::vector<std::string>& units) {
     for (Index j = 0; j < channels.cols(); ++j) {
-        const auto place = static_cast<std::size_t>(j);
-        table.names.push_back(names[place]);
+        const auto index = static_cast<std::size_t>(j);
+        table.names.push_back(names[index]);
         table.columns.push_back(channels.col(j));
-        if (place < units.size() && !units[place].empty()) table.units[names[place]] = units[place];
+        if (index < units.size() && !units[index].empty()) table.units[names[index]] = units[index];
     }
 }
 

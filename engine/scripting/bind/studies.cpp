@@ -17,15 +17,15 @@ MonteCarloEstimate estimate_of(const Fit& result) {
     return {result.theta, result.std, result.names, true, result.termination == Termination::kConverged};
 }
 
-struct Reading {
+struct MethodArguments {
     EstimationReader reader;
     Estimation estimation;
 };
 
 /// Runs in a frame of its own, where the arguments stand as in a call of the method itself.
 int read_arguments(Call& call) {
-    auto* reading = static_cast<Reading*>(lua_touserdata(call.state(), lua_upvalueindex(2)));
-    reading->estimation = reading->reader(call);
+    auto* arguments = static_cast<MethodArguments*>(lua_touserdata(call.state(), lua_upvalueindex(2)));
+    arguments->estimation = arguments->reader(call);
     return 0;
 }
 
@@ -33,21 +33,22 @@ int read_arguments(Call& call) {
 MonteCarloMethod method_of_table(const Call& call, const std::string& label, const std::string& name, int table,
                                  lua_Integer first) {
     lua_State* L = call.state();
-    Reading reading{find_estimation_reader(name), {}};
-    if (reading.reader == nullptr)
+    MethodArguments arguments{find_estimation_reader(name), {}};
+    if (arguments.reader == nullptr)
         throw InvalidArgument(fmt::format(
             "estimator '{}' is none of {}; write any other as a function: {} = function(data) return ... end", name,
             fmt::join(estimation_names(), ", "), label));
     lua_pushlightuserdata(L, const_cast<char*>(name.c_str()));
-    lua_pushlightuserdata(L, &reading);
+    lua_pushlightuserdata(L, &arguments);
     lua_pushcclosure(L, guarded<read_arguments>, 2);
     lua_pushnil(L);  // where the data stand
     const auto last = static_cast<lua_Integer>(lua_rawlen(L, table));
     luaL_checkstack(L, static_cast<int>(std::max<lua_Integer>(last, 0)) + 4, "too many arguments of an estimator");
     for (lua_Integer i = first; i <= last; ++i) lua_rawgeti(L, table, i);
     lua_call(L, static_cast<int>(last - first + 2), 0);
-    return {label,
-            [estimation = std::move(reading.estimation)](const IdData& data) { return estimate_of(estimation(data)); }};
+    return {label, [estimation = std::move(arguments.estimation)](const IdData& data) {
+                return estimate_of(estimation(data));
+            }};
 }
 
 MonteCarloEstimate estimate_of_model(const Model& model) {
@@ -68,7 +69,7 @@ MonteCarloEstimate returned_estimate(lua_State* L, int first) {
     return estimate;
 }
 
-/// A function of the script at a stack place, which stays there while the study runs.
+/// A function of the script at a stack index, which stays there while the study runs.
 MonteCarloMethod method_of_function(const Call& call, const std::string& label, int function) {
     lua_State* L = call.state();
     const auto estimate = [L, function](const IdData& data) {

@@ -128,10 +128,10 @@ void push_candidate(const Call& call, const OrderCandidate& candidate) {
 int table_rows(Call& call) {
     const OrderTable& table = table_self(call);
     lua_createtable(call.state(), static_cast<int>(table.selection.candidates.size()), 0);
-    lua_Integer place = 0;
+    lua_Integer index = 0;
     for (const OrderCandidate& candidate : table.selection.candidates) {
         push_candidate(call, candidate);
-        lua_rawseti(call.state(), -2, ++place);
+        lua_rawseti(call.state(), -2, ++index);
     }
     return 1;
 }

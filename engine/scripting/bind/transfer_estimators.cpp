@@ -6,7 +6,6 @@
 #include "numerics/estimators/srivc.h"
 #include "numerics/fit/integrated_input.h"
 #include "numerics/fit/simulation_error.h"
-#include "scripting/arguments/estimation.h"
 #include "scripting/arguments/transfer_arguments.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/memoized_calls/memoized_call.h"
@@ -46,47 +45,36 @@ int estimate_filtered(Call& call) {
     return give_fit(call, std::move(estimate), result);
 }
 
-/// An output-error estimation as it was asked for.
-struct RefinedReading {
-    bool integration;  ///< the models have an integrator besides
-    Estimation estimation;
-};
-
-int give_refined(Call& call, const IdData& data, const RefinedReading& reading) {
-    const Fit result = reading.estimation(data);
+int give_refined(Call& call, const IdData& data, const TransferRequest& request) {
+    const Fit result = request.estimate(data);
     Estimate estimate = estimate_of(call.function_name(), result);
-    estimate.of_coefficients = !reading.integration;
-    estimate.set_assessment(reading.integration ? assess_if_affordable(integrated_inputs(data), result)
+    estimate.of_coefficients = !request.integration;
+    estimate.set_assessment(request.integration ? assess_if_affordable(integrated_inputs(data), result)
                                                 : assess_if_affordable(data, result));
     return give_fit(call, std::move(estimate), result);
 }
 
 template <auto kMethod>
-RefinedReading reading_of(const StructureMaker& structure, const Options& options, const FitOptions& wanted) {
-    const bool integration = options.flag("Integration", false);
-    return {integration, [structure, wanted, integration](const IdData& data) {
-                if (!integration) return kMethod(data, structure(data), wanted);
-                Fit estimate = kMethod(integrated_inputs(data), structure(data), wanted);
-                append_integrator(estimate);
-                return estimate;
-            }};
+TransferRequest refined_request(const StructureMaker& structure, const Options& options, const FitOptions& wanted) {
+    return transfer_request(options, [=](const IdData& data) { return kMethod(data, structure(data), wanted); });
 }
 
 /// srivc and coe: orders and fixed delays in samples.
 template <auto kMethod>
-RefinedReading read_refined(const Call& call) {
+TransferRequest read_refined(const Call& call) {
     call.at_most(3);
     const auto orders = order_lists(call, 2, kOutputErrorOrders);
     const Options options(
         call, 3, {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator", "Integration"});
     FitOptions wanted;
     read_fit_options(options, wanted);
-    return reading_of<kMethod>(structure_of_orders(kOutputErrorOrders, orders, sharing_of(options)), options, wanted);
+    return refined_request<kMethod>(structure_of_orders(kOutputErrorOrders, orders, sharing_of(options)), options,
+                                    wanted);
 }
 
 /// tfsrivc and tfcoe: numbers of poles and zeros, and a delay that is estimated unless it is given.
 template <auto kMethod>
-RefinedReading read_transfer_function(const Call& call) {
+TransferRequest read_transfer_function(const Call& call) {
     call.at_most(4);
     const Options options(call, 4,
                           {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator",
@@ -94,7 +82,7 @@ RefinedReading read_transfer_function(const Call& call) {
     FitOptions wanted;
     read_fit_options(options, wanted);
     const StructureMaker structure = structure_of_counts(call, options, wanted);
-    return reading_of<kMethod>(structure, options, wanted);
+    return refined_request<kMethod>(structure, options, wanted);
 }
 
 template <auto kRead>
@@ -105,7 +93,7 @@ int estimate_refined(Call& call) {
 
 template <auto kRead>
 Estimation read_transfer_estimation(const Call& call) {
-    return kRead(call).estimation;
+    return kRead(call).estimate;
 }
 
 constexpr NamedReader kTransferEstimatorsReaders[] = {

@@ -14,10 +14,10 @@
 namespace dynlab::inline scripting {
 namespace {
 
-std::string model_name(const Call& call, int index, const std::vector<std::string>& labels, std::size_t place) {
-    if (place < labels.size()) return labels[place];
+std::string model_name(const Call& call, int index, const std::vector<std::string>& labels, std::size_t number) {
+    if (number < labels.size()) return labels[number];
     const Model* model = to_object<Model>(call.state(), index);
-    return model != nullptr && model->estimate ? model->estimate->method : fmt::format("model {}", place + 1);
+    return model != nullptr && model->estimate ? model->estimate->method : fmt::format("model {}", number + 1);
 }
 
 ModelOutput model_output(std::string name, const Comparison& comparison, std::size_t experiment) {
@@ -80,23 +80,6 @@ int fit(Call& call) {
     return call.give(comparison.fit_percent[0]);
 }
 
-struct MeasuredAndSimulated {
-    Vector measured, simulated;
-};
-
-/// The only output of all experiments one after the other, each counted from the mean of its measured output.
-MeasuredAndSimulated levelled(const IdData& data, const Comparison& comparison) {
-    MeasuredAndSimulated all{Vector(data.sample_count()), Vector(data.sample_count())};
-    Index first = 0;
-    for (std::size_t k = 0; k < data.experiments.size(); ++k) {
-        const auto y = data.experiments[k].y.col(0);
-        all.measured.segment(first, y.size()) = y.array() - y.mean();
-        all.simulated.segment(first, y.size()) = comparison.results[k].front().output.array() - y.mean();
-        first += y.size();
-    }
-    return all;
-}
-
 int measure_fit(Call& call) {
     call.at_most(3);
     lua_State* L = call.state();
@@ -104,7 +87,7 @@ int measure_fit(Call& call) {
     const Model model = model_argument(call, 2, "G");
     const Comparison comparison =
         compare_all(data, {model.G}, compare_options(Options(call, 3, {"InitialState", "Offset"})));
-    const MeasuredAndSimulated pair = levelled(data, comparison);
+    const LevelledOutputs pair = levelled_outputs(data, comparison);
     const Vector &y = pair.measured, &simulated = pair.simulated;
     const double mean_square = (y - simulated).squaredNorm() / static_cast<double>(y.size());
     const InformationCriteria criteria =

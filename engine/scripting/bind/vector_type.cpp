@@ -12,35 +12,35 @@ namespace dynlab::inline scripting {
 namespace {
 
 /// Reads an element number from 1 to `size`, 0-based. `what` is "v" or "row" for messages.
-Index element_place(lua_State* L, int index, Index size, const char* what) {
+Index element_index(lua_State* L, int index, Index size, const char* what) {
     if (lua_isinteger(L, index)) {
-        const lua_Integer place = lua_tointeger(L, index);
-        if (place >= 1 && place <= size) return place - 1;
+        const lua_Integer number = lua_tointeger(L, index);
+        if (number >= 1 && number <= size) return number - 1;
         throw InvalidArgument(
-            fmt::format("{}[{}] does not exist: {} has the elements 1 to {}", what, place, what, size));
+            fmt::format("{}[{}] does not exist: {} has the elements 1 to {}", what, number, what, size));
     }
     if (lua_type(L, index) != LUA_TNUMBER)
         throw InvalidArgument(fmt::format("{}[i] needs a whole number i from 1 to {}, but {} was given{}", what, size,
                                           given_text(L, index),
                                           to_mask(L, index) != nullptr ? "; write v:select(mask)" : ""));
-    const double place = lua_tonumber(L, index);
-    if (std::floor(place) != place)
+    const double number = lua_tonumber(L, index);
+    if (std::floor(number) != number)
         throw InvalidArgument(
-            fmt::format("{}[{:.10g}]: an element has a whole number from 1 to {}", what, place, size));
-    if (place >= 1 && place <= static_cast<double>(size)) return static_cast<Index>(place) - 1;
+            fmt::format("{}[{:.10g}]: an element has a whole number from 1 to {}", what, number, size));
+    if (number >= 1 && number <= static_cast<double>(size)) return static_cast<Index>(number) - 1;
     throw InvalidArgument(
-        fmt::format("{}[{:.10g}] does not exist: {} has the elements 1 to {}", what, place, what, size));
+        fmt::format("{}[{:.10g}] does not exist: {} has the elements 1 to {}", what, number, what, size));
 }
 
 int read_element(Call& call) {
     NumericBlock* v = to_vector(call.state(), 1);
-    return call.give(v->data()[element_place(call.state(), 2, v->rows, "v")]);
+    return call.give(v->data()[element_index(call.state(), 2, v->rows, "v")]);
 }
 
 int write_element(Call& call) {
     NumericBlock* v = to_vector(call.state(), 1);
-    const Index place = element_place(call.state(), 2, v->rows, "v");
-    v->data()[place] = call.number(3, "the new value");
+    const Index number = element_index(call.state(), 2, v->rows, "v");
+    v->data()[number] = call.number(3, "the new value");
     return 0;
 }
 
@@ -81,14 +81,14 @@ int vector_select(Call& call) {
     call.at_most(2);
     NumericBlock& v = vector_self(call);
     if (MaskBlock* mask = to_mask(call.state(), 2)) return select_by_mask(call, v, *mask);
-    const VectorMap places = call.vector(2, "mask or element numbers");
-    NumericBlock& result = push_vector(call.state(), places.size());
-    for (Index i = 0; i < places.size(); ++i) {
-        const double place = places[i];
-        if (std::floor(place) != place || place < 1 || place > static_cast<double>(v.rows))
+    const VectorMap numbers = call.vector(2, "mask or element numbers");
+    NumericBlock& result = push_vector(call.state(), numbers.size());
+    for (Index i = 0; i < numbers.size(); ++i) {
+        const double number = numbers[i];
+        if (std::floor(number) != number || number < 1 || number > static_cast<double>(v.rows))
             throw InvalidArgument(
-                fmt::format("the element {:.10g} does not exist: v has the elements 1 to {}", place, v.rows));
-        result.data()[i] = v.data()[static_cast<Index>(place) - 1];
+                fmt::format("the element {:.10g} does not exist: v has the elements 1 to {}", number, v.rows));
+        result.data()[i] = v.data()[static_cast<Index>(number) - 1];
     }
     return 1;
 }
@@ -133,7 +133,7 @@ int mask_length(Call& call) {
 
 int mask_element(Call& call) {
     MaskBlock& mask = mask_self(call);
-    return call.give(mask.data()[element_place(call.state(), 2, mask.size, "mask")]);
+    return call.give(mask.data()[element_index(call.state(), 2, mask.size, "mask")]);
 }
 
 int mask_tostring(Call& call) {

@@ -122,8 +122,8 @@ int extreme(Call& call) {
     if (call.given(2) && call.type(1) == LUA_TNUMBER && call.type(2) == LUA_TNUMBER)
         return call.give(better(call.number(1, "x"), call.number(2, "y")));
     if (call.given(2)) {
-        const int vector_place = call.type(1) == LUA_TNUMBER ? 2 : 1, other = 3 - vector_place;
-        const VectorMap v = call.vector(vector_place, vector_place == 1 ? "x" : "y");
+        const int vector_index = call.type(1) == LUA_TNUMBER ? 2 : 1, other = 3 - vector_index;
+        const VectorMap v = call.vector(vector_index, vector_index == 1 ? "x" : "y");
         if (call.type(other) == LUA_TNUMBER) {
             const double bound = call.number(other, "bound");
             return call.give_vector(v.unaryExpr([&](double x) { return better(x, bound); }));
@@ -134,10 +134,10 @@ int extreme(Call& call) {
         return call.give_vector(v.binaryExpr(w, better));
     }
     const VectorMap v = not_empty(call, 1, "v");
-    Index place = 0;
-    const double value = kLargest ? v.maxCoeff<Eigen::PropagateNumbers>(&place)  // like fmax: nan only if all are
-                                  : v.minCoeff<Eigen::PropagateNumbers>(&place);
-    return call.give(value) + call.give_integer(place + 1);
+    Index index = 0;
+    const double value = kLargest ? v.maxCoeff<Eigen::PropagateNumbers>(&index)  // like fmax: nan only if all are
+                                  : v.minCoeff<Eigen::PropagateNumbers>(&index);
+    return call.give(value) + call.give_integer(index + 1);
 }
 
 /// A function of one number, applied to a number or to every element. `kLowest`: smallest argument it is defined for.
@@ -174,11 +174,11 @@ int sort(Call& call) {
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(),
                      [&](Index a, Index b) { return v[a] < v[b] || (std::isnan(v[b]) && !std::isnan(v[a])); });
-    NumericBlock &sorted = push_vector(call.state(), v.size()), &places = push_vector(call.state(), v.size());
+    NumericBlock &sorted = push_vector(call.state(), v.size()), &indices = push_vector(call.state(), v.size());
     for (Index i = 0; i < v.size(); ++i) {
-        const Index place = order[static_cast<std::size_t>(i)];
-        sorted.data()[i] = v[place];
-        places.data()[i] = static_cast<double>(place + 1);
+        const Index index = order[static_cast<std::size_t>(i)];
+        sorted.data()[i] = v[index];
+        indices.data()[i] = static_cast<double>(index + 1);
     }
     return 2;
 }

@@ -16,19 +16,21 @@ bool CallCache::knows(const std::string& shape) const {
     return cache_.lasting() && cache_.recall(entry_of_shape(shape)).has_value();
 }
 
-std::optional<std::string> CallCache::recall(const std::string& call) {
-    auto result = cache_.recall(entry_of_call(call));
-    if (result) ++use_.recalled;
-    return result;
+std::optional<std::string> CallCache::recall(const std::string& call) const {
+    return cache_.recall(entry_of_call(call));
 }
 
-void CallCache::remember(const std::string& shape, const std::string& call, std::string_view result) {
+void CallCache::remember(const std::string& shape, const std::string& call, std::string_view result) const {
     cache_.remember(entry_of_call(call), result);
     cache_.remember(entry_of_shape(shape), "");
 }
 
 void CallCache::forget(const std::string& shape) const {
     cache_.forget(entry_of_shape(shape));
+}
+
+void CallCache::forget_result(const std::string& call) const {
+    cache_.forget(entry_of_call(call));
 }
 
 }  // namespace dynlab::inline scripting

@@ -15,12 +15,15 @@ class CallCache {
     bool lasting() const { return cache_.lasting(); }
     /// Whether a call of this shape took long once and was kept.
     bool knows(const std::string& shape) const;
-    /// The result of an equal call.
-    std::optional<std::string> recall(const std::string& call);
-    void remember(const std::string& shape, const std::string& call, std::string_view result);
+    /// The result of an equal call, as it was kept.
+    std::optional<std::string> recall(const std::string& call) const;
+    void remember(const std::string& shape, const std::string& call, std::string_view result) const;
     /// Calls of this shape are quick after all.
     void forget(const std::string& shape) const;
-    /// One more was computed that takes long.
+    /// What was kept of this call cannot be read.
+    void forget_result(const std::string& call) const;
+    /// One more was spared, or computed that takes long.
+    void count_recalled() { ++use_.recalled; }
     void count_computed() { ++use_.made; }
 
     CacheUse use() const { return use_; }

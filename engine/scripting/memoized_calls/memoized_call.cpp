@@ -12,16 +12,28 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
-constexpr auto kLong = 10ms;  // far more than it takes to read a result back
+constexpr auto kShortestKeptCall = 10ms;  // far more than it takes to read a result back
 
-/// Pushes the values of an archived result and returns their number.
-int give_again(const Call& call, const std::string& bytes) {
-    CborReader archive(bytes, ValueLimits::own());
-    if (const std::string printed = archive.text(); !printed.empty()) call.print(printed);
-    const int count = read_fresh<int>(archive);
-    luaL_checkstack(call.state(), count, "too many results");
-    for (int i = 0; i < count; ++i) push_archived_value(call, archive);
-    return count;
+/// Pushes the values of an archived result, prints its text and returns their number. Nothing, and nothing is done, for
+/// bytes that hold no result.
+std::optional<int> give_again(const Call& call, const std::string& bytes) {
+    constexpr int kMostResults = 100;
+    const int top = lua_gettop(call.state());
+    luaL_checkstack(call.state(), kMostResults, "too many results");
+    try {
+        CborReader archive(bytes);
+        const std::string printed = archive.text();
+        const auto count = static_cast<int>(archive.whole(0, kMostResults));
+        std::vector<FigurePointer> figures;
+        for (int i = 0; i < count; ++i) push_archived_value(call, archive, figures);
+        archive.expect_end();
+        if (!printed.empty()) call.print(printed);
+        for (const FigurePointer& figure : figures) call.context().recorder.add_figure(figure);
+        return count;
+    } catch (const ValueError&) {
+        lua_settop(call.state(), top);
+        return {};
+    }
 }
 
 /// What is printed while it lives.
@@ -92,13 +104,12 @@ class WatchedCall {
         if (cache_.lasting()) shape = call_text(call_.state(), function, 1, call_.count(), LargeArguments::kBySize);
         const bool known = shape && cache_.knows(*shape);
         if (known) text = call_text(call_.state(), function, 1, call_.count(), LargeArguments::kByContent);
-        if (text)
-            if (const auto result = cache_.recall(*text)) return give_again(call_, *result);
+        if (const auto count = text ? recalled(*text) : std::nullopt) return *count;
         std::optional<KeptArguments> arguments;
         if (shape && !text) arguments.emplace(call_);
         const int count = compute(body);
-        if (taken_ < kLong && known) cache_.forget(*shape);
-        if (taken_ < kLong || call_.cancel()()) return count;
+        if (taken_ < kShortestKeptCall && known) cache_.forget(*shape);
+        if (taken_ < kShortestKeptCall || call_.cancel()()) return count;
         if (arguments) text = arguments->text(function);
         if (text || !cache_.lasting()) cache_.count_computed();
         if (text) keep(*shape, *text, count);
@@ -106,6 +117,17 @@ class WatchedCall {
     }
 
   private:
+    std::optional<int> recalled(const std::string& text) {
+        const auto result = cache_.recall(text);
+        if (!result) return {};
+        const auto count = give_again(call_, *result);
+        if (count)
+            cache_.count_recalled();
+        else
+            cache_.forget_result(text);
+        return count;
+    }
+
     int compute(Binding body) {
         const PrintedText printed(call_.context());
         const auto start = Clock::now();

@@ -15,18 +15,20 @@ namespace {
 
 constexpr int kDeepestTable = 20;
 
-/// How objects of one type are written and pushed. Their name stands before them.
+/// How objects of one type are written and pushed. Their name is written before them.
 struct ObjectCodec {
     const ObjectType* type;
     void (*put)(lua_State* L, int index, CborWriter& archive);
-    void (*push)(const Call& call, CborReader& archive);
+    void (*push)(const Call& call, CborReader& archive, std::vector<FigurePointer>& figures);
 };
 
 template <class T>
 ObjectCodec codec_of() {
     return {&Boxed<T>::type,
             [](lua_State* L, int index, CborWriter& archive) { write_value(archive, *to_object<T>(L, index)); },
-            [](const Call& call, CborReader& archive) { push_object(call.state(), read_fresh<T>(archive)); }};
+            [](const Call& call, CborReader& archive, std::vector<FigurePointer>&) {
+                push_object(call.state(), read_fresh<T>(archive));
+            }};
 }
 
 ObjectCodec codec_of_figures() {
@@ -34,7 +36,11 @@ ObjectCodec codec_of_figures() {
             [](lua_State* L, int index, CborWriter& archive) {
                 write_value(archive, (*to_object<FigurePointer>(L, index))->figure);
             },
-            [](const Call& call, CborReader& archive) { give_figure(call, read_fresh<Figure>(archive)); }};
+            [](const Call& call, CborReader& archive, std::vector<FigurePointer>& figures) {
+                auto figure = std::make_shared<ScriptFigure>(ScriptFigure{read_fresh<Figure>(archive), false, {}});
+                push_object(call.state(), figure);
+                figures.push_back(std::move(figure));
+            }};
 }
 
 const auto& object_codecs() {
@@ -128,7 +134,7 @@ bool put_at_depth(lua_State* L, int index, CborWriter& archive, int depth) {
     }
 }
 
-void push_table(const Call& call, CborReader& archive) {
+void push_table(const Call& call, CborReader& archive, std::vector<FigurePointer>& figures) {
     lua_State* L = call.state();
     const std::size_t count = archive.begin_list(2 * sizeof(lua_Number));
     if (count % 2 == 0) archive.refuse("a table has a name and pairs of a key and a value");
@@ -137,11 +143,11 @@ void push_table(const Call& call, CborReader& archive) {
     lua_createtable(L, 0, static_cast<int>(count / 2));
     for (std::size_t i = 0; i < count / 2; ++i) {
         archive.element();
-        push_archived_value(call, archive);
+        push_archived_value(call, archive, figures);
         const bool usable = !lua_isnil(L, -1) && !(lua_isnumber(L, -1) && lua_tonumber(L, -1) != lua_tonumber(L, -1));
-        if (!usable) archive.refuse("this is no key of a table");
+        if (!usable) archive.refuse("this cannot be a key of a table");
         archive.element();
-        push_archived_value(call, archive);
+        push_archived_value(call, archive, figures);
         lua_rawset(L, -3);
     }
     archive.end_list();
@@ -159,11 +165,11 @@ void push_array(const Call& call, CborReader& archive) {
         call.give_matrix(values);
 }
 
-void push_known_object(const Call& call, CborReader& archive) {
+void push_known_object(const Call& call, CborReader& archive, std::vector<FigurePointer>& figures) {
     archive.begin_object();
     for (const ObjectCodec& codec : object_codecs()) {
         if (!archive.member(codec.type->name)) continue;
-        codec.push(call, archive);
+        codec.push(call, archive, figures);
         return archive.end_object();
     }
     archive.refuse("it is an object of an unknown type");
@@ -175,7 +181,7 @@ bool put_value(lua_State* L, int index, CborWriter& archive) {
     return put_at_depth(L, lua_absindex(L, index), archive, 0);
 }
 
-void push_archived_value(const Call& call, CborReader& archive) {
+void push_archived_value(const Call& call, CborReader& archive, std::vector<FigurePointer>& figures) {
     using Kind = CborReader::Kind;
     lua_State* L = call.state();
     luaL_checkstack(L, 8, "too many nested tables");
@@ -193,11 +199,11 @@ void push_archived_value(const Call& call, CborReader& archive) {
             call.give(archive.text());
             return;
         case Kind::kList:
-            return push_table(call, archive);
+            return push_table(call, archive, figures);
         case Kind::kArray:
             return push_array(call, archive);
         case Kind::kObject:
-            return push_known_object(call, archive);
+            return push_known_object(call, archive, figures);
         default:
             archive.refuse("it is a value of an unknown kind");
     }

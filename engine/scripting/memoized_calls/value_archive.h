@@ -1,14 +1,16 @@
 #pragma once
 #include "data_io/values/cbor_values.h"
 #include "scripting/arguments/arguments.h"
+#include "scripting/runtime/recorder.h"
 
 namespace dynlab::inline scripting {
 
-/// Writes the value of a script at a stack place, tables with all they hold. False, with something written, for what
+/// Writes the value of a script at a stack index, tables with all they hold. False, with something written, for what
 /// has no lasting content: functions, coroutines, tables that behave in ways of their own or lie too deep.
 bool put_value(lua_State* L, int index, CborWriter& archive);
 
-/// Pushes an equal value. Figures among it count as made by this call. Throws ValueError for bytes that hold none.
-void push_archived_value(const Call& call, CborReader& archive);
+/// Pushes an equal value. The figures among it are added to `figures`; the recorder does not know them yet. Throws
+/// ValueError for bytes that hold none.
+void push_archived_value(const Call& call, CborReader& archive, std::vector<FigurePointer>& figures);
 
 }  // namespace dynlab::inline scripting

@@ -69,14 +69,14 @@ Access<T>& push_object(lua_State* L, T object) {
     return box->object;
 }
 
-/// The object at a stack place, nullptr when something else is there.
+/// The object at a stack index, nullptr when something else is there.
 template <class T>
 Access<T>* to_object(lua_State* L, int index) {
     if (!is_object(L, index, Boxed<T>::type)) return nullptr;
     return &static_cast<BoxedObject<T>*>(lua_touserdata(L, index))->object;
 }
 
-/// The digest of the object at a stack place, which is of this class.
+/// The digest of the object at a stack index, which is of this class.
 template <KeepsDigest T>
 Digest digest_of_object(lua_State* L, int index) {
     auto* box = static_cast<BoxedObject<T>*>(lua_touserdata(L, index));

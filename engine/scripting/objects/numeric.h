@@ -34,7 +34,7 @@ NumericBlock& push_vector(lua_State* L, Index size);
 NumericBlock& push_matrix(lua_State* L, Index rows, Index columns);
 MaskBlock& push_mask(lua_State* L, Index size);
 
-/// The block at a stack place, nullptr when something else is there.
+/// The block at a stack index, nullptr when something else is there.
 NumericBlock* to_vector(lua_State* L, int index);
 NumericBlock* to_matrix(lua_State* L, int index);
 MaskBlock* to_mask(lua_State* L, int index);

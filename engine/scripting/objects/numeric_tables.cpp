@@ -33,7 +33,7 @@ Index joined_size(lua_State* L, int index, Index entries, const std::string& lab
     return total;
 }
 
-/// What a table is that has no entries in places: empty, or a record of variables, say.
+/// What a table is that has no numbered entries: empty, or a record of variables, say.
 std::string without_entries(lua_State* L, int index) {
     std::vector<std::string> names;
     lua_pushnil(L);

@@ -6,7 +6,7 @@
 
 namespace dynlab::inline scripting {
 
-/// Replaces a table of numbers at stack place `index` by a vector; entries may also be vectors, which are joined.
+/// Replaces a table of numbers at stack index `index` by a vector; entries may also be vectors, which are joined.
 /// `label` names the table in messages.
 void make_vector_of_table(lua_State* L, int index, const std::string& label);
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::array kStyleNames = {"line", "points", "line_points", "stairs", "stems", "bars", "band"};
 
-/// Calls `read` with the stack place of every entry of the list under `name`.
+/// Calls `read` with the stack index of every entry of the list under `name`.
 void for_each_entry(const Call& call, const Options& options, const char* name, const std::function<void(int)>& read) {
     lua_State* L = call.state();
     const int list = options.push(name);
@@ -59,7 +59,7 @@ Arrow read_arrow(const Call& call, int index) {
             options.flag("both_heads", false)};
 }
 
-std::optional<int> optional_place(const Options& options, const char* name) {
+std::optional<int> optional_index(const Options& options, const char* name) {
     if (!options.has(name)) return std::nullopt;
     return static_cast<int>(options.size(name, 0));
 }
@@ -76,9 +76,9 @@ CurveStyle parse_curve_style(const std::string& name) {
 
 void read_curve_look(const Options& options, Curve& curve) {
     if (options.has("style")) curve.style = parse_curve_style(options.text("style", ""));
-    curve.colour = optional_place(options, "colour");
-    curve.dash = optional_place(options, "dash");
-    curve.marker = optional_place(options, "marker");
+    curve.colour = optional_index(options, "colour");
+    curve.dash = optional_index(options, "dash");
+    curve.marker = optional_index(options, "marker");
     curve.line_width = options.number("line_width", curve.line_width);
 }
 

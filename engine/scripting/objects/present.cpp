@@ -17,9 +17,9 @@ std::string kind_of(const Model& model) {
 }
 
 /// "  +- 0.0312"; an error of exactly zero beside others belongs to a parameter that the search left at its bound.
-std::string error_text(const Vector& std, Index place) {
-    if (std[place] == 0 && (std.array() > 0).any()) return "  (at its bound)";
-    return "  +- " + number_text(std[place], 3);
+std::string error_text(const Vector& std, Index index) {
+    if (std[index] == 0 && (std.array() > 0).any()) return "  (at its bound)";
+    return "  +- " + number_text(std[index], 3);
 }
 
 std::string parameter_lines(const Model& model) {
@@ -27,11 +27,11 @@ std::string parameter_lines(const Model& model) {
     const bool coloured = model.estimate && model.estimate->errors_are_coloured();
     std::string text = "Parameters:\n";
     for (std::size_t i = 0; i < parameters.names.size(); ++i) {
-        const auto place = static_cast<Index>(i);
-        text += fmt::format("  {:<5} {:>12}", parameters.names[i], number_text(parameters.values[place], 6));
-        if (parameters.std.size() > place) text += error_text(parameters.std, place);
-        if (coloured && model.estimate->assessment->std[place] > 0)
-            text += fmt::format("  (robust +- {})", number_text(model.estimate->assessment->std[place], 3));
+        const auto index = static_cast<Index>(i);
+        text += fmt::format("  {:<5} {:>12}", parameters.names[i], number_text(parameters.values[index], 6));
+        if (parameters.std.size() > index) text += error_text(parameters.std, index);
+        if (coloured && model.estimate->assessment->std[index] > 0)
+            text += fmt::format("  (robust +- {})", number_text(model.estimate->assessment->std[index], 3));
         text += '\n';
     }
     return text;

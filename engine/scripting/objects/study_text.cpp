@@ -11,7 +11,7 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr double kChance = 4;  // standard errors of a mean beyond which an offset is no chance
+constexpr double kSignificantDeviation = 4;  // standard errors of a mean beyond which an offset is significant
 
 /// A row of a study's table: who, what, a value for each parameter.
 std::string value_row(const std::string& who, const char* what, const Vector& values, int who_width) {
@@ -40,7 +40,7 @@ std::string bias_of(const MonteCarloResult& result) {
     std::vector<std::string> names;
     const double root = std::sqrt(static_cast<double>(result.estimated));
     for (Index i = 0; i < result.bias.size(); ++i)
-        if (std::abs(result.bias[i]) > kChance * result.spread[i] / root)
+        if (std::abs(result.bias[i]) > kSignificantDeviation * result.spread[i] / root)
             names.push_back(result.names[static_cast<std::size_t>(i)]);
     if (names.empty()) return "";
     return fmt::format("{} is biased: the mean of {} is off the true value by more than chance explains.\n",

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The end of the file; empty when it is not there or no ordinary file.
+/// The end of the file; empty when it is not there or not a regular file.
 std::string end_of_file(const fs::path& file) {
     std::error_code error;
     if (!fs::is_regular_file(file, error)) return {};

@@ -146,11 +146,11 @@ Completion complete_member(lua_State* L, Tokens before, std::string_view typed) 
 }
 
 Completion complete_word(lua_State* L, const Tokens& before, std::string_view typed) {
-    const Surroundings place = surroundings_of(before);
-    const FunctionEntry* function = place.function.empty() ? nullptr : find_function(L, place.function);
+    const Surroundings surroundings = surroundings_of(before);
+    const FunctionEntry* function = surroundings.function.empty() ? nullptr : find_function(L, surroundings.function);
     const bool starts_item = !before.empty() && (before.back().is("{") || before.back().is(","));
     std::vector<std::string> names;
-    if (function != nullptr && place.in_braces && starts_item) names = options_of(*function);
+    if (function != nullptr && surroundings.in_braces && starts_item) names = options_of(*function);
     Completion completion = choose(typed, std::move(names));
     if (typed.empty() && function != nullptr) completion.note = function->signature;
     if (typed.empty() || !completion.candidates.empty()) return completion;

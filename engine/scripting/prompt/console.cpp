@@ -20,7 +20,8 @@ namespace {
 constexpr const char* kPrompt = "dynlab> ";
 constexpr const char* kContinuation = "   ...> ";
 constexpr const char* kPipeName = "standard input";
-constexpr int kImpatience = 5;  // that many Ctrl-C during one statement end the program even if it does not listen
+constexpr int kInterruptsToExit =
+    5;  // that many Ctrl-C during one statement end the program even if it does not listen
 
 void print_now(const std::string& text) {
     std::fwrite(text.data(), 1, text.size(), stdout);
@@ -77,15 +78,15 @@ class Prompt {
 
     void run(const PromptStatement& statement) {
         const std::string name = fmt::format("statement {}", ++count_);
-        forget_interrupts(kImpatience);
+        forget_interrupts(kInterruptsToExit);
         const StatementResult result = session_.run(statement, name);
         if (interrupted()) print_now("\n");  // the terminal has shown ^C
-        forget_interrupts(kImpatience);
+        forget_interrupts(kInterruptsToExit);
         show_figures(result);
         if (!result.error.empty()) show_error(message_of(result.error, name, statement.source));
     }
 
-    /// The place is told where it helps: the line of a longer statement, or that it was an earlier one's.
+    /// With its location where that helps: the line of a longer statement, or that it was an earlier one's.
     static std::string message_of(const std::string& error, const std::string& name, const std::string& source) {
         const LocatedMessage placed = take_apart(error);
         if (placed.line == 0) return error;

@@ -12,7 +12,7 @@ namespace dynlab::inline scripting {
 /// whenever read() does not run, after every signal that ends the program too.
 class LineEditor {
   public:
-    /// `complete` is told the line up to the cursor.
+    /// `complete` gets the line up to the cursor.
     LineEditor(CommandHistory& history, std::function<Completion(const std::string&)> complete);
     ~LineEditor();
     LineEditor(const LineEditor&) = delete;

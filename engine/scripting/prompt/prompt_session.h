@@ -12,9 +12,9 @@
 
 namespace dynlab::inline scripting {
 
-/// What a statement came to, besides the text it printed.
+/// The outcome of a statement, besides the text it printed.
 struct StatementResult {
-    std::string error;  ///< a sentence with its place ("prompt:2: ..."); empty when all went well
+    std::string error;  ///< a sentence with its location ("prompt:2: ..."); empty when all went well
     std::vector<std::filesystem::path> figures;  ///< files of the figures it made, also before an error
 };
 

@@ -44,8 +44,8 @@ class LocalsToAssignments {
             if (depth == 0 && tokens_[i].is("local")) rewrite(i);
             depth += depth_change(tokens_[i]);
         }
-        for (auto place = missing_values_.rbegin(); place != missing_values_.rend(); ++place)
-            code_.insert(*place, " = nil");
+        for (auto offset = missing_values_.rbegin(); offset != missing_values_.rend(); ++offset)
+            code_.insert(*offset, " = nil");
     }
 
     const std::string& code() const { return code_; }

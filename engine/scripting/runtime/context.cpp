@@ -55,10 +55,10 @@ int main_chunk_line(RuntimeContext& context) {
     return std::max(context.main_chunk.currentline, 0);
 }
 
-std::string script_place(lua_State* L) {
-    std::string place = innermost_line(L);
+std::string script_location(lua_State* L) {
+    std::string location = innermost_line(L);
     lua_State* main = context_of(L).main;
-    return place.empty() && main != L ? innermost_line(main) : place;
+    return location.empty() && main != L ? innermost_line(main) : location;
 }
 
 void poll_stop(lua_State* L) {
@@ -82,8 +82,8 @@ void raise_stop(lua_State* L, StopReason reason) {
 }
 
 void raise_error(lua_State* L, const std::string& message) {
-    const std::string place = script_place(L);
-    const std::string text = place.empty() ? message : place + ": " + message;
+    const std::string location = script_location(L);
+    const std::string text = location.empty() ? message : location + ": " + message;
     lua_pushlstring(L, text.data(), text.size());
     lua_error(L);
     std::abort();  // not reached: lua_error does not return

@@ -51,13 +51,13 @@ T& service(lua_State* L) {
 /// Line of the main chunk that runs now, 0 when none does.
 int main_chunk_line(RuntimeContext& context);
 /// "file:line" of the innermost script line, empty when no script is running.
-std::string script_place(lua_State* L);
+std::string script_location(lua_State* L);
 /// Raises the stop when Ctrl-C was pressed or the time limit is over; cheap enough for every protected call.
 void poll_stop(lua_State* L);
 /// Passes a stop on that is under way, whatever the script tried to catch.
 void pass_stop_on(lua_State* L);
 [[noreturn]] void raise_stop(lua_State* L, StopReason reason);
-/// Raises "place: message" for the script.
+/// Raises "location: message" for the script.
 [[noreturn]] void raise_error(lua_State* L, const std::string& message);
 
 }  // namespace dynlab::inline scripting

@@ -75,29 +75,29 @@ std::string argument_sentence(const std::string& text) {
     return fmt::format("{}: argument {}: {}", *function, *number, inside);
 }
 
-struct Rewriting {
+struct PlainMessage {
     std::string_view start;  ///< of Lua's message
     const char* sentence;
 };
 
 constexpr std::array kFixed = {
-    Rewriting{"stack overflow", "functions call each other without end (stack overflow)"},
-    Rewriting{"C stack overflow", "functions call each other without end (stack overflow)"},
-    Rewriting{"error in error handling", "an error happened while another error was being handled"},
-    Rewriting{"number has no integer representation", "a whole number is needed here"},
-    Rewriting{"attempt to perform 'n//0'", "a whole number cannot be divided by zero with //"},
-    Rewriting{"attempt to perform 'n%%0'", "the remainder of a division by zero does not exist"},
-    Rewriting{"'for' step is zero", "the step of a for loop must not be zero"},
-    Rewriting{"index is nil", "the place in the table is nil (it has no value)"},
-    Rewriting{"table index is nil", "the place in the table is nil (it has no value)"},
-    Rewriting{"table index is NaN", "the place in the table is not a number (NaN)"},
-    Rewriting{"table overflow", "the table has too many elements"},
-    Rewriting{"resulting string too large", "the text would be too long"},
-    Rewriting{"string length overflow", "the text would be too long"},
-    Rewriting{"cannot resume dead coroutine", "this coroutine has ended and cannot go on"},
-    Rewriting{"cannot resume non-suspended coroutine", "this coroutine is running already"},
-    Rewriting{"attempt to yield from outside a coroutine", "coroutine.yield works inside a coroutine only"},
-    Rewriting{"not enough memory", "the script needs more memory than it may use"},
+    PlainMessage{"stack overflow", "functions call each other without end (stack overflow)"},
+    PlainMessage{"C stack overflow", "functions call each other without end (stack overflow)"},
+    PlainMessage{"error in error handling", "an error happened while another error was being handled"},
+    PlainMessage{"number has no integer representation", "a whole number is needed here"},
+    PlainMessage{"attempt to perform 'n//0'", "a whole number cannot be divided by zero with //"},
+    PlainMessage{"attempt to perform 'n%%0'", "the remainder of a division by zero does not exist"},
+    PlainMessage{"'for' step is zero", "the step of a for loop must not be zero"},
+    PlainMessage{"index is nil", "the key of the table is nil (it has no value)"},
+    PlainMessage{"table index is nil", "the key of the table is nil (it has no value)"},
+    PlainMessage{"table index is NaN", "the key of the table is not a number (NaN)"},
+    PlainMessage{"table overflow", "the table has too many elements"},
+    PlainMessage{"resulting string too large", "the text would be too long"},
+    PlainMessage{"string length overflow", "the text would be too long"},
+    PlainMessage{"cannot resume dead coroutine", "this coroutine has ended and cannot go on"},
+    PlainMessage{"cannot resume non-suspended coroutine", "this coroutine is running already"},
+    PlainMessage{"attempt to yield from outside a coroutine", "coroutine.yield works inside a coroutine only"},
+    PlainMessage{"not enough memory", "the script needs more memory than it may use"},
 };
 
 bool starts_with(const std::string& text, std::string_view start) {
@@ -124,7 +124,7 @@ std::string plain_sentence(const std::string& text) {
     if (auto part = between(text, "bad 'for' ", " (number expected, got "))
         return fmt::format("the {} of a for loop must be a number, but {} was given", *part,
                            with_article(*between(text, "expected, got ", ")")));
-    for (const Rewriting& fixed : kFixed)
+    for (const PlainMessage& fixed : kFixed)
         if (starts_with(text, fixed.start)) return fixed.sentence;
     return text;
 }
@@ -205,9 +205,9 @@ void translate_value_on_top(lua_State* L) {
 int translate_error(lua_State* L) {
     lua_settop(L, 1);
     if (lua_type(L, 1) == LUA_TSTRING && take_apart(lua_tostring(L, 1)).line == 0) {
-        const std::string place = script_place(L);  // errors without a place, such as a stack overflow in C
-        if (!place.empty()) {
-            lua_pushfstring(L, "%s: %s", place.c_str(), lua_tostring(L, 1));
+        const std::string location = script_location(L);  // errors without a location, such as a stack overflow in C
+        if (!location.empty()) {
+            lua_pushfstring(L, "%s: %s", location.c_str(), lua_tostring(L, 1));
             lua_replace(L, 1);
         }
     }

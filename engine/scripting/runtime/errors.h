@@ -14,7 +14,7 @@ std::string memory_message(const RuntimeContext& context);
 /// Replaces the error on top by it.
 void push_memory_message(lua_State* L);
 
-/// "file:line: text" taken apart; line 0 and empty file when the text has no place.
+/// "file:line: text" taken apart; line 0 and empty file when the text has no location.
 struct LocatedMessage {
     std::string file;
     int line = 0;
@@ -23,7 +23,7 @@ struct LocatedMessage {
 };
 LocatedMessage take_apart(const std::string& message);
 
-/// Plain words for what Lua says at run time, place kept ("attempt to index a nil value (local 'x')" and its like).
+/// Plain words for what Lua says at run time, location kept ("attempt to index a nil value (local 'x')" and its like).
 std::string plain_runtime_message(const std::string& message);
 
 /// Plain words for a syntax error of `source`, with a hint when the line looks like MATLAB.

@@ -19,9 +19,9 @@ class Scanner {
     explicit Scanner(std::string_view text) : text_(text) {}
 
     std::vector<LuaToken> scan() {
-        while (place_ < text_.size()) {
-            if (std::string_view(" \t\r\n\f\v").find(text_[place_]) != std::string_view::npos) {
-                ++place_;
+        while (offset_ < text_.size()) {
+            if (std::string_view(" \t\r\n\f\v").find(text_[offset_]) != std::string_view::npos) {
+                ++offset_;
             } else if (starts("--")) {
                 skip_comment();
             } else {
@@ -34,86 +34,88 @@ class Scanner {
   private:
     using Kind = LuaToken::Kind;
 
-    bool starts(std::string_view word) const { return text_.substr(place_, word.size()) == word; }
+    bool starts(std::string_view word) const { return text_.substr(offset_, word.size()) == word; }
 
     void take(Kind kind, std::size_t end) {
-        tokens_.push_back({kind, text_.substr(place_, end - place_), place_});
-        place_ = end;
+        tokens_.push_back({kind, text_.substr(offset_, end - offset_), offset_});
+        offset_ = end;
     }
 
     void take_token() {
-        const char c = text_[place_];
-        if (is_digit(c) || (c == '.' && place_ + 1 < text_.size() && is_digit(text_[place_ + 1]))) return take_number();
+        const char c = text_[offset_];
+        if (is_digit(c) || (c == '.' && offset_ + 1 < text_.size() && is_digit(text_[offset_ + 1])))
+            return take_number();
         if (is_name_character(c)) return take_word();
         if (c == '"' || c == '\'') return take_string(c);
-        if (const auto level = long_bracket(place_)) {
-            const auto end = end_of_long_bracket(place_, *level);
+        if (const auto level = long_bracket(offset_)) {
+            const auto end = end_of_long_bracket(offset_, *level);
             return take(end ? Kind::kString : Kind::kUnfinished, end.value_or(text_.size()));
         }
         for (std::string_view sign : kLongSigns)
-            if (starts(sign)) return take(Kind::kSign, place_ + sign.size());
-        take(Kind::kSign, place_ + 1);
+            if (starts(sign)) return take(Kind::kSign, offset_ + sign.size());
+        take(Kind::kSign, offset_ + 1);
     }
 
     void take_word() {
-        std::size_t end = place_;
+        std::size_t end = offset_;
         while (end < text_.size() && is_name_character(text_[end])) ++end;
         const auto& keywords = lua_keywords();
-        const bool reserved = std::binary_search(keywords.begin(), keywords.end(), text_.substr(place_, end - place_));
+        const bool reserved =
+            std::binary_search(keywords.begin(), keywords.end(), text_.substr(offset_, end - offset_));
         take(reserved ? Kind::kKeyword : Kind::kName, end);
     }
 
     /// 12, 0x1F, 1e-5, .5; the range operator's dots do not belong to it.
     void take_number() {
-        std::size_t end = place_;
+        std::size_t end = offset_;
         while (end < text_.size()) {
             const char c = text_[end];
-            const bool exponent_sign = (c == '+' || c == '-') && end > place_ &&
+            const bool exponent_sign = (c == '+' || c == '-') && end > offset_ &&
                                        std::string_view("eEpP").find(text_[end - 1]) != std::string_view::npos &&
                                        !starts("0x");
             const bool point = c == '.' && text_.substr(end, 2) != "..";
             if (!is_name_character(c) && !point && !exponent_sign) break;
             ++end;
         }
-        take(Kind::kNumber, std::max(end, place_ + 1));
+        take(Kind::kNumber, std::max(end, offset_ + 1));
     }
 
     void take_string(char quote) {
-        std::size_t end = place_ + 1;
+        std::size_t end = offset_ + 1;
         while (end < text_.size() && text_[end] != quote && text_[end] != '\n')
             end += text_[end] == '\\' && end + 1 < text_.size() ? 2 : 1;
         const bool closed = end < text_.size() && text_[end] == quote;
         take(closed ? Kind::kString : Kind::kUnfinished, std::min(end + (closed ? 1 : 0), text_.size()));
     }
 
-    /// Number of = signs of a long bracket [==[ that starts at `place`.
-    std::optional<std::size_t> long_bracket(std::size_t place) const {
-        if (place >= text_.size() || text_[place] != '[') return std::nullopt;
-        std::size_t end = place + 1;
+    /// Number of = signs of a long bracket [==[ that starts at `offset`.
+    std::optional<std::size_t> long_bracket(std::size_t offset) const {
+        if (offset >= text_.size() || text_[offset] != '[') return std::nullopt;
+        std::size_t end = offset + 1;
         while (end < text_.size() && text_[end] == '=') ++end;
         if (end >= text_.size() || text_[end] != '[') return std::nullopt;
-        return end - place - 1;
+        return end - offset - 1;
     }
 
-    std::optional<std::size_t> end_of_long_bracket(std::size_t place, std::size_t level) const {
+    std::optional<std::size_t> end_of_long_bracket(std::size_t offset, std::size_t level) const {
         const std::string closing = "]" + std::string(level, '=') + "]";
-        const auto found = text_.find(closing, place + level + 2);
+        const auto found = text_.find(closing, offset + level + 2);
         if (found == std::string_view::npos) return std::nullopt;
         return found + closing.size();
     }
 
     void skip_comment() {
-        if (const auto level = long_bracket(place_ + 2)) {
-            const auto end = end_of_long_bracket(place_ + 2, *level);
+        if (const auto level = long_bracket(offset_ + 2)) {
+            const auto end = end_of_long_bracket(offset_ + 2, *level);
             if (!end) return take(Kind::kUnfinished, text_.size());
-            place_ = *end;
+            offset_ = *end;
         } else {
-            place_ = std::min(text_.find('\n', place_), text_.size());
+            offset_ = std::min(text_.find('\n', offset_), text_.size());
         }
     }
 
     std::string_view text_;
-    std::size_t place_ = 0;
+    std::size_t offset_ = 0;
     std::vector<LuaToken> tokens_;
 };
 

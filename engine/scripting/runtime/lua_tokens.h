@@ -9,7 +9,7 @@ struct LuaToken {
     enum class Kind { kName, kKeyword, kNumber, kString, kSign, kUnfinished };
     Kind kind;
     std::string_view text;  ///< part of the text that was taken apart; strings with their quotes
-    std::size_t begin = 0;  ///< place of its first character
+    std::size_t begin = 0;  ///< offset of its first character
     std::size_t end() const { return begin + text.size(); }
     bool is(std::string_view word) const { return text == word && kind != Kind::kString && kind != Kind::kUnfinished; }
 };

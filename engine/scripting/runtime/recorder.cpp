@@ -52,7 +52,7 @@ void Recorder::print(const std::string& text) {
 
 void Recorder::add_figure(const FigurePointer& figure) {
     note_time();
-    figure->place = ++figures_made_;
+    figure->order = ++figures_made_;
     if (next_number_) {
         figure->number = next_number_;
         next_number_.reset();
@@ -93,7 +93,7 @@ void Recorder::capture_figures(const std::string& cell, const std::vector<Piece>
         const Figure& figure = piece.figure->figure;
         const std::string caption =
             !figure.title.empty() || figure.panels.empty() ? figure.title : figure.panels.front().title;
-        record_.figures[name] = {figure, caption, {}, piece.figure->place};
+        record_.figures[name] = {figure, caption, {}, piece.figure->order};
         outputs.push_back({std::move(printed), name});
         printed.clear();
     }
@@ -106,7 +106,7 @@ RunRecord Recorder::finish() {
         std::chrono::duration<double>(std::chrono::steady_clock::now() - timed_since_).count();
     for (const auto& [cell, pieces] : pieces_) capture_figures(cell, pieces);
     for (const auto& [name, reported] : reported_)
-        record_.figures[name] = {reported.figure->figure, reported.caption, {}, reported.figure->place};
+        record_.figures[name] = {reported.figure->figure, reported.caption, {}, reported.figure->order};
     pieces_.clear();
     reported_.clear();
     numbered_.clear();

@@ -18,7 +18,7 @@ struct ScriptFigure {
     Figure figure;
     bool used = false;
     std::optional<long long> number;  ///< given by figure(n)
-    std::size_t place = 0;            ///< in the order in which the script made its figures
+    std::size_t order = 0;            ///< in the order in which the script made its figures
 };
 
 using FigurePointer = std::shared_ptr<ScriptFigure>;
@@ -29,7 +29,7 @@ class Recorder {
     using LineSource = std::function<int()>;  ///< current line of the main chunk, 0 when it is not running
     using CellListener = std::function<void(const std::string& cell)>;
 
-    /// `enter_cell`, unless empty, is told of each cell as the script gets to it.
+    /// `enter_cell`, unless empty, is called with each cell as the script enters it.
     void start(const PercentScript& script, std::uint32_t seed, LineSource current_line, CellListener enter_cell);
     /// Ends the run: names the figures that were made and dropped, and hands the record over.
     RunRecord finish();

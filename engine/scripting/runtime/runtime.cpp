@@ -36,8 +36,8 @@ int final_message(lua_State* L) {
         const std::string text = value_text(L, 1);
         lua_pushlstring(L, text.data(), text.size());
     }
-    const std::string place = script_place(L);
-    if (!place.empty()) lua_pushfstring(L, "%s: %s", place.c_str(), lua_tostring(L, -1));
+    const std::string location = script_location(L);
+    if (!location.empty()) lua_pushfstring(L, "%s: %s", location.c_str(), lua_tostring(L, -1));
     return 1;
 }
 

@@ -11,7 +11,7 @@ void open_safe_libraries(lua_State* L);
 /// table `dynlab` shows it, its tables cannot be changed, unknown names are errors with a suggestion.
 void seal_library(lua_State* L);
 
-/// Registry place of the table of functions, for adding to it after it was sealed.
+/// Registry key of the table of functions, for adding to it after it was sealed.
 void push_library(lua_State* L);
 
 /// pcall, xpcall, coroutine.resume, wrap and close that let a stop (Ctrl-C, time limit) through and translate messages.
@@ -20,7 +20,7 @@ void add_protected_calls(lua_State* L);
 
 /// Replacements for functions of string and table that could loop in C for ever or fill the memory, print, tostring,
 /// pairs in a repeatable order, math.random from the run's stream. Expects the table of functions on top.
-void add_tamed_functions(lua_State* L);
+void add_restricted_functions(lua_State* L);
 
 /// Sets field `name` of the table on top to a C function.
 void set_function(lua_State* L, const char* name, lua_CFunction function);

@@ -133,7 +133,7 @@ TEST(armax, refuses_what_it_cannot_fit) {  // oracle: definitions
     EXPECT_THAT(refusal(record(6, 0.1, 1), kOrders), HasSubstr("armax needs more equations"));
     IdData constant = record(100, 0.1, 1);
     constant.experiments[0].u.setOnes();
-    EXPECT_THAT(refusal(constant, kOrders), HasSubstr("armax: the input u1 is too poor"));
+    EXPECT_THAT(refusal(constant, kOrders), HasSubstr("armax: the input u1 is not persistently exciting enough"));
 }
 
 /// Oracle: the search over all samples from the truth. The second record says next to nothing in its first quarter.

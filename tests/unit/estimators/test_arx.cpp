@@ -123,7 +123,7 @@ TEST(arx,
 
 TEST(arx, too_high_orders_are_told) {  // oracle: the simulated system
     const auto result = arx(record(400, 0, 1), PolynomialOrders::arx(4, {4}, {2}));
-    EXPECT_THAT(result.message, HasSubstr("do not tell all parameters apart"));
+    EXPECT_THAT(result.message, HasSubstr("do not determine all parameters separately"));
     EXPECT_GT(result.fit_percent[0], 100 - 1e-5);
 }
 
@@ -142,9 +142,10 @@ TEST(arx, refuses_poor_inputs_and_is_right) {
         return thrown_message([&] { arx(IdData(Matrix(e), Matrix(u), 1), orders); });
     };
     EXPECT_THAT(refusal(zero, kSecond), HasSubstr("u1 is zero throughout"));
-    EXPECT_THAT(refusal(constant, kSecond), HasSubstr("too poor to tell nb = 2"));
+    EXPECT_THAT(refusal(constant, kSecond), HasSubstr("not persistently exciting enough to determine nb = 2"));
     EXPECT_EQ(refusal(constant, PolynomialOrders::arx(1, {1}, {1})), "");
-    EXPECT_THAT(refusal(sine, PolynomialOrders::arx(1, {3}, {1})), HasSubstr("too poor to tell nb = 3"));
+    EXPECT_THAT(refusal(sine, PolynomialOrders::arx(1, {3}, {1})),
+                HasSubstr("not persistently exciting enough to determine nb = 3"));
     EXPECT_EQ(refusal(sine, PolynomialOrders::arx(1, {2}, {1})), "");
     // Justified: other coefficients explain the same record equally well.
     const auto [Phi, y] = equations(sine, e, PolynomialOrders::arx(1, {3}, {1}));

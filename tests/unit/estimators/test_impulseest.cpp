@@ -134,7 +134,8 @@ TEST(impulseest, poor_inputs_need_the_smooth_estimate) {  // oracle: a sine give
     Vector u(400);
     for (Index k = 0; k < 400; ++k) u[k] = std::sin(0.2 * static_cast<double>(k));
     const IdData data = record(response_with(1, 60), u, 0.01, 1);
-    EXPECT_THAT(thrown_message([&] { impulseest(data, plain(60)); }), HasSubstr("too poor to tell the 61 samples"));
+    EXPECT_THAT(thrown_message([&] { impulseest(data, plain(60)); }),
+                HasSubstr("not persistently exciting enough to determine the 61 samples"));
     ImpulseestOptions options;
     options.lags = 60;
     EXPECT_TRUE(impulseest(data, options).response.allFinite());

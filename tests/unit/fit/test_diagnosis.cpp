@@ -51,7 +51,7 @@ TEST(diagnosis, of_parameters) {  // oracle: the definition
     fit.warnings.clear();
     fit.condition_number = 1e12;
     warn_of_doubtful_parameters(fit, "fewer bins");
-    EXPECT_THAT(fit.warnings, ElementsAre(testing::AllOf(HasSubstr("do not tell all parameters apart"),
+    EXPECT_THAT(fit.warnings, ElementsAre(testing::AllOf(HasSubstr("do not determine all parameters separately"),
                                                          HasSubstr("fewer bins or a richer input"))));
 }
 

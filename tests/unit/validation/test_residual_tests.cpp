@@ -68,7 +68,7 @@ TEST(residual_tests, white_noise_on_the_true_model_passes) {  // oracle: how the
     EXPECT_TRUE(tests.outputs[0].inputs[0].without_feedback);
     EXPECT_THAT(tests.verdict, HasSubstr("y1: The output error is white"));
     EXPECT_THAT(tests.verdict, HasSubstr("u1 explains nothing more of it"));
-    EXPECT_THAT(tests.verdict, HasSubstr("says all that the data can tell"));
+    EXPECT_THAT(tests.verdict, HasSubstr("explains all that the data show"));
 }
 
 TEST(residual_tests, coloured_noise_on_the_true_model_is_told_apart_from_missing_dynamics) {

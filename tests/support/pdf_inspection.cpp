@@ -1,4 +1,4 @@
-#include "documents/pdf/pdf_inspection.h"
+#include "support/pdf_inspection.h"
 
 #include <poppler/cpp/poppler-document.h>
 #include <poppler/cpp/poppler-global.h>
@@ -8,7 +8,7 @@
 
 #include "platform/error.h"
 
-namespace dynlab::inline documents {
+namespace dynlab::test {
 namespace {
 
 std::string utf8(const poppler::ustring& text) {
@@ -39,4 +39,4 @@ PdfContent inspect_pdf(const std::filesystem::path& file) {
     return content;
 }
 
-}  // namespace dynlab::inline documents
+}  // namespace dynlab::test

@@ -1,4 +1,4 @@
-#include "documents/filter_findings.h"
+#include "documents/filter_messages.h"
 
 #include <functional>
 #include <map>
@@ -86,7 +86,7 @@ class Sentences {
         if (code == "column-width")
             return "a column needs its width in percent, as in ::: {.column width=60%}, not " + quoted(first);
         if (code == "not-a-column")
-            return "a block ::: columns holds nothing but blocks ::: {.column width=50%}, and these stand nowhere else";
+            return "a block ::: columns holds nothing but blocks ::: {.column width=50%}, which occur nowhere else";
         return unknown_class(code, first, second);
     }
 
@@ -168,15 +168,15 @@ std::string formula_in(const std::string& line) {
 
 }  // namespace
 
-FilterMessages read_filter_findings(const std::string& error_output, const MarkdownText& markdown,
+FilterMessages read_filter_messages(const std::string& error_output, const MarkdownText& markdown,
                                     const std::filesystem::path& template_file, const RunRecord& record,
                                     Complaints& complaints) {
-    FilterMessages findings;
+    FilterMessages messages;
     const Sentences sentences(markdown, record);
     for (const std::string& line : lines_of(error_output)) {
         const std::vector<std::string> fields = split_at(line, '\t');
         if (fields[0] == "dynlab:use" && fields.size() == 4) {
-            findings.pictures.push_back({std::stoi(fields[1]), fields[2] == "figure", fields[3]});
+            messages.pictures.push_back({std::stoi(fields[1]), fields[2] == "figure", fields[3]});
         } else if (fields[0] == "dynlab:error" && fields.size() >= 3) {
             const int occurrence = fields[1] == "duplicate-label" ? 2 : 1;
             complaints.add(find_in(markdown, fields[2], template_file, occurrence), sentences.of(fields));
@@ -184,7 +184,7 @@ FilterMessages read_filter_findings(const std::string& error_output, const Markd
             add_pandoc_warning(line, find_in(markdown, formula_in(line), template_file), complaints);
         }
     }
-    return findings;
+    return messages;
 }
 
 }  // namespace dynlab::inline documents

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace dynlab::inline documents {
+namespace dynlab::test {
 
 /// What poppler reads from a PDF: text of each page and the document's metadata.
 struct PdfContent {
@@ -12,4 +12,4 @@ struct PdfContent {
 };
 PdfContent inspect_pdf(const std::filesystem::path& file);  ///< throws EnvironmentError for a damaged or encrypted file
 
-}  // namespace dynlab::inline documents
+}  // namespace dynlab::test

@@ -147,17 +147,17 @@ std::vector<int> sorted_keys(lua_State* L, int keys, int count) {
     return order;
 }
 
-/// Iterator of pairs: upvalues are the sorted keys and the place reached. Keys removed meanwhile are skipped.
+/// Iterator of pairs: upvalues are the sorted keys and the index reached. Keys removed meanwhile are skipped.
 int next_pair(lua_State* L) {
-    lua_Integer place = lua_tointeger(L, lua_upvalueindex(2));
+    lua_Integer index = lua_tointeger(L, lua_upvalueindex(2));
     for (;;) {
-        ++place;
-        if (lua_rawgeti(L, lua_upvalueindex(1), place) == LUA_TNIL) return 1;
+        ++index;
+        if (lua_rawgeti(L, lua_upvalueindex(1), index) == LUA_TNIL) return 1;
         lua_pushvalue(L, -1);
         if (lua_rawget(L, 1) != LUA_TNIL) break;
         lua_pop(L, 2);
     }
-    lua_pushinteger(L, place);
+    lua_pushinteger(L, index);
     lua_replace(L, lua_upvalueindex(2));
     return 2;
 }
@@ -180,10 +180,10 @@ int script_pairs(lua_State* L) {
         lua_rawseti(L, 2, ++count);
     }
     lua_createtable(L, count, 0);
-    int place = 0;
+    int index = 0;
     for (int key : sorted_keys(L, 2, count)) {
         lua_rawgeti(L, 2, key);
-        lua_rawseti(L, 3, ++place);
+        lua_rawseti(L, 3, ++index);
     }
     lua_pushinteger(L, 0);
     lua_pushcclosure(L, next_pair, 2);
@@ -192,17 +192,17 @@ int script_pairs(lua_State* L) {
 }
 
 int next_element(lua_State* L) {
-    const lua_Integer place = luaL_checkinteger(L, 2) + 1;
-    if (place > luaL_len(L, 1)) return 0;
-    lua_pushinteger(L, place);
-    lua_geti(L, 1, place);
+    const lua_Integer index = luaL_checkinteger(L, 2) + 1;
+    if (index > luaL_len(L, 1)) return 0;
+    lua_pushinteger(L, index);
+    lua_geti(L, 1, index);
     return 2;
 }
 
 int next_entry(lua_State* L) {
-    const lua_Integer place = luaL_checkinteger(L, 2) + 1;
-    lua_pushinteger(L, place);
-    return lua_geti(L, 1, place) == LUA_TNIL ? 1 : 2;
+    const lua_Integer index = luaL_checkinteger(L, 2) + 1;
+    lua_pushinteger(L, index);
+    return lua_geti(L, 1, index) == LUA_TNIL ? 1 : 2;
 }
 
 /// ipairs of tables as in Lua, and of vectors, whose elements end at #v.
@@ -223,7 +223,7 @@ void wrap_field(lua_State* L, const char* name, lua_CFunction wrapper) {
 
 }  // namespace
 
-void add_tamed_functions(lua_State* L) {
+void add_restricted_functions(lua_State* L) {
     luaL_requiref(L, "_G", luaopen_base, 0);
     lua_getfield(L, -1, "setmetatable");
     lua_pushcclosure(L, script_setmetatable, 1);

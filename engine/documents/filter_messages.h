@@ -20,8 +20,8 @@ struct FilterMessages {
     std::vector<UsedPicture> pictures;
 };
 
-/// Adds a sentence with its place in the source for every error of the filter and every warning of Pandoc.
-FilterMessages read_filter_findings(const std::string& error_output, const MarkdownText& markdown,
+/// Adds a sentence with its line in the source for every error of the filter and every warning of Pandoc.
+FilterMessages read_filter_messages(const std::string& error_output, const MarkdownText& markdown,
                                     const std::filesystem::path& template_file, const RunRecord& record,
                                     Complaints& complaints);
 
