@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "numerics/filters/regression_moments.h"
+#include "numerics/filters/transfer_filters.h"
 #include "numerics/models/transfer_structure.h"
 
 namespace dynlab::inline numerics {
@@ -47,6 +47,10 @@ class DenominatorGroup {
     std::vector<double> weights_;
     std::vector<Vector> targets_;
 };
+
+/// Squares of one output's simulation error over all experiments, simulated from rest: what the passes aim at.
+double simulation_squares(const IdData& data, const TransferStructure& structure, const VectorView& theta,
+                          Index output);
 
 /// theta of z_phi theta = z_y, columns and rows scaled; NaN when it cannot be solved. `condition_number` of the scaled
 /// equations.

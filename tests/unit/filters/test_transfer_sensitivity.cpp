@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "numerics/criteria/transfer_sensitivity.h"
+#include "numerics/filters/transfer_sensitivity.h"
 #include "numerics/error.h"
 #include "numerics/signals/random.h"
 
