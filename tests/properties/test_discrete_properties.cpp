@@ -133,14 +133,14 @@ TEST(subspace_properties, units_and_order_of_experiments_have_no_say) {
         Matrix scaled = two;
         scaled.col(1) *= 1e4;
         const auto large = n4sid(IdData(scaled, Matrix(-1e3 * u), 1e-6), 3, options);
-        EXPECT_LT(std::abs(large.models[0].at(z) / one.models[0].at(z) + 1e-3), 1e-10);
-        EXPECT_LT(std::abs(large.models[1].at(z) / one.models[1].at(z) + 10.0), 1e-6);
-        EXPECT_LT((large.fit_percent - one.fit_percent).cwiseAbs().maxCoeff(), 1e-6);
+        EXPECT_LT(std::abs(large.fit.models[0].at(z) / one.fit.models[0].at(z) + 1e-3), 1e-10);
+        EXPECT_LT(std::abs(large.fit.models[1].at(z) / one.fit.models[1].at(z) + 10.0), 1e-6);
+        EXPECT_LT((large.fit.fit_percent - one.fit.fit_percent).cwiseAbs().maxCoeff(), 1e-6);
 
         const IdData first = data_of(u, y), second = data_of(u.head(400), 1.1 * y.head(400));
         const auto a = n4sid(IdData::merge({first, second}), 2, options);
         const auto b = n4sid(IdData::merge({second, first}), 2, options);
-        EXPECT_LT(std::abs(a.models[0].at(z) / b.models[0].at(z) - 1.0), 1e-8);
+        EXPECT_LT(std::abs(a.fit.models[0].at(z) / b.fit.models[0].at(z) - 1.0), 1e-8);
     }
 }
 

@@ -19,12 +19,12 @@ TEST(n4sid_reference, hair_dryer_eigenvalues) {
                          {0.0055, 0.0734, -0.2148, 0.4788}};
     SubspaceOptions options;
     options.block_rows = 15;
-    const SubspaceEstimate found = n4sid(hair_dryer(), 4, options);
+    const SubspaceFit found = n4sid(hair_dryer(), 4, options);
     const ComplexVector eigenvalues = found.system.A.eigenvalues();
     for (const Complex& value : ComplexVector(printed.eigenvalues()))
         EXPECT_LT((eigenvalues.array() - value).abs().minCoeff(), 1e-3) << value;
     EXPECT_EQ(found.block_rows, 15);
-    EXPECT_TRUE(found.warnings.empty()) << found.message;
+    EXPECT_TRUE(found.fit.warnings.empty()) << found.fit.message;
 }
 
 }  // namespace test_n4sid_reference

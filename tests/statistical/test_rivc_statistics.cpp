@@ -2,9 +2,9 @@
 
 #include <Eigen/LU>
 
-#include "numerics/criteria/transfer_sensitivity.h"
 #include "numerics/estimators/rivc.h"
 #include "numerics/estimators/srivc.h"
+#include "numerics/filters/transfer_sensitivity.h"
 #include "support/coloured_noise.h"
 
 namespace test_rivc_statistics {

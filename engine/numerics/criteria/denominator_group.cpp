@@ -3,16 +3,27 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/polynomial.h"
 
 namespace dynlab::inline numerics {
 
+namespace {
+
+SampleView sample_view(const VectorView& samples) {
+    return {samples.data(), samples.size()};
+}
+
+/// Without inputs.
+RegressionRecord regression_record(const IdData& data, const Experiment& experiment, Index output, Hold hold_y) {
+    return {sample_view(experiment.y.col(output)), {}, {}, {}, {data.Ts, sample_view(experiment.t)}, data.hold, hold_y};
+}
+
+}  // namespace
+
 DenominatorGroup::DenominatorGroup(const IdData& data, const TransferStructure& structure, Index group, Hold hold_y)
     : n_(structure.poles[static_cast<std::size_t>(group)]), place_(structure.a_place(group)), count_(n_) {
-    const auto view = [](const auto& column) { return SampleView(column.data(), column.size()); };
     for (Index output = 0; output < structure.outputs; ++output) {
         std::vector<Index> places(static_cast<std::size_t>(n_));
         for (Index i = 0; i < n_; ++i) places[static_cast<std::size_t>(i)] = i;
@@ -26,10 +37,9 @@ DenominatorGroup::DenominatorGroup(const IdData& data, const TransferStructure& 
         }
         if (inputs.empty()) continue;
         for (const Experiment& experiment : data.experiments) {
-            RegressionRecord record{view(experiment.y.col(output)), {},        {},    {},
-                                    {data.Ts, view(experiment.t)},  data.hold, hold_y};
+            RegressionRecord record = regression_record(data, experiment, output, hold_y);
             for (const Index input : inputs) {
-                record.u.push_back(view(experiment.u.col(input)));
+                record.u.push_back(sample_view(experiment.u.col(input)));
                 record.zeros.push_back(structure.channel(output, input).zeros);
                 record.delays.push_back(structure.channel(output, input).delay);
             }
@@ -93,47 +103,21 @@ RegressionMoments DenominatorGroup::sum_over_records(const Moments& moments_of) 
 }
 
 RegressionMoments DenominatorGroup::svf(const VectorView& E, double gain) const {
-    return sum_over_records([&](const Member& member) { return svf_moments(member.record, E, gain); });
+    return sum_over_records([&](const Member& member) { return transfer_filters().svf(member.record, E, gain); });
 }
 
 RegressionMoments DenominatorGroup::auxiliary(const VectorView& E, const VectorView& theta, double gain) const {
     const Vector A = denominator(theta);
-    return sum_over_records(
-        [&](const Member& member) { return auxiliary_moments(member.record, E, A, numerators(member, theta), gain); });
-}
-
-CommonDenominator DenominatorGroup::model(const Member& member, const VectorView& theta) const {
-    return {denominator(theta), numerators(member, theta)};
-}
-
-EstimatingTerms DenominatorGroup::terms(const VectorView& E, double gain, const Vector& theta,
-                                        const Vector* instrument) const {
-    EstimatingTerms all{Matrix::Zero(sample_count(), count_), Vector(sample_count())};
-    Index first = 0;
-    for (const Member& member : members_) {
-        const Index length = member.record.y.size();
-        std::optional<CommonDenominator> auxiliary;
-        if (instrument) auxiliary = model(member, *instrument);
-        const EstimatingTerms own =
-            estimating_terms(member.record, E, gain, model(member, theta), auxiliary ? &*auxiliary : nullptr);
-        all.Z(Eigen::seqN(first, length), member.places) = own.Z;
-        all.errors.segment(first, length) = own.errors;
-        first += length;
-    }
-    return all;
-}
-
-std::vector<Index> DenominatorGroup::record_lengths() const {
-    std::vector<Index> lengths;
-    for (const Member& member : members_)
-        if (member.output == 0) lengths.push_back(member.record.y.size());
-    return lengths;
+    return sum_over_records([&](const Member& member) {
+        return transfer_filters().auxiliary(member.record, E, A, numerators(member, theta), gain);
+    });
 }
 
 RegressionMoments DenominatorGroup::refined(const VectorView& theta, bool with_gram) const {
     const Vector A = denominator(theta);
-    return sum_over_records(
-        [&](const Member& member) { return refined_moments(member.record, A, numerators(member, theta), with_gram); });
+    return sum_over_records([&](const Member& member) {
+        return transfer_filters().refined(member.record, A, numerators(member, theta), with_gram);
+    });
 }
 
 Matrix DenominatorGroup::sensitivity_gram(const VectorView& theta) const {
@@ -141,7 +125,7 @@ Matrix DenominatorGroup::sensitivity_gram(const VectorView& theta) const {
     Matrix sum = Matrix::Zero(count_, count_);
     for (const Member& member : members_)
         sum(member.places, member.places) +=
-            weights_[member.output] * sensitivity_moments(member.record, A, numerators(member, theta));
+            weights_[member.output] * transfer_filters().sensitivity_gram(member.record, A, numerators(member, theta));
     return sum;
 }
 
@@ -149,6 +133,23 @@ Vector DenominatorGroup::reflected(const VectorView& theta, bool* any) const {
     Vector result = theta;
     result.head(n_) = reflect_unstable_roots(denominator(theta), any).tail(n_);
     return result;
+}
+
+double simulation_squares(const IdData& data, const TransferStructure& structure, const VectorView& theta,
+                          Index output) {
+    double squares = 0;
+    for (const Experiment& experiment : data.experiments) {
+        RegressionRecord record = regression_record(data, experiment, output, Hold::kFoh);
+        std::vector<Vector> A, B;
+        for (Index input = 0; input < structure.inputs; ++input) {
+            record.u.push_back(sample_view(experiment.u.col(input)));
+            record.delays.push_back(structure.delay(theta, output, input));
+            A.push_back(structure.denominator(theta, output, input));
+            B.push_back(structure.numerator(theta, output, input));
+        }
+        squares += transfer_filters().output_error_squares(record, A, B);
+    }
+    return squares;
 }
 
 namespace {

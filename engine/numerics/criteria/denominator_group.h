@@ -1,8 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "numerics/criteria/estimating_terms.h"
-#include "numerics/filters/regression_moments.h"
+#include "numerics/filters/transfer_filters.h"
 #include "numerics/models/transfer_structure.h"
 
 namespace dynlab::inline numerics {
@@ -27,24 +26,22 @@ class DenominatorGroup {
     RegressionMoments svf(const VectorView& E, double gain = 1) const;
     RegressionMoments auxiliary(const VectorView& E, const VectorView& theta, double gain = 1) const;
     RegressionMoments refined(const VectorView& theta, bool with_gram = false) const;
-    /// The unweighted terms of svf at `theta` or, with the theta of an auxiliary model, of auxiliary: record after
-    /// record, the experiments of the first output before those of the next.
-    EstimatingTerms terms(const VectorView& E, double gain, const Vector& theta,
-                          const Vector* instrument = nullptr) const;
-    std::vector<Index> record_lengths() const;               ///< of the experiments
     Matrix sensitivity_gram(const VectorView& theta) const;  ///< weighted sum z z' of the refined instruments
     Vector denominator(const VectorView& theta) const;       ///< theta of the group
     /// theta with unstable poles mirrored (real part to its negative); tells whether there were any.
     Vector reflected(const VectorView& theta, bool* any = nullptr) const;
 
-  private:
+    /// One output in one experiment.
     struct Member {
         RegressionRecord record;
-        std::vector<Index> places;  // in the group's theta, of each value of the record's own theta
-        std::size_t output;         // in outputs_
+        std::vector<Index> places;  ///< in the group's theta, of each value of the record's own theta
+        std::size_t output;         ///< in outputs()
     };
-    std::vector<Vector> numerators(const Member& member, const VectorView& theta) const;
-    CommonDenominator model(const Member& member, const VectorView& theta) const;
+    /// The experiments of the first output, then of the next.
+    const std::vector<Member>& members() const { return members_; }
+    std::vector<Vector> numerators(const Member& member, const VectorView& theta) const;  ///< B of each input
+
+  private:
     template <class Moments>
     RegressionMoments sum_over_records(const Moments& moments_of) const;
 
@@ -54,6 +51,10 @@ class DenominatorGroup {
     std::vector<double> weights_;
     std::vector<Vector> targets_;
 };
+
+/// Squares of one output's simulation error over all experiments, simulated from rest: what the passes aim at.
+double simulation_squares(const IdData& data, const TransferStructure& structure, const VectorView& theta,
+                          Index output);
 
 /// theta of z_phi theta = z_y, columns and rows scaled; NaN when it cannot be solved. `condition_number` of the scaled
 /// equations.

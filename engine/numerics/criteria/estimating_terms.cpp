@@ -1,5 +1,8 @@
 #include "numerics/criteria/estimating_terms.h"
 
+#include <optional>
+
+#include "numerics/filters/filter_chain.h"
 #include "numerics/linalg/polynomial.h"
 
 namespace dynlab::inline numerics {
@@ -88,6 +91,26 @@ EstimatingTerms estimating_terms(const RegressionRecord& record, const VectorVie
         terms.errors = equation.y - equation.Phi * coefficients(model, equation.Phi.cols());
     }
     return terms;
+}
+
+EstimatingTerms estimating_terms(const DenominatorGroup& group, const VectorView& E, double gain, const Vector& theta,
+                                 const Vector* instrument) {
+    EstimatingTerms all{Matrix::Zero(group.sample_count(), group.parameter_count()), Vector(group.sample_count())};
+    Index first = 0;
+    for (const DenominatorGroup::Member& member : group.members()) {
+        const auto model = [&](const Vector& of) {
+            return CommonDenominator{group.denominator(of), group.numerators(member, of)};
+        };
+        std::optional<CommonDenominator> auxiliary;
+        if (instrument) auxiliary = model(*instrument);
+        const EstimatingTerms own =
+            estimating_terms(member.record, E, gain, model(theta), auxiliary ? &*auxiliary : nullptr);
+        const Index length = own.errors.size();
+        all.Z(Eigen::seqN(first, length), member.places) = own.Z;
+        all.errors.segment(first, length) = own.errors;
+        first += length;
+    }
+    return all;
 }
 
 }  // namespace dynlab::inline numerics

@@ -1,5 +1,5 @@
 #pragma once
-#include "numerics/filters/regression_record.h"
+#include "numerics/criteria/denominator_group.h"
 
 namespace dynlab::inline numerics {
 
@@ -23,5 +23,10 @@ struct EstimatingTerms {
 /// output errors v, which no filter has coloured.
 EstimatingTerms estimating_terms(const RegressionRecord& record, const VectorView& E, double gain,
                                  const CommonDenominator& model, const CommonDenominator* instrument = nullptr);
+
+/// Those of a group at its `theta`, and of an auxiliary model with the theta `instrument`: record after record, none
+/// weighted.
+EstimatingTerms estimating_terms(const DenominatorGroup& group, const VectorView& E, double gain, const Vector& theta,
+                                 const Vector* instrument = nullptr);
 
 }  // namespace dynlab::inline numerics

@@ -4,6 +4,12 @@
 
 namespace dynlab::inline numerics {
 
+Vector OutputErrorModel::output_at(const Vector& theta) const {
+    Vector output;
+    simulate(theta, output, nullptr);
+    return output;
+}
+
 OutputErrorProducts OutputErrorModel::products(const Vector& theta, const VectorView& y) const {
     constexpr Index kRowsTogether = 512;  // they stay in the processor's cache
     Vector errors;

@@ -22,6 +22,7 @@ class OutputErrorModel {
     virtual const Vector& upper() const = 0;
     /// Simulated output (N) and, when wanted, its derivatives with respect to the parameters (N x d).
     virtual void simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const = 0;
+    Vector output_at(const Vector& theta) const;  ///< simulate() without derivatives
     /// The sums against the measured `y` (N), for which a model need not store J: what each step of a search needs. By
     /// simulate() unless a structure knows a faster way; a model may take the `y` it was made of for granted.
     virtual OutputErrorProducts products(const Vector& theta, const VectorView& y) const;

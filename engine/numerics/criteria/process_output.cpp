@@ -96,6 +96,10 @@ TransferStructure transfer_structure(const ProcessStructure& structure) {
     return transfer;
 }
 
+TransferOutput::AtRest at_rest(const ProcessStructure& structure) {
+    return structure.integrator ? TransferOutput::AtRest::kNothing : TransferOutput::AtRest::kOwnGain;
+}
+
 Reparametrised process_output(const ProcessStructure& structure, const TransferOutput& output) {
     const Index q = static_cast<Index>(structure.parameter_names().size()), linear = output.linear_count();
     Index longest = 0;
@@ -109,16 +113,20 @@ Reparametrised process_output(const ProcessStructure& structure, const TransferO
     const Index tz = q - 1 - (structure.delay ? 1 : 0);
     if (structure.zero) lower[tz] = -(upper[tz] = slowest);
     const Index inner = output.parameter_count() - linear;
+    const bool own_gain = output.has_own_gains();
     if (structure.delay) {
-        lower[q - 1] = output.lower()[inner - 1];
-        upper[q - 1] = output.upper()[inner - 1];
+        const Index place = transfer_structure(structure).delay_place(0, 0);
+        lower[q - 1] = output.lower()[place];
+        upper[q - 1] = output.upper()[place];
     }
-    const auto coefficients_of = [structure, q, inner, linear](const Vector& theta) {
+    const auto coefficients_of = [structure, q, inner, linear, own_gain](const Vector& theta) {
         const ProcessCoefficients c = process_coefficients(structure, theta.head(q));
         Reparametrised::Point point{Vector(inner + linear), Matrix::Zero(inner + linear, q + linear)};
-        point.inner.head(inner) << c.den.tail(c.den.size() - 1), c.num, theta.segment(q - 1, structure.delay ? 1 : 0);
+        point.inner.head(inner) << c.den.tail(c.den.size() - 1), c.num, theta.segment(q - 1, structure.delay ? 1 : 0),
+            theta.head(own_gain ? 1 : 0);
         point.inner.tail(linear) = theta.tail(linear);
-        point.derivatives.topLeftCorner(inner, q) = by_parameter(c, structure.delay);
+        point.derivatives.topLeftCorner(inner - (own_gain ? 1 : 0), q) = by_parameter(c, structure.delay);
+        if (own_gain) point.derivatives(inner - 1, 0) = 1;
         point.derivatives.bottomRightCorner(linear, linear).setIdentity();
         return point;
     };

@@ -23,11 +23,15 @@ Matrix coefficients_by_parameter(const ProcessModel& model);
 /// Its poles (the integrator's among them) and zeros, with a free delay where the process has one.
 TransferStructure transfer_structure(const ProcessStructure& structure);
 
+/// With a gain of its own, with an integrator not at all.
+TransferOutput::AtRest at_rest(const ProcessStructure& structure);
+
 /// A process model's output, that of the transfer functions with its coefficients, as a function of [parameters of the
 /// process; initial values and offsets of `output`], with TIMES COUNTED IN output.time_unit(). `output` has
-/// transfer_structure(structure) and must outlive it. A process with an integrator has no rest but that at zero input:
-/// `output` then takes its inputs as they are, and the initial values, the integrator's among them, are those of the
-/// output itself.
+/// transfer_structure(structure) and rests as at_rest(structure) says; it must outlive this. The gain is what a process
+/// at rest answers with, so that no other parameter bears on that part, not even by rounding. A process with an
+/// integrator has no rest but that at zero input: `output` then takes its inputs as they are, and the initial values,
+/// the integrator's among them, are those of the output itself.
 Reparametrised process_output(const ProcessStructure& structure, const TransferOutput& output);
 
 /// Factors that bring the parameters of process_output() back to seconds.

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "numerics/criteria/transfer_sensitivity.h"
 #include "numerics/error.h"
+#include "numerics/filters/transfer_filters.h"
 
 namespace dynlab::inline numerics {
 
@@ -25,6 +25,10 @@ std::vector<Index> denominators_of(const TransferStructure& structure, Index out
 
 }  // namespace
 
+Sampling TransferOutput::Record::sampling() const {
+    return {t.size() == 0 ? 1.0 : 0.0, SampleView(t.data(), t.size())};
+}
+
 struct TransferOutput::Block {
     const Record& record;
     Eigen::Ref<Vector> output;
@@ -37,8 +41,12 @@ struct TransferOutput::Block {
 };
 
 TransferOutput::TransferOutput(const TransferStructure& structure, const StartCondition& condition, const IdData& data,
-                               double least_delay, double largest_delay, bool integrator)
-    : structure_(structure), condition_(condition), hold_(data.hold), time_unit_(data.mean_step()) {
+                               double least_delay, double largest_delay, AtRest at_rest)
+    : structure_(structure),
+      condition_(condition),
+      own_gains_(at_rest == AtRest::kOwnGain && condition.state != InitialState::kZero),
+      hold_(data.hold),
+      time_unit_(data.mean_step()) {
     if (data.output_count() != structure.outputs || data.input_count() != structure.inputs)
         throw InvalidArgument("The model has " + std::to_string(structure.inputs) + " input(s) and " +
                               std::to_string(structure.outputs) + " output(s), and the data have " +
@@ -48,7 +56,8 @@ TransferOutput::TransferOutput(const TransferStructure& structure, const StartCo
     Index row = 0;
     for (const Experiment& experiment : data.experiments) {
         Record record{experiment.u, experiment.y, Vector::Zero(structure.inputs), {}, row};
-        if (condition.state != InitialState::kZero && !integrator) record.resting = record.u.row(0).transpose();
+        if (condition.state != InitialState::kZero && at_rest != AtRest::kNothing)
+            record.resting = record.u.row(0).transpose();
         record.u.rowwise() -= record.resting.transpose();
         if (!data.regular()) record.t = (experiment.t.array() - experiment.t[0]) / time_unit_;
         row += record.y.size();
@@ -65,7 +74,7 @@ TransferOutput::TransferOutput(const TransferStructure& structure, const StartCo
 
 void TransferOutput::set_parameter_count() {
     const Index experiments = static_cast<Index>(experiments_.size());
-    Index count = structure_.parameter_count() + (condition_.offset ? experiments * structure_.outputs : 0);
+    Index count = initial_place(0, 0) + (condition_.offset ? experiments * structure_.outputs : 0);
     for (Index output = 0; output < structure_.outputs; ++output) count += experiments * initial_count(output);
     lower_ = Vector::Constant(count, -kInfinity);
     upper_ = Vector::Constant(count, kInfinity);
@@ -107,7 +116,12 @@ Index TransferOutput::initial_place(std::size_t experiment, Index output) const 
         if (o < output) before += initial_count(o);
         of_all += initial_count(o);
     }
-    return structure_.parameter_count() + static_cast<Index>(experiment) * of_all + before;
+    const Index gains = own_gains_ ? structure_.outputs * structure_.inputs : 0;
+    return structure_.parameter_count() + gains + static_cast<Index>(experiment) * of_all + before;
+}
+
+Index TransferOutput::gain_place(Index output, Index input) const {
+    return structure_.parameter_count() + output * structure_.inputs + input;
 }
 
 Index TransferOutput::offset_place(std::size_t experiment, Index output) const {
@@ -125,6 +139,7 @@ std::vector<bool> TransferOutput::bears_on(Index output) const {
         const TransferChannel& channel = structure_.channel(output, input);
         mark(structure_.a_place(channel.denominator), structure_.poles[static_cast<std::size_t>(channel.denominator)]);
         mark(structure_.b_place(output, input), channel.zeros + 1 + (structure_.free_delays ? 1 : 0));
+        if (own_gains_) mark(gain_place(output, input), 1);
     }
     for (std::size_t e = 0; e < experiments_.size(); ++e) {
         mark(initial_place(e, output), initial_count(output));
@@ -190,22 +205,21 @@ void TransferOutput::add_channel(const Vector& theta, Index output, Index input,
         structure_.free_delays ? theta[structure_.delay_place(output, input)] : channel.delay / time_unit_;
     const Index n = den.size() - 1, m = num.size() - 1;
     const Index a = structure_.a_place(channel.denominator), b = structure_.b_place(output, input);
-    const Vector& t = block.record.t;
     const auto u = block.record.u.col(input);
-    const double resting = block.record.resting[input], gain = num[m] / den[n];
+    const double resting = block.record.resting[input];
+    const double gain = own_gains_ ? theta[gain_place(output, input)] : num[m] / den[n];
     if (resting != 0) block.output.array() += gain * resting;
     if (!block.sensitivities) {
-        block.output += t.size() == 0 ? transfer_response(num, den, delay, u, 1, hold_)
-                                      : transfer_response(num, den, delay, u, t, hold_);
+        block.output += transfer_filters().response(num, den, delay, u, block.record.sampling(), hold_);
         return;
     }
-    const Matrix all = t.size() == 0 ? transfer_sensitivities(num, den, delay, u, 1, hold_)
-                                     : transfer_sensitivities(num, den, delay, u, t, hold_);
+    const Matrix all = transfer_filters().sensitivities(num, den, delay, u, block.record.sampling(), hold_);
     block.output += all.col(0);
     block.columns(a, n) += all.middleCols(1, n);
     block.columns(b, m + 1) = all.middleCols(n + 1, m + 1);
     if (structure_.free_delays) block.columns(structure_.delay_place(output, input), 1) = all.rightCols(1);
-    if (resting == 0) return;
+    if (own_gains_) block.columns(gain_place(output, input), 1).setConstant(resting);
+    if (resting == 0 || own_gains_) return;
     block.columns(a + n - 1, 1).array() -= gain / den[n] * resting;
     block.columns(b + m, 1).array() += resting / den[n];
 }
@@ -215,13 +229,13 @@ void TransferOutput::add_free_motion(const Vector& theta, Index denominator, Ind
     Vector den(n + 1);
     den << 1, theta.segment(a, n);
     const Vector initial = theta.segment(place, n);
-    const Vector& t = block.record.t;
+    const Sampling sampling = block.record.sampling();
     const Index N = block.output.size();
-    const Matrix motions = t.size() == 0 ? free_responses(den, N, 1) : free_responses(den, t);
+    const Matrix motions = transfer_filters().free_responses(den, N, sampling);
     block.output += motions * initial;
     if (!block.sensitivities) return;
     block.columns(place, n) = motions;
-    block.columns(a, n) += t.size() == 0 ? free_sensitivities(den, initial, N, 1) : free_sensitivities(den, initial, t);
+    block.columns(a, n) += transfer_filters().free_sensitivities(den, initial, N, sampling);
 }
 
 }  // namespace dynlab::inline numerics

@@ -3,27 +3,35 @@
 
 #include "numerics/criteria/initial_conditions.h"
 #include "numerics/criteria/output_error_model.h"
+#include "numerics/filters/regression_record.h"
 #include "numerics/models/transfer_structure.h"
 #include "numerics/signals/iddata.h"
 
 namespace dynlab::inline numerics {
 
 /// The outputs of a continuous-time model in all experiments as a function of [parameters of the structure; for each
-/// experiment and output the initial values of its free motions, when estimated; for each experiment and output its
-/// offset, when estimated], for the output-error search. The rows are stacked experiment by experiment, in each output
-/// by output. TIMES ARE COUNTED IN time_unit() HERE, the sampling time or the mean step, so that numbers stay near one;
-/// seconds() leads back. Regular and irregular sampling, zoh and foh, any delay, all exact, sensitivities included.
+/// channel its gain at rest, where it is a parameter of its own; for each experiment and output the initial values of
+/// its free motions, when estimated; for each experiment and output its offset, when estimated], for the output-error
+/// search. The rows are stacked experiment by experiment, in each output by output. TIMES ARE COUNTED IN time_unit()
+/// HERE, the sampling time or the mean step, so that numbers stay near one; seconds() leads back. Regular and irregular
+/// sampling, zoh and foh, any delay, all exact, sensitivities included.
 ///
 /// With a start other than zero each channel rests at the first value of its input, so that it adds
 /// B(0)/A(0) u(0) + B/A (u - u(0)); with an estimated state each different denominator of an output adds a free
-/// motion of n initial values (of y, dy/dt, ... in the deviation from rest). An integrator does not rest there: with it
-/// the inputs are taken as they are.
+/// motion of n initial values (of y, dy/dt, ... in the deviation from rest).
 class TransferOutput : public OutputErrorModel {
   public:
+    /// What a channel makes of an input that has always been there.
+    enum class AtRest {
+        kCoefficients,  ///< B(0)/A(0) times that input
+        kOwnGain,       ///< a gain that is a parameter of its own: the coefficients bear on changes alone
+        kNothing,       ///< an integrator does not rest there: inputs are taken as they are
+    };
+
     /// `least_delay` and `largest_delay` (s) bound free delays. Throws InvalidArgument when the data have other numbers
     /// of inputs or outputs than the structure.
     TransferOutput(const TransferStructure& structure, const StartCondition& condition, const IdData& data,
-                   double least_delay, double largest_delay, bool integrator = false);
+                   double least_delay, double largest_delay, AtRest at_rest = AtRest::kCoefficients);
 
     Index parameter_count() const override { return lower_.size(); }
     const Vector& lower() const override { return lower_; }
@@ -38,7 +46,8 @@ class TransferOutput : public OutputErrorModel {
 
     double time_unit() const { return time_unit_; }     ///< s
     const Vector& seconds() const { return seconds_; }  ///< factors that bring each parameter back to seconds
-    Index linear_count() const { return parameter_count() - structure_.parameter_count(); }
+    /// The initial values and offsets, which stand last.
+    Index linear_count() const { return parameter_count() - initial_place(0, 0); }
     Index sample_count() const { return samples_; }  ///< over all experiments, of each output
 
     std::size_t experiment_count() const { return experiments_.size(); }
@@ -48,6 +57,8 @@ class TransferOutput : public OutputErrorModel {
     Index initial_place(std::size_t experiment, Index output) const;
     Index initial_count(Index output) const;
     Index offset_place(std::size_t experiment, Index output) const;  ///< with estimated offsets only
+    Index gain_place(Index output, Index input) const;               ///< with gains of their own only
+    bool has_own_gains() const { return own_gains_; }
     bool has_offset() const { return condition_.offset; }
     Hold hold() const { return hold_; }
     const Vector& times(std::size_t experiment) const { return experiments_[experiment].t; }
@@ -62,6 +73,8 @@ class TransferOutput : public OutputErrorModel {
         Vector resting;  // first inputs, or zeros
         Vector t;        // in time units from the first on; empty with regular sampling
         Index row = 0;   // the first of its stacked rows
+
+        Sampling sampling() const;  // in time units
     };
     struct Block;  // the rows of one output in one experiment
     void set_parameter_count();
@@ -73,6 +86,7 @@ class TransferOutput : public OutputErrorModel {
 
     TransferStructure structure_;
     StartCondition condition_;
+    bool own_gains_;
     Hold hold_;
     double time_unit_ = 1;
     std::vector<Record> experiments_;

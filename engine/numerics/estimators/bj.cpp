@@ -10,7 +10,7 @@ namespace {
 
 /// What the output-error estimate leaves of the outputs, experiment by experiment.
 std::vector<Vector> output_errors(const Fit& estimate, const std::vector<SampledExperiment>& experiments) {
-    const PredictionModel model(estimate.orders, estimate.start, experiments);
+    const PredictionModel model(*estimate.orders, estimate.start, experiments);
     const Vector errors = model.target() - model.simulated(model.completed(estimate.theta));
     std::vector<Vector> records;
     Index first = 0;

@@ -1,6 +1,6 @@
 #pragma once
 #include "numerics/fit/fit.h"
-#include "numerics/signals/iddata.h"
+#include "numerics/models/polynomial_model.h"
 
 namespace dynlab::inline numerics {
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "numerics/fit/termination.h"
+#include "numerics/fit/fit.h"
 #include "numerics/linalg/types.h"
 
 namespace dynlab::inline numerics {

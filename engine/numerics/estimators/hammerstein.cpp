@@ -164,10 +164,9 @@ Product closest_product(const Matrix& coefficients, double a_n) {
 }
 
 /// Everything in seconds, the gain of the linear part made one, with the covariance that belongs to it.
-void set_parameters(Fit& fit, const OutputErrorSolution& solution, const Layout& at, double last_b,
-                    const Vector& seconds, double fixed_delay) {
+void set_parameters(Fit& fit, const Layout& at, double last_b, const Vector& seconds, double fixed_delay) {
     const Index d = at.count();
-    const Vector& theta = solution.theta;
+    const Vector theta = fit.theta;
     const double a_n = theta[at.n - 1], gain = last_b / a_n;
     Vector scaled = theta;
     scaled.segment(at.n, at.m) /= gain;
@@ -179,7 +178,7 @@ void set_parameters(Fit& fit, const OutputErrorSolution& solution, const Layout&
     T.col(at.n - 1).segment(at.gains(), at.K) = -theta.segment(at.gains(), at.K) * gain / a_n;
     fit.theta = scaled.cwiseProduct(seconds);
     fit.names = at.names();
-    fit.covariance = seconds.asDiagonal() * (T * solution.covariance * T.transpose()) * seconds.asDiagonal();
+    fit.covariance = (seconds.asDiagonal() * (T * fit.covariance * T.transpose()) * seconds.asDiagonal()).eval();
     fit.std = fit.covariance.diagonal().cwiseMax(0).cwiseSqrt();
     fit.characteristic->levels = fit.theta.segment(at.gains(), at.K);
     fit.characteristic->levels_std = fit.std.segment(at.gains(), at.K);
@@ -250,9 +249,9 @@ Matrix hat_functions(const VectorView& edges, const VectorView& u) {
 
 Fit hammerstein(const IdData& data, const TransferStructure& structure, const HammersteinOptions& options) {
     check(data, structure, options);
-    Fit fit;
-    StaticCharacteristic& characteristic = fit.characteristic.emplace();
-    characteristic.breakpoints = visited_edges(data, options, fit.warnings);
+    std::vector<std::string> warnings;
+    StaticCharacteristic characteristic;
+    characteristic.breakpoints = visited_edges(data, options, warnings);
     const Layout at{structure.poles[0], structure.channels[0].zeros, characteristic.breakpoints.size(),
                     structure.free_delays};
 
@@ -283,22 +282,17 @@ Fit hammerstein(const IdData& data, const TransferStructure& structure, const Ha
     if (at.delay) theta[at.count() - 1] = delay / units[at.count() - 1];
 
     const Vector y = output.target();
-    const OutputErrorSolution solution =
-        minimise_output_error(hammerstein_output(output, channels, at, product.b[at.m]), y, theta,
-                              {options.max_iterations, options.tolerance, options.cancel});
-    set_parameters(fit, solution, at, product.b[at.m], units, delay);
-    fit.loss = solution.loss;
-    fit.noise_variance = Vector::Constant(1, solution.noise_variance);
-    fit.condition_number = solution.condition_number;
-    fit.fit_percent = Vector::Constant(
-        1, fit_percent_of_sums(solution.loss * static_cast<double>(y.size()), output_variations(data)[0]));
+    Fit fit = minimise_output_error(hammerstein_output(output, channels, at, product.b[at.m]), y, theta, options);
+    fit.characteristic = std::move(characteristic);
+    fit.warnings = std::move(warnings);
+    set_parameters(fit, at, product.b[at.m], units, delay);
+    fit.fit_percent =
+        Vector::Constant(1, fit_percent_of_sums(fit.loss * static_cast<double>(y.size()), output_variations(data)[0]));
     fit.start = {options.initial_state, false};
-    fit.termination = solution.termination;
-    fit.trace = solution.trace;
     add_warnings(fit, options);
     set_message(fit, "Hammerstein model with " + std::to_string(at.K) + " values of the characteristic, after " +
                          iterations_text(fit.trace.size()) + ": " + simulation_text(fit) + ", against " +
-                         number_text(characteristic.linear_fit_percent, 4) + " % of the best linear model.");
+                         number_text(fit.characteristic->linear_fit_percent, 4) + " % of the best linear model.");
     return fit;
 }
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "numerics/criteria/denominator_group.h"
+#include "numerics/criteria/estimating_terms.h"
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/number_text.h"
@@ -43,10 +43,11 @@ void warn_of_cutoff(Fit& estimate, double lambda) {
 
 Matrix equation_covariance(const DenominatorGroup& group, const VectorView& E, double gain, const Matrix& H,
                            const Vector& theta, const Vector* instrument) {
-    const EstimatingTerms terms = group.terms(E, gain, theta, instrument);
-    return robust_covariance(H, terms.Z, terms.errors, group.record_lengths(),
-                             static_cast<Index>(group.outputs().size()))
-        .covariance;
+    const EstimatingTerms terms = estimating_terms(group, E, gain, theta, instrument);
+    std::vector<Index> lengths;
+    for (const DenominatorGroup::Member& member : group.members())
+        if (member.output == 0) lengths.push_back(member.record.y.size());
+    return robust_covariance(H, terms.Z, terms.errors, lengths, static_cast<Index>(group.outputs().size())).covariance;
 }
 
 void warn_of_white_errors(Fit& estimate, const IdData& data) {

@@ -206,44 +206,41 @@ class InputEquations {
     Index unknowns_;
 };
 
-void measure_fit(SubspaceEstimate& estimate, const IdData& data) {
-    const StateSpace& system = estimate.system;
+void measure_fit(SubspaceFit& found, const IdData& data) {
+    const StateSpace& system = found.system;
     const Index ny = data.output_count();
-    Vector errors = Vector::Zero(ny), variation = Vector::Zero(ny);
+    Vector errors = Vector::Zero(ny);
     for (std::size_t e = 0; e < data.experiments.size(); ++e) {
         const Experiment& experiment = data.experiments[e];
-        Vector x = estimate.initial_states.col(static_cast<Index>(e));
+        Vector x = found.initial_states.col(static_cast<Index>(e));
         for (Index k = 0; k < experiment.y.rows(); ++k) {
             const Vector u = experiment.u.row(k).transpose();
             errors += (experiment.y.row(k).transpose() - system.C * x - system.D * u).cwiseAbs2();
             x = system.A * x + system.B * u;
         }
-        variation += (experiment.y.rowwise() - experiment.y.colwise().mean()).colwise().squaredNorm().transpose();
     }
-    estimate.loss = errors.sum() / static_cast<double>(data.sample_count() * ny);
-    estimate.fit_percent.resize(ny);
-    for (Index i = 0; i < ny; ++i) estimate.fit_percent[i] = fit_percent_of_sums(errors[i], variation[i]);
+    const Vector variation = output_variations(data);
+    found.fit.loss = errors.sum() / static_cast<double>(data.sample_count() * ny);
+    found.fit.fit_percent.resize(ny);
+    for (Index i = 0; i < ny; ++i) found.fit.fit_percent[i] = fit_percent_of_sums(errors[i], variation[i]);
 }
 
-void add_warnings(SubspaceEstimate& estimate, bool reflected) {
-    const Vector& values = estimate.singular_values;
-    const auto seen = (values.array() > kNoSignal * values[0]).count();
-    if (seen < estimate.system.order())
-        estimate.warnings.push_back("The data show " + std::to_string(seen) +
-                                    " states only: the others are rounding, so a lower order suffices.");
-    if (reflected) estimate.warnings.push_back("Eigenvalues outside the unit circle were mirrored into it.");
-    if (estimate.condition_number > kAmbiguousCondition)
-        estimate.warnings.push_back("The data do not determine all entries of B separately (condition number " +
-                                    number_text(estimate.condition_number, 2) + ").");
-}
-
-void set_message(SubspaceEstimate& estimate) {
-    estimate.message = "Subspace with " + std::to_string(estimate.block_rows) + " block rows, order " +
-                       std::to_string(estimate.system.order()) + ": fit ";
-    for (Index i = 0; i < estimate.fit_percent.size(); ++i)
-        estimate.message += (i > 0 ? " % and " : "") + number_text(estimate.fit_percent[i], 4);
-    estimate.message += " %, simulating from estimated initial states.";
-    for (const std::string& warning : estimate.warnings) estimate.message += ' ' + warning;
+void describe(SubspaceFit& found, bool reflected) {
+    Fit& fit = found.fit;
+    const auto seen = (found.singular_values.array() > kNoSignal * found.singular_values[0]).count();
+    if (seen < found.system.order())
+        fit.warnings.push_back("The data show " + std::to_string(seen) +
+                               " states only: the others are rounding, so a lower order suffices.");
+    if (reflected) fit.warnings.push_back("Eigenvalues outside the unit circle were mirrored into it.");
+    if (fit.condition_number > kAmbiguousCondition)
+        fit.warnings.push_back("The data do not determine all entries of B separately (condition number " +
+                               number_text(fit.condition_number, 2) + ").");
+    std::string fits;
+    for (Index i = 0; i < fit.fit_percent.size(); ++i)
+        fits += (i > 0 ? " % and " : "") + number_text(fit.fit_percent[i], 4);
+    set_message(fit, "Subspace with " + std::to_string(found.block_rows) + " block rows, order " +
+                         std::to_string(found.system.order()) + ": fit " + fits +
+                         " %, simulating from estimated initial states.");
 }
 
 }  // namespace
@@ -260,7 +257,7 @@ void SubspaceOptions::validate() const {
         throw InvalidArgument("`block_rows` must not be negative, and is " + std::to_string(block_rows));
 }
 
-SubspaceEstimate n4sid(const IdData& data, int order, const SubspaceOptions& options) {
+SubspaceFit n4sid(const IdData& data, int order, const SubspaceOptions& options) {
     options.validate();
     if (order < 1 || order > kMostStates)
         throw InvalidArgument("n4sid: the order, a number of states, must lie between 1 and " +
@@ -284,22 +281,22 @@ SubspaceEstimate n4sid(const IdData& data, int order, const SubspaceOptions& opt
     if (data.sample_count() * sizes.ny <= equations.unknowns())
         throw InvalidArgument("n4sid needs more samples than the " + std::to_string(equations.unknowns()) +
                               " values it estimates, and the record holds " + std::to_string(data.sample_count()));
-    const LeastSquares fit = equations.solve();
-    SubspaceEstimate estimate;
-    estimate.system = equations.system(fit.solution);
-    estimate.system.C = scale.asDiagonal() * estimate.system.C;
-    estimate.system.D = scale.asDiagonal() * estimate.system.D;
-    estimate.initial_states = equations.initial_states(fit.solution);
-    estimate.singular_values = singular_values;
-    estimate.block_rows = static_cast<int>(sizes.s);
-    estimate.condition_number = fit.condition_number;
+    const LeastSquares solution = equations.solve();
+    SubspaceFit found;
+    found.system = equations.system(solution.solution);
+    found.system.C = scale.asDiagonal() * found.system.C;
+    found.system.D = scale.asDiagonal() * found.system.D;
+    found.initial_states = equations.initial_states(solution.solution);
+    found.singular_values = singular_values;
+    found.block_rows = static_cast<int>(sizes.s);
+    found.fit.start = {InitialState::kEstimate, false};
+    found.fit.condition_number = solution.condition_number;
     for (Index output = 0; output < sizes.ny; ++output)
         for (Index input = 0; input < sizes.nu; ++input)
-            estimate.models.push_back(to_transfer_function(estimate.system, output, input));
-    measure_fit(estimate, data);
-    add_warnings(estimate, reflected);
-    set_message(estimate);
-    return estimate;
+            found.fit.models.push_back(to_transfer_function(found.system, output, input));
+    measure_fit(found, data);
+    describe(found, reflected);
+    return found;
 }
 
 }  // namespace dynlab::inline numerics

@@ -1,10 +1,8 @@
 #pragma once
 #include <string>
-#include <vector>
 
+#include "numerics/fit/fit.h"
 #include "numerics/models/state_space.h"
-#include "numerics/models/transfer_function.h"
-#include "numerics/signals/iddata.h"
 
 namespace dynlab::inline numerics {
 
@@ -27,17 +25,15 @@ struct SubspaceOptions {
     void validate() const;
 };
 
-struct SubspaceEstimate {
-    StateSpace system;                     ///< order n, ny outputs, nu inputs, discrete time
-    Vector singular_values;                ///< s ny of them: a gap after the n-th speaks for order n
-    Matrix initial_states;                 ///< n x experiments
-    Vector fit_percent;                    ///< per output: simulation from the estimated initial states
-    double loss = 0;                       ///< mean square of the simulation error over samples and outputs
-    double condition_number = 0;           ///< of the column-scaled equations for B, D and the initial states
-    int block_rows = 0;                    ///< s
-    std::vector<TransferFunction> models;  ///< ny nu of them, output by output
-    std::vector<std::string> warnings;     ///< whole sentences
-    std::string message;                   ///< one sentence, then the warnings
+/// A fit with what no other method finds: states. It has no theta, and of the Fit these are given: models (ny nu of
+/// them, output by output), fit_percent and loss of the simulation from the estimated initial states, condition_number
+/// (of the column-scaled equations for B, D and the initial states), start, warnings and message.
+struct SubspaceFit {
+    Fit fit;
+    StateSpace system;       ///< order n, ny outputs, nu inputs, discrete time
+    Vector singular_values;  ///< s ny of them: a gap after the n-th speaks for order n
+    Matrix initial_states;   ///< n x experiments
+    int block_rows = 0;      ///< s
 };
 
 /// x(k+1) = A x(k) + B u(k), y(k) = C x(k) + D u(k) + v(k) by subspace identification, without any iteration. With the
@@ -52,6 +48,6 @@ struct SubspaceEstimate {
 /// Data: any number of inputs, outputs and experiments, regular sampling. Throws InvalidArgument for other data, an
 /// order below 1 or not below s, a record too short or an input not persistently exciting enough for s. Reference:
 /// Verhaegen and Dewilde (1992); Verhaegen (1994), Automatica 30, 61-74; Ljung (1999), section 10.6.
-SubspaceEstimate n4sid(const IdData& data, int order, const SubspaceOptions& options = {});
+SubspaceFit n4sid(const IdData& data, int order, const SubspaceOptions& options = {});
 
 }  // namespace dynlab::inline numerics

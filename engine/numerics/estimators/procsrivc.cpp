@@ -10,7 +10,7 @@
 #include "numerics/fit/output_error.h"
 #include "numerics/fit/process_start.h"
 #include "numerics/fit/refined_iteration.h"
-#include "numerics/fit/start_choice.h"
+#include "numerics/fit/transfer_refinement.h"
 #include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
@@ -29,7 +29,7 @@ struct ProcessProblem {
     const FitOptions& options;
 
     TransferOutput output(const IdData& data, const StartCondition& condition) const {
-        return {transfer_structure(structure), condition, data, range.least, range.largest, structure.integrator};
+        return {transfer_structure(structure), condition, data, range.least, range.largest, at_rest(structure)};
     }
     Index value_count(const IdData& data, const StartCondition& condition) const {
         const Index initial =
@@ -37,19 +37,10 @@ struct ProcessProblem {
         return static_cast<Index>(structure.parameter_names().size()) +
                (initial + (condition.offset ? 1 : 0)) * static_cast<Index>(data.experiments.size());
     }
-    bool enough(const IdData& data, const StartCondition& condition) const {
-        return data.sample_count() >= kSamplesPerProcessParameter * value_count(data, condition);
-    }
+    Fit fit(const IdData& data, const StartCondition& condition, const Fit* start = nullptr) const;
+    Fit best_fit(const IdData& data, const std::vector<StartCondition>& conditions,
+                 const std::vector<Fit>& starts = {}) const;
 };
-
-/// What came of one start condition, in seconds.
-struct ProcessSolution {
-    StartCondition condition;
-    OutputErrorSolution search;
-    ProcessScan scan;
-    Termination termination;
-};
-using ProcessCandidate = Candidate<ProcessSolution>;
 
 void check_process_data(const IdData& data) {
     if (data.experiments.empty() || data.input_count() != 1 || data.output_count() != 1)
@@ -82,39 +73,40 @@ std::vector<StartCondition> conditions_for(const IdData& data, const ProcessStru
     return conditions;
 }
 
-/// The search under one start condition, from the best points of a grid unless a start (s) is given.
-ProcessCandidate fit_condition(const ProcessProblem& problem, const IdData& data, const StartCondition& condition,
-                               const Vector& start = {}) {
-    const TransferOutput output = problem.output(data, condition);
-    const Vector y = output.target(), seconds = process_seconds(problem.structure, output);
-    const FitOptions& options = problem.options;
+/// The search under one start condition, from the best points of a grid unless a start is given.
+Fit ProcessProblem::fit(const IdData& data, const StartCondition& condition, const Fit* start) const {
+    const TransferOutput model = output(data, condition);
+    const Vector y = model.target(), seconds = process_seconds(structure, model);
     ProcessScan scan;
-    if (start.size() > 0)
-        scan.starts = {start.cwiseQuotient(seconds)};
+    if (start != nullptr)
+        scan = {{search_point(*start, model, seconds)}, start->delay_grid / model.time_unit(), start->delay_loss};
     else
-        scan = scan_process_grid(problem.structure, output, options.delay_count);
-    scan.delays *= output.time_unit();
-    OutputErrorSolution search = minimise_output_error(process_output(problem.structure, output), y, scan.starts,
-                                                       {options.max_iterations, options.tolerance, options.cancel});
-    search.theta = search.theta.cwiseProduct(seconds).eval();
-    search.covariance = (seconds.asDiagonal() * search.covariance * seconds.asDiagonal()).eval();
-    for (FitIteration& iteration : search.trace) iteration.theta = iteration.theta.cwiseProduct(seconds).eval();
-    const Index N = y.size();
-    const double bic =
-        bic_of_loss(search.loss, y.squaredNorm() / static_cast<double>(N), N, problem.value_count(data, condition));
-    const Termination termination = search.termination;
-    return {{condition, std::move(search), std::move(scan), termination}, bic};
+        scan = scan_process_grid(structure, model, options.delay_count);
+    Fit fit = minimise_output_error(process_output(structure, model), y, scan.starts, options);
+    keep_parameters(fit, model, condition, seconds);
+    fit.fit_percent =
+        Vector::Constant(1, fit_percent_of_sums(fit.loss * static_cast<double>(y.size()), output_variations(data)[0]));
+    fit.delay_grid = scan.delays * model.time_unit();
+    fit.delay_loss = scan.losses;
+    return fit;
 }
 
-ProcessSolution best_fit(const ProcessProblem& problem, const IdData& data,
-                         const std::vector<StartCondition>& conditions) {
-    return smallest_bic(
-        conditions, [&](const StartCondition& condition) { return problem.enough(data, condition); },
-        [&](const StartCondition& condition) { return fit_condition(problem, data, condition); });
+/// Over the conditions, from a start for each of them when they are given.
+Fit ProcessProblem::best_fit(const IdData& data, const std::vector<StartCondition>& conditions,
+                             const std::vector<Fit>& starts) const {
+    return fit_output_error({"procsrivc", data, conditions,
+                             [&](const StartCondition& condition) { return value_count(data, condition); },
+                             [&](const StartCondition& condition) {
+                                 const auto start = std::find_if(starts.begin(), starts.end(), [&](const Fit& one) {
+                                     return one.start.state == condition.state && one.start.offset == condition.offset;
+                                 });
+                                 return fit(data, condition, start == starts.end() ? nullptr : &*start);
+                             },
+                             kSamplesPerProcessParameter});
 }
 
 /// Whether a beginning of the record tells gain and time constants well enough to start from.
-bool is_a_start(const ProcessProblem& problem, const OutputErrorSolution& search) {
+bool is_a_start(const ProcessProblem& problem, const Fit& search) {
     if (search.termination != Termination::kConverged && search.termination != Termination::kNoProgress) return false;
     if (!(search.condition_number < kAmbiguousCondition)) return false;
     const auto names = problem.structure.parameter_names();
@@ -127,23 +119,23 @@ bool is_a_start(const ProcessProblem& problem, const OutputErrorSolution& search
     return true;
 }
 
-/// The conditions worth a fit to the whole record of N samples. An initial state shows at the beginning, so that the
-/// evidence for it, n ln V of the beginning's n samples, is that of the whole; an offset shows the better the longer
-/// the record, so that there both are worth it.
-std::vector<ProcessSolution> worth_a_fit(std::vector<ProcessCandidate> trials, const ProcessProblem& problem,
-                                         const IdData& beginning, Index N) {
-    const auto evidence = [&](const ProcessCandidate& trial) {
+/// The fits to a beginning whose conditions are worth a fit to the whole record of N samples. An initial state shows at
+/// the beginning, so that the evidence for it, n ln V of the beginning's n samples, is that of the whole; an offset
+/// shows the better the longer the record, so that there both are worth it.
+std::vector<Fit> worth_a_fit(const std::vector<Fit>& trials, const ProcessProblem& problem, const IdData& beginning,
+                             Index N) {
+    const auto evidence = [&](const Fit& trial) {
         const double n = static_cast<double>(beginning.sample_count());
-        const double values = static_cast<double>(problem.value_count(beginning, trial.result.condition));
-        return n * trial.bic + values * (std::log(static_cast<double>(N)) - std::log(n));
+        const Index values = problem.value_count(beginning, trial.start);
+        return n * bic_of(trial, beginning, values) +
+               static_cast<double>(values) * (std::log(static_cast<double>(N)) - std::log(n));
     };
-    std::vector<ProcessSolution> chosen;
-    for (ProcessCandidate& trial : trials) {
-        const bool behind = std::any_of(trials.begin(), trials.end(), [&](const ProcessCandidate& other) {
-            return other.result.condition.offset == trial.result.condition.offset &&
-                   evidence(other) + kCloseEvidence < evidence(trial);
+    std::vector<Fit> chosen;
+    for (const Fit& trial : trials) {
+        const bool behind = std::any_of(trials.begin(), trials.end(), [&](const Fit& other) {
+            return other.start.offset == trial.start.offset && evidence(other) + kCloseEvidence < evidence(trial);
         });
-        if (!behind) chosen.push_back(trial.result);
+        if (!behind) chosen.push_back(trial);
     }
     return chosen;
 }
@@ -154,8 +146,7 @@ bool input_changes(const IdData& data) {
 }
 
 /// A long record: every start condition on its beginning, then those worth it on the whole, from where these ended.
-ProcessSolution best_fit_to_long(const ProcessProblem& problem, const IdData& data,
-                                 const std::vector<StartCondition>& conditions) {
+Fit best_fit_to_long(const ProcessProblem& problem, const IdData& data, const std::vector<StartCondition>& conditions) {
     const IdData beginning = beginning_of(data, kProcessTrialSamples);
     ProcessProblem trial = problem;
     if (!problem.options.largest_delay)
@@ -163,27 +154,18 @@ ProcessSolution best_fit_to_long(const ProcessProblem& problem, const IdData& da
             std::max(problem.range.least, std::min(problem.range.largest, shortest_record(beginning) / 4));
     if (data.sample_count() < 2 * beginning.sample_count() || !input_changes(beginning) ||
         shortest_record(beginning) <= trial.range.largest)
-        return best_fit(problem, data, conditions);
-    std::vector<ProcessCandidate> trials;
+        return problem.best_fit(data, conditions);
+    std::vector<Fit> trials;
     for (const StartCondition& condition : conditions) {
-        trials.push_back(fit_condition(trial, beginning, condition));
-        if (trials.back().result.termination == Termination::kCancelled) return best_fit(problem, data, {condition});
+        trials.push_back(trial.fit(beginning, condition));
+        if (trials.back().termination == Termination::kCancelled) return problem.best_fit(data, {condition});
     }
-    std::vector<ProcessSolution> starts = worth_a_fit(std::move(trials), problem, beginning, data.sample_count());
-    if (!std::all_of(starts.begin(), starts.end(),
-                     [&](const ProcessSolution& start) { return is_a_start(problem, start.search); }))
-        return best_fit(problem, data, conditions);
+    const std::vector<Fit> starts = worth_a_fit(trials, problem, beginning, data.sample_count());
+    if (!std::all_of(starts.begin(), starts.end(), [&](const Fit& start) { return is_a_start(problem, start); }))
+        return problem.best_fit(data, conditions);
     std::vector<StartCondition> worth;
-    for (const ProcessSolution& start : starts) worth.push_back(start.condition);
-    std::size_t next = 0;
-    return smallest_bic(
-        worth, [](const StartCondition&) { return true; },
-        [&](const StartCondition& condition) {
-            ProcessSolution& start = starts[next++];
-            ProcessCandidate candidate = fit_condition(problem, data, condition, start.search.theta);
-            candidate.result.scan = std::move(start.scan);
-            return candidate;
-        });
+    for (const Fit& start : starts) worth.push_back(start.start);
+    return problem.best_fit(data, worth, starts);
 }
 
 Index real_lag_count(const ProcessStructure& structure) {
@@ -191,13 +173,15 @@ Index real_lag_count(const ProcessStructure& structure) {
 }
 
 // In falling order.
-void sort_time_constants(const ProcessStructure& structure, Vector& theta, Matrix& covariance) {
-    std::vector<Index> order(static_cast<std::size_t>(theta.size()));
+void sort_time_constants(Fit& fit, const ProcessStructure& structure) {
+    std::vector<Index> order(static_cast<std::size_t>(fit.theta.size()));
     std::iota(order.begin(), order.end(), Index{0});
     std::stable_sort(order.begin() + 1, order.begin() + 1 + real_lag_count(structure),
-                     [&](Index a, Index b) { return theta[a] > theta[b]; });
-    theta = theta(order).eval();
-    covariance = covariance(order, order).eval();
+                     [&](Index a, Index b) { return fit.theta[a] > fit.theta[b]; });
+    fit.theta = fit.theta(order).eval();
+    fit.covariance = fit.covariance(order, order).eval();
+    const std::vector<bool> at_bound = fit.at_bound;
+    for (std::size_t i = 0; i < order.size(); ++i) fit.at_bound[i] = at_bound[static_cast<std::size_t>(order[i])];
 }
 
 void warn_of_times(Fit& result, double Ts, double longest) {
@@ -241,41 +225,23 @@ std::string process_message(const Fit& fit) {
            number_text(fit.fit_percent[0], 4) + " %.";
 }
 
-/// With the time constants in order.
-Fit fit_of(const ProcessProblem& problem, const IdData& data, ProcessSolution solution) {
-    const TransferOutput output = problem.output(data, solution.condition);
-    Vector all = solution.search.theta;
-    Matrix covariance = solution.search.covariance;
-    sort_time_constants(problem.structure, all, covariance);
-    const Index linear = output.linear_count(), q = all.size() - linear;
-    Fit fit;
-    fit.process.emplace(problem.structure, all.head(q));
+/// The model of a fit, with its time constants in order.
+void set_process(Fit& fit, const ProcessStructure& structure) {
+    sort_time_constants(fit, structure);
+    fit.process = std::make_shared<ProcessModel>(structure, fit.theta);
     fit.models = {fit.process->transfer_function()};
-    fit.names = problem.structure.parameter_names();
-    fit.theta = all.head(q);
-    fit.covariance = covariance.topLeftCorner(q, q);
+    fit.names = structure.parameter_names();
     fit.std = fit.covariance.diagonal().cwiseMax(0).cwiseSqrt();
-    fit.noise_variance = Vector::Constant(1, solution.search.noise_variance);
-    fit.loss = solution.search.loss;
-    fit.condition_number = solution.search.condition_number;
-    fit.start = solution.condition;
-    const Index first = output.parameter_count() - linear;  // of what is not the process's own, in output's parameters
-    fit.offsets = Matrix::Zero(static_cast<Index>(data.experiments.size()), 1);
-    for (std::size_t e = 0; e < data.experiments.size(); ++e) {
-        if (output.initial_count(0) > 0)
-            fit.initial_values.emplace_back(
-                all.segment(q + output.initial_place(e, 0) - first, output.initial_count(0)));
-        if (solution.condition.offset)
-            fit.offsets(static_cast<Index>(e), 0) = all[q + output.offset_place(e, 0) - first];
-    }
-    fit.fit_percent = Vector::Constant(
-        1, fit_percent_of_sums(fit.loss * static_cast<double>(data.sample_count()), output_variations(data)[0]));
-    fit.output = std::move(solution.search.output);
-    fit.delay_grid = solution.scan.delays;
-    fit.delay_loss = solution.scan.losses;
-    fit.termination = solution.termination;
-    fit.trace = std::move(solution.search.trace);
-    return fit;
+}
+
+/// The simulated output of all experiments, its operating points included.
+Vector simulated(const Fit& fit, const ProcessProblem& problem, const CentredData& record) {
+    const TransferOutput model = problem.output(record.data, fit.start);
+    const Vector seconds = process_seconds(problem.structure, model);
+    Vector output = process_output(problem.structure, model).output_at(search_point(fit, model, seconds));
+    for (std::size_t e = 0; e < record.removed.size(); ++e)
+        output.segment(model.row(e, 0), model.rows(e)).array() += record.removed[e][0].output;
+    return output;
 }
 
 }  // namespace
@@ -291,13 +257,9 @@ Fit procsrivc(const IdData& data, const ProcessStructure& structure, const Procs
         throw InvalidArgument("procsrivc: at least " + std::to_string(fewest) + " samples are needed for " +
                               std::to_string(values) + " values, and the data hold " +
                               std::to_string(data.sample_count()));
-    Fit fit = fit_of(problem, record.data, best_fit_to_long(problem, record.data, conditions));
-    check_transient("procsrivc", record.data, fit, problem.value_count(data, fit.start));
-    Index row = 0;
-    for (std::size_t e = 0; e < record.removed.size(); ++e) {
-        fit.output.segment(row, data.sample_count(e)).array() += record.removed[e][0].output;
-        row += data.sample_count(e);
-    }
+    Fit fit = best_fit_to_long(problem, record.data, conditions);
+    set_process(fit, structure);
+    fit.output = simulated(fit, problem, record);
     fit.removed = record.removed;
     warn_of_search(fit, options);
     warn_of_doubtful_parameters(fit);

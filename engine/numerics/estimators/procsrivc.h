@@ -1,5 +1,6 @@
 #pragma once
 #include "numerics/fit/fit.h"
+#include "numerics/models/process_model.h"
 
 namespace dynlab::inline numerics {
 

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "numerics/criteria/filtered_products.h"
-#include "numerics/criteria/transfer_output.h"
 #include "numerics/error.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/output_error.h"
+#include "numerics/fit/transfer_refinement.h"
 #include "numerics/linalg/polynomial.h"
 
 namespace dynlab::inline numerics {
@@ -87,17 +86,6 @@ class WhitenedOutput : public OutputErrorModel {
     const Vector& y_;
 };
 
-/// srivc's estimate as a point of the search.
-Vector first_point(const TransferOutput& model, const Fit& start) {
-    Vector theta = Vector::Zero(model.parameter_count());
-    theta.head(start.theta.size()) = start.theta;
-    for (std::size_t e = 0; e < start.initial_values.size(); ++e)
-        theta.segment(model.initial_place(e, 0), start.initial_values[e].size()) = start.initial_values[e];
-    for (std::size_t e = 0; e < model.experiment_count() && start.start.offset; ++e)
-        theta[model.offset_place(e, 0)] = start.offsets(static_cast<Index>(e), 0);
-    return theta.cwiseQuotient(model.seconds()).cwiseMax(model.lower()).cwiseMin(model.upper());
-}
-
 double largest_change(const Vector& next, const Vector& before, const Vector& errors) {
     double change = 0;
     for (Index i = 0; i < next.size(); ++i)
@@ -122,7 +110,7 @@ class Passes {
             }
             const double change = one_pass(pass > 0);
             const Vector errors = y_ - simulated();
-            trace_.push_back({seconds(theta_), errors.squaredNorm() / static_cast<double>(y_.size()), change});
+            trace_.push_back({theta_, errors.squaredNorm() / static_cast<double>(y_.size()), change});
             if (change <= options_.tolerance) {
                 termination_ = Termination::kConverged;
                 break;
@@ -131,24 +119,26 @@ class Passes {
         set_matrix();
     }
 
-    Vector simulated() const {
-        Vector output;
-        model_.simulate(theta_, output, nullptr);
-        return output;
-    }
+    Vector simulated() const { return model_.output_at(theta_); }
     /// Nothing but rounding is left, so that there is no noise to model.
     bool exact(const Vector& errors) const {
         return errors.norm() <= kNoiseRounding * (y_.array() - y_.mean()).matrix().norm();
     }
-    Vector seconds(const Vector& theta) const { return theta.cwiseProduct(model_.seconds()); }
 
-    Vector theta_;
+    /// The result in seconds, with the passes as its trace.
+    Fit fit(const StartCondition& condition) const {
+        const Vector errors = y_ - simulated();
+        Fit result = solution_;
+        result.loss = errors.squaredNorm() / static_cast<double>(y_.size());
+        result.noise_variance = Vector::Constant(1, variance_);
+        result.termination = termination_;
+        result.trace = trace_;
+        keep_parameters(result, model_, condition, model_.seconds());
+        return result;
+    }
+
     ArmaNoise noise_;
-    OutputErrorSolution solution_;
-    double variance_ = 0;
     bool without_noise_ = false;
-    Termination termination_ = Termination::kIterationLimit;
-    std::vector<FitIteration> trace_;
 
   private:
     std::vector<Vector> residual_records() const {
@@ -169,7 +159,7 @@ class Passes {
                                                 noise_known ? &before : nullptr);
         const WhitenedOutput whitened_output(model_, noise_, y_);
         solution_ = minimise_output_error(whitened_output, whitened_output.target(), theta_,
-                                          {options_.max_iterations, tolerance, options_.cancel});
+                                          options_.limited(options_.max_iterations, tolerance));
         const Vector last = theta_;
         theta_ = solution_.theta;
         const Vector ones = Vector::Constant(std::max(noise_.C.size(), noise_.D.size()), 1);
@@ -183,13 +173,18 @@ class Passes {
         const double squares = whitened_output.filtered(y_ - simulated()).squaredNorm();
         const double used = static_cast<double>(y_.size() - orders_.nd * static_cast<Index>(model_.experiment_count()));
         variance_ = squares / (used - static_cast<double>(theta_.size() + orders_.nc + orders_.nd));
-        if (solution_.noise_variance > 0) solution_.covariance *= variance_ / solution_.noise_variance;
+        if (solution_.noise_variance[0] > 0) solution_.covariance *= variance_ / solution_.noise_variance[0];
     }
 
     const TransferOutput& model_;
     const Vector& y_;
     NoiseOrders orders_;
     FitOptions options_;
+    Vector theta_;
+    Fit solution_;
+    double variance_ = 0;
+    Termination termination_ = Termination::kIterationLimit;
+    std::vector<FitIteration> trace_;
 };
 
 void fill_noise(Fit& result, const Passes& passes, const NoiseOrders& orders) {
@@ -208,26 +203,6 @@ void fill_noise(Fit& result, const Passes& passes, const NoiseOrders& orders) {
                                       " lies nearly on the unit circle: the noise drifts, or its orders do not suit.");
 }
 
-void fill_model(Fit& result, const TransferOutput& model, const Passes& passes, const Vector& y, double variation) {
-    const Index count = result.structure.parameter_count();
-    const Vector all = passes.seconds(passes.theta_), seconds = model.seconds().head(count);
-    result.theta = all.head(count);
-    result.covariance =
-        seconds.asDiagonal() * passes.solution_.covariance.topLeftCorner(count, count) * seconds.asDiagonal();
-    result.condition_number = passes.solution_.condition_number;
-    result.noise_variance = Vector::Constant(1, passes.variance_);
-    for (std::size_t e = 0; e < result.initial_values.size(); ++e)
-        result.initial_values[e] = all.segment(model.initial_place(e, 0), result.initial_values[e].size());
-    for (std::size_t e = 0; e < model.experiment_count() && result.start.offset; ++e)
-        result.offsets(static_cast<Index>(e), 0) = all[model.offset_place(e, 0)];
-    const double squares = (y - passes.simulated()).squaredNorm();
-    result.fit_percent = Vector::Constant(1, fit_percent_of_sums(squares, variation));
-    result.loss = squares / static_cast<double>(y.size());
-    result.termination = passes.termination_;
-    for (const FitIteration& pass : passes.trace_)
-        result.trace.push_back({pass.theta.head(count), pass.loss, pass.change});
-}
-
 }  // namespace
 
 void NoiseOrders::validate() const {
@@ -240,19 +215,23 @@ Fit rivc(const IdData& data, const TransferStructure& structure, const NoiseOrde
     options.validate();
     check(data, orders, structure);
     check_transfer_data("rivc", data, structure);
-    Fit result = srivc(data, structure, options);
-    result.warnings.clear();
-    result.trace.clear();
+    const Fit start = srivc(data, structure, options);
     FitOptions wanted = options;
     if (structure.free_delays && !wanted.largest_delay)
-        wanted.largest_delay = result.delay_grid[result.delay_grid.size() - 1];
+        wanted.largest_delay = start.delay_grid[start.delay_grid.size() - 1];
     const DelayRange range = structure.free_delays ? delay_range(data, wanted) : DelayRange{};
     const CentredData centred = centred_for(data, options.offset);
-    const TransferOutput model(structure, result.start, centred.data, range.least, range.largest);
+    const TransferOutput model(structure, start.start, centred.data, range.least, range.largest);
     const Vector y = model.target();
     Passes passes(model, y, orders, wanted);
-    passes.run(first_point(model, result));
-    fill_model(result, model, passes, y, output_variations(data)[0]);
+    passes.run(search_point(start, model, model.seconds()).cwiseMax(model.lower()).cwiseMin(model.upper()));
+    Fit result = passes.fit(start.start);
+    result.structure = structure;
+    result.fit_percent = Vector::Constant(
+        1, fit_percent_of_sums(result.loss * static_cast<double>(y.size()), output_variations(data)[0]));
+    if (options.offset == Offset::kRemove) add_operating_points(result, centred.removed);
+    result.delay_grid = start.delay_grid;
+    result.delay_loss = start.delay_loss;
     fill_noise(result, passes, orders);
     describe_search(result, data, "RIVC", wanted, range);
     return result;

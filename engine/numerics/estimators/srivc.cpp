@@ -2,7 +2,6 @@
 
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/refined_iteration.h"
-#include "numerics/fit/simulation_error.h"
 #include "numerics/fit/transfer_search.h"
 
 namespace dynlab::inline numerics {
@@ -36,16 +35,16 @@ bool outputs_share_a_denominator(const TransferStructure& structure) {
 
 /// The passes; where outputs share a denominator, more of them with each output weighted by its noise.
 RefinedSolution solve(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
-    RefinedOptions refined{options.max_iterations, options.tolerance, options.hold_y, options.cancel, {}, false};
-    refined.with_gram = structure.outputs == 1 && options.tolerance <= kGramTolerance;
-    RefinedSolution solution = iterate_refined(data, structure, start_at(data, structure, options), refined);
+    RefinedExtras extras;
+    extras.with_gram = structure.outputs == 1 && options.tolerance <= kGramTolerance;
+    RefinedSolution solution = iterate_refined(data, structure, start_at(data, structure, options), options, extras);
     for (int i = 0; outputs_share_a_denominator(structure) && i < kReweightings; ++i) {
-        refined.weights.resize(structure.outputs);
+        extras.weights.resize(structure.outputs);
         for (Index output = 0; output < structure.outputs; ++output)
-            refined.weights[output] = 1 / simulation_squares(data, structure, solution.theta, output);
-        if (!refined.weights.allFinite()) break;
-        refined.weights /= refined.weights.maxCoeff();
-        RefinedSolution next = iterate_refined(data, structure, solution.theta, refined);
+            extras.weights[output] = 1 / simulation_squares(data, structure, solution.theta, output);
+        if (!extras.weights.allFinite()) break;
+        extras.weights /= extras.weights.maxCoeff();
+        RefinedSolution next = iterate_refined(data, structure, solution.theta, options, extras);
         next.trace.insert(next.trace.begin(), solution.trace.begin(), solution.trace.end());
         solution = std::move(next);
     }

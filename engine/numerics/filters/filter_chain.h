@@ -3,18 +3,10 @@
 #include <vector>
 
 #include "numerics/filters/filter_moments.h"
+#include "numerics/filters/regression_record.h"
 #include "numerics/filters/sensitivity_system.h"
-#include "numerics/signals/iddata.h"
 
 namespace dynlab::inline numerics {
-
-using SampleView = Eigen::Map<const Vector>;  ///< samples that somebody else owns
-
-/// When the samples of a record were taken: every Ts seconds, or (Ts = 0) at the instants t.
-struct Sampling {
-    double Ts = 0;
-    SampleView t{nullptr, 0};
-};
 
 /// A model in front of a filter, sampled in between: its first output becomes the filter's input.
 struct FrontModel {

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "numerics/filters/delta_regression.h"
+#include "numerics/filters/filter_chain.h"
 #include "numerics/filters/two_pole_moments.h"
 
 namespace dynlab::inline numerics {

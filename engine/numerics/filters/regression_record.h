@@ -1,9 +1,17 @@
 #pragma once
 #include <vector>
 
-#include "numerics/filters/filter_chain.h"
+#include "numerics/signals/iddata.h"
 
 namespace dynlab::inline numerics {
+
+using SampleView = Eigen::Map<const Vector>;  ///< samples that somebody else owns
+
+/// When the samples of a record were taken: every Ts seconds, or (Ts = 0) at the instants t.
+struct Sampling {
+    double Ts = 0;
+    SampleView t{nullptr, 0};
+};
 
 /// One equation A(p) y = sum_j B_j(p) u_j(t - delay_j) of degree n over one record: what LSSVF, IVSVF and SRIVC solve.
 struct RegressionRecord {

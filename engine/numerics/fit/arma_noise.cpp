@@ -212,7 +212,7 @@ ArmaNoise estimate_arma(const std::vector<Vector>& records, int nc, int nd, doub
         v.tail(record.size()) = record;
     }
     ArmaNoise noise = ArmaNoise::white(nc, nd);
-    OutputErrorSolution solution;
+    Fit solution;
     if (nc + nd > 0) {
         const Prediction prediction(records, nc, nd);
         Vector first(nc + nd);
@@ -220,15 +220,15 @@ ArmaNoise estimate_arma(const std::vector<Vector>& records, int nc, int nd, doub
             first << start->C.tail(nc), start->D.tail(nd);
         else
             first = regression_start(records, nc, nd);
-        solution = minimise_output_error(prediction, v, first, {100, tolerance, {}});
+        solution = minimise_output_error(prediction, v, first, FitOptions{}.limited(100, tolerance));
         noise = prediction.noise(solution.theta);
         noise.termination = solution.termination;
     }
     for (const Vector& record : records) squares += whitened(noise, record).squaredNorm();
     noise.variance = squares / static_cast<double>(used - nc - nd);
     noise.covariance = Matrix::Zero(nc + nd, nc + nd);
-    if (nc + nd > 0 && solution.noise_variance > 0)
-        noise.covariance = noise.variance / solution.noise_variance * solution.covariance;
+    if (nc + nd > 0 && solution.noise_variance[0] > 0)
+        noise.covariance = noise.variance / solution.noise_variance[0] * solution.covariance;
     return noise;
 }
 

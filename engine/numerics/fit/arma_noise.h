@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "numerics/fit/termination.h"
+#include "numerics/fit/fit.h"
 #include "numerics/linalg/types.h"
 
 namespace dynlab::inline numerics {

@@ -1,9 +1,37 @@
 #pragma once
 #include <string>
 
-#include "numerics/fit/data_checks.h"
+#include "numerics/fit/fit.h"
 
 namespace dynlab::inline numerics {
+
+/// What estimators refuse. `method` begins the messages of the InvalidArgument they throw.
+
+/// Data without inputs, with an input that is zero throughout, or with an output that never changes.
+void check_signals(const std::string& method, const IdData& data);
+
+/// The same; data of other channels than the structure, with fewer than 3 samples per parameter, not longer than a
+/// fixed delay, or with a constant input although the output does not start from rest, so that it is no step.
+void check_transfer_data(const std::string& method, const IdData& data, const TransferStructure& structure);
+
+/// Those of check_signals, and data that are not regularly sampled.
+void check_sampled_data(const std::string& method, const IdData& data);
+
+/// No more samples than `values` to estimate.
+void check_sample_count(const std::string& method, Index samples, Index values);
+
+/// For data whose inputs never change: a fit of so many estimated values that explains no transient (see
+/// require_transient in criteria/initial_conditions.h). A cancelled fit passes.
+void check_transient(const std::string& method, const IdData& data, const Fit& fit, Index values);
+
+double shortest_record(const IdData& data);  ///< s, of all experiments
+
+struct DelayRange {
+    double least = 0, largest = 0;  ///< s
+};
+/// Between which a free delay is looked for: least_delay and largest_delay; without the latter a quarter of the
+/// shortest record. Throws InvalidArgument for a largest delay that is not shorter than the shortest record.
+DelayRange delay_range(const IdData& data, const FitOptions& options);
 
 /// What is told of a fit: warnings are whole sentences, added to those that are there already.
 
@@ -17,8 +45,6 @@ void warn_of_search(Fit& fit, const FitOptions& options);
 void warn_of_doubtful_parameters(Fit& fit, const std::string& simpler = "a simpler structure");
 /// Of an estimated delay (s) at an edge of the `range` it was looked for in, or of zero; `channel` as channel_text.
 void warn_of_delay(Fit& fit, double delay, const DelayRange& range, const std::string& channel);
-/// Of discrete-time models that are not stable.
-void warn_of_unstable_polynomials(Fit& fit);
 
 /// " from input 2 to output 1" for messages, nothing for the only channel.
 std::string channel_text(const TransferStructure& structure, std::size_t channel);

@@ -4,9 +4,7 @@
 #include <numeric>
 
 #include "numerics/error.h"
-#include "numerics/fit/diagnosis.h"
 #include "numerics/fit/output_error.h"
-#include "numerics/fit/start_choice.h"
 #include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
@@ -73,8 +71,7 @@ DiscreteSearch output_error_search(const FitOptions& options) {
         const Vector start = instrument_start(model, y, options.cancel);
         const InstrumentSolution rough =
             iterate_instruments(model, y, start, kScreeningIterations, kScreeningTolerance, options.cancel);
-        const OutputErrorSolution end =
-            minimise_output_error(model, y, rough.theta, {options.max_iterations, options.tolerance, options.cancel});
+        const Fit end = minimise_output_error(model, y, rough.theta, options);
         return InstrumentSolution{end.theta, end.loss, end.termination, end.trace, false};
     };
 }
@@ -94,21 +91,15 @@ Fit fit_discrete_output(const std::string& method, const IdData& data, const Pol
     check_polynomial_data(method, data, orders);
     const CentredData record = centred_for(data, options.offset);
     const std::vector<SampledExperiment> experiments = sampled_experiments(record.data);
-    const Index N = data.sample_count();
-    const double power = output_powers(record.data)[0];
     const auto values = [&](const StartCondition& condition) {
         return value_count(DiscreteOutput(orders, condition, experiments));
     };
     const auto conditions = start_conditions(record.data, options.initial_state, options.offset);
-    check_sample_count(method, N, values(conditions.front()));
-    Fit best = smallest_bic(
-        conditions, [&](const StartCondition& condition) { return N > values(condition); },
-        [&](const StartCondition& condition) {
-            Fit fit = fit_condition(DiscreteOutput(orders, condition, experiments), record.data, options, search);
-            const double bic = bic_of_loss(fit.loss, power, N, values(condition));
-            return Candidate<Fit>{std::move(fit), bic};
-        });
-    check_transient(method, record.data, best, values(best.start));
+    check_sample_count(method, data.sample_count(), values(conditions.front()));
+    Fit best = fit_output_error({method, record.data, conditions, values, [&](const StartCondition& condition) {
+                                     return fit_condition(DiscreteOutput(orders, condition, experiments), record.data,
+                                                          options, search);
+                                 }});
     add_operating_points(best, record.removed);
     return best;
 }

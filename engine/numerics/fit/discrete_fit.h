@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "numerics/fit/instrument_iteration.h"
+#include "numerics/fit/polynomial_fit.h"
 #include "numerics/signals/iddata.h"
 
 namespace dynlab::inline numerics {

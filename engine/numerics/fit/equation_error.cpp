@@ -33,10 +33,10 @@ Sums sums_of_squares(const IdData& data, const ArxEquations& equations, const Fi
     Sums sums;
     for (const Vector& errors : equations.errors(estimate.theta)) sums.prediction_error += errors.squaredNorm();
     for (const Experiment& experiment : data.experiments) {
-        const Index past = estimate.orders.past(), rows = experiment.y.rows() - past;
+        const Index past = estimate.orders->past(), rows = experiment.y.rows() - past;
         if (rows <= 0) continue;
         const auto y = experiment.y.col(0).tail(rows);
-        const Vector simulated = free_run(estimate.polynomial->A.tail(estimate.orders.na),
+        const Vector simulated = free_run(estimate.polynomial->A.tail(estimate.orders->na),
                                           driven_part(*estimate.polynomial, experiment.u), experiment.y.col(0), past);
         sums.variation += (y.array() - y.mean()).matrix().squaredNorm();
         sums.simulation_error += (simulated.tail(rows) - y).squaredNorm();
@@ -68,7 +68,7 @@ ArxSolution solve_rich_arx(const std::string& method, const IdData& data, const 
 }
 
 void report_equation_error(Fit& estimate, const IdData& data) {
-    const ArxEquations equations(data, estimate.orders);
+    const ArxEquations equations(data, *estimate.orders);
     const Index count = equations.count(), d = estimate.theta.size();
     const Sums sums = sums_of_squares(data, equations, estimate);
     estimate.loss = sums.prediction_error / static_cast<double>(count);

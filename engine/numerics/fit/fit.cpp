@@ -23,13 +23,15 @@ void FitOptions::validate() const {
         throw InvalidArgument("`tolerance` must be positive, and is " + number_text(tolerance));
 }
 
-Fit polynomial_fit(const PolynomialOrders& orders, const VectorView& theta, double Ts) {
-    Fit fit;
-    fit.orders = orders;
-    fit.polynomial.emplace(orders, theta, Ts);
-    fit.names = orders.parameter_names();
-    fit.theta = theta;
-    return fit;
+FitOptions FitOptions::limited(int iterations, double limit) const {
+    FitOptions other = *this;
+    other.max_iterations = iterations;
+    other.tolerance = limit;
+    return other;
+}
+
+std::string iterations_text(std::size_t count) {
+    return std::to_string(count) + (count == 1 ? " iteration" : " iterations");
 }
 
 double fit_percent_of_sums(double squared_errors, double squared_variations) {

@@ -1,17 +1,35 @@
 #pragma once
+#include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "numerics/criteria/initial_conditions.h"
-#include "numerics/fit/termination.h"
-#include "numerics/models/polynomial_model.h"
-#include "numerics/models/process_model.h"
 #include "numerics/models/transfer_structure.h"
 #include "numerics/signals/iddata.h"
 
 namespace dynlab::inline numerics {
+
+struct PolynomialOrders;
+struct PolynomialModel;
+struct ProcessModel;
+
+/// Why an iteration ended. None of these is an error: the best point found is always returned.
+enum class Termination {
+    kConverged,       ///< the parameters changed by less than the tolerance
+    kIterationLimit,  ///< the allowed iterations were used up before that
+    kNoProgress,      ///< no step, however short, lowered the loss any more
+    kDiverged,        ///< the loss grew without bound (a step size that is too large)
+    kCancelled,       ///< the cancel callback asked to stop
+};
+
+struct FitIteration {
+    Vector theta;       ///< after the iteration; empty where only the loss is kept
+    double loss = 0;    ///< mean square of the errors there
+    double change = 0;  ///< largest relative parameter change
+};
 
 /// What all iterative estimators ask. Methods for difference equations have no use for lambda, hold_y and delays.
 /// Messages write the names of options in backticks: `max_iterations`.
@@ -29,6 +47,8 @@ struct FitOptions {
 
     /// Throws InvalidArgument naming the option.
     void validate() const;
+    /// The same with other limits.
+    FitOptions limited(int iterations, double limit) const;
 };
 
 /// Noise v = C(q^-1)/D(q^-1) e of an estimated model, monic, with standard errors (zero for the leading ones). C and D
@@ -48,11 +68,11 @@ struct StaticCharacteristic {
 /// (srivc, coe, procsrivc, hammerstein, oe, sriv), of the prediction (rivc, armax, bj), of the equation (arx, iv4,
 /// lssvf, ivsvf).
 struct Fit {
-    TransferStructure structure;           ///< of continuous-time models
-    PolynomialOrders orders;               ///< of difference equations
-    std::vector<TransferFunction> models;  ///< continuous-time: of the channels, row by row
-    std::optional<ProcessModel> process;   ///< time constants in falling order
-    std::optional<PolynomialModel> polynomial;
+    TransferStructure structure;                     ///< of continuous-time models
+    std::vector<TransferFunction> models;            ///< continuous-time: of the channels, row by row
+    std::shared_ptr<const ProcessModel> process;     ///< time constants in falling order
+    std::shared_ptr<const PolynomialOrders> orders;  ///< of difference equations, as the model
+    std::shared_ptr<const PolynomialModel> polynomial;
     std::optional<StaticCharacteristic> characteristic;
     std::optional<NoiseModel> noise;  ///< of rivc
 
@@ -65,13 +85,14 @@ struct Fit {
     double prediction_fit_percent = 0;  ///< difference equations: one step ahead
     double loss = 0;                    ///< mean square of e over all outputs; for rivc of the simulation error
     double condition_number = 0;        ///< of the column-scaled Psi
+    std::vector<bool> at_bound;         ///< of a search: the parameter lies on a bound and wants to leave through it
 
     StartCondition start{InitialState::kZero, false};  ///< assumed or chosen; kEstimate where nothing is assumed
     std::vector<Vector> initial_values;  ///< per experiment, when estimated: y, dy/dt, ... of each output's free motion
     Matrix offsets;                      ///< experiments x outputs, added to the simulation; zeros without
     /// Per experiment, of each output: the operating point that Offset::kRemove took off; empty otherwise.
     std::vector<std::vector<JointOperatingPoint>> removed;
-    Vector output;                  ///< procsrivc: simulated, all experiments, offset and operating point included
+    Vector output;                  ///< of a search: simulated; procsrivc adds the operating point
     Vector delay_grid, delay_loss;  ///< s and mean square error, when a delay was looked for
 
     Termination termination = Termination::kConverged;
@@ -80,8 +101,8 @@ struct Fit {
     std::string message;                ///< one sentence, then the warnings
 };
 
-/// A fit of difference equations, its model and names made from the values; all else is to be filled.
-Fit polynomial_fit(const PolynomialOrders& orders, const VectorView& theta, double Ts);
+/// "1 iteration", "2 iterations".
+std::string iterations_text(std::size_t count);
 
 /// 100 (1 - |error|/|y - mean(y)|), the means taken experiment by experiment, from the two sums of squares;
 /// -infinity where the errors are not finite.

@@ -2,6 +2,7 @@
 
 #include "numerics/error.h"
 #include "numerics/linalg/polynomial.h"
+#include "numerics/models/polynomial_model.h"
 
 namespace dynlab::inline numerics {
 
@@ -32,7 +33,9 @@ void append_integrator(Fit& fit) {
     const TransferFunction integrator(Vector::Ones(1), Vector::Unit(2, 0));
     for (TransferFunction& G : fit.models) G = G * integrator;
     if (!fit.polynomial) return;
-    for (Vector& F : fit.polynomial->F) F = multiply(F, Eigen::Vector2d(1, -1));
+    PolynomialModel model = *fit.polynomial;
+    for (Vector& F : model.F) F = multiply(F, Eigen::Vector2d(1, -1));
+    fit.polynomial = std::make_shared<PolynomialModel>(std::move(model));
 }
 
 }  // namespace dynlab::inline numerics

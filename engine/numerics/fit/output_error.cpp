@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "numerics/error.h"
+#include "numerics/fit/diagnosis.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/least_squares.h"
 
@@ -20,7 +21,7 @@ constexpr double kFirstDamping = 1e-3, kLeastDamping = 1e-14, kLargestDamping = 
 
 class Search {
   public:
-    Search(const OutputErrorModel& model, const VectorView& y, const OutputErrorOptions& options)
+    Search(const OutputErrorModel& model, const VectorView& y, const FitOptions& options)
         : model_(model), y_(y), options_(options) {
         spread_ = (y.array() - y.mean()).matrix().norm();
         if (spread_ == 0) spread_ = y.norm();
@@ -28,7 +29,7 @@ class Search {
     }
 
     /// The end of the search, and its trace.
-    OutputErrorSolution run(const Vector& start) {
+    Fit run(const Vector& start) {
         theta_ = start.cwiseMax(model_.lower()).cwiseMin(model_.upper());
         evaluate_here();
         Termination termination = Termination::kIterationLimit;
@@ -48,7 +49,7 @@ class Search {
                 break;
             }
         }
-        OutputErrorSolution result;
+        Fit result;
         result.theta = theta_;
         result.loss = square_sum_ / samples();
         result.termination = termination;
@@ -57,19 +58,19 @@ class Search {
     }
 
     /// Adds what the sensitivities at the end say of it.
-    OutputErrorSolution complete(OutputErrorSolution result) const {
+    Fit complete(Fit result) const {
         const Index count = theta_.size();
         std::vector<Index> free;
         for (Index i = 0; i < count; ++i)
             if (!held_[static_cast<std::size_t>(i)]) free.push_back(i);
         result.at_bound = held_;
-        result.noise_variance = square_sum_ / (samples() - static_cast<double>(free.size()));
+        const double variance = square_sum_ / (samples() - static_cast<double>(free.size()));
+        result.noise_variance = Vector::Constant(1, variance);
         result.covariance = Matrix::Zero(count, count);
-        model_.simulate(theta_, result.output, nullptr);
         const Matrix gram = scale_.asDiagonal() * gram_ * scale_.asDiagonal();
         const SensitivityPrecision precision = sensitivity_precision(model_, theta_, gram, free);
         if (precision.inverse_gram.size() == 0) return result;
-        result.covariance(free, free) = result.noise_variance * precision.inverse_gram;
+        result.covariance(free, free) = variance * precision.inverse_gram;
         result.condition_number = precision.condition_number;
         return result;
     }
@@ -123,9 +124,7 @@ class Search {
     // The sums at `next`, unless its errors are larger.
     std::optional<OutputErrorProducts> products_below(double squares, const Vector& next) const {
         if (!model_.products_come_cheap()) {
-            Vector output;
-            model_.simulate(next, output, nullptr);
-            if (!((y_ - output).squaredNorm() <= squares)) return std::nullopt;
+            if (!((y_ - model_.output_at(next)).squaredNorm() <= squares)) return std::nullopt;
             return model_.products(next, y_);
         }
         OutputErrorProducts sums = model_.products(next, y_);
@@ -156,7 +155,7 @@ class Search {
 
     const OutputErrorModel& model_;
     const VectorView& y_;
-    const OutputErrorOptions& options_;
+    const FitOptions& options_;
     double spread_ = 0, rounding_ = 0, square_sum_ = 0, damping_ = kFirstDamping;
     Vector theta_, scale_, descent_;
     Matrix gram_;  // of the sensitivities with their columns scaled to norm one
@@ -165,17 +164,6 @@ class Search {
 };
 
 }  // namespace
-
-void OutputErrorOptions::validate() const {
-    std::ostringstream text;
-    if (max_iterations < 0)
-        text << "`max_iterations` must not be negative, and is " << max_iterations;
-    else if (!(tolerance > 0) || !std::isfinite(tolerance))
-        text << "`tolerance` must be positive, and is " << tolerance;
-    else
-        return;
-    throw InvalidArgument(text.str());
-}
 
 SensitivityPrecision sensitivity_precision(const OutputErrorModel& model, const Vector& theta, const Matrix& gram,
                                            const std::vector<Index>& free) {
@@ -201,8 +189,7 @@ SensitivityPrecision sensitivity_precision(const OutputErrorModel& model, const 
 
 namespace {
 
-Search search_for(const OutputErrorModel& model, const VectorView& y, const Vector& start,
-                  const OutputErrorOptions& options) {
+Search search_for(const OutputErrorModel& model, const VectorView& y, const Vector& start, const FitOptions& options) {
     options.validate();
     const Index count = model.parameter_count();
     std::ostringstream text;
@@ -218,26 +205,60 @@ Search search_for(const OutputErrorModel& model, const VectorView& y, const Vect
 
 }  // namespace
 
-OutputErrorSolution minimise_output_error(const OutputErrorModel& model, const VectorView& y, const Vector& start,
-                                          const OutputErrorOptions& options) {
+Fit minimise_output_error(const OutputErrorModel& model, const VectorView& y, const Vector& start,
+                          const FitOptions& options) {
     Search search = search_for(model, y, start, options);
     return search.complete(search.run(start));
 }
 
-OutputErrorSolution minimise_output_error(const OutputErrorModel& model, const VectorView& y,
-                                          const std::vector<Vector>& starts, const OutputErrorOptions& options) {
+Fit minimise_output_error(const OutputErrorModel& model, const VectorView& y, const std::vector<Vector>& starts,
+                          const FitOptions& options) {
     if (starts.size() == 1) return minimise_output_error(model, y, starts.front(), options);
-    const OutputErrorOptions rough{std::min(kRoughIterations, options.max_iterations),
-                                   std::max(kRoughTolerance, options.tolerance), options.cancel};
+    const FitOptions rough = options.limited(std::min(kRoughIterations, options.max_iterations),
+                                             std::max(kRoughTolerance, options.tolerance));
     const auto follow = [&](const Vector& start) { return search_for(model, y, start, rough).run(start); };
-    OutputErrorSolution best = follow(starts.front());
+    Fit best = follow(starts.front());
     for (std::size_t i = 1; i < starts.size() && best.termination != Termination::kCancelled; ++i) {
-        OutputErrorSolution other = follow(starts[i]);
+        Fit other = follow(starts[i]);
         if (other.loss < (1 - kRoughTolerance) * best.loss) best = std::move(other);
     }
-    OutputErrorSolution end = minimise_output_error(model, y, best.theta, options);
+    Fit end = minimise_output_error(model, y, best.theta, options);
     end.trace.insert(end.trace.begin(), best.trace.begin(), best.trace.end());
     return end;
+}
+
+double bic_of(const Fit& fit, const IdData& data, Index values) {
+    const Index N = data.sample_count(), outputs = data.output_count();
+    const Vector power = output_powers(data);
+    if (outputs == 1) return bic_of_loss(fit.loss, power[0], N, values);
+    const Vector variation = output_variations(data);
+    double sum = 0;
+    for (Index output = 0; output < outputs; ++output) {
+        const double share = 1 - fit.fit_percent[output] / 100;
+        sum += bic_of_loss(share * share * variation[output] / static_cast<double>(N), power[output], N, values);
+        values = 0;  // counted once
+    }
+    return sum;
+}
+
+Fit fit_output_error(const FitProblem& problem) {
+    const Index samples = problem.data.sample_count() * problem.data.output_count();
+    Fit best;
+    double smallest = kInfinity;
+    for (const StartCondition& condition : problem.conditions) {
+        const bool first = &condition == &problem.conditions.front();
+        const Index values = problem.value_count(condition);
+        if (!first && (samples <= values || samples < problem.samples_per_value * values)) continue;
+        Fit fit = problem.fit(condition);
+        const double bic = bic_of(fit, problem.data, values);
+        if (first || bic < smallest) {
+            best = std::move(fit);
+            smallest = bic;
+        }
+        if (best.termination == Termination::kCancelled) break;
+    }
+    check_transient(problem.method, problem.data, best, problem.value_count(best.start));
+    return best;
 }
 
 }  // namespace dynlab::inline numerics

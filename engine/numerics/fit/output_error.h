@@ -1,34 +1,28 @@
 #pragma once
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "numerics/criteria/output_error_model.h"
-#include "numerics/fit/output_error.h"
-#include "numerics/fit/termination.h"
-#include "numerics/linalg/types.h"
+#include "numerics/fit/fit.h"
 
 namespace dynlab::inline numerics {
 
-struct OutputErrorOptions {
-    int max_iterations = 50;
-    double tolerance = 1e-6;       ///< on the change of each parameter, relative to its size (see below)
-    std::function<bool()> cancel;  ///< asked before every iteration; true stops the search
+/// Minimises |y - output(theta)|^2 within the bounds by damped Gauss-Newton (Levenberg-Marquardt with the columns of
+/// the sensitivities scaled to norm one, More 1978); a parameter at a bound is held while the descent direction
+/// points outwards, and steps are cut back at the bounds. It has converged when every parameter changes by
+/// at most tolerance (|theta_i| + |y - mean(y)|/|J_i|), where the second term is the change that would move the output
+/// by as much as it varies: it takes over for parameters near zero. Of the options max_iterations, tolerance and cancel
+/// count. Gives theta, covariance (zero for parameters held at a bound), noise_variance (sum of squares/(N - d), d the
+/// parameters not held), loss, condition_number, at_bound, termination and trace of a Fit, in the model's own
+/// parameters. Throws InvalidArgument for bad options, when sizes do not fit or there are no more samples than
+/// parameters.
+Fit minimise_output_error(const OutputErrorModel& model, const VectorView& y, const Vector& start,
+                          const FitOptions& options = {});
 
-    /// Throws InvalidArgument for a negative count or a tolerance that is not positive.
-    void validate() const;
-};
-
-struct OutputErrorSolution {
-    Vector theta;
-    Matrix covariance;            ///< noise_variance (J'J)^-1; rows and columns of parameters held at a bound are zero
-    double noise_variance = 0;    ///< sum of squares/(N - d), d the parameters not held at a bound
-    double loss = 0;              ///< sum of squares/N
-    double condition_number = 0;  ///< of the column-scaled sensitivities
-    std::vector<bool> at_bound;   ///< per parameter: the solution lies on a bound and wants to leave through it
-    Vector output;                ///< N
-    Termination termination = Termination::kIterationLimit;
-    std::vector<FitIteration> trace;
-};
+/// The same from several starts (one at least): each is followed a little way, the best of them to the end.
+Fit minimise_output_error(const OutputErrorModel& model, const VectorView& y, const std::vector<Vector>& starts,
+                          const FitOptions& options);
 
 /// What the sensitivities J at `theta` tell of the precision of the parameters `free`: by the sums of products while
 /// these keep enough digits (a condition number below 1e3), otherwise by the QR decomposition of J itself. Without
@@ -40,17 +34,23 @@ struct SensitivityPrecision {
 SensitivityPrecision sensitivity_precision(const OutputErrorModel& model, const Vector& theta, const Matrix& gram,
                                            const std::vector<Index>& free);
 
-/// Minimises |y - output(theta)|^2 within the bounds by damped Gauss-Newton (Levenberg-Marquardt with the columns of
-/// the sensitivities scaled to norm one, More 1978); a parameter at a bound is held while the descent direction
-/// points outwards, and steps are cut back at the bounds. It has converged when every parameter changes by
-/// at most tolerance (|theta_i| + |y - mean(y)|/|J_i|), where the second term is the change that would move the output
-/// by as much as it varies: it takes over for parameters near zero. Throws InvalidArgument when sizes do not fit or
-/// there are no more samples than parameters.
-OutputErrorSolution minimise_output_error(const OutputErrorModel& model, const VectorView& y, const Vector& start,
-                                          const OutputErrorOptions& options = {});
+/// A criterion and a search for its minimum under every start condition that comes into question.
+struct FitProblem {
+    std::string method;                                       ///< begins messages
+    const IdData& data;                                       ///< counted from where the search counts them
+    std::vector<StartCondition> conditions;                   ///< one at least
+    std::function<Index(const StartCondition&)> value_count;  ///< of all values that are estimated
+    std::function<Fit(const StartCondition&)> fit;            ///< the search under one of them
+    Index samples_per_value = 1;  ///< as many are wanted of all outputs together, and one more
+};
 
-/// The same from several starts (one at least): each is followed a little way, the best of them to the end.
-OutputErrorSolution minimise_output_error(const OutputErrorModel& model, const VectorView& y,
-                                          const std::vector<Vector>& starts, const OutputErrorOptions& options);
+/// What every output-error method does: the fit of smallest BIC among the start conditions. Conditions that leave too
+/// few samples are left out, but for the first; a cancelled fit ends the choice. Throws InvalidArgument for inputs that
+/// never change and outputs that show no transient (check_transient).
+Fit fit_output_error(const FitProblem& problem);
+
+/// ln V + d ln(N)/N of a fit with so many estimated values to N samples: of all outputs together, each with its own
+/// noise.
+double bic_of(const Fit& fit, const IdData& data, Index values);
 
 }  // namespace dynlab::inline numerics

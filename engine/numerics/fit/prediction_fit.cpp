@@ -25,7 +25,7 @@ std::vector<SampledExperiment> first_samples(const std::vector<SampledExperiment
 /// One start in the place of many for a long record: the best one of its beginning, provided that it predicts the whole
 /// record better than all others do.
 std::vector<Vector> promising_starts(const PredictionModel& model, const StartCondition& condition,
-                                     std::vector<Vector> starts, const OutputErrorOptions& options) {
+                                     std::vector<Vector> starts, const FitOptions& options) {
     if (model.target().size() < 4 * kStartSamples) return starts;
     const std::vector<SampledExperiment> experiments = first_samples(model.experiments());
     const PredictionModel brief(model.orders(), condition, experiments);
@@ -84,28 +84,18 @@ Fit fit_prediction(const std::string& method, const PredictionModel& model, cons
                               " after those without a recorded past");
     std::vector<Vector> complete;
     for (const Vector& values : starts) complete.push_back(model.completed(values));
-    const OutputErrorOptions search{options.max_iterations, options.tolerance, options.cancel};
-    complete = promising_starts(model, start, std::move(complete), search);
-    OutputErrorSolution solution = minimise_output_error(model, y, complete, search);
-
-    const Index d = model.orders().parameter_count();
-    Fit fit = polynomial_fit(model.orders(), solution.theta.head(d), Ts);
+    complete = promising_starts(model, start, std::move(complete), options);
+    Fit fit = minimise_output_error(model, y, complete, options);
+    const Vector theta = fit.theta;
+    make_polynomial(fit, model.orders(), Ts);
     const std::vector<Index> lengths = model.lengths();
-    const double variation = variation_of(y, lengths), N = static_cast<double>(y.size());
-    fit.loss = solution.loss;
-    fit.noise_variance = Vector::Constant(1, solution.noise_variance);
-    fit.prediction_fit_percent = fit_percent_of_sums(N * solution.loss, variation);
-    const double simulation_error = (y - model.simulated(solution.theta)).squaredNorm();
-    fit.fit_percent = Vector::Constant(1, fit_percent_of_sums(simulation_error, variation));
-    fit.covariance = solution.covariance.topLeftCorner(d, d);
-    fit.std = fit.covariance.diagonal().cwiseMax(0).cwiseSqrt();
-    fit.condition_number = solution.condition_number;
+    const double variation = variation_of(y, lengths);
+    fit.prediction_fit_percent = fit_percent_of_sums(static_cast<double>(y.size()) * fit.loss, variation);
+    fit.fit_percent = Vector::Constant(1, fit_percent_of_sums((y - model.simulated(theta)).squaredNorm(), variation));
     fit.start = start;
     fit.offsets = Matrix::Zero(static_cast<Index>(lengths.size()), 1);
     for (std::size_t e = 0; e < lengths.size() && start.offset; ++e)
-        fit.offsets(static_cast<Index>(e), 0) = solution.theta[model.offset_place(e)];
-    fit.termination = solution.termination;
-    fit.trace = std::move(solution.trace);
+        fit.offsets(static_cast<Index>(e), 0) = theta[model.offset_place(e)];
     warn_of_search(fit, options);
     warn_of_doubtful_parameters(fit);
     warn_of_unstable_polynomials(fit);

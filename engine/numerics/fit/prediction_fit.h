@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "numerics/fit/diagnosis.h"
+#include "numerics/fit/polynomial_fit.h"
 #include "numerics/fit/prediction_model.h"
 
 namespace dynlab::inline numerics {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "numerics/criteria/transfer_sensitivity.h"
+#include "numerics/filters/transfer_sensitivity.h"
 #include "numerics/linalg/decompositions.h"
 
 namespace dynlab::inline numerics {

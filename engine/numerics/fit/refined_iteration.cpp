@@ -6,8 +6,6 @@
 #include <numbers>
 
 #include "numerics/error.h"
-#include "numerics/fit/simulation_error.h"
-#include "numerics/simulation/lsim.h"
 
 namespace dynlab::inline numerics {
 
@@ -20,21 +18,22 @@ constexpr double kContractionLimit = 0.7;
 constexpr double kLeastContraction =
     0.05;  // of a change is trusted to be left after a pass, however little the last one left
 
-Vector simulate(const IdData& data, const Experiment& experiment, const TransferFunction& G, Index input) {
-    const auto u = experiment.u.col(input);
-    return data.regular() ? lsim(G, u, data.Ts, data.hold) : lsim(G, u, experiment.t, data.hold);
+Vector simulate(const IdData& data, const Experiment& experiment, const VectorView& B, const VectorView& A,
+                double delay, Index input) {
+    const Sampling sampling{data.Ts, SampleView(experiment.t.data(), experiment.t.size())};
+    return transfer_filters().response(B, A, delay, experiment.u.col(input), sampling, data.hold);
 }
 
 /// All denominator groups of a model, and what one leaves for the other to explain.
 class Groups {
   public:
-    Groups(const IdData& data, const TransferStructure& structure, const RefinedOptions& options)
-        : data_(data), structure_(structure), with_gram_(options.with_gram) {
+    Groups(const IdData& data, const TransferStructure& structure, Hold hold_y, const RefinedExtras& extras)
+        : data_(data), structure_(structure), with_gram_(extras.with_gram) {
         if (with_gram_) gram_ = Matrix::Zero(structure.parameter_count(), structure.parameter_count());
         for (std::size_t g = 0; g < structure.poles.size(); ++g) {
-            groups_.emplace_back(data, structure, static_cast<Index>(g), options.hold_y);
-            for (Index output = 0; output < options.weights.size(); ++output)
-                groups_.back().set_weight(output, options.weights[output]);
+            groups_.emplace_back(data, structure, static_cast<Index>(g), hold_y);
+            for (Index output = 0; output < extras.weights.size(); ++output)
+                groups_.back().set_weight(output, extras.weights[output]);
         }
         for (Index output = 0; output < structure.outputs; ++output)
             for (Index input = 1; input < structure.inputs; ++input)
@@ -78,10 +77,9 @@ class Groups {
                 Vector rest = experiment.y.col(output);
                 for (Index input = 0; input < structure_.inputs; ++input) {
                     if (structure_.channel(output, input).denominator == static_cast<Index>(g)) continue;
-                    const TransferFunction G(structure_.numerator(theta, output, input),
-                                             structure_.denominator(theta, output, input), 0,
-                                             structure_.channel(output, input).delay);
-                    rest -= simulate(data_, experiment, G, input);
+                    rest -= simulate(data_, experiment, structure_.numerator(theta, output, input),
+                                     structure_.denominator(theta, output, input),
+                                     structure_.channel(output, input).delay, input);
                 }
                 groups_[g].set_target(record++, rest);
             }
@@ -145,10 +143,10 @@ void start_channels(const IdData& data, const TransferStructure& structure, Inde
         const Index a = structure.a_place(channel.denominator), b = structure.b_place(output, input);
         Vector own = Vector::Constant(n + channel.zeros + 1, std::numeric_limits<double>::quiet_NaN());
         if (joint.allFinite()) {
-            const TransferFunction share = common.models(joint)[static_cast<std::size_t>(input)];
             std::vector<Vector> shares;
             for (const Experiment& experiment : data.experiments)
-                shares.push_back(simulate(data, experiment, share, input));
+                shares.push_back(simulate(data, experiment, common.numerator(joint, 0, input),
+                                          common.denominator(joint, 0, input), channel.delay, input));
             own = filtered_start(single_channel(of_output, shares, input),
                                  TransferStructure::single(n, channel.zeros, channel.delay), lambda, hold_y);
         }
@@ -193,9 +191,31 @@ double simulation_loss(const IdData& data, const TransferStructure& structure, c
     return std::isfinite(loss) ? loss : kInfinity;
 }
 
+void measure_simulation(Fit& fit, const IdData& data) {
+    const TransferStructure& structure = fit.structure;
+    const double N = static_cast<double>(data.sample_count()), outputs = static_cast<double>(structure.outputs);
+    fit.offsets = Matrix::Zero(static_cast<Index>(data.experiments.size()), structure.outputs);
+    fit.fit_percent.resize(structure.outputs);
+    fit.noise_variance.resize(structure.outputs);
+    fit.loss = 0;
+    // Parameters of a common denominator are shared out evenly among the outputs they bear on.
+    const double d = static_cast<double>(structure.parameter_count()) / outputs;
+    const Vector variations = output_variations(data);
+    for (Index output = 0; output < structure.outputs; ++output) {
+        const double sum = simulation_squares(data, structure, fit.theta, output);
+        const double squares = std::isfinite(sum) ? sum : kInfinity;
+        fit.fit_percent[output] = fit_percent_of_sums(squares, variations[output]);
+        fit.noise_variance[output] = squares / (N - d);
+        fit.loss += squares / N / outputs;
+    }
+    if (std::isfinite(fit.loss)) return;
+    fit.warnings.push_back("The simulation of the model grows beyond all bounds over the record: it has no fit.");
+    fit.message += " " + fit.warnings.back();
+}
+
 RefinedSolution iterate_refined(const IdData& data, const TransferStructure& structure, const Vector& start,
-                                const RefinedOptions& options) {
-    Groups groups(data, structure, options);
+                                const FitOptions& options, const RefinedExtras& extras) {
+    Groups groups(data, structure, options.hold_y, extras);
     RefinedSolution solution;
     solution.theta = start;
     double last_change = kInfinity;
@@ -253,8 +273,7 @@ Vector filtered_start(const IdData& data, const TransferStructure& structure, do
     return theta;
 }
 
-Vector find_start(const IdData& data, const TransferStructure& structure, Hold hold_y,
-                  const std::function<bool()>& cancel) {
+Vector find_start(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
     const double Ts = data.mean_step();
     const double slowest = 4 / (longest_record(data) + Ts), fastest = 0.6 * std::numbers::pi / Ts;
     const double ratio = std::pow(fastest / slowest, 1.0 / (kCutoffs - 1));
@@ -262,11 +281,10 @@ Vector find_start(const IdData& data, const TransferStructure& structure, Hold h
     double best_loss = kInfinity;
     double lambda = slowest;
     for (int i = 0; i < kCutoffs; ++i, lambda *= ratio) {
-        if (cancel && cancel() && best.allFinite()) break;
-        const Vector start = filtered_start(data, structure, lambda, hold_y);
+        if (options.cancel && options.cancel() && best.allFinite()) break;
+        const Vector start = filtered_start(data, structure, lambda, options.hold_y);
         if (!start.allFinite()) continue;
-        const RefinedSolution trial =
-            iterate_refined(data, structure, start, {kTrialPasses, 1e-3, hold_y, cancel, {}, false});
+        const RefinedSolution trial = iterate_refined(data, structure, start, options.limited(kTrialPasses, 1e-3));
         for (const Vector& theta : {start, trial.theta}) {
             const double loss = simulation_loss(data, structure, theta);
             if (loss < best_loss) {

@@ -1,5 +1,4 @@
 #pragma once
-#include <functional>
 #include <vector>
 
 #include "numerics/criteria/denominator_group.h"
@@ -10,23 +9,19 @@ namespace dynlab::inline numerics {
 /// The part of a record that start values are looked for on: its beginning, so that it starts from rest as the whole.
 IdData beginning_of(const IdData& data, Index most_samples);
 
-struct RefinedOptions {
-    int max_iterations = 50;
-    double tolerance = 1e-6;
-    Hold hold_y = Hold::kFoh;
-    std::function<bool()> cancel;
-    Vector weights = {};  ///< of the outputs' squares where outputs share a denominator; ones when empty
-    bool with_gram = false;
-};
-
 struct RefinedSolution {
     Vector theta;
     Termination termination = Termination::kIterationLimit;
     std::vector<FitIteration> trace;  ///< without losses, which would cost a pass each
     bool mirrored = false;            ///< unstable poles were met on the way
-    /// With with_gram, sum z z' of the last pass, each group's block on the diagonal: at the theta before the last
-    /// change.
+    /// With RefinedExtras::with_gram, sum z z' of the last pass, each group's block on the diagonal: at the theta
+    /// before the last change.
     Matrix gram;
+};
+
+struct RefinedExtras {
+    Vector weights = {};  ///< of the outputs' squares where outputs share a denominator; ones when empty
+    bool with_gram = false;
 };
 
 /// The iteration of SRIVC for fixed delays, from rest: in every pass each denominator group solves
@@ -38,10 +33,15 @@ struct RefinedSolution {
 /// from the last two, but no less than 1/20. A pass that hardly gains on the one before it and raises the loss is
 /// shortened. Without convergence the pass of smallest loss is given.
 RefinedSolution iterate_refined(const IdData& data, const TransferStructure& structure, const Vector& start,
-                                const RefinedOptions& options);
+                                const FitOptions& options, const RefinedExtras& extras = {});
 
 /// Mean square of the simulation error from rest over all outputs; infinite for a model that explodes.
 double simulation_loss(const IdData& data, const TransferStructure& structure, const VectorView& theta);
+
+/// Fills fit, loss, noise variances and offsets (none) from structure and theta, for a simulation from rest. lssvf and
+/// ivsvf leave it to whoever wants to know: it takes as long as they do. The fit of a model whose simulation grows
+/// beyond all bounds is -infinity, and a warning says so.
+void measure_simulation(Fit& fit, const IdData& data);
 
 /// lssvf's theta with poles mirrored, for any structure: where an output's channels have denominators of their own, a
 /// common one of their joint order is fitted first and each channel then to its share of that model's output. NaN when
@@ -50,7 +50,6 @@ Vector filtered_start(const IdData& data, const TransferStructure& structure, do
 
 /// A start that needs no guess: filtered_start for cut-off frequencies over the band that the record can show, each
 /// followed by a few passes of iterate_refined; the theta of smallest loss. Throws InvalidArgument when none is finite.
-Vector find_start(const IdData& data, const TransferStructure& structure, Hold hold_y,
-                  const std::function<bool()>& cancel = {});
+Vector find_start(const IdData& data, const TransferStructure& structure, const FitOptions& options);
 
 }  // namespace dynlab::inline numerics

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "numerics/criteria/denominator_group.h"
 #include "numerics/criteria/transfer_output.h"
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/output_error.h"
-#include "numerics/fit/transfer_split.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/polynomial.h"
 
@@ -88,80 +88,198 @@ void set_weights(TransferOutput& model, const Vector& output, const Vector& powe
     if (errors.allFinite()) model.set_weights(errors.cwiseInverse());
 }
 
-OutputErrorSolution search(TransferOutput& model, const TransferStructure& structure, const IdData& data,
-                           const Vector& start, const FitOptions& options) {
-    OutputErrorOptions search_options{options.max_iterations, options.tolerance, options.cancel};
+Fit search(TransferOutput& model, const TransferStructure& structure, const IdData& data, const Vector& start,
+           const FitOptions& options) {
     Vector theta = start;
     if (structure.outputs > 1) {
-        const OutputErrorOptions rough{options.max_iterations, std::max(options.tolerance, kFirstTolerance),
-                                       options.cancel};
+        const FitOptions rough = options.limited(options.max_iterations, std::max(options.tolerance, kFirstTolerance));
         const Vector power = output_powers(data);
-        Vector output;
-        model.simulate(theta, output, nullptr);
-        set_weights(model, output, power);
+        set_weights(model, model.output_at(theta), power);
         for (int round = 0; round < kWeightRounds; ++round) {
-            const OutputErrorSolution solution = minimise_output_error(model, model.target(), theta, rough);
-            theta = solution.theta;
-            set_weights(model, solution.output, power);
+            theta = minimise_output_error(model, model.target(), theta, rough).theta;
+            set_weights(model, model.output_at(theta), power);
         }
     }
-    const std::vector<Vector> starts = starts_around(structure, data, theta);
-    if (starts.size() == 1) return minimise_output_error(model, model.target(), theta, search_options);
-    return minimise_output_error(model, model.target(), starts, search_options);
+    return minimise_output_error(model, model.target(), starts_around(structure, data, theta), options);
 }
 
-void fill_errors(Fit& estimate, const TransferOutput& model, const IdData& data, const OutputErrorSolution& solution) {
-    const Vector squares = squared_errors(model, solution.output), variation = output_variations(data);
+/// Of the model at the end of a search, in its own parameters.
+void fill_errors(Fit& fit, const TransferOutput& model, const IdData& data) {
+    const Vector squares = squared_errors(model, model.output_at(fit.theta)), variation = output_variations(data);
     const double N = static_cast<double>(model.sample_count());
-    estimate.noise_variance.resize(squares.size());
-    estimate.fit_percent.resize(squares.size());
+    fit.noise_variance.resize(squares.size());
+    fit.fit_percent.resize(squares.size());
     for (Index o = 0; o < squares.size(); ++o) {
         const std::vector<bool> bears = model.bears_on(o);
         Index free = 0;
-        for (std::size_t i = 0; i < bears.size(); ++i) free += bears[i] && !solution.at_bound[i] ? 1 : 0;
-        estimate.noise_variance[o] = squares[o] / (N - static_cast<double>(free));
-        estimate.fit_percent[o] = fit_percent_of_sums(squares[o], variation[o]);
+        for (std::size_t i = 0; i < bears.size(); ++i) free += bears[i] && !fit.at_bound[i] ? 1 : 0;
+        fit.noise_variance[o] = squares[o] / (N - static_cast<double>(free));
+        fit.fit_percent[o] = fit_percent_of_sums(squares[o], variation[o]);
     }
-    estimate.loss = squares.sum() / (N * static_cast<double>(squares.size()));
-}
-
-void fill_start(Fit& estimate, const TransferOutput& model, const StartCondition& condition, const Vector& theta) {
-    const Index experiments = static_cast<Index>(model.experiment_count()), outputs = estimate.structure.outputs;
-    estimate.start = condition;
-    estimate.offsets = Matrix::Zero(experiments, outputs);
-    for (Index e = 0; e < experiments; ++e) {
-        const std::size_t experiment = static_cast<std::size_t>(e);
-        if (condition.state == InitialState::kEstimate) {
-            const Index first = model.initial_place(experiment, 0), next = model.initial_place(experiment + 1, 0);
-            estimate.initial_values.push_back(theta.segment(first, next - first));
-        }
-        for (Index o = 0; o < outputs && condition.offset; ++o)
-            estimate.offsets(e, o) = theta[model.offset_place(experiment, o)];
-    }
+    fit.loss = squares.sum() / (N * static_cast<double>(squares.size()));
 }
 
 Fit refine_jointly(const IdData& data, const TransferStructure& structure, const StartCondition& condition,
                    const Vector& theta_start, const FitOptions& options) {
     const DelayRange range = structure.free_delays ? delay_range(data, options) : DelayRange{};
     TransferOutput model(structure, condition, data, range.least, range.largest);
-    const OutputErrorSolution solution =
-        search(model, structure, data, first_point(model, structure, theta_start), options);
-    const Index count = structure.parameter_count();
-    const Vector all = solution.theta.cwiseProduct(model.seconds()), seconds = model.seconds().head(count);
-    Fit estimate;
-    estimate.structure = structure;
-    estimate.names = structure.parameter_names();
-    estimate.theta = all.head(count);
-    estimate.models = structure.models(estimate.theta);
-    estimate.covariance = seconds.asDiagonal() * solution.covariance.topLeftCorner(count, count) * seconds.asDiagonal();
-    estimate.condition_number = solution.condition_number;
-    fill_errors(estimate, model, data, solution);
-    fill_start(estimate, model, condition, all);
-    estimate.termination = solution.termination;
-    for (const FitIteration& iteration : solution.trace)
-        estimate.trace.push_back({iteration.theta.head(count).cwiseProduct(seconds), iteration.loss, iteration.change});
-    return estimate;
+    Fit fit = search(model, structure, data, first_point(model, structure, theta_start), options);
+    fill_errors(fit, model, data);
+    keep_parameters(fit, model, condition, model.seconds());
+    fit.structure = structure;
+    return fit;
 }
+
+// The later of two in the order converged, no progress, iteration limit, diverged, cancelled.
+Termination worse(Termination a, Termination b) {
+    const auto rank = [](Termination termination) {
+        switch (termination) {
+            case Termination::kConverged:
+                return 0;
+            case Termination::kNoProgress:
+                return 1;
+            case Termination::kIterationLimit:
+                return 2;
+            case Termination::kDiverged:
+                return 3;
+            case Termination::kCancelled:
+                return 4;
+        }
+        return 4;
+    };
+    return rank(a) < rank(b) ? b : a;
+}
+
+std::vector<FitIteration> joined_trace(Index parameters, const std::vector<OutputProblem>& problems,
+                                       const std::vector<Fit>& estimates) {
+    std::size_t length = 0;
+    for (const Fit& estimate : estimates) length = std::max(length, estimate.trace.size());
+    std::vector<FitIteration> trace(length);
+    for (std::size_t k = 0; k < length; ++k) {
+        trace[k].theta.resize(parameters);
+        for (std::size_t i = 0; i < estimates.size(); ++i) {
+            const auto& own = estimates[i].trace;
+            const bool empty = own.empty();
+            const std::size_t position = std::min(k, empty ? 0 : own.size() - 1);
+            trace[k].theta(problems[i].places) = empty ? estimates[i].theta : own[position].theta;
+            trace[k].loss += (empty ? estimates[i].loss : own[position].loss) / static_cast<double>(estimates.size());
+            if (k < own.size()) trace[k].change = std::max(trace[k].change, own[k].change);
+        }
+    }
+    return trace;
+}
+
+}  // namespace
+
+bool outputs_are_separate(const TransferStructure& structure) {
+    for (Index output = 1; output < structure.outputs; ++output)
+        for (Index input = 0; input < structure.inputs; ++input)
+            for (Index i = 0; i < output * structure.inputs; ++i)
+                if (structure.channels[static_cast<std::size_t>(i)].denominator ==
+                    structure.channel(output, input).denominator)
+                    return false;
+    return true;
+}
+
+OutputProblem output_problem(const IdData& data, const TransferStructure& structure, Index output) {
+    std::vector<Index> inputs(static_cast<std::size_t>(structure.inputs));
+    std::iota(inputs.begin(), inputs.end(), Index{1});
+    OutputProblem problem{data.select({output + 1}, inputs), {}, {}};
+    TransferStructure& own = problem.structure;
+    own.inputs = structure.inputs;
+    own.free_delays = structure.free_delays;
+    std::vector<Index> denominators;  // of the whole structure, in the order of the own ones
+    for (Index input = 0; input < structure.inputs; ++input) {
+        TransferChannel channel = structure.channel(output, input);
+        auto known = std::find(denominators.begin(), denominators.end(), channel.denominator);
+        if (known == denominators.end()) {
+            own.poles.push_back(structure.poles[static_cast<std::size_t>(channel.denominator)]);
+            known = denominators.insert(known, channel.denominator);
+        }
+        channel.denominator = known - denominators.begin();
+        own.channels.push_back(channel);
+    }
+    problem.places.resize(static_cast<std::size_t>(own.parameter_count()));
+    const auto place = [&](Index here, Index there, Index count) {
+        std::iota(problem.places.begin() + here, problem.places.begin() + here + count, there);
+    };
+    for (std::size_t d = 0; d < denominators.size(); ++d)
+        place(own.a_place(static_cast<Index>(d)), structure.a_place(denominators[d]), own.poles[d]);
+    for (Index input = 0; input < structure.inputs; ++input)
+        place(own.b_place(0, input), structure.b_place(output, input),
+              own.channel(0, input).zeros + 1 + (own.free_delays ? 1 : 0));
+    return problem;
+}
+
+Fit join_outputs(const TransferStructure& structure, const std::vector<OutputProblem>& problems,
+                 const std::vector<Fit>& estimates) {
+    const Index count = structure.parameter_count(), outputs = structure.outputs;
+    Fit all;
+    all.structure = structure;
+    all.names = structure.parameter_names();
+    all.theta.resize(count);
+    all.covariance = Matrix::Zero(count, count);
+    all.noise_variance.resize(outputs);
+    all.fit_percent.resize(outputs);
+    all.start = estimates.front().start;
+    all.initial_values.resize(estimates.front().initial_values.size());
+    all.offsets.resize(estimates.front().offsets.rows(), outputs);
+    all.termination = Termination::kConverged;
+    for (std::size_t i = 0; i < estimates.size(); ++i) {
+        const Fit& one = estimates[i];
+        const auto& places = problems[i].places;
+        const Index output = static_cast<Index>(i);
+        all.theta(places) = one.theta;
+        all.covariance(places, places) = one.covariance;
+        all.noise_variance[output] = one.noise_variance[0];
+        all.fit_percent[output] = one.fit_percent[0];
+        all.offsets.col(output) = one.offsets.col(0);
+        for (std::size_t e = 0; e < one.initial_values.size(); ++e) {
+            Vector joined(all.initial_values[e].size() + one.initial_values[e].size());
+            joined << all.initial_values[e], one.initial_values[e];
+            all.initial_values[e] = joined;
+        }
+        all.loss += one.loss / static_cast<double>(outputs);
+        all.condition_number = std::max(all.condition_number, one.condition_number);
+        all.termination = worse(all.termination, one.termination);
+    }
+    all.models = structure.models(all.theta);
+    all.trace = joined_trace(count, problems, estimates);
+    return all;
+}
+
+void keep_parameters(Fit& fit, const TransferOutput& model, const StartCondition& condition, const Vector& seconds) {
+    const Index linear = model.linear_count(), own = fit.theta.size() - linear;
+    const Index before = model.parameter_count() - fit.theta.size();  // other parameters than the model's are fewer
+    const Vector all = fit.theta.cwiseProduct(seconds), units = seconds.head(own);
+    fit.theta = all.head(own);
+    fit.covariance = (units.asDiagonal() * fit.covariance.topLeftCorner(own, own) * units.asDiagonal()).eval();
+    for (FitIteration& iteration : fit.trace) iteration.theta = iteration.theta.head(own).cwiseProduct(units).eval();
+    fit.start = condition;
+    fit.offsets = Matrix::Zero(static_cast<Index>(model.experiment_count()), model.weights().size());
+    fit.initial_values.clear();
+    for (std::size_t e = 0; e < model.experiment_count(); ++e) {
+        const Index first = model.initial_place(e, 0), next = model.initial_place(e + 1, 0);
+        if (condition.state == InitialState::kEstimate)
+            fit.initial_values.emplace_back(all.segment(first - before, next - first));
+        for (Index o = 0; o < fit.offsets.cols() && condition.offset; ++o)
+            fit.offsets(static_cast<Index>(e), o) = all[model.offset_place(e, o) - before];
+    }
+}
+
+Vector search_point(const Fit& fit, const TransferOutput& model, const Vector& seconds) {
+    const Index before = model.parameter_count() - seconds.size();
+    Vector theta = Vector::Zero(seconds.size());
+    theta.head(fit.theta.size()) = fit.theta;
+    for (std::size_t e = 0; e < fit.initial_values.size(); ++e)
+        theta.segment(model.initial_place(e, 0) - before, fit.initial_values[e].size()) = fit.initial_values[e];
+    for (std::size_t e = 0; e < model.experiment_count() && model.has_offset(); ++e)
+        for (Index o = 0; o < fit.offsets.cols(); ++o)
+            theta[model.offset_place(e, o) - before] = fit.offsets(static_cast<Index>(e), o);
+    return theta.cwiseQuotient(seconds);
+}
+
+namespace {
 
 Fit refine_each_output(const IdData& data, const TransferStructure& structure, const StartCondition& condition,
                        const Vector& theta_start, const FitOptions& options) {
@@ -190,19 +308,6 @@ Index value_count(const TransferStructure& structure, const StartCondition& cond
                 if (!known) values += structure.poles[static_cast<std::size_t>(denominator)];
             }
     return structure.parameter_count() + experiments * values;
-}
-
-double bic_of(const Fit& estimate, const IdData& data) {
-    const Index N = data.sample_count(), experiments = static_cast<Index>(data.experiments.size());
-    const Vector variation = output_variations(data), power = output_powers(data);
-    Index values = value_count(estimate.structure, estimate.start, experiments);
-    double sum = 0;
-    for (Index output = 0; output < data.output_count(); ++output) {
-        const double share = 1 - estimate.fit_percent[output] / 100;
-        sum += bic_of_loss(share * share * variation[output] / static_cast<double>(N), power[output], N, values);
-        values = 0;  // counted once
-    }
-    return sum;
 }
 
 Fit refine_output_error(const IdData& data, const TransferStructure& structure, const StartCondition& condition,

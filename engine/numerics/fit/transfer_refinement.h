@@ -1,4 +1,7 @@
 #pragma once
+#include <vector>
+
+#include "numerics/criteria/transfer_output.h"
 #include "numerics/fit/fit.h"
 
 namespace dynlab::inline numerics {
@@ -26,7 +29,29 @@ Fit refine_output_error(const IdData& data, const TransferStructure& structure, 
 /// All values estimated under a start condition: parameters, initial values and offsets.
 Index value_count(const TransferStructure& structure, const StartCondition& condition, Index experiments);
 
-/// BIC of an estimate: of all outputs together, each with its own noise.
-double bic_of(const Fit& estimate, const IdData& data);
+/// Makes of a fit in the parameters of a search, [own ones; the initial values and offsets of `model`], one in seconds:
+/// its own parameters, their covariance and trace in the units `seconds`, start condition, initial values and offsets.
+void keep_parameters(Fit& fit, const TransferOutput& model, const StartCondition& condition, const Vector& seconds);
+/// The way back: where a search begins at this fit.
+Vector search_point(const Fit& fit, const TransferOutput& model, const Vector& seconds);
+
+/// One output of a problem whose outputs share no denominator, as a problem of its own.
+struct OutputProblem {
+    IdData data;                  ///< all inputs, one output
+    TransferStructure structure;  ///< its channels
+    std::vector<Index> places;    ///< of its parameters among all
+};
+
+/// Whether no denominator serves channels of two outputs.
+bool outputs_are_separate(const TransferStructure& structure);
+
+/// The fit of one output (0-based) by itself.
+OutputProblem output_problem(const IdData& data, const TransferStructure& structure, Index output);
+
+/// The estimates of all outputs as one estimate of the whole structure: covariance block by block, the worst
+/// termination and condition number; iteration k of the trace has each output at its k-th or last iteration. Standard
+/// errors, warnings and message are left empty: describe_search writes them.
+Fit join_outputs(const TransferStructure& structure, const std::vector<OutputProblem>& problems,
+                 const std::vector<Fit>& estimates);
 
 }  // namespace dynlab::inline numerics

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "numerics/fit/data_checks.h"
+#include "numerics/fit/diagnosis.h"
+#include "numerics/fit/output_error.h"
 #include "numerics/fit/refined_iteration.h"
-#include "numerics/fit/start_choice.h"
 #include "numerics/fit/transfer_refinement.h"
 #include "numerics/signals/correlation.h"
 
@@ -51,8 +51,8 @@ DelayPoint best_after_passes(const IdData& data, const TransferStructure& struct
     DelayPoint best;
     for (const Vector& start : starts) {
         if (!start.allFinite()) continue;
-        const RefinedSolution trial = iterate_refined(
-            data, structure, start, {kGridPasses, kTrialTolerance, options.hold_y, options.cancel, {}, false});
+        const RefinedSolution trial =
+            iterate_refined(data, structure, start, options.limited(kGridPasses, kTrialTolerance));
         const double loss = simulation_loss(data, structure, trial.theta);
         if (loss < best.loss) best = {trial.theta, loss};
     }
@@ -60,7 +60,7 @@ DelayPoint best_after_passes(const IdData& data, const TransferStructure& struct
 }
 
 Vector fresh_start(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
-    if (!options.lambda) return find_start(data, structure, options.hold_y, options.cancel);
+    if (!options.lambda) return find_start(data, structure, options);
     return filtered_start(data, structure, *options.lambda, options.hold_y);
 }
 
@@ -143,13 +143,12 @@ double likely_largest_delay(const IdData& data) {
 Vector start_at(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
     const auto start_of = [&](const IdData& record) {
         const Vector theta = fresh_start(record, structure, options);
-        return theta.allFinite() ? theta : find_start(record, structure, options.hold_y, options.cancel);
+        return theta.allFinite() ? theta : find_start(record, structure, options);
     };
     if (data.sample_count() <= 2 * kTrialSamples) return start_of(data);
     const IdData beginning = beginning_of(data, kTrialSamples);
-    const RefinedSolution trial =
-        iterate_refined(beginning, structure, start_of(beginning),
-                        {options.max_iterations, kTrialTolerance, options.hold_y, options.cancel, {}, false});
+    const RefinedSolution trial = iterate_refined(beginning, structure, start_of(beginning),
+                                                  options.limited(options.max_iterations, kTrialTolerance));
     return trial.termination == Termination::kConverged ? trial.theta : start_of(data);
 }
 
@@ -178,8 +177,7 @@ DelayScan scan_delays(const IdData& data, const TransferStructure& structure, co
         at.channels[last].delay = scan.delays[static_cast<Index>(place)];
         scan.starts.push_back(with_delays(structure, at, curve[place].theta));
     }
-    if (scan.starts.empty())
-        scan.starts.push_back(with_delays(structure, at, find_start(beginning, at, options.hold_y, options.cancel)));
+    if (scan.starts.empty()) scan.starts.push_back(with_delays(structure, at, find_start(beginning, at, options)));
     return scan;
 }
 
@@ -200,17 +198,12 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
     else
         scan.starts = {start.size() > 0 ? start : start_at(for_start, structure, options)};
     const auto experiments = static_cast<Index>(record.experiments.size());
-    Fit best = smallest_bic(
-        start_conditions(record, options.initial_state, options.offset),
-        [&](const StartCondition& condition) {
-            return record.sample_count() * structure.outputs > value_count(structure, condition, experiments);
-        },
-        [&](const StartCondition& condition) {
-            Fit fit = refine_from(record, structure, condition, scan.starts, options);
-            const double bic = bic_of(fit, record);
-            return Candidate<Fit>{std::move(fit), bic};
-        });
-    check_transient(method, record, best, value_count(structure, best.start, experiments));
+    Fit best = fit_output_error(
+        {method, record, start_conditions(record, options.initial_state, options.offset),
+         [&](const StartCondition& condition) { return value_count(structure, condition, experiments); },
+         [&](const StartCondition& condition) {
+             return refine_from(record, structure, condition, scan.starts, options);
+         }});
     if (options.offset == Offset::kRemove) add_operating_points(best, centred.removed);
     best.delay_grid = scan.delays;
     best.delay_loss = scan.losses;

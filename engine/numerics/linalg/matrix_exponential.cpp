@@ -6,7 +6,7 @@
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "numerics/error.h"
-#include "numerics/linalg/balance.h"
+#include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/short_step.h"
 
 namespace dynlab::inline numerics {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "numerics/error.h"
-#include "numerics/linalg/balance.h"
 #include "numerics/linalg/decompositions.h"
 
 namespace dynlab::inline numerics {

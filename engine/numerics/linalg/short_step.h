@@ -1,7 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "numerics/linalg/balance.h"
+#include "numerics/linalg/decompositions.h"
 
 namespace dynlab::inline numerics {
 

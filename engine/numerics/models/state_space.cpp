@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "numerics/error.h"
-#include "numerics/linalg/balance.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/models/transfer_function.h"

@@ -4,9 +4,9 @@
 #include <span>
 
 #include "numerics/criteria/process_output.h"
-#include "numerics/criteria/transfer_sensitivity.h"
 #include "numerics/error.h"
-#include "numerics/fit/data_checks.h"
+#include "numerics/filters/transfer_sensitivity.h"
+#include "numerics/fit/diagnosis.h"
 #include "numerics/fit/discrete_fit.h"
 #include "numerics/fit/prediction_model.h"
 #include "numerics/linalg/least_squares.h"
@@ -250,9 +250,9 @@ Assessment assess_process(const IdData& data, const Fit& fit, const ResidualOpti
 }
 
 Assessment assess_prediction(const IdData& data, const Fit& fit, const ResidualOptions& options) {
-    check_polynomial_data("assess", data, fit.orders);
+    check_polynomial_data("assess", data, *fit.orders);
     const std::vector<SampledExperiment> experiments = sampled_experiments(data);
-    const PredictionModel model(fit.orders, fit.start, experiments);
+    const PredictionModel model(*fit.orders, fit.start, experiments);
     const Index d = fit.theta.size(), linear_unknowns = model.linear_count();
     const Vector theta = model.completed(fit.theta);
     Vector output;

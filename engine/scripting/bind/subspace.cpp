@@ -10,16 +10,16 @@
 namespace dynlab::inline scripting {
 namespace {
 
-Estimate estimate_of(const SubspaceEstimate& result) {
+Estimate estimate_of(const SubspaceFit& result) {
     Estimate estimate;
     estimate.method = "n4sid";
-    estimate.message = in_lua_words(result.message);
-    estimate.warnings = result.warnings;
-    estimate.numbers = {{"fit_percent", result.fit_percent[0]},
-                        {"loss", result.loss},
-                        {"condition_number", result.condition_number},
+    estimate.message = in_lua_words(result.fit.message);
+    estimate.warnings = result.fit.warnings;
+    estimate.numbers = {{"fit_percent", result.fit.fit_percent[0]},
+                        {"loss", result.fit.loss},
+                        {"condition_number", result.fit.condition_number},
                         {"block_rows", result.block_rows}};
-    estimate.vectors = {{"fits", result.fit_percent}, {"singular_values", result.singular_values}};
+    estimate.vectors = {{"fits", result.fit.fit_percent}, {"singular_values", result.singular_values}};
     estimate.matrices = {{"initial_states", result.initial_states}};
     return estimate;
 }
@@ -33,9 +33,9 @@ int estimate_n4sid(Call& call) {
     wanted.block_rows = static_cast<int>(options.size("BlockRows", wanted.block_rows));
     wanted.weighting = parse_subspace_weighting(options.text("Weighting", "MOESP"));
     wanted.feedthrough = options.flag("Feedthrough", wanted.feedthrough);
-    const SubspaceEstimate result = n4sid(data, static_cast<int>(order), wanted);
-    Model model{result.models.front()};
-    if (result.models.size() > 1) model.channels = result.models;
+    const SubspaceFit result = n4sid(data, static_cast<int>(order), wanted);
+    Model model{result.fit.models.front()};
+    if (result.fit.models.size() > 1) model.channels = result.fit.models;
     model.outputs = static_cast<std::size_t>(data.output_count());
     model.estimate = std::make_shared<Estimate>(estimate_of(result));
     model.system = std::make_shared<StateSpace>(result.system);

@@ -85,7 +85,7 @@ int give_fit(const Call& call, Estimate estimate, const Fit& fit) {
         model.channels = fit.models;
         model.outputs = static_cast<std::size_t>(fit.structure.outputs);
     }
-    model.process = fit.process;
+    if (fit.process) model.process = *fit.process;
     if (fit.polynomial) model.polynomial = std::make_shared<PolynomialModel>(*fit.polynomial);
     model.estimate = std::make_shared<Estimate>(std::move(estimate));
     push_object(call.state(), std::move(model));

@@ -7,6 +7,8 @@
 
 #include "numerics/estimators/step_test.h"
 #include "numerics/fit/fit.h"
+#include "numerics/models/polynomial_model.h"
+#include "numerics/models/process_model.h"
 #include "numerics/models/state_space.h"
 #include "numerics/validation/assessment.h"
 #include "numerics/validation/uncertainty.h"

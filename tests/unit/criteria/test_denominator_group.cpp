@@ -4,7 +4,7 @@
 #include <complex>
 
 #include "numerics/criteria/denominator_group.h"
-#include "numerics/criteria/transfer_sensitivity.h"
+#include "numerics/filters/transfer_sensitivity.h"
 #include "numerics/linalg/polynomial.h"
 #include "support/transfer_cases.h"
 

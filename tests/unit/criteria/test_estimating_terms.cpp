@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "numerics/filters/filter_chain.h"
 #include "numerics/filters/regression_moments.h"
 #include "support/transfer_cases.h"
 

@@ -60,7 +60,7 @@ TEST(process_output, sensitivities_agree_with_differences) {  // oracle: central
                 const IdData data = IdData::merge({some_record(60, regular), some_record(41, regular)});
                 const TransferOutput transfer(transfer_structure(model.structure),
                                               {estimate ? InitialState::kEstimate : InitialState::kSteady, true}, data,
-                                              0, 20, model.structure.integrator);
+                                              0, 20, at_rest(model.structure));
                 const Reparametrised output = process_output(model.structure, transfer);
                 Vector theta = Vector::Constant(output.parameter_count(), 0.3), y, plus, minus;
                 theta.head(model.parameters.size()) = model.parameters;

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "numerics/criteria/denominator_group.h"
+#include "numerics/criteria/estimating_terms.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/validation/robust_covariance.h"
 #include "support/thrown_message.h"
@@ -30,8 +30,8 @@ TEST(lssvf, equals_least_squares_on_the_columns_of_svf) {  // oracle: second rou
     const LeastSquares expected = solve_least_squares(Phi, y.col(0));
     const Fit found = lssvf(data, kCourse, cutoff(3));
     EXPECT_LT(relative_difference(found.theta, expected.solution), 1e-11);
-    const EstimatingTerms terms =
-        DenominatorGroup(data, kCourse, 0, Hold::kFoh).terms(values({1, 6, 9}), 1, found.theta);
+    const DenominatorGroup group(data, kCourse, 0, Hold::kFoh);
+    const EstimatingTerms terms = estimating_terms(group, values({1, 6, 9}), 1, found.theta);
     const Matrix covariance = robust_covariance(expected.inverse_gram, terms.Z, terms.errors).covariance;
     EXPECT_LT(relative_difference(found.covariance.diagonal(), covariance.diagonal()), 1e-9);
     EXPECT_EQ(found.names, (std::vector<std::string>{"a1", "a2", "b0"}));

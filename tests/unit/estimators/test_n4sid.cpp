@@ -77,22 +77,22 @@ TEST(n4sid, recovers_noise_free_systems) {  // oracle: the simulated system
                 const IdData data = IdData::merge({record(system, 400, 0, 1), record(system, 300, 0, 5)});
                 const auto result = n4sid(data, 3, with(weighting, feedthrough));
                 EXPECT_LT(distance(result.system.A.eigenvalues(), system.A.eigenvalues()), 1e-7);
-                EXPECT_LT(markov_distance(result.system, system), 1e-7) << result.message;
-                EXPECT_GT(result.fit_percent.minCoeff(), 100 - 1e-5);
-                EXPECT_TRUE(result.warnings.empty()) << result.message;
+                EXPECT_LT(markov_distance(result.system, system), 1e-7) << result.fit.message;
+                EXPECT_GT(result.fit.fit_percent.minCoeff(), 100 - 1e-5);
+                EXPECT_TRUE(result.fit.warnings.empty()) << result.fit.message;
             }
 }
 
 TEST(n4sid, transfer_functions_are_those_of_the_system) {  // oracle: the impulse response
     const StateSpace system = square_system(true);
     const auto result = n4sid(record(system, 500, 0, 3), 3, with(SubspaceWeighting::kMoesp, true));
-    ASSERT_EQ(result.models.size(), 4u);
+    ASSERT_EQ(result.fit.models.size(), 4u);
     const Complex z = std::polar(1.0, 0.7);
     const Eigen::MatrixXcd inverse = (z * Eigen::MatrixXcd::Identity(3, 3) - system.A).inverse();
     const Eigen::MatrixXcd response = system.C * inverse * system.B + system.D;
     for (std::size_t i = 0; i < 4; ++i) {
         const auto output = static_cast<Index>(i / 2), input = static_cast<Index>(i % 2);
-        EXPECT_LT(std::abs(result.models[i].at(z) - response(output, input)), 1e-6);
+        EXPECT_LT(std::abs(result.fit.models[i].at(z) - response(output, input)), 1e-6);
     }
 }
 
@@ -172,7 +172,7 @@ TEST(n4sid, noise_averages_out) {  // oracle: consistency, error ~ 1/sqrt(N), fi
 
 TEST(n4sid, tells_of_more_states_than_the_data_show) {  // oracle: the simulated order
     const auto result = n4sid(record(square_system(false), 400, 0, 1), 6);
-    EXPECT_THAT(result.message, HasSubstr("The data show 3 states only"));
+    EXPECT_THAT(result.fit.message, HasSubstr("The data show 3 states only"));
 }
 
 TEST(n4sid, refuses_what_it_cannot_use) {  // oracle: definitions

@@ -4,7 +4,7 @@
 
 #include <Eigen/Dense>
 
-#include "numerics/criteria/transfer_sensitivity.h"
+#include "numerics/filters/transfer_sensitivity.h"
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"

@@ -1,4 +1,5 @@
 #include "numerics/filters/delta_regression.h"
+#include "numerics/filters/filter_chain.h"
 
 #include <gtest/gtest.h>
 

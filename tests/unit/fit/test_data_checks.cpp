@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "numerics/fit/data_checks.h"
+#include "numerics/fit/diagnosis.h"
 #include "support/thrown_message.h"
 #include "support/transfer_cases.h"
 
@@ -37,17 +37,7 @@ TEST(data_checks, of_transfer_functions) {  // oracle: the promises of the heade
     EXPECT_EQ(refusal(with_signals(data, y, Matrix::Ones(u.rows(), 1)), kSecond), "") << "a step at the first sample";
 }
 
-TEST(data_checks, of_difference_equations) {  // oracle: the promises of the header
-    const IdData data = course_record(0.1, 1);
-    const PolynomialOrders orders = PolynomialOrders::arx(1, {1}, {1});
-    const auto refusal = [](const IdData& given, const PolynomialOrders& asked) {
-        return thrown_message([&] { check_polynomial_data("method", given, asked); });
-    };
-    EXPECT_EQ(refusal(data, orders), "");
-    const Experiment& record = data.experiments[0];
-    EXPECT_THAT(refusal(IdData(record.y, record.u, data.time()), orders), HasSubstr("regularly sampled"));
-    EXPECT_THAT(refusal(data, PolynomialOrders::arx(1, {1, 1}, {1, 1})), HasSubstr("the data have 1 inputs"));
-    EXPECT_THAT(refusal(data.range(1, 5), PolynomialOrders::arx(1, {1}, {5})), HasSubstr("delay nk = 5"));
+TEST(data_checks, of_numbers_of_samples) {  // oracle: the definition
     EXPECT_EQ(thrown_message([] { check_sample_count("method", 5, 4); }), "");
     EXPECT_THAT(thrown_message([] { check_sample_count("method", 4, 4); }), HasSubstr("needs more samples than the 4"));
 }

@@ -101,13 +101,4 @@ TEST(diagnosis, a_delay_that_a_direct_term_hides) {  // oracle: the warning's ow
     EXPECT_THAT(fit.message, testing::Not(HasSubstr("Fix the delay")));
 }
 
-TEST(diagnosis, of_difference_equations) {  // oracle: poles written down
-    Fit stable = polynomial_fit(PolynomialOrders::arx(1, {1}, {1}), values({-0.5, 1}), 1);
-    warn_of_unstable_polynomials(stable);
-    EXPECT_THAT(stable.warnings, IsEmpty());
-    Fit unstable = polynomial_fit(PolynomialOrders::arx(1, {1}, {1}), values({-1.5, 1}), 1);
-    warn_of_unstable_polynomials(unstable);
-    EXPECT_THAT(unstable.warnings, ElementsAre(HasSubstr("pole outside or on the unit circle")));
-}
-
 }  // namespace test_diagnosis

@@ -47,7 +47,7 @@ const Vector kTimes = Vector::LinSpaced(50, 0, 5);
 
 TEST(output_error, finds_the_truth_of_exact_data) {  // oracle: analytic
     const Vector y = 2.5 * (-0.8 * kTimes).array().exp();
-    OutputErrorOptions options;
+    FitOptions options;
     options.tolerance = 1e-10;
     const auto solution = minimise_output_error(Decay(kTimes), y, Vector{{1.0, 0.1}}, options);
     EXPECT_EQ(solution.termination, Termination::kConverged);
@@ -58,7 +58,7 @@ TEST(output_error, finds_the_truth_of_exact_data) {  // oracle: analytic
 
 TEST(output_error, is_stationary_with_the_stated_covariance) {  // oracle: definition
     const Vector y = 2.5 * (-0.8 * kTimes).array().exp() + 0.1 * RandomStream(1).normal(50).array();
-    OutputErrorOptions options;
+    FitOptions options;
     options.tolerance = 1e-10;
     const Decay model = Decay(kTimes);
     const auto solution = minimise_output_error(model, y, Vector{{1.0, 0.1}}, options);
@@ -67,7 +67,7 @@ TEST(output_error, is_stationary_with_the_stated_covariance) {  // oracle: defin
     model.simulate(solution.theta, output, &J);
     EXPECT_LT((J.transpose() * (y - output)).cwiseAbs().maxCoeff(), 1e-8);
     const double variance = (y - output).squaredNorm() / 48;
-    EXPECT_NEAR(solution.noise_variance, variance, 1e-14);
+    EXPECT_NEAR(solution.noise_variance[0], variance, 1e-14);
     const Matrix P = variance * (J.transpose() * J).inverse();
     EXPECT_LT((solution.covariance - P).cwiseAbs().maxCoeff(), 1e-12);
     for (std::size_t i = 1; i < solution.trace.size(); ++i)
@@ -102,7 +102,7 @@ TEST(output_error, survives_a_hopeless_start) {  // oracle: always a finite answ
 
 TEST(output_error, stops_when_told) {  // oracle: definition
     const Vector y = 2.5 * (-0.8 * kTimes).array().exp();
-    OutputErrorOptions options;
+    FitOptions options;
     options.max_iterations = 2;
     auto solution = minimise_output_error(Decay(kTimes), y, Vector{{1.0, 0.1}}, options);
     EXPECT_EQ(solution.termination, Termination::kIterationLimit);
@@ -117,7 +117,7 @@ TEST(output_error, refuses_misuse) {
     const Decay model = Decay(kTimes);
     EXPECT_THROW(minimise_output_error(model, Vector::Ones(50), Vector::Ones(3)), InvalidArgument);
     EXPECT_THROW(minimise_output_error(model, Vector::Ones(2), Vector::Ones(2)), InvalidArgument);
-    OutputErrorOptions options;
+    FitOptions options;
     options.tolerance = 0;
     EXPECT_THROW(options.validate(), InvalidArgument);
     options = {};

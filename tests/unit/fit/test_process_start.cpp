@@ -25,7 +25,7 @@ TEST(process_start, a_start_explains_most_of_the_output) {  // oracle: lsim at t
         data.hold = Hold::kFoh;
         const ProcessStructure& structure = model.structure;
         const TransferOutput output(transfer_structure(structure), {InitialState::kZero, false}, data, 0, 20,
-                                    structure.integrator);
+                                    at_rest(structure));
         const ProcessScan scan = scan_process_grid(structure, output, 21);
         ASSERT_FALSE(scan.starts.empty()) << structure.text();
         const double power = data.experiments[0].y.squaredNorm() / 900;
@@ -40,7 +40,8 @@ TEST(process_start, the_delay_shows_in_the_losses) {  // oracle: the simulated s
     const ProcessStructure structure = ProcessStructure::parse("P1D");
     const Vector y = lsim(ProcessModel(structure, values({2, 6, 13})).transfer_function(), u, 1);
     const IdData data(Matrix(y), Matrix(u), 1);
-    const TransferOutput output(transfer_structure(structure), {InitialState::kZero, false}, data, 0, 40);
+    const TransferOutput output(transfer_structure(structure), {InitialState::kZero, false}, data, 0, 40,
+                                at_rest(structure));
     const ProcessScan scan = scan_process_grid(structure, output, 41);
     Index best = 0;
     scan.losses.minCoeff(&best);

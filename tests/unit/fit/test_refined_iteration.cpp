@@ -26,9 +26,9 @@ const Vector kTruth{{2, 5, 1, 3}};
 
 TEST(refined_iteration, an_exact_record_gives_its_system) {  // oracle: the system that made the record
     const IdData data = record(600, 0);
-    RefinedOptions options;
+    FitOptions options;
     options.hold_y = Hold::kFoh;
-    const Vector start = find_start(data, kStructure, options.hold_y);
+    const Vector start = find_start(data, kStructure, options);
     const RefinedSolution found = iterate_refined(data, kStructure, start, options);
     EXPECT_EQ(found.termination, Termination::kConverged);
     EXPECT_LT((found.theta - kTruth).cwiseQuotient(kTruth).cwiseAbs().maxCoeff(), 1e-6);
@@ -39,10 +39,10 @@ TEST(refined_iteration, an_exact_record_gives_its_system) {  // oracle: the syst
 // simulation error; its gradient is taken by central differences of the loss of an independent simulation.
 TEST(refined_iteration, ends_where_the_simulation_error_is_stationary) {
     const IdData data = record(2000, 0.05);
-    RefinedOptions options;
+    FitOptions options;
     options.tolerance = 1e-10;
     options.max_iterations = 200;
-    const Vector start = find_start(data, kStructure, options.hold_y);
+    const Vector start = find_start(data, kStructure, options);
     const RefinedSolution found = iterate_refined(data, kStructure, start, options);
     ASSERT_EQ(found.termination, Termination::kConverged);
     const Vector t = kTs * Vector::LinSpaced(2000, 0, 1999);

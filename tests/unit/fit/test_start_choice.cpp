@@ -1,32 +1,36 @@
 #include <gtest/gtest.h>
 
-#include "numerics/fit/start_choice.h"
+#include <cmath>
+
+#include "numerics/fit/output_error.h"
+#include "numerics/signals/random.h"
 
 namespace test_start_choice {
 
 using namespace dynlab;
 
-struct Named {
-    int name = 0;
-    Termination termination = Termination::kConverged;
-};
-
 const std::vector<StartCondition> kThree = {
     {InitialState::kZero, false}, {InitialState::kSteady, false}, {InitialState::kEstimate, false}};
 
-/// The name of the fit that is kept, with these values of BIC and ends, where only some have enough samples.
+/// The place of the fit that is kept, with these values of BIC and ends, where only some have enough samples.
 int kept(const std::vector<double>& bic, const std::vector<bool>& enough, const std::vector<Termination>& ends,
          int* fitted = nullptr) {
+    constexpr Index kSamples = 50;
+    const IdData data(Matrix(RandomStream(1).normal(kSamples)), Matrix(RandomStream(2).normal(kSamples)), 1);
     int count = 0;
-    const Named best = smallest_bic(
-        kThree, [&](const StartCondition& c) { return enough[static_cast<std::size_t>(c.state)]; },
-        [&](const StartCondition& c) {
-            ++count;
-            const auto i = static_cast<std::size_t>(c.state);
-            return Candidate<Named>{{static_cast<int>(i), ends[i]}, bic[i]};
-        });
+    const auto place = [](const StartCondition& c) { return static_cast<std::size_t>(c.state); };
+    const Fit best = fit_output_error({"method", data, kThree,
+                                       [&](const StartCondition& c) { return enough[place(c)] ? 0 : kSamples; },
+                                       [&](const StartCondition& c) {
+                                           ++count;
+                                           Fit fit;
+                                           fit.start = c;
+                                           fit.loss = std::exp(bic[place(c)]);  // without parameters its BIC
+                                           fit.termination = ends[place(c)];
+                                           return fit;
+                                       }});
     if (fitted != nullptr) *fitted = count;
-    return best.name;
+    return static_cast<int>(best.start.state);
 }
 
 TEST(start_choice, keeps_the_smallest_bic) {  // oracle: the definition

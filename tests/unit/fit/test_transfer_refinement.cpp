@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "numerics/error.h"
-#include "numerics/fit/data_checks.h"
+#include "numerics/fit/diagnosis.h"
 #include "numerics/fit/transfer_refinement.h"
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "numerics/fit/data_checks.h"
+#include "numerics/fit/diagnosis.h"
 #include "numerics/fit/refined_iteration.h"
 #include "numerics/fit/transfer_search.h"
 #include "numerics/signals/random.h"
@@ -45,8 +45,7 @@ TEST(transfer_search, the_order_of_unequal_experiments_does_not_matter) {  // or
     EXPECT_EQ(one.delays, other.delays);
     EXPECT_LT(relative_difference(one.losses, other.losses), 1e-9);
     const TransferStructure fixed = TransferStructure::single(2, 0, 0.4);
-    EXPECT_LT(relative_difference(find_start(orders.fast_first, fixed, Hold::kFoh),
-                                  find_start(orders.slow_first, fixed, Hold::kFoh)),
+    EXPECT_LT(relative_difference(find_start(orders.fast_first, fixed, {}), find_start(orders.slow_first, fixed, {})),
               1e-9);
 }
 

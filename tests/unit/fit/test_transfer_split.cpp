@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "numerics/fit/transfer_split.h"
+#include "numerics/fit/transfer_refinement.h"
 #include "support/transfer_cases.h"
 
 namespace test_transfer_split {

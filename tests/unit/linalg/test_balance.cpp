@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "numerics/linalg/balance.h"
+#include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/polynomial.h"
 
 namespace test_balance {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <functional>
 
-#include "numerics/criteria/transfer_sensitivity.h"
 #include "numerics/error.h"
+#include "numerics/filters/transfer_sensitivity.h"
 #include "numerics/signals/random.h"
 #include "numerics/simulation/frequency_response.h"
 #include "numerics/simulation/time_response.h"

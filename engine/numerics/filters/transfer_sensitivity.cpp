@@ -1,4 +1,4 @@
-#include "numerics/criteria/transfer_sensitivity.h"
+#include "numerics/filters/transfer_sensitivity.h"
 
 #include <algorithm>
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "numerics/criteria/transfer_sensitivity.h"
 #include "numerics/error.h"
+#include "numerics/filters/transfer_sensitivity.h"
 #include "numerics/signals/random.h"
 
 namespace test_transfer_sensitivity {

@@ -1,0 +1,24 @@
+#pragma once
+#include <string>
+
+#include "numerics/fit/diagnosis.h"
+#include "numerics/models/polynomial_model.h"
+
+namespace dynlab::inline numerics {
+
+// What all fits of difference equations have in common.
+
+/// Throws InvalidArgument, which begins with `method`, for data of several outputs or of other inputs than the orders
+/// have, with delays not shorter than each record, and those of check_sampled_data.
+void check_polynomial_data(const std::string& method, const IdData& data, const PolynomialOrders& orders);
+
+/// A fit with its model and names made from the values; all else is to be filled.
+Fit polynomial_fit(const PolynomialOrders& orders, const VectorView& theta, double Ts);
+
+/// The same of a search whose parameters begin with those of the orders: their values, covariance and standard errors.
+void make_polynomial(Fit& fit, const PolynomialOrders& orders, double Ts);
+
+/// Warns of a model that is not stable.
+void warn_of_unstable_polynomials(Fit& fit);
+
+}  // namespace dynlab::inline numerics

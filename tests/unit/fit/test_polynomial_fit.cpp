@@ -1,0 +1,47 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "numerics/fit/polynomial_fit.h"
+#include "support/thrown_message.h"
+#include "support/transfer_cases.h"
+
+namespace test_polynomial_fit {
+
+using namespace dynlab;
+using namespace dynlab::test;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST(polynomial_fit, refuses_other_data) {  // oracle: the promises of the header
+    const IdData data = course_record(0.1, 1);
+    const PolynomialOrders orders = PolynomialOrders::arx(1, {1}, {1});
+    const auto refusal = [](const IdData& given, const PolynomialOrders& asked) {
+        return thrown_message([&] { check_polynomial_data("method", given, asked); });
+    };
+    EXPECT_EQ(refusal(data, orders), "");
+    const Experiment& record = data.experiments[0];
+    EXPECT_THAT(refusal(IdData(record.y, record.u, data.time()), orders), HasSubstr("regularly sampled"));
+    EXPECT_THAT(refusal(data, PolynomialOrders::arx(1, {1, 1}, {1, 1})), HasSubstr("the data have 1 inputs"));
+    EXPECT_THAT(refusal(data.range(1, 5), PolynomialOrders::arx(1, {1}, {5})), HasSubstr("delay nk = 5"));
+}
+
+TEST(polynomial_fit, has_the_model_of_its_values) {  // oracle: values written down
+    const PolynomialOrders orders = PolynomialOrders::arx(1, {2}, {1});
+    const Fit fit = polynomial_fit(orders, values({-0.5, 1, 2}), 0.1);
+    EXPECT_THAT(fit.names, ElementsAre("a1", "b1", "b2"));
+    EXPECT_EQ(fit.polynomial->A, values({1, -0.5}));
+    EXPECT_EQ(fit.polynomial->B[0], values({0, 1, 2}));
+    EXPECT_EQ(fit.orders->nb, orders.nb);
+}
+
+TEST(polynomial_fit, tells_of_models_that_are_not_stable) {  // oracle: poles written down
+    Fit stable = polynomial_fit(PolynomialOrders::arx(1, {1}, {1}), values({-0.5, 1}), 1);
+    warn_of_unstable_polynomials(stable);
+    EXPECT_THAT(stable.warnings, IsEmpty());
+    Fit unstable = polynomial_fit(PolynomialOrders::arx(1, {1}, {1}), values({-1.5, 1}), 1);
+    warn_of_unstable_polynomials(unstable);
+    EXPECT_THAT(unstable.warnings, ElementsAre(HasSubstr("pole outside or on the unit circle")));
+}
+
+}  // namespace test_polynomial_fit
