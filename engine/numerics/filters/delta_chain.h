@@ -24,4 +24,8 @@ struct DeltaChain {
 /// Largest matrix of products of two chains' columns, without memory of its own on the heap.
 using ColumnMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostDeltaOrder + 1, kMostDeltaOrder + 1>;
 
+/// Steps without a signal after which less than rounding is left of any state, whatever its size in units of the
+/// chain's mean pole; an eighth too many at most. `most` where it would be as many.
+Index memory_length(const DeltaChain& chain, Index most);
+
 }  // namespace dynlab::inline numerics

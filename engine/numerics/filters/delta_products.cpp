@@ -1,7 +1,6 @@
 #include "numerics/filters/delta_products.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "numerics/filters/lanes.h"
 
@@ -12,7 +11,7 @@ namespace {
 using Part = Lanes::Part;
 constexpr int kDeltaLanes = Lanes::kWidth;
 constexpr Index kShortestDeltaSegment = 8;  // samples a lane; shorter ones are not worth it
-constexpr Index kDeltaBlock = 32;           // samples a lane that are looked at at a time
+constexpr Index kDeltaBlock = 128;          // samples a lane that are looked at at a time
 constexpr Index kDeltaStored = 256;         // a segment as short as this is read only once
 
 /// What both chains have come to, in all lanes.
@@ -34,54 +33,83 @@ constexpr int summed_row(int n1, int n2, int s) {
     return (std::max(0, s - n2) + std::min(n1, s)) / 2;
 }
 
-using DeltaLoop = void (*)(const DeltaChain&, const DeltaChain&, const Part* v, const Part* w, Index steps,
-                           const ReadAhead& ahead, DeltaState& state, DeltaSums& sums);
+using SumLoop = void (*)(const DeltaChain&, const DeltaChain&, const Part* v, const Part* w, Index steps,
+                         const ReadAhead& ahead, DeltaState& state, DeltaSums& sums);
 
-template <int n1, int n2, bool kSums>
-void delta_loop(const DeltaChain& first, const DeltaChain& second, const Part* v, const Part* w, Index steps,
-                const ReadAhead& ahead, DeltaState& state, DeltaSums& sums) {
+template <int n1, int n2>
+void sum_loop(const DeltaChain& first, const DeltaChain& second, const Part* v, const Part* w, Index steps,
+              const ReadAhead& ahead, DeltaState& state, DeltaSums& sums) {
     Part x[n1 + 1], y[n2 + 1], of_x[n1 + 1], both[n1 + n2 + 1], of_y[n2 + 1];
     double alpha[n1 + 1], beta[n2 + 1];
     std::copy_n(first.alpha.data(), n1, alpha);
     std::copy_n(second.alpha.data(), n2, beta);
     repeat<n1>([&](auto j) { x[j] = state.first[j]; });
     repeat<n2>([&](auto j) { y[j] = state.second[j]; });
-    repeat<kSums ? n1 + 1 : 0>([&](auto j) { of_x[j] = sums.first[j]; });
-    repeat<kSums ? n1 + n2 + 1 : 0>([&](auto s) { both[s] = sums.both[s]; });
-    repeat<kSums ? n2 + 1 : 0>([&](auto j) { of_y[j] = sums.second[j]; });
+    repeat<n1 + 1>([&](auto j) { of_x[j] = sums.first[j]; });
+    repeat<n1 + n2 + 1>([&](auto s) { both[s] = sums.both[s]; });
+    repeat<n2 + 1>([&](auto j) { of_y[j] = sums.second[j]; });
     Index line = 0;
     for (Index k = 0; k < steps; ++k) {
-        if constexpr (kSums) {
-            __builtin_prefetch(ahead.first + line);
-            __builtin_prefetch(ahead.second + line);
-            line += ahead.segment;
-            if (k % kDeltaLanes == kDeltaLanes - 1) line += kDeltaLanes - kDeltaLanes * ahead.segment;
-        }
+        __builtin_prefetch(ahead.first + line);
+        __builtin_prefetch(ahead.second + line);
+        line += ahead.segment;
+        if (k % kDeltaLanes == kDeltaLanes - 1) line += kDeltaLanes - kDeltaLanes * ahead.segment;
         x[n1] = v[k];
         y[n2] = w[k];
         repeat<n1>([&](auto j) __attribute__((always_inline)) { x[n1] -= alpha[j] * x[j]; });
         repeat<n2>([&](auto j) __attribute__((always_inline)) { y[n2] -= beta[j] * y[j]; });
-        if constexpr (kSums) {
-            repeat<n1 + 1>([&](auto j) __attribute__((always_inline)) { of_x[j] += x[j] * x[j]; });
-            repeat<n1 + n2 + 1>([&](auto s) __attribute__((always_inline)) {
-                constexpr int j = summed_row(n1, n2, s);
-                both[s] += x[j] * y[s - j];
-            });
-            repeat<n2 + 1>([&](auto j) __attribute__((always_inline)) { of_y[j] += y[j] * y[j]; });
-        }
+        repeat<n1 + 1>([&](auto j) __attribute__((always_inline)) { of_x[j] += x[j] * x[j]; });
+        repeat<n1 + n2 + 1>([&](auto s) __attribute__((always_inline)) {
+            constexpr int j = summed_row(n1, n2, s);
+            both[s] += x[j] * y[s - j];
+        });
+        repeat<n2 + 1>([&](auto j) __attribute__((always_inline)) { of_y[j] += y[j] * y[j]; });
         repeat<n1>([&](auto j) __attribute__((always_inline)) { x[j] += x[j + 1]; });
         repeat<n2>([&](auto j) __attribute__((always_inline)) { y[j] += y[j + 1]; });
     }
     repeat<n1>([&](auto j) { state.first[j] = x[j]; });
     repeat<n2>([&](auto j) { state.second[j] = y[j]; });
-    repeat<kSums ? n1 + 1 : 0>([&](auto j) { sums.first[j] = of_x[j]; });
-    repeat<kSums ? n1 + n2 + 1 : 0>([&](auto s) { sums.both[s] = both[s]; });
-    repeat<kSums ? n2 + 1 : 0>([&](auto j) { sums.second[j] = of_y[j]; });
+    repeat<n1 + 1>([&](auto j) { sums.first[j] = of_x[j]; });
+    repeat<n1 + n2 + 1>([&](auto s) { sums.both[s] = both[s]; });
+    repeat<n2 + 1>([&](auto j) { sums.second[j] = of_y[j]; });
+}
+
+/// Filters only, and lets `free` move without a signal beside it: each alone would wait for itself.
+using FilterLoop = void (*)(const DeltaChain&, const DeltaChain&, const Part* v, const Part* w, Index steps,
+                            DeltaState& state, DeltaState& free);
+
+template <int n1, int n2>
+void filter_loop(const DeltaChain& first, const DeltaChain& second, const Part* v, const Part* w, Index steps,
+                 DeltaState& state, DeltaState& free) {
+    Part x[n1 + 1], y[n2 + 1], free_x[n1 + 1], free_y[n2 + 1];
+    double alpha[n1 + 1], beta[n2 + 1];
+    std::copy_n(first.alpha.data(), n1, alpha);
+    std::copy_n(second.alpha.data(), n2, beta);
+    repeat<n1>([&](auto j) { x[j] = state.first[j], free_x[j] = free.first[j]; });
+    repeat<n2>([&](auto j) { y[j] = state.second[j], free_y[j] = free.second[j]; });
+    for (Index k = 0; k < steps; ++k) {
+        x[n1] = v[k];
+        y[n2] = w[k];
+        free_x[n1] = free_y[n2] = Part{};
+        repeat<n1>([&](auto j) __attribute__((always_inline)) {
+            x[n1] -= alpha[j] * x[j];
+            free_x[n1] -= alpha[j] * free_x[j];
+        });
+        repeat<n2>([&](auto j) __attribute__((always_inline)) {
+            y[n2] -= beta[j] * y[j];
+            free_y[n2] -= beta[j] * free_y[j];
+        });
+        repeat<n1>([&](auto j) __attribute__((always_inline)) { x[j] += x[j + 1], free_x[j] += free_x[j + 1]; });
+        repeat<n2>([&](auto j) __attribute__((always_inline)) { y[j] += y[j + 1], free_y[j] += free_y[j + 1]; });
+    }
+    repeat<n1>([&](auto j) { state.first[j] = x[j], free.first[j] = free_x[j]; });
+    repeat<n2>([&](auto j) { state.second[j] = y[j], free.second[j] = free_y[j]; });
 }
 
 /// The loops for two orders: filtering alone, and with sums.
 struct DeltaLoops {
-    DeltaLoop filter = nullptr, sum = nullptr;
+    FilterLoop filter = nullptr;
+    SumLoop sum = nullptr;
 };
 
 /// Those that regressions with one to four poles need: an output (or a signal as it is) beside an input, whose order is
@@ -90,7 +118,7 @@ struct DeltaLoops {
 DeltaLoops loops_for(int order1, int order2) {
     DeltaLoops loops;
     const auto pair = [&](auto n1, auto n2) {
-        if (order1 == n1 && order2 == n2) loops = {delta_loop<n1, n2, false>, delta_loop<n1, n2, true>};
+        if (order1 == n1 && order2 == n2) loops = {filter_loop<n1, n2>, sum_loop<n1, n2>};
     };
     repeat<5>([&](auto i) { pair(std::integral_constant<int, 0>(), std::integral_constant<int, i + 1>()); });
     repeat<4>([&](auto i) {
@@ -108,48 +136,50 @@ DeltaLoops loops_for(int order1, int order2) {
 class FreeMotion {
   public:
     FreeMotion(const DeltaChain& first, const DeltaChain& second, const DeltaLoops& loops, Index segment)
-        : first_(first), second_(second), segment_(segment) {
-        constexpr Index kShort = 512;  // looking is no gain for segments as short as this
-        const Part nothing[kDeltaBlock] = {};
-        for (int column = 0; column < std::max(first.order, second.order); column += kDeltaLanes) {
-            DeltaState state;
-            DeltaSums sums;
-            for (int lane = 0; lane < kDeltaLanes && column + lane < kMostDeltaOrder; ++lane)
-                state.first[column + lane][lane] = state.second[column + lane][lane] = 1;
-            const Index most = column == 0 ? segment : back_;
-            Index k = 0;
-            while (k < most && (segment <= kShort || column > 0 || !forgotten(state))) {
-                const Index steps = std::min(most - k, kDeltaBlock);
-                loops.filter(first, second, nothing, nothing, steps, {nullptr, nullptr, 0}, state, sums);
-                k += steps;
-            }
-            back_ = k;
-            for (int j = 0; j < kMostDeltaOrder; ++j) {
-                columns1_[column / kDeltaLanes][j] = state.first[j];
-                columns2_[column / kDeltaLanes][j] = state.second[j];
-            }
+        : first_(first), second_(second), loops_(loops), segment_(segment), back_(segment) {
+        constexpr Index kShort = 2048;  // looking is no gain for segments as short as this
+        if (segment > kShort) back_ = std::max(memory_length(first, segment), memory_length(second, segment));
+        columns_[0] = unit_states(0);
+        for (int i = 1; i < kParts && back_ == segment && i * kDeltaLanes < std::max(first.order, second.order); ++i) {
+            columns_[i] = unit_states(i * kDeltaLanes);
+            move(columns_[i]);
         }
     }
 
     /// Samples before a lane's first one that its state remembers, or all of a segment.
     Index back() const { return back_; }
+    /// The first unit states, which the signals' own run takes along.
+    DeltaState& first_units() { return columns_[0]; }
     /// After a run from rest over the end of the segments, each lane's last state is where the next one begins.
     void hand_over(DeltaState& state) const {
-        hand_over(first_.order, columns1_, state.first);
-        hand_over(second_.order, columns2_, state.second);
+        hand_over(first_.order, &DeltaState::first, state.first);
+        hand_over(second_.order, &DeltaState::second, state.second);
     }
 
   private:
-    using Columns = Part[(kMostDeltaOrder + kDeltaLanes - 1) / kDeltaLanes][kMostDeltaOrder];
+    static constexpr int kParts = (kMostDeltaOrder + kDeltaLanes - 1) / kDeltaLanes;
 
-    void hand_over(int order, const Columns& columns, Part* state) const {
+    static DeltaState unit_states(int first) {
+        DeltaState state;
+        for (int lane = 0; lane < kDeltaLanes && first + lane < kMostDeltaOrder; ++lane)
+            state.first[first + lane][lane] = state.second[first + lane][lane] = 1;
+        return state;
+    }
+    void move(DeltaState& free) const {
+        const Part nothing[kDeltaBlock] = {};
+        DeltaState rest;
+        for (Index k = 0; k < segment_; k += kDeltaBlock)
+            loops_.filter(first_, second_, nothing, nothing, std::min(segment_ - k, kDeltaBlock), rest, free);
+    }
+    void hand_over(int order, Part (DeltaState::*own)[kMostDeltaOrder], Part* state) const {
         double x[kMostDeltaOrder] = {};
         for (int lane = 0; lane < kDeltaLanes; ++lane) {
             double next[kMostDeltaOrder];
             for (int j = 0; j < order; ++j) {
                 next[j] = state[j][lane];
                 if (back_ == segment_)
-                    for (int i = 0; i < order; ++i) next[j] += columns[i / kDeltaLanes][j][i % kDeltaLanes] * x[i];
+                    for (int i = 0; i < order; ++i)
+                        next[j] += (columns_[i / kDeltaLanes].*own)[j][i % kDeltaLanes] * x[i];
             }
             for (int j = 0; j < order; ++j) {
                 state[j][lane] = x[j];
@@ -158,32 +188,18 @@ class FreeMotion {
         }
     }
 
-    /// Whether less is left than rounding, differences being measured by the mean pole.
-    bool forgotten(const DeltaState& state) const {
-        return forgotten(first_, state.first) && forgotten(second_, state.second);
-    }
-    static bool forgotten(const DeltaChain& chain, const Part* state) {
-        constexpr double kStateDecay = 1e-19;
-        if (chain.order == 0) return true;
-        const double pole = std::pow(std::abs(chain.alpha[0]), 1.0 / chain.order);
-        double left = 0, row = 1;
-        for (int j = 0; j < chain.order; ++j, row *= pole) {
-            double scale = 1 / row;
-            for (int i = 0; i < std::min(chain.order, kDeltaLanes); ++i, scale *= pole)
-                left = std::max(left, std::abs(state[j][i]) * scale);
-        }
-        return left <= kStateDecay;
-    }
-
     const DeltaChain &first_, &second_;
-    Index segment_, back_ = 0;
-    Columns columns1_, columns2_;
+    const DeltaLoops& loops_;
+    Index segment_, back_;
+    DeltaState columns_[kParts];
 };
 
 double total(const Part& part) {
-    double sum = 0;
-    for (int lane = 0; lane < kDeltaLanes; ++lane) sum += part[lane];
-    return sum;
+    double sums[kDeltaLanes];
+    for (int lane = 0; lane < kDeltaLanes; ++lane) sums[lane] = part[lane];
+    for (int half = kDeltaLanes / 2; half > 0; half /= 2)
+        for (int lane = 0; lane < half; ++lane) sums[lane] += sums[lane + half];
+    return sums[0];
 }
 
 /// The samples of one chain, lane by lane; where the record ends, `one_lane` takes what no segment holds.
@@ -196,14 +212,18 @@ class LaneReader {
         if (from >= from_ && from + count <= from_ + count_) return block_ + (from - from_);
         from_ = from;
         count_ = count;
-        const Index first = from - chain_.begin, last = first + (kDeltaLanes - 1) * segment_ + count;
-        Index k = 0;
-        if (first >= 0 && last <= chain_.count) {
-            const double* const v = chain_.samples + first;
-            for (; k + kDeltaLanes <= count; k += kDeltaLanes) Lanes::gather_tile(v + k, segment_, block_ + k);
-        }
-        for (; k < count; ++k)
-            for (int lane = 0; lane < kDeltaLanes; ++lane) block_[k][lane] = sample(from + k + lane * segment_);
+        // All lanes see samples of the signal at the steps from `first` until `last`.
+        const Index first = std::max(from, chain_.begin);
+        const Index last = std::min(from + count, chain_.begin + chain_.count - (kDeltaLanes - 1) * segment_);
+        Index k = from;
+        while (k < from + count)
+            if (k >= first && k + kDeltaLanes <= last) {
+                Lanes::gather_tile(chain_.samples + (k - chain_.begin), segment_, block_ + (k - from));
+                k += kDeltaLanes;
+            } else {
+                for (int lane = 0; lane < kDeltaLanes; ++lane) block_[k - from][lane] = sample(k + lane * segment_);
+                ++k;
+            }
         return block_;
     }
     /// The same of one stretch, the other lanes being zero.
@@ -275,10 +295,10 @@ class DeltaRun {
 
     DeltaProducts products() {
         find_states();
-        run(0, segment_, true);
+        run(0, segment_, nullptr);
         keep_last_lane();
         in_lanes_ = false;
-        run(kDeltaLanes * segment_, N_, true);
+        run(kDeltaLanes * segment_, N_, nullptr);
         DeltaProducts result;
         result.first = own_products(first_.order, sums_.first, [&](int i, int j) { return growth_.first(i, j); });
         result.second = own_products(second_.order, sums_.second, [&](int i, int j) { return growth_.second(i, j); });
@@ -289,20 +309,21 @@ class DeltaRun {
   private:
     /// Each lane's first state: it runs over the end of the segment before its own.
     void find_states() {
-        const FreeMotion free_motion(first_, second_, loops_, segment_);
-        run(segment_ - free_motion.back(), segment_, false);
+        FreeMotion free_motion(first_, second_, loops_, segment_);
+        run(segment_ - free_motion.back(), segment_, &free_motion.first_units());
         free_motion.hand_over(state_);
     }
 
-    /// Steps from .. to - 1, of all segments or, at the end of the record, of one lane.
-    void run(Index from, Index to, bool with_sums) {
+    /// Steps from .. to - 1, of all segments or, at the end of the record, of one lane; with sums, or with `free` taken
+    /// along.
+    void run(Index from, Index to, DeltaState* free) {
         for (Index k = from; k < to;) {
             Index next = to;
             begin_signal(first_, k, state_.first, next);
             begin_signal(second_, k, state_.second, next);
-            if (with_sums) growth_.add(state_, -1);
-            for (; k < next; k += advance(k, next, with_sums)) continue;
-            if (with_sums) growth_.add(state_, 1);
+            if (!free) growth_.add(state_, -1);
+            while (k < next) k += advance(k, next, free);
+            if (!free) growth_.add(state_, 1);
         }
     }
 
@@ -317,23 +338,18 @@ class DeltaRun {
         for (int j = 0; j < chain.order; ++j) state[j][lane] += chain.start[static_cast<std::size_t>(j)];
     }
 
-    Index advance(Index k, Index to, bool with_sums) {
+    Index advance(Index k, Index to, DeltaState* free) {
         const Index steps = std::min(to - k, in_lanes_ && segment_ > kDeltaStored ? kDeltaBlock : kDeltaStored);
-        const Part* v = nullptr;
-        const Part* w = nullptr;
-        if (!in_lanes_) {
-            v = reader1_.one_lane(k, steps);
-            w = reader2_.one_lane(k, steps);
-        } else {
-            if (segment_ <= kDeltaStored) {
-                reader1_.read(0, segment_);
-                reader2_.read(0, segment_);
-            }
-            v = reader1_.read(k, steps);
-            w = reader2_.read(k, steps);
+        if (in_lanes_ && segment_ <= kDeltaStored) {
+            reader1_.read(0, segment_);
+            reader2_.read(0, segment_);
         }
-        const ReadAhead ahead{reader1_.ahead(k), reader2_.ahead(k), segment_};
-        (with_sums ? loops_.sum : loops_.filter)(first_, second_, v, w, steps, ahead, state_, sums_);
+        const Part* const v = in_lanes_ ? reader1_.read(k, steps) : reader1_.one_lane(k, steps);
+        const Part* const w = in_lanes_ ? reader2_.read(k, steps) : reader2_.one_lane(k, steps);
+        if (free)
+            loops_.filter(first_, second_, v, w, steps, state_, *free);
+        else
+            loops_.sum(first_, second_, v, w, steps, {reader1_.ahead(k), reader2_.ahead(k), segment_}, state_, sums_);
         return steps;
     }
 

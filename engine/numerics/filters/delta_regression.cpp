@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <memory_resource>
 
 #include "numerics/filters/delta_products.h"
 #include "numerics/filters/delta_sampling.h"
@@ -22,10 +24,11 @@ StateMatrix<n> companion_of(const VectorView& den) {
 template <int n>
 struct Derivatives {
     Eigen::Matrix<double, Eigen::Dynamic, n, 0, n + 1, n> C;
-    Vector D;
+    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, n + 1, 1> D;
 
-    Derivatives(const VectorView& den, int highest) : D(Vector::Zero(highest + 1)) {
+    Derivatives(const VectorView& den, int highest) {
         C.setZero(highest + 1, n);
+        D.setZero(highest + 1);
         for (int row = 0; row <= highest; ++row)
             if (n - 1 - highest + row >= 0) C(row, n - 1 - highest + row) = 1;
         if (highest < n) return;
@@ -34,31 +37,45 @@ struct Derivatives {
     }
 };
 
+/// A filter with the denominator `den`, and its step over a sampling interval.
+template <int n>
+struct SampledFilter {
+    const VectorView& den;
+    StateMatrix<n> A;
+    SizedStep<n, 1> step;
+
+    SampledFilter(const VectorView& of, double Ts) : den(of), A(companion_of<n>(of)), step(dynlab::step_of<n>(A, Ts)) {}
+    SampledFilter(const VectorView& of, const SizedStep<n, 1>& known) : den(of), A(companion_of<n>(of)), step(known) {}
+};
+
 /// p^n/A .. 1/A of the output.
 template <int n>
-DeltaSignal filtered_output(const RegressionRecord& record, const VectorView& A) {
-    const DelayedStep<n> step = delayed_step<n>(companion_of<n>(A), record.sampling.Ts, record.hold_y, 0);
-    const Derivatives<n> derivatives(A, n);
+DeltaSignal filtered_output(const RegressionRecord& record, const SampledFilter<n>& filter) {
+    const DelayedStep<n> step = delayed_step<n>(filter.A, filter.step, record.sampling.Ts, record.hold_y, 0);
+    const Derivatives<n> derivatives(filter.den, n);
     return delta_signal<n>(step, expansion<n>, derivatives.C, derivatives.D, record.y, false);
 }
 
 /// p^m/A .. 1/A of an input.
 template <int n>
-DeltaSignal filtered_input(const RegressionRecord& record, std::size_t input, const VectorView& A, bool longer) {
+DeltaSignal filtered_input(const RegressionRecord& record, std::size_t input, const SampledFilter<n>& filter,
+                           bool longer) {
     const DelayedStep<n> step =
-        delayed_step<n>(companion_of<n>(A), record.sampling.Ts, record.hold, record.delays[input]);
-    const Derivatives<n> derivatives(A, record.zeros[input]);
+        delayed_step<n>(filter.A, filter.step, record.sampling.Ts, record.hold, record.delays[input]);
+    const Derivatives<n> derivatives(filter.den, record.zeros[input]);
     return delta_signal<n>(step, expansion<n>, derivatives.C, derivatives.D, record.u[input], longer);
 }
 
 template <int n>
 DeltaSignal simulated(const RegressionRecord& record, std::size_t input, const VectorView& A, const Vector& B,
                       bool longer) {
+    const SampledFilter<n> filter(A, record.sampling.Ts);
     const DelayedStep<n> step =
-        delayed_step<n>(companion_of<n>(A), record.sampling.Ts, record.hold, record.delays[input]);
+        delayed_step<n>(filter.A, filter.step, record.sampling.Ts, record.hold, record.delays[input]);
     const Derivatives<n> derivatives(A, static_cast<int>(B.size()) - 1);
     const Eigen::Matrix<double, 1, n> C = B.transpose() * derivatives.C;
-    return delta_signal<n>(step, expansion<n>, C, Vector::Constant(1, B.dot(derivatives.D)), record.u[input], longer);
+    const Eigen::Matrix<double, 1, 1> D(B.dot(derivatives.D));
+    return delta_signal<n>(step, expansion<n>, C, D, record.u[input], longer);
 }
 
 /// A signal as it is.
@@ -70,15 +87,24 @@ DeltaSignal unfiltered(const SampleView& samples) {
     return signal;
 }
 
-/// SRIVC's instruments -p^(n-1) B/A^2 .. -B/A^2, p^m/A .. 1/A of one input: the cascade of z = u/A and w = z/A.
+/// z = u/A and w = z/A, each with its derivatives.
 template <int n>
-DeltaSignal sensitivities(const RegressionRecord& record, std::size_t input, const VectorView& A, const Vector& B,
-                          bool longer) {
+struct SampledCascade {
+    StateMatrix<2 * n> A = StateMatrix<2 * n>::Zero();
+    SizedStep<2 * n, 1> step;
+
+    SampledCascade(const VectorView& den, double Ts) {
+        A.template topLeftCorner<n, n>() = A.template bottomRightCorner<n, n>() = companion_of<n>(den);
+        A(n, n - 1) = 1;
+        step = step_of<2 * n>(A, Ts);
+    }
+};
+
+/// SRIVC's instruments -p^(n-1) B/A^2 .. -B/A^2, p^m/A .. 1/A of one input.
+template <int n>
+DeltaSignal sensitivities(const RegressionRecord& record, std::size_t input, const SampledCascade<n>& cascade,
+                          const VectorView& A, const Vector& B, bool longer) {
     const int m = static_cast<int>(B.size()) - 1;
-    StateMatrix<2 * n> cascade = StateMatrix<2 * n>::Zero();
-    cascade.template topLeftCorner<n, n>() = companion_of<n>(A);
-    cascade.template bottomRightCorner<n, n>() = cascade.template topLeftCorner<n, n>();
-    cascade(n, n - 1) = 1;
     // Row r: p^r w, from A(p) w = z for r >= n.
     StateMatrix<2 * n> derivatives_of_w = StateMatrix<2 * n>::Zero();
     for (int r = 0; r < 2 * n; ++r) {
@@ -92,18 +118,20 @@ DeltaSignal sensitivities(const RegressionRecord& record, std::size_t input, con
     for (int i = 0; i < n; ++i)
         for (int j = 0; j <= m; ++j) C.row(i) -= B[j] * derivatives_of_w.row(n - 1 - i + m - j);
     C.bottomLeftCorner(m + 1, n) = derivatives_of_z.C;
-    Vector D = Vector::Zero(n + m + 1);
+    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * n + 1, 1> D;
+    D.setZero(n + m + 1);
     D.tail(m + 1) = derivatives_of_z.D;
-    const DelayedStep<2 * n> step = delayed_step<2 * n>(cascade, record.sampling.Ts, record.hold, record.delays[input]);
+    const DelayedStep<2 * n> step =
+        delayed_step<2 * n>(cascade.A, cascade.step, record.sampling.Ts, record.hold, record.delays[input]);
     return delta_signal<2 * n>(step, cascade_expansion<n>, C, D, record.u[input], longer);
 }
 
 /// p^(n-1)/E .. 1/E of the sampled output of B/A, then p^m/E .. 1/E of the input, which is held: products of the
 /// sampled systems' numerators over A E.
 template <int n>
-DeltaSignal auxiliary(const RegressionRecord& record, std::size_t input, const VectorView& E, const VectorView& A,
-                      const Vector& B, const DeltaSignal& filtered_y) {
-    const DeltaSignal of_u = filtered_input<n>(record, input, E, false);
+DeltaSignal auxiliary(const RegressionRecord& record, std::size_t input, const SampledFilter<n>& filter,
+                      const VectorView& A, const Vector& B, const DeltaSignal& filtered_y) {
+    const DeltaSignal of_u = filtered_input<n>(record, input, filter, false);
     const DeltaSignal model = simulated<n>(record, input, A, B, false);
     const auto polynomial = [](const DeltaChain& chain) {
         StateVector<n> alpha;
@@ -126,35 +154,64 @@ DeltaSignal auxiliary(const RegressionRecord& record, std::size_t input, const V
     return signal;
 }
 
-/// The sums of products of all outputs of all signals, numbered through; nothing where a pair has no loop.
-std::optional<Matrix> output_products(const std::vector<DeltaSignal>& signals, Index N) {
-    std::vector<Index> firsts;
-    Index count = 0;
-    for (const DeltaSignal& signal : signals) {
-        firsts.push_back(count);
-        count += signal.outputs.rows();
+/// The signals of an equation; those of one input need no memory on the heap.
+class DeltaSignals {
+  public:
+    explicit DeltaSignals(std::size_t count) { signals_.reserve(count); }
+
+    /// The number of its first output, all being numbered through.
+    Index add(const DeltaSignal& signal) {
+        const Index first = outputs_;
+        outputs_ += signal.outputs.rows();
+        signals_.push_back(signal);
+        return first;
     }
-    Matrix total(count, count);
-    const auto set = [&](std::size_t i, std::size_t j, const ColumnMatrix& products) {
-        const ColumnMatrix &left = signals[i].outputs, &right = signals[j].outputs;
-        const ColumnMatrix weighted = left.lazyProduct(products);
-        total.block(firsts[i], firsts[j], left.rows(), right.rows()) = weighted.lazyProduct(right.transpose());
-    };
-    const std::size_t last = signals.size() - 1;
-    for (std::size_t i = 0; i < signals.size(); ++i)
-        for (std::size_t j = std::min(i + 1, last); j < signals.size() && (i < last || last == 0); ++j) {
-            const auto products = delta_products(signals[i].chain, signals[j].chain, N);
-            if (!products) return {};
-            if (j == i + 1 || last == 0) set(i, i, products->first);
-            if (i != j) {
-                set(i, j, products->both);
-                total.block(firsts[j], firsts[i], signals[j].outputs.rows(), signals[i].outputs.rows()) =
-                    total.block(firsts[i], firsts[j], signals[i].outputs.rows(), signals[j].outputs.rows()).transpose();
+    const DeltaSignal& operator[](std::size_t i) const { return signals_[i]; }
+
+    /// The sums of products of all outputs; nothing where a pair has no loop.
+    std::optional<Matrix> products(Index N) const {
+        Matrix total(outputs_, outputs_);
+        const std::size_t last = signals_.size() - 1;
+        Index row = 0;
+        for (std::size_t i = 0; i < last || i == 0; row += signals_[i++].outputs.rows()) {
+            Index column = row;
+            for (std::size_t j = std::min(i + 1, last); j <= last; ++j) {
+                const auto products = delta_products(signals_[i].chain, signals_[j].chain, N);
+                if (!products) return {};
+                if (j == i + 1 || last == 0) set(products->first, i, row, i, row, total);
+                if (i == j) break;
+                column += signals_[j - 1].outputs.rows();
+                set(products->both, i, row, j, column, total);
+                if (i + 1 == j && j == last) set(products->second, j, column, j, column, total);
             }
-            if (i + 1 == j && j == last) set(j, j, products->second);
         }
-    return total;
-}
+        return total;
+    }
+
+  private:
+    /// The block of two signals' outputs, and its mirror image. (Loops, for Eigen's are slow where sizes are as small
+    /// as here but not known to the compiler.)
+    void set(const ColumnMatrix& products, std::size_t left, Index row, std::size_t right, Index column,
+             Matrix& total) const {
+        const ColumnMatrix &L = signals_[left].outputs, &R = signals_[right].outputs;
+        double weighted[kMostDeltaOrder + 1];
+        for (Index j = 0; j < R.rows(); ++j) {
+            std::fill_n(weighted, L.cols(), 0);
+            for (Index b = 0; b < R.cols(); ++b)
+                for (Index a = 0; a < L.cols(); ++a) weighted[a] += R(j, b) * products(a, b);
+            for (Index i = 0; i < L.rows(); ++i) {
+                double sum = 0;
+                for (Index a = 0; a < L.cols(); ++a) sum += L(i, a) * weighted[a];
+                total(row + i, column + j) = total(column + j, row + i) = sum;
+            }
+        }
+    }
+
+    std::array<std::byte, 3 * sizeof(DeltaSignal)> room_;
+    std::pmr::monotonic_buffer_resource memory_{room_.data(), room_.size()};
+    std::pmr::vector<DeltaSignal> signals_{&memory_};
+    Index outputs_ = 0;
+};
 
 /// Which outputs the equation is made of.
 struct EquationOutputs {
@@ -239,14 +296,13 @@ std::optional<RegressionMoments> delta_svf_moments(const RegressionRecord& recor
     return for_order<RegressionMoments>(E.size() - 1, [&](auto n) -> std::optional<RegressionMoments> {
         const bool longer = needs_longer(record);
         EquationOutputs equation{n, {1}, -1, {}};
-        std::vector<DeltaSignal> signals{filtered_output<n>(record, E)};
-        Index outputs = n + 1;
-        for (std::size_t j = 0; j < record.u.size(); ++j) {
-            signals.push_back(filtered_input<n>(record, j, E, longer));
-            append_range(equation.inputs, outputs, signals.back().outputs.rows());
-            outputs += signals.back().outputs.rows();
-        }
-        const std::optional<Matrix> products = output_products(signals, record.y.size());
+        DeltaSignals signals(1 + record.u.size());
+        const SampledFilter<n> filter(E, record.sampling.Ts);
+        signals.add(filtered_output<n>(record, filter));
+        for (std::size_t j = 0; j < record.u.size(); ++j)
+            append_range(equation.inputs, signals.add(filtered_input<n>(record, j, filter, longer)),
+                         record.zeros[j] + 1);
+        const std::optional<Matrix> products = signals.products(record.y.size());
         if (!products) return {};
         RegressionMoments sums = equation.moments(*products, gain, false);
         sums.z_z = sums.z_phi;
@@ -264,15 +320,15 @@ std::optional<RegressionMoments> delta_auxiliary_moments(const RegressionRecord&
         if (numerator.size() >= A.size()) return {};
     return for_order<RegressionMoments>(E.size() - 1, [&](auto n) -> std::optional<RegressionMoments> {
         EquationOutputs equation{n, {}, -1, {}};
-        std::vector<DeltaSignal> signals{filtered_output<n>(record, E)};
-        Index outputs = n + 1;
+        DeltaSignals signals(1 + record.u.size());
+        const SampledFilter<n> filter(E, record.sampling.Ts);
+        signals.add(filtered_output<n>(record, filter));
         for (std::size_t j = 0; j < record.u.size(); ++j) {
-            signals.push_back(auxiliary<n>(record, j, E, A, B[j], signals.front()));
-            equation.instruments.push_back(outputs);
-            append_range(equation.inputs, outputs + n, signals.back().outputs.rows() - n);
-            outputs += signals.back().outputs.rows();
+            const Index first = signals.add(auxiliary<n>(record, j, filter, A, B[j], signals[0]));
+            equation.instruments.push_back(first);
+            append_range(equation.inputs, first + n, record.zeros[j] + 1);
         }
-        const std::optional<Matrix> products = output_products(signals, record.y.size());
+        const std::optional<Matrix> products = signals.products(record.y.size());
         if (!products) return {};
         return equation.moments(*products, gain, true);
     });
@@ -292,16 +348,13 @@ bool poles_far_apart(const VectorView& A, double Ts) {
 
 /// The inputs' sensitivities for all instruments after the signals that are there already.
 template <int n>
-void add_delta_sensitivities(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B,
-                             std::vector<DeltaSignal>& signals, EquationOutputs& equation) {
+void add_delta_sensitivities(const RegressionRecord& record, const SampledCascade<n>& cascade, const VectorView& A,
+                             const std::vector<Vector>& B, DeltaSignals& signals, EquationOutputs& equation) {
     const bool longer = needs_longer(record);
-    Index outputs = 0;
-    for (const DeltaSignal& signal : signals) outputs += signal.outputs.rows();
     for (std::size_t j = 0; j < record.u.size(); ++j) {
-        signals.push_back(sensitivities<n>(record, j, A, B[j], longer));
-        equation.instruments.push_back(outputs);
-        append_range(equation.inputs, outputs + n, B[j].size());
-        outputs += signals.back().outputs.rows();
+        const Index first = signals.add(sensitivities<n>(record, j, cascade, A, B[j], longer));
+        equation.instruments.push_back(first);
+        append_range(equation.inputs, first + n, B[j].size());
     }
 }
 
@@ -313,9 +366,11 @@ std::optional<RegressionMoments> delta_refined_moments(const RegressionRecord& r
     return for_order<RegressionMoments>(A.size() - 1, [&](auto n) -> std::optional<RegressionMoments> {
         if (poles_far_apart<n>(A, record.sampling.Ts)) return {};
         EquationOutputs equation{n, {}, 1, {}};
-        std::vector<DeltaSignal> signals{filtered_output<n>(record, A)};
-        add_delta_sensitivities<n>(record, A, B, signals, equation);
-        const std::optional<Matrix> products = output_products(signals, record.y.size());
+        DeltaSignals signals(1 + record.u.size());
+        const SampledCascade<n> cascade(A, record.sampling.Ts);
+        signals.add(filtered_output<n>(record, {A, step_of_first<n>(cascade.step)}));
+        add_delta_sensitivities<n>(record, cascade, A, B, signals, equation);
+        const std::optional<Matrix> products = signals.products(record.y.size());
         if (!products) return {};
         return equation.moments(*products, 1, with_gram);
     });
@@ -327,9 +382,9 @@ std::optional<Matrix> delta_sensitivity_moments(const RegressionRecord& record, 
     return for_order<Matrix>(A.size() - 1, [&](auto n) -> std::optional<Matrix> {
         if (poles_far_apart<n>(A, record.sampling.Ts)) return {};
         EquationOutputs equation{n, {}, 1, {}};
-        std::vector<DeltaSignal> signals;
-        add_delta_sensitivities<n>(record, A, B, signals, equation);
-        const std::optional<Matrix> products = output_products(signals, record.y.size());
+        DeltaSignals signals(record.u.size());
+        add_delta_sensitivities<n>(record, {A, record.sampling.Ts}, A, B, signals, equation);
+        const std::optional<Matrix> products = signals.products(record.y.size());
         if (!products) return {};
         std::vector<std::vector<Index>> z;
         for (Index i = 0; i < n; ++i) {
@@ -351,10 +406,10 @@ std::optional<Matrix> delta_output_moments(const RegressionRecord& record, const
     if (!std::all_of(A.begin(), A.end(), fits)) return {};
     return for_order<Matrix>(A[0].size() - 1, [&](auto n) {
         const bool longer = needs_longer(record);
-        std::vector<DeltaSignal> signals{unfiltered(record.y)};
-        for (std::size_t j = 0; j < record.u.size(); ++j)
-            signals.push_back(simulated<n>(record, j, A[j], B[j], longer));
-        return output_products(signals, record.y.size());
+        DeltaSignals signals(1 + record.u.size());
+        signals.add(unfiltered(record.y));
+        for (std::size_t j = 0; j < record.u.size(); ++j) signals.add(simulated<n>(record, j, A[j], B[j], longer));
+        return signals.products(record.y.size());
     });
 }
 

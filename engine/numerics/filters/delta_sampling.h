@@ -33,26 +33,32 @@ SizedStep<n, 1> step_of(const StateMatrix<n>& A, double h) {
     return {step.F, step.G, step.H0, step.H1, step.F - Matrix::Identity(n, n)};
 }
 
-/// The step of Ts seconds for an input that comes `delay` seconds late.
+/// The step of the first states alone, which the others do not act upon.
+template <int n, int all>
+SizedStep<n, 1> step_of_first(const SizedStep<all, 1>& step) {
+    return {step.F.template topLeftCorner<n, n>(), step.G.template head<n>(), step.H0.template head<n>(),
+            step.H1.template head<n>(), step.E.template topLeftCorner<n, n>()};
+}
+
+/// The step of Ts seconds for an input that comes `delay` seconds late; `whole` is that without delay.
 template <int n>
-DelayedStep<n> delayed_step(const StateMatrix<n>& A, double Ts, Hold hold, double delay) {
+DelayedStep<n> delayed_step(const StateMatrix<n>& A, const SizedStep<n, 1>& whole, double Ts, Hold hold, double delay) {
     const auto [samples, rest] = split_delay(delay, Ts);
     const bool held = hold == Hold::kZoh;
-    const SizedStep<n, 1> second = step_of<n>(A, Ts - rest);
     DelayedStep<n> step;
     step.begin = samples;
     step.after_next.setZero();
     step.first.setZero();
     if (rest == 0) {
-        step.E = second.E;
+        step.E = whole.E;
         step.next.setZero();
-        if (!held) step.next = second.H1;
-        step.now = held ? second.G : second.H0;
+        if (!held) step.next = whole.H1;
+        step.now = held ? whole.G : whole.H0;
         return step;
     }
     // In the first `late` of the interval, u runs from w[k] towards w[k+1], then on towards w[k+2].
     const double late = rest / Ts;
-    const SizedStep<n, 1> first = step_of<n>(A, rest);
+    const SizedStep<n, 1> first = step_of<n>(A, rest), second = step_of<n>(A, Ts - rest);
     StateVector<n> before = StateVector<n>::Zero();
     if (held) {
         step.first = second.G;
@@ -80,8 +86,8 @@ struct DeltaSignal {
 
 /// y = C x + D u for the system of `step`, `expand` being one of the expansions above. `longer`: as a chain of n + 1
 /// columns, which inputs on straight lines with a delay between samples need.
-template <int n, class Outputs, class Expand>
-DeltaSignal delta_signal(const DelayedStep<n>& step, const Expand& expand, const Outputs& C, const Vector& D,
+template <int n, class Outputs, class Direct, class Expand>
+DeltaSignal delta_signal(const DelayedStep<n>& step, const Expand& expand, const Outputs& C, const Direct& D,
                          const Eigen::Map<const Vector>& u, bool longer) {
     // x = after_next w[k+1] + g w[k] + T [X_0 .. X_(n-1)]
     const StateVector<n> g = step.next + step.after_next + step.E.lazyProduct(step.after_next);

@@ -5,7 +5,6 @@
 
 #include "numerics/filters/delta_regression.h"
 #include "numerics/filters/filter_chain.h"
-#include "numerics/filters/two_pole_moments.h"
 
 namespace dynlab::inline numerics {
 
@@ -91,7 +90,6 @@ class Equation {
 }  // namespace
 
 RegressionMoments svf_moments(const RegressionRecord& record, const VectorView& E, double gain) {
-    if (auto moments = two_pole_svf_moments(record, E, gain)) return *std::move(moments);
     if (auto moments = delta_svf_moments(record, E, gain)) return *std::move(moments);
     const Index n = E.size() - 1;
     Equation equation(record, n);
@@ -107,7 +105,6 @@ RegressionMoments svf_moments(const RegressionRecord& record, const VectorView& 
 
 RegressionMoments auxiliary_moments(const RegressionRecord& record, const VectorView& E, const VectorView& A,
                                     const std::vector<Vector>& B, double gain) {
-    if (auto moments = two_pole_auxiliary_moments(record, E, A, B[0], gain)) return *std::move(moments);
     if (auto moments = delta_auxiliary_moments(record, E, A, B, gain)) return *std::move(moments);
     const Index n = E.size() - 1;
     Equation equation(record, n);
@@ -149,7 +146,6 @@ std::vector<Index> add_sensitivities(Equation& equation, const RegressionRecord&
 
 RegressionMoments refined_moments(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B,
                                   bool with_gram) {
-    if (auto moments = two_pole_refined_moments(record, A, B[0], with_gram)) return *std::move(moments);
     if (auto moments = delta_refined_moments(record, A, B, with_gram)) return *std::move(moments);
     Equation equation(record, A.size() - 1);
     equation.add_output(A);
@@ -165,22 +161,17 @@ Matrix sensitivity_moments(const RegressionRecord& record, const VectorView& A, 
 
 double output_error_squares(const RegressionRecord& record, const std::vector<Vector>& A,
                             const std::vector<Vector>& B) {
-    std::vector<FilterChain> chains{{record.y, no_filter(), record.hold_y}};
-    for (std::size_t j = 0; j < record.u.size(); ++j)
-        chains.push_back({record.u[j], transfer_system(B[j], A[j]), record.hold, record.delays[j]});
     // The quickest, where enough digits are left: nearly noise-free data go the long way.
     constexpr double kLeft = 1e-4;
-    std::optional<Matrix> sums;
-    if (const auto two_poles = two_pole_output_moments(record, A[0], B[0]))
-        sums = *two_poles;
-    else
-        sums = delta_output_moments(record, A, B);
-    if (sums) {
+    if (const auto sums = delta_output_moments(record, A, B)) {
         Vector error = Vector::Constant(sums->rows(), -1);
         error[0] = 1;
         const double squares = error.dot(*sums * error);
         if (squares > kLeft * sums->diagonal().maxCoeff()) return squares;
     }
+    std::vector<FilterChain> chains{{record.y, no_filter(), record.hold_y}};
+    for (std::size_t j = 0; j < record.u.size(); ++j)
+        chains.push_back({record.u[j], transfer_system(B[j], A[j]), record.hold, record.delays[j]});
     if (record.sampling.Ts > 0 && record.y.size() <= kStoredSamples) {
         Vector error = record.y;
         for (std::size_t j = 1; j < chains.size(); ++j) error -= chain_outputs(chains[j], record.sampling).col(0);
