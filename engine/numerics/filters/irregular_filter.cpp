@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "numerics/linalg/balance.h"
+#include "numerics/linalg/decompositions.h"
 
 namespace dynlab::inline numerics {
 
