@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "numerics/filters/lane_filter.h"
-#include "numerics/filters/sample_moments.h"
+#include "numerics/filters/tapped_recursion.h"
 
 namespace dynlab::inline numerics {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "numerics/filters/filtered_signal.h"
+#include "numerics/filters/tapped_system.h"
 
 namespace dynlab::inline numerics {
 
