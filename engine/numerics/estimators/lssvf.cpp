@@ -52,9 +52,9 @@ Fit lssvf(const IdData& data, const TransferStructure& structure, const SvfOptio
         const DenominatorGroup group(data, structure, static_cast<Index>(g), options.hold_y);
         const Index d = group.parameter_count();
         const double gain = options.beta ? std::pow(*options.beta, static_cast<double>(group.order())) : 1.0;
-        const RegressionMoments sums = group.svf(filter_denominator(options.lambda, group.order()), gain);
+        const NormalEquations sums = group.svf(filter_denominator(options.lambda, group.order()), gain);
         double condition = 0;
-        const Vector theta = solve_moments(sums, &condition);
+        const Vector theta = solve_equations(sums, &condition);
         if (!theta.allFinite())
             throw InvalidArgument(
                 "lssvf: the equations have no unique solution: the input does not excite the system enough for " +

@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "numerics/filters/lanes.h"
-#include "numerics/filters/tapped_system.h"
+#include "numerics/filters/sampled_system.h"
 
 namespace dynlab::inline numerics {
 

@@ -1,6 +1,6 @@
 #include "numerics/fit/simulation_error.h"
 
-#include "numerics/filters/regression_moments.h"
+#include "numerics/filters/normal_equations.h"
 
 namespace dynlab::inline numerics {
 

@@ -1,16 +1,16 @@
 #pragma once
 #include <vector>
 
-#include "numerics/filters/tapped_system.h"
+#include "numerics/filters/sampled_system.h"
 
 namespace dynlab::inline numerics {
 
-/// A TappedSystem sample by sample: the recursion as it is defined, which the fast filters are checked against and
+/// A SampledSystem sample by sample: the recursion as it is defined, which the fast filters are checked against and
 /// which they leave the beginning and the end of a record to. The caller vouches for sizes and for the life of both
 /// arguments.
-class TappedRecursion {
+class SampledRecursion {
   public:
-    TappedRecursion(const TappedSystem& system, const Eigen::Map<const Vector>& u)
+    SampledRecursion(const SampledSystem& system, const Eigen::Map<const Vector>& u)
         : system_(system), u_(u), x_(Vector::Zero(system.F.rows())), next_(x_) {}
 
     Index output_count() const { return system_.C.rows(); }
@@ -37,16 +37,16 @@ class TappedRecursion {
     }
 
   private:
-    const TappedSystem& system_;
+    const SampledSystem& system_;
     const Eigen::Map<const Vector>& u_;
     Vector x_, next_;
 };
 
 /// All signals sample by sample: the beginning and the end of a record, which do not fill lanes.
-class SampleMoments {
+class SampleProducts {
   public:
-    SampleMoments(const std::vector<FilteredSignal>& signals, const std::vector<Index>& left,
-                  const std::vector<Index>& right, const std::vector<OutputSum>& sums)
+    SampleProducts(const std::vector<FilteredSignal>& signals, const std::vector<Index>& left,
+                   const std::vector<Index>& right, const std::vector<OutputSum>& sums)
         : left_(left), right_(right), sums_(sums), total_(Matrix::Zero(left.size(), right.size())) {
         recursions_.reserve(signals.size());
         Index outputs = 0;
@@ -62,7 +62,7 @@ class SampleMoments {
     void run(Index from, Index to) {
         for (Index k = from; k < to; ++k) {
             Index place = 0;
-            for (TappedRecursion& recursion : recursions_) {
+            for (SampledRecursion& recursion : recursions_) {
                 const Index count = recursion.output_count();
                 recursion.output(k, outputs_.segment(place, count));
                 recursion.step(k);
@@ -78,13 +78,13 @@ class SampleMoments {
             total_ += left_outputs_.lazyProduct(right_outputs_.transpose());
         }
     }
-    TappedRecursion& recursion(std::size_t signal) { return recursions_[signal]; }
+    SampledRecursion& recursion(std::size_t signal) { return recursions_[signal]; }
     const Matrix& total() const { return total_; }
 
   private:
     const std::vector<Index>&left_, &right_;
     const std::vector<OutputSum>& sums_;
-    std::vector<TappedRecursion> recursions_;
+    std::vector<SampledRecursion> recursions_;
     Vector outputs_, left_outputs_, right_outputs_;
     Matrix total_;
 };
