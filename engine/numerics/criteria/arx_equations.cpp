@@ -59,9 +59,9 @@ Matrix ArxEquations::gram() const {
     return gram;
 }
 
-ArxEquations::InstrumentMoments ArxEquations::moments(const ArxEquations& instruments) const {
+ArxEquations::InstrumentProducts ArxEquations::products(const ArxEquations& instruments) const {
     const Index d = parameters();
-    InstrumentMoments moments{Matrix::Zero(d, d + 1), Matrix::Zero(d, d)};
+    InstrumentProducts products{Matrix::Zero(d, d + 1), Matrix::Zero(d, d)};
     Matrix equations(kBlock, d + 1), others(kBlock, d + 1);
     for (std::size_t e = 0; e < data_.experiments.size(); ++e) {
         const Experiment &own = data_.experiments[e], &other = instruments.data_.experiments[e];
@@ -70,11 +70,11 @@ ArxEquations::InstrumentMoments ArxEquations::moments(const ArxEquations& instru
             fill(own, k, rows, equations);
             instruments.fill(other, k, rows, others);
             const auto Z = others.topLeftCorner(rows, d);
-            moments.with_equations.noalias() += Z.transpose() * equations.topRows(rows);
-            moments.gram.noalias() += Z.transpose() * Z;
+            products.with_equations.noalias() += Z.transpose() * equations.topRows(rows);
+            products.gram.noalias() += Z.transpose() * Z;
         }
     }
-    return moments;
+    return products;
 }
 
 Matrix ArxEquations::triangular_factor() const {

@@ -32,10 +32,10 @@ class ArxEquations {
     /// [Phi y]'[Phi y], or with the Phi of other equations as instruments Z'[Phi y] and Z'Z. The other ones belong to
     /// data of the same lengths and to the same orders.
     Matrix gram() const;
-    struct InstrumentMoments {
+    struct InstrumentProducts {
         Matrix with_equations, gram;  ///< d x (d + 1) and d x d
     };
-    InstrumentMoments moments(const ArxEquations& instruments) const;
+    InstrumentProducts products(const ArxEquations& instruments) const;
     /// Triangular factor of [Phi y].
     Matrix triangular_factor() const;
     /// e = y - Phi theta, experiment by experiment; empty where a record is too short.

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "numerics/filters/exact_filter.h"
-#include "numerics/filters/tapped_system.h"
+#include "numerics/filters/sampled_system.h"
 #include "numerics/linalg/polynomial.h"
 
 namespace dynlab::inline numerics {
@@ -25,7 +25,8 @@ void add_late(Target&& target, const VectorView& signal, double weight, Index la
 Vector all_pole_filter(const VectorView& f, const VectorView& signal) {
     const Index n = f.size();
     if (n == 0) return signal;
-    const ExactFilter filter(tapped(companion(monic(f)), Vector::Unit(n, 0), -f.transpose(), Vector::Ones(1), 0));
+    const ExactFilter filter(
+        discrete_system(companion(monic(f)), Vector::Unit(n, 0), -f.transpose(), Vector::Ones(1), 0));
     return filter.run(signal);
 }
 

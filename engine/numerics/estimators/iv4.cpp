@@ -51,7 +51,7 @@ struct InstrumentEstimate {
 
 InstrumentEstimate solve_instruments(const ArxEquations& equations, const ArxEquations& instruments) {
     const Index d = equations.parameters();
-    const auto [with_equations, gram] = equations.moments(instruments);
+    const auto [with_equations, gram] = equations.products(instruments);
     const Vector scale = gram.diagonal().cwiseSqrt().cwiseMax(1e-300).cwiseInverse();
     const Matrix scaled = scale.asDiagonal() * with_equations.leftCols(d) * scale.asDiagonal();
     const SingularValues svd = jacobi_svd(scaled);

@@ -1,6 +1,7 @@
 #include "numerics/filters/delta_products.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "numerics/filters/lanes.h"
 
@@ -293,17 +294,15 @@ class DeltaRun {
           reader2_(second, segment_),
           growth_(first.order, second.order) {}
 
-    DeltaProducts products() {
+    void run(DeltaProducts& result) {
         find_states();
         run(0, segment_, nullptr);
         keep_last_lane();
         in_lanes_ = false;
         run(kDeltaLanes * segment_, N_, nullptr);
-        DeltaProducts result;
         result.first = own_products(first_.order, sums_.first, [&](int i, int j) { return growth_.first(i, j); });
         result.second = own_products(second_.order, sums_.second, [&](int i, int j) { return growth_.second(i, j); });
         result.both = common_products();
-        return result;
     }
 
   private:
@@ -407,7 +406,9 @@ class DeltaRun {
 std::optional<DeltaProducts> delta_products(const DeltaChain& first, const DeltaChain& second, Index N) {
     const DeltaLoops loops = loops_for(first.order, second.order);
     if (!loops.sum || N < kDeltaLanes * kShortestDeltaSegment) return {};
-    return DeltaRun(first, second, loops, N).products();
+    std::optional<DeltaProducts> products(std::in_place);
+    DeltaRun(first, second, loops, N).run(*products);
+    return products;
 }
 
 }  // namespace dynlab::inline numerics

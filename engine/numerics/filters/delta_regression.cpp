@@ -220,7 +220,7 @@ struct EquationOutputs {
     double sign = 1;                 ///< of these
     std::vector<Index> inputs;       ///< the derivatives of all inputs; p^n y_f .. y_f are the first outputs
 
-    RegressionMoments moments(const Matrix& products, double gain, bool with_gram) const {
+    NormalEquations equations(const Matrix& products, double gain, bool with_gram) const {
         const Index d = n + static_cast<Index>(inputs.size());
         // Rows of z: of p^n y_f .. y_f, then of all inputs' derivatives, then of z itself.
         const auto times_z = [&](Index output, auto&& column) {
@@ -232,7 +232,7 @@ struct EquationOutputs {
             for (Index i = n; i < d; ++i)
                 column[i] = gain * gain * products(inputs[static_cast<std::size_t>(i - n)], output);
         };
-        RegressionMoments sums{Matrix(d, d), Vector(d), Matrix(), 0};
+        NormalEquations sums{Matrix(d, d), Vector(d), Matrix(), 0};
         times_z(0, sums.z_y);
         for (Index j = 0; j < n; ++j) {
             times_z(1 + j, sums.z_phi.col(j));
@@ -291,9 +291,9 @@ void append_range(std::vector<Index>& places, Index first, Index count) {
 
 }  // namespace
 
-std::optional<RegressionMoments> delta_svf_moments(const RegressionRecord& record, const VectorView& E, double gain) {
+std::optional<NormalEquations> delta_svf_equations(const RegressionRecord& record, const VectorView& E, double gain) {
     if (!is_sampled_for(record, E)) return {};
-    return for_order<RegressionMoments>(E.size() - 1, [&](auto n) -> std::optional<RegressionMoments> {
+    return for_order<NormalEquations>(E.size() - 1, [&](auto n) -> std::optional<NormalEquations> {
         const bool longer = needs_longer(record);
         EquationOutputs equation{n, {1}, -1, {}};
         DeltaSignals signals(1 + record.u.size());
@@ -304,21 +304,21 @@ std::optional<RegressionMoments> delta_svf_moments(const RegressionRecord& recor
                          record.zeros[j] + 1);
         const std::optional<Matrix> products = signals.products(record.y.size());
         if (!products) return {};
-        RegressionMoments sums = equation.moments(*products, gain, false);
+        NormalEquations sums = equation.equations(*products, gain, false);
         sums.z_z = sums.z_phi;
         sums.y_y = gain * gain * (*products)(0, 0);
         return sums;
     });
 }
 
-std::optional<RegressionMoments> delta_auxiliary_moments(const RegressionRecord& record, const VectorView& E,
+std::optional<NormalEquations> delta_auxiliary_equations(const RegressionRecord& record, const VectorView& E,
                                                          const VectorView& A, const std::vector<Vector>& B,
                                                          double gain) {
     if (!is_sampled_for(record, E) || record.hold != Hold::kZoh || A.size() != E.size() || !is_sampled_for(record, A))
         return {};
     for (const Vector& numerator : B)
         if (numerator.size() >= A.size()) return {};
-    return for_order<RegressionMoments>(E.size() - 1, [&](auto n) -> std::optional<RegressionMoments> {
+    return for_order<NormalEquations>(E.size() - 1, [&](auto n) -> std::optional<NormalEquations> {
         EquationOutputs equation{n, {}, -1, {}};
         DeltaSignals signals(1 + record.u.size());
         const SampledFilter<n> filter(E, record.sampling.Ts);
@@ -330,7 +330,7 @@ std::optional<RegressionMoments> delta_auxiliary_moments(const RegressionRecord&
         }
         const std::optional<Matrix> products = signals.products(record.y.size());
         if (!products) return {};
-        return equation.moments(*products, gain, true);
+        return equation.equations(*products, gain, true);
     });
 }
 
@@ -360,10 +360,10 @@ void add_delta_sensitivities(const RegressionRecord& record, const SampledCascad
 
 }  // namespace
 
-std::optional<RegressionMoments> delta_refined_moments(const RegressionRecord& record, const VectorView& A,
+std::optional<NormalEquations> delta_refined_equations(const RegressionRecord& record, const VectorView& A,
                                                        const std::vector<Vector>& B, bool with_gram) {
     if (!is_sampled_for(record, A)) return {};
-    return for_order<RegressionMoments>(A.size() - 1, [&](auto n) -> std::optional<RegressionMoments> {
+    return for_order<NormalEquations>(A.size() - 1, [&](auto n) -> std::optional<NormalEquations> {
         if (poles_far_apart<n>(A, record.sampling.Ts)) return {};
         EquationOutputs equation{n, {}, 1, {}};
         DeltaSignals signals(1 + record.u.size());
@@ -372,12 +372,12 @@ std::optional<RegressionMoments> delta_refined_moments(const RegressionRecord& r
         add_delta_sensitivities<n>(record, cascade, A, B, signals, equation);
         const std::optional<Matrix> products = signals.products(record.y.size());
         if (!products) return {};
-        return equation.moments(*products, 1, with_gram);
+        return equation.equations(*products, 1, with_gram);
     });
 }
 
-std::optional<Matrix> delta_sensitivity_moments(const RegressionRecord& record, const VectorView& A,
-                                                const std::vector<Vector>& B) {
+std::optional<Matrix> delta_sensitivity_products(const RegressionRecord& record, const VectorView& A,
+                                                 const std::vector<Vector>& B) {
     if (!is_sampled_for(record, A)) return {};
     return for_order<Matrix>(A.size() - 1, [&](auto n) -> std::optional<Matrix> {
         if (poles_far_apart<n>(A, record.sampling.Ts)) return {};
@@ -400,8 +400,8 @@ std::optional<Matrix> delta_sensitivity_moments(const RegressionRecord& record, 
     });
 }
 
-std::optional<Matrix> delta_output_moments(const RegressionRecord& record, const std::vector<Vector>& A,
-                                           const std::vector<Vector>& B) {
+std::optional<Matrix> delta_output_products(const RegressionRecord& record, const std::vector<Vector>& A,
+                                            const std::vector<Vector>& B) {
     const auto fits = [&](const Vector& den) { return den.size() == A[0].size() && is_sampled_for(record, den); };
     if (!std::all_of(A.begin(), A.end(), fits)) return {};
     return for_order<Matrix>(A[0].size() - 1, [&](auto n) {

@@ -5,27 +5,27 @@
 
 namespace dynlab::inline numerics {
 
-// The sums of regression_moments.h for models of one to four poles with any zeros, inputs and delays, sampled
+// The sums of normal_equations.h for models of one to four poles with any zeros, inputs and delays, sampled
 // regularly: by delta_products. Nothing is returned for other models and for short records.
 
 /// Signals filtered by gain/E, of the equation error.
-std::optional<RegressionMoments> delta_svf_moments(const RegressionRecord& record, const VectorView& E, double gain);
+std::optional<NormalEquations> delta_svf_equations(const RegressionRecord& record, const VectorView& E, double gain);
 
 /// For held inputs and models with more poles than zeros, whose output does not jump at the first sample.
-std::optional<RegressionMoments> delta_auxiliary_moments(const RegressionRecord& record, const VectorView& E,
+std::optional<NormalEquations> delta_auxiliary_equations(const RegressionRecord& record, const VectorView& E,
                                                          const VectorView& A, const std::vector<Vector>& B,
                                                          double gain);
 
 /// Signals filtered by 1/A, with the exact sensitivities of the simulated output as instruments.
-std::optional<RegressionMoments> delta_refined_moments(const RegressionRecord& record, const VectorView& A,
+std::optional<NormalEquations> delta_refined_equations(const RegressionRecord& record, const VectorView& A,
                                                        const std::vector<Vector>& B, bool with_gram);
 
 /// Sums of products of these sensitivities.
-std::optional<Matrix> delta_sensitivity_moments(const RegressionRecord& record, const VectorView& A,
-                                                const std::vector<Vector>& B);
+std::optional<Matrix> delta_sensitivity_products(const RegressionRecord& record, const VectorView& A,
+                                                 const std::vector<Vector>& B);
 
 /// Sums of products of y, B_1/A_1 u_1, B_2/A_2 u_2, ..., simulated from rest; all A_j of one degree.
-std::optional<Matrix> delta_output_moments(const RegressionRecord& record, const std::vector<Vector>& A,
-                                           const std::vector<Vector>& B);
+std::optional<Matrix> delta_output_products(const RegressionRecord& record, const std::vector<Vector>& A,
+                                            const std::vector<Vector>& B);
 
 }  // namespace dynlab::inline numerics

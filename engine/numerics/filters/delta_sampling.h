@@ -3,7 +3,7 @@
 
 #include "numerics/filters/delta_chain.h"
 #include "numerics/filters/delta_expansion.h"
-#include "numerics/filters/tapped_system.h"
+#include "numerics/filters/sampled_system.h"
 #include "numerics/linalg/matrix_exponential.h"
 #include "numerics/linalg/short_step.h"
 

@@ -15,7 +15,7 @@ struct BlockMaps {
     Matrix step;
 };
 
-BlockMaps block_maps(const TappedSystem& system) {
+BlockMaps block_maps(const SampledSystem& system) {
     const Index n = system.F.rows(), p = system.C.rows();
     BlockMaps maps;
     maps.outputs.assign(static_cast<std::size_t>(p), Matrix::Zero(ExactFilter::kBlock, n + kWidestWindow));
@@ -58,7 +58,7 @@ auto apply(const Map& map, const State& x, const double* w, Index order) {
 
 }  // namespace
 
-ExactFilter::ExactFilter(TappedSystem system) : system_(std::move(system)) {
+ExactFilter::ExactFilter(SampledSystem system) : system_(std::move(system)) {
     sees_next_ = !system_.G.col(0).isZero(0);
     sees_previous_ = !system_.G.col(2).isZero(0) || !system_.D.col(1).isZero(0);
     const BlockMaps maps = block_maps(system_);

@@ -1,18 +1,18 @@
 #pragma once
 #include <vector>
 
-#include "numerics/filters/tapped_system.h"
+#include "numerics/filters/sampled_system.h"
 #include "numerics/linalg/types.h"
 
 namespace dynlab::inline numerics {
 
-/// Runs a TappedSystem over long records. Four samples are advanced together: their outputs and the state after
+/// Runs a SampledSystem over long records. Four samples are advanced together: their outputs and the state after
 /// them are linear in the state before and in the samples they see, so one small matrix product takes the place of
 /// four dependent steps. Orders 1 to 6 have loops of fixed size, higher ones a loop of any size. The results agree
 /// with the sample-by-sample recursion to rounding.
 class ExactFilter {
   public:
-    explicit ExactFilter(TappedSystem system);
+    explicit ExactFilter(SampledSystem system);
 
     Index order() const { return system_.F.rows(); }
     Index output_count() const { return system_.C.rows(); }
@@ -35,7 +35,7 @@ class ExactFilter {
     Index run_start(const VectorView& u, Vector& x, Eigen::Ref<Matrix>& y) const;
     void run_rest(const VectorView& u, Index k, Vector& x, Eigen::Ref<Matrix>& y) const;
 
-    TappedSystem system_;
+    SampledSystem system_;
     bool sees_next_ = false, sees_previous_ = false;  // whether u[k-d+1], u[k-d-1] have weight
     std::vector<Matrix> block_outputs_;  // per output: kBlock x (order + window), acting on [state; input window]
     Matrix block_step_;                  // order x (order + window)

@@ -8,23 +8,23 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-TappedSystem sampled(const SingleInputSystem& system, double Ts, Hold hold, double delay) {
+SampledSystem sampled(const SingleInputSystem& system, double Ts, Hold hold, double delay) {
     return discretise(system.A, system.B, system.C, system.D, Ts, hold, delay);
 }
 
 /// `second`, which has no delay, driven by the first output of `first`. Its input v begins with the delayed signal and
 /// is zero before, so that the rule for its own first sample needs no special case.
-TappedSystem series(const TappedSystem& first, const TappedSystem& second) {
+SampledSystem series(const SampledSystem& first, const SampledSystem& second) {
     const Index n = first.F.rows(), q = second.F.rows(), p = second.C.rows();
     const Eigen::RowVectorXd C = first.C.row(0), D = first.D.row(0);
     const Vector now = second.G.col(1), next = second.G.col(0);  // weights of v[k], v[k+1]
-    TappedSystem chain;
+    SampledSystem chain;
     chain.delay = first.delay;
     chain.F = Matrix::Zero(n + q, n + q);
     chain.F.topLeftCorner(n, n) = first.F;
     chain.F.bottomLeftCorner(q, n) = now * C + next * (C * first.F);
     chain.F.bottomRightCorner(q, q) = second.F;
-    // v[k] = C x + D [u[k]; u[k-1]] and v[k+1] = C (F x + G taps) + D [u[k+1]; u[k]]
+    // v[k] = C x + D [u[k]; u[k-1]] and v[k+1] = C (F x + G samples) + D [u[k+1]; u[k]]
     Eigen::RowVector3d of_next = C * first.G, of_now = Eigen::RowVector3d(0, D[0], D[1]);
     of_next += Eigen::RowVector3d(D[0], D[1], 0);
     chain.G.resize(n + q, 3);
@@ -41,8 +41,8 @@ TappedSystem series(const TappedSystem& first, const TappedSystem& second) {
     return chain;
 }
 
-TappedSystem sampled(const FilterChain& chain, double Ts) {
-    TappedSystem filter = sampled(chain.filter, Ts, chain.hold, chain.delay);
+SampledSystem sampled(const FilterChain& chain, double Ts) {
+    SampledSystem filter = sampled(chain.filter, Ts, chain.hold, chain.delay);
     if (!chain.front) return filter;
     return series(sampled(chain.front->system, Ts, chain.front->hold, chain.front->delay), filter);
 }
@@ -88,13 +88,13 @@ SingleInputSystem no_filter() {
     return {Matrix(0, 0), Vector(0), Matrix(1, 0), Vector::Ones(1)};
 }
 
-Matrix chain_moments(const std::vector<FilterChain>& chains, const Sampling& sampling, const std::vector<Index>& left,
-                     const std::vector<Index>& right, const std::vector<OutputSum>& sums) {
+Matrix chain_products(const std::vector<FilterChain>& chains, const Sampling& sampling, const std::vector<Index>& left,
+                      const std::vector<Index>& right, const std::vector<OutputSum>& sums) {
     if (sampling.Ts > 0) {
         std::vector<FilteredSignal> signals;
         signals.reserve(chains.size());
         for (const FilterChain& chain : chains) signals.push_back({sampled(chain, sampling.Ts), chain.signal});
-        return filter_moments(signals, left, right, sums);
+        return filter_products(signals, left, right, sums);
     }
     Index count = static_cast<Index>(sums.size());
     for (const FilterChain& chain : chains) count += chain.filter.C.rows();

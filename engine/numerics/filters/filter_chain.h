@@ -2,7 +2,7 @@
 #include <optional>
 #include <vector>
 
-#include "numerics/filters/filter_moments.h"
+#include "numerics/filters/filter_products.h"
 #include "numerics/filters/regression_record.h"
 #include "numerics/filters/sensitivity_system.h"
 
@@ -30,9 +30,9 @@ SingleInputSystem derivatives_filter(const VectorView& den, Index highest);
 
 /// M(i, j) = sum over all samples of output_left[i] output_right[j], the outputs of all chains numbered through in
 /// order and after them the sums, all filters at rest at the first sample: exactly, regularly sampled records without
-/// storing any output (filter_moments.h), irregular ones by IrregularFilter.
-Matrix chain_moments(const std::vector<FilterChain>& chains, const Sampling& sampling, const std::vector<Index>& left,
-                     const std::vector<Index>& right, const std::vector<OutputSum>& sums = {});
+/// storing any output (filter_products.h), irregular ones by IrregularFilter.
+Matrix chain_products(const std::vector<FilterChain>& chains, const Sampling& sampling, const std::vector<Index>& left,
+                      const std::vector<Index>& right, const std::vector<OutputSum>& sums = {});
 
 /// The outputs of one chain themselves, N x p.
 Matrix chain_outputs(const FilterChain& chain, const Sampling& sampling);

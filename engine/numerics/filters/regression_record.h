@@ -27,7 +27,7 @@ struct RegressionRecord {
 /// Sums over the samples of the filtered equation p^n y_f = phi' theta with theta = [a_1..a_n, B_1, B_2, ...],
 ///     phi = [-p^(n-1) y_f .. -y_f, p^m_1 u_f,1 .. u_f,1, ...],
 /// multiplied by instruments z (d = number of parameters).
-struct RegressionMoments {
+struct NormalEquations {
     Matrix z_phi;    ///< d x d, sum z phi'
     Vector z_y;      ///< d, sum z p^n y_f
     Matrix z_z;      ///< d x d, sum z z', when asked for

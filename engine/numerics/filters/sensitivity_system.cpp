@@ -7,22 +7,22 @@ namespace dynlab::inline numerics {
 namespace {
 
 /// A signal as a function of the state and the input.
-struct Tap {
+struct LinearOutput {
     Eigen::RowVectorXd state;
     double input = 0;
 };
 
 /// The r-th derivative of z, r = 0 .. n, from A(p) z = u.
-Tap derivative_of_z(const VectorView& den, Index r) {
+LinearOutput derivative_of_z(const VectorView& den, Index r) {
     const Index n = den.size() - 1;
-    Tap tap{Eigen::RowVectorXd::Zero(2 * n)};
+    LinearOutput output{Eigen::RowVectorXd::Zero(2 * n)};
     if (r < n) {
-        tap.state[n - 1 - r] = 1;
+        output.state[n - 1 - r] = 1;
     } else {
-        tap.state.head(n) = -den.tail(n).transpose();
-        tap.input = 1;
+        output.state.head(n) = -den.tail(n).transpose();
+        output.input = 1;
     }
-    return tap;
+    return output;
 }
 
 /// Row r: the r-th derivative of w as a function of the state, r = 0 .. 2n-1, from A(p) w = z.
@@ -54,7 +54,7 @@ SingleInputSystem sensitivity_system(const VectorView& num, const VectorView& de
     SingleInputSystem system{cascade_matrix(den, 0), Vector::Unit(2 * n, 0), Matrix::Zero(outputs, 2 * n),
                              Vector::Zero(outputs)};
     for (Index j = 0; j <= m; ++j) {
-        const Tap z = derivative_of_z(den, m - j);
+        const LinearOutput z = derivative_of_z(den, m - j);
         system.C.row(n + 1 + j) = z.state;
         system.D[n + 1 + j] = z.input;
         system.C.row(0) += num[j] * z.state;

@@ -5,8 +5,8 @@
 #include "numerics/error.h"
 #include "numerics/filters/exact_filter.h"
 #include "numerics/filters/irregular_filter.h"
+#include "numerics/filters/sampled_system.h"
 #include "numerics/filters/sensitivity_system.h"
-#include "numerics/filters/tapped_system.h"
 #include "numerics/linalg/matrix_exponential.h"
 #include "numerics/linalg/polynomial.h"
 
@@ -67,7 +67,7 @@ void add_direct_slope(Matrix& sensitivities, const VectorView& num, const Vector
 ExactFilter free_motion(const Matrix& A, double Ts) {
     const Index n = A.rows();
     const Matrix F = exact_step(A, Matrix::Zero(n, 1), Ts).F, C = Vector::Unit(n, n - 1).transpose();
-    return ExactFilter(tapped(F, Vector::Zero(n), C, Vector::Zero(1), 0));
+    return ExactFilter(discrete_system(F, Vector::Zero(n), C, Vector::Zero(1), 0));
 }
 
 IrregularFilter irregular_free_motion(const Matrix& A) {

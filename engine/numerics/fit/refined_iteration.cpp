@@ -48,9 +48,9 @@ class Groups {
             DenominatorGroup& group = groups_[g];
             if (shared_outputs_) set_targets(g, theta);
             const Vector own = theta.segment(group.place(), group.parameter_count());
-            const RegressionMoments sums = group.refined(own, with_gram_);
+            const NormalEquations sums = group.refined(own, with_gram_);
             if (with_gram_) gram_.block(group.place(), group.place(), own.size(), own.size()) = sums.z_z;
-            const Vector solved = solve_moments(sums);
+            const Vector solved = solve_equations(sums);
             next.segment(group.place(), group.parameter_count()) = solved;
             if (solved.allFinite()) theta.segment(group.place(), group.parameter_count()) = group.reflected(solved);
         }
@@ -265,7 +265,7 @@ Vector filtered_start(const IdData& data, const TransferStructure& structure, do
         const bool whole = std::all_of(group.outputs().begin(), group.outputs().end(),
                                        [&](Index output) { return shares_denominators(structure, output); });
         if (!whole) continue;
-        const Vector own = solve_moments(group.svf(filter_denominator(lambda, group.order())));
+        const Vector own = solve_equations(group.svf(filter_denominator(lambda, group.order())));
         theta.segment(group.place(), group.parameter_count()) = own.allFinite() ? group.reflected(own) : own;
     }
     for (Index output = 0; output < structure.outputs; ++output)

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "numerics/error.h"
-#include "numerics/filters/tapped_system.h"
+#include "numerics/filters/sampled_system.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/matrix_exponential.h"
 #include "numerics/linalg/polynomial.h"
@@ -28,7 +28,7 @@ Hold hold_of(Discretisation method) {
 
 /// The numerators over `den` (of degree n = order, or n + 1 with a factor z for a tap on the previous sample) of all
 /// outputs, one column each: den times the response to a single sample of one.
-Matrix discrete_numerators(const TappedSystem& system, const Vector& den) {
+Matrix discrete_numerators(const SampledSystem& system, const Vector& den) {
     Matrix response(den.size(), system.C.rows());
     Vector x = system.G.col(0);
     for (Index k = 0; k < den.size(); ++k) {
@@ -46,7 +46,7 @@ Matrix discrete_numerators(const TappedSystem& system, const Vector& den) {
 TransferFunction exact_c2d(const TransferFunction& G, double Ts, Hold hold) {
     const StateSpace form = to_state_space(G);
     const auto [samples, rest] = split_delay(G.delay(), Ts);
-    const TappedSystem system = discretise(form.A, form.B.col(0), form.C, form.D.col(0), Ts, hold, G.delay());
+    const SampledSystem system = discretise(form.A, form.B.col(0), form.C, form.D.col(0), Ts, hold, G.delay());
     Vector den = polynomial_from_roots((Ts * G.poles()).array().exp().matrix());
     if (rest > 0) den = multiply(den, Eigen::Vector2d(1, 0));
     return TransferFunction(discrete_numerators(system, den).col(0), den, Ts, static_cast<double>(samples) * Ts);

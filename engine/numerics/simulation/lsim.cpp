@@ -7,7 +7,7 @@
 #include "numerics/error.h"
 #include "numerics/filters/exact_filter.h"
 #include "numerics/filters/irregular_filter.h"
-#include "numerics/filters/tapped_system.h"
+#include "numerics/filters/sampled_system.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/number_text.h"
 #include "numerics/signals/checks.h"
@@ -59,8 +59,9 @@ Vector lsim(const TransferFunction& G, const VectorView& u, double Ts, Hold hold
     if (!G.continuous()) check_discrete_sampling(G.Ts(), Ts);
     const StateSpace form = to_state_space(G);
     const ExactFilter filter(
-        G.continuous() ? discretise(form.A, form.B.col(0), form.C, form.D.col(0), Ts, hold, G.delay())
-                       : tapped(form.A, form.B.col(0), form.C, form.D.col(0), split_delay(G.delay(), Ts).samples));
+        G.continuous()
+            ? discretise(form.A, form.B.col(0), form.C, form.D.col(0), Ts, hold, G.delay())
+            : discrete_system(form.A, form.B.col(0), form.C, form.D.col(0), split_delay(G.delay(), Ts).samples));
     Vector y(u.size());
     filter.run(u, initial_state(x0, form.order()), y);
     // A sample that is not finite stays in the state and shows in the last output, unless it came too late for that or
@@ -98,7 +99,7 @@ Matrix lsim(const StateSpace& system, const MatrixView& u, double Ts, Hold hold,
     Matrix y = Matrix::Zero(u.rows(), system.C.rows()), share(u.rows(), system.C.rows());
     for (Index input = 0; input < u.cols(); ++input) {
         const auto B = system.B.col(input), D = system.D.col(input);
-        const ExactFilter filter(system.Ts > 0 ? tapped(system.A, B, system.C, D, 0)
+        const ExactFilter filter(system.Ts > 0 ? discrete_system(system.A, B, system.C, D, 0)
                                                : discretise(system.A, B, system.C, D, Ts, hold));
         filter.run(u.col(input), state, share);
         y += share;

@@ -5,8 +5,8 @@
 
 #include "numerics/error.h"
 #include "numerics/filters/exact_filter.h"
+#include "numerics/filters/sampled_system.h"
 #include "numerics/filters/sensitivity_system.h"
-#include "numerics/filters/tapped_system.h"
 #include "numerics/linalg/least_squares.h"
 
 namespace dynlab::inline numerics {

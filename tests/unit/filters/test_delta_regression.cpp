@@ -106,7 +106,7 @@ class delta_regression : public testing::TestWithParam<Model> {
         const Matrix scale = left.colwise().norm().transpose() * right.colwise().norm();
         return ((sums - left.transpose() * right).array() / scale.array().max(1e-300)).abs().maxCoeff();
     }
-    static void expect_sums(const RegressionMoments& sums, const Matrix& z, const Matrix& phi, double rounding) {
+    static void expect_sums(const NormalEquations& sums, const Matrix& z, const Matrix& phi, double rounding) {
         const Index d = z.cols();
         EXPECT_LT(difference(sums.z_phi, z, phi.leftCols(d)), rounding);
         EXPECT_LT(difference(sums.z_y, z, phi.rightCols(1)), rounding);
@@ -121,12 +121,12 @@ class delta_regression : public testing::TestWithParam<Model> {
 
 TEST_P(delta_regression, svf_sums_are_those_of_stored_signals) {
     for_all([&](const RegressionRecord& record, const std::vector<Vector>&) {
-        const auto sums = delta_svf_moments(record, model_.A, 1);
+        const auto sums = delta_svf_equations(record, model_.A, 1);
         ASSERT_TRUE(sums);
         const Matrix phi = regressors(record, model_.A);
         expect_sums(*sums, phi.leftCols(phi.cols() - 1), phi, 1e-11);
         EXPECT_NEAR(sums->y_y / phi.rightCols(1).squaredNorm(), 1, 1e-11);
-        const auto scaled = delta_svf_moments(record, model_.A, 3);
+        const auto scaled = delta_svf_equations(record, model_.A, 3);
         ASSERT_TRUE(scaled);
         EXPECT_NEAR(scaled->y_y / sums->y_y, 9, 1e-14 * 9);
     });
@@ -134,7 +134,7 @@ TEST_P(delta_regression, svf_sums_are_those_of_stored_signals) {
 
 TEST_P(delta_regression, refined_sums_are_those_of_stored_signals) {
     for_all([&](const RegressionRecord& record, const std::vector<Vector>& B) {
-        const auto sums = delta_refined_moments(record, model_.A, B, true);
+        const auto sums = delta_refined_equations(record, model_.A, B, true);
         ASSERT_TRUE(sums);
         const Index n = model_.A.size() - 1;
         const Matrix phi = regressors(record, model_.A);
@@ -143,10 +143,10 @@ TEST_P(delta_regression, refined_sums_are_those_of_stored_signals) {
         for (std::size_t j = 0; j < B.size(); ++j)
             z.leftCols(n) += sensitivities(record.u[j], model_.A, B[j], record.hold, record.delays[j]);
         expect_sums(*sums, z, phi, model_.rounding);
-        const auto gram = delta_sensitivity_moments(record, model_.A, B);
+        const auto gram = delta_sensitivity_products(record, model_.A, B);
         ASSERT_TRUE(gram);
         EXPECT_LT(difference(*gram, z, z), model_.rounding);
-        const auto without_gram = delta_refined_moments(record, model_.A, B, false);
+        const auto without_gram = delta_refined_equations(record, model_.A, B, false);
         ASSERT_TRUE(without_gram);
         EXPECT_EQ(without_gram->z_z.size(), 0);
         EXPECT_EQ(without_gram->z_phi, sums->z_phi);
@@ -157,7 +157,7 @@ TEST_P(delta_regression, auxiliary_sums_are_those_of_stored_signals) {
     const Index n = model_.A.size() - 1;
     const Vector E = power(Eigen::Vector2d(1, 2.5), static_cast<int>(n));
     for_all([&](const RegressionRecord& record, const std::vector<Vector>& B) {
-        const auto sums = delta_auxiliary_moments(record, E, model_.A, B, 1);
+        const auto sums = delta_auxiliary_equations(record, E, model_.A, B, 1);
         ASSERT_EQ(sums.has_value(), record.hold == Hold::kZoh && B[0].size() <= n);
         if (!sums) return;
         const Matrix phi = regressors(record, E);
@@ -172,7 +172,7 @@ TEST_P(delta_regression, auxiliary_sums_are_those_of_stored_signals) {
 TEST_P(delta_regression, output_sums_are_those_of_stored_signals) {
     for_all([&](const RegressionRecord& record, const std::vector<Vector>& B) {
         const std::vector<Vector> A(B.size(), model_.A);
-        const auto sums = delta_output_moments(record, A, B);
+        const auto sums = delta_output_products(record, A, B);
         ASSERT_TRUE(sums);
         Matrix signals = record.y;
         for (std::size_t j = 0; j < B.size(); ++j)
@@ -210,7 +210,7 @@ TEST(delta_regression_limits, a_signal_that_the_filter_stops_keeps_its_digits) {
     for (Index k = 0; k < N; ++k) y[k] = k % 2 == 0 ? 1 : -1;
     const Vector u = RandomStream(4).normal(N);
     for (const Hold hold_y : {Hold::kZoh, Hold::kFoh}) {
-        const auto sums = delta_svf_moments({view(y), {view(u)}, {0}, {0}, {kTs}, Hold::kZoh, hold_y}, A, 1);
+        const auto sums = delta_svf_equations({view(y), {view(u)}, {0}, {0}, {kTs}, Hold::kZoh, hold_y}, A, 1);
         ASSERT_TRUE(sums);
         Matrix phi(N, 3);
         const Matrix of_y = derivatives(view(y), A, 2, hold_y, 0);
@@ -231,11 +231,11 @@ TEST(delta_regression_limits, other_kinds_are_left_to_the_general_way) {
     const RegressionRecord record{view(y), {view(u)}, {0}, {0}, {kTs}};
     const std::vector<Vector> B{Vector::Ones(1)};
     const auto made = [&](const RegressionRecord& of, const Vector& A) {
-        const bool refined = delta_refined_moments(of, A, B, false).has_value();
-        EXPECT_EQ(delta_svf_moments(of, A, 1).has_value(), refined);
-        EXPECT_EQ(delta_auxiliary_moments(of, A, A, B, 1).has_value(), refined);
-        EXPECT_EQ(delta_sensitivity_moments(of, A, B).has_value(), refined);
-        EXPECT_EQ(delta_output_moments(of, {A}, B).has_value(), refined);
+        const bool refined = delta_refined_equations(of, A, B, false).has_value();
+        EXPECT_EQ(delta_svf_equations(of, A, 1).has_value(), refined);
+        EXPECT_EQ(delta_auxiliary_equations(of, A, A, B, 1).has_value(), refined);
+        EXPECT_EQ(delta_sensitivity_products(of, A, B).has_value(), refined);
+        EXPECT_EQ(delta_output_products(of, {A}, B).has_value(), refined);
         return refined;
     };
     EXPECT_TRUE(made(record, Eigen::Vector3d(1, 4, 3)));
@@ -248,8 +248,8 @@ TEST(delta_regression_limits, other_kinds_are_left_to_the_general_way) {
     EXPECT_FALSE(made(brief, Eigen::Vector3d(1, 4, 3))) << "few samples";
     // Each pole twice, and three decades apart: only the sensitivities would suffer.
     const Vector far = multiply(Eigen::Vector3d(1, 4.4, 1.6), Eigen::Vector3d(1, 440, 16000));
-    EXPECT_FALSE(delta_refined_moments(record, far, B, false));
-    EXPECT_TRUE(delta_svf_moments(record, far, 1));
+    EXPECT_FALSE(delta_refined_equations(record, far, B, false));
+    EXPECT_TRUE(delta_svf_equations(record, far, 1));
 }
 
 }  // namespace test_delta_regression

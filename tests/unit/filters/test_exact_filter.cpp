@@ -11,8 +11,8 @@
 namespace dynlab {
 namespace test_exact_filter {
 
-/// The definition of TappedSystem, sample by sample.
-Matrix by_definition(const TappedSystem& system, const Vector& u, Vector x) {
+/// The definition of SampledSystem, sample by sample.
+Matrix by_definition(const SampledSystem& system, const Vector& u, Vector x) {
     const Index d = system.delay;
     const auto at = [&](Index k) { return k >= 0 && k < u.size() ? u(k) : 0; };
     Matrix y(u.size(), system.C.rows());
@@ -45,7 +45,7 @@ TEST_P(exact_filter_of_order, agrees_with_the_definition) {  // oracle: second r
     for (const Hold hold : {Hold::kZoh, Hold::kFoh})
         for (const double delay : {0.0, 0.1, 0.13, 0.57, 1.0})
             for (const Index N : {1, 2, 5, 9, 10, 11, 12, 50}) {
-                const TappedSystem system = derivative_filter(stable_denominator(order), 0.1, hold, delay);
+                const SampledSystem system = derivative_filter(stable_denominator(order), 0.1, hold, delay);
                 const Vector u = random.normal(N), x = random.normal(order);
                 Matrix y(N, order + 1);
                 ExactFilter(system).run(u, x, y);
@@ -109,7 +109,7 @@ TEST(exact_filter, derivatives_fulfil_their_identity) {  // oracle: definition, 
 }
 
 TEST(exact_filter, a_discrete_gain_with_delay_only_shifts) {  // oracle: analytic
-    const TappedSystem gain = tapped(Matrix(0, 0), Vector(0), Matrix(1, 0), Vector::Constant(1, 3.0), 2);
+    const SampledSystem gain = discrete_system(Matrix(0, 0), Vector(0), Matrix(1, 0), Vector::Constant(1, 3.0), 2);
     const Matrix y = ExactFilter(gain).run(Vector::LinSpaced(12, 1, 12));
     for (Index k = 0; k < 12; ++k) EXPECT_EQ(y(k, 0), k < 2 ? 0.0 : 3.0 * static_cast<double>(k - 1));
 }

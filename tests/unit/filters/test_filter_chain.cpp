@@ -28,8 +28,8 @@ TEST(filter_chain, regular_instants_give_the_same_however_they_are_told) {
                                               of_x};
         const std::vector<OutputSum> sums{{{{0, 1}, {5, -2}}}};
         const std::vector<Index> left{0, 3, 7}, right{1, 2, 4, 5, 6, 7};
-        const Matrix regular = chain_moments(chains, {0.05, {nullptr, 0}}, left, right, sums);
-        const Matrix irregular = chain_moments(chains, {0, view(t)}, left, right, sums);
+        const Matrix regular = chain_products(chains, {0.05, {nullptr, 0}}, left, right, sums);
+        const Matrix irregular = chain_products(chains, {0, view(t)}, left, right, sums);
         EXPECT_LT((regular - irregular).cwiseAbs().maxCoeff(), 1e-10 * regular.cwiseAbs().maxCoeff());
         // oracle: definition, the stored outputs multiplied
         Matrix outputs(N, 8);

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "numerics/filters/tapped_recursion.h"
+#include "numerics/filters/sampled_recursion.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/signals/random.h"
 
@@ -14,7 +14,7 @@ using namespace dynlab;
 
 /// Largest difference of a lane filter's outputs and last state from the recursion, relative to the largest output.
 double difference(const FilteredSignal& filtered, Index first, Index segment) {
-    TappedRecursion recursion(filtered.system, filtered.signal);
+    SampledRecursion recursion(filtered.system, filtered.signal);
     const Index p = filtered.system.C.rows(), N = filtered.signal.size();
     Matrix expected(N, p);
     Vector row(p), start, end;
@@ -40,7 +40,7 @@ double difference(const FilteredSignal& filtered, Index first, Index segment) {
     return std::max(largest, (filter.last_state() - end).norm() / end.norm());
 }
 
-// oracle: definition, sample by sample (TappedRecursion); orders with and without a loop of their own, segments that
+// oracle: definition, sample by sample (SampledRecursion); orders with and without a loop of their own, segments that
 // remember all of the one before or only its end
 TEST(lane_filter, agrees_with_the_recursion) {
     const Vector u = RandomStream(1).normal(12'000);

@@ -2,19 +2,19 @@
 
 #include <cmath>
 
-#include "numerics/filters/tapped_system.h"
+#include "numerics/filters/sampled_system.h"
 
-namespace test_tapped_system {
+namespace test_sampled_system {
 
 using namespace dynlab;
 
-TappedSystem lag(double Ts, Hold hold, double delay) {  // 1/(s + 1) and a feed-through of 0.5
+SampledSystem lag(double Ts, Hold hold, double delay) {  // 1/(s + 1) and a feed-through of 0.5
     return discretise(Matrix{{-1}}, Vector{{1.0}}, Matrix{{1}}, Vector{{0.5}}, Ts, hold, delay);
 }
 
-TEST(tapped_system, held_input_with_a_delay_between_samples) {  // oracle: analytic, Astrom and Wittenmark (1997) 2.3
+TEST(sampled_system, held_input_with_a_delay_between_samples) {  // oracle: analytic, Astrom and Wittenmark (1997) 2.3
     const double Ts = 0.5, rest = 0.2;
-    const TappedSystem system = lag(Ts, Hold::kZoh, 2 * Ts + rest);
+    const SampledSystem system = lag(Ts, Hold::kZoh, 2 * Ts + rest);
     EXPECT_EQ(system.delay, 2);
     EXPECT_NEAR(system.F(0, 0), std::exp(-Ts), 2e-16);
     EXPECT_EQ(system.G(0, 0), 0);
@@ -24,33 +24,33 @@ TEST(tapped_system, held_input_with_a_delay_between_samples) {  // oracle: analy
     EXPECT_EQ(system.D(0, 1), 0.5);
 }
 
-TEST(tapped_system, straight_input_follows_a_ramp) {  // oracle: analytic, x' = -x + t - delay has x = t - delay - 1
+TEST(sampled_system, straight_input_follows_a_ramp) {  // oracle: analytic, x' = -x + t - delay has x = t - delay - 1
     const double Ts = 0.5, delay = 0.7;
-    const TappedSystem system = lag(Ts, Hold::kFoh, delay);
+    const SampledSystem system = lag(Ts, Hold::kFoh, delay);
     const auto input = [&](Index k) { return Ts * static_cast<double>(k - system.delay); };
     const auto state = [&](Index k) { return Ts * static_cast<double>(k) - delay - 1; };
     for (Index k = 3; k < 6; ++k) {
-        const Vector taps{{input(k + 1), input(k), input(k - 1)}};
-        EXPECT_NEAR(system.F(0, 0) * state(k) + system.G.row(0).dot(taps), state(k + 1), 1e-15);
-        const double output = state(k) + system.D.row(0).dot(taps.tail(2));
+        const Vector samples{{input(k + 1), input(k), input(k - 1)}};
+        EXPECT_NEAR(system.F(0, 0) * state(k) + system.G.row(0).dot(samples), state(k + 1), 1e-15);
+        const double output = state(k) + system.D.row(0).dot(samples.tail(2));
         EXPECT_NEAR(output, state(k) + 0.5 * (Ts * static_cast<double>(k) - delay), 1e-15);
     }
 }
 
-TEST(tapped_system, weights_add_up_to_the_held_step) {  // oracle: property, constant inputs look alike in every hold
+TEST(sampled_system, weights_add_up_to_the_held_step) {  // oracle: property, constant inputs look alike in every hold
     for (const Hold hold : {Hold::kZoh, Hold::kFoh})
         for (const double delay : {0.0, 0.1, 0.5, 1.23}) {
-            const TappedSystem system = lag(0.5, hold, delay);
+            const SampledSystem system = lag(0.5, hold, delay);
             EXPECT_NEAR(system.G.sum(), 1 - std::exp(-0.5), 1e-15);
             EXPECT_NEAR(system.D.sum(), 0.5, 1e-15);
         }
 }
 
-TEST(tapped_system, derivatives_add_up_to_the_signal) {  // oracle: definition, sum den_i s^(n-i)/den = 1
+TEST(sampled_system, derivatives_add_up_to_the_signal) {  // oracle: definition, sum den_i s^(n-i)/den = 1
     const Vector den{{1, 6, 11, 6}};
-    const TappedSystem system = derivative_filter(den, 0.1, Hold::kFoh);
+    const SampledSystem system = derivative_filter(den, 0.1, Hold::kFoh);
     EXPECT_LT((den.transpose() * system.C).norm(), 1e-14);
     EXPECT_NEAR(den.dot(system.D.col(0)), 1, 1e-15);
 }
 
-}  // namespace test_tapped_system
+}  // namespace test_sampled_system

@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
 
-#include "numerics/filters/regression_moments.h"
+#include "numerics/filters/normal_equations.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
 
-namespace test_regression_moments {
+namespace test_normal_equations {
 
 using namespace dynlab;
 
@@ -28,7 +28,7 @@ Vector differentiator(Index power) {
     return Vector::Unit(power + 1, 0);
 }
 
-class regression_moments : public testing::TestWithParam<Kind> {
+class normal_equations : public testing::TestWithParam<Kind> {
   protected:
     Vector y_ = RandomStream(1).normal(kSamples);
     std::vector<Vector> u_;
@@ -78,11 +78,11 @@ void expect_near(const Matrix& found, const Matrix& wanted) {
 }
 
 // Oracle: every filtered signal simulated by itself, and the products summed.
-TEST_P(regression_moments, of_state_variable_filters) {
+TEST_P(normal_equations, of_state_variable_filters) {
     Vector E = Vector::Ones(1);
     for (Index i = 0; i < order(); ++i) E = multiply(E, Vector{{1, 3}});
     const double gain = E[E.size() - 1];
-    const RegressionMoments sums = svf_moments(record_, E, gain);
+    const NormalEquations sums = svf_equations(record_, E, gain);
     const Matrix phi = regressors(E, gain);
     const Vector left = highest(E, gain);
     expect_near(sums.z_phi, phi.transpose() * phi);
@@ -90,9 +90,9 @@ TEST_P(regression_moments, of_state_variable_filters) {
     EXPECT_NEAR(sums.y_y, left.squaredNorm(), 1e-8 * left.squaredNorm());
 }
 
-TEST_P(regression_moments, of_the_refined_instruments) {
+TEST_P(normal_equations, of_the_refined_instruments) {
     const auto& [name, A, B, delays] = GetParam();
-    const RegressionMoments sums = refined_moments(record_, A, B, true);
+    const NormalEquations sums = refined_equations(record_, A, B, true);
     const Matrix phi = regressors(A, 1);
     Matrix z = phi;
     const Vector squared = multiply(A, A);
@@ -104,10 +104,10 @@ TEST_P(regression_moments, of_the_refined_instruments) {
     expect_near(sums.z_phi, z.transpose() * phi);
     expect_near(sums.z_y, z.transpose() * highest(A, 1));
     expect_near(sums.z_z, z.transpose() * z);
-    expect_near(sensitivity_moments(record_, A, B), z.transpose() * z);
+    expect_near(sensitivity_products(record_, A, B), z.transpose() * z);
 }
 
-TEST_P(regression_moments, of_output_errors) {
+TEST_P(normal_equations, of_output_errors) {
     const auto& [name, A, B, delays] = GetParam();
     Vector e = y_;
     for (std::size_t j = 0; j < B.size(); ++j) e -= driven(j, B[j], A);
@@ -116,7 +116,7 @@ TEST_P(regression_moments, of_output_errors) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    all_tiers, regression_moments,
+    all_tiers, normal_equations,
     testing::Values(Kind{"one_pole", Vector{{1, 2}}, {Vector{{3}}}, {0}},
                     Kind{"one_pole_delayed", Vector{{1, 2}}, {Vector{{3}}}, {0.34}},
                     Kind{"two_poles", Vector{{1, 2, 5}}, {Vector{{1, 5}}}, {0}},
@@ -128,4 +128,4 @@ INSTANTIATE_TEST_SUITE_P(
                     Kind{"five_poles", Vector{{1, 8, 29, 62, 76, 40}}, {Vector{{40}}}, {0.12}}),
     [](const auto& kind) { return kind.param.name; });
 
-}  // namespace test_regression_moments
+}  // namespace test_normal_equations

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "numerics/filters/filtered_signal.h"
+#include "numerics/filters/sampled_system.h"
 
 namespace dynlab::inline numerics {
 
@@ -11,7 +11,7 @@ namespace dynlab::inline numerics {
 /// are never stored: signals are filtered and multiplied a block at a time, eight segments of the record side by side
 /// (LaneFilter), so that memory does not grow with N. All filters start from the zero state; all signals have N >= 1
 /// samples.
-Matrix filter_moments(const std::vector<FilteredSignal>& signals, const std::vector<Index>& left,
-                      const std::vector<Index>& right, const std::vector<OutputSum>& sums = {});
+Matrix filter_products(const std::vector<FilteredSignal>& signals, const std::vector<Index>& left,
+                       const std::vector<Index>& right, const std::vector<OutputSum>& sums = {});
 
 }  // namespace dynlab::inline numerics

@@ -1,4 +1,4 @@
-#include "numerics/filters/filter_moments.h"
+#include "numerics/filters/filter_products.h"
 
 #include <gtest/gtest.h>
 
@@ -12,17 +12,17 @@
 #include "numerics/linalg/polynomial.h"
 #include "numerics/signals/random.h"
 
-namespace test_filter_moments {
+namespace test_filter_products {
 
 using namespace dynlab;
 
 using Samples = Eigen::Map<const Vector>;
 
-// Largest difference of two matrices of moments, each entry relative to the norms of its two signals.
-double difference(const Matrix& moments, const Matrix& left, const Matrix& right) {
+// Largest difference of two matrices of products, each entry relative to the norms of its two signals.
+double difference(const Matrix& products, const Matrix& left, const Matrix& right) {
     const Matrix expected = left.transpose() * right;
     const Matrix scale = left.colwise().norm().transpose() * right.colwise().norm();
-    return ((moments - expected).array() / scale.array().max(1e-300)).abs().maxCoeff();
+    return ((products - expected).array() / scale.array().max(1e-300)).abs().maxCoeff();
 }
 
 Vector stable_denominator(Index order) {
@@ -32,83 +32,85 @@ Vector stable_denominator(Index order) {
     return den;
 }
 
-struct MomentsCase {
+struct ProductsCase {
     Index order, samples;
     double delay;
     Hold hold;
 };
 
-class filter_moments_of : public testing::TestWithParam<MomentsCase> {};
+class filter_products_of : public testing::TestWithParam<ProductsCase> {};
 
 // oracle: second route, the outputs of ExactFilter multiplied out
-TEST_P(filter_moments_of, outputs_equal_the_stored_ones_multiplied) {
+TEST_P(filter_products_of, outputs_equal_the_stored_ones_multiplied) {
     const auto [order, N, delay, hold] = GetParam();
     const double Ts = 0.05;
     const Vector y = RandomStream(1).normal(N), u = RandomStream(2).normal(N), den = stable_denominator(order);
     const SingleInputSystem cascade = sensitivity_system(Eigen::Vector2d(-2, 1).head(std::min<Index>(order, 2)), den);
-    const TappedSystem of_y = derivative_filter(den, Ts, Hold::kFoh);
-    const TappedSystem of_u = discretise(cascade.A, cascade.B, cascade.C, cascade.D, Ts, hold, delay);
+    const SampledSystem of_y = derivative_filter(den, Ts, Hold::kFoh);
+    const SampledSystem of_u = discretise(cascade.A, cascade.B, cascade.C, cascade.D, Ts, hold, delay);
     Matrix outputs(N, of_y.C.rows() + of_u.C.rows());
     outputs << ExactFilter(of_y).run(y), ExactFilter(of_u).run(u);
     const std::vector<FilteredSignal> signals{{of_y, Samples(y.data(), N)}, {of_u, Samples(u.data(), N)}};
 
     std::vector<Index> all(static_cast<std::size_t>(outputs.cols()));
     std::iota(all.begin(), all.end(), 0);
-    EXPECT_LT(difference(filter_moments(signals, all, all), outputs, outputs), 1e-12);
+    EXPECT_LT(difference(filter_products(signals, all, all), outputs, outputs), 1e-12);
     const std::vector<Index> left{order + 2, order + 3}, right{0, 1, order + 2};
-    EXPECT_LT(difference(filter_moments(signals, left, right), outputs(Eigen::all, left), outputs(Eigen::all, right)),
+    EXPECT_LT(difference(filter_products(signals, left, right), outputs(Eigen::all, left), outputs(Eigen::all, right)),
               1e-12);
 }
 
-INSTANTIATE_TEST_SUITE_P(records, filter_moments_of,
-                         testing::Values(MomentsCase{1, 1, 0, Hold::kZoh}, MomentsCase{1, 2, 0, Hold::kFoh},
-                                         MomentsCase{1, 17, 0, Hold::kZoh}, MomentsCase{2, 66, 0, Hold::kZoh},
-                                         MomentsCase{2, 67, 0.05, Hold::kZoh}, MomentsCase{2, 1500, 0.37, Hold::kFoh},
-                                         MomentsCase{2, 1500, 0.4, Hold::kFoh}, MomentsCase{1, 1501, 0.37, Hold::kZoh},
-                                         MomentsCase{2, 1502, 0.37, Hold::kZoh}, MomentsCase{2, 100000, 0, Hold::kZoh},
-                                         MomentsCase{3, 999, 0.01, Hold::kZoh}, MomentsCase{3, 999, 60, Hold::kZoh},
-                                         MomentsCase{4, 5000, 0, Hold::kFoh}, MomentsCase{4, 5000, 1.23, Hold::kZoh},
-                                         MomentsCase{5, 3000, 0, Hold::kZoh}, MomentsCase{6, 3000, 0.11, Hold::kFoh},
-                                         MomentsCase{9, 3000, 0.11, Hold::kZoh}),
+INSTANTIATE_TEST_SUITE_P(records, filter_products_of,
+                         testing::Values(ProductsCase{1, 1, 0, Hold::kZoh}, ProductsCase{1, 2, 0, Hold::kFoh},
+                                         ProductsCase{1, 17, 0, Hold::kZoh}, ProductsCase{2, 66, 0, Hold::kZoh},
+                                         ProductsCase{2, 67, 0.05, Hold::kZoh}, ProductsCase{2, 1500, 0.37, Hold::kFoh},
+                                         ProductsCase{2, 1500, 0.4, Hold::kFoh},
+                                         ProductsCase{1, 1501, 0.37, Hold::kZoh},
+                                         ProductsCase{2, 1502, 0.37, Hold::kZoh},
+                                         ProductsCase{2, 100000, 0, Hold::kZoh}, ProductsCase{3, 999, 0.01, Hold::kZoh},
+                                         ProductsCase{3, 999, 60, Hold::kZoh}, ProductsCase{4, 5000, 0, Hold::kFoh},
+                                         ProductsCase{4, 5000, 1.23, Hold::kZoh}, ProductsCase{5, 3000, 0, Hold::kZoh},
+                                         ProductsCase{6, 3000, 0.11, Hold::kFoh},
+                                         ProductsCase{9, 3000, 0.11, Hold::kZoh}),
                          [](const auto& instance) {
-                             const MomentsCase& c = instance.param;
+                             const ProductsCase& c = instance.param;
                              return "order_" + std::to_string(c.order) + "_samples_" + std::to_string(c.samples) +
                                     "_delay_ms_" + std::to_string(static_cast<int>(1000 * c.delay + 0.5)) +
                                     (c.hold == Hold::kZoh ? "_zoh" : "_foh");
                          });
 
-TEST(filter_moments, undamped_filters_are_followed_exactly) {  // oracle: second route; nothing is ever forgotten here
+TEST(filter_products, undamped_filters_are_followed_exactly) {  // oracle: second route; nothing is ever forgotten here
     const Index N = 4001;
     const Vector u = RandomStream(3).normal(N);
-    const TappedSystem system = derivative_filter(Eigen::Vector3d(1, 0, 1), 0.1, Hold::kZoh);
+    const SampledSystem system = derivative_filter(Eigen::Vector3d(1, 0, 1), 0.1, Hold::kZoh);
     const Matrix outputs = ExactFilter(system).run(u);
-    EXPECT_LT(difference(filter_moments({{system, Samples(u.data(), N)}}, {0, 1, 2}, {0, 1, 2}), outputs, outputs),
+    EXPECT_LT(difference(filter_products({{system, Samples(u.data(), N)}}, {0, 1, 2}, {0, 1, 2}), outputs, outputs),
               1e-11);
 }
 
 // oracle: second route; the shapes that are summed in registers: alone, one output, a signal as it is, a late sample
-TEST(filter_moments, signals_alone_and_single_outputs_equal_the_stored_ones_multiplied) {
+TEST(filter_products, signals_alone_and_single_outputs_equal_the_stored_ones_multiplied) {
     const Index N = 2003;
     const Vector y = RandomStream(1).normal(N), u = RandomStream(2).normal(N);
-    TappedSystem itself = tapped(Matrix(0, 0), Vector(0), Matrix(1, 0), Vector::Ones(1), 0);
+    SampledSystem itself = discrete_system(Matrix(0, 0), Vector(0), Matrix(1, 0), Vector::Ones(1), 0);
     for (const double delay : {0.0, 0.13})
         for (const Vector& den : {Vector(Eigen::Vector2d(1, 3)), Vector(Eigen::Vector3d(1, 6, 9)),
                                   Vector(Eigen::Vector3d(1, 0.4, 25)), Vector(Eigen::Vector3d(1, 50, 49))}) {
-            TappedSystem system = derivative_filter(den, 0.02, Hold::kZoh, delay);
+            SampledSystem system = derivative_filter(den, 0.02, Hold::kZoh, delay);
             system.C = system.C.bottomRows(1).eval();
             system.D = system.D.bottomRows(1).eval();
             system.first_D = system.first_D.tail(1).eval();
             Matrix outputs(N, 2);
             outputs << y, ExactFilter(system).run(u);
             const FilteredSignal of_y{itself, Samples(y.data(), N)}, of_u{system, Samples(u.data(), N)};
-            EXPECT_LT(difference(filter_moments({of_y, of_u}, {0, 1}, {0, 1}), outputs, outputs), 1e-13);
-            EXPECT_LT(difference(filter_moments({of_u}, {0}, {0}), outputs.rightCols(1), outputs.rightCols(1)), 1e-13);
+            EXPECT_LT(difference(filter_products({of_y, of_u}, {0, 1}, {0, 1}), outputs, outputs), 1e-13);
+            EXPECT_LT(difference(filter_products({of_u}, {0}, {0}), outputs.rightCols(1), outputs.rightCols(1)), 1e-13);
         }
 }
 
 // oracle: second route; sums of squares follow from how the squares grow where that keeps the digits: it does not for a
 // signal of alternating sign, of which next to nothing is left after a slow filter
-TEST(filter_moments, two_equal_poles_keep_the_digits_whatever_the_signal) {
+TEST(filter_products, two_equal_poles_keep_the_digits_whatever_the_signal) {
     const Index N = 20011;
     const Vector u = RandomStream(2).normal(N), time = Vector::LinSpaced(N, 0, static_cast<double>(N - 1));
     const Vector sign = time.unaryExpr([](double k) { return std::fmod(k, 2) == 0 ? 1.0 : -1.0; });
@@ -122,17 +124,18 @@ TEST(filter_moments, two_equal_poles_keep_the_digits_whatever_the_signal) {
         for (const Vector& y : signals) {
             const Matrix A = (Matrix(2, 2) << pole, 0, 1, pole).finished();
             const Matrix C = Matrix::Identity(3, 2);
-            const TappedSystem of_y = tapped(A, Vector::Unit(2, 0), C, Vector::Unit(3, 2), 0);
-            const TappedSystem of_u = tapped(A, Vector::Unit(2, 0), Eigen::RowVector2d(1, 2), Vector::Zero(1), 0);
+            const SampledSystem of_y = discrete_system(A, Vector::Unit(2, 0), C, Vector::Unit(3, 2), 0);
+            const SampledSystem of_u =
+                discrete_system(A, Vector::Unit(2, 0), Eigen::RowVector2d(1, 2), Vector::Zero(1), 0);
             Matrix outputs(N, 4);
             outputs << ExactFilter(of_y).run(y), ExactFilter(of_u).run(u);
-            const Matrix moments = filter_moments({{of_y, Samples(y.data(), N)}, {of_u, Samples(u.data(), N)}},
-                                                  {0, 1, 2, 3}, {0, 1, 2, 3});
+            const Matrix products = filter_products({{of_y, Samples(y.data(), N)}, {of_u, Samples(u.data(), N)}},
+                                                    {0, 1, 2, 3}, {0, 1, 2, 3});
             // A sum of N terms rounds by N epsilon at most; each step of q by what 1/(1 - pole) steps of p have left.
             const double steps = std::min(static_cast<double>(N), 1 / std::max(1e-12, 1 - std::abs(pole)));
             const double rounding = std::numeric_limits<double>::epsilon() * (static_cast<double>(N) + 4 * steps);
-            EXPECT_LT(difference(moments, outputs, outputs), rounding) << "pole " << pole << ", y " << y.head(3);
+            EXPECT_LT(difference(products, outputs, outputs), rounding) << "pole " << pole << ", y " << y.head(3);
         }
 }
 
-}  // namespace test_filter_moments
+}  // namespace test_filter_products

@@ -1,9 +1,9 @@
-#include "numerics/filters/filter_moments.h"
+#include "numerics/filters/filter_products.h"
 
 #include <algorithm>
 
 #include "numerics/filters/lane_filter.h"
-#include "numerics/filters/sample_moments.h"
+#include "numerics/filters/sampled_recursion.h"
 
 namespace dynlab::inline numerics {
 
@@ -14,9 +14,9 @@ constexpr int kTile = 4;
 using Columns = std::vector<const Lanes*>;
 
 /// The products of two sets of columns, tile by tile, so that the sums of a tile stay in registers over a block.
-class MomentSums {
+class ProductSums {
   public:
-    MomentSums(std::size_t rows, std::size_t columns, bool symmetric)
+    ProductSums(std::size_t rows, std::size_t columns, bool symmetric)
         : rows_(rows), columns_(columns), symmetric_(symmetric), sums_(rows * columns) {}
 
     void add(const Columns& left, const Columns& right, Index steps) {
@@ -115,12 +115,12 @@ class BlockColumns {
     Columns columns_;
 };
 
-Matrix lane_moments(std::vector<LaneFilter>& filters, const std::vector<FilteredSignal>& signals,
-                    const std::vector<Index>& left, const std::vector<Index>& right, const std::vector<OutputSum>& sums,
-                    Index segment) {
+Matrix lane_products(std::vector<LaneFilter>& filters, const std::vector<FilteredSignal>& signals,
+                     const std::vector<Index>& left, const std::vector<Index>& right,
+                     const std::vector<OutputSum>& sums, Index segment) {
     BlockColumns columns(filters, signals, sums);
     const Columns left_columns = columns.of(left), right_columns = columns.of(right);
-    MomentSums products(left.size(), right.size(), left == right);
+    ProductSums products(left.size(), right.size(), left == right);
     for (Index done = 0; done < segment; done += LaneFilter::kBlock) {
         const Index steps = std::min(LaneFilter::kBlock, segment - done);
         for (LaneFilter& filter : filters) filter.advance(steps);
@@ -132,12 +132,12 @@ Matrix lane_moments(std::vector<LaneFilter>& filters, const std::vector<Filtered
 
 }  // namespace
 
-Matrix filter_moments(const std::vector<FilteredSignal>& signals, const std::vector<Index>& left,
-                      const std::vector<Index>& right, const std::vector<OutputSum>& sums) {
+Matrix filter_products(const std::vector<FilteredSignal>& signals, const std::vector<Index>& left,
+                       const std::vector<Index>& right, const std::vector<OutputSum>& sums) {
     const Index N = signals.front().signal.size();
     Index latest = 0;
     for (const FilteredSignal& signal : signals) latest = std::max(latest, signal.system.delay);
-    SampleMoments samples(signals, left, right, sums);
+    SampleProducts samples(signals, left, right, sums);
     // The last sample is left out of the lanes, which look one sample ahead.
     const Index segment = std::max<Index>(0, N - latest - 2) / Lanes::kCount;
     if (segment < kShortestSegment) {
@@ -150,7 +150,7 @@ Matrix filter_moments(const std::vector<FilteredSignal>& signals, const std::vec
     filters.reserve(signals.size());
     for (std::size_t i = 0; i < signals.size(); ++i)
         filters.emplace_back(signals[i], first, segment, samples.recursion(i).state());
-    const Matrix inside = lane_moments(filters, signals, left, right, sums, segment);
+    const Matrix inside = lane_products(filters, signals, left, right, sums, segment);
     for (std::size_t i = 0; i < signals.size(); ++i) samples.recursion(i).set_state(filters[i].last_state());
     samples.run(N - 1, N);
     return samples.total() + inside;

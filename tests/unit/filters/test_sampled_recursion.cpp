@@ -1,16 +1,16 @@
-#include "numerics/filters/tapped_recursion.h"
+#include "numerics/filters/sampled_recursion.h"
 
 #include <gtest/gtest.h>
 
 #include "numerics/signals/random.h"
 
-namespace test_tapped_recursion {
+namespace test_sampled_recursion {
 
 using namespace dynlab;
 
-Matrix outputs_of(const TappedSystem& system, const Vector& u) {
+Matrix outputs_of(const SampledSystem& system, const Vector& u) {
     const Eigen::Map<const Vector> view(u.data(), u.size());
-    TappedRecursion recursion(system, view);
+    SampledRecursion recursion(system, view);
     Matrix y(u.size(), recursion.output_count());
     Vector row(recursion.output_count());
     for (Index k = 0; k < u.size(); ++k) {
@@ -22,13 +22,13 @@ Matrix outputs_of(const TappedSystem& system, const Vector& u) {
 }
 
 /// 1/(s + 1)^2 with both states, and a feed-through at the first output.
-TappedSystem two_lags(double Ts, Hold hold, double delay) {
+SampledSystem two_lags(double Ts, Hold hold, double delay) {
     const Matrix A{{-1, 0}, {1, -1}};
     return discretise(A, Vector{{1.0, 0.0}}, Matrix::Identity(2, 2), Vector{{0.5, 0.0}}, Ts, hold, delay);
 }
 
 // oracle: finer sampling, where the delay is a multiple of the interval and the input is what the hold makes of it
-TEST(tapped_recursion, agrees_with_finer_sampling_without_a_fraction_of_a_delay) {
+TEST(sampled_recursion, agrees_with_finer_sampling_without_a_fraction_of_a_delay) {
     constexpr Index kFiner = 10;
     const Index N = 40;
     const double Ts = 0.5;
@@ -51,9 +51,9 @@ TEST(tapped_recursion, agrees_with_finer_sampling_without_a_fraction_of_a_delay)
         }
 }
 
-// oracle: definition, the formulas of TappedSystem written out
-TEST(tapped_recursion, is_what_the_system_says) {
-    TappedSystem system = two_lags(0.5, Hold::kFoh, 0.2);
+// oracle: definition, the formulas of SampledSystem written out
+TEST(sampled_recursion, is_what_the_system_says) {
+    SampledSystem system = two_lags(0.5, Hold::kFoh, 0.2);
     system.first_D = Vector{{0.3, -2.0}};
     for (const Index d : {0, 1, 4}) {
         system.delay = d;
@@ -75,11 +75,11 @@ TEST(tapped_recursion, is_what_the_system_says) {
 }
 
 // oracle: definition, the state is what the recursion was set to
-TEST(tapped_recursion, goes_on_from_a_state_that_is_set) {
+TEST(sampled_recursion, goes_on_from_a_state_that_is_set) {
     const Vector u = Vector::Zero(5);
     const Eigen::Map<const Vector> view(u.data(), u.size());
-    const TappedSystem system = two_lags(0.5, Hold::kZoh, 0);
-    TappedRecursion recursion(system, view);
+    const SampledSystem system = two_lags(0.5, Hold::kZoh, 0);
+    SampledRecursion recursion(system, view);
     recursion.set_state(Vector{{1.0, 2.0}});
     recursion.step(1);
     EXPECT_LT((recursion.state() - system.F * Vector{{1.0, 2.0}}).norm(), 1e-16);
@@ -87,4 +87,4 @@ TEST(tapped_recursion, goes_on_from_a_state_that_is_set) {
     EXPECT_LT((recursion.state() - system.F * Vector{{1.0, 2.0}}).norm(), 1e-16);
 }
 
-}  // namespace test_tapped_recursion
+}  // namespace test_sampled_recursion

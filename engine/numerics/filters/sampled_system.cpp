@@ -1,4 +1,4 @@
-#include "numerics/filters/tapped_system.h"
+#include "numerics/filters/sampled_system.h"
 
 #include <cmath>
 
@@ -30,15 +30,15 @@ SplitDelay split_delay(double delay, double Ts) {
     return {static_cast<Index>(whole), delay - whole * Ts};
 }
 
-TappedSystem discretise(const MatrixView& A, const VectorView& B, const MatrixView& C, const VectorView& D, double Ts,
-                        Hold hold, double delay) {
+SampledSystem discretise(const MatrixView& A, const VectorView& B, const MatrixView& C, const VectorView& D, double Ts,
+                         Hold hold, double delay) {
     // In [k Ts, k Ts + rest) the delayed input lies between u[k-d-1] and u[k-d], afterwards between u[k-d] and
     // u[k-d+1]; the rest of the delay is the fraction `late` of an interval.
     const auto [samples, rest] = split_delay(delay, Ts);
     const double late = rest / Ts;
     const StepMatrices second = exact_step(A, B, Ts - rest);
     const PieceWeights after = piece_weights(second, hold, 0, 1 - late);
-    TappedSystem system;
+    SampledSystem system;
     system.delay = samples;
     system.C = C;
     system.G.resize(A.rows(), 3);
@@ -62,8 +62,9 @@ TappedSystem discretise(const MatrixView& A, const VectorView& B, const MatrixVi
     return system;
 }
 
-TappedSystem tapped(const MatrixView& A, const VectorView& B, const MatrixView& C, const VectorView& D, Index delay) {
-    TappedSystem system;
+SampledSystem discrete_system(const MatrixView& A, const VectorView& B, const MatrixView& C, const VectorView& D,
+                              Index delay) {
+    SampledSystem system;
     system.F = A;
     system.G = Matrix::Zero(A.rows(), 3);
     system.G.col(1) = B;
@@ -76,7 +77,7 @@ TappedSystem tapped(const MatrixView& A, const VectorView& B, const MatrixView& 
     return system;
 }
 
-TappedSystem derivative_filter(const VectorView& den, double Ts, Hold hold, double delay) {
+SampledSystem derivative_filter(const VectorView& den, double Ts, Hold hold, double delay) {
     const Index n = den.size() - 1;
     Matrix C(n + 1, n);
     C << -den.tail(n).transpose(), Matrix::Identity(n, n);

@@ -1,4 +1,4 @@
-#include "numerics/filters/regression_moments.h"
+#include "numerics/filters/normal_equations.h"
 
 #include <algorithm>
 #include <numeric>
@@ -48,8 +48,8 @@ class Equation {
         outputs.push_back(y_);
         return outputs;
     }
-    Matrix moments(const std::vector<Index>& left, const std::vector<Index>& right) const {
-        return chain_moments(chains_, record_.sampling, left, right, sums_);
+    Matrix products(const std::vector<Index>& left, const std::vector<Index>& right) const {
+        return chain_products(chains_, record_.sampling, left, right, sums_);
     }
     /// Outputs for the n first instruments: sums over the inputs, where there are several. `firsts` are the places
     /// where the n outputs of each input begin.
@@ -68,10 +68,10 @@ class Equation {
         return places;
     }
     /// sum z [phi' p^n y_f] for z = sign (n first) and input derivatives; and sum z z' in the same run when wanted.
-    RegressionMoments with_instruments(const std::vector<Index>& z, double sign, bool with_gram) const {
+    NormalEquations with_instruments(const std::vector<Index>& z, double sign, bool with_gram) const {
         std::vector<Index> columns = right();
         if (with_gram) columns.insert(columns.end(), z.begin(), z.end());
-        Matrix all = moments(z, columns);
+        Matrix all = products(z, columns);
         const Index d = parameters();
         all.leftCols(n_) *= -1;
         all.topRows(n_) *= sign;
@@ -89,23 +89,23 @@ class Equation {
 
 }  // namespace
 
-RegressionMoments svf_moments(const RegressionRecord& record, const VectorView& E, double gain) {
-    if (auto moments = delta_svf_moments(record, E, gain)) return *std::move(moments);
+NormalEquations svf_equations(const RegressionRecord& record, const VectorView& E, double gain) {
+    if (auto equations = delta_svf_equations(record, E, gain)) return *std::move(equations);
     const Index n = E.size() - 1;
     Equation equation(record, n);
     equation.add_output(E);
     equation.add_inputs(E);
     const std::vector<Index> columns = equation.right();
-    Matrix all = gain * gain * equation.moments(columns, columns);
+    Matrix all = gain * gain * equation.products(columns, columns);
     const Index d = equation.parameters();
     all.leftCols(n) *= -1;
     all.topRows(n) *= -1;
     return {all.topLeftCorner(d, d), all.col(d).head(d), all.topLeftCorner(d, d), all(d, d)};
 }
 
-RegressionMoments auxiliary_moments(const RegressionRecord& record, const VectorView& E, const VectorView& A,
+NormalEquations auxiliary_equations(const RegressionRecord& record, const VectorView& E, const VectorView& A,
                                     const std::vector<Vector>& B, double gain) {
-    if (auto moments = delta_auxiliary_moments(record, E, A, B, gain)) return *std::move(moments);
+    if (auto equations = delta_auxiliary_equations(record, E, A, B, gain)) return *std::move(equations);
     const Index n = E.size() - 1;
     Equation equation(record, n);
     equation.add_output(E);
@@ -118,7 +118,7 @@ RegressionMoments auxiliary_moments(const RegressionRecord& record, const Vector
     }
     std::vector<Index> z = equation.summed_over_inputs(firsts);
     z.insert(z.end(), equation.inputs().begin(), equation.inputs().end());
-    const RegressionMoments sums = equation.with_instruments(z, -1, true);
+    const NormalEquations sums = equation.with_instruments(z, -1, true);
     return {gain * gain * sums.z_phi, gain * gain * sums.z_y, gain * gain * sums.z_z, 0};
 }
 
@@ -144,26 +144,26 @@ std::vector<Index> add_sensitivities(Equation& equation, const RegressionRecord&
 
 }  // namespace
 
-RegressionMoments refined_moments(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B,
+NormalEquations refined_equations(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B,
                                   bool with_gram) {
-    if (auto moments = delta_refined_moments(record, A, B, with_gram)) return *std::move(moments);
+    if (auto equations = delta_refined_equations(record, A, B, with_gram)) return *std::move(equations);
     Equation equation(record, A.size() - 1);
     equation.add_output(A);
     const std::vector<Index> z = add_sensitivities(equation, record, A, B);
     return equation.with_instruments(z, 1, with_gram);
 }
 
-Matrix sensitivity_moments(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B) {
+Matrix sensitivity_products(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B) {
     Equation equation(record, A.size() - 1);
     const std::vector<Index> z = add_sensitivities(equation, record, A, B);
-    return equation.moments(z, z);
+    return equation.products(z, z);
 }
 
 double output_error_squares(const RegressionRecord& record, const std::vector<Vector>& A,
                             const std::vector<Vector>& B) {
     // The quickest, where enough digits are left: nearly noise-free data go the long way.
     constexpr double kLeft = 1e-4;
-    if (const auto sums = delta_output_moments(record, A, B)) {
+    if (const auto sums = delta_output_products(record, A, B)) {
         Vector error = Vector::Constant(sums->rows(), -1);
         error[0] = 1;
         const double squares = error.dot(*sums * error);
@@ -180,7 +180,7 @@ double output_error_squares(const RegressionRecord& record, const std::vector<Ve
     OutputSum error{{{0, 1}}};
     for (std::size_t j = 1; j < chains.size(); ++j) error.terms.push_back({static_cast<Index>(j), -1});
     const Index place = static_cast<Index>(chains.size());
-    return chain_moments(chains, record.sampling, {place}, {place}, {error})(0, 0);
+    return chain_products(chains, record.sampling, {place}, {place}, {error})(0, 0);
 }
 
 }  // namespace dynlab::inline numerics
