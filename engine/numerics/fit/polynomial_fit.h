@@ -12,7 +12,7 @@ namespace dynlab::inline numerics {
 /// have, with delays not shorter than each record, and those of check_sampled_data.
 void check_polynomial_data(const std::string& method, const IdData& data, const PolynomialOrders& orders);
 
-/// A fit with its model and names made from the values; all else is to be filled.
+/// A fit with its model, sampled every Ts (s), and names made from the values; all else is to be filled.
 Fit polynomial_fit(const PolynomialOrders& orders, const VectorView& theta, double Ts);
 
 /// The same of a search whose parameters begin with those of the orders: their values, covariance and standard errors.
