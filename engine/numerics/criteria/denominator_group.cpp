@@ -84,13 +84,13 @@ std::vector<Vector> DenominatorGroup::numerators(const Member& member, const Vec
     return B;
 }
 
-template <class Moments>
-RegressionMoments DenominatorGroup::sum_over_records(const Moments& moments_of) const {
-    if (members_.size() == 1 && weights_[0] == 1) return moments_of(members_.front());
-    RegressionMoments sum{Matrix::Zero(count_, count_), Vector::Zero(count_), Matrix(), 0};
+template <class Equations>
+NormalEquations DenominatorGroup::sum_over_records(const Equations& equations_of) const {
+    if (members_.size() == 1 && weights_[0] == 1) return equations_of(members_.front());
+    NormalEquations sum{Matrix::Zero(count_, count_), Vector::Zero(count_), Matrix(), 0};
     for (const Member& member : members_) {
         const double weight = weights_[member.output];
-        const RegressionMoments own = moments_of(member);
+        const NormalEquations own = equations_of(member);
         sum.z_phi(member.places, member.places) += weight * own.z_phi;
         sum.z_y(member.places) += weight * own.z_y;
         if (own.z_z.size() > 0) {
@@ -102,18 +102,18 @@ RegressionMoments DenominatorGroup::sum_over_records(const Moments& moments_of) 
     return sum;
 }
 
-RegressionMoments DenominatorGroup::svf(const VectorView& E, double gain) const {
+NormalEquations DenominatorGroup::svf(const VectorView& E, double gain) const {
     return sum_over_records([&](const Member& member) { return transfer_filters().svf(member.record, E, gain); });
 }
 
-RegressionMoments DenominatorGroup::auxiliary(const VectorView& E, const VectorView& theta, double gain) const {
+NormalEquations DenominatorGroup::auxiliary(const VectorView& E, const VectorView& theta, double gain) const {
     const Vector A = denominator(theta);
     return sum_over_records([&](const Member& member) {
         return transfer_filters().auxiliary(member.record, E, A, numerators(member, theta), gain);
     });
 }
 
-RegressionMoments DenominatorGroup::refined(const VectorView& theta, bool with_gram) const {
+NormalEquations DenominatorGroup::refined(const VectorView& theta, bool with_gram) const {
     const Vector A = denominator(theta);
     return sum_over_records([&](const Member& member) {
         return transfer_filters().refined(member.record, A, numerators(member, theta), with_gram);
@@ -156,14 +156,14 @@ namespace {
 
 /// With the size known to the compiler where it is small.
 template <int d>
-Vector solve_moments_of(const RegressionMoments& moments, double* condition_number) {
+Vector solve_sized_equations(const NormalEquations& equations, double* condition_number) {
     using Square = Eigen::Matrix<double, d, d>;
     using Column = Eigen::Matrix<double, d, 1>;
-    const Vector unsolvable = Vector::Constant(moments.z_y.size(), std::numeric_limits<double>::quiet_NaN());
+    const Vector unsolvable = Vector::Constant(equations.z_y.size(), std::numeric_limits<double>::quiet_NaN());
     if (condition_number) *condition_number = std::numeric_limits<double>::infinity();
     // Rows and columns are brought to a common size; a Gram matrix then has a diagonal of ones.
-    Square scaled = moments.z_phi;
-    const Column known = moments.z_y, columns = scaled.colwise().norm().transpose();
+    Square scaled = equations.z_phi;
+    const Column known = equations.z_y, columns = scaled.colwise().norm().transpose();
     if (!scaled.allFinite() || !known.allFinite() || !(columns.minCoeff() > 0)) return unsolvable;
     scaled = (scaled * columns.cwiseInverse().asDiagonal()).eval();
     const Column rows = scaled.rowwise().norm();
@@ -178,16 +178,16 @@ Vector solve_moments_of(const RegressionMoments& moments, double* condition_numb
 
 }  // namespace
 
-Vector solve_moments(const RegressionMoments& moments, double* condition_number) {
-    switch (moments.z_y.size()) {
+Vector solve_equations(const NormalEquations& equations, double* condition_number) {
+    switch (equations.z_y.size()) {
         case 2:
-            return solve_moments_of<2>(moments, condition_number);
+            return solve_sized_equations<2>(equations, condition_number);
         case 3:
-            return solve_moments_of<3>(moments, condition_number);
+            return solve_sized_equations<3>(equations, condition_number);
         case 4:
-            return solve_moments_of<4>(moments, condition_number);
+            return solve_sized_equations<4>(equations, condition_number);
         default:
-            return solve_moments_of<Eigen::Dynamic>(moments, condition_number);
+            return solve_sized_equations<Eigen::Dynamic>(equations, condition_number);
     }
 }
 

@@ -23,9 +23,9 @@ class DenominatorGroup {
     void set_weight(Index output, double weight);                   ///< of an output's squares; 1 unless set
     const std::vector<Index>& outputs() const { return outputs_; }  ///< the model's outputs it bears on
 
-    RegressionMoments svf(const VectorView& E, double gain = 1) const;
-    RegressionMoments auxiliary(const VectorView& E, const VectorView& theta, double gain = 1) const;
-    RegressionMoments refined(const VectorView& theta, bool with_gram = false) const;
+    NormalEquations svf(const VectorView& E, double gain = 1) const;
+    NormalEquations auxiliary(const VectorView& E, const VectorView& theta, double gain = 1) const;
+    NormalEquations refined(const VectorView& theta, bool with_gram = false) const;
     Matrix sensitivity_gram(const VectorView& theta) const;  ///< weighted sum z z' of the refined instruments
     Vector denominator(const VectorView& theta) const;       ///< theta of the group
     /// theta with unstable poles mirrored (real part to its negative); tells whether there were any.
@@ -42,8 +42,8 @@ class DenominatorGroup {
     std::vector<Vector> numerators(const Member& member, const VectorView& theta) const;  ///< B of each input
 
   private:
-    template <class Moments>
-    RegressionMoments sum_over_records(const Moments& moments_of) const;
+    template <class Equations>
+    NormalEquations sum_over_records(const Equations& equations_of) const;
 
     Index n_, place_, count_;
     std::vector<Member> members_;
@@ -58,7 +58,7 @@ double simulation_squares(const IdData& data, const TransferStructure& structure
 
 /// theta of z_phi theta = z_y, columns and rows scaled; NaN when it cannot be solved. `condition_number` of the scaled
 /// equations.
-Vector solve_moments(const RegressionMoments& moments, double* condition_number = nullptr);
+Vector solve_equations(const NormalEquations& equations, double* condition_number = nullptr);
 
 /// Inverse of a Gram matrix by way of its rows and columns scaled to a diagonal of ones; `condition_number` of that.
 Matrix inverse_gram(const Matrix& gram, double* condition_number = nullptr);

@@ -23,16 +23,16 @@ Fit ivsvf(const IdData& data, const TransferStructure& structure, const SvfOptio
         const Index d = group.parameter_count();
         const double gain = options.beta ? std::pow(*options.beta, static_cast<double>(group.order())) : 1.0;
         const Vector E = filter_denominator(options.lambda, group.order());
-        const RegressionMoments least_squares = group.svf(E, gain);
-        const Vector first = solve_moments(least_squares);
+        const NormalEquations least_squares = group.svf(E, gain);
+        const Vector first = solve_equations(least_squares);
         bool unstable = false;
         double condition = 0;
-        RegressionMoments sums;
+        NormalEquations sums;
         Vector theta, auxiliary;
         if (first.allFinite()) {
             auxiliary = group.reflected(first, &unstable);
             sums = group.auxiliary(E, auxiliary, gain);
-            theta = solve_moments(sums, &condition);
+            theta = solve_equations(sums, &condition);
         }
         if (theta.size() == 0 || !theta.allFinite())
             throw InvalidArgument(

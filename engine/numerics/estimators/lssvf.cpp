@@ -69,9 +69,9 @@ Fit lssvf(const IdData& data, const TransferStructure& structure, const SvfOptio
         const Index d = group.parameter_count();
         const double gain = options.beta ? std::pow(*options.beta, static_cast<double>(group.order())) : 1.0;
         const Vector E = filter_denominator(options.lambda, group.order());
-        const RegressionMoments sums = group.svf(E, gain);
+        const NormalEquations sums = group.svf(E, gain);
         double condition = 0;
-        const Vector theta = solve_moments(sums, &condition);
+        const Vector theta = solve_equations(sums, &condition);
         if (!theta.allFinite())
             throw InvalidArgument(
                 "lssvf: the equations have no unique solution: the input does not excite the system enough for " +

@@ -1,4 +1,4 @@
-#include "numerics/filters/regression_moments.h"
+#include "numerics/filters/normal_equations.h"
 #include "numerics/filters/transfer_filters.h"
 #include "numerics/filters/transfer_sensitivity.h"
 
@@ -36,20 +36,20 @@ class ExactTransferFilters : public TransferFilters {
             [&](const VectorView& t) { return numerics::free_sensitivities(A, initial, t); });
     }
 
-    RegressionMoments svf(const RegressionRecord& record, const VectorView& E, double gain) const override {
-        return svf_moments(record, E, gain);
+    NormalEquations svf(const RegressionRecord& record, const VectorView& E, double gain) const override {
+        return svf_equations(record, E, gain);
     }
-    RegressionMoments auxiliary(const RegressionRecord& record, const VectorView& E, const VectorView& A,
-                                const std::vector<Vector>& B, double gain) const override {
-        return auxiliary_moments(record, E, A, B, gain);
+    NormalEquations auxiliary(const RegressionRecord& record, const VectorView& E, const VectorView& A,
+                              const std::vector<Vector>& B, double gain) const override {
+        return auxiliary_equations(record, E, A, B, gain);
     }
-    RegressionMoments refined(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B,
-                              bool with_gram) const override {
-        return refined_moments(record, A, B, with_gram);
+    NormalEquations refined(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B,
+                            bool with_gram) const override {
+        return refined_equations(record, A, B, with_gram);
     }
     Matrix sensitivity_gram(const RegressionRecord& record, const VectorView& A,
                             const std::vector<Vector>& B) const override {
-        return sensitivity_moments(record, A, B);
+        return sensitivity_products(record, A, B);
     }
     double output_error_squares(const RegressionRecord& record, const std::vector<Vector>& A,
                                 const std::vector<Vector>& B) const override {

@@ -26,16 +26,16 @@ class TransferFilters {
                                       const Sampling& sampling) const = 0;
 
     /// z = phi, all signals filtered by gain/E.
-    virtual RegressionMoments svf(const RegressionRecord& record, const VectorView& E, double gain) const = 0;
+    virtual NormalEquations svf(const RegressionRecord& record, const VectorView& E, double gain) const = 0;
     /// Signals filtered by gain/E; in the instrument the auxiliary model's output sum B_j/A u_j, filtered with the same
     /// hold, in the place of y.
-    virtual RegressionMoments auxiliary(const RegressionRecord& record, const VectorView& E, const VectorView& A,
-                                        const std::vector<Vector>& B, double gain) const = 0;
+    virtual NormalEquations auxiliary(const RegressionRecord& record, const VectorView& E, const VectorView& A,
+                                      const std::vector<Vector>& B, double gain) const = 0;
     /// Signals filtered by 1/A, and z the sensitivities of the model's output,
     ///     z = [-p^(n-i) sum_j B_j/A^2 u_j, p^(m_j-l)/A u_j];
     /// with_gram: sum z z' in the same run.
-    virtual RegressionMoments refined(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B,
-                                      bool with_gram) const = 0;
+    virtual NormalEquations refined(const RegressionRecord& record, const VectorView& A, const std::vector<Vector>& B,
+                                    bool with_gram) const = 0;
     /// sum z z' of these instruments, d x d.
     virtual Matrix sensitivity_gram(const RegressionRecord& record, const VectorView& A,
                                     const std::vector<Vector>& B) const = 0;
@@ -44,7 +44,7 @@ class TransferFilters {
                                         const std::vector<Vector>& B) const = 0;
 };
 
-/// Those of this folder: sums while filtering (regression_moments.h), discretised systems (transfer_sensitivity.h).
+/// Those of this folder: sums while filtering (normal_equations.h), discretised systems (transfer_sensitivity.h).
 const TransferFilters& transfer_filters();
 
 }  // namespace dynlab::inline numerics

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "numerics/filters/filter_chain.h"
-#include "numerics/filters/regression_moments.h"
+#include "numerics/filters/normal_equations.h"
 #include "support/transfer_cases.h"
 
 namespace test_estimating_terms {
@@ -34,7 +34,7 @@ Vector theta_of(const CommonDenominator& model) {
     return values({model.A[1], model.A[2], model.B[0][0], model.B[1][0], model.B[1][1]});
 }
 
-void expect_sum(const EstimatingTerms& terms, const RegressionMoments& sums, const CommonDenominator& model) {
+void expect_sum(const EstimatingTerms& terms, const NormalEquations& sums, const CommonDenominator& model) {
     const Vector by_sums = sums.z_y - sums.z_phi * theta_of(model), own = terms.Z.transpose() * terms.errors;
     EXPECT_LT((own - by_sums).norm(), 1e-9 * sums.z_y.norm());
 }
@@ -67,18 +67,18 @@ TEST(estimating_terms, of_an_auxiliary_model_have_the_sums_of_ivsvf) {
     const CommonDenominator unstable{values({1, -0.1, 5}), {values({2.5}), values({0.4, 1.3})}};
     const CommonDenominator instrument{system.A, system.B};
     expect_sum(estimating_terms(system.record(), system.E, 3, unstable, &instrument),
-               auxiliary_moments(system.record(), system.E, system.A, system.B, 3), unstable);
+               auxiliary_equations(system.record(), system.E, system.A, system.B, 3), unstable);
 }
 
 TEST(estimating_terms, are_the_equation_s_where_the_model_is_unstable_or_instants_are_irregular) {
     const TwoInputs system;
     const CommonDenominator unstable{values({1, -0.1, 5}), {values({2.5}), values({0.4, 1.3})}};
-    expect_sum(estimating_terms(system.record(), system.E, 3, unstable), svf_moments(system.record(), system.E, 3),
+    expect_sum(estimating_terms(system.record(), system.E, 3, unstable), svf_equations(system.record(), system.E, 3),
                unstable);
     const Vector instants = system.data.time();
     const RegressionRecord irregular = system.record(instants);
     const CommonDenominator model{values({1, 3, 5}), {values({2.5}), values({0.4, 1.3})}};
-    expect_sum(estimating_terms(irregular, system.E, 3, model), svf_moments(irregular, system.E, 3), model);
+    expect_sum(estimating_terms(irregular, system.E, 3, model), svf_equations(irregular, system.E, 3), model);
 }
 
 }  // namespace test_estimating_terms

@@ -72,7 +72,7 @@ TEST(exact_transfer_filters, sums_over_filtered_signals) {  // oracle: second ro
     const auto near = [](const Matrix& a, const Matrix& b) { return (a - b).norm() < 1e-8 * b.norm(); };
 
     const Matrix by_E = equations(E), phi_E = by_E.leftCols(4);
-    const RegressionMoments svf = filters.svf(record, E, 2);
+    const NormalEquations svf = filters.svf(record, E, 2);
     EXPECT_TRUE(near(svf.z_phi, 4 * phi_E.transpose() * phi_E));
     EXPECT_TRUE(near(svf.z_y, 4 * phi_E.transpose() * by_E.col(4)));
 
@@ -84,7 +84,7 @@ TEST(exact_transfer_filters, sums_over_filtered_signals) {  // oracle: second ro
     const Matrix by_A = equations(kA), phi_A = by_A.leftCols(4);
     Matrix psi(kSamples, 4);  // the sensitivities of the simulated output
     psi = filters.sensitivities(kB, kA, 0.2, u, record.sampling, Hold::kZoh).middleCols(1, 4);
-    const RegressionMoments refined = filters.refined(record, kA, {kB}, true);
+    const NormalEquations refined = filters.refined(record, kA, {kB}, true);
     EXPECT_TRUE(near(refined.z_phi, psi.transpose() * phi_A));
     EXPECT_TRUE(near(refined.z_z, psi.transpose() * psi));
     EXPECT_TRUE(near(filters.sensitivity_gram(record, kA, {kB}), psi.transpose() * psi));
