@@ -379,7 +379,8 @@ advice(low)
 -- enough, and bits much shorter would have been wasted. It rests on an operating point, and a transfer function knows
 -- changes only: the level of the first minute is taken off both signals (`detrend(data, "start")`). The mean would do less well,
 -- because the record begins away from it. The temperature reacts some seconds late. It is rounded to 0.1 °C: `advice` warns of
--- it, and its own numbers settle the matter, for the noise is far larger than what rounding adds. And the same ±1 V moves the temperature more about 7 V
+-- it, and its own numbers settle the matter, for the noise is far larger than what rounding adds. It also finds that the temperature
+-- wanders by some tenths of a degree whatever the heater does: the air that comes in is not always equally warm. And the same ±1 V moves the temperature more about 7 V
 -- than about 4 V – something that nobody ordered, and that no look at a single record can tell.
 -- END SOLUTION
 --
@@ -665,7 +666,7 @@ report.value("dryer_td_samples", D.samples, "%.2f")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- Both signals swing about an operating point (means `dryer_u`{.value} V and `dryer_y`{.value} V) without a rest at the beginning, as `advice` says too, so the
--- means are what can be taken off. The output answers late: `dryer_td`{.value} ± `dryer_td_std`{.value} s, which is `dryer_td_samples`{.value} samples (@fig:dryer_delay).
+-- means are what can be taken off. The slight drift that it sees is far smaller than what the input does. The output answers late: `dryer_td`{.value} ± `dryer_td_std`{.value} s, which is `dryer_td_samples`{.value} samples (@fig:dryer_delay).
 --
 -- ![Smallest mean square error of a model for every delay](figure:dryer_delay){#fig:dryer_delay}
 -- END SOLUTION

@@ -97,8 +97,7 @@ report.value("rest_noise", std(rest_readings), "%.2f")
 -- %% id=advice
 -- BEGIN SOLUTION
 local seen = advice(raw("sine_300"))       -- as measured: pulses of 1500 µs mean rest
--- Of the square it says as well that it begins in the middle of a movement. The plot shows that it does not: a linear model, fitted
--- to all of the record, explains the first answer from rest so badly that a start in motion looks likelier.
+-- Of both shapes it says as well that the thrust follows no straight line: that is the thruster's own curve.
 local told = {}
 for _, shape in ipairs(shapes) do
     for _, finding in ipairs(advice(prepared(shape .. "_300"))) do

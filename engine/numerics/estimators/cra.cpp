@@ -6,6 +6,7 @@
 #include "numerics/error.h"
 #include "numerics/fit/spectral_estimate.h"
 #include "numerics/number_text.h"
+#include "numerics/signals/whitening_filter.h"
 #include "numerics/signals/correlation.h"
 #include "numerics/validation/chi_squared.h"
 
@@ -14,7 +15,6 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr Index kFewestSamplesOfCra = 8;
-constexpr double kPredictable = 1e-6;  // part of its power that a signal keeps when its past tells it: a sine, say
 
 /// Sums over all experiments of lagged_products, lags 0 .. lags.
 Vector joint_products(const IdData& data, const Matrix Experiment::*x, const Matrix Experiment::*y, Index lags) {
@@ -24,31 +24,10 @@ Vector joint_products(const IdData& data, const Matrix Experiment::*x, const Mat
     return sums;
 }
 
-/// Levinson-Durbin recursion; ends early when hardly anything is left to predict.
-Vector whitening_filter(const Vector& r, Index order) {
-    Vector a = Vector::Unit(order + 1, 0);
-    double rest = r[0];
-    for (Index n = 1; n <= order && rest > kPredictable * r[0]; ++n) {
-        const double reflection = -a.head(n).dot(r.segment(1, n).reverse()) / rest;
-        const Vector before = a.head(n + 1);
-        a.head(n + 1) += reflection * before.reverse();
-        rest *= 1 - reflection * reflection;
-    }
-    return a;
-}
-
-/// Drops the samples whose past is not recorded.
-Vector filtered(const Vector& a, const VectorView& x) {
-    const Index n = a.size() - 1, count = x.size() - n;
-    Vector result = Vector::Zero(count);
-    for (Index i = 0; i <= n; ++i) result += a[i] * x.segment(n - i, count);
-    return result;
-}
-
 void whiten(IdData& data, const Vector& filter) {
     for (Experiment& experiment : data.experiments) {
-        experiment.u = filtered(filter, experiment.u.col(0));
-        experiment.y = filtered(filter, experiment.y.col(0));
+        experiment.u = filtered_past(filter, experiment.u.col(0));
+        experiment.y = filtered_past(filter, experiment.y.col(0));
     }
 }
 

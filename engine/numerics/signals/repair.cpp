@@ -109,7 +109,8 @@ RepairedSignal replace_outliers(const VectorView& x, const OutlierOptions& optio
     options.validate();
     check_samples("filloutliers", "the signal", x);
     const double scatter = noise_from_differences(x);
-    const double rounding = 1.5 * quantisation_of(x).step + 1e-9 * (x.maxCoeff() - x.minCoeff());
+    const double step = options.quantisation ? *options.quantisation : quantisation_of(x).step;
+    const double rounding = 1.5 * step + 1e-9 * (x.maxCoeff() - x.minCoeff());
     std::vector<bool> good(static_cast<std::size_t>(x.size()));
     const double allowed = options.threshold * scatter + rounding;
     MovingMedian around(x, options.window / 2);

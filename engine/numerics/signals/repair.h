@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "numerics/signals/segments.h"
@@ -21,6 +22,7 @@ RepairedSignal fill_missing(const VectorView& x, const VectorView& t = Vector(),
 struct OutlierOptions {
     Index window = 7;      ///< samples of the moving median, odd, at least 3; groups of up to (window - 1)/2 are found
     double threshold = 6;  ///< robust standard deviations that an outlier lies off the median
+    std::optional<double> quantisation = {};  ///< step on which the samples lie, 0 for none; looked for unless given
 
     void validate() const;
 };

@@ -1,6 +1,7 @@
 #include "numerics/validation/advice.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace dynlab::inline numerics {
 
@@ -12,6 +13,39 @@ bool spoils_a_stretch(const RecordFinding& finding) {
 
 bool forbids_a_model(const RecordFinding& finding) {
     return finding.code == "constant" || finding.code == "time_column" || finding.code == "same_column";
+}
+
+double rms_within(const Vector& x, const std::vector<Segment>& sections) {
+    double squares = 0, count = 0;
+    for (const Segment& s : sections) {
+        squares += x.segment(s.first - 1, s.last - s.first + 1).squaredNorm();
+        count += static_cast<double>(s.last - s.first + 1);
+    }
+    return std::sqrt(squares / count);
+}
+
+/// A signal that stays where the model says that it stays has not run into a limit.
+bool is_expected(const RecordFinding& saturation, const Vector& error, double range) {
+    constexpr double kAsUsual = 1.5, kSmall = 0.03;
+    if (error.size() == 0) return false;
+    const double usual = std::sqrt(error.squaredNorm() / static_cast<double>(error.size()));
+    return rms_within(error, saturation.sections) < std::min(kAsUsual * usual, kSmall * range);
+}
+
+/// What the signal alone let suspect and the model does not: fast passages. And once is enough.
+void add(ModelAdvice model, const std::string& output, double range, std::vector<RecordFinding>& findings) {
+    const auto of_channel = [&](const char* code) {
+        return [&output, code](const RecordFinding& f) {
+            return f.experiment == 0 && f.channel == output && f.code == code;
+        };
+    };
+    if (model.judges_outliers) std::erase_if(findings, of_channel("outliers"));
+    std::erase_if(findings, [&](const RecordFinding& f) {
+        return of_channel("saturation")(f) && is_expected(f, model.error, range);
+    });
+    if (std::any_of(findings.begin(), findings.end(), of_channel("saturation")))
+        std::erase_if(model.findings, of_channel("saturation"));
+    for (RecordFinding& finding : model.findings) findings.push_back(std::move(finding));
 }
 
 }  // namespace
@@ -35,9 +69,11 @@ Advice advise(const IdData& data, const std::function<bool()>& cancel) {
     Advice advice{signal_advice(data), {}};
     const bool usable = std::none_of(advice.findings.begin(), advice.findings.end(), forbids_a_model);
     if (usable && data.input_count() == 1 && data.regular())
-        for (Index output = 1; output <= data.output_count(); ++output)
-            for (RecordFinding& finding : model_advice(data.select({output}, {1}), cancel))
-                advice.findings.push_back(std::move(finding));
+        for (Index output = 1; output <= data.output_count(); ++output) {
+            const auto y = data.experiments.front().y.col(output - 1);
+            add(model_advice(data.select({output}, {1}), cancel),
+                data.output_names[static_cast<std::size_t>(output - 1)], y.maxCoeff() - y.minCoeff(), advice.findings);
+        }
     std::stable_sort(advice.findings.begin(), advice.findings.end(),
                      [](const RecordFinding& a, const RecordFinding& b) { return a.weight > b.weight; });
     for (const RecordFinding& finding : advice.findings)

@@ -31,17 +31,26 @@ struct Advice {
     bool clean() const;                                        ///< no warnings
 };
 
-/// What the signals alone tell: "constant" channels, a "time_column", the "same_column" twice, "saturation",
-/// "quantisation", "outliers", "degrees" declared as radians, "mixed_sampling" and "gaps" between the instants, and
-/// "excitation": how many parameters each input can determine. Any number of channels and experiments.
+/// What the signals alone tell: "constant" channels, a "time_column", the "same_column" twice, "saturation" and
+/// "quantisation" of outputs, "outliers", "degrees" declared as radians, "mixed_sampling" and "gaps" between the
+/// instants, and "excitation": how many parameters each input can determine. Any number of channels and experiments.
 std::vector<RecordFinding> signal_advice(const IdData& data);
 
+/// What a linear model tells of the first experiment of a record.
+struct ModelAdvice {
+    std::vector<RecordFinding> findings;
+    bool judges_outliers = false;  ///< the model explains enough to judge single samples: there are no other "outliers"
+    Vector error = {};             ///< of the model; empty when it does not explain enough
+};
+
 /// What a linear model with one to three poles and a free delay (search_delay) tells of a record with one input, one
-/// output and regular sampling: "noise" (signal-to-noise ratio), "dead_time", "offset", "running_start",
-/// "slow_sampling" or "fast_sampling" against the bandwidth, "causality" (the output seems to come first: columns
-/// exchanged, or feedback), "nonlinear" sections that the model does not follow although it follows the rest. Empty
-/// when nothing can be fitted.
-std::vector<RecordFinding> model_advice(const IdData& data, const std::function<bool()>& cancel = {});
+/// output and regular sampling: "noise" (signal-to-noise ratio), "dead_time", "offset", "running_start", "integrator",
+/// "slow_sampling" or "fast_sampling" against the bandwidth; "drift" and "random_walk"; "outliers"; "nonlinear" curves,
+/// backlash, "saturation" under noise, "changing_gain"; "feedback"; "causality" (columns exchanged); and "nonlinear"
+/// sections that the model does not follow although it follows the rest. Tests and levels: model_findings.h. Long
+/// records are searched in a window (advice_record.h), which costs about as much as 150 simulations of 10^6 samples.
+/// No findings when nothing can be fitted.
+ModelAdvice model_advice(const IdData& data, const std::function<bool()>& cancel = {});
 
 /// Both, in the order of weight. A record with several outputs and one input is judged output by output.
 Advice advise(const IdData& data, const std::function<bool()>& cancel = {});

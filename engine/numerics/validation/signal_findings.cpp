@@ -9,13 +9,16 @@
 #include "numerics/signals/quantisation.h"
 #include "numerics/signals/repair.h"
 #include "numerics/signals/robust_statistics.h"
-#include "numerics/validation/advice.h"
+#include "numerics/validation/advice_record.h"
+#include "numerics/validation/sampling_findings.h"
 
 namespace dynlab::inline numerics {
 
 namespace {
 
 constexpr Index kShortestRun = 5;        // samples at a limit that are no chance
+constexpr Index kReach = 4;              // samples before a run over which its slope is taken
+constexpr double kSharp = 10;            // steps of the converter that a signal rises before it is cut off
 constexpr double kClippedExcess = 0.05;  // of the range, what the signal would have gone beyond its limit
 constexpr double kCoarse = 100;          // steps over the range below which quantisation matters
 constexpr Index kHighestExcitation = 20, kPoorOrder = 6;
@@ -92,13 +95,13 @@ void find_time_column(const Channel& channel, std::vector<RecordFinding>& findin
                              mean));
 }
 
-/// Slope per sample over the last few samples before `place`; 0 where the record does not go back so far.
-double slope_before(const Vector& x, Index place) {
-    constexpr Index kReach = 4;
-    return place < kReach ? 0 : std::abs(x[place] - x[place - kReach]) / static_cast<double>(kReach);
+/// How far a signal moves in `reach` samples before `place`; 0 where the record does not go back so far.
+double rise_before(const Vector& x, Index place, Index reach) {
+    return place < reach ? 0 : std::abs(x[place] - x[place - reach]);
 }
 
-/// Runs at the largest or smallest value into which the signal comes at speed: it would have gone on.
+/// Runs at the largest or smallest value into which the signal comes at speed: it would have gone on. A smooth maximum
+/// between two steps of a converter rises by no more than eight steps in as many samples before as it lasts.
 std::vector<Segment> saturated_runs(const Vector& x, const Quantisation& grid) {
     std::vector<Segment> runs;
     const double range = range_of(x), tolerance = 1e-9 * range;
@@ -107,23 +110,14 @@ std::vector<Segment> saturated_runs(const Vector& x, const Quantisation& grid) {
             Index last = first;
             while (last < x.size() && std::abs(x[last] - limit) <= tolerance) ++last;
             const Index length = last - first;
-            const double slope = slope_before(x, first);
+            const double slope = rise_before(x, first, kReach) / static_cast<double>(kReach);
             const double excess = slope * static_cast<double>(std::min<Index>(length, 40));
-            if (length >= kShortestRun && excess > kClippedExcess * range && 4 * slope > 2.5 * grid.step)
+            const bool sharp = grid.step == 0 || rise_before(x, first, std::min(length, first)) > kSharp * grid.step;
+            if (length >= kShortestRun && excess > kClippedExcess * range && slope > 0.6 * grid.step && sharp)
                 runs.push_back({first + 1, last});
             first = std::max(last, first + 1);
         }
     return joined(std::move(runs));
-}
-
-std::string listed(const std::vector<Segment>& segments) {
-    constexpr std::size_t kMost = 4;
-    std::string text;
-    for (std::size_t i = 0; i < std::min(kMost, segments.size()); ++i) {
-        text += (i > 0 ? ", " : "") + std::to_string(segments[i].first);
-        if (segments[i].last > segments[i].first) text += " to " + std::to_string(segments[i].last);
-    }
-    return text + (segments.size() > kMost ? ", ..." : "");
 }
 
 /// A signal that jumps between a few levels (a relay, a PRBS, a keyed-in step) has no limits to run into.
@@ -131,15 +125,16 @@ bool has_few_levels(const Quantisation& grid) {
     return grid.levels <= 5;
 }
 
+/// Of outputs: an input that was applied is what it is, whatever its limits.
 void find_saturation(const Channel& channel, const Quantisation& grid, std::vector<RecordFinding>& findings) {
-    if (has_few_levels(grid)) return;
+    if (!channel.output || has_few_levels(grid)) return;
     const std::vector<Segment> runs = saturated_runs(channel.x, grid);
     if (runs.empty()) return;
     Index samples = 0;
     for (const Segment& run : runs) samples += run.last - run.first + 1;
     const double share = static_cast<double>(samples) / static_cast<double>(channel.x.size());
     std::string message = subject(channel) + " is cut off at a limit for " + number_text(100 * share, 2) +
-                          " % of the record (samples " + listed(runs) + "): it runs into " +
+                          " % of the record (samples " + listed_places(runs) + "): it runs into " +
                           with_unit(channel.x[runs[0].first - 1], channel.unit) +
                           " at full speed and stays there. A linear model cannot follow that. ";
     message += share > 0.5
@@ -164,15 +159,43 @@ void find_quantisation(const Channel& channel, const Quantisation& grid, std::ve
                              grid.step));
 }
 
+double bend_at(const Vector& x, Index k) {
+    return k < 1 || k + 1 >= x.size() ? 0 : std::abs(x[k + 1] - 2 * x[k] + x[k - 1]);
+}
+
+/// Drops those that bend the signal no more than samples that nobody suspects: fast passages, of which there are many.
+void drop_usual_bends(RepairedSignal& repaired, const Vector& x) {
+    constexpr double kUnusual = 1.2;
+    double usual = 0;
+    Index from = 0;
+    for (std::size_t i = 0; i <= repaired.stretches.size(); ++i) {
+        const Index to = i < repaired.stretches.size() ? repaired.stretches[i].first - 2 : x.size();
+        for (Index k = from; k < to; ++k) usual = std::max(usual, bend_at(x, k));
+        if (i < repaired.stretches.size()) from = repaired.stretches[i].last + 1;
+    }
+    const auto is_usual = [&](const Segment& stretch) {
+        double bend = 0;
+        for (Index k = stretch.first - 2; k <= stretch.last; ++k) bend = std::max(bend, bend_at(x, k));
+        return bend < kUnusual * usual;
+    };
+    for (const Segment& stretch : repaired.stretches)
+        if (is_usual(stretch))
+            std::erase_if(repaired.replaced, [&](Index k) { return k >= stretch.first && k <= stretch.last; });
+    std::erase_if(repaired.stretches, is_usual);
+}
+
 void find_outliers(const Channel& channel, const Quantisation& grid, std::vector<RecordFinding>& findings) {
     if (!channel.output || has_few_levels(grid)) return;
-    const RepairedSignal repaired = replace_outliers(channel.x);
+    OutlierOptions options;
+    options.quantisation = grid.step;
+    RepairedSignal repaired = replace_outliers(channel.x, options);
+    drop_usual_bends(repaired, channel.x);
     const auto count = static_cast<double>(repaired.replaced.size());
     if (count == 0 || count > 0.05 * static_cast<double>(channel.x.size())) return;
     RecordFinding finding = about(
         channel, "outliers", Weight::kWarning,
         subject(channel) + " has " + number_text(count) + (count == 1 ? " sample that stands" : " samples that stand") +
-            " far out from the neighbours (" + listed(repaired.stretches) +
+            " far out from the neighbours (" + listed_places(repaired.stretches) +
             "). Look whether they can be true; if not, filloutliers puts straight lines there.",
         count);
     finding.sections = repaired.stretches;
@@ -274,40 +297,6 @@ void find_twins(const std::vector<Channel>& channels, std::vector<RecordFinding>
                                      subject(b) + " is sample by sample the same as " + a.name +
                                          ": one column of the file was probably read twice."));
         }
-}
-
-/// Irregular instants: two clocks, or a regular one with samples missing?
-void find_sampling(const IdData& data, std::vector<RecordFinding>& findings) {
-    for (std::size_t k = 0; k < data.experiments.size(); ++k) {
-        const Vector& t = data.experiments[k].t;
-        if (t.size() < 10) continue;
-        const Vector steps = t.tail(t.size() - 1) - t.head(t.size() - 1);
-        const double usual = median(steps);
-        const auto alike_to = [&](double step) -> Index { return ((steps.array() / step - 1).abs() < 0.05).count(); };
-        const Index regular = alike_to(usual), others = steps.size() - regular;
-        if (others == 0 || regular < steps.size() / 3) continue;
-        Index place = 0;
-        while (std::abs(steps[place] / usual - 1) < 0.05) ++place;
-        const double other = steps[place];
-        const Index alike = alike_to(other);
-        const std::string unit = " " + data.time_unit;
-        const bool mixed = alike > std::max<Index>(5, steps.size() / 20) && alike > others / 2;
-        RecordFinding finding{mixed ? "mixed_sampling" : "gaps", Weight::kWarning, "", "", other, k,
-                              {{place + 1, place + 2}}};
-        if (mixed)
-            finding.message = "The record mixes two sampling times: " + std::to_string(regular) + " steps of " +
-                              number_text(usual, 4) + unit + " and " + std::to_string(alike) + " of " +
-                              number_text(other, 4) + unit + ", first at sample " + std::to_string(place + 1) +
-                              ". Two files were probably joined; make an experiment of each part, resample one and "
-                              "merge them.";
-        else
-            finding.message = "The time jumps at " + std::to_string(others) + " places, first after sample " +
-                              std::to_string(place + 1) + " by " + number_text(other, 4) + unit + " instead of " +
-                              number_text(usual, 4) + unit +
-                              ": samples are missing. Interpolate small gaps (interp1); make experiments of the parts "
-                              "between large ones.";
-        findings.push_back(std::move(finding));
-    }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -288,6 +289,130 @@ TEST(advice, outputs_are_judged_one_by_one) {  // oracle: only the second has an
     const Advice advice = advise(IdData(y, Matrix(r.u), kTs));
     ASSERT_TRUE(advice.has("offset")) << codes(advice);
     EXPECT_EQ(advice.find("offset")->channel, "y2");
+}
+
+/// Random levels of any height, each `hold` samples long.
+Vector random_heights(Index N, Index hold, std::uint32_t seed) {
+    const Vector heights = RandomStream(seed).normal(N / hold + 1);
+    Vector u(N);
+    for (Index k = 0; k < N; ++k) u[k] = heights[k / hold];
+    return u;
+}
+
+/// The response to random heights bent by a function of the input, with noise of 1 %.
+template <class Bend>
+IdData bent_at_input(const Bend& bend) {
+    const Vector u = random_heights(1500, 8, 21);
+    const Vector x = lsim(TransferFunction(Vector{{2.0}}, Vector{{1.0, 1.0, 4.0}}), u.unaryExpr(bend), kTs);
+    const double size = std::sqrt(x.squaredNorm() / 1500);
+    return IdData(Matrix(x + 0.01 * size * RandomStream(22).normal(1500)), Matrix(u), kTs);
+}
+
+TEST(advice,
+     an_applied_input_is_never_saturated) {  // oracle: definition; the old rule found a limit in every staircase
+    Record r = record();
+    r.u = random_heights(1000, 12, 3).cwiseMin(1).cwiseMax(-1);
+    r.y =
+        lsim(TransferFunction(Vector{{2.0}}, Vector{{1.0, 1.0, 4.0}}), r.u, kTs) + 0.01 * RandomStream(5).normal(1000);
+    const Advice advice = advise(r.data());
+    EXPECT_TRUE(advice.clean()) << codes(advice);
+    EXPECT_TRUE(advice.discard.empty());
+}
+
+TEST(advice, a_clock_that_jitters_is_no_fault) {  // oracle: ticks of a millisecond
+    const Record r = record(14);
+    Vector t(1000);
+    for (Index k = 0; k < 1000; ++k) t[k] = std::floor(10.4 * static_cast<double>(k)) / 1000;
+    EXPECT_TRUE(advise(IdData(Matrix(r.y), Matrix(r.u), t)).clean());
+}
+
+TEST(advice, drift_is_told_with_its_size) {  // oracle: the line put in
+    Record r = record(17);
+    r.y += Vector::LinSpaced(1000, 0, 1.5);
+    const Advice advice = advise(r.data());
+    ASSERT_TRUE(advice.has("drift")) << codes(advice);
+    EXPECT_NEAR(advice.find("drift")->value, 1.5, 0.2);
+    EXPECT_FALSE(advice.has("low_snr"));
+}
+
+TEST(advice, a_random_walk_is_told) {  // oracle: sums of seeded normal numbers
+    Record r = record(18);
+    double walk = 0;
+    RandomStream steps(40);
+    for (Index k = 0; k < 1000; ++k) r.y[k] += walk += 0.03 * steps.normal();
+    const Advice advice = advise(r.data());
+    EXPECT_TRUE(advice.has("random_walk") || advice.has("drift")) << codes(advice);
+}
+
+TEST(advice, curves_and_play_are_told_where_they_are) {  // oracle: functions applied by us
+    EXPECT_THAT(said(advise(bent_at_input([](double u) { return u + 0.2 * u * u; })), "nonlinear"),
+                HasSubstr("u1 acts through a bent curve"));
+    EXPECT_THAT(said(advise(bent_at_input([](double u) { return std::copysign(std::max(0.0, std::abs(u) - 0.5), u); })),
+                     "nonlinear"),
+                HasSubstr("dead band"));
+    double play = 0;
+    const IdData loose = bent_at_input([&play](double u) { return play = std::clamp(play, u - 0.4, u + 0.4); });
+    EXPECT_THAT(said(advise(loose), "nonlinear"), HasSubstr("backlash"));
+    EXPECT_TRUE(advise(bent_at_input([](double u) { return 3 * u; })).clean());
+}
+
+TEST(advice, a_limit_under_noise_is_told) {  // oracle: clipped before the noise, so that nothing stands still
+    const Vector u = random_heights(1500, 8, 31);
+    Vector y = lsim(TransferFunction(Vector{{2.0}}, Vector{{1.0, 1.0, 4.0}}), u, kTs);
+    y = y.cwiseMin(0.5 * y.maxCoeff()) + 0.01 * RandomStream(32).normal(1500);
+    EXPECT_THAT(said(advise(IdData(Matrix(y), Matrix(u), kTs)), "saturation"), HasSubstr("saturates at a limit"));
+}
+
+TEST(advice, a_running_controller_is_told) {  // oracle: the loop closed by us, and the same plant without it
+    const Vector reference = random_heights(2000, 25, 6), noise = 0.05 * RandomStream(7).normal(2000);
+    const double a = std::exp(-kTs);
+    for (const bool closed : {true, false}) {
+        Vector u(2000), y(2000);
+        double x = 0, command = 0;
+        for (Index k = 0; k < 2000; ++k) {
+            u[k] = closed ? command : reference[k];
+            y[k] = x + noise[k];
+            x = a * x + (1 - a) * u[k];
+            command = 2 * (reference[k] - y[k]);
+        }
+        const Advice advice = advise(IdData(Matrix(y), Matrix(u), kTs));
+        EXPECT_EQ(advice.has("feedback"), closed) << codes(advice);
+    }
+}
+
+TEST(advice, an_integrator_is_told) {  // oracle: the pole put in
+    const Vector u = random_levels(1500, 8, 41);
+    const Vector x = lsim(TransferFunction(Vector{{1.0}}, Vector{{1.0, 2.0, 0.0}}), u, kTs);
+    const Advice advice = advise(IdData(Matrix(x + 0.02 * RandomStream(42).normal(1500)), Matrix(u), kTs));
+    EXPECT_THAT(said(advice, "integrator"), HasSubstr("the plant integrates"));
+}
+
+TEST(advice, an_extrapolated_offset_is_told_as_such) {  // oracle: the input never comes near zero
+    Record r = record(8);
+    r.u.array() += 10;
+    r.y.array() += 23.4567;
+    EXPECT_THAT(said(advise(r.data()), "offset"),
+                AllOf(HasSubstr("extrapolation"), HasSubstr("between 9 and 11"), HasSubstr("at about 18.5 ")));
+}
+
+TEST(advice, a_rest_beside_zero_is_no_movement) {  // oracle: rest for a second, beside zero by a little
+    Record r = record(9, 0.01);
+    Vector u = Vector::Zero(1050), y = Vector::Constant(1050, 0.08);
+    u.tail(1000) = r.u;
+    y.tail(1000) += r.x;
+    y += 0.01 * RandomStream(3).normal(1050);
+    EXPECT_FALSE(advise(IdData(Matrix(y), Matrix(u), kTs)).has("running_start"));
+}
+
+TEST(advice, long_records_keep_their_dynamics) {  // oracle: known noise, a pole of a tenth of the record's rate
+    const Index N = 60000;
+    const Vector u = random_levels(N, 7, 51);
+    const Vector x = lsim(TransferFunction(Vector{{6.0}}, Vector{{1.0, 6.0}}), u, kTs);
+    const double size = std::sqrt(x.squaredNorm() / static_cast<double>(N));
+    const Advice advice = advise(IdData(Matrix(x + 0.1 * size * RandomStream(52).normal(N)), Matrix(u), kTs));
+    ASSERT_TRUE(advice.has("noise")) << codes(advice);
+    EXPECT_NEAR(advice.find("noise")->value, 20, 0.5);
+    EXPECT_TRUE(advice.clean()) << codes(advice);
 }
 
 }  // namespace test_advice

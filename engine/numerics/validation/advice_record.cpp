@@ -1,0 +1,278 @@
+#include "numerics/validation/advice_record.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "numerics/error.h"
+#include "numerics/estimators/srivc.h"
+#include "numerics/number_text.h"
+#include "numerics/signals/correlation.h"
+#include "numerics/signals/robust_statistics.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+constexpr Index kShortRecord = 5000, kLongestSearch = 2500, kLongestSecondSearch = 16000;  // samples
+constexpr double kFineSampling = 40;  // samples per turn of the fastest pole that a search can do with
+constexpr double kStraight = 1e-3;    // of the input's standard deviation, what straight lines may miss
+constexpr double kSlowCycles = 20;    // over the window, below which a movement counts as slow
+constexpr double kHardlyWorse = 1.05;
+constexpr Index kParts = 20;  // of a record, whose means are compared
+
+double spread_of(const VectorView& x) {
+    return std::sqrt((x.array() - x.mean()).square().mean());
+}
+
+/// Where to begin: the first stretch with half of the usual movement.
+Index lively_start(const VectorView& u, Index length) {
+    const Index stretches = u.size() / length;
+    std::vector<double> movement;
+    for (Index i = 0; i < stretches; ++i) movement.push_back(spread_of(u.segment(i * length, length)));
+    double enough = 0.5 * median(movement);
+    if (!(enough > 0)) enough = 0.5 * *std::max_element(movement.begin(), movement.end());
+    const auto found = std::find_if(movement.begin(), movement.end(), [&](double m) { return m >= enough; });
+    return found == movement.end() ? 0 : length * static_cast<Index>(found - movement.begin());
+}
+
+/// Samples per turn of the fastest pole, by a quick model of two poles; 0 when there is none.
+double samples_per_turn(const IdData& data) {
+    FitOptions options;
+    options.initial_state = InitialState::kSteady;
+    options.offset = Offset::kEstimate;
+    try {
+        const Fit quick = srivc(data, TransferStructure::single(2, 0), options);
+        if (!(quick.fit_percent[0] > 20)) return 0;
+        return 2 * std::numbers::pi / (data.Ts * quick.models[0].poles().cwiseAbs().maxCoeff());
+    } catch (const InvalidArgument&) {
+        return 0;  // no model, no hint
+    }
+}
+
+/// The largest number of samples of which all intervals between changes of u are multiples.
+Index held_samples(const VectorView& u) {
+    Index common = 0, last = -1;
+    for (Index k = 1; k < u.size() && common != 1; ++k) {
+        if (u[k] == u[k - 1]) continue;
+        if (last >= 0) common = std::gcd(common, k - last);
+        last = k;
+    }
+    return common;
+}
+
+Index first_change(const VectorView& u) {
+    Index k = 1;
+    while (k < u.size() && u[k] == u[k - 1]) ++k;
+    return k;
+}
+
+bool is_straight_between(const VectorView& u, Index step) {
+    const double most = kStraight * spread_of(u);
+    for (Index k = 0; k + step < u.size(); ++k) {
+        const Index before = k - k % step;
+        const double part = static_cast<double>(k - before) / static_cast<double>(step);
+        if (before + step >= u.size()) break;
+        if (std::abs(u[k] - (1 - part) * u[before] - part * u[before + step]) > most) return false;
+    }
+    return true;
+}
+
+IdData every(const IdData& data, Index first, Index step, Hold hold, Index longest = kLongestSearch) {
+    const Experiment& whole = data.experiments.front();
+    const Index count = std::min(longest, (data.sample_count() - first + step - 1) / step);
+    const auto rows = Eigen::seqN(first, count, step);
+    IdData thin = data;
+    thin.Ts = data.Ts * static_cast<double>(step);
+    thin.hold = hold;
+    thin.experiments.front().y = Matrix(whole.y(rows, Eigen::all));
+    thin.experiments.front().u = Matrix(whole.u(rows, Eigen::all));
+    return thin;
+}
+
+Vector high_passed(const VectorView& x, double corner) {
+    const double keep = std::exp(-corner);
+    Vector y(x.size());
+    y[0] = 0;
+    for (Index k = 1; k < x.size(); ++k) y[k] = keep * y[k - 1] + (x[k] - x[k - 1]);
+    return y;
+}
+
+IdData without_slow_movement(const IdData& data) {
+    IdData fast = data;
+    Experiment& record = fast.experiments.front();
+    const double corner = 2 * std::numbers::pi * kSlowCycles / static_cast<double>(record.y.rows());
+    record.y = Matrix(high_passed(record.y.col(0), corner));
+    record.u = Matrix(high_passed(record.u.col(0), corner));
+    return fast;
+}
+
+std::optional<DelaySearch> search_model(const IdData& data, const std::function<bool()>& cancel) {
+    DelaySearchOptions options;
+    options.estimation.initial_state = InitialState::kAuto;
+    options.estimation.offset = Offset::kAuto;
+    options.cancel = cancel;
+    try {
+        DelaySearch search = search_delay(data, options);
+        if (!search.cancelled) return search;
+    } catch (const InvalidArgument&) {
+        // nothing could be fitted: the findings on the signals say why
+    }
+    return std::nullopt;
+}
+
+double relative_error(const IdData& data, const TransferFunction& G) {
+    return 1 - compare(data, G).fit_percent / 100;
+}
+
+void simulate(FittedRecord& fit) {
+    fit.simulation = compare(fit.data, fit.model());
+    fit.error = fit.y() - fit.simulation.output;
+}
+
+/// A pole whose natural frequency times the duration of the window is less than this.
+bool has_slow_pole(const FittedRecord& fit, double turns) {
+    const double duration = static_cast<double>(fit.window.data.sample_count()) * fit.window.data.Ts;
+    const ComplexVector poles = fit.model().poles();
+    return std::any_of(poles.begin(), poles.end(), [&](Complex p) { return std::abs(p) * duration < turns; });
+}
+
+/// What moves for so long is not seen behind a high-pass filter.
+bool is_integrator(const FittedRecord& fit) {
+    return has_slow_pole(fit, 1) && fit.simulation.fit_percent > 80;
+}
+
+/// The window had not everything in it that the record has: a chirp begins slowly.
+bool is_not_typical(const FittedRecord& fit) {
+    constexpr double kLess = 5;  // per cent of fit
+    const bool longer = fit.data.sample_count() > fit.window.step * fit.window.data.sample_count();
+    return longer && fit.simulation.fit_percent < fit.search.candidate.fit_percent - kLess;
+}
+
+/// A longer one, from the beginning of the record.
+SearchWindow longer_window(const IdData& data, const SearchWindow& window) {
+    const Index first = window.first % window.step;
+    return {every(data, first, window.step, window.data.hold, kLongestSecondSearch), first, window.step};
+}
+
+bool is_doubtful(const FittedRecord& fit) {
+    constexpr double kSlowPole = 3;
+    return fit.simulation.fit_percent < 50 || fit.simulation.start.state == InitialState::kEstimate ||
+           has_slow_pole(fit, kSlowPole) || !fit.model().stable() || wandering(fit.error) > kWanders;
+}
+
+/// Of a long signal the means over blocks, of which there are 4000 to 8000.
+Vector block_means(const VectorView& x) {
+    constexpr Index kEnough = 4000;
+    const Index block = std::max<Index>(1, x.size() / kEnough), count = x.size() / block;
+    if (block == 1) return x;
+    return x.head(count * block).reshaped(block, count).colwise().mean().transpose();
+}
+
+}  // namespace
+
+double wandering(const VectorView& signal) {
+    const Vector x = block_means(signal);
+    const Index length = x.size() / kParts, lags = length / 4;
+    if (length < 10) return 0;
+    Vector means(kParts), products = Vector::Zero(lags + 1);
+    for (Index i = 0; i < kParts; ++i) {
+        const auto part = x.segment(i * length, length);
+        means[i] = part.mean();
+        const Vector about_mean = part.array() - means[i];
+        products += lagged_products(about_mean, about_mean, lags).tail(lags + 1);
+    }
+    double expected = products[0];
+    for (Index lag = 1; lag <= lags; ++lag)
+        expected += 2 * (1 - static_cast<double>(lag) / static_cast<double>(lags + 1)) * products[lag];
+    expected = std::max(expected, 0.1 * products[0]) / static_cast<double>(kParts * length);
+    const double found = (means.array() - means.mean()).square().sum() * static_cast<double>(length) / (kParts - 1);
+    return expected > 0 ? found / expected : 0;
+}
+
+SearchWindow search_window(const IdData& data) {
+    const Index N = data.sample_count();
+    if (N <= kShortRecord) return {data, 0, 1};
+    const VectorView u = data.experiments.front().u.col(0);
+    const Index first = lively_start(u, kLongestSearch);
+    const Index most = std::max<Index>(1, (N - first) / kLongestSearch);
+    const double turn = samples_per_turn(data.range(first + 1, first + kLongestSearch));
+    const Index wanted = std::min(most, static_cast<Index>(turn / kFineSampling));
+    const Index held = held_samples(u);
+    const auto ahead = [&](Index step) { return first + (first_change(u) % step + step - first % step) % step; };
+    for (Index step = wanted; step > 1 && data.hold == Hold::kZoh && held > 1; --step)
+        if (held % step == 0) return {every(data, ahead(step), step, Hold::kZoh), ahead(step), step};
+    for (Index step = wanted; step > 1; step /= 2)
+        if (is_straight_between(u.tail(N - first), step)) return {every(data, first, step, Hold::kFoh), first, step};
+    return {every(data, first, 1, data.hold), first, 1};
+}
+
+std::string FittedRecord::with_unit(double value, int digits) const {
+    const std::string& unit = data.output_units.front();
+    return short_text(value, digits) + (unit.empty() ? "" : " " + unit);
+}
+
+double FittedRecord::deviation() const {
+    return spread_of(y());
+}
+
+void FittedRecord::take_off(const VectorView& part) {
+    data.experiments.front().y.col(0) -= part;
+    simulate(*this);
+}
+
+std::optional<FittedRecord> fitted_record(const IdData& data, const std::function<bool()>& cancel) {
+    SearchWindow window = search_window(data);
+    std::optional<DelaySearch> search = search_model(window.data, cancel);
+    if (!search) return std::nullopt;
+    FittedRecord fit{data, std::move(window), std::move(*search), {}, {}};
+    simulate(fit);
+    if (is_not_typical(fit)) {
+        fit.window = longer_window(data, fit.window);
+        search = search_model(fit.window.data, cancel);
+        if (!search) return std::nullopt;
+        fit.search = std::move(*search);
+        simulate(fit);
+    }
+    fit.movement_error = 1 - fit.simulation.fit_percent / 100;
+    if (!is_doubtful(fit) || is_integrator(fit)) return fit;
+    const IdData fast = without_slow_movement(fit.window.data);
+    std::optional<DelaySearch> second = search_model(fast, cancel);
+    fit.movement_error = relative_error(fast, fit.model());
+    if (!second) return fit;
+    const double error = relative_error(fast, second->candidate.estimate.models.front());
+    if (!(error < kHardlyWorse * fit.movement_error)) return fit;
+    fit.search = std::move(*second);
+    fit.movement_error = error;
+    simulate(fit);
+    return fit;
+}
+
+RecordFinding about(const FittedRecord& fit, const char* code, Weight weight, const std::string& message,
+                    double value) {
+    return {code, weight, fit.output(), message, value, 0, {}};
+}
+
+std::string listed_places(const std::vector<Segment>& segments) {
+    constexpr std::size_t kMost = 4;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(kMost, segments.size()); ++i) {
+        text += (i > 0 ? ", " : "") + std::to_string(segments[i].first);
+        if (segments[i].last > segments[i].first) text += " to " + std::to_string(segments[i].last);
+    }
+    return text + (segments.size() > kMost ? ", ..." : "");
+}
+
+std::string short_text(double value, int digits) {
+    if (value == 0 || !std::isfinite(value)) return number_text(value);
+    const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) + 1 - digits);
+    return number_text(unit < 1 ? std::round(value / unit) / std::round(1 / unit) : std::round(value / unit) * unit, 6);
+}
+
+std::string rounded_text(double value, double resolution) {
+    const double digits = std::ceil(std::log10(std::abs(value) / resolution));
+    return short_text(value, std::isfinite(digits) ? static_cast<int>(std::clamp(digits, 1.0, 4.0)) : 2);
+}
+
+}  // namespace dynlab::inline numerics

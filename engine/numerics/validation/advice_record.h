@@ -1,0 +1,72 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "numerics/validation/advice.h"
+#include "numerics/validation/compare.h"
+#include "numerics/validation/delay_search.h"
+
+namespace dynlab::inline numerics {
+
+/// A stretch of a record that is searched for a model.
+struct SearchWindow {
+    IdData data;
+    Index first = 0;  ///< sample of the record (0-based) with which it begins
+    Index step = 1;   ///< so many samples of the record from one of its samples to the next
+};
+
+/// A regular record with one input and one output: the whole of it up to 5000 samples, of a longer one the first
+/// stretch of 2500 whose input moves at least half as much as in the median stretch. Of a record sampled more than 40
+/// times faster than a first model of two poles answers only every `step`th sample is taken, if nothing is lost by it:
+/// when a held input changes at these samples only, or when straight lines between them follow the input to within 1e-3
+/// of its standard deviation (the window then has hold foh).
+SearchWindow search_window(const IdData& data);
+
+/// A record, the linear model that explains it best, and what the model leaves.
+struct FittedRecord {
+    IdData data;  ///< one experiment, one input, one output, regular sampling; findings take off y what is no response
+    SearchWindow window;
+    DelaySearch search;
+    CompareResult simulation;   ///< of the whole record
+    Vector error;               ///< of the whole record: y minus simulated output
+    double movement_error = 0;  ///< rms error over rms output of the window, without slow movement where in doubt
+    double disturbance = 0;     ///< standard deviation of the slow disturbance that was taken off y
+
+    const TransferFunction& model() const { return search.candidate.estimate.models.front(); }
+    const std::string& output() const { return data.output_names.front(); }
+    const std::string& input() const { return data.input_names.front(); }
+    VectorView y() const { return data.experiments.front().y.col(0); }
+    VectorView u() const { return data.experiments.front().u.col(0); }
+    std::string with_unit(double value, int digits) const;
+    double deviation() const;  ///< standard deviation of y
+    /// The model explains half of the output, or of what is left of it without slow movement.
+    bool trusted() const { return simulation.fit_percent > 50 || movement_error < 0.5; }
+    void take_off(const VectorView& part);  ///< of y, and simulates anew
+};
+
+/// A model with one to three poles and a free delay (search_delay) from the window, or, where it fits the record worse
+/// by 5 points than the window, from up to 16000 samples. Where its error wanders, where it
+/// explains less than half, has a very slow or unstable pole, or needs a free motion from before the record, a second
+/// one is fitted to input and output behind the same high-pass filter, which slow disturbances hardly pass, and taken
+/// unless it explains these worse by more than 5 %. An integrator that explains 80 % is not doubted: it is not seen
+/// behind the filter either. Nothing when nothing can be fitted, or when cancelled.
+std::optional<FittedRecord> fitted_record(const IdData& data, const std::function<bool()>& cancel);
+
+/// How far a signal wanders: the variance of its means over 20 parts of the record against what its correlation inside
+/// the parts lets expect (Bartlett's window of a quarter of a part). For noise that forgets within a part this is F
+/// with 19 and many degrees of freedom: 3.6 is exceeded with probability 1e-6. 0 for fewer than 200 samples.
+double wandering(const VectorView& x);
+inline constexpr double kWanders = 5;  ///< leaves room for noise of long memory
+
+/// A finding about the output.
+RecordFinding about(const FittedRecord& fit, const char* code, Weight weight, const std::string& message, double value);
+
+/// "3, 10 to 12, ...": the first four.
+std::string listed_places(const std::vector<Segment>& segments);
+/// A number rounded to so many significant digits, without an exponent as far as six digits do: -110.
+std::string short_text(double value, int digits);
+/// A number with the digits that count when `resolution` is all that one can tell: 20.03 at 0.5 becomes "20".
+std::string rounded_text(double value, double resolution);
+
+}  // namespace dynlab::inline numerics

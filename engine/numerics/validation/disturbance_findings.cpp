@@ -1,0 +1,173 @@
+#include <algorithm>
+#include <cmath>
+
+#include "numerics/number_text.h"
+#include "numerics/signals/repair.h"
+#include "numerics/signals/robust_statistics.h"
+#include "numerics/validation/model_findings.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+constexpr Index kSlowParts = 20;       // of a record, over which a slow disturbance is averaged
+constexpr double kWorthAWord = 0.08;   // of the output's standard deviation
+constexpr double kStraightLine = 0.7;  // of the slow part's variance, for it to be called a drift
+constexpr Index kSections = 24;
+constexpr double kLeastError = 0.05;  // of the output's standard deviation, for an error to be worth a word
+constexpr double kStrange = 4;        // rms error of a window over the median of all windows
+
+/// Means over the parts of a record, joined by straight lines; the first part as the two after it let expect, for a
+/// movement from before the record may be in it.
+Vector slow_part(const Vector& x) {
+    const Index N = x.size(), length = N / kSlowParts;
+    Vector means(kSlowParts);
+    for (Index i = 0; i < kSlowParts; ++i) means[i] = x.segment(i * length, length).mean();
+    means[0] = 2 * means[1] - means[2];
+    Vector slow(N);
+    for (Index k = 0; k < N; ++k) {
+        const double place = (static_cast<double>(k) + 0.5) / static_cast<double>(length) - 0.5;
+        const auto i = static_cast<Index>(std::clamp(std::floor(place), 0.0, static_cast<double>(kSlowParts - 2)));
+        slow[k] = means[i] + (place - static_cast<double>(i)) * (means[i + 1] - means[i]);
+    }
+    return slow;
+}
+
+/// The error without a free motion from before the record, which could pass for a disturbance.
+Vector error_without_free_motion(const FittedRecord& fit) {
+    if (fit.simulation.start.state != InitialState::kEstimate) return fit.error;
+    Vector best;
+    for (const InitialState state : {InitialState::kZero, InitialState::kSteady}) {
+        const Vector error = fit.y() - compare(fit.data, fit.model(), {state, Offset::kEstimate}).output;
+        if (best.size() == 0 || error.squaredNorm() < best.squaredNorm()) best = error;
+    }
+    return best;
+}
+
+struct StraightLine {
+    double rise = 0;   // from the first sample to the last
+    double share = 0;  // of the variance
+};
+
+StraightLine straight_line(const Vector& x) {
+    const Vector t = Vector::LinSpaced(x.size(), -0.5, 0.5);
+    const double slope = t.dot(x) / t.squaredNorm(), squares = (x.array() - x.mean()).square().sum();
+    return {slope, slope * slope * t.squaredNorm() / squares};
+}
+
+/// The first samples, which a start may explain, and stretches of many are no outliers.
+void keep_isolated(RepairedSignal& repaired, const Vector& x) {
+    constexpr Index kStart = 5, kLongest = 3;
+    const auto is_none = [](const Segment& s) { return s.first <= kStart || s.last - s.first >= kLongest; };
+    for (const Segment& stretch : repaired.stretches) {
+        if (!is_none(stretch)) continue;
+        const Index first = stretch.first - 1, count = stretch.last - first;
+        repaired.signal.segment(first, count) = x.segment(first, count);
+        std::erase_if(repaired.replaced, [&](Index k) { return k >= stretch.first && k <= stretch.last; });
+    }
+    std::erase_if(repaired.stretches, is_none);
+}
+
+}  // namespace
+
+void find_error_outliers(FittedRecord& fit, Findings& findings) {
+    const Index N = fit.error.size();
+    RepairedSignal repaired = replace_outliers(fit.error);
+    keep_isolated(repaired, fit.error);
+    const auto count = static_cast<double>(repaired.replaced.size());
+    if (count == 0 || count > 0.02 * static_cast<double>(N)) return;
+    const double least = kLeastError * fit.deviation();
+    double largest = 0;
+    for (const Index place : repaired.replaced)
+        largest = std::max(largest, std::abs(fit.error[place - 1] - repaired.signal[place - 1]));
+    if (!(largest > least)) return;
+    fit.take_off(fit.error - repaired.signal);
+    RecordFinding finding =
+        about(fit, "outliers", Weight::kWarning,
+              "The output " + fit.output() + " has " + number_text(count) +
+                  (count == 1 ? " sample that stands" : " samples that stand") + " far out from the neighbours (" +
+                  listed_places(repaired.stretches) + "), up to " + fit.with_unit(largest, 2) +
+                  " from what the input lets expect. Look whether they can be true; if not, filloutliers "
+                  "puts straight lines there.",
+              count);
+    finding.sections = repaired.stretches;
+    findings.push_back(std::move(finding));
+}
+
+void find_disturbance(FittedRecord& fit, Findings& findings) {
+    if (fit.error.size() < 10 * kSlowParts || wandering(fit.error) < kWanders) return;
+    Vector slow = slow_part(error_without_free_motion(fit));
+    slow.array() -= slow.mean();
+    const double size = std::sqrt(slow.squaredNorm() / static_cast<double>(slow.size()));
+    if (!(size > kWorthAWord * fit.deviation())) return;
+    fit.disturbance = size;
+    fit.take_off(slow);
+    const StraightLine line = straight_line(slow);
+    if (line.share > kStraightLine)
+        findings.push_back(about(fit, "drift", Weight::kWarning,
+                                 fit.output() + " drifts by about " + fit.with_unit(line.rise, 2) +
+                                     " from the beginning to the end, which " + fit.input() +
+                                     " does not explain. A model would take it for slow dynamics: take the straight "
+                                     "line off with data:detrend(\"linear\").",
+                                 line.rise));
+    else
+        findings.push_back(about(fit, "random_walk", Weight::kWarning,
+                                 fit.output() + " wanders without direction (a drift like a random walk, between " +
+                                     fit.with_unit(slow.minCoeff(), 2) + " and " + fit.with_unit(slow.maxCoeff(), 2) +
+                                     " about the response to " + fit.input() +
+                                     "). A straight line does not take that off: filter input and output alike with "
+                                     "a high-pass, or estimate a noise model (rivc).",
+                                 size));
+}
+
+namespace {
+
+/// Sections whose error is far beyond that of most of the record.
+std::vector<Segment> strange_sections(const Vector& error, double deviation) {
+    const Index length = error.size() / kSections;
+    if (length < 5) return {};
+    Vector levels(kSections);
+    for (Index i = 0; i < kSections; ++i)
+        levels[i] = std::sqrt(error.segment(i * length, length).squaredNorm() / static_cast<double>(length));
+    const double limit = std::max(kStrange * median(levels), kLeastError * deviation);
+    std::vector<Segment> sections;
+    for (Index i = 0; i < kSections; ++i)
+        if (levels[i] > limit) sections.push_back({i * length + 1, (i + 1) * length});
+    sections = joined(sections);
+    if (static_cast<Index>(sections.size()) > kSections / 4) sections.clear();
+    return sections;
+}
+
+/// A section at the beginning is the start's business.
+bool is_at_the_beginning(const Segment& section) {
+    return section.first == 1;
+}
+
+}  // namespace
+
+bool find_strange_sections(const FittedRecord& fit, Findings& findings) {
+    if (fit.error.size() < 10 * kSlowParts) return false;
+    std::vector<Segment> sections = strange_sections(fit.error - slow_part(fit.error), fit.deviation());
+    std::erase_if(sections, is_at_the_beginning);
+    if (sections.empty()) return false;
+    std::string places;
+    for (const Segment& section : sections)
+        places += (places.empty() ? "" : ", ") + std::to_string(section.first) + " to " + std::to_string(section.last);
+    RecordFinding finding =
+        about(fit, "nonlinear", Weight::kWarning,
+              "A linear model follows " + fit.output() + " but not in samples " + places +
+                  ", where its error is more than " + number_text(kStrange) +
+                  " times the usual one: something else happens there (a limit, friction, a disturbance). "
+                  "Look at it, and leave it out with data:discard when it is not what you want to model.",
+              static_cast<double>(sections.size()));
+    finding.sections = std::move(sections);
+    findings.push_back(std::move(finding));
+    return true;
+}
+
+bool has_strange_beginning(const FittedRecord& fit) {
+    const std::vector<Segment> sections = strange_sections(fit.error, fit.deviation());
+    return !sections.empty() && is_at_the_beginning(sections.front());
+}
+
+}  // namespace dynlab::inline numerics

@@ -1,0 +1,191 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "numerics/number_text.h"
+#include "numerics/simulation/frequency_response.h"
+#include "numerics/simulation/lsim.h"
+#include "numerics/validation/model_findings.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+constexpr double kNoisy = 10;             // dB below which noise is a concern
+constexpr double kSlow = 6, kFast = 400;  // sampling frequency over bandwidth
+constexpr double kBandPass = 0.1;         // steady gain over peak
+constexpr double kOffset = 0.1;           // of the output's standard deviation
+constexpr double kVisibleStart = 0.05;    // of the output's standard deviation
+constexpr double kAboveError = 2;         // standard deviations of the error
+constexpr double kIntegrates = 0.5;       // of the simulated movement
+
+double spread(const VectorView& x) {
+    return std::sqrt((x.array() - x.mean()).square().mean());
+}
+
+/// rad/s up to which the output answers: where the gain is 3 dB below its steady value, or of a band-pass below its
+/// peak. Not finite where the record tells of no such edge, as with an integrator.
+double band_edge(const FittedRecord& fit) {
+    const TransferFunction& G = fit.model();
+    const Vector w = natural_frequency_grid(G);
+    const Vector gain = frequency_response(G, w).cwiseAbs();
+    const double peak = gain.maxCoeff();
+    double edge = bandwidth(G);
+    if (std::abs(G.dc_gain()) < kBandPass * peak)
+        for (Index i = 0; i < w.size(); ++i)
+            if (gain[i] > std::numbers::sqrt2 / 2 * peak) edge = w[i];
+    const double duration = static_cast<double>(fit.data.sample_count()) * fit.data.Ts;
+    return edge * duration > 2 * std::numbers::pi ? edge : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// The real pole of the longest time constant, if that is longer than the window.
+std::optional<double> slowest_pole(const FittedRecord& fit) {
+    const double duration = static_cast<double>(fit.window.data.sample_count()) * fit.window.data.Ts;
+    std::optional<double> slowest;
+    for (const Complex pole : fit.model().poles())
+        if (std::abs(pole) * duration < 1 && (!slowest || std::abs(pole) < std::abs(*slowest))) slowest = pole.real();
+    return slowest;
+}
+
+/// The part of G that belongs to a single real pole.
+TransferFunction part_of_pole(const TransferFunction& G, double pole) {
+    Complex others = 1, numerator = 0;
+    bool left_out = false;
+    for (const Complex p : G.poles())
+        if (!left_out && std::abs(p - pole) < 1e-9 * (1 + std::abs(pole)))
+            left_out = true;
+        else
+            others *= pole - p;
+    for (const double b : G.num()) numerator = numerator * pole + b;
+    return TransferFunction(Vector{{(numerator / others).real()}}, Vector{{1.0, -pole}}, 0, G.delay());
+}
+
+bool excludes_zero(const VectorView& u) {
+    const double low = u.minCoeff(), high = u.maxCoeff(), margin = 0.05 * (high - low);
+    return low > margin || high < -margin;
+}
+
+}  // namespace
+
+void find_noise(const FittedRecord& fit, Findings& findings) {
+    const double error = fit.error.squaredNorm() / static_cast<double>(fit.error.size());
+    const double total = std::pow(fit.deviation(), 2);
+    if (error <= 1e-20 * total) return;
+    const double decibels = 10 * std::log10(std::max(total - error, 1e-3 * total) / error);
+    const int poles = fit.search.candidate.poles;
+    const std::string size = number_text(std::round(decibels), 3) + " dB (what a model with " + std::to_string(poles) +
+                             (poles == 1 ? " pole" : " poles") + " leaves unexplained has the standard deviation " +
+                             fit.with_unit(std::sqrt(error), 2) + ")";
+    const bool explained = std::any_of(findings.begin(), findings.end(), [](const RecordFinding& f) {
+        return f.code == "nonlinear" || f.code == "saturation" || f.code == "changing_gain";
+    });
+    if (decibels >= kNoisy || explained)
+        findings.push_back(about(fit, "noise", Weight::kNote,
+                                 "The signal-to-noise ratio of " + fit.output() + " is about " + size + ".", decibels));
+    else
+        findings.push_back(
+            about(fit, "low_snr", Weight::kWarning,
+                  "The signal-to-noise ratio of " + fit.output() + " is only about " + size +
+                      ". If that is noise, record longer or with a larger amplitude, and prefer methods that noise "
+                      "does not bias (tfsrivc rather than lssvf); if not, something else than the input moves the "
+                      "output.",
+                  decibels));
+}
+
+void find_dead_time(const FittedRecord& fit, Findings& findings) {
+    const double delay = fit.search.delay, Ts = fit.data.Ts;
+    if (!(delay > Ts) || !(delay > 4 * fit.search.std)) return;
+    findings.push_back(about(fit, "dead_time", Weight::kNote,
+                             fit.output() + " answers about " + number_text(delay, 3) + " " + fit.data.time_unit +
+                                 " (" + number_text(delay / Ts, 3) + " samples) after " + fit.input() +
+                                 ": give the model a dead time (`largest_delay` of tfsrivc, the D of procsrivc).",
+                             delay));
+}
+
+void find_offset(const FittedRecord& fit, Findings& findings) {
+    const double deviation = fit.deviation(), offset = fit.simulation.offset;
+    const double least = std::max(kOffset * deviation, 3 * fit.disturbance);
+    if (!fit.simulation.start.offset || std::abs(offset) < least) return;
+    const std::string& unit = fit.data.output_units.front();
+    const std::string level = rounded_text(offset, deviation / 5) + (unit.empty() ? "" : " " + unit);
+    const std::string seen = excludes_zero(fit.u())
+                                 ? "A straight line through these data would put " + fit.output() + " at about " +
+                                       level + " when " + fit.input() + " is zero; that is an extrapolation, for " +
+                                       fit.input() + " stays between " + short_text(fit.u().minCoeff(), 3) + " and " +
+                                       short_text(fit.u().maxCoeff(), 3) + "."
+                                 : fit.output() + " stands at about " + level + " when " + fit.input() + " is zero.";
+    findings.push_back(about(fit, "offset", Weight::kWarning,
+                             seen + " A linear model goes through the origin: take the offset off with "
+                                    "data:remove_mean() or data:detrend(\"start\"), or use `offset` = \"estimate\".",
+                             offset));
+}
+
+namespace {
+
+/// Largest value of the free motion from before the record; 0 without one, and where it and the offset are large only
+/// to cancel each other.
+double free_motion(const FittedRecord& fit) {
+    constexpr double kNoSense = 20;  // standard deviations of the output
+    const CompareResult& simulated = fit.simulation;
+    if (simulated.start.state != InitialState::kEstimate || simulated.initial_values.size() == 0) return 0;
+    const TransferFunction motion(Vector::Ones(1), fit.model().den());
+    const Index rows = std::min<Index>(fit.data.sample_count(), 5000);
+    const Vector free = lsim(motion, Vector::Zero(rows), fit.data.Ts, Hold::kZoh, simulated.initial_values);
+    const double largest = free.cwiseAbs().maxCoeff();
+    return largest < kNoSense * fit.deviation() ? largest : 0;
+}
+
+}  // namespace
+
+void find_running_start(const FittedRecord& fit, Findings& findings) {
+    const double largest = free_motion(fit), error = spread(fit.error);
+    const bool moves = largest > std::max({kVisibleStart * fit.deviation(), kAboveError * error, 3 * fit.disturbance});
+    if (!moves && !has_strange_beginning(fit)) return;
+    findings.push_back(about(fit, "running_start", Weight::kWarning,
+                             "The record begins in the middle of a movement of " + fit.output() +
+                                 (moves ? " of about " + fit.with_unit(largest, 2) : "") +
+                                 ": no start from rest explains its first samples. Use `initial_state` = "
+                                 "\"estimate\", or begin the record later.",
+                             largest));
+}
+
+void find_sampling_rate(const FittedRecord& fit, Findings& findings) {
+    const double band = band_edge(fit);
+    if (!std::isfinite(band)) return;
+    const double ratio = 2 * std::numbers::pi / (fit.data.Ts * band);
+    const std::string numbers = "The sampling frequency is " + short_text(ratio, 2) + " times the bandwidth of about " +
+                                short_text(band, 2) + " rad/" + fit.data.time_unit + "; ";
+    if (ratio < kSlow)
+        findings.push_back(about(fit, "slow_sampling", Weight::kWarning,
+                                 numbers + "10 to 30 times is usual. What happens between the samples is lost: sample "
+                                           "faster, and do not trust fast poles.",
+                                 ratio));
+    else if (ratio > kFast)
+        findings.push_back(about(fit, "fast_sampling", Weight::kNote,
+                                 numbers +
+                                     "continuous-time methods do not mind, but before arx and its like use "
+                                     "resample(data, 1, " +
+                                     std::to_string(std::min<Index>(static_cast<Index>(ratio / 30), 1000)) + ").",
+                                 ratio));
+}
+
+void find_integrator(const FittedRecord& fit, Findings& findings) {
+    const std::optional<double> pole = slowest_pole(fit);
+    if (!pole) return;
+    const TransferFunction slow = part_of_pole(fit.model(), *pole);
+    const IdData& window = fit.window.data;
+    const VectorView u = window.experiments.front().u.col(0);
+    const Vector part = lsim(slow, u, window.Ts, window.hold), all = lsim(fit.model(), u, window.Ts, window.hold);
+    if (!part.allFinite() || !(spread(part) > kIntegrates * spread(all))) return;
+    const double duration = static_cast<double>(window.sample_count()) * window.Ts;
+    findings.push_back(about(fit, "integrator", Weight::kWarning,
+                             fit.output() + " sums " + fit.input() + " up and settles nowhere within " +
+                                 short_text(duration, 2) + " " + fit.data.time_unit +
+                                 ": the plant integrates. Build the pole at zero into the model with `integration`, "
+                                 "and keep the mean of " +
+                                 fit.input() + " near zero.",
+                             *pole));
+}
+
+}  // namespace dynlab::inline numerics

@@ -1,0 +1,165 @@
+#include <algorithm>
+#include <cmath>
+
+#include "numerics/error.h"
+#include "numerics/estimators/srivc.h"
+#include "numerics/linalg/decompositions.h"
+#include "numerics/number_text.h"
+#include "numerics/signals/whitening_filter.h"
+#include "numerics/signals/correlation.h"
+#include "numerics/signals/robust_statistics.h"
+#include "numerics/validation/chi_squared.h"
+#include "numerics/validation/model_findings.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+constexpr Index kInputMemory = 10, kFeedbackLags = 10;
+constexpr double kRobust = 1.4826;  // standard deviation of normal numbers over their median distance
+constexpr double kCutError = 6, kCutInput = 2.5;
+constexpr Index kMostFeedbackSamples = 4000;
+constexpr double kFeedbackLevel = 1e-5;
+constexpr double kOneSided = 3;  // times more correlation with later inputs than with earlier ones
+constexpr double kExplainsHalf = 50, kExplainsMost = 85;  // per cent of fit
+constexpr double kPromises = 30;                          // per cent of fit of a quick model
+constexpr double kMuchBetter = 2.0 / 3;                   // of the error
+
+/// Whether a quick model of two poles from the output to the input promises anything.
+bool may_be_exchanged(const IdData& turned) {
+    FitOptions options;
+    options.initial_state = InitialState::kEstimate;
+    options.offset = Offset::kEstimate;
+    try {
+        return srivc(turned, TransferStructure::single(2, 1), options).fit_percent[0] > kPromises;
+    } catch (const InvalidArgument&) {
+        return false;
+    }
+}
+
+/// x with mean zero and mean square one, cut off at so many robust standard deviations.
+Vector standardised(Vector x, double cut) {
+    x.array() -= median(x);
+    const double scale = kRobust * median(x.cwiseAbs().eval());
+    if (scale > 0) x = x.cwiseMin(cut * scale).cwiseMax(-cut * scale);
+    x.array() -= x.mean();
+    const double size = std::sqrt(x.squaredNorm() / static_cast<double>(x.size()));
+    if (!(size > 0)) return Vector::Zero(x.size());
+    return x / size;
+}
+
+/// Columns of the regression of u(k) on 1, u(k - 1), ... and x(k), x(k - 1), ..., and u(k) itself as the last.
+Matrix input_regression(const VectorView& u, const VectorView& x) {
+    const Index rows = u.size() - kInputMemory;
+    Matrix columns(rows, 2 * kInputMemory + 3);
+    columns.col(0).setOnes();
+    for (Index i = 1; i <= kInputMemory; ++i) columns.col(i) = u.segment(kInputMemory - i, rows);
+    for (Index i = 0; i <= kInputMemory; ++i) columns.col(kInputMemory + 1 + i) = x.segment(kInputMemory - i, rows);
+    columns.rightCols(1) = u.tail(rows);
+    return columns;
+}
+
+/// What the past of input and simulated output do not tell of the input. Jumps, of a reference say, hardly count: least
+/// squares reweighted by Tukey's biweight. Zeros where nothing but jumps is left.
+Vector input_innovations(const VectorView& u, const VectorView& x) {
+    constexpr int kPasses = 8;
+    constexpr double kTukey = 4.685;
+    const Matrix columns = input_regression(u, x);
+    const Index d = columns.cols() - 1;
+    const Matrix A =
+        columns.leftCols(d) * columns.leftCols(d).colwise().norm().cwiseMax(1e-300).cwiseInverse().asDiagonal();
+    const Vector b = columns.col(d);
+    Vector weights = Vector::Ones(b.size()), w = b;
+    for (int pass = 0; pass < kPasses; ++pass) {
+        const Matrix weighted = A.array().colwise() * weights.array();
+        Matrix gram = weighted.transpose() * A;
+        gram.diagonal().array() += 1e-12;
+        w = b - A * solve_semidefinite(gram, weighted.transpose() * b);
+        const double scale = kTukey * kRobust * median(w.cwiseAbs().eval());
+        if (!(scale > 1e-7 * b.cwiseAbs().maxCoeff())) return Vector::Zero(b.size());
+        weights = (1 - (w / scale).array().square()).cwiseMax(0).square();
+    }
+    return w;
+}
+
+IdData exchanged(const IdData& data) {
+    IdData turned = data;
+    for (Experiment& experiment : turned.experiments) std::swap(experiment.u, experiment.y);
+    return turned;
+}
+
+/// Correlations r with a signal that is not quite white, of which `R` are the correlations: N r' P^-1 r, P_ij =
+/// R(i - j), is chi-squared with as many degrees of freedom as P has eigenvalues that count.
+struct JointTest {
+    double statistic = 0;
+    Index degrees = 0;
+};
+
+JointTest joint_test(const Vector& r, const Vector& R, double N) {
+    constexpr double kCounts = 1e-3;
+    Matrix P(r.size(), r.size());
+    for (Index i = 0; i < r.size(); ++i)
+        for (Index j = 0; j < r.size(); ++j) P(i, j) = R[std::abs(i - j)];
+    const auto [values, vectors] = symmetric_eigen(P);
+    JointTest test;
+    for (Index i = 0; i < r.size(); ++i) {
+        if (!(values[i] > kCounts * values[r.size() - 1])) continue;
+        test.statistic += N * std::pow(vectors.col(i).dot(r), 2) / values[i];
+        ++test.degrees;
+    }
+    return test;
+}
+
+}  // namespace
+
+void find_feedback(const FittedRecord& fit, Findings& findings) {
+    const Index first = fit.window.first, count = std::min<Index>(fit.error.size() - first, kMostFeedbackSamples);
+    if (count < 20 * kInputMemory) return;
+    const VectorView error = fit.error.segment(first, count);
+    const Vector e = standardised(filtered_past(whitening_filter_of(error, kInputMemory), error), kCutError);
+    const Vector u = fit.u().segment(first, count);
+    const Vector w = standardised(input_innovations(u, fit.simulation.output.segment(first, count)), kCutInput);
+    const Index common = std::min(e.size(), w.size());
+    if (w.isZero()) return;
+    const auto samples = static_cast<double>(common);
+    const Vector products = lagged_products(w.tail(common), e.tail(common), kFeedbackLags) / samples;
+    const Vector R = lagged_products(w, w, kFeedbackLags).tail(kFeedbackLags + 1) / static_cast<double>(w.size());
+    const JointTest later = joint_test(products.tail(kFeedbackLags + 1), R, samples);
+    const JointTest earlier = joint_test(products.head(kFeedbackLags), R, samples);
+    if (later.statistic < kOneSided * earlier.statistic) return;  // the model lacks something: no noise alone is left
+    if (chi_squared_upper_tail(later.statistic, static_cast<double>(later.degrees)) > kFeedbackLevel) return;
+    Index lag = 0;
+    const double largest = products.tail(kFeedbackLags + 1).cwiseAbs().maxCoeff(&lag);
+    findings.push_back(about(
+        fit, "feedback", Weight::kWarning,
+        fit.input() + " follows disturbances of " + fit.output() + " (correlation " + short_text(largest, 2) + ", " +
+            (lag == 0   ? "at the same sample"
+             : lag == 1 ? "1 sample later"
+                        : std::to_string(lag) + " samples later") +
+            "): a controller was running. Noise then enters the input, which biases lssvf, arx, "
+            "ivsvf and srivc; record with the loop open, or with a known reference and much more of "
+            "it than noise.",
+        largest));
+}
+
+bool find_exchange(const FittedRecord& fit, const std::function<bool()>& cancel, Findings& findings) {
+    const bool disturbed = wandering(fit.error) > kWanders;
+    const double forward = std::max(fit.simulation.fit_percent, disturbed ? 100 * (1 - fit.movement_error) : 0.0);
+    if (forward > kExplainsMost) return false;
+    const IdData turned = exchanged(fit.data);
+    if (!may_be_exchanged(exchanged(fit.window.data))) return false;
+    const std::optional<FittedRecord> backward = fitted_record(turned, cancel);
+    if (!backward || !(backward->simulation.fit_percent > kExplainsHalf)) return false;
+    if (!(100 - backward->simulation.fit_percent < kMuchBetter * (100 - forward))) return false;
+    findings.push_back(about(fit, "causality", Weight::kWarning,
+                             "A model from " + fit.output() + " to " + fit.input() + " explains " +
+                                 short_text(backward->simulation.fit_percent, 2) + " %, one from " + fit.input() +
+                                 " to " + fit.output() + " only " + short_text(forward, 2) + " %: " + fit.input() +
+                                 " seems to answer " + fit.output() +
+                                 ". The two columns are probably exchanged (iddata takes the output first), or a "
+                                 "controller was running.",
+                             forward));
+    return true;
+}
+
+}  // namespace dynlab::inline numerics
