@@ -114,7 +114,7 @@ std::string structure_of(const IdentifyRequest& request) {
     return fmt::format("{}, {}{}.", counted(request.poles, "pole"), counted(request.zeros, "zero"), delay);
 }
 
-std::string estimate_of(const IdentifyRequest& request, const std::string& data) {
+std::string estimating_call(const IdentifyRequest& request, const std::string& data) {
     std::string delay;
     if (request.delay) delay = *request.delay > 0 ? fmt::format("IODelay = {}, ", *request.delay) : "TdMax = 0, ";
     return fmt::format("tfsrivc({}, {}, {}, {{{}InitialState = \"auto\", Offset = \"auto\"}})", data, request.poles,
@@ -156,7 +156,7 @@ std::string identification_script(const IdentifyRequest& request) {
         script +=
             fmt::format(kData, "s"_a = suffix, "data"_a = record.data("record", output), "output"_a = lua_text(output));
         script += fmt::format(kModel, "s"_a = suffix, "structure"_a = structure_of(request),
-                              "estimate"_a = estimate_of(request, "data" + suffix));
+                              "estimate"_a = estimating_call(request, "data" + suffix));
         script += fmt::format(kFit, "s"_a = suffix, "remark"_a = unseen ? "" : kNoValidation);
         script += unseen
                       ? fmt::format(kCompareBoth, "s"_a = suffix, "validation"_a = unseen->data("validation", output))

@@ -198,7 +198,7 @@ TEST(course_store, takes_a_platform_s_zip_and_leaves_out_what_leads_outside) {
     EXPECT_THAT(taken.output, AllOf(HasSubstr("2 files taken, 0 late"), HasSubstr("group-01"), HasSubstr("group-03")));
     EXPECT_THAT(taken.error_output,
                 AllOf(HasSubstr("\"../../escaped.pdf\" leads outside"), HasSubstr("called \"elsenobody\""),
-                      HasSubstr("group-04/notes.txt: this is not a PDF")));
+                      HasSubstr("group-04/notes.txt: this is neither a PDF")));
     EXPECT_FALSE(std::filesystem::exists(bench.bench().path("escaped.pdf")));
     EXPECT_FALSE(std::filesystem::exists("/tmp/escaped.pdf"));
     EXPECT_THAT(bench.course({"verify"}).output, HasSubstr("2 files, 2 versions: all there and unaltered"));

@@ -26,12 +26,10 @@ class MemberReader {
     }
     template <class M>
     void null_if_empty(const char* name, M& member) {
-        if (!reader_.member(name)) reader_.lacks(name);
         member = M{};
-        if (reader_.next() == ValueReader::Kind::kNothing)
-            reader_.nothing();
-        else
-            read_value(reader_, member);
+        if (!reader_.member(name)) reader_.lacks(name);
+        if (reader_.next() == ValueReader::Kind::kNothing) return reader_.nothing();
+        read_value(reader_, member);
     }
 
   private:

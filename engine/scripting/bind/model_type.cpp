@@ -12,7 +12,7 @@ const Model& model_self(Call& call) {
     return object_argument<Model>(call, 1, "G");
 }
 
-const Estimate& estimate_of(Call& call) {
+const Estimate& estimate_of_self(Call& call) {
     const Model& model = model_self(call);
     if (!model.estimate)
         throw InvalidArgument("this model was written down, not estimated, so it has no standard errors and no report");
@@ -100,14 +100,14 @@ int field_param(Call& call) {
     return call.give_vector(parameters_of(model_self(call)).values);
 }
 int field_std(Call& call) {
-    return call.give_vector(estimate_of(call).std);
+    return call.give_vector(estimate_of_self(call).std);
 }
 int field_covariance(Call& call) {
-    return call.give_matrix(estimate_of(call).covariance);
+    return call.give_matrix(estimate_of_self(call).covariance);
 }
 
 const Assessment& assessment_of(Call& call) {
-    const Estimate& estimate = estimate_of(call);
+    const Estimate& estimate = estimate_of_self(call);
     if (estimate.assessment) return *estimate.assessment;
     throw InvalidArgument(fmt::format("{} gives no robust standard errors", estimate.method));
 }
@@ -130,7 +130,7 @@ int field_names(Call& call) {
 
 /// G.report: a plain table.
 int field_report(Call& call) {
-    const Estimate& estimate = estimate_of(call);
+    const Estimate& estimate = estimate_of_self(call);
     lua_State* L = call.state();
     lua_newtable(L);
     lua_pushstring(L, estimate.method.c_str());

@@ -13,7 +13,7 @@
 namespace dynlab::inline scripting {
 namespace {
 
-MonteCarloEstimate estimate_of(const Fit& result) {
+MonteCarloEstimate estimate_in_study(const Fit& result) {
     return {result.theta, result.std, result.names, true, result.termination == Termination::kConverged};
 }
 
@@ -47,7 +47,7 @@ MonteCarloMethod method_of_table(const Call& call, const std::string& label, con
     for (lua_Integer i = first; i <= last; ++i) lua_rawgeti(L, table, i);
     lua_call(L, static_cast<int>(last - first + 2), 0);
     return {label, [estimation = std::move(arguments.estimation)](const IdData& data) {
-                return estimate_of(estimation(data));
+                return estimate_in_study(estimation(data));
             }};
 }
 

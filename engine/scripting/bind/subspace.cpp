@@ -10,7 +10,7 @@
 namespace dynlab::inline scripting {
 namespace {
 
-Estimate estimate_of(const SubspaceFit& result) {
+Estimate estimate_of_subspace(const SubspaceFit& result) {
     Estimate estimate;
     estimate.method = "n4sid";
     estimate.message = in_lua_words(result.fit.message);
@@ -37,7 +37,7 @@ int estimate_n4sid(Call& call) {
     Model model{result.fit.models.front()};
     if (result.fit.models.size() > 1) model.channels = result.fit.models;
     model.outputs = static_cast<std::size_t>(data.output_count());
-    model.estimate = std::make_shared<Estimate>(estimate_of(result));
+    model.estimate = std::make_shared<Estimate>(estimate_of_subspace(result));
     model.system = std::make_shared<StateSpace>(result.system);
     push_object(call.state(), std::move(model));
     return 1;
