@@ -48,7 +48,7 @@ struct ModelAdvice {
 /// "slow_sampling" or "fast_sampling" against the bandwidth; "drift" and "random_walk"; "outliers"; "nonlinear" curves,
 /// backlash, "saturation" under noise, "changing_gain"; "feedback"; "causality" (columns exchanged); and "nonlinear"
 /// sections that the model does not follow although it follows the rest. Tests and levels: model_findings.h. Long
-/// records are searched in a window (advice_record.h), which costs about as much as 150 simulations of 10^6 samples.
+/// records are searched in a window (advice_record.h).
 /// No findings when nothing can be fitted.
 ModelAdvice model_advice(const IdData& data, const std::function<bool()>& cancel = {});
 

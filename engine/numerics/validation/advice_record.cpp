@@ -145,9 +145,10 @@ bool is_integrator(const FittedRecord& fit) {
 
 /// The window had not everything in it that the record has: a chirp begins slowly.
 bool is_not_typical(const FittedRecord& fit) {
-    constexpr double kLess = 5;  // per cent of fit
+    constexpr double kMore = 2;  // times the mean square error
     const bool longer = fit.data.sample_count() > fit.window.step * fit.window.data.sample_count();
-    return longer && fit.simulation.fit_percent < fit.search.candidate.fit_percent - kLess;
+    const double everywhere = fit.error.squaredNorm() / static_cast<double>(fit.error.size());
+    return longer && everywhere > kMore * fit.search.loss();
 }
 
 /// A longer one, from the beginning of the record.
@@ -243,8 +244,15 @@ std::optional<FittedRecord> fitted_record(const IdData& data, const std::functio
     if (!second) return fit;
     const double error = relative_error(fast, second->candidate.estimate.models.front());
     if (!(error < kHardlyWorse * fit.movement_error)) return fit;
-    fit.search = std::move(*second);
-    fit.movement_error = error;
+    constexpr double kSenseless = -50;  // per cent of fit
+    const double before = fit.simulation.fit_percent;
+    std::swap(fit.search, *second);
+    simulate(fit);
+    if (fit.simulation.fit_percent > std::min(kSenseless, before)) {
+        fit.movement_error = error;
+        return fit;
+    }
+    std::swap(fit.search, *second);  // slow movement is the response here, not a disturbance
     simulate(fit);
     return fit;
 }

@@ -22,16 +22,17 @@ constexpr Index kMostFeedbackSamples = 4000;
 constexpr double kFeedbackLevel = 1e-5;
 constexpr double kOneSided = 3;  // times more correlation with later inputs than with earlier ones
 constexpr double kExplainsHalf = 50, kExplainsMost = 85;  // per cent of fit
-constexpr double kPromises = 30;                          // per cent of fit of a quick model
+constexpr double kPromises = 30, kQuickMisses = 10;       // per cent of fit
 constexpr double kMuchBetter = 2.0 / 3;                   // of the error
 
-/// Whether a quick model of two poles from the output to the input promises anything.
-bool may_be_exchanged(const IdData& turned) {
+/// Whether a quick model of two poles from the output to the input comes near the fit of the one the other way round.
+bool may_be_exchanged(const IdData& turned, double forward) {
     FitOptions options;
     options.initial_state = InitialState::kEstimate;
     options.offset = Offset::kEstimate;
     try {
-        return srivc(turned, TransferStructure::single(2, 1), options).fit_percent[0] > kPromises;
+        return srivc(turned, TransferStructure::single(2, 1), options).fit_percent[0] >
+               std::max(kPromises, forward - kQuickMisses);
     } catch (const InvalidArgument&) {
         return false;
     }
@@ -147,7 +148,7 @@ bool find_exchange(const FittedRecord& fit, const std::function<bool()>& cancel,
     const double forward = std::max(fit.simulation.fit_percent, disturbed ? 100 * (1 - fit.movement_error) : 0.0);
     if (forward > kExplainsMost) return false;
     const IdData turned = exchanged(fit.data);
-    if (!may_be_exchanged(exchanged(fit.window.data))) return false;
+    if (!may_be_exchanged(exchanged(fit.window.data), forward)) return false;
     const std::optional<FittedRecord> backward = fitted_record(turned, cancel);
     if (!backward || !(backward->simulation.fit_percent > kExplainsHalf)) return false;
     if (!(100 - backward->simulation.fit_percent < kMuchBetter * (100 - forward))) return false;

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "numerics/linalg/decompositions.h"
+#include "numerics/rigs/crane_experiments.h"
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
@@ -395,13 +396,14 @@ TEST(advice, an_extrapolated_offset_is_told_as_such) {  // oracle: the input nev
                 AllOf(HasSubstr("extrapolation"), HasSubstr("between 9 and 11"), HasSubstr("at about 18.5 ")));
 }
 
-TEST(advice, a_rest_beside_zero_is_no_movement) {  // oracle: rest for a second, beside zero by a little
-    Record r = record(9, 0.01);
-    Vector u = Vector::Zero(1050), y = Vector::Constant(1050, 0.08);
-    u.tail(1000) = r.u;
-    y.tail(1000) += r.x;
-    y += 0.01 * RandomStream(3).normal(1050);
-    EXPECT_FALSE(advise(IdData(Matrix(y), Matrix(u), kTs)).has("running_start"));
+TEST(advice, a_crane_at_rest_does_not_begin_in_a_movement) {  // oracle: a second of rest, read as 0.012 rad
+    const CraneExperiments experiments;
+    for (const std::uint32_t seed : {1u, 2u})
+        for (const CraneRecord& crane : simulate_crane({}, experiments, seed)) {
+            if (crane.name != "estimation" && crane.name != "validation") continue;
+            const Advice advice = advise(IdData(Matrix(crane.theta), Matrix(crane.u), experiments.Ts));
+            EXPECT_FALSE(advice.has("running_start")) << crane.name << seed << codes(advice);
+        }
 }
 
 TEST(advice, long_records_keep_their_dynamics) {  // oracle: known noise, a pole of a tenth of the record's rate
