@@ -141,7 +141,9 @@ Fit srivc_of(const IdData& data, const TransferStructure& structure) {
 Fit ivsvf_of(const IdData& data, const TransferStructure& structure) {
     SvfOptions options;
     options.lambda = 3;
-    return ivsvf(data, structure, options);
+    Fit fit = ivsvf(data, structure, options);
+    colour_covariance(fit, data, options, true);
+    return fit;
 }
 
 // 600 intervals, those of one run depending on each other: a standard deviation of 1.2 % or less about 95 %.

@@ -28,10 +28,9 @@ Fit ivsvf(const IdData& data, const TransferStructure& structure, const SvfOptio
         bool unstable = false;
         double condition = 0;
         NormalEquations sums;
-        Vector theta, auxiliary;
+        Vector theta;
         if (first.allFinite()) {
-            auxiliary = group.reflected(first, &unstable);
-            sums = group.auxiliary(E, auxiliary, gain);
+            sums = group.auxiliary(E, group.reflected(first, &unstable), gain);
             theta = solve_equations(sums, &condition);
         }
         if (theta.size() == 0 || !theta.allFinite())
@@ -44,9 +43,7 @@ Fit ivsvf(const IdData& data, const TransferStructure& structure, const SvfOptio
         const Matrix inverse = solve_by_lu(sums.z_phi, Matrix::Identity(d, d)).x;
         estimate.theta.segment(group.place(), d) = theta;
         estimate.covariance.block(group.place(), group.place(), d, d) =
-            data.sample_count() <= kMostColoured ? equation_covariance(group, E, gain, inverse, theta, &auxiliary)
-                                                 : Matrix(squares / static_cast<double>(group.sample_count() - d) *
-                                                          inverse * sums.z_z * inverse.transpose());
+            squares / static_cast<double>(group.sample_count() - d) * inverse * sums.z_z * inverse.transpose();
         estimate.condition_number = std::max(estimate.condition_number, condition);
     }
     estimate.termination = Termination::kConverged;
@@ -55,7 +52,6 @@ Fit ivsvf(const IdData& data, const TransferStructure& structure, const SvfOptio
         estimate.warnings.push_back(
             "The first model, from least squares, was unstable; its poles were mirrored for the instruments.");
     warn_of_cutoff(estimate, options.lambda);
-    warn_of_white_errors(estimate, data);
     set_message(estimate, "Instrumental variables on filtered signals.");
     return estimate;
 }

@@ -5,6 +5,7 @@
 #include "numerics/criteria/estimating_terms.h"
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
+#include "numerics/linalg/decompositions.h"
 #include "numerics/number_text.h"
 #include "numerics/validation/robust_covariance.h"
 
@@ -41,19 +42,35 @@ void warn_of_cutoff(Fit& estimate, double lambda) {
                                     " rad/s): the usual choice is a bit above the bandwidth.");
 }
 
-Matrix equation_covariance(const DenominatorGroup& group, const VectorView& E, double gain, const Matrix& H,
-                           const Vector& theta, const Vector* instrument) {
-    const EstimatingTerms terms = estimating_terms(group, E, gain, theta, instrument);
-    std::vector<Index> lengths;
-    for (const DenominatorGroup::Member& member : group.members())
-        if (member.output == 0) lengths.push_back(member.record.y.size());
-    return robust_covariance(H, terms.Z, terms.errors, lengths, static_cast<Index>(group.outputs().size())).covariance;
-}
-
-void warn_of_white_errors(Fit& estimate, const IdData& data) {
-    if (data.sample_count() > kMostColoured)
-        estimate.warnings.push_back("Standard errors of more than " + std::to_string(kMostColoured) +
-                                    " samples take the equation error as white, though the filters colour it.");
+void colour_covariance(Fit& fit, const IdData& data, const SvfOptions& options, bool instruments) {
+    if (data.sample_count() > kMostColoured) {
+        fit.warnings.push_back("Standard errors of more than " + std::to_string(kMostColoured) +
+                               " samples take the equation error as white, though the filters colour it.");
+        fit.message += " " + fit.warnings.back();
+        return;
+    }
+    for (std::size_t g = 0; g < fit.structure.poles.size(); ++g) {
+        const DenominatorGroup group(data, fit.structure, static_cast<Index>(g), options.hold_y);
+        const Index d = group.parameter_count();
+        const double gain = options.beta ? std::pow(*options.beta, static_cast<double>(group.order())) : 1.0;
+        const Vector E = filter_denominator(options.lambda, group.order());
+        NormalEquations sums = group.svf(E, gain);
+        Vector auxiliary;
+        if (instruments) {
+            auxiliary = group.reflected(solve_equations(sums));
+            sums = group.auxiliary(E, auxiliary, gain);
+        }
+        const EstimatingTerms terms =
+            estimating_terms(group, E, gain, fit.theta.segment(group.place(), d), instruments ? &auxiliary : nullptr);
+        std::vector<Index> lengths;
+        for (const DenominatorGroup::Member& member : group.members())
+            if (member.output == 0) lengths.push_back(member.record.y.size());
+        fit.covariance.block(group.place(), group.place(), d, d) =
+            robust_covariance(solve_by_lu(sums.z_phi, Matrix::Identity(d, d)).x, terms.Z, terms.errors, lengths,
+                              static_cast<Index>(group.outputs().size()))
+                .covariance;
+    }
+    fit.std = fit.covariance.diagonal().cwiseMax(0).cwiseSqrt();
 }
 
 Fit lssvf(const IdData& data, const TransferStructure& structure, const SvfOptions& options) {
@@ -76,18 +93,15 @@ Fit lssvf(const IdData& data, const TransferStructure& structure, const SvfOptio
             throw InvalidArgument(
                 "lssvf: the equations have no unique solution: the input does not excite the system enough for " +
                 std::to_string(d) + " parameters");
-        const Matrix inverse = inverse_gram(sums.z_phi);
         const double squares = std::max(0.0, sums.y_y - 2 * theta.dot(sums.z_y) + theta.dot(sums.z_phi * theta));
+        const double variance = squares / static_cast<double>(group.sample_count() - d);
         estimate.theta.segment(group.place(), d) = theta;
-        estimate.covariance.block(group.place(), group.place(), d, d) =
-            data.sample_count() <= kMostColoured ? equation_covariance(group, E, gain, inverse, theta)
-                                                 : squares / static_cast<double>(group.sample_count() - d) * inverse;
+        estimate.covariance.block(group.place(), group.place(), d, d) = variance * inverse_gram(sums.z_phi);
         estimate.condition_number = std::max(estimate.condition_number, condition);
     }
     estimate.termination = Termination::kConverged;
     describe_models(estimate);
     warn_of_cutoff(estimate, options.lambda);
-    warn_of_white_errors(estimate, data);
     set_message(estimate, "Least squares on filtered signals.");
     return estimate;
 }

@@ -19,8 +19,8 @@ struct SvfOptions {
 /// with signals filtered by 1/(p + lambda)^n (lsgpmf: by (beta/(p + lambda))^n, which gives the same theta),
 ///     minimise sum_k (p^n y_f - phi' theta)^2,  phi = [-p^(n-1) y_f .. -y_f, p^m u_f .. u_f].
 /// Exact filters from rest; inputs as the data's hold says, delays fixed and of any size. Biased by noise on the
-/// output: see ivsvf, srivc. The filters colour the equation error, which the standard errors take into account up to
-/// kMostColoured samples (robust_covariance.h); those of longer records take it as white, and say so. All inputs of an
+/// output: see ivsvf, srivc. Standard errors are those of a white equation error, which the filters colour: see
+/// colour_covariance. All inputs of an
 /// output share a denominator (kPerOutput or kCommon). Memory does not grow with longer records. The fit of the
 /// simulation is not measured (measure_simulation does). Throws InvalidArgument for unsuitable data
 /// (check_transfer_data), denominators per channel with several inputs, or free delays. Reference: Young (1981);
@@ -33,16 +33,11 @@ void check_carx(const char* method, const TransferStructure& structure);
 /// Standard errors of more samples would take far longer than the estimate.
 inline constexpr Index kMostColoured = 200'000;
 
-class DenominatorGroup;
-
-/// Covariance of a group's theta that solves sum z (p^n y_f - phi' theta) = 0 with the filter gain/E: coloured errors
-/// of the equation taken into account. `H` is (Z'Phi)^-1; z = phi, or with the output of the auxiliary model that
-/// `instrument` holds the parameters of.
-Matrix equation_covariance(const DenominatorGroup& group, const VectorView& E, double gain, const Matrix& H,
-                           const Vector& theta, const Vector* instrument = nullptr);
-
-/// Adds the warning that the standard errors of a long record take the equation error as white.
-void warn_of_white_errors(Fit& estimate, const IdData& data);
+/// Replaces the covariance of an estimate by lssvf or, with `instruments`, by ivsvf, which takes the equation error as
+/// white, by one that takes its colour into account (criteria/estimating_terms.h, validation/robust_covariance.h):
+/// the filters colour it even where the noise is white. It takes ten times as long as the estimate; records of more
+/// than kMostColoured samples keep the plain one, and a warning says so. data and options as for the estimate.
+void colour_covariance(Fit& fit, const IdData& data, const SvfOptions& options, bool instruments);
 
 /// Adds the warning that lambda lies far from the model's band, with the usual choice.
 void warn_of_cutoff(Fit& estimate, double lambda);

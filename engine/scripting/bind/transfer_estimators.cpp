@@ -18,9 +18,14 @@ namespace {
 constexpr std::array kCarxOrders = {kNa, kNb, kNk};
 constexpr std::array kOutputErrorOrders = {kNb, kNf, kNk};
 
-/// lssvf and ivsvf; lsgpmf and ivgpmf, whose filter has a gain beta.
-template <auto kMethod, bool kMomentFunctionals>
-Estimation read_filtered(const Call& call) {
+/// What lssvf and ivsvf are asked; lsgpmf and ivgpmf, whose filter has a gain beta, too.
+struct FilteredRequest {
+    StructureMaker structure;
+    SvfOptions options;
+};
+
+template <bool kMomentFunctionals>
+FilteredRequest filtered_request(const Call& call) {
     call.at_most(4);
     const auto orders = order_lists(call, 2, kCarxOrders);
     if (orders[0].size() != 1)
@@ -31,15 +36,23 @@ Estimation read_filtered(const Call& call) {
     wanted.lambda = call.number(3, "lambda");
     wanted.hold_y = hold_y_of(options);
     if constexpr (kMomentFunctionals) wanted.beta = options.optional_number("beta").value_or(wanted.lambda);
-    return [structure = structure_of_orders(kCarxOrders, orders, Denominators::kPerOutput),
-            wanted](const IdData& data) { return kMethod(data, structure(data), wanted); };
+    return {structure_of_orders(kCarxOrders, orders, Denominators::kPerOutput), wanted};
 }
 
 template <auto kMethod, bool kMomentFunctionals>
+Estimation read_filtered(const Call& call) {
+    return [request = filtered_request<kMomentFunctionals>(call)](const IdData& data) {
+        return kMethod(data, request.structure(data), request.options);
+    };
+}
+
+template <auto kMethod, bool kInstruments, bool kMomentFunctionals>
 int estimate_filtered(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    Fit result = read_filtered<kMethod, kMomentFunctionals>(call)(data);
+    const FilteredRequest request = filtered_request<kMomentFunctionals>(call);
+    Fit result = kMethod(data, request.structure(data), request.options);
     measure_simulation(result, data);
+    colour_covariance(result, data, request.options, kInstruments);
     Estimate estimate = estimate_of(call.function_name(), result);
     estimate.carx = true;
     return give_fit(call, std::move(estimate), result);
@@ -110,13 +123,15 @@ constexpr const char* kTransferEstimatorsArea = "continuous time";
 constexpr std::array kTransferEstimatorsFunctions = {
     FunctionEntry{"lssvf", kTransferEstimatorsArea, "lssvf(data, {na, nb, nk}, lambda, {hold_y =}) -> G",
                   "A y = B u + e by least squares on state-variable filtered signals",
-                  guarded<estimate_filtered<lssvf, false>>},
+                  guarded<estimate_filtered<lssvf, false, false>>},
     FunctionEntry{"ivsvf", kTransferEstimatorsArea, "ivsvf(data, {na, nb, nk}, lambda, {hold_y =}) -> G",
-                  "the same by instrumental variables, without lssvf's bias", guarded<estimate_filtered<ivsvf, false>>},
+                  "the same by instrumental variables, without lssvf's bias",
+                  guarded<estimate_filtered<ivsvf, true, false>>},
     FunctionEntry{"lsgpmf", kTransferEstimatorsArea, "lsgpmf(data, {na, nb, nk}, lambda, {beta =, hold_y =}) -> G",
-                  "least squares on Poisson moment functionals", guarded<estimate_filtered<lssvf, true>>},
+                  "least squares on Poisson moment functionals", guarded<estimate_filtered<lssvf, false, true>>},
     FunctionEntry{"ivgpmf", kTransferEstimatorsArea, "ivgpmf(data, {na, nb, nk}, lambda, {beta =, hold_y =}) -> G",
-                  "instrumental variables on Poisson moment functionals", guarded<estimate_filtered<ivsvf, true>>},
+                  "instrumental variables on Poisson moment functionals",
+                  guarded<estimate_filtered<ivsvf, true, true>>},
     FunctionEntry{"srivc", kTransferEstimatorsArea, "srivc(data, {nb, nf, nk}, {lambda =, MaxIter =, Tol =, ...}) -> G",
                   "y = B/F u + e by refined instrumental variables",
                   guarded<memoized_call<estimate_refined<read_refined<srivc>>>>},

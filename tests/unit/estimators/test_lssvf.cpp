@@ -28,31 +28,30 @@ TEST(lssvf, equals_least_squares_on_the_columns_of_svf) {  // oracle: second rou
     Matrix Phi(y.rows(), 3);
     Phi << -y.col(1), -y.col(2), u.col(2);
     const LeastSquares expected = solve_least_squares(Phi, y.col(0));
-    const Fit found = lssvf(data, kCourse, cutoff(3));
+    Fit found = lssvf(data, kCourse, cutoff(3));
     EXPECT_LT(relative_difference(found.theta, expected.solution), 1e-11);
+    const double variance = expected.residuals.squaredNorm() / static_cast<double>(y.rows() - 3);
+    EXPECT_LT(relative_difference(found.covariance.diagonal(), variance * expected.inverse_gram.diagonal()), 1e-9);
+    EXPECT_EQ(found.names, (std::vector<std::string>{"a1", "a2", "b0"}));
+
+    colour_covariance(found, data, cutoff(3), false);
     const DenominatorGroup group(data, kCourse, 0, Hold::kFoh);
     const EstimatingTerms terms = estimating_terms(group, values({1, 6, 9}), 1, found.theta);
     const Matrix covariance = robust_covariance(expected.inverse_gram, terms.Z, terms.errors).covariance;
     EXPECT_LT(relative_difference(found.covariance.diagonal(), covariance.diagonal()), 1e-9);
-    EXPECT_EQ(found.names, (std::vector<std::string>{"a1", "a2", "b0"}));
+    EXPECT_LT(relative_difference(found.std, covariance.diagonal().cwiseSqrt()), 1e-9);
 }
 
-// Oracle: the definition for white errors, from stored columns.
-TEST(lssvf, long_records_take_the_equation_error_as_white_and_say_so) {
+TEST(lssvf, long_records_keep_the_errors_of_a_white_equation_error_and_say_so) {  // oracle: nothing but the sentence
     const Index N = kMostColoured + 1;
     const Vector u = RandomStream(1).normal(N);
-    Vector y = lsim(TransferFunction(values({2}), values({1, 4, 3})), u, 0.01) + 0.1 * RandomStream(2).normal(N);
+    const Vector y = lsim(TransferFunction(values({2}), values({1, 4, 3})), u, 0.01) + 0.1 * RandomStream(2).normal(N);
     const IdData data{Matrix(y), Matrix(u), 0.01};
-    const Matrix y_f = state_variable_filter(y, 2, 3, 0.01, Hold::kFoh);
-    Matrix Phi(N, 3);
-    Phi << -y_f.col(1), -y_f.col(2), state_variable_filter(u, 2, 3, 0.01, Hold::kZoh).col(2);
-    const LeastSquares expected = solve_least_squares(Phi, y_f.col(0));
-    const Fit found = lssvf(data, kCourse, cutoff(3));
-    const double variance = expected.residuals.squaredNorm() / static_cast<double>(N - 3);
-    EXPECT_LT(relative_difference(found.covariance.diagonal(), variance * expected.inverse_gram.diagonal()), 1e-7);
+    Fit found = lssvf(data, kCourse, cutoff(3));
+    const Matrix plain = found.covariance;
+    colour_covariance(found, data, cutoff(3), false);
+    EXPECT_EQ(found.covariance, plain);
     EXPECT_NE(found.message.find("as white"), std::string::npos) << found.message;
-    const Fit shorter = lssvf(data.range(1, N - 1), kCourse, cutoff(3));
-    EXPECT_EQ(shorter.message.find("as white"), std::string::npos) << shorter.message;
 }
 
 TEST(lssvf, delay_of_whole_samples_equals_shifted_input) {  // oracle: shift invariance
