@@ -6,8 +6,8 @@
 #include "numerics/error.h"
 #include "numerics/fit/spectral_estimate.h"
 #include "numerics/number_text.h"
-#include "numerics/signals/whitening_filter.h"
 #include "numerics/signals/correlation.h"
+#include "numerics/signals/whitening_filter.h"
 #include "numerics/validation/chi_squared.h"
 
 namespace dynlab::inline numerics {

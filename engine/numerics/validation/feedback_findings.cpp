@@ -5,9 +5,9 @@
 #include "numerics/estimators/srivc.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/number_text.h"
-#include "numerics/signals/whitening_filter.h"
 #include "numerics/signals/correlation.h"
 #include "numerics/signals/robust_statistics.h"
+#include "numerics/signals/whitening_filter.h"
 #include "numerics/validation/chi_squared.h"
 #include "numerics/validation/model_findings.h"
 

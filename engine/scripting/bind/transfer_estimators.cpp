@@ -18,14 +18,9 @@ namespace {
 constexpr std::array kCarxOrders = {kNa, kNb, kNk};
 constexpr std::array kOutputErrorOrders = {kNb, kNf, kNk};
 
-/// What lssvf and ivsvf are asked; lsgpmf and ivgpmf, whose filter has a gain beta, too.
-struct FilteredRequest {
-    StructureMaker structure;
-    SvfOptions options;
-};
-
-template <bool kMomentFunctionals>
-FilteredRequest filtered_request(const Call& call) {
+/// lssvf and ivsvf; lsgpmf and ivgpmf, whose filter has a gain beta. Their standard errors know the filters' colour.
+template <auto kMethod, bool kInstruments, bool kMomentFunctionals>
+Estimation read_filtered(const Call& call) {
     call.at_most(4);
     const auto orders = order_lists(call, 2, kCarxOrders);
     if (orders[0].size() != 1)
@@ -36,23 +31,19 @@ FilteredRequest filtered_request(const Call& call) {
     wanted.lambda = call.number(3, "lambda");
     wanted.hold_y = hold_y_of(options);
     if constexpr (kMomentFunctionals) wanted.beta = options.optional_number("beta").value_or(wanted.lambda);
-    return {structure_of_orders(kCarxOrders, orders, Denominators::kPerOutput), wanted};
-}
-
-template <auto kMethod, bool kMomentFunctionals>
-Estimation read_filtered(const Call& call) {
-    return [request = filtered_request<kMomentFunctionals>(call)](const IdData& data) {
-        return kMethod(data, request.structure(data), request.options);
-    };
+    return
+        [structure = structure_of_orders(kCarxOrders, orders, Denominators::kPerOutput), wanted](const IdData& data) {
+            Fit fit = kMethod(data, structure(data), wanted);
+            colour_covariance(fit, data, wanted, kInstruments);
+            return fit;
+        };
 }
 
 template <auto kMethod, bool kInstruments, bool kMomentFunctionals>
 int estimate_filtered(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const FilteredRequest request = filtered_request<kMomentFunctionals>(call);
-    Fit result = kMethod(data, request.structure(data), request.options);
+    Fit result = read_filtered<kMethod, kInstruments, kMomentFunctionals>(call)(data);
     measure_simulation(result, data);
-    colour_covariance(result, data, request.options, kInstruments);
     Estimate estimate = estimate_of(call.function_name(), result);
     estimate.carx = true;
     return give_fit(call, std::move(estimate), result);
@@ -110,10 +101,10 @@ Estimation read_transfer_estimation(const Call& call) {
 }
 
 constexpr NamedReader kTransferEstimatorsReaders[] = {
-    {"lssvf", read_filtered<lssvf, false>},
-    {"ivsvf", read_filtered<ivsvf, false>},
-    {"lsgpmf", read_filtered<lssvf, true>},
-    {"ivgpmf", read_filtered<ivsvf, true>},
+    {"lssvf", read_filtered<lssvf, false, false>},
+    {"ivsvf", read_filtered<ivsvf, true, false>},
+    {"lsgpmf", read_filtered<lssvf, false, true>},
+    {"ivgpmf", read_filtered<ivsvf, true, true>},
     {"srivc", read_transfer_estimation<read_refined<srivc>>},
     {"coe", read_transfer_estimation<read_refined<coe>>},
     {"tfsrivc", read_transfer_estimation<read_transfer_function<srivc>>},
