@@ -129,7 +129,7 @@ Matrix DenominatorGroup::sensitivity_gram(const VectorView& theta) const {
     return sum;
 }
 
-Vector DenominatorGroup::reflected(const VectorView& theta, bool* any) const {
+Vector DenominatorGroup::with_stable_poles(const VectorView& theta, bool* any) const {
     Vector result = theta;
     result.head(n_) = reflect_unstable_roots(denominator(theta), any).tail(n_);
     return result;

@@ -29,7 +29,7 @@ class DenominatorGroup {
     Matrix sensitivity_gram(const VectorView& theta) const;  ///< weighted sum z z' of the refined instruments
     Vector denominator(const VectorView& theta) const;       ///< theta of the group
     /// theta with unstable poles mirrored (real part to its negative); tells whether there were any.
-    Vector reflected(const VectorView& theta, bool* any = nullptr) const;
+    Vector with_stable_poles(const VectorView& theta, bool* any = nullptr) const;
 
     /// One output in one experiment.
     struct Member {

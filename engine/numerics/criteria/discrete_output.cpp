@@ -30,7 +30,7 @@ Vector all_pole_filter(const VectorView& f, const VectorView& signal) {
     return filter.run(signal);
 }
 
-Vector reflect_into_unit_circle(const VectorView& f) {
+Vector reflect_poles_into_unit_circle(const VectorView& f) {
     if (f.size() == 0 || !f.allFinite()) return f;
     ComplexVector poles = roots(monic(f));
     if (poles.cwiseAbs().maxCoeff() <= 1) return f;
@@ -225,10 +225,10 @@ InstrumentProducts DiscreteOutput::instrument_products(const Vector& theta, cons
     return all;
 }
 
-Vector DiscreteOutput::stabilised(Vector theta) const {
+Vector DiscreteOutput::with_stable_poles(Vector theta) const {
     for (std::size_t input = 0; input < orders_.inputs(); ++input) {
         const Index place = orders_.f_place(input), nf = orders_.nf[input];
-        theta.segment(place, nf) = reflect_into_unit_circle(theta.segment(place, nf));
+        theta.segment(place, nf) = reflect_poles_into_unit_circle(theta.segment(place, nf));
     }
     return theta;
 }

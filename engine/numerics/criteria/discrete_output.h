@@ -18,7 +18,7 @@ Vector all_pole_filter(const VectorView& f, const VectorView& signal);
 
 /// Poles outside the unit circle are mirrored into it: the coefficients f_1 ... of the stable polynomial with equal
 /// magnitude but for a gain. Returns `f` itself when there are none.
-Vector reflect_into_unit_circle(const VectorView& f);
+Vector reflect_poles_into_unit_circle(const VectorView& f);
 
 /// What the inputs of one experiment do: the output and its derivatives, each the late copy of one of few signals.
 struct DrivenSignals {
@@ -61,7 +61,7 @@ class DiscreteOutput : public OutputErrorModel {
 
     InstrumentProducts instrument_products(const Vector& theta, const VectorView& y) const;
     /// `theta` with every F reflected into the unit circle.
-    Vector stabilised(Vector theta) const;
+    Vector with_stable_poles(Vector theta) const;
 
     Vector target() const;                ///< measured outputs, in the rows of output
     double target_variation() const;      ///< sum of squares about the mean of each experiment, same rows

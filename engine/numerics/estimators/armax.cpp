@@ -64,7 +64,7 @@ std::vector<Vector> regression_start(const IdData& data, const PolynomialOrders&
     const ArxEquations equations(extended, regression);
     if (equations.count() <= equations.parameters()) return {};
     Vector start = solve_arx(equations).theta;
-    start.tail(orders.nc) = mirrored_inside(monic(start.tail(orders.nc))).tail(orders.nc);
+    start.tail(orders.nc) = reflect_roots_into_unit_circle(monic(start.tail(orders.nc))).tail(orders.nc);
     return {start};
 }
 

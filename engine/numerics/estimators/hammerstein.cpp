@@ -79,13 +79,13 @@ IdData expanded(const IdData& data, const Vector& edges) {
 /// Where the search for one channel per hat function begins. The functions sum up to one, which a system that has come
 /// to rest does not answer, so there only what the others do beyond the last one can be told.
 Vector channels_start(const IdData& hats, const TransferStructure& channels, const FitOptions& options) {
-    if (options.initial_state == InitialState::kZero) return start_at(hats, channels, options);
+    if (options.initial_state == InitialState::kZero) return start_from_rest(hats, channels, options);
     std::vector<Index> others;
     for (Index i = 1; i < channels.inputs; ++i) others.push_back(i);
     const TransferChannel& channel = channels.channels[0];
     const TransferStructure fewer = TransferStructure::grid(1, channels.inputs - 1, Denominators::kPerOutput,
                                                             channels.poles, {channel.zeros}, {channel.delay});
-    const Vector found = start_at(without_operating_points(hats.select({1}, others)).data, fewer, options);
+    const Vector found = start_from_rest(without_operating_points(hats.select({1}, others)).data, fewer, options);
     Vector start = Vector::Zero(channels.parameter_count());
     start.head(found.size()) = found;
     return start;

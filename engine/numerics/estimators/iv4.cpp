@@ -20,7 +20,7 @@ constexpr int kLongestFilter = 100;
 /// The data with outputs that the model simulates from rest, its poles brought into the unit circle.
 IdData simulated(const IdData& data, const PolynomialModel& model) {
     IdData result = data;
-    const Vector a = reflect_into_unit_circle(model.A.tail(model.A.size() - 1));
+    const Vector a = reflect_poles_into_unit_circle(model.A.tail(model.A.size() - 1));
     for (Experiment& experiment : result.experiments)
         experiment.y = free_run(a, driven_part(model, experiment.u), Vector::Zero(experiment.y.rows()), 0);
     return result;

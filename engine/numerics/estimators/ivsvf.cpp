@@ -30,7 +30,7 @@ Fit ivsvf(const IdData& data, const TransferStructure& structure, const SvfOptio
         NormalEquations sums;
         Vector theta;
         if (first.allFinite()) {
-            sums = group.auxiliary(E, group.reflected(first, &unstable), gain);
+            sums = group.auxiliary(E, group.with_stable_poles(first, &unstable), gain);
             theta = solve_equations(sums, &condition);
         }
         if (theta.size() == 0 || !theta.allFinite())

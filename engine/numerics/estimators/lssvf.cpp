@@ -57,7 +57,7 @@ void colour_covariance(Fit& fit, const IdData& data, const SvfOptions& options, 
         NormalEquations sums = group.svf(E, gain);
         Vector auxiliary;
         if (instruments) {
-            auxiliary = group.reflected(solve_equations(sums));
+            auxiliary = group.with_stable_poles(solve_equations(sums));
             sums = group.auxiliary(E, auxiliary, gain);
         }
         const EstimatingTerms terms =

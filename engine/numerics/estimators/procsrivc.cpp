@@ -9,7 +9,7 @@
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/output_error.h"
 #include "numerics/fit/process_start.h"
-#include "numerics/fit/refined_iteration.h"
+#include "numerics/fit/srivc_iteration.h"
 #include "numerics/fit/transfer_refinement.h"
 #include "numerics/number_text.h"
 

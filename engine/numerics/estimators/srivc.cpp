@@ -1,7 +1,7 @@
 #include "numerics/estimators/srivc.h"
 
 #include "numerics/fit/diagnosis.h"
-#include "numerics/fit/refined_iteration.h"
+#include "numerics/fit/srivc_iteration.h"
 #include "numerics/fit/transfer_search.h"
 
 namespace dynlab::inline numerics {
@@ -34,17 +34,17 @@ bool outputs_share_a_denominator(const TransferStructure& structure) {
 }
 
 /// The passes; where outputs share a denominator, more of them with each output weighted by its noise.
-RefinedSolution solve(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
-    RefinedExtras extras;
+SrivcSolution solve(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
+    SrivcExtras extras;
     extras.with_gram = structure.outputs == 1 && options.tolerance <= kGramTolerance;
-    RefinedSolution solution = iterate_refined(data, structure, start_at(data, structure, options), options, extras);
+    SrivcSolution solution = iterate_srivc(data, structure, start_from_rest(data, structure, options), options, extras);
     for (int i = 0; outputs_share_a_denominator(structure) && i < kReweightings; ++i) {
         extras.weights.resize(structure.outputs);
         for (Index output = 0; output < structure.outputs; ++output)
             extras.weights[output] = 1 / simulation_squares(data, structure, solution.theta, output);
         if (!extras.weights.allFinite()) break;
         extras.weights /= extras.weights.maxCoeff();
-        RefinedSolution next = iterate_refined(data, structure, solution.theta, options, extras);
+        SrivcSolution next = iterate_srivc(data, structure, solution.theta, options, extras);
         next.trace.insert(next.trace.begin(), solution.trace.begin(), solution.trace.end());
         solution = std::move(next);
     }
@@ -65,7 +65,7 @@ Fit estimate_by_passes(const IdData& data, const TransferStructure& structure, c
     check_transfer_data("srivc", data, structure);
     Fit estimate;
     estimate.structure = structure;
-    RefinedSolution solution = solve(data, structure, options);
+    SrivcSolution solution = solve(data, structure, options);
     estimate.theta = std::move(solution.theta);
     estimate.termination = solution.termination;
     estimate.trace = std::move(solution.trace);

@@ -154,8 +154,8 @@ Vector regression_start(const std::vector<Vector>& records, Index nc, Index nd) 
         first = std::max(nd, order + nc);
     }
     Vector theta = regress(records, e, nc, nd, first);
-    theta.head(nc) = mirrored_inside(monic(theta.head(nc))).tail(nc);
-    theta.tail(nd) = mirrored_inside(monic(theta.tail(nd))).tail(nd);
+    theta.head(nc) = reflect_roots_into_unit_circle(monic(theta.head(nc))).tail(nc);
+    theta.tail(nd) = reflect_roots_into_unit_circle(monic(theta.tail(nd))).tail(nd);
     return theta;
 }
 
@@ -165,7 +165,7 @@ bool inside_unit_circle(const Vector& p) {
     return p.size() == 1 || roots(p).cwiseAbs().maxCoeff() < 1;
 }
 
-Vector mirrored_inside(const Vector& p) {
+Vector reflect_roots_into_unit_circle(const Vector& p) {
     if (inside_unit_circle(p)) return p;
     ComplexVector z = roots(p);
     for (Complex& root : z) {

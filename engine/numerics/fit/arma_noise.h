@@ -27,7 +27,7 @@ Matrix noise_sensitivities(const ArmaNoise& noise, const VectorView& v, const Ve
 /// All roots of the monic polynomial in q^-1 lie inside the unit circle.
 bool inside_unit_circle(const Vector& p);
 /// The same polynomial with roots outside the unit circle replaced by their mirror images, and those on it moved in.
-Vector mirrored_inside(const Vector& p);
+Vector reflect_roots_into_unit_circle(const Vector& p);
 
 /// The C and D for which sum e^2 over all records is smallest, given the first nd values of each. Starts from `start`
 /// when given, else from Hannan and Rissanen's (1982) two regressions with roots mirrored into the unit circle; then

@@ -53,7 +53,7 @@ bool move(const DiscreteOutput& model, const Vector& y, const Vector& step, Poin
     const Vector from = here.theta;
     const double loss = here.loss;
     for (double part = 1;; part /= 2) {
-        const Vector wanted = from + part * step, next = model.stabilised(wanted);
+        const Vector wanted = from + part * step, next = model.with_stable_poles(wanted);
         here = point_at(model, y, next);
         if (here.loss <= loss * (1 + kRounding) || part <= kShortestStep) return next != wanted;
     }
@@ -92,7 +92,7 @@ Vector common_least_squares(const DiscreteOutput& model, const Vector& y, double
     theta += instrumental_solution(products.phi_phi, products.phi_e, lengths, lengths);
     for (std::size_t i = 1; i < orders.inputs(); ++i)
         theta.segment(orders.f_place(i), n) = theta.segment(orders.f_place(0), n);
-    return model.stabilised(theta);
+    return model.with_stable_poles(theta);
 }
 
 /// What each input does according to a model with a common denominator, fitted by a channel of the wanted orders.

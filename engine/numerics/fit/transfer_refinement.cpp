@@ -31,7 +31,7 @@ Vector squared_errors(const TransferOutput& model, const Vector& output) {
 }
 
 // Every denominator with its unstable poles mirrored.
-Vector stabilised(const TransferStructure& structure, Vector theta) {
+Vector with_stable_poles(const TransferStructure& structure, Vector theta) {
     for (std::size_t d = 0; d < structure.poles.size(); ++d) {
         auto a = theta.segment(structure.a_place(static_cast<Index>(d)), structure.poles[d]);
         a = reflect_unstable_roots(monic(a)).tail(a.size()).eval();
@@ -58,7 +58,7 @@ Vector first_point(const TransferOutput& model, const TransferStructure& structu
     theta.head(count) = theta_start.cwiseQuotient(model.seconds().head(count));
     theta = theta.cwiseMax(model.lower()).cwiseMin(model.upper());
     model.simulate(theta, output, nullptr);
-    if (!output.allFinite()) theta.head(count) = stabilised(structure, theta.head(count));
+    if (!output.allFinite()) theta.head(count) = with_stable_poles(structure, theta.head(count));
     solve_linear_part(model, theta);
     return theta;
 }

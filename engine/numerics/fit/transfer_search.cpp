@@ -6,7 +6,7 @@
 
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/output_error.h"
-#include "numerics/fit/refined_iteration.h"
+#include "numerics/fit/srivc_iteration.h"
 #include "numerics/fit/transfer_refinement.h"
 #include "numerics/signals/correlation.h"
 
@@ -51,17 +51,17 @@ DelayPoint best_after_passes(const IdData& data, const TransferStructure& struct
     DelayPoint best;
     for (const Vector& start : starts) {
         if (!start.allFinite()) continue;
-        const RefinedSolution trial =
-            iterate_refined(data, structure, start, options.limited(kGridPasses, kTrialTolerance));
+        const SrivcSolution trial =
+            iterate_srivc(data, structure, start, options.limited(kGridPasses, kTrialTolerance));
         const double loss = simulation_loss(data, structure, trial.theta);
         if (loss < best.loss) best = {trial.theta, loss};
     }
     return best;
 }
 
-Vector fresh_start(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
-    if (!options.lambda) return find_start(data, structure, options);
-    return filtered_start(data, structure, *options.lambda, options.hold_y);
+Vector first_estimate(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
+    if (!options.lambda) return best_cutoff_start(data, structure, options);
+    return lssvf_start(data, structure, *options.lambda, options.hold_y);
 }
 
 /// The loss over one channel's delay; `structure` has the others' delays, and leaves with the best one.
@@ -74,7 +74,7 @@ std::vector<DelayPoint> scan_channel(const IdData& data, TransferStructure& stru
         structure.channels[channel].delay = delays[i];
         std::vector<Vector> starts;
         if (neighbour.size() > 0) starts.push_back(neighbour);
-        if (starts.empty() || i % kFreshStart == 0) starts.push_back(fresh_start(data, structure, options));
+        if (starts.empty() || i % kFreshStart == 0) starts.push_back(first_estimate(data, structure, options));
         DelayPoint& here = found[static_cast<std::size_t>(i)];
         here = best_after_passes(data, structure, starts, options);
         if (std::isfinite(here.loss)) neighbour = here.theta;
@@ -140,15 +140,15 @@ double likely_largest_delay(const IdData& data) {
     return data.regular() ? largest : std::min(largest, shortest_record(data) / 4);
 }
 
-Vector start_at(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
+Vector start_from_rest(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
     const auto start_of = [&](const IdData& record) {
-        const Vector theta = fresh_start(record, structure, options);
-        return theta.allFinite() ? theta : find_start(record, structure, options);
+        const Vector theta = first_estimate(record, structure, options);
+        return theta.allFinite() ? theta : best_cutoff_start(record, structure, options);
     };
     if (data.sample_count() <= 2 * kTrialSamples) return start_of(data);
     const IdData beginning = beginning_of(data, kTrialSamples);
-    const RefinedSolution trial = iterate_refined(beginning, structure, start_of(beginning),
-                                                  options.limited(options.max_iterations, kTrialTolerance));
+    const SrivcSolution trial = iterate_srivc(beginning, structure, start_of(beginning),
+                                              options.limited(options.max_iterations, kTrialTolerance));
     return trial.termination == Termination::kConverged ? trial.theta : start_of(data);
 }
 
@@ -177,7 +177,8 @@ DelayScan scan_delays(const IdData& data, const TransferStructure& structure, co
         at.channels[last].delay = scan.delays[static_cast<Index>(place)];
         scan.starts.push_back(with_delays(structure, at, curve[place].theta));
     }
-    if (scan.starts.empty()) scan.starts.push_back(with_delays(structure, at, find_start(beginning, at, options)));
+    if (scan.starts.empty())
+        scan.starts.push_back(with_delays(structure, at, best_cutoff_start(beginning, at, options)));
     return scan;
 }
 
@@ -196,7 +197,7 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
     if (structure.free_delays)
         scan = scan_delays(for_start, structure, options);
     else
-        scan.starts = {start.size() > 0 ? start : start_at(for_start, structure, options)};
+        scan.starts = {start.size() > 0 ? start : start_from_rest(for_start, structure, options)};
     const auto experiments = static_cast<Index>(record.experiments.size());
     Fit best = fit_output_error(
         {method, record, start_conditions(record, options.initial_state, options.offset),

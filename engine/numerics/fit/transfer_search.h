@@ -28,6 +28,6 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
 
 /// A start from rest for fixed delays: the first estimate at options.lambda or at the best of several cut-off
 /// frequencies, on the beginning of a long record.
-Vector start_at(const IdData& data, const TransferStructure& structure, const FitOptions& options);
+Vector start_from_rest(const IdData& data, const TransferStructure& structure, const FitOptions& options);
 
 }  // namespace dynlab::inline numerics

@@ -5,7 +5,7 @@
 #include "numerics/estimators/lssvf.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/fit/integrated_input.h"
-#include "numerics/fit/refined_iteration.h"
+#include "numerics/fit/srivc_iteration.h"
 #include "scripting/arguments/transfer_arguments.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/memoized_calls/memoized_call.h"

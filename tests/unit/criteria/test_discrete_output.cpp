@@ -161,13 +161,13 @@ TEST(discrete_output, instrument_products_are_those_of_the_filtered_signals) {
 
 TEST(discrete_output, poles_are_mirrored) {  // oracle: definition
     const ComplexVector poles{{Complex(1.2, 0.5), Complex(1.2, -0.5), Complex(-0.4, 0)}};
-    const Vector f = polynomial_from_roots(poles).tail(3), mirrored = reflect_into_unit_circle(f);
+    const Vector f = polynomial_from_roots(poles).tail(3), mirrored = reflect_poles_into_unit_circle(f);
     Vector p(4);
     p << 1, mirrored;
     for (const Complex& pole : {1.0 / Complex(1.2, 0.5), 1.0 / Complex(1.2, -0.5), Complex(-0.4, 0)})
         EXPECT_LT(std::abs(evaluate(p, pole)), 1e-13);
-    EXPECT_EQ(reflect_into_unit_circle(mirrored), mirrored);
-    EXPECT_EQ(reflect_into_unit_circle(Vector()).size(), 0);
+    EXPECT_EQ(reflect_poles_into_unit_circle(mirrored), mirrored);
+    EXPECT_EQ(reflect_poles_into_unit_circle(Vector()).size(), 0);
 }
 
 }  // namespace test_discrete_output

@@ -104,7 +104,7 @@ TEST(filtered_products, of_a_discrete_model_are_those_of_its_sensitivities) {
         for (const bool offset : {false, true}) {
             const DiscreteOutput model(orders, {state, offset}, experiments);
             Vector theta = 0.3 * random.normal(model.parameter_count());
-            theta = model.stabilised(theta);
+            theta = model.with_stable_poles(theta);
             expect_same_as_simulated(model, theta, model.target());
         }
 }

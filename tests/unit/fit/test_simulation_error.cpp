@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "numerics/fit/refined_iteration.h"
+#include "numerics/fit/srivc_iteration.h"
 #include "support/transfer_cases.h"
 
 namespace test_simulation_error {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "numerics/fit/diagnosis.h"
-#include "numerics/fit/refined_iteration.h"
+#include "numerics/fit/srivc_iteration.h"
 #include "numerics/fit/transfer_search.h"
 #include "numerics/signals/random.h"
 #include "support/transfer_cases.h"
@@ -45,7 +45,8 @@ TEST(transfer_search, the_order_of_unequal_experiments_does_not_matter) {  // or
     EXPECT_EQ(one.delays, other.delays);
     EXPECT_LT(relative_difference(one.losses, other.losses), 1e-9);
     const TransferStructure fixed = TransferStructure::single(2, 0, 0.4);
-    EXPECT_LT(relative_difference(find_start(orders.fast_first, fixed, {}), find_start(orders.slow_first, fixed, {})),
+    EXPECT_LT(relative_difference(best_cutoff_start(orders.fast_first, fixed, {}),
+                                  best_cutoff_start(orders.slow_first, fixed, {})),
               1e-9);
 }
 

@@ -1,4 +1,4 @@
-#include "numerics/fit/refined_iteration.h"
+#include "numerics/fit/srivc_iteration.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr int kCutoffs = 8;       // frequencies that find_start tries
+constexpr int kCutoffs = 8;       // frequencies that best_cutoff_start tries
 constexpr int kTrialPasses = 4;   // passes after each of them
 constexpr int kMostHalvings = 3;  // of a pass that raises the loss
 constexpr double kContractionLimit = 0.7;
@@ -27,7 +27,7 @@ Vector simulate(const IdData& data, const Experiment& experiment, const VectorVi
 /// All denominator groups of a model, and what one leaves for the other to explain.
 class Groups {
   public:
-    Groups(const IdData& data, const TransferStructure& structure, Hold hold_y, const RefinedExtras& extras)
+    Groups(const IdData& data, const TransferStructure& structure, Hold hold_y, const SrivcExtras& extras)
         : data_(data), structure_(structure), with_gram_(extras.with_gram) {
         if (with_gram_) gram_ = Matrix::Zero(structure.parameter_count(), structure.parameter_count());
         for (std::size_t g = 0; g < structure.poles.size(); ++g) {
@@ -52,18 +52,19 @@ class Groups {
             if (with_gram_) gram_.block(group.place(), group.place(), own.size(), own.size()) = sums.z_z;
             const Vector solved = solve_equations(sums);
             next.segment(group.place(), group.parameter_count()) = solved;
-            if (solved.allFinite()) theta.segment(group.place(), group.parameter_count()) = group.reflected(solved);
+            if (solved.allFinite())
+                theta.segment(group.place(), group.parameter_count()) = group.with_stable_poles(solved);
         }
         return next;
     }
 
     const Matrix& gram() const { return gram_; }
 
-    Vector mirrored(Vector theta, bool& any) const {
+    Vector with_stable_poles(Vector theta, bool& any) const {
         for (const DenominatorGroup& group : groups_) {
             bool here = false;
             auto own = theta.segment(group.place(), group.parameter_count());
-            own = group.reflected(own, &here);
+            own = group.with_stable_poles(own, &here);
             any = any || here;
         }
         return theta;
@@ -136,7 +137,7 @@ void start_channels(const IdData& data, const TransferStructure& structure, Inde
     std::vector<Index> inputs;
     for (Index input = 0; input < structure.inputs; ++input) inputs.push_back(input + 1);
     const IdData of_output = data.select({output + 1}, inputs);
-    const Vector joint = filtered_start(of_output, common, lambda, hold_y);
+    const Vector joint = lssvf_start(of_output, common, lambda, hold_y);
     for (Index input = 0; input < structure.inputs; ++input) {
         const TransferChannel& channel = structure.channel(output, input);
         const int n = structure.poles[static_cast<std::size_t>(channel.denominator)];
@@ -147,8 +148,8 @@ void start_channels(const IdData& data, const TransferStructure& structure, Inde
             for (const Experiment& experiment : data.experiments)
                 shares.push_back(simulate(data, experiment, common.numerator(joint, 0, input),
                                           common.denominator(joint, 0, input), channel.delay, input));
-            own = filtered_start(single_channel(of_output, shares, input),
-                                 TransferStructure::single(n, channel.zeros, channel.delay), lambda, hold_y);
+            own = lssvf_start(single_channel(of_output, shares, input),
+                              TransferStructure::single(n, channel.zeros, channel.delay), lambda, hold_y);
         }
         theta.segment(a, n) = own.head(n);
         theta.segment(b, channel.zeros + 1) = own.tail(channel.zeros + 1);
@@ -213,10 +214,10 @@ void measure_simulation(Fit& fit, const IdData& data) {
     fit.message += " " + fit.warnings.back();
 }
 
-RefinedSolution iterate_refined(const IdData& data, const TransferStructure& structure, const Vector& start,
-                                const FitOptions& options, const RefinedExtras& extras) {
+SrivcSolution iterate_srivc(const IdData& data, const TransferStructure& structure, const Vector& start,
+                            const FitOptions& options, const SrivcExtras& extras) {
     Groups groups(data, structure, options.hold_y, extras);
-    RefinedSolution solution;
+    SrivcSolution solution;
     solution.theta = start;
     double last_change = kInfinity;
     for (int pass = 0; pass < options.max_iterations; ++pass) {
@@ -230,13 +231,13 @@ RefinedSolution iterate_refined(const IdData& data, const TransferStructure& str
             break;
         }
         const double change = largest_change(found, solution.theta);
-        Vector next = groups.mirrored(found, solution.mirrored);
+        Vector next = groups.with_stable_poles(found, solution.mirrored);
         const bool settled =
             change <= options.tolerance || (pass > 0 && change_to_come(change, last_change) <= options.tolerance);
         if (!settled && change > kContractionLimit * last_change) {
             const double loss = simulation_loss(data, structure, solution.theta);
             for (int i = 0; i < kMostHalvings && simulation_loss(data, structure, next) > loss; ++i)
-                next = groups.mirrored(0.5 * (next + solution.theta), solution.mirrored);
+                next = groups.with_stable_poles(0.5 * (next + solution.theta), solution.mirrored);
         }
         last_change = change;
         solution.theta = next;
@@ -258,7 +259,7 @@ RefinedSolution iterate_refined(const IdData& data, const TransferStructure& str
     return solution;
 }
 
-Vector filtered_start(const IdData& data, const TransferStructure& structure, double lambda, Hold hold_y) {
+Vector lssvf_start(const IdData& data, const TransferStructure& structure, double lambda, Hold hold_y) {
     Vector theta = Vector::Zero(structure.parameter_count());
     for (std::size_t g = 0; g < structure.poles.size(); ++g) {
         const DenominatorGroup group(data, structure, static_cast<Index>(g), hold_y);
@@ -266,14 +267,14 @@ Vector filtered_start(const IdData& data, const TransferStructure& structure, do
                                        [&](Index output) { return shares_denominators(structure, output); });
         if (!whole) continue;
         const Vector own = solve_equations(group.svf(filter_denominator(lambda, group.order())));
-        theta.segment(group.place(), group.parameter_count()) = own.allFinite() ? group.reflected(own) : own;
+        theta.segment(group.place(), group.parameter_count()) = own.allFinite() ? group.with_stable_poles(own) : own;
     }
     for (Index output = 0; output < structure.outputs; ++output)
         if (!shares_denominators(structure, output)) start_channels(data, structure, output, lambda, hold_y, theta);
     return theta;
 }
 
-Vector find_start(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
+Vector best_cutoff_start(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
     const double Ts = data.mean_step();
     const double slowest = 4 / (longest_record(data) + Ts), fastest = 0.6 * std::numbers::pi / Ts;
     const double ratio = std::pow(fastest / slowest, 1.0 / (kCutoffs - 1));
@@ -282,9 +283,9 @@ Vector find_start(const IdData& data, const TransferStructure& structure, const 
     double lambda = slowest;
     for (int i = 0; i < kCutoffs; ++i, lambda *= ratio) {
         if (options.cancel && options.cancel() && best.allFinite()) break;
-        const Vector start = filtered_start(data, structure, lambda, options.hold_y);
+        const Vector start = lssvf_start(data, structure, lambda, options.hold_y);
         if (!start.allFinite()) continue;
-        const RefinedSolution trial = iterate_refined(data, structure, start, options.limited(kTrialPasses, 1e-3));
+        const SrivcSolution trial = iterate_srivc(data, structure, start, options.limited(kTrialPasses, 1e-3));
         for (const Vector& theta : {start, trial.theta}) {
             const double loss = simulation_loss(data, structure, theta);
             if (loss < best_loss) {

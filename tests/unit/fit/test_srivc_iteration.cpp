@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
-#include "numerics/fit/refined_iteration.h"
+#include "numerics/fit/srivc_iteration.h"
 #include "numerics/signals/random.h"
 #include "support/transfer_cases.h"
 
-namespace test_refined_iteration {
+namespace test_srivc_iteration {
 
 using namespace dynlab;
 using namespace dynlab::test;
@@ -24,12 +24,12 @@ IdData record(Index N, double noise) {
 const TransferStructure kStructure = TransferStructure::single(2, 1, 0.12);
 const Vector kTruth{{2, 5, 1, 3}};
 
-TEST(refined_iteration, an_exact_record_gives_its_system) {  // oracle: the system that made the record
+TEST(srivc_iteration, an_exact_record_gives_its_system) {  // oracle: the system that made the record
     const IdData data = record(600, 0);
     FitOptions options;
     options.hold_y = Hold::kFoh;
-    const Vector start = find_start(data, kStructure, options);
-    const RefinedSolution found = iterate_refined(data, kStructure, start, options);
+    const Vector start = best_cutoff_start(data, kStructure, options);
+    const SrivcSolution found = iterate_srivc(data, kStructure, start, options);
     EXPECT_EQ(found.termination, Termination::kConverged);
     EXPECT_LT((found.theta - kTruth).cwiseQuotient(kTruth).cwiseAbs().maxCoeff(), 1e-6);
     EXPECT_LT(simulation_loss(data, kStructure, found.theta), 1e-12);
@@ -37,13 +37,13 @@ TEST(refined_iteration, an_exact_record_gives_its_system) {  // oracle: the syst
 
 // Oracle: with instruments that are the sensitivities of the simulated output, the end is a stationary point of the
 // simulation error; its gradient is taken by central differences of the loss of an independent simulation.
-TEST(refined_iteration, ends_where_the_simulation_error_is_stationary) {
+TEST(srivc_iteration, ends_where_the_simulation_error_is_stationary) {
     const IdData data = record(2000, 0.05);
     FitOptions options;
     options.tolerance = 1e-10;
     options.max_iterations = 200;
-    const Vector start = find_start(data, kStructure, options);
-    const RefinedSolution found = iterate_refined(data, kStructure, start, options);
+    const Vector start = best_cutoff_start(data, kStructure, options);
+    const SrivcSolution found = iterate_srivc(data, kStructure, start, options);
     ASSERT_EQ(found.termination, Termination::kConverged);
     const Vector t = kTs * Vector::LinSpaced(2000, 0, 1999);
     const auto loss = [&](const Vector& theta) {
@@ -63,7 +63,7 @@ TEST(refined_iteration, ends_where_the_simulation_error_is_stationary) {
     }
 }
 
-TEST(refined_iteration, a_beginning_is_a_record_from_rest) {  // oracle: the samples themselves
+TEST(srivc_iteration, a_beginning_is_a_record_from_rest) {  // oracle: the samples themselves
     const IdData data = record(600, 0.1);
     const IdData beginning = beginning_of(data, 100);
     ASSERT_EQ(beginning.sample_count(), 100);
@@ -71,9 +71,9 @@ TEST(refined_iteration, a_beginning_is_a_record_from_rest) {  // oracle: the sam
     EXPECT_EQ(beginning_of(data, 1000).sample_count(), 600);
 }
 
-TEST(refined_iteration,
+TEST(srivc_iteration,
      a_model_that_explodes_has_an_infinite_loss) {  // oracle: exp(40 s per second) beyond all numbers
     EXPECT_EQ(simulation_loss(record(600, 0), kStructure, Vector{{-40, 5, 1, 3}}), kInfinity);
 }
 
-}  // namespace test_refined_iteration
+}  // namespace test_srivc_iteration

@@ -9,17 +9,17 @@ namespace dynlab::inline numerics {
 /// The part of a record that start values are looked for on: its beginning, so that it starts from rest as the whole.
 IdData beginning_of(const IdData& data, Index most_samples);
 
-struct RefinedSolution {
+struct SrivcSolution {
     Vector theta;
     Termination termination = Termination::kIterationLimit;
     std::vector<FitIteration> trace;  ///< without losses, which would cost a pass each
     bool mirrored = false;            ///< unstable poles were met on the way
-    /// With RefinedExtras::with_gram, sum z z' of the last pass, each group's block on the diagonal: at the theta
+    /// With SrivcExtras::with_gram, sum z z' of the last pass, each group's block on the diagonal: at the theta
     /// before the last change.
     Matrix gram;
 };
 
-struct RefinedExtras {
+struct SrivcExtras {
     Vector weights = {};  ///< of the outputs' squares where outputs share a denominator; ones when empty
     bool with_gram = false;
 };
@@ -32,8 +32,8 @@ struct RefinedExtras {
 /// mirrored, or when all changes still to come are no more than that: they shrink by a nearly constant factor, taken
 /// from the last two, but no less than 1/20. A pass that hardly gains on the one before it and raises the loss is
 /// shortened. Without convergence the pass of smallest loss is given.
-RefinedSolution iterate_refined(const IdData& data, const TransferStructure& structure, const Vector& start,
-                                const FitOptions& options, const RefinedExtras& extras = {});
+SrivcSolution iterate_srivc(const IdData& data, const TransferStructure& structure, const Vector& start,
+                            const FitOptions& options, const SrivcExtras& extras = {});
 
 /// Mean square of the simulation error from rest over all outputs; infinite for a model that explodes.
 double simulation_loss(const IdData& data, const TransferStructure& structure, const VectorView& theta);
@@ -46,10 +46,10 @@ void measure_simulation(Fit& fit, const IdData& data);
 /// lssvf's theta with poles mirrored, for any structure: where an output's channels have denominators of their own, a
 /// common one of their joint order is fitted first and each channel then to its share of that model's output. NaN when
 /// the equations cannot be solved.
-Vector filtered_start(const IdData& data, const TransferStructure& structure, double lambda, Hold hold_y);
+Vector lssvf_start(const IdData& data, const TransferStructure& structure, double lambda, Hold hold_y);
 
-/// A start that needs no guess: filtered_start for cut-off frequencies over the band that the record can show, each
-/// followed by a few passes of iterate_refined; the theta of smallest loss. Throws InvalidArgument when none is finite.
-Vector find_start(const IdData& data, const TransferStructure& structure, const FitOptions& options);
+/// A start that needs no guess: lssvf_start for cut-off frequencies over the band that the record can show, each
+/// followed by a few passes of iterate_srivc; the theta of smallest loss. Throws InvalidArgument when none is finite.
+Vector best_cutoff_start(const IdData& data, const TransferStructure& structure, const FitOptions& options);
 
 }  // namespace dynlab::inline numerics
