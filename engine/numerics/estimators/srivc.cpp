@@ -1,6 +1,8 @@
 #include "numerics/estimators/srivc.h"
 
+#include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
+#include "numerics/fit/search_starts.h"
 #include "numerics/fit/srivc_iteration.h"
 #include "numerics/fit/transfer_search.h"
 
@@ -9,7 +11,9 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr int kReweightings = 3;
-constexpr double kGramTolerance = 1e-6;  // relative; the last pass changes errors by 20 times that at most
+constexpr Index kComparedSamples = 10'000;  // on which poorer structures are compared
+constexpr double kComparedTolerance = 1e-3, kNoGain = 1e-3;
+constexpr double kGramTolerance = 1e-6;  // relative change of theta; standard errors change by some 20 times as much
 
 /// (sum Z'Z/noise variance)^-1 of each denominator group; `last_gram` is sum Z'Z of the last pass, or empty.
 void set_covariance(Fit& estimate, const IdData& data, const FitOptions& options, const Matrix& last_gram) {
@@ -51,6 +55,24 @@ SrivcSolution solve(const IdData& data, const TransferStructure& structure, cons
     return solution;
 }
 
+/// The best of the passes from these starts, from the structure's own without any; nothing where none is found.
+NestedSolution solution_by_passes(const IdData& data, const TransferStructure& structure, std::vector<Vector> starts,
+                                  const FitOptions& options) {
+    NestedSolution best;
+    try {
+        if (starts.empty()) starts = {start_from_rest(data, structure, options)};
+    } catch (const InvalidArgument&) {
+        return best;
+    }
+    for (const Vector& start : starts) {
+        const Vector theta =
+            iterate_srivc(data, structure, start, options.limited(options.max_iterations, kComparedTolerance)).theta;
+        const double loss = simulation_loss(data, structure, theta);
+        if (loss < best.loss) best = {theta, loss, structure};
+    }
+    return best;
+}
+
 /// Whether the passes alone give the whole answer.
 bool passes_suffice(const TransferStructure& structure, const FitOptions& options) {
     if (structure.free_delays || options.initial_state != InitialState::kZero || options.offset != Offset::kNone)
@@ -83,14 +105,32 @@ Fit estimate_by_passes(const IdData& data, const TransferStructure& structure, c
     return estimate;
 }
 
-/// Where the passes do not settle, the minimum of the criterion that they aim at, if the search for it ends lower.
+/// The minimum of the criterion that the passes aim at, if the search for it ends lower.
 Fit better_by_search(Fit estimate, const IdData& data, const FitOptions& options) {
     Fit searched = search_transfer("srivc", data, estimate.structure, options);
-    if (!(searched.loss < estimate.loss)) return estimate;
-    set_message(searched, "SRIVC had not settled after " + std::to_string(estimate.trace.size()) +
-                              " passes; this is the minimum of the output error, which they aim at: " +
+    const bool settled = estimate.termination == Termination::kConverged;
+    if (!(searched.loss < (settled ? 1 - kNoGain : 1) * estimate.loss)) return estimate;
+    const std::string passes = std::to_string(estimate.trace.size()) + " passes";
+    set_message(searched, (settled ? "SRIVC converged after " + passes +
+                                         " to a local minimum; the search from models with fewer "
+                                         "poles or zeros found this lower one: "
+                                   : "SRIVC had not settled after " + passes +
+                                         "; this is the minimum of the output error, which they aim at: ") +
                               simulation_text(searched) + ".");
     return searched;
+}
+
+/// Whether the passes of a poorer structure lead to a loss hardly larger or smaller, on the beginning of a long record:
+/// then they may have ended in a bad minimum.
+bool gains_nothing(const Fit& estimate, const IdData& data, const FitOptions& options) {
+    const bool whole = data.sample_count() <= 2 * kComparedSamples;
+    const IdData part = whole ? IdData() : beginning_of(data, kComparedSamples);
+    const IdData& record = whole ? data : part;
+    const auto solve = [&](const TransferStructure& poorer, const std::vector<Vector>& starts) {
+        return solution_by_passes(record, poorer, starts, options);
+    };
+    const double loss = whole ? estimate.loss : simulation_loss(record, estimate.structure, estimate.theta);
+    return !NestedSearch(record, solve).better_starts(estimate.structure, (1 + kNoGain) * loss).empty();
 }
 
 }  // namespace
@@ -99,9 +139,9 @@ Fit srivc(const IdData& data, const TransferStructure& structure, const FitOptio
     options.validate();
     if (!passes_suffice(structure, options)) return search_transfer("srivc", data, structure, options);
     Fit estimate = estimate_by_passes(data, structure, options);
-    const bool settled =
-        estimate.termination == Termination::kConverged || estimate.termination == Termination::kCancelled;
-    return settled ? estimate : better_by_search(std::move(estimate), data, options);
+    if (estimate.termination == Termination::kCancelled) return estimate;
+    const bool good = estimate.termination == Termination::kConverged && !gains_nothing(estimate, data, options);
+    return good ? estimate : better_by_search(std::move(estimate), data, options);
 }
 
 }  // namespace dynlab::inline numerics

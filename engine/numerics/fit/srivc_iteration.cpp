@@ -15,8 +15,7 @@ constexpr int kCutoffs = 8;       // frequencies that best_cutoff_start tries
 constexpr int kTrialPasses = 4;   // passes after each of them
 constexpr int kMostHalvings = 3;  // of a pass that raises the loss
 constexpr double kContractionLimit = 0.7;
-constexpr double kLeastContraction =
-    0.05;  // of a change is trusted to be left after a pass, however little the last one left
+constexpr double kLeastContraction = 0.05;  // no pass is taken to leave a smaller part of the change before it
 
 Vector simulate(const IdData& data, const Experiment& experiment, const VectorView& B, const VectorView& A,
                 double delay, Index input) {

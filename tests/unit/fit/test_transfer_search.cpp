@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "numerics/fit/diagnosis.h"
+#include "numerics/fit/search_starts.h"
 #include "numerics/fit/srivc_iteration.h"
 #include "numerics/fit/transfer_search.h"
 #include "numerics/signals/random.h"
