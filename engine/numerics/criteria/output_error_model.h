@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+
 #include "numerics/linalg/types.h"
 
 namespace dynlab::inline numerics {
@@ -30,5 +32,27 @@ class OutputErrorModel {
     /// will go there.
     virtual bool products_come_cheap() const { return false; }
 };
+
+inline Vector OutputErrorModel::output_at(const Vector& theta) const {
+    Vector output;
+    simulate(theta, output, nullptr);
+    return output;
+}
+
+inline OutputErrorProducts OutputErrorModel::products(const Vector& theta, const VectorView& y) const {
+    constexpr Index kRowsTogether = 512;  // they stay in the processor's cache
+    Vector errors;
+    Matrix J;
+    simulate(theta, errors, &J);
+    errors = y - errors;
+    OutputErrorProducts sums{errors.squaredNorm(), Matrix::Zero(J.cols(), J.cols()), Vector::Zero(J.cols())};
+    for (Index row = 0; row < J.rows(); row += kRowsTogether) {
+        const Index rows = std::min(kRowsTogether, J.rows() - row);
+        const auto block = J.middleRows(row, rows);
+        sums.gram.noalias() += block.transpose() * block;
+        sums.descent.noalias() += block.transpose() * errors.segment(row, rows);
+    }
+    return sums;
+}
 
 }  // namespace dynlab::inline numerics

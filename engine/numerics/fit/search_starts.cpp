@@ -16,7 +16,7 @@ namespace {
 
 constexpr Index kScannedSamples = 50'000;  // of a longer record, its beginning
 constexpr double kScanTolerance = 1e-4;
-constexpr int kScanPasses = 8, kScanIterations = 10;  // at each delay
+constexpr int kScanPasses = 5, kScanIterations = 10;  // at each delay
 constexpr Index kFreshStart = 8;                      // so many delays apart the cut-off frequencies are tried anew
 constexpr std::size_t kValleys = 3;                   // of the loss over the delay that are looked at closely
 constexpr double kFineSpacing = 2;                    // samples
@@ -98,13 +98,13 @@ class DelayCurve {
         if (options_.cancel && options_.cancel()) return;
         structure_.channels[channel_].delay = points_[i].delay;
         const bool known = neighbour < points_.size() && std::isfinite(points_[neighbour].loss);
-        if (known) try_start(points_[i], Vector(points_[neighbour].theta), false);
+        if (known) try_start(points_[i], Vector(points_[neighbour].theta));
         if (fresh || !std::isfinite(points_[i].loss))
-            try_start(points_[i], first_estimate(data_, structure_, options_), true);
+            try_start(points_[i], first_estimate(data_, structure_, options_));
     }
 
-    /// A few passes; where they end above their start, and from a new one, a few steps of the search, which never do.
-    void try_start(DelayPoint& point, const Vector& start, bool fresh) {
+    /// A few passes; where they end above their start, a few steps of the search, which never do.
+    void try_start(DelayPoint& point, const Vector& start) {
         const double before = simulation_loss(data_, structure_, start);
         if (before < point.loss) point = {point.delay, start, before};
         if (!start.allFinite()) return;
@@ -112,7 +112,7 @@ class DelayCurve {
             iterate_srivc(data_, structure_, start, options_.limited(kScanPasses, kScanTolerance)).theta;
         const double after = simulation_loss(data_, structure_, passed);
         if (after < point.loss) point = {point.delay, passed, after};
-        if ((after <= before && !fresh) || !std::isfinite(before)) return;
+        if (after <= before || !std::isfinite(before)) return;
         const Fit fit = refine_output_error(data_, structure_, {InitialState::kZero, false}, start,
                                             options_.limited(kScanIterations, kScanTolerance));
         if (fit.loss < point.loss) point = {point.delay, fit.theta, fit.loss};

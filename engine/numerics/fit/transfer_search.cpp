@@ -39,13 +39,17 @@ class NestedFits {
                const FitOptions& options)
         : record_(record), for_start_(for_start), condition_(condition), options_(options) {}
 
-    /// The best of the refinements from these starts, from the solution of the zero state where an initial state is
-    /// estimated, and from those of poorer structures that have a smaller loss.
-    Fit best(const TransferStructure& structure, std::vector<Vector> starts) {
+    /// The best of the refinements from these starts and, where an initial state is estimated, from the solution of the
+    /// zero state.
+    Fit best(const TransferStructure& structure, std::vector<Vector> starts) const {
         if (condition_.state == InitialState::kEstimate)
             starts.push_back(
                 refine_from(record_, structure, {InitialState::kZero, condition_.offset}, starts, options_).theta);
-        Fit best = refine_from(record_, structure, condition_, starts, options_);
+        return refine_from(record_, structure, condition_, starts, options_);
+    }
+
+    /// The fit, or a better one from solutions of poorer structures that have a smaller loss.
+    Fit no_worse(const TransferStructure& structure, Fit best) const {
         if (structure.outputs > 1 || record_.sample_count() > kNestedSamples ||
             best.termination == Termination::kCancelled)
             return best;
@@ -141,6 +145,8 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
          [&](const StartCondition& condition) {
              return NestedFits(record, for_start, condition, options).best(structure, starts);
          }});
+    const StartCondition chosen = best.start;
+    best = NestedFits(record, for_start, chosen, options).no_worse(structure, std::move(best));
     if (options.offset == Offset::kRemove) add_operating_points(best, centred.removed);
     best.delay_grid = scan.delays;
     best.delay_loss = scan.losses;
