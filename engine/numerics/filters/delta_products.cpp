@@ -12,8 +12,7 @@ namespace {
 using Part = Lanes::Part;
 constexpr int kDeltaLanes = Lanes::kWidth;
 constexpr Index kShortestDeltaSegment = 8;  // samples a lane; shorter ones are not worth it
-constexpr Index kDeltaBlock = 128;          // samples a lane that are looked at at a time
-constexpr Index kDeltaStored = 256;         // a segment as short as this is read only once
+constexpr Index kDeltaBlock = 64;           // samples a lane that are copied at a time
 
 /// What both chains have come to, in all lanes.
 struct DeltaState {
@@ -23,86 +22,112 @@ struct DeltaState {
 struct DeltaSums {
     Part first[kMostDeltaOrder + 1] = {}, both[2 * kMostDeltaOrder + 1] = {}, second[kMostDeltaOrder + 1] = {};
 };
-/// Where the memory is asked for what is needed soon: by itself, the processor stops at the end of every page.
-struct ReadAhead {
-    const double *first, *second;
-    Index segment;
+/// Samples k = 0, 1, .. of the segments, lane i's at samples[k + i stride].
+struct SegmentSamples {
+    const double* samples;
+    Index stride;
 };
+
+/// f(v, w) for so many samples of two signals in all lanes. The next tile is brought into lanes while this one is
+/// worked on: shuffles wait for nothing, while a filter waits for itself. The last tile ends with the last step; where
+/// there are fewer steps than in a tile, samples before the first one are read.
+template <class Function>
+[[gnu::always_inline]] inline void for_steps(const SegmentSamples& v, const SegmentSamples& w, Index steps,
+                                             const Function& f) {
+    constexpr Index kAhead = 128;  // by itself, the processor stops at the end of every page of memory
+    Part tiles[2][2][kDeltaLanes];
+    const auto bring = [&](Index from, Part(*tile)[kDeltaLanes]) __attribute__((always_inline)) {
+        Lanes::gather_tile(v.samples + from, v.stride, tile[0]);
+        Lanes::gather_tile(w.samples + from, w.stride, tile[1]);
+        for (int lane = 0; lane < kDeltaLanes; ++lane) {
+            __builtin_prefetch(v.samples + from + kAhead + lane * v.stride);
+            __builtin_prefetch(w.samples + from + kAhead + lane * w.stride);
+        }
+    };
+    const Index last = steps - kDeltaLanes;
+    bring(std::min<Index>(0, last), tiles[0]);
+    Index k = 0;
+    int now = 0;
+    for (; k <= last; k += kDeltaLanes, now = 1 - now) {
+        bring(std::min(k + kDeltaLanes, last), tiles[1 - now]);
+        for (int j = 0; j < kDeltaLanes; ++j) f(tiles[now][0][j], tiles[now][1][j]);
+    }
+    for (Index j = k - last; j < kDeltaLanes; ++j) f(tiles[now][0][j], tiles[now][1][j]);
+}
 
 /// Of the products X_j W_(s-j), the j of the one that is summed.
 constexpr int summed_row(int n1, int n2, int s) {
     return (std::max(0, s - n2) + std::min(n1, s)) / 2;
 }
 
-using SumLoop = void (*)(const DeltaChain&, const DeltaChain&, const Part* v, const Part* w, Index steps,
-                         const ReadAhead& ahead, DeltaState& state, DeltaSums& sums);
+using SumLoop = void (*)(const DeltaChain&, const DeltaChain&, const SegmentSamples& v, const SegmentSamples& w,
+                         Index steps, DeltaState& state, DeltaSums& sums);
 
-template <int n1, int n2>
-void sum_loop(const DeltaChain& first, const DeltaChain& second, const Part* v, const Part* w, Index steps,
-              const ReadAhead& ahead, DeltaState& state, DeltaSums& sums) {
-    Part x[n1 + 1], y[n2 + 1], of_x[n1 + 1], both[n1 + n2 + 1], of_y[n2 + 1];
+/// columns2: of those of the second chain, how many are multiplied.
+template <int n1, int n2, bool of_first, int columns2>
+void sum_loop(const DeltaChain& first, const DeltaChain& second, const SegmentSamples& v, const SegmentSamples& w,
+              Index steps, DeltaState& state, DeltaSums& sums) {
+    Part x[n1 + 1], y[n2 + 1], of_x[n1 + 1], both[n1 + columns2], of_y[columns2];
     double alpha[n1 + 1], beta[n2 + 1];
     std::copy_n(first.alpha.data(), n1, alpha);
     std::copy_n(second.alpha.data(), n2, beta);
     repeat<n1>([&](auto j) { x[j] = state.first[j]; });
     repeat<n2>([&](auto j) { y[j] = state.second[j]; });
-    repeat<n1 + 1>([&](auto j) { of_x[j] = sums.first[j]; });
-    repeat<n1 + n2 + 1>([&](auto s) { both[s] = sums.both[s]; });
-    repeat<n2 + 1>([&](auto j) { of_y[j] = sums.second[j]; });
-    Index line = 0;
-    for (Index k = 0; k < steps; ++k) {
-        __builtin_prefetch(ahead.first + line);
-        __builtin_prefetch(ahead.second + line);
-        line += ahead.segment;
-        if (k % kDeltaLanes == kDeltaLanes - 1) line += kDeltaLanes - kDeltaLanes * ahead.segment;
-        x[n1] = v[k];
-        y[n2] = w[k];
-        repeat<n1>([&](auto j) __attribute__((always_inline)) { x[n1] -= alpha[j] * x[j]; });
-        repeat<n2>([&](auto j) __attribute__((always_inline)) { y[n2] -= beta[j] * y[j]; });
-        repeat<n1 + 1>([&](auto j) __attribute__((always_inline)) { of_x[j] += x[j] * x[j]; });
-        repeat<n1 + n2 + 1>([&](auto s) __attribute__((always_inline)) {
-            constexpr int j = summed_row(n1, n2, s);
-            both[s] += x[j] * y[s - j];
+    if constexpr (of_first) repeat<n1 + 1>([&](auto j) { of_x[j] = sums.first[j]; });
+    repeat<n1 + columns2>([&](auto s) { both[s] = sums.both[s]; });
+    repeat<columns2>([&](auto j) { of_y[j] = sums.second[j]; });
+    for_steps(
+        v, w, steps, [&](const Part& sample1, const Part& sample2) __attribute__((always_inline)) {
+            x[n1] = sample1;
+            y[n2] = sample2;
+            repeat<n1>([&](auto j) __attribute__((always_inline)) { x[n1] -= alpha[j] * x[j]; });
+            repeat<n2>([&](auto j) __attribute__((always_inline)) { y[n2] -= beta[j] * y[j]; });
+            if constexpr (of_first)
+                repeat<n1 + 1>([&](auto j) __attribute__((always_inline)) { of_x[j] += x[j] * x[j]; });
+            repeat<n1 + columns2>([&](auto s) __attribute__((always_inline)) {
+                constexpr int j = summed_row(n1, columns2 - 1, s);
+                both[s] += x[j] * y[s - j];
+            });
+            repeat<columns2>([&](auto j) __attribute__((always_inline)) { of_y[j] += y[j] * y[j]; });
+            repeat<n1>([&](auto j) __attribute__((always_inline)) { x[j] += x[j + 1]; });
+            repeat<n2>([&](auto j) __attribute__((always_inline)) { y[j] += y[j + 1]; });
         });
-        repeat<n2 + 1>([&](auto j) __attribute__((always_inline)) { of_y[j] += y[j] * y[j]; });
-        repeat<n1>([&](auto j) __attribute__((always_inline)) { x[j] += x[j + 1]; });
-        repeat<n2>([&](auto j) __attribute__((always_inline)) { y[j] += y[j + 1]; });
-    }
     repeat<n1>([&](auto j) { state.first[j] = x[j]; });
     repeat<n2>([&](auto j) { state.second[j] = y[j]; });
-    repeat<n1 + 1>([&](auto j) { sums.first[j] = of_x[j]; });
-    repeat<n1 + n2 + 1>([&](auto s) { sums.both[s] = both[s]; });
-    repeat<n2 + 1>([&](auto j) { sums.second[j] = of_y[j]; });
+    if constexpr (of_first) repeat<n1 + 1>([&](auto j) { sums.first[j] = of_x[j]; });
+    repeat<n1 + columns2>([&](auto s) { sums.both[s] = both[s]; });
+    repeat<columns2>([&](auto j) { sums.second[j] = of_y[j]; });
 }
 
 /// Filters only, and lets `free` move without a signal beside it: each alone would wait for itself.
-using FilterLoop = void (*)(const DeltaChain&, const DeltaChain&, const Part* v, const Part* w, Index steps,
-                            DeltaState& state, DeltaState& free);
+using FilterLoop = void (*)(const DeltaChain&, const DeltaChain&, const SegmentSamples& v, const SegmentSamples& w,
+                            Index steps, DeltaState& state, DeltaState& free);
 
 template <int n1, int n2>
-void filter_loop(const DeltaChain& first, const DeltaChain& second, const Part* v, const Part* w, Index steps,
-                 DeltaState& state, DeltaState& free) {
+void filter_loop(const DeltaChain& first, const DeltaChain& second, const SegmentSamples& v, const SegmentSamples& w,
+                 Index steps, DeltaState& state, DeltaState& free) {
     Part x[n1 + 1], y[n2 + 1], free_x[n1 + 1], free_y[n2 + 1];
     double alpha[n1 + 1], beta[n2 + 1];
     std::copy_n(first.alpha.data(), n1, alpha);
     std::copy_n(second.alpha.data(), n2, beta);
     repeat<n1>([&](auto j) { x[j] = state.first[j], free_x[j] = free.first[j]; });
     repeat<n2>([&](auto j) { y[j] = state.second[j], free_y[j] = free.second[j]; });
-    for (Index k = 0; k < steps; ++k) {
-        x[n1] = v[k];
-        y[n2] = w[k];
-        free_x[n1] = free_y[n2] = Part{};
-        repeat<n1>([&](auto j) __attribute__((always_inline)) {
-            x[n1] -= alpha[j] * x[j];
-            free_x[n1] -= alpha[j] * free_x[j];
+    for_steps(
+        v, w, steps, [&](const Part& sample1, const Part& sample2) __attribute__((always_inline)) {
+            x[n1] = sample1;
+            y[n2] = sample2;
+            free_x[n1] = free_y[n2] = Part{};
+            repeat<n1>([&](auto j) __attribute__((always_inline)) {
+                x[n1] -= alpha[j] * x[j];
+                free_x[n1] -= alpha[j] * free_x[j];
+            });
+            repeat<n2>([&](auto j) __attribute__((always_inline)) {
+                y[n2] -= beta[j] * y[j];
+                free_y[n2] -= beta[j] * free_y[j];
+            });
+            repeat<n1>([&](auto j) __attribute__((always_inline)) { x[j] += x[j + 1], free_x[j] += free_x[j + 1]; });
+            repeat<n2>([&](auto j) __attribute__((always_inline)) { y[j] += y[j + 1], free_y[j] += free_y[j + 1]; });
         });
-        repeat<n2>([&](auto j) __attribute__((always_inline)) {
-            y[n2] -= beta[j] * y[j];
-            free_y[n2] -= beta[j] * free_y[j];
-        });
-        repeat<n1>([&](auto j) __attribute__((always_inline)) { x[j] += x[j + 1], free_x[j] += free_x[j + 1]; });
-        repeat<n2>([&](auto j) __attribute__((always_inline)) { y[j] += y[j + 1], free_y[j] += free_y[j + 1]; });
-    }
     repeat<n1>([&](auto j) { state.first[j] = x[j], free.first[j] = free_x[j]; });
     repeat<n2>([&](auto j) { state.second[j] = y[j], free.second[j] = free_y[j]; });
 }
@@ -116,10 +141,15 @@ struct DeltaLoops {
 /// Those that regressions with one to four poles need: an output (or a signal as it is) beside an input, whose order is
 /// that of the model, or twice as much for its sensitivities, and one more for a delay between samples with inputs on
 /// straight lines; and inputs beside each other.
-DeltaLoops loops_for(int order1, int order2) {
+DeltaLoops loops_for(int order1, int order2, WantedProducts wanted) {
     DeltaLoops loops;
     const auto pair = [&](auto n1, auto n2) {
-        if (order1 == n1 && order2 == n2) loops = {filter_loop<n1, n2>, sum_loop<n1, n2>};
+        if (order1 != n1 || order2 != n2) return;
+        loops.filter = filter_loop<n1, n2>;
+        if (wanted.highest)
+            loops.sum = wanted.first ? sum_loop<n1, n2, true, n2 + 1> : sum_loop<n1, n2, false, n2 + 1>;
+        else
+            loops.sum = wanted.first ? sum_loop<n1, n2, true, n2> : sum_loop<n1, n2, false, n2>;
     };
     repeat<5>([&](auto i) { pair(std::integral_constant<int, 0>(), std::integral_constant<int, i + 1>()); });
     repeat<4>([&](auto i) {
@@ -167,7 +197,8 @@ class FreeMotion {
         return state;
     }
     void move(DeltaState& free) const {
-        const Part nothing[kDeltaBlock] = {};
+        const double zeros[kDeltaLanes + kDeltaBlock] = {};
+        const SegmentSamples nothing{zeros + kDeltaLanes, 0};
         DeltaState rest;
         for (Index k = 0; k < segment_; k += kDeltaBlock)
             loops_.filter(first_, second_, nothing, nothing, std::min(segment_ - k, kDeltaBlock), rest, free);
@@ -203,53 +234,47 @@ double total(const Part& part) {
     return sums[0];
 }
 
-/// The samples of one chain, lane by lane; where the record ends, `one_lane` takes what no segment holds.
-class LaneReader {
+/// The samples of one chain in segments: those of the record itself, or a copy where not all lanes see the signal.
+class SegmentReader {
   public:
-    LaneReader(const DeltaChain& chain, Index segment) : chain_(chain), segment_(segment) {}
+    SegmentReader(const DeltaChain& chain, Index segment) : chain_(chain), segment_(segment) {}
 
-    /// Steps from .. from + count - 1 of all segments; what was read last is kept.
-    const Part* read(Index from, Index count) {
-        if (from >= from_ && from + count <= from_ + count_) return block_ + (from - from_);
-        from_ = from;
-        count_ = count;
-        // All lanes see samples of the signal at the steps from `first` until `last`.
-        const Index first = std::max(from, chain_.begin);
-        const Index last = std::min(from + count, chain_.begin + chain_.count - (kDeltaLanes - 1) * segment_);
-        Index k = from;
-        while (k < from + count)
-            if (k >= first && k + kDeltaLanes <= last) {
-                Lanes::gather_tile(chain_.samples + (k - chain_.begin), segment_, block_ + (k - from));
-                k += kDeltaLanes;
-            } else {
-                for (int lane = 0; lane < kDeltaLanes; ++lane) block_[k - from][lane] = sample(k + lane * segment_);
-                ++k;
-            }
-        return block_;
+    /// Of the steps from .. from + count - 1 of all segments, how many are read at once, beginning with the first.
+    Index steps_at_once(Index from, Index count) const {
+        const Index first = chain_.begin, last = chain_.begin + chain_.count - (kDeltaLanes - 1) * segment_;
+        if (from >= first && from + kDeltaLanes <= last && count >= kDeltaLanes) return std::min(count, last - from);
+        if (from < first) count = std::min(count, first - from);
+        return std::min(count, kDeltaBlock);
     }
-    /// The same of one stretch, the other lanes being zero.
-    const Part* one_lane(Index from, Index count) {
-        count_ = 0;
-        for (Index k = 0; k < count; ++k) {
-            block_[k] = Part{};
-            block_[k][0] = sample(from + k);
-        }
-        return block_;
+    /// No more steps than at once.
+    SegmentSamples read(Index from, Index count) {
+        const Index place = from - chain_.begin;
+        if (place >= 0 && count >= kDeltaLanes && place + count + (kDeltaLanes - 1) * segment_ <= chain_.count)
+            return {chain_.samples + place, segment_};
+        for (int lane = 0; lane < kDeltaLanes; ++lane) copy(from + lane * segment_, count, lane);
+        return {copied_[0] + kDeltaLanes, kCopied};
     }
-    const double* ahead(Index from) const {
-        constexpr Index kAhead = 128;
-        return chain_.samples + (from + kAhead - chain_.begin);
+    /// The same of one stretch of the record, the other lanes being zero.
+    SegmentSamples read_one_lane(Index from, Index count) {
+        for (int lane = 0; lane < kDeltaLanes; ++lane) copy(lane == 0 ? from : chain_.begin - count, count, lane);
+        return {copied_[0] + kDeltaLanes, kCopied};
     }
 
   private:
-    double sample(Index k) const {
-        const Index place = k - chain_.begin;
-        return place >= 0 && place < chain_.count ? chain_.samples[place] : 0;
+    static constexpr Index kCopied = kDeltaLanes + kDeltaBlock;  // with as many samples before as a tile has
+
+    void copy(Index from, Index count, int lane) {
+        double* const to = copied_[lane];
+        std::fill_n(to, kDeltaLanes, 0);
+        for (Index k = 0; k < count; ++k) {
+            const Index place = from + k - chain_.begin;
+            to[kDeltaLanes + k] = place >= 0 && place < chain_.count ? chain_.samples[place] : 0;
+        }
     }
 
     const DeltaChain& chain_;
-    Index segment_, from_ = 0, count_ = 0;
-    Part block_[kDeltaStored];
+    Index segment_;
+    double copied_[kDeltaLanes][kCopied];
 };
 
 /// Growth of the products of states over all stretches, in all lanes.
@@ -284,8 +309,9 @@ class Growth {
 
 class DeltaRun {
   public:
-    DeltaRun(const DeltaChain& first, const DeltaChain& second, const DeltaLoops& loops, Index N)
-        : first_(first),
+    DeltaRun(const DeltaChain& first, const DeltaChain& second, WantedProducts wanted, const DeltaLoops& loops, Index N)
+        : wanted_(wanted),
+          first_(first),
           second_(second),
           loops_(loops),
           N_(N),
@@ -300,8 +326,10 @@ class DeltaRun {
         keep_last_lane();
         in_lanes_ = false;
         run(kDeltaLanes * segment_, N_, nullptr);
-        result.first = own_products(first_.order, sums_.first, [&](int i, int j) { return growth_.first(i, j); });
-        result.second = own_products(second_.order, sums_.second, [&](int i, int j) { return growth_.second(i, j); });
+        if (wanted_.first)
+            result.first = own_products(first_.order, sums_.first, [&](int i, int j) { return growth_.first(i, j); });
+        result.second =
+            own_products(second_highest(), sums_.second, [&](int i, int j) { return growth_.second(i, j); });
         result.both = common_products();
     }
 
@@ -338,17 +366,14 @@ class DeltaRun {
     }
 
     Index advance(Index k, Index to, DeltaState* free) {
-        const Index steps = std::min(to - k, in_lanes_ && segment_ > kDeltaStored ? kDeltaBlock : kDeltaStored);
-        if (in_lanes_ && segment_ <= kDeltaStored) {
-            reader1_.read(0, segment_);
-            reader2_.read(0, segment_);
-        }
-        const Part* const v = in_lanes_ ? reader1_.read(k, steps) : reader1_.one_lane(k, steps);
-        const Part* const w = in_lanes_ ? reader2_.read(k, steps) : reader2_.one_lane(k, steps);
+        Index steps = std::min(to - k, kDeltaBlock);
+        if (in_lanes_) steps = std::min(reader1_.steps_at_once(k, to - k), reader2_.steps_at_once(k, to - k));
+        const SegmentSamples v = in_lanes_ ? reader1_.read(k, steps) : reader1_.read_one_lane(k, steps);
+        const SegmentSamples w = in_lanes_ ? reader2_.read(k, steps) : reader2_.read_one_lane(k, steps);
         if (free)
             loops_.filter(first_, second_, v, w, steps, state_, *free);
         else
-            loops_.sum(first_, second_, v, w, steps, {reader1_.ahead(k), reader2_.ahead(k), segment_}, state_, sums_);
+            loops_.sum(first_, second_, v, w, steps, state_, sums_);
         return steps;
     }
 
@@ -363,7 +388,10 @@ class DeltaRun {
         for (Part& part : state_.second) keep(part);
     }
 
-    /// All products of a chain's columns from their squares.
+    /// The second chain's last column that is multiplied.
+    int second_highest() const { return wanted_.highest ? second_.order : second_.order - 1; }
+
+    /// All products of a chain's columns 0 .. n from their squares.
     template <class GrowthOf>
     static ColumnMatrix own_products(int n, const Part* squares, const GrowthOf& growth) {
         ColumnMatrix S(n + 1, n + 1);
@@ -378,7 +406,7 @@ class DeltaRun {
     }
 
     ColumnMatrix common_products() const {
-        const int n1 = first_.order, n2 = second_.order;
+        const int n1 = first_.order, n2 = second_highest();
         ColumnMatrix S(n1 + 1, n2 + 1);
         for (int s = n1 + n2; s >= 0; --s) {
             const int middle = summed_row(n1, n2, s);
@@ -391,11 +419,12 @@ class DeltaRun {
         return S;
     }
 
+    WantedProducts wanted_;
     const DeltaChain &first_, &second_;
     DeltaLoops loops_;
     Index N_, segment_;
     bool in_lanes_ = true;
-    LaneReader reader1_, reader2_;
+    SegmentReader reader1_, reader2_;
     DeltaState state_;
     DeltaSums sums_;
     Growth growth_;
@@ -403,11 +432,12 @@ class DeltaRun {
 
 }  // namespace
 
-std::optional<DeltaProducts> delta_products(const DeltaChain& first, const DeltaChain& second, Index N) {
-    const DeltaLoops loops = loops_for(first.order, second.order);
+std::optional<DeltaProducts> delta_products(const DeltaChain& first, const DeltaChain& second, Index N,
+                                            WantedProducts wanted) {
+    const DeltaLoops loops = loops_for(first.order, second.order, wanted);
     if (!loops.sum || N < kDeltaLanes * kShortestDeltaSegment) return {};
     std::optional<DeltaProducts> products(std::in_place);
-    DeltaRun(first, second, loops, N).run(*products);
+    DeltaRun(first, second, wanted, loops, N).run(*products);
     return products;
 }
 
