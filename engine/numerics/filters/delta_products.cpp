@@ -14,13 +14,27 @@ constexpr int kDeltaLanes = Lanes::kWidth;
 constexpr Index kShortestDeltaSegment = 8;  // samples a lane; shorter ones are not worth it
 constexpr Index kDeltaBlock = 64;           // samples a lane that are copied at a time
 
+// Of what follows, only as much is set to zero as orders n1 and n2 use: all of it would take a good part of the time of
+// a short record.
+
 /// What both chains have come to, in all lanes.
 struct DeltaState {
-    Part first[kMostDeltaOrder] = {}, second[kMostDeltaOrder] = {};
+    Part first[kMostDeltaOrder], second[kMostDeltaOrder];
+
+    void set_zero(int n1, int n2) {
+        std::fill_n(first, n1, Part{});
+        std::fill_n(second, n2, Part{});
+    }
 };
 /// The products that are summed while filtering.
 struct DeltaSums {
-    Part first[kMostDeltaOrder + 1] = {}, both[2 * kMostDeltaOrder + 1] = {}, second[kMostDeltaOrder + 1] = {};
+    Part first[kMostDeltaOrder + 1], both[2 * kMostDeltaOrder + 1], second[kMostDeltaOrder + 1];
+
+    void set_zero(int n1, int n2) {
+        std::fill_n(first, n1 + 1, Part{});
+        std::fill_n(both, n1 + n2 + 1, Part{});
+        std::fill_n(second, n2 + 1, Part{});
+    }
 };
 /// Samples k = 0, 1, .. of the segments, lane i's at samples[k + i stride].
 struct SegmentSamples {
@@ -170,9 +184,9 @@ class FreeMotion {
         : first_(first), second_(second), loops_(loops), segment_(segment), back_(segment) {
         constexpr Index kShort = 2048;  // looking is no gain for segments as short as this
         if (segment > kShort) back_ = std::max(memory_length(first, segment), memory_length(second, segment));
-        columns_[0] = unit_states(0);
+        set_units(0);
         for (int i = 1; i < kParts && back_ == segment && i * kDeltaLanes < std::max(first.order, second.order); ++i) {
-            columns_[i] = unit_states(i * kDeltaLanes);
+            set_units(i);
             move(columns_[i]);
         }
     }
@@ -183,37 +197,44 @@ class FreeMotion {
     DeltaState& first_units() { return columns_[0]; }
     /// After a run from rest over the end of the segments, each lane's last state is where the next one begins.
     void hand_over(DeltaState& state) const {
-        hand_over(first_.order, &DeltaState::first, state.first);
-        hand_over(second_.order, &DeltaState::second, state.second);
+        repeat<kMostDeltaOrder>([&](auto i) {
+            if (first_.order == i + 1) hand_over<i + 1>(&DeltaState::first, state.first);
+            if (second_.order == i + 1) hand_over<i + 1>(&DeltaState::second, state.second);
+        });
     }
 
   private:
     static constexpr int kParts = (kMostDeltaOrder + kDeltaLanes - 1) / kDeltaLanes;
 
-    static DeltaState unit_states(int first) {
-        DeltaState state;
-        for (int lane = 0; lane < kDeltaLanes && first + lane < kMostDeltaOrder; ++lane)
-            state.first[first + lane][lane] = state.second[first + lane][lane] = 1;
-        return state;
+    void set_units(int part) {
+        DeltaState& state = columns_[part];
+        state.set_zero(first_.order, second_.order);
+        for (int lane = 0; lane < kDeltaLanes; ++lane) {
+            const int unit = part * kDeltaLanes + lane;
+            if (unit < first_.order) state.first[unit][lane] = 1;
+            if (unit < second_.order) state.second[unit][lane] = 1;
+        }
     }
     void move(DeltaState& free) const {
         const double zeros[kDeltaLanes + kDeltaBlock] = {};
         const SegmentSamples nothing{zeros + kDeltaLanes, 0};
         DeltaState rest;
+        rest.set_zero(first_.order, second_.order);
         for (Index k = 0; k < segment_; k += kDeltaBlock)
             loops_.filter(first_, second_, nothing, nothing, std::min(segment_ - k, kDeltaBlock), rest, free);
     }
-    void hand_over(int order, Part (DeltaState::*own)[kMostDeltaOrder], Part* state) const {
-        double x[kMostDeltaOrder] = {};
+    template <int n>
+    void hand_over(Part (DeltaState::*own)[kMostDeltaOrder], Part* state) const {
+        double motion[n][n] = {}, x[n] = {};
+        if (back_ == segment_)
+            for (int i = 0; i < n; ++i)
+                for (int j = 0; j < n; ++j) motion[i][j] = (columns_[i / kDeltaLanes].*own)[j][i % kDeltaLanes];
         for (int lane = 0; lane < kDeltaLanes; ++lane) {
-            double next[kMostDeltaOrder];
-            for (int j = 0; j < order; ++j) {
-                next[j] = state[j][lane];
-                if (back_ == segment_)
-                    for (int i = 0; i < order; ++i)
-                        next[j] += (columns_[i / kDeltaLanes].*own)[j][i % kDeltaLanes] * x[i];
-            }
-            for (int j = 0; j < order; ++j) {
+            double next[n];
+            for (int j = 0; j < n; ++j) next[j] = state[j][lane];
+            for (int i = 0; i < n; ++i)
+                for (int j = 0; j < n; ++j) next[j] += motion[i][j] * x[i];
+            for (int j = 0; j < n; ++j) {
                 state[j][lane] = x[j];
                 x[j] = next[j];
             }
@@ -318,7 +339,10 @@ class DeltaRun {
           segment_(N / kDeltaLanes),
           reader1_(first, segment_),
           reader2_(second, segment_),
-          growth_(first.order, second.order) {}
+          growth_(first.order, second.order) {
+        state_.set_zero(first.order, second.order);
+        sums_.set_zero(first.order, second.order);
+    }
 
     void run(DeltaProducts& result) {
         find_states();
@@ -384,8 +408,8 @@ class DeltaRun {
             part = Part{};
             part[0] = last;
         };
-        for (Part& part : state_.first) keep(part);
-        for (Part& part : state_.second) keep(part);
+        std::for_each_n(state_.first, first_.order, keep);
+        std::for_each_n(state_.second, second_.order, keep);
     }
 
     /// The second chain's last column that is multiplied.

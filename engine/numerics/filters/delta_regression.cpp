@@ -197,14 +197,19 @@ class DeltaSignals {
     void set(const ColumnMatrix& products, std::size_t left, Index row, std::size_t right, Index column,
              Matrix& total) const {
         const ColumnMatrix &L = signals_[left].outputs, &R = signals_[right].outputs;
+        const Index columns = products.rows();
         double weighted[kMostDeltaOrder + 1];
         for (Index j = 0; j < R.rows(); ++j) {
-            std::fill_n(weighted, products.rows(), 0);
-            for (Index b = 0; b < products.cols(); ++b)
-                for (Index a = 0; a < products.rows(); ++a) weighted[a] += R(j, b) * products(a, b);
+            std::fill_n(weighted, columns, 0);
+            for (Index b = 0; b < products.cols(); ++b) {
+                const double weight = R(j, b);
+                const double* const from = products.data() + b * columns;
+                if (weight == 0) continue;
+                for (Index a = 0; a < columns; ++a) weighted[a] += weight * from[a];
+            }
             for (Index i = 0; i < L.rows(); ++i) {
                 double sum = 0;
-                for (Index a = 0; a < products.rows(); ++a) sum += L(i, a) * weighted[a];
+                for (Index a = 0; a < columns; ++a) sum += L(i, a) * weighted[a];
                 total(row + i, column + j) = total(column + j, row + i) = sum;
             }
         }
