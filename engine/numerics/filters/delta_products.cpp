@@ -351,10 +351,11 @@ class DeltaRun {
         in_lanes_ = false;
         run(kDeltaLanes * segment_, N_, nullptr);
         if (wanted_.first)
-            result.first = own_products(first_.order, sums_.first, [&](int i, int j) { return growth_.first(i, j); });
-        result.second =
-            own_products(second_highest(), sums_.second, [&](int i, int j) { return growth_.second(i, j); });
-        result.both = common_products();
+            set_own(
+                first_.order, sums_.first, [&](int i, int j) { return growth_.first(i, j); }, result.first);
+        set_own(
+            second_highest(), sums_.second, [&](int i, int j) { return growth_.second(i, j); }, result.second);
+        set_common(result.both);
     }
 
   private:
@@ -417,8 +418,8 @@ class DeltaRun {
 
     /// All products of a chain's columns 0 .. n from their squares.
     template <class GrowthOf>
-    static ColumnMatrix own_products(int n, const Part* squares, const GrowthOf& growth) {
-        ColumnMatrix S(n + 1, n + 1);
+    static void set_own(int n, const Part* squares, const GrowthOf& growth, ColumnMatrix& S) {
+        S.resize(n + 1, n + 1);
         for (int s = 2 * n; s >= 0; --s) {
             int j = s / 2, i = s - j;
             // 2 X_j X_(j+1) + X_(j+1)^2 is the difference of X_j^2.
@@ -426,12 +427,11 @@ class DeltaRun {
             for (; j > 0 && i < n; --j, ++i)
                 S(j - 1, i + 1) = S(i + 1, j - 1) = growth(j - 1, i) - S(j, i) - S(j, i + 1);
         }
-        return S;
     }
 
-    ColumnMatrix common_products() const {
+    void set_common(ColumnMatrix& S) const {
         const int n1 = first_.order, n2 = second_highest();
-        ColumnMatrix S(n1 + 1, n2 + 1);
+        S.resize(n1 + 1, n2 + 1);
         for (int s = n1 + n2; s >= 0; --s) {
             const int middle = summed_row(n1, n2, s);
             S(middle, s - middle) = total(sums_.both[s]);
@@ -440,7 +440,6 @@ class DeltaRun {
             for (int j = middle, i = s - j; j > 0 && i < n2; --j, ++i)
                 S(j - 1, i + 1) = growth_.both(j - 1, i) - S(j, i) - S(j, i + 1);
         }
-        return S;
     }
 
     WantedProducts wanted_;

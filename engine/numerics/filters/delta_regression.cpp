@@ -200,12 +200,10 @@ class DeltaSignals {
         const Index columns = products.rows();
         double weighted[kMostDeltaOrder + 1];
         for (Index j = 0; j < R.rows(); ++j) {
-            std::fill_n(weighted, columns, 0);
-            for (Index b = 0; b < products.cols(); ++b) {
-                const double weight = R(j, b);
-                const double* const from = products.data() + b * columns;
-                if (weight == 0) continue;
-                for (Index a = 0; a < columns; ++a) weighted[a] += weight * from[a];
+            for (Index a = 0; a < columns; ++a) {
+                double sum = 0;
+                for (Index b = 0; b < products.cols(); ++b) sum += R(j, b) * products(a, b);
+                weighted[a] = sum;
             }
             for (Index i = 0; i < L.rows(); ++i) {
                 double sum = 0;
