@@ -1,136 +1,16 @@
 #include "numerics/filters/delta_products.h"
 
 #include <algorithm>
-#include <utility>
 
-#include "numerics/filters/lanes.h"
+#include "numerics/filters/delta_loops.h"
 
 namespace dynlab::inline numerics {
 
 namespace {
 
 using Part = Lanes::Part;
-constexpr int kDeltaLanes = Lanes::kWidth;
 constexpr Index kShortestDeltaSegment = 8;  // samples a lane; shorter ones are not worth it
-constexpr Index kDeltaBlock = 128;          // samples a lane that are looked at at a time
-constexpr Index kDeltaStored = 256;         // a segment as short as this is read only once
-
-/// What both chains have come to, in all lanes.
-struct DeltaState {
-    Part first[kMostDeltaOrder] = {}, second[kMostDeltaOrder] = {};
-};
-/// The products that are summed while filtering.
-struct DeltaSums {
-    Part first[kMostDeltaOrder + 1] = {}, both[2 * kMostDeltaOrder + 1] = {}, second[kMostDeltaOrder + 1] = {};
-};
-/// Where the memory is asked for what is needed soon: by itself, the processor stops at the end of every page.
-struct ReadAhead {
-    const double *first, *second;
-    Index segment;
-};
-
-/// Of the products X_j W_(s-j), the j of the one that is summed.
-constexpr int summed_row(int n1, int n2, int s) {
-    return (std::max(0, s - n2) + std::min(n1, s)) / 2;
-}
-
-using SumLoop = void (*)(const DeltaChain&, const DeltaChain&, const Part* v, const Part* w, Index steps,
-                         const ReadAhead& ahead, DeltaState& state, DeltaSums& sums);
-
-template <int n1, int n2>
-void sum_loop(const DeltaChain& first, const DeltaChain& second, const Part* v, const Part* w, Index steps,
-              const ReadAhead& ahead, DeltaState& state, DeltaSums& sums) {
-    Part x[n1 + 1], y[n2 + 1], of_x[n1 + 1], both[n1 + n2 + 1], of_y[n2 + 1];
-    double alpha[n1 + 1], beta[n2 + 1];
-    std::copy_n(first.alpha.data(), n1, alpha);
-    std::copy_n(second.alpha.data(), n2, beta);
-    repeat<n1>([&](auto j) { x[j] = state.first[j]; });
-    repeat<n2>([&](auto j) { y[j] = state.second[j]; });
-    repeat<n1 + 1>([&](auto j) { of_x[j] = sums.first[j]; });
-    repeat<n1 + n2 + 1>([&](auto s) { both[s] = sums.both[s]; });
-    repeat<n2 + 1>([&](auto j) { of_y[j] = sums.second[j]; });
-    Index line = 0;
-    for (Index k = 0; k < steps; ++k) {
-        __builtin_prefetch(ahead.first + line);
-        __builtin_prefetch(ahead.second + line);
-        line += ahead.segment;
-        if (k % kDeltaLanes == kDeltaLanes - 1) line += kDeltaLanes - kDeltaLanes * ahead.segment;
-        x[n1] = v[k];
-        y[n2] = w[k];
-        repeat<n1>([&](auto j) __attribute__((always_inline)) { x[n1] -= alpha[j] * x[j]; });
-        repeat<n2>([&](auto j) __attribute__((always_inline)) { y[n2] -= beta[j] * y[j]; });
-        repeat<n1 + 1>([&](auto j) __attribute__((always_inline)) { of_x[j] += x[j] * x[j]; });
-        repeat<n1 + n2 + 1>([&](auto s) __attribute__((always_inline)) {
-            constexpr int j = summed_row(n1, n2, s);
-            both[s] += x[j] * y[s - j];
-        });
-        repeat<n2 + 1>([&](auto j) __attribute__((always_inline)) { of_y[j] += y[j] * y[j]; });
-        repeat<n1>([&](auto j) __attribute__((always_inline)) { x[j] += x[j + 1]; });
-        repeat<n2>([&](auto j) __attribute__((always_inline)) { y[j] += y[j + 1]; });
-    }
-    repeat<n1>([&](auto j) { state.first[j] = x[j]; });
-    repeat<n2>([&](auto j) { state.second[j] = y[j]; });
-    repeat<n1 + 1>([&](auto j) { sums.first[j] = of_x[j]; });
-    repeat<n1 + n2 + 1>([&](auto s) { sums.both[s] = both[s]; });
-    repeat<n2 + 1>([&](auto j) { sums.second[j] = of_y[j]; });
-}
-
-/// Filters only, and lets `free` move without a signal beside it: each alone would wait for itself.
-using FilterLoop = void (*)(const DeltaChain&, const DeltaChain&, const Part* v, const Part* w, Index steps,
-                            DeltaState& state, DeltaState& free);
-
-template <int n1, int n2>
-void filter_loop(const DeltaChain& first, const DeltaChain& second, const Part* v, const Part* w, Index steps,
-                 DeltaState& state, DeltaState& free) {
-    Part x[n1 + 1], y[n2 + 1], free_x[n1 + 1], free_y[n2 + 1];
-    double alpha[n1 + 1], beta[n2 + 1];
-    std::copy_n(first.alpha.data(), n1, alpha);
-    std::copy_n(second.alpha.data(), n2, beta);
-    repeat<n1>([&](auto j) { x[j] = state.first[j], free_x[j] = free.first[j]; });
-    repeat<n2>([&](auto j) { y[j] = state.second[j], free_y[j] = free.second[j]; });
-    for (Index k = 0; k < steps; ++k) {
-        x[n1] = v[k];
-        y[n2] = w[k];
-        free_x[n1] = free_y[n2] = Part{};
-        repeat<n1>([&](auto j) __attribute__((always_inline)) {
-            x[n1] -= alpha[j] * x[j];
-            free_x[n1] -= alpha[j] * free_x[j];
-        });
-        repeat<n2>([&](auto j) __attribute__((always_inline)) {
-            y[n2] -= beta[j] * y[j];
-            free_y[n2] -= beta[j] * free_y[j];
-        });
-        repeat<n1>([&](auto j) __attribute__((always_inline)) { x[j] += x[j + 1], free_x[j] += free_x[j + 1]; });
-        repeat<n2>([&](auto j) __attribute__((always_inline)) { y[j] += y[j + 1], free_y[j] += free_y[j + 1]; });
-    }
-    repeat<n1>([&](auto j) { state.first[j] = x[j], free.first[j] = free_x[j]; });
-    repeat<n2>([&](auto j) { state.second[j] = y[j], free.second[j] = free_y[j]; });
-}
-
-/// The loops for two orders: filtering alone, and with sums.
-struct DeltaLoops {
-    FilterLoop filter = nullptr;
-    SumLoop sum = nullptr;
-};
-
-/// Those that regressions with one to four poles need: an output (or a signal as it is) beside an input, whose order is
-/// that of the model, or twice as much for its sensitivities, and one more for a delay between samples with inputs on
-/// straight lines; and inputs beside each other.
-DeltaLoops loops_for(int order1, int order2) {
-    DeltaLoops loops;
-    const auto pair = [&](auto n1, auto n2) {
-        if (order1 == n1 && order2 == n2) loops = {filter_loop<n1, n2>, sum_loop<n1, n2>};
-    };
-    repeat<5>([&](auto i) { pair(std::integral_constant<int, 0>(), std::integral_constant<int, i + 1>()); });
-    repeat<4>([&](auto i) {
-        constexpr std::integral_constant<int, i + 1> n;
-        pair(n, std::integral_constant<int, n + 1>());
-        if constexpr (n > 1) pair(n, std::integral_constant<int, 2 * n>());
-        pair(n, std::integral_constant<int, 2 * n + 1>());
-    });
-    repeat<9>([&](auto i) { pair(std::integral_constant<int, i + 1>(), std::integral_constant<int, i + 1>()); });
-    return loops;
-}
+constexpr Index kDeltaBlock = 64;           // samples a lane that are copied at a time
 
 /// How the states of two chains move by themselves over a segment, found by filtering nothing from unit states, one in
 /// each lane: powers of matrices or polynomials would lose what slow poles leave beside fast ones.
@@ -140,9 +20,9 @@ class FreeMotion {
         : first_(first), second_(second), loops_(loops), segment_(segment), back_(segment) {
         constexpr Index kShort = 2048;  // looking is no gain for segments as short as this
         if (segment > kShort) back_ = std::max(memory_length(first, segment), memory_length(second, segment));
-        columns_[0] = unit_states(0);
+        set_units(0);
         for (int i = 1; i < kParts && back_ == segment && i * kDeltaLanes < std::max(first.order, second.order); ++i) {
-            columns_[i] = unit_states(i * kDeltaLanes);
+            set_units(i);
             move(columns_[i]);
         }
     }
@@ -153,36 +33,44 @@ class FreeMotion {
     DeltaState& first_units() { return columns_[0]; }
     /// After a run from rest over the end of the segments, each lane's last state is where the next one begins.
     void hand_over(DeltaState& state) const {
-        hand_over(first_.order, &DeltaState::first, state.first);
-        hand_over(second_.order, &DeltaState::second, state.second);
+        repeat<kMostDeltaOrder>([&](auto i) {
+            if (first_.order == i + 1) hand_over<i + 1>(&DeltaState::first, state.first);
+            if (second_.order == i + 1) hand_over<i + 1>(&DeltaState::second, state.second);
+        });
     }
 
   private:
     static constexpr int kParts = (kMostDeltaOrder + kDeltaLanes - 1) / kDeltaLanes;
 
-    static DeltaState unit_states(int first) {
-        DeltaState state;
-        for (int lane = 0; lane < kDeltaLanes && first + lane < kMostDeltaOrder; ++lane)
-            state.first[first + lane][lane] = state.second[first + lane][lane] = 1;
-        return state;
+    void set_units(int part) {
+        DeltaState& state = columns_[part];
+        state.set_zero(first_.order, second_.order);
+        for (int lane = 0; lane < kDeltaLanes; ++lane) {
+            const int unit = part * kDeltaLanes + lane;
+            if (unit < first_.order) state.first[unit][lane] = 1;
+            if (unit < second_.order) state.second[unit][lane] = 1;
+        }
     }
     void move(DeltaState& free) const {
-        const Part nothing[kDeltaBlock] = {};
+        const double zeros[kDeltaLanes + kDeltaBlock] = {};
+        const SegmentSamples nothing{zeros + kDeltaLanes, 0};
         DeltaState rest;
+        rest.set_zero(first_.order, second_.order);
         for (Index k = 0; k < segment_; k += kDeltaBlock)
             loops_.filter(first_, second_, nothing, nothing, std::min(segment_ - k, kDeltaBlock), rest, free);
     }
-    void hand_over(int order, Part (DeltaState::*own)[kMostDeltaOrder], Part* state) const {
-        double x[kMostDeltaOrder] = {};
+    template <int n>
+    void hand_over(Part (DeltaState::*own)[kMostDeltaOrder], Part* state) const {
+        double motion[n][n] = {}, x[n] = {};
+        if (back_ == segment_)
+            for (int i = 0; i < n; ++i)
+                for (int j = 0; j < n; ++j) motion[i][j] = (columns_[i / kDeltaLanes].*own)[j][i % kDeltaLanes];
         for (int lane = 0; lane < kDeltaLanes; ++lane) {
-            double next[kMostDeltaOrder];
-            for (int j = 0; j < order; ++j) {
-                next[j] = state[j][lane];
-                if (back_ == segment_)
-                    for (int i = 0; i < order; ++i)
-                        next[j] += (columns_[i / kDeltaLanes].*own)[j][i % kDeltaLanes] * x[i];
-            }
-            for (int j = 0; j < order; ++j) {
+            double next[n];
+            for (int j = 0; j < n; ++j) next[j] = state[j][lane];
+            for (int i = 0; i < n; ++i)
+                for (int j = 0; j < n; ++j) next[j] += motion[i][j] * x[i];
+            for (int j = 0; j < n; ++j) {
                 state[j][lane] = x[j];
                 x[j] = next[j];
             }
@@ -203,53 +91,47 @@ double total(const Part& part) {
     return sums[0];
 }
 
-/// The samples of one chain, lane by lane; where the record ends, `one_lane` takes what no segment holds.
-class LaneReader {
+/// The samples of one chain in segments: those of the record itself, or a copy where not all lanes see the signal.
+class SegmentReader {
   public:
-    LaneReader(const DeltaChain& chain, Index segment) : chain_(chain), segment_(segment) {}
+    SegmentReader(const DeltaChain& chain, Index segment) : chain_(chain), segment_(segment) {}
 
-    /// Steps from .. from + count - 1 of all segments; what was read last is kept.
-    const Part* read(Index from, Index count) {
-        if (from >= from_ && from + count <= from_ + count_) return block_ + (from - from_);
-        from_ = from;
-        count_ = count;
-        // All lanes see samples of the signal at the steps from `first` until `last`.
-        const Index first = std::max(from, chain_.begin);
-        const Index last = std::min(from + count, chain_.begin + chain_.count - (kDeltaLanes - 1) * segment_);
-        Index k = from;
-        while (k < from + count)
-            if (k >= first && k + kDeltaLanes <= last) {
-                Lanes::gather_tile(chain_.samples + (k - chain_.begin), segment_, block_ + (k - from));
-                k += kDeltaLanes;
-            } else {
-                for (int lane = 0; lane < kDeltaLanes; ++lane) block_[k - from][lane] = sample(k + lane * segment_);
-                ++k;
-            }
-        return block_;
+    /// Of the steps from .. from + count - 1 of all segments, how many are read at once, beginning with the first.
+    Index steps_at_once(Index from, Index count) const {
+        const Index first = chain_.begin, last = chain_.begin + chain_.count - (kDeltaLanes - 1) * segment_;
+        if (from >= first && from + kDeltaLanes <= last && count >= kDeltaLanes) return std::min(count, last - from);
+        if (from < first) count = std::min(count, first - from);
+        return std::min(count, kDeltaBlock);
     }
-    /// The same of one stretch, the other lanes being zero.
-    const Part* one_lane(Index from, Index count) {
-        count_ = 0;
-        for (Index k = 0; k < count; ++k) {
-            block_[k] = Part{};
-            block_[k][0] = sample(from + k);
-        }
-        return block_;
+    /// No more steps than at once.
+    SegmentSamples read(Index from, Index count) {
+        const Index place = from - chain_.begin;
+        if (place >= 0 && count >= kDeltaLanes && place + count + (kDeltaLanes - 1) * segment_ <= chain_.count)
+            return {chain_.samples + place, segment_};
+        for (int lane = 0; lane < kDeltaLanes; ++lane) copy(from + lane * segment_, count, lane);
+        return {copied_[0] + kDeltaLanes, kCopied};
     }
-    const double* ahead(Index from) const {
-        constexpr Index kAhead = 128;
-        return chain_.samples + (from + kAhead - chain_.begin);
+    /// The same of one stretch of the record, the other lanes being zero.
+    SegmentSamples read_one_lane(Index from, Index count) {
+        for (int lane = 0; lane < kDeltaLanes; ++lane) copy(lane == 0 ? from : chain_.begin - count, count, lane);
+        return {copied_[0] + kDeltaLanes, kCopied};
     }
 
   private:
-    double sample(Index k) const {
-        const Index place = k - chain_.begin;
-        return place >= 0 && place < chain_.count ? chain_.samples[place] : 0;
+    static constexpr Index kCopied = kDeltaLanes + kDeltaBlock;  // with as many samples before as a tile has
+
+    void copy(Index from, Index count, int lane) {
+        double* const to = copied_[lane];
+        std::fill_n(to, kDeltaLanes, 0);
+        for (Index k = 0; k < count; ++k) {
+            const Index place = from + k - chain_.begin;
+            to[kDeltaLanes + k] = place >= 0 && place < chain_.count ? chain_.samples[place] : 0;
+        }
     }
 
     const DeltaChain& chain_;
-    Index segment_, from_ = 0, count_ = 0;
-    Part block_[kDeltaStored];
+    Index segment_;
+    double copied_[kDeltaLanes][kCopied];
 };
 
 /// Growth of the products of states over all stretches, in all lanes.
@@ -284,15 +166,19 @@ class Growth {
 
 class DeltaRun {
   public:
-    DeltaRun(const DeltaChain& first, const DeltaChain& second, const DeltaLoops& loops, Index N)
-        : first_(first),
+    DeltaRun(const DeltaChain& first, const DeltaChain& second, WantedProducts wanted, const DeltaLoops& loops, Index N)
+        : wanted_(wanted),
+          first_(first),
           second_(second),
           loops_(loops),
           N_(N),
           segment_(N / kDeltaLanes),
           reader1_(first, segment_),
           reader2_(second, segment_),
-          growth_(first.order, second.order) {}
+          growth_(first.order, second.order) {
+        state_.set_zero(first.order, second.order);
+        sums_.set_zero(first.order, second.order);
+    }
 
     void run(DeltaProducts& result) {
         find_states();
@@ -300,9 +186,12 @@ class DeltaRun {
         keep_last_lane();
         in_lanes_ = false;
         run(kDeltaLanes * segment_, N_, nullptr);
-        result.first = own_products(first_.order, sums_.first, [&](int i, int j) { return growth_.first(i, j); });
-        result.second = own_products(second_.order, sums_.second, [&](int i, int j) { return growth_.second(i, j); });
-        result.both = common_products();
+        if (wanted_.first)
+            set_own(
+                first_.order, sums_.first, [&](int i, int j) { return growth_.first(i, j); }, result.first);
+        set_own(
+            second_highest(), sums_.second, [&](int i, int j) { return growth_.second(i, j); }, result.second);
+        set_common(result.both);
     }
 
   private:
@@ -338,17 +227,14 @@ class DeltaRun {
     }
 
     Index advance(Index k, Index to, DeltaState* free) {
-        const Index steps = std::min(to - k, in_lanes_ && segment_ > kDeltaStored ? kDeltaBlock : kDeltaStored);
-        if (in_lanes_ && segment_ <= kDeltaStored) {
-            reader1_.read(0, segment_);
-            reader2_.read(0, segment_);
-        }
-        const Part* const v = in_lanes_ ? reader1_.read(k, steps) : reader1_.one_lane(k, steps);
-        const Part* const w = in_lanes_ ? reader2_.read(k, steps) : reader2_.one_lane(k, steps);
+        Index steps = std::min(to - k, kDeltaBlock);
+        if (in_lanes_) steps = std::min(reader1_.steps_at_once(k, to - k), reader2_.steps_at_once(k, to - k));
+        const SegmentSamples v = in_lanes_ ? reader1_.read(k, steps) : reader1_.read_one_lane(k, steps);
+        const SegmentSamples w = in_lanes_ ? reader2_.read(k, steps) : reader2_.read_one_lane(k, steps);
         if (free)
             loops_.filter(first_, second_, v, w, steps, state_, *free);
         else
-            loops_.sum(first_, second_, v, w, steps, {reader1_.ahead(k), reader2_.ahead(k), segment_}, state_, sums_);
+            loops_.sum(first_, second_, v, w, steps, state_, sums_);
         return steps;
     }
 
@@ -359,14 +245,17 @@ class DeltaRun {
             part = Part{};
             part[0] = last;
         };
-        for (Part& part : state_.first) keep(part);
-        for (Part& part : state_.second) keep(part);
+        std::for_each_n(state_.first, first_.order, keep);
+        std::for_each_n(state_.second, second_.order, keep);
     }
 
-    /// All products of a chain's columns from their squares.
+    /// The second chain's last column that is multiplied.
+    int second_highest() const { return wanted_.highest ? second_.order : second_.order - 1; }
+
+    /// All products of a chain's columns 0 .. n from their squares.
     template <class GrowthOf>
-    static ColumnMatrix own_products(int n, const Part* squares, const GrowthOf& growth) {
-        ColumnMatrix S(n + 1, n + 1);
+    static void set_own(int n, const Part* squares, const GrowthOf& growth, ColumnMatrix& S) {
+        S.resize(n + 1, n + 1);
         for (int s = 2 * n; s >= 0; --s) {
             int j = s / 2, i = s - j;
             // 2 X_j X_(j+1) + X_(j+1)^2 is the difference of X_j^2.
@@ -374,12 +263,11 @@ class DeltaRun {
             for (; j > 0 && i < n; --j, ++i)
                 S(j - 1, i + 1) = S(i + 1, j - 1) = growth(j - 1, i) - S(j, i) - S(j, i + 1);
         }
-        return S;
     }
 
-    ColumnMatrix common_products() const {
-        const int n1 = first_.order, n2 = second_.order;
-        ColumnMatrix S(n1 + 1, n2 + 1);
+    void set_common(ColumnMatrix& S) const {
+        const int n1 = first_.order, n2 = second_highest();
+        S.resize(n1 + 1, n2 + 1);
         for (int s = n1 + n2; s >= 0; --s) {
             const int middle = summed_row(n1, n2, s);
             S(middle, s - middle) = total(sums_.both[s]);
@@ -388,14 +276,14 @@ class DeltaRun {
             for (int j = middle, i = s - j; j > 0 && i < n2; --j, ++i)
                 S(j - 1, i + 1) = growth_.both(j - 1, i) - S(j, i) - S(j, i + 1);
         }
-        return S;
     }
 
+    WantedProducts wanted_;
     const DeltaChain &first_, &second_;
     DeltaLoops loops_;
     Index N_, segment_;
     bool in_lanes_ = true;
-    LaneReader reader1_, reader2_;
+    SegmentReader reader1_, reader2_;
     DeltaState state_;
     DeltaSums sums_;
     Growth growth_;
@@ -403,11 +291,12 @@ class DeltaRun {
 
 }  // namespace
 
-std::optional<DeltaProducts> delta_products(const DeltaChain& first, const DeltaChain& second, Index N) {
-    const DeltaLoops loops = loops_for(first.order, second.order);
+std::optional<DeltaProducts> delta_products(const DeltaChain& first, const DeltaChain& second, Index N,
+                                            WantedProducts wanted) {
+    const DeltaLoops loops = delta_loops(first.order, second.order, wanted);
     if (!loops.sum || N < kDeltaLanes * kShortestDeltaSegment) return {};
     std::optional<DeltaProducts> products(std::in_place);
-    DeltaRun(first, second, loops, N).run(*products);
+    DeltaRun(first, second, wanted, loops, N).run(*products);
     return products;
 }
 

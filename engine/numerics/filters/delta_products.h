@@ -11,6 +11,11 @@ struct DeltaProducts {
     ColumnMatrix both;    ///< (n1+1) x (n2+1)
     ColumnMatrix second;  ///< (n2+1) x (n2+1)
 };
+/// Products that need not be summed.
+struct WantedProducts {
+    bool first = true;    ///< those of the first chain's columns among themselves; no matrix otherwise
+    bool highest = true;  ///< those with W_n2 of the second chain; n2 columns otherwise
+};
 
 /// Only n1 + n2 + 1 products of different chains and n of a chain's own columns are summed: a difference of a product,
 ///     delta(X_j W_i) = X_(j+1) W_i + X_j W_(i+1) + X_(j+1) W_(i+1),
@@ -19,6 +24,7 @@ struct DeltaProducts {
 /// the product in the middle is summed; the norms of a signal's differences are log-convex, so that little is lost on
 /// the way to the others, and nothing where they are of one signal. The record is cut into segments that run side by
 /// side in the lanes of a machine vector. Nothing for a pair of orders that has no loop of its own, or a short record.
-std::optional<DeltaProducts> delta_products(const DeltaChain& first, const DeltaChain& second, Index N);
+std::optional<DeltaProducts> delta_products(const DeltaChain& first, const DeltaChain& second, Index N,
+                                            WantedProducts wanted = {});
 
 }  // namespace dynlab::inline numerics

@@ -168,17 +168,20 @@ class DeltaSignals {
     }
     const DeltaSignal& operator[](std::size_t i) const { return signals_[i]; }
 
-    /// The sums of products of all outputs; nothing where a pair has no loop.
-    std::optional<Matrix> products(Index N) const {
+    /// The sums of products of all outputs, or of all but the first signal's among themselves (first_alone = false);
+    /// nothing where a pair has no loop.
+    std::optional<Matrix> products(Index N, bool first_alone = true) const {
         Matrix total(outputs_, outputs_);
         const std::size_t last = signals_.size() - 1;
         Index row = 0;
         for (std::size_t i = 0; i < last || i == 0; row += signals_[i++].outputs.rows()) {
             Index column = row;
             for (std::size_t j = std::min(i + 1, last); j <= last; ++j) {
-                const auto products = delta_products(signals_[i].chain, signals_[j].chain, N);
+                const bool own = last == 0 || (j == i + 1 && (i > 0 || first_alone));
+                const bool highest = !signals_[j].outputs.rightCols<1>().isZero(0);
+                const auto products = delta_products(signals_[i].chain, signals_[j].chain, N, {own, highest});
                 if (!products) return {};
-                if (j == i + 1 || last == 0) set(products->first, i, row, i, row, total);
+                if (own) set(products->first, i, row, i, row, total);
                 if (i == j) break;
                 column += signals_[j - 1].outputs.rows();
                 set(products->both, i, row, j, column, total);
@@ -194,14 +197,17 @@ class DeltaSignals {
     void set(const ColumnMatrix& products, std::size_t left, Index row, std::size_t right, Index column,
              Matrix& total) const {
         const ColumnMatrix &L = signals_[left].outputs, &R = signals_[right].outputs;
+        const Index columns = products.rows();
         double weighted[kMostDeltaOrder + 1];
         for (Index j = 0; j < R.rows(); ++j) {
-            std::fill_n(weighted, L.cols(), 0);
-            for (Index b = 0; b < R.cols(); ++b)
-                for (Index a = 0; a < L.cols(); ++a) weighted[a] += R(j, b) * products(a, b);
+            for (Index a = 0; a < columns; ++a) {
+                double sum = 0;
+                for (Index b = 0; b < products.cols(); ++b) sum += R(j, b) * products(a, b);
+                weighted[a] = sum;
+            }
             for (Index i = 0; i < L.rows(); ++i) {
                 double sum = 0;
-                for (Index a = 0; a < L.cols(); ++a) sum += L(i, a) * weighted[a];
+                for (Index a = 0; a < columns; ++a) sum += L(i, a) * weighted[a];
                 total(row + i, column + j) = total(column + j, row + i) = sum;
             }
         }
@@ -328,7 +334,7 @@ std::optional<NormalEquations> delta_auxiliary_equations(const RegressionRecord&
             equation.instruments.push_back(first);
             append_range(equation.inputs, first + n, record.zeros[j] + 1);
         }
-        const std::optional<Matrix> products = signals.products(record.y.size());
+        const std::optional<Matrix> products = signals.products(record.y.size(), false);
         if (!products) return {};
         return equation.equations(*products, gain, true);
     });
@@ -370,7 +376,7 @@ std::optional<NormalEquations> delta_refined_equations(const RegressionRecord& r
         const SampledCascade<n> cascade(A, record.sampling.Ts);
         signals.add(filtered_output<n>(record, {A, step_of_first<n>(cascade.step)}));
         add_delta_sensitivities<n>(record, cascade, A, B, signals, equation);
-        const std::optional<Matrix> products = signals.products(record.y.size());
+        const std::optional<Matrix> products = signals.products(record.y.size(), false);
         if (!products) return {};
         return equation.equations(*products, 1, with_gram);
     });

@@ -64,8 +64,14 @@ class Lanes {
         repeat<kWidth>([&](auto i) __attribute__((always_inline)) {
             rows[i] = *reinterpret_cast<const Unaligned*>(p + i * stride);
         });
-        transpose<1>(rows);
-        repeat<kWidth>([&](auto i) __attribute__((always_inline)) { tile[i] = rows[i]; });
+        // In pairs, numbers stay in their half or quarter of a vector; pairs then move as a whole.
+        repeat<2>([&](auto column) __attribute__((always_inline)) {
+            Part pairs[kWidth / 2];
+            repeat<kWidth / 2>([&](auto i) __attribute__((always_inline)) {
+                pairs[i] = neighbours<column>(rows[2 * i], rows[2 * i + 1], Places());
+            });
+            spread<kWidth / 2, 2>(pairs, tile + column);
+        });
     }
     /// The numbers at p[0], p[stride], ..., p[7 stride]; stride >= 1.
     static Lanes gather(const double* p, long stride) {
@@ -107,23 +113,31 @@ class Lanes {
     }
 
   private:
-    /// Of two rows one after the other, in blocks of `size` columns: the upper's odd blocks and the lower's even ones.
-    template <int size, int... lane>
-    [[gnu::always_inline]] static void exchange(Part& upper, Part& lower, std::integer_sequence<int, lane...>) {
-        const Part first = upper, second = lower;
-        upper = __builtin_shufflevector(first, second, (lane & size ? kWidth + lane - size : lane)...);
-        lower = __builtin_shufflevector(first, second, (lane & size ? kWidth + lane : lane + size)...);
-    }
+    using Places = std::make_integer_sequence<int, kWidth>;
 
-    /// Of blocks of so many rows and columns, two at a time, those that are not on the diagonal change places.
-    template <int size>
-    [[gnu::always_inline]] static void transpose(Part* rows) {
-        if constexpr (size < kWidth) {
-            repeat<kWidth>([&](auto i) __attribute__((always_inline)) {
-                if constexpr (!(i & size))
-                    exchange<size>(rows[i], rows[i + size], std::make_integer_sequence<int, kWidth>());
+    /// Of two rows, the numbers in the even (first = 0) or odd columns, those of one column side by side.
+    template <int first, int... lane>
+    [[gnu::always_inline]] static Part neighbours(const Part& a, const Part& b, std::integer_sequence<int, lane...>) {
+        return __builtin_shufflevector(a, b, (lane % 2 ? kWidth + lane - 1 + first : lane + first)...);
+    }
+    /// Of two vectors of pairs, the pairs in even (first = 0) or odd places.
+    template <int first, int... lane>
+    [[gnu::always_inline]] static Part alternate(const Part& a, const Part& b, std::integer_sequence<int, lane...>) {
+        return __builtin_shufflevector(a, b, (4 * (lane / 2) + 2 * first + lane % 2)...);
+    }
+    /// to[i step]: the i-th pairs of `count` vectors.
+    template <int count, int step>
+    [[gnu::always_inline]] static void spread(const Part* pairs, Part* to) {
+        if constexpr (count == 1) {
+            *to = *pairs;
+        } else {
+            repeat<2>([&](auto place) __attribute__((always_inline)) {
+                Part half[count / 2];
+                repeat<count / 2>([&](auto i) __attribute__((always_inline)) {
+                    half[i] = alternate<place>(pairs[2 * i], pairs[2 * i + 1], Places());
+                });
+                spread<count / 2, 2 * step>(half, to + place * step);
             });
-            transpose<2 * size>(rows);
         }
     }
 

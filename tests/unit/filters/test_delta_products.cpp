@@ -70,6 +70,12 @@ void expect_products(const DeltaChain& first, const DeltaChain& second, Index N,
     EXPECT_LT(difference(products->first, X, X), rounding);
     EXPECT_LT(difference(products->both, X, W), rounding);
     EXPECT_LT(difference(products->second, W, W), rounding);
+    const auto without_highest = delta_products(first, second, N, {false, false});
+    ASSERT_TRUE(without_highest);
+    const LongMatrix lower = W.leftCols(second.order);
+    ASSERT_EQ(without_highest->both.cols(), second.order);
+    EXPECT_LT(difference(without_highest->both, X, lower), rounding);
+    EXPECT_LT(difference(without_highest->second, lower, lower), rounding);
 }
 
 std::vector<std::complex<double>> first_of(std::vector<std::complex<double>> poles, int count) {

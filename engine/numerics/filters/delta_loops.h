@@ -1,0 +1,63 @@
+#pragma once
+#include <algorithm>
+
+#include "numerics/filters/delta_products.h"
+#include "numerics/filters/lanes.h"
+
+namespace dynlab::inline numerics {
+
+// The loops of delta_products: segments of the record side by side in lanes, the orders of both chains known to the
+// compiler.
+
+constexpr int kDeltaLanes = Lanes::kWidth;
+
+// Of what follows, only as much is set to zero as orders n1 and n2 use: all of it would take a good part of the time of
+// a short record.
+
+/// What both chains have come to, in all lanes.
+struct DeltaState {
+    Lanes::Part first[kMostDeltaOrder], second[kMostDeltaOrder];
+
+    void set_zero(int n1, int n2) {
+        std::fill_n(first, n1, Lanes::Part{});
+        std::fill_n(second, n2, Lanes::Part{});
+    }
+};
+/// The products that are summed while filtering.
+struct DeltaSums {
+    Lanes::Part first[kMostDeltaOrder + 1], both[2 * kMostDeltaOrder + 1], second[kMostDeltaOrder + 1];
+
+    void set_zero(int n1, int n2) {
+        std::fill_n(first, n1 + 1, Lanes::Part{});
+        std::fill_n(both, n1 + n2 + 1, Lanes::Part{});
+        std::fill_n(second, n2 + 1, Lanes::Part{});
+    }
+};
+/// Samples k = 0, 1, .. of the segments, lane i's at samples[k + i stride].
+struct SegmentSamples {
+    const double* samples;
+    Index stride;
+};
+
+/// Of the products X_j W_(s-j), the j of the one that is summed.
+constexpr int summed_row(int n1, int n2, int s) {
+    return (std::max(0, s - n2) + std::min(n1, s)) / 2;
+}
+
+using SumLoop = void (*)(const DeltaChain&, const DeltaChain&, const SegmentSamples& v, const SegmentSamples& w,
+                         Index steps, DeltaState& state, DeltaSums& sums);
+
+/// Filters only, and lets `free` move without a signal beside it: each alone would wait for itself.
+using FilterLoop = void (*)(const DeltaChain&, const DeltaChain&, const SegmentSamples& v, const SegmentSamples& w,
+                            Index steps, DeltaState& state, DeltaState& free);
+
+/// The loops for two orders: filtering alone, and with sums.
+struct DeltaLoops {
+    FilterLoop filter = nullptr;
+    SumLoop sum = nullptr;
+};
+
+/// Null pointers for orders that have no loop.
+DeltaLoops delta_loops(int order1, int order2, WantedProducts wanted);
+
+}  // namespace dynlab::inline numerics
