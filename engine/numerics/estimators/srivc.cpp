@@ -1,5 +1,8 @@
 #include "numerics/estimators/srivc.h"
 
+#include <cmath>
+#include <optional>
+
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/search_starts.h"
@@ -12,6 +15,8 @@ namespace {
 
 constexpr int kReweightings = 3;
 constexpr Index kComparedSamples = 10'000;  // on which poorer structures are compared
+constexpr int kComparedPasses = 4;
+constexpr Index kFewestToCompare = 4;  // parameters: smaller models were not seen to end in bad minima
 constexpr double kComparedTolerance = 1e-3, kNoGain = 1e-3;
 constexpr double kGramTolerance = 1e-6;  // relative change of theta; standard errors change by some 20 times as much
 
@@ -65,8 +70,7 @@ NestedSolution solution_by_passes(const IdData& data, const TransferStructure& s
         return best;
     }
     for (const Vector& start : starts) {
-        const Vector theta =
-            iterate_srivc(data, structure, start, options.limited(options.max_iterations, kComparedTolerance)).theta;
+        const Vector theta = iterate_srivc(data, structure, start, options).theta;
         const double loss = simulation_loss(data, structure, theta);
         if (loss < best.loss) best = {theta, loss, structure};
     }
@@ -120,14 +124,24 @@ Fit better_by_search(Fit estimate, const IdData& data, const FitOptions& options
     return searched;
 }
 
+/// The geometric mean of the poles' frequencies, rad/s; nothing for a pole at zero.
+std::optional<double> typical_frequency(const Fit& estimate) {
+    const Index n = estimate.structure.poles.front();
+    const double frequency = std::pow(std::abs(estimate.theta[n - 1]), 1 / static_cast<double>(n));
+    return frequency > 0 && std::isfinite(frequency) ? std::optional<double>(frequency) : std::nullopt;
+}
+
 /// Whether the passes of a poorer structure lead to a loss hardly larger or smaller, on the beginning of a long record:
 /// then they may have ended in a bad minimum.
 bool gains_nothing(const Fit& estimate, const IdData& data, const FitOptions& options) {
+    if (estimate.theta.size() < kFewestToCompare) return false;
     const bool whole = data.sample_count() <= 2 * kComparedSamples;
     const IdData part = whole ? IdData() : beginning_of(data, kComparedSamples);
     const IdData& record = whole ? data : part;
+    FitOptions few = options.limited(kComparedPasses, kComparedTolerance);
+    if (!few.lambda) few.lambda = typical_frequency(estimate);
     const auto solve = [&](const TransferStructure& poorer, const std::vector<Vector>& starts) {
-        return solution_by_passes(record, poorer, starts, options);
+        return solution_by_passes(record, poorer, starts, few);
     };
     const double loss = whole ? estimate.loss : simulation_loss(record, estimate.structure, estimate.theta);
     return !NestedSearch(record, solve).better_starts(estimate.structure, (1 + kNoGain) * loss).empty();
