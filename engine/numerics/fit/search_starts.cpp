@@ -232,8 +232,8 @@ double likely_largest_delay(const IdData& data) {
 DelayScan scan_delays(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
     const IdData beginning = beginning_of(data, kScannedSamples);
     if (options.largest_delay) return scan_range(beginning, structure, delay_range(data, options), options);
-    const double quarter = std::max(options.least_delay, shortest_record(data) / 4);
-    DelayRange range{options.least_delay, std::clamp(likely_largest_delay(data), options.least_delay, quarter)};
+    const double quarter = std::max(options.least_delay, shortest_record(beginning) / 4);
+    DelayRange range{options.least_delay, std::clamp(likely_largest_delay(beginning), options.least_delay, quarter)};
     DelayScan scan = scan_range(beginning, structure, range, options);
     while (range.largest < quarter && lowest_at_the_end(scan) && !(options.cancel && options.cancel())) {
         range.largest = std::min(quarter, 2 * range.largest);

@@ -35,7 +35,8 @@ Vector first_estimate(const IdData& data, const TransferStructure& structure, co
 /// delay_count steps of at least one mean sampling time, and no more than two samples apart near the lowest valleys.
 /// Every delay is fitted from its neighbours' solutions on both sides, some from filtered starts too, so that the curve
 /// is the lower envelope of what was found. Unless the options give the largest delay, the range grows while the curve
-/// is lowest at its end, up to a quarter of the shortest record. The curve is the last channel's.
+/// is lowest at its end, up to a quarter of the shortest record. Of longer records the first 50,000 samples are looked
+/// at. The curve is the last channel's.
 DelayScan scan_delays(const IdData& data, const TransferStructure& structure, const FitOptions& options);
 
 /// The structures that are a step poorer than one with fixed delays: a pole less in every denominator that has two, a

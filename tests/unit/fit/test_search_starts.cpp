@@ -116,4 +116,18 @@ TEST(search_starts, the_range_of_delays_grows_until_the_delay_is_in_it) {
     EXPECT_NEAR(fit.theta[2], 7.3, 0.05);
 }
 
+// Oracle: the beginning that is scanned has 50,000 samples, of which no delay may be longer than a quarter.
+TEST(search_starts, delays_stay_within_the_part_of_a_long_record_that_is_scanned) {
+    const Index N = 400'000;
+    Vector u = Vector::Ones(N);
+    u.head(100).setZero();
+    const Vector y =
+        lsim(TransferFunction(values({1}), values({1, 0.5}), 0, 2.3), u, 0.1) + 0.02 * RandomStream(6).normal(N);
+    TransferStructure structure = TransferStructure::single(1, 0);
+    structure.free_delays = true;
+    const DelayScan scan = scan_delays(IdData{Matrix(y), Matrix(u), 0.1}, structure, {});
+    EXPECT_LE(scan.largest, 50'000 * 0.1 / 4);
+    EXPECT_NEAR(scan.starts.front()[2], 2.3, 0.3);
+}
+
 }  // namespace test_search_starts
