@@ -23,7 +23,7 @@ RegressionRecord regression_record(const IdData& data, const Experiment& experim
 }  // namespace
 
 DenominatorGroup::DenominatorGroup(const IdData& data, const TransferStructure& structure, Index group, Hold hold_y)
-    : n_(structure.poles[static_cast<std::size_t>(group)]), place_(structure.a_place(group)), count_(n_) {
+    : n_(structure.poles[static_cast<std::size_t>(group)]), place_(structure.denominator_start(group)), count_(n_) {
     for (Index output = 0; output < structure.outputs; ++output) {
         std::vector<Index> places(static_cast<std::size_t>(n_));
         for (Index i = 0; i < n_; ++i) places[static_cast<std::size_t>(i)] = i;
@@ -31,7 +31,8 @@ DenominatorGroup::DenominatorGroup(const IdData& data, const TransferStructure& 
         for (Index input = 0; input < structure.inputs; ++input) {
             if (structure.channel(output, input).denominator != group) continue;
             inputs.push_back(input);
-            const Index b = structure.b_place(output, input) - place_, m = structure.channel(output, input).zeros;
+            const Index b = structure.numerator_start(output, input) - place_,
+                        m = structure.channel(output, input).zeros;
             for (Index j = 0; j <= m; ++j) places.push_back(b + j);
             count_ += m + 1;
         }

@@ -63,13 +63,13 @@ Index DiscreteOutput::left_out() const {
     return count;
 }
 
-Index DiscreteOutput::values_place(std::size_t experiment, std::size_t input) const {
+Index DiscreteOutput::initial_start(std::size_t experiment, std::size_t input) const {
     Index place = orders_.parameter_count() + static_cast<Index>(experiment) * values_;
     for (std::size_t i = 0; i < input; ++i) place += orders_.nf[i];
     return place;
 }
 
-Index DiscreteOutput::offset_place(std::size_t experiment) const {
+Index DiscreteOutput::offset_index(std::size_t experiment) const {
     return orders_.parameter_count() + static_cast<Index>(experiments_.size()) * values_ +
            static_cast<Index>(experiment);
 }
@@ -100,29 +100,29 @@ void DiscreteOutput::add_channel(const Vector& theta, std::size_t experiment, st
                                  DrivenSignals& all) const {
     const SampledExperiment& record = experiments_[experiment];
     const Index N = record.y.size(), nf = orders_.nf[input], nb = orders_.nb[input], nk = orders_.nk[input];
-    const Index f_place = orders_.f_place(input), b_place = orders_.b_place(input);
-    const Vector f = theta.segment(f_place, nf), b = theta.segment(b_place, nb);
+    const Index f_start = orders_.f_start(input), b_start = orders_.b_start(input);
+    const Vector f = theta.segment(f_start, nf), b = theta.segment(b_start, nb);
     const auto u = record.u.col(static_cast<Index>(input));
     const double resting = steady() ? u[0] : 0, denominator = 1 + f.sum();
     Vector w = resting == 0 ? all_pole_filter(f, u) : all_pole_filter(f, u.array() - resting);  // u/F
     Vector x = Vector::Zero(N);
     for (Index j = 0; j < nb; ++j) add_late(x, w, b[j], nk + j, 0);
     Vector pulse;  // 1/F of a pulse at the first sample
-    const Index values_at = values_place(experiment, input);
+    const Index values_at = initial_start(experiment, input);
     if (free_state() && nf > 0) {
         pulse = all_pole_filter(f, Vector::Unit(N, 0));
         for (Index j = 0; j < nf; ++j) add_late(x, pulse, theta[values_at + j], head_ + j, 0);
     }
-    const auto add = [&all](Index first_place, Index count, Vector signal, Index late, double weight, double constant) {
+    const auto add = [&all](Index first, Index count, Vector signal, Index late, double weight, double constant) {
         all.signals.push_back(std::move(signal));
         for (Index j = 0; j < count; ++j) {
             all.columns.push_back({all.signals.back(), late + j, weight, constant});
-            all.places.push_back(first_place + j);
+            all.places.push_back(first + j);
         }
     };
     if (with_derivatives) {
-        if (nf > 0) add(f_place, nf, all_pole_filter(f, x), 1, -1, -resting * b.sum() / (denominator * denominator));
-        add(b_place, nb, std::move(w), nk, 1, resting / denominator);
+        if (nf > 0) add(f_start, nf, all_pole_filter(f, x), 1, -1, -resting * b.sum() / (denominator * denominator));
+        add(b_start, nb, std::move(w), nk, 1, resting / denominator);
         if (pulse.size() > 0) add(values_at, nf, std::move(pulse), head_, 1, 0);
     }
     if (resting != 0) x.array() += resting * b.sum() / denominator;
@@ -138,11 +138,11 @@ DrivenSignals DiscreteOutput::driven(const Vector& theta, std::size_t experiment
     for (std::size_t input = 0; input < orders_.inputs(); ++input)
         add_channel(theta, experiment, input, with_derivatives, all);
     if (!condition_.offset) return all;
-    all.output.array() += theta[offset_place(experiment)];
+    all.output.array() += theta[offset_index(experiment)];
     if (with_derivatives) {
         all.signals.push_back(Vector::Zero(all.output.size()));
         all.columns.push_back({all.signals.back(), 0, 0, 1});
-        all.places.push_back(offset_place(experiment));
+        all.places.push_back(offset_index(experiment));
     }
     return all;
 }
@@ -178,17 +178,18 @@ OutputErrorProducts DiscreteOutput::products(const Vector& theta, const VectorVi
         Vector errors = -share.output;
         errors.tail(count) += y.segment(place, count);
         place += count;
-        add_to(sums, plain_products(share.columns, {errors, 0, 1, 0}, errors.size() - count, count), share.places);
+        add_to(sums, sensitivity_products(share.columns, {errors, 0, 1, 0}, errors.size() - count, count),
+               share.places);
     }
     return sums;
 }
 
 InstrumentProducts DiscreteOutput::instrument_products(const Vector& theta, const VectorView& y) const {
     const Index d = parameter_count();
-    std::vector<Index> f_places;  // of the columns in which Phi differs from Psi
+    std::vector<Index> f_columns;  // of the columns in which Phi differs from Psi
     for (std::size_t input = 0; input < orders_.inputs(); ++input)
-        for (Index j = 0; j < orders_.nf[input]; ++j) f_places.push_back(orders_.f_place(input) + j);
-    const auto m = static_cast<Index>(f_places.size());
+        for (Index j = 0; j < orders_.nf[input]; ++j) f_columns.push_back(orders_.f_start(input) + j);
+    const auto m = static_cast<Index>(f_columns.size());
     OutputErrorProducts sums{0, Matrix::Zero(d + m, d + m), Vector::Zero(d + m)};  // of [Psi, Phi - Psi]
     Index place = 0;
     for (std::size_t e = 0; e < experiments_.size(); ++e) {
@@ -202,32 +203,32 @@ InstrumentProducts DiscreteOutput::instrument_products(const Vector& theta, cons
         Index next = d;
         for (std::size_t input = 0; input < orders_.inputs(); ++input) {
             const Index nf = orders_.nf[input];
-            filtered.push_back(all_pole_filter(theta.segment(orders_.f_place(input), nf), errors));
+            filtered.push_back(all_pole_filter(theta.segment(orders_.f_start(input), nf), errors));
             for (Index j = 0; j < nf; ++j) {
                 share.columns.push_back({filtered.back(), j + 1, -1, 0});
                 share.places.push_back(next++);
             }
         }
         share.places.push_back(-1);
-        add_to(sums, plain_products(share.columns, {errors, 0, 1, 0}, N - count, count), share.places);
+        add_to(sums, sensitivity_products(share.columns, {errors, 0, 1, 0}, N - count, count), share.places);
     }
     InstrumentProducts all{sums.squares, sums.gram.topLeftCorner(d, d), sums.gram.topLeftCorner(d, d),
                            {},           sums.descent.head(d),          sums.descent.head(d)};
     Matrix difference_phi = sums.gram.bottomLeftCorner(m, d);  // (Phi - Psi)'Phi
     for (Index i = 0; i < m; ++i) {
-        const Index column = f_places[static_cast<std::size_t>(i)];
+        const Index column = f_columns[static_cast<std::size_t>(i)];
         all.psi_phi.col(column) += sums.gram.col(d + i).head(d);
         difference_phi.col(column) += sums.gram.col(d + i).tail(m);
         all.phi_e[column] += sums.descent[d + i];
     }
     all.phi_phi = all.psi_phi;
-    for (Index i = 0; i < m; ++i) all.phi_phi.row(f_places[static_cast<std::size_t>(i)]) += difference_phi.row(i);
+    for (Index i = 0; i < m; ++i) all.phi_phi.row(f_columns[static_cast<std::size_t>(i)]) += difference_phi.row(i);
     return all;
 }
 
 Vector DiscreteOutput::with_stable_poles(Vector theta) const {
     for (std::size_t input = 0; input < orders_.inputs(); ++input) {
-        const Index place = orders_.f_place(input), nf = orders_.nf[input];
+        const Index place = orders_.f_start(input), nf = orders_.nf[input];
         theta.segment(place, nf) = reflect_poles_into_unit_circle(theta.segment(place, nf));
     }
     return theta;

@@ -1,9 +1,9 @@
 #pragma once
 #include <vector>
 
-#include "numerics/criteria/filtered_products.h"
 #include "numerics/criteria/initial_conditions.h"
 #include "numerics/criteria/output_error_model.h"
+#include "numerics/criteria/sensitivity_products.h"
 #include "numerics/models/polynomial_model.h"
 
 namespace dynlab::inline numerics {
@@ -67,7 +67,7 @@ class DiscreteOutput : public OutputErrorModel {
     double target_variation() const;      ///< sum of squares about the mean of each experiment, same rows
     Index head() const { return head_; }  ///< samples left out of each experiment
     Index left_out() const;               ///< of all experiments
-    Index offset_place(std::size_t experiment) const;
+    Index offset_index(std::size_t experiment) const;
     const PolynomialOrders& orders() const { return orders_; }
     const StartCondition& condition() const { return condition_; }
     const std::vector<SampledExperiment>& experiments() const { return experiments_; }
@@ -76,7 +76,7 @@ class DiscreteOutput : public OutputErrorModel {
     bool free_state() const { return condition_.state == InitialState::kEstimate; }
     bool steady() const { return condition_.state == InitialState::kSteady; }
     Index rows(const SampledExperiment& experiment) const;
-    Index values_place(std::size_t experiment, std::size_t input) const;
+    Index initial_start(std::size_t experiment, std::size_t input) const;
     void add_channel(const Vector& theta, std::size_t experiment, std::size_t input, bool with_derivatives,
                      DrivenSignals& all) const;
 

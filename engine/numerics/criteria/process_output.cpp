@@ -115,7 +115,7 @@ Reparametrised process_output(const ProcessStructure& structure, const TransferO
     const Index inner = output.parameter_count() - linear;
     const bool own_gain = output.has_own_gains();
     if (structure.delay) {
-        const Index place = transfer_structure(structure).delay_place(0, 0);
+        const Index place = transfer_structure(structure).delay_index(0, 0);
         lower[q - 1] = output.lower()[place];
         upper[q - 1] = output.upper()[place];
     }

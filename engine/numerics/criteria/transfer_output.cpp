@@ -74,7 +74,7 @@ TransferOutput::TransferOutput(const TransferStructure& structure, const StartCo
 
 void TransferOutput::set_parameter_count() {
     const Index experiments = static_cast<Index>(experiments_.size());
-    Index count = initial_place(0, 0) + (condition_.offset ? experiments * structure_.outputs : 0);
+    Index count = initial_start(0, 0) + (condition_.offset ? experiments * structure_.outputs : 0);
     for (Index output = 0; output < structure_.outputs; ++output) count += experiments * initial_count(output);
     lower_ = Vector::Constant(count, -kInfinity);
     upper_ = Vector::Constant(count, kInfinity);
@@ -84,11 +84,12 @@ void TransferOutput::set_parameter_count() {
 void TransferOutput::set_channel(Index output, Index input, double least_delay, double largest_delay) {
     const TransferChannel& channel = structure_.channel(output, input);
     const int n = structure_.poles[static_cast<std::size_t>(channel.denominator)];
-    for (int i = 1; i <= n; ++i) seconds_[structure_.a_place(channel.denominator) + i - 1] = std::pow(time_unit_, -i);
+    for (int i = 1; i <= n; ++i)
+        seconds_[structure_.denominator_start(channel.denominator) + i - 1] = std::pow(time_unit_, -i);
     for (int j = 0; j <= channel.zeros; ++j)
-        seconds_[structure_.b_place(output, input) + j] = std::pow(time_unit_, channel.zeros - j - n);
+        seconds_[structure_.numerator_start(output, input) + j] = std::pow(time_unit_, channel.zeros - j - n);
     if (!structure_.free_delays) return;
-    const Index place = structure_.delay_place(output, input);
+    const Index place = structure_.delay_index(output, input);
     lower_[place] = least_delay / time_unit_;
     upper_[place] = largest_delay / time_unit_;
     seconds_[place] = time_unit_;
@@ -96,7 +97,7 @@ void TransferOutput::set_channel(Index output, Index input, double least_delay, 
 
 void TransferOutput::set_initial_units(std::size_t experiment, Index output) {
     if (condition_.state != InitialState::kEstimate) return;
-    Index place = initial_place(experiment, output);
+    Index place = initial_start(experiment, output);
     for (const Index denominator : denominators_[static_cast<std::size_t>(output)])
         for (int j = 0; j < structure_.poles[static_cast<std::size_t>(denominator)]; ++j)
             seconds_[place++] = std::pow(time_unit_, -j);
@@ -110,7 +111,7 @@ Index TransferOutput::initial_count(Index output) const {
     return count;
 }
 
-Index TransferOutput::initial_place(std::size_t experiment, Index output) const {
+Index TransferOutput::initial_start(std::size_t experiment, Index output) const {
     Index of_all = 0, before = 0;
     for (Index o = 0; o < structure_.outputs; ++o) {
         if (o < output) before += initial_count(o);
@@ -120,12 +121,12 @@ Index TransferOutput::initial_place(std::size_t experiment, Index output) const 
     return structure_.parameter_count() + gains + static_cast<Index>(experiment) * of_all + before;
 }
 
-Index TransferOutput::gain_place(Index output, Index input) const {
+Index TransferOutput::gain_index(Index output, Index input) const {
     return structure_.parameter_count() + output * structure_.inputs + input;
 }
 
-Index TransferOutput::offset_place(std::size_t experiment, Index output) const {
-    return initial_place(experiments_.size(), 0) + static_cast<Index>(experiment) * structure_.outputs + output;
+Index TransferOutput::offset_index(std::size_t experiment, Index output) const {
+    return initial_start(experiments_.size(), 0) + static_cast<Index>(experiment) * structure_.outputs + output;
 }
 
 Index TransferOutput::row(std::size_t experiment, Index output) const {
@@ -137,13 +138,14 @@ std::vector<bool> TransferOutput::bears_on(Index output) const {
     const auto mark = [&](Index first, Index count) { std::fill_n(bears.begin() + first, count, true); };
     for (Index input = 0; input < structure_.inputs; ++input) {
         const TransferChannel& channel = structure_.channel(output, input);
-        mark(structure_.a_place(channel.denominator), structure_.poles[static_cast<std::size_t>(channel.denominator)]);
-        mark(structure_.b_place(output, input), channel.zeros + 1 + (structure_.free_delays ? 1 : 0));
-        if (own_gains_) mark(gain_place(output, input), 1);
+        mark(structure_.denominator_start(channel.denominator),
+             structure_.poles[static_cast<std::size_t>(channel.denominator)]);
+        mark(structure_.numerator_start(output, input), channel.zeros + 1 + (structure_.free_delays ? 1 : 0));
+        if (own_gains_) mark(gain_index(output, input), 1);
     }
     for (std::size_t e = 0; e < experiments_.size(); ++e) {
-        mark(initial_place(e, output), initial_count(output));
-        if (condition_.offset) mark(offset_place(e, output), 1);
+        mark(initial_start(e, output), initial_count(output));
+        if (condition_.offset) mark(offset_index(e, output), 1);
     }
     return bears;
 }
@@ -162,7 +164,7 @@ Vector TransferOutput::target() const {
 
 bool TransferOutput::usable(const Vector& theta) const {
     for (std::size_t d = 0; d < structure_.poles.size(); ++d) {
-        const Index place = structure_.a_place(static_cast<Index>(d));
+        const Index place = structure_.denominator_start(static_cast<Index>(d));
         for (int i = 1; i <= structure_.poles[d]; ++i)
             if (!(std::abs(theta[place + i - 1]) <= std::pow(kFastest, i))) return false;
     }
@@ -181,15 +183,15 @@ void TransferOutput::simulate(const Vector& theta, Vector& output, Matrix* sensi
             Block block{experiments_[e], output.segment(row(e, o), rows(e)), sensitivities, row(e, o)};
             for (Index input = 0; input < structure_.inputs; ++input) add_channel(theta, o, input, block);
             if (condition_.state == InitialState::kEstimate) {
-                Index place = initial_place(e, o);
+                Index place = initial_start(e, o);
                 for (const Index denominator : denominators_[static_cast<std::size_t>(o)]) {
                     add_free_motion(theta, denominator, place, block);
                     place += structure_.poles[static_cast<std::size_t>(denominator)];
                 }
             }
             if (condition_.offset) {
-                block.output.array() += theta[offset_place(e, o)];
-                if (sensitivities) block.columns(offset_place(e, o), 1).setOnes();
+                block.output.array() += theta[offset_index(e, o)];
+                if (sensitivities) block.columns(offset_index(e, o), 1).setOnes();
             }
             if (weights_[o] == 1) continue;
             block.output *= weights_[o];
@@ -202,12 +204,12 @@ void TransferOutput::add_channel(const Vector& theta, Index output, Index input,
     const Vector num = structure_.numerator(theta, output, input), den = structure_.denominator(theta, output, input);
     const TransferChannel& channel = structure_.channel(output, input);
     const double delay =
-        structure_.free_delays ? theta[structure_.delay_place(output, input)] : channel.delay / time_unit_;
+        structure_.free_delays ? theta[structure_.delay_index(output, input)] : channel.delay / time_unit_;
     const Index n = den.size() - 1, m = num.size() - 1;
-    const Index a = structure_.a_place(channel.denominator), b = structure_.b_place(output, input);
+    const Index a = structure_.denominator_start(channel.denominator), b = structure_.numerator_start(output, input);
     const auto u = block.record.u.col(input);
     const double resting = block.record.resting[input];
-    const double gain = own_gains_ ? theta[gain_place(output, input)] : num[m] / den[n];
+    const double gain = own_gains_ ? theta[gain_index(output, input)] : num[m] / den[n];
     if (resting != 0) block.output.array() += gain * resting;
     if (!block.sensitivities) {
         block.output += transfer_filters().response(num, den, delay, u, block.record.sampling(), hold_);
@@ -217,15 +219,16 @@ void TransferOutput::add_channel(const Vector& theta, Index output, Index input,
     block.output += all.col(0);
     block.columns(a, n) += all.middleCols(1, n);
     block.columns(b, m + 1) = all.middleCols(n + 1, m + 1);
-    if (structure_.free_delays) block.columns(structure_.delay_place(output, input), 1) = all.rightCols(1);
-    if (own_gains_) block.columns(gain_place(output, input), 1).setConstant(resting);
+    if (structure_.free_delays) block.columns(structure_.delay_index(output, input), 1) = all.rightCols(1);
+    if (own_gains_) block.columns(gain_index(output, input), 1).setConstant(resting);
     if (resting == 0 || own_gains_) return;
     block.columns(a + n - 1, 1).array() -= gain / den[n] * resting;
     block.columns(b + m, 1).array() += resting / den[n];
 }
 
 void TransferOutput::add_free_motion(const Vector& theta, Index denominator, Index place, Block& block) const {
-    const Index n = structure_.poles[static_cast<std::size_t>(denominator)], a = structure_.a_place(denominator);
+    const Index n = structure_.poles[static_cast<std::size_t>(denominator)],
+                a = structure_.denominator_start(denominator);
     Vector den(n + 1);
     den << 1, theta.segment(a, n);
     const Vector initial = theta.segment(place, n);

@@ -47,17 +47,17 @@ class TransferOutput : public OutputErrorModel {
     double time_unit() const { return time_unit_; }     ///< s
     const Vector& seconds() const { return seconds_; }  ///< factors that bring each parameter back to seconds
     /// The initial values and offsets, which stand last.
-    Index linear_count() const { return parameter_count() - initial_place(0, 0); }
+    Index linear_count() const { return parameter_count() - initial_start(0, 0); }
     Index sample_count() const { return samples_; }  ///< over all experiments, of each output
 
     std::size_t experiment_count() const { return experiments_.size(); }
     Index row(std::size_t experiment, Index output) const;  ///< the first of its N
     Index rows(std::size_t experiment) const { return experiments_[experiment].y.rows(); }
     /// Where an output's initial values of one experiment lie among the parameters, and how many they are.
-    Index initial_place(std::size_t experiment, Index output) const;
+    Index initial_start(std::size_t experiment, Index output) const;
     Index initial_count(Index output) const;
-    Index offset_place(std::size_t experiment, Index output) const;  ///< with estimated offsets only
-    Index gain_place(Index output, Index input) const;               ///< with gains of their own only
+    Index offset_index(std::size_t experiment, Index output) const;  ///< with estimated offsets only
+    Index gain_index(Index output, Index input) const;               ///< with gains of their own only
     bool has_own_gains() const { return own_gains_; }
     bool has_offset() const { return condition_.offset; }
     Hold hold() const { return hold_; }

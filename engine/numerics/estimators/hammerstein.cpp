@@ -123,8 +123,8 @@ Reparametrised hammerstein_output(const TransferOutput& channels, const Transfer
     const Index d = at.count(), inner = channels.parameter_count();
     Vector lower = Vector::Constant(d, -std::numeric_limits<double>::infinity()), upper = -lower;
     if (at.delay) {
-        lower[d - 1] = channels.lower()[structure.delay_place(0, 0)];
-        upper[d - 1] = channels.upper()[structure.delay_place(0, 0)];
+        lower[d - 1] = channels.lower()[structure.delay_index(0, 0)];
+        upper[d - 1] = channels.upper()[structure.delay_index(0, 0)];
     }
     const auto products = [=](const Vector& theta) {
         const Vector b = numerator(at, theta, last_b);
@@ -132,14 +132,14 @@ Reparametrised hammerstein_output(const TransferOutput& channels, const Transfer
         point.inner.head(at.n) = theta.head(at.n);
         point.derivatives.topLeftCorner(at.n, at.n).setIdentity();
         for (Index i = 0; i < at.K; ++i) {
-            const Index place = structure.b_place(0, i);
+            const Index place = structure.numerator_start(0, i);
             const double c = theta[at.gains() + i];
             point.inner.segment(place, at.m + 1) = c * b;
             point.derivatives.block(place, at.n, at.m, at.m).diagonal().setConstant(c);
             point.derivatives.col(at.gains() + i).segment(place, at.m + 1) = b;
             if (!at.delay) continue;
-            point.inner[structure.delay_place(0, i)] = theta[d - 1];
-            point.derivatives(structure.delay_place(0, i), d - 1) = 1;
+            point.inner[structure.delay_index(0, i)] = theta[d - 1];
+            point.derivatives(structure.delay_index(0, i), d - 1) = 1;
         }
         return point;
     };
@@ -269,10 +269,11 @@ Fit hammerstein(const IdData& data, const TransferStructure& structure, const Ha
     const DelayRange range = structure.free_delays ? delay_range(data, options) : DelayRange{};
     const TransferOutput output(channels, {options.initial_state, false}, hats, range.least, range.largest);
     const Vector& seconds = output.seconds();
-    const Vector b_seconds = seconds.segment(channels.b_place(0, 0), at.m + 1);
+    const Vector b_seconds = seconds.segment(channels.numerator_start(0, 0), at.m + 1);
     Matrix coefficients(at.m + 1, at.K);
     for (Index i = 0; i < at.K; ++i)
-        coefficients.col(i) = start.theta.segment(start.structure.b_place(0, i), at.m + 1).cwiseQuotient(b_seconds);
+        coefficients.col(i) =
+            start.theta.segment(start.structure.numerator_start(0, i), at.m + 1).cwiseQuotient(b_seconds);
     Vector theta(at.count()), units(at.count());
     units << seconds.head(at.n), b_seconds.head(at.m), Vector::Ones(at.K), seconds.tail(at.delay ? 1 : 0);
     theta.head(at.n) = start.theta.head(at.n).cwiseQuotient(seconds.head(at.n));

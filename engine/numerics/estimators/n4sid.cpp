@@ -180,7 +180,7 @@ class InputEquations {
         const Index n = sizes_.n, nu = sizes_.nu, ny = sizes_.ny;
         Matrix block = Matrix::Zero(kBlock * ny, unknowns_ + 1);
         Matrix driven = Matrix::Zero(n, n * nu), free = Matrix::Identity(n, n);  // d x/d B, d x/d x(0)
-        const Index free_place = unknowns_ - n * (static_cast<Index>(data_.experiments.size() - e));
+        const Index free_column = unknowns_ - n * (static_cast<Index>(data_.experiments.size() - e));
         Index row = 0;
         for (Index k = 0; k < experiment.y.rows(); ++k, row += ny) {
             if (row == block.rows()) {
@@ -190,7 +190,7 @@ class InputEquations {
             block.block(row, 0, ny, n * nu) = C_ * driven;
             for (Index j = 0; feedthrough_ && j < nu; ++j)
                 block.block(row, n * nu + j * ny, ny, ny).diagonal().setConstant(experiment.u(k, j));
-            block.block(row, free_place, ny, n) = C_ * free;
+            block.block(row, free_column, ny, n) = C_ * free;
             block.col(unknowns_).segment(row, ny) = experiment.y.row(k).transpose();
             driven = A_ * driven;
             for (Index j = 0; j < nu; ++j) driven.middleCols(j * n, n).diagonal().array() += experiment.u(k, j);

@@ -50,7 +50,7 @@ Fit fit_condition(const DiscreteOutput& model, const IdData& data, const FitOpti
     fit.start = model.condition();
     fit.offsets = Matrix::Zero(static_cast<Index>(data.experiments.size()), 1);
     for (std::size_t e = 0; e < data.experiments.size() && fit.start.offset; ++e)
-        fit.offsets(static_cast<Index>(e), 0) = solution.theta[model.offset_place(e)];
+        fit.offsets(static_cast<Index>(e), 0) = solution.theta[model.offset_index(e)];
     fit.termination = solution.termination;
     fit.trace = std::move(solution.trace);
     add_uncertainty(fit, model, solution.theta);

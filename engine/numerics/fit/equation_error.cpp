@@ -15,7 +15,7 @@ constexpr double kPoorCondition = 1e8;  // beyond it a poor input may be the rea
 void require_rich_inputs(const std::string& method, const MatrixView& R, const PolynomialOrders& orders,
                          const IdData& data) {
     for (std::size_t input = 0; input < orders.inputs(); ++input) {
-        const Matrix columns = R.middleCols(orders.b_place(input), orders.nb[input]);
+        const Matrix columns = R.middleCols(orders.b_start(input), orders.nb[input]);
         if (solve_least_squares(columns, Vector::Zero(R.rows())).condition_number < kAmbiguousCondition) continue;
         throw InvalidArgument(
             method + ": the input " + data.input_names[input] +

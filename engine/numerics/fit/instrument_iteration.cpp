@@ -81,17 +81,17 @@ Vector common_least_squares(const DiscreteOutput& model, const Vector& y, double
     const int n = orders.nf.front();
     Vector theta = Vector::Zero(model.parameter_count());
     const Vector filter = power(Eigen::Vector2d(1, -alpha), n).tail(n);
-    for (std::size_t i = 0; i < orders.inputs(); ++i) theta.segment(orders.f_place(i), n) = filter;
+    for (std::size_t i = 0; i < orders.inputs(); ++i) theta.segment(orders.f_start(i), n) = filter;
     InstrumentProducts products = model.instrument_products(theta, y);
     for (std::size_t i = 1; i < orders.inputs(); ++i) {
-        products.phi_phi.middleCols(orders.f_place(i), n).setZero();
-        products.phi_phi.middleRows(orders.f_place(i), n).setZero();
-        products.phi_e.segment(orders.f_place(i), n).setZero();
+        products.phi_phi.middleCols(orders.f_start(i), n).setZero();
+        products.phi_phi.middleRows(orders.f_start(i), n).setZero();
+        products.phi_e.segment(orders.f_start(i), n).setZero();
     }
     const Vector lengths = lengths_of(products.phi_phi);
     theta += instrumental_solution(products.phi_phi, products.phi_e, lengths, lengths);
     for (std::size_t i = 1; i < orders.inputs(); ++i)
-        theta.segment(orders.f_place(i), n) = theta.segment(orders.f_place(0), n);
+        theta.segment(orders.f_start(i), n) = theta.segment(orders.f_start(0), n);
     return model.with_stable_poles(theta);
 }
 
@@ -112,7 +112,7 @@ Vector separated(const DiscreteOutput& model, const PolynomialModel& common, dou
         const PolynomialOrders alone = channel_orders(orders, i);
         const DiscreteOutput channel(alone, {InitialState::kZero, false}, shares);
         const Vector found = common_least_squares(channel, channel.target(), alpha);
-        theta.segment(orders.f_place(i), alone.parameter_count()) = found;
+        theta.segment(orders.f_start(i), alone.parameter_count()) = found;
     }
     return theta;
 }

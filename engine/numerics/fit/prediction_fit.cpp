@@ -95,7 +95,7 @@ Fit fit_prediction(const std::string& method, const PredictionModel& model, cons
     fit.start = start;
     fit.offsets = Matrix::Zero(static_cast<Index>(lengths.size()), 1);
     for (std::size_t e = 0; e < lengths.size() && start.offset; ++e)
-        fit.offsets(static_cast<Index>(e), 0) = theta[model.offset_place(e)];
+        fit.offsets(static_cast<Index>(e), 0) = theta[model.offset_index(e)];
     warn_of_search(fit, options);
     warn_of_doubtful_parameters(fit);
     warn_of_unstable_polynomials(fit);

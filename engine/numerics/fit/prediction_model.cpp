@@ -43,8 +43,8 @@ Vector PredictionModel::target() const {
     return y;
 }
 
-Index PredictionModel::offset_place(std::size_t experiment) const {
-    return driven_.offset_place(experiment) - dynamic_count() + orders_.parameter_count();
+Index PredictionModel::offset_index(std::size_t experiment) const {
+    return driven_.offset_index(experiment) - dynamic_count() + orders_.parameter_count();
 }
 
 /// [F and B; initial values and offsets] as DiscreteOutput has them.
@@ -66,8 +66,8 @@ Vector PredictionModel::past_output(std::size_t experiment, Index lag) const {
 
 ArmaNoise PredictionModel::noise_at(const Vector& theta) const {
     ArmaNoise noise = ArmaNoise::white(orders_.nc, orders_.nd);
-    noise.C = monic(theta.segment(orders_.c_place(), orders_.nc));
-    noise.D = monic(theta.segment(orders_.d_place(), orders_.nd));
+    noise.C = monic(theta.segment(orders_.c_start(), orders_.nc));
+    noise.D = monic(theta.segment(orders_.d_start(), orders_.nd));
     return noise;
 }
 
@@ -107,9 +107,9 @@ OutputErrorProducts PredictionModel::products(const Vector& theta, const VectorV
             places.push_back(i - 1);
         }
         places.push_back(-1);
-        for (Index j = 0; j < orders_.nc; ++j) places.push_back(orders_.c_place() + j);
-        for (Index i = 0; i < orders_.nd; ++i) places.push_back(orders_.d_place() + i);
-        add_to(sums, filtered_products(columns, {w, 0, 1, 0}, first, rows, noise.C, noise.D), places);
+        for (Index j = 0; j < orders_.nc; ++j) places.push_back(orders_.c_start() + j);
+        for (Index i = 0; i < orders_.nd; ++i) places.push_back(orders_.d_start() + i);
+        add_to(sums, sensitivity_products(columns, {w, 0, 1, 0}, first, rows, noise.C, noise.D), places);
     }
     return sums;
 }
@@ -144,7 +144,7 @@ void PredictionModel::simulate(const Vector& theta, Vector& output, Matrix* sens
             auto block = sensitivities->middleRows(place, used);
             block.leftCols(na + count) = filtered.leftCols(na + count);
             block.rightCols(linear_count()) = filtered.rightCols(linear_count());
-            block.middleCols(orders_.c_place(), nc + nd) = noise_sensitivities(noise, w, errors).bottomRows(used);
+            block.middleCols(orders_.c_start(), nc + nd) = noise_sensitivities(noise, w, errors).bottomRows(used);
         }
         place += used;
     }
@@ -154,16 +154,16 @@ Vector PredictionModel::simulated(const Vector& theta) const {
     Vector driven, output = target();
     driven_.simulate(driven_parameters(theta), driven, nullptr);
     const std::vector<Index> counts = lengths();
-    Index place = 0, driven_place = 0;
+    Index place = 0, driven_row = 0;
     for (std::size_t e = 0; e < counts.size(); ++e) {
         const Vector& y = experiments_[e].y;
         const Index rows = std::max<Index>(0, y.size() - driven_.head());
         Vector all = Vector::Zero(y.size());
-        all.tail(rows) = driven.segment(driven_place, rows);
+        all.tail(rows) = driven.segment(driven_row, rows);
         const Vector run = free_run(theta.head(orders_.na), all, y, orders_.na > 0 ? driven_.head() + blind_ : 0);
         output.segment(place, counts[e]) = run.tail(counts[e]);
         place += counts[e];
-        driven_place += rows;
+        driven_row += rows;
     }
     return output;
 }

@@ -36,12 +36,12 @@ class PredictionModel : public OutputErrorModel {
     /// enter linearly.
     Vector completed(const VectorView& head) const;
     Index linear_count() const { return parameter_count() - orders_.parameter_count(); }
-    Index offset_place(std::size_t experiment) const;
+    Index offset_index(std::size_t experiment) const;
     const PolynomialOrders& orders() const { return orders_; }
     const std::vector<SampledExperiment>& experiments() const { return experiments_; }
 
   private:
-    Index dynamic_count() const { return orders_.c_place() - orders_.na; }  // coefficients of all F and B
+    Index dynamic_count() const { return orders_.c_start() - orders_.na; }  // coefficients of all F and B
     Index skipped() const { return blind_ + orders_.nd; }
     ArmaNoise noise_at(const Vector& theta) const;
     bool possible(const Vector& theta, const ArmaNoise& noise) const;

@@ -204,7 +204,7 @@ class LinearPart {
     Vector theta(Index shift) const {
         Vector theta = theta_at(shift);
         theta[0] = solution_[0];
-        if (gains_ == 2 && solution_[0] != 0) theta[zero_place()] = solution_[1] / solution_[0];
+        if (gains_ == 2 && solution_[0] != 0) theta[zero_index()] = solution_[1] / solution_[0];
         theta.tail(fixed()) = solution_.tail(fixed());
         return theta.cwiseMax(problem_.model.lower()).cwiseMin(problem_.model.upper());
     }
@@ -212,7 +212,7 @@ class LinearPart {
   private:
     Index fixed() const { return rest_.cols() - 1; }
     Index row_count(std::size_t experiment) const { return first_rows_[experiment + 1] - first_rows_[experiment]; }
-    Index zero_place() const { return problem_.parameters - 1 - (problem_.structure.delay ? 1 : 0); }
+    Index zero_index() const { return problem_.parameters - 1 - (problem_.structure.delay ? 1 : 0); }
 
     Vector theta_at(Index shift) const {
         Vector theta = Vector::Zero(problem_.model.parameter_count());
@@ -243,9 +243,9 @@ class LinearPart {
         auto own = rest_.middleRows(first_rows_[experiment], row_count(experiment));
         const Index before = output_.parameter_count() - output_.linear_count(), values = output_.initial_count(0);
         if (values > 0)
-            own.middleCols(output_.initial_place(experiment, 0) - before, values) =
+            own.middleCols(output_.initial_start(experiment, 0) - before, values) =
                 Responses::motions(problem_, experiment, coefficients().den, stride_);
-        if (output_.has_offset()) own.col(output_.offset_place(experiment, 0) - before).setOnes();
+        if (output_.has_offset()) own.col(output_.offset_index(experiment, 0) - before).setOnes();
         own.col(fixed()) = y.segment(output_.row(experiment, 0), output_.rows(experiment))(chosen);
     }
 

@@ -188,10 +188,11 @@ Vector with_delays(const TransferStructure& free, const TransferStructure& at, c
         for (Index input = 0; input < free.inputs; ++input) {
             const TransferChannel& channel = at.channel(output, input);
             const Index n = at.poles[static_cast<std::size_t>(channel.denominator)];
-            all.segment(free.a_place(channel.denominator), n) = theta.segment(at.a_place(channel.denominator), n);
-            all.segment(free.b_place(output, input), channel.zeros + 1) =
-                theta.segment(at.b_place(output, input), channel.zeros + 1);
-            all[free.delay_place(output, input)] = channel.delay;
+            all.segment(free.denominator_start(channel.denominator), n) =
+                theta.segment(at.denominator_start(channel.denominator), n);
+            all.segment(free.numerator_start(output, input), channel.zeros + 1) =
+                theta.segment(at.numerator_start(output, input), channel.zeros + 1);
+            all[free.delay_index(output, input)] = channel.delay;
         }
     return all;
 }
@@ -314,8 +315,8 @@ Vector enriched(const TransferStructure& poorer, const Vector& poorer_theta, con
                 for (int i = 0; i < added_zeros; ++i) B = with_root(B, added_root(i));
                 for (int i = shared; i < added_poles; ++i) B *= added_root(i);
                 for (int i = shared; i < added_zeros; ++i) B /= added_root(i);
-                theta.segment(structure.a_place(channel.denominator), A.size() - 1) = A.tail(A.size() - 1);
-                theta.segment(structure.b_place(output, input), B.size()) = B;
+                theta.segment(structure.denominator_start(channel.denominator), A.size() - 1) = A.tail(A.size() - 1);
+                theta.segment(structure.numerator_start(output, input), B.size()) = B;
             }
     }
     return theta;

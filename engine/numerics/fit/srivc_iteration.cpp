@@ -140,7 +140,7 @@ void start_channels(const IdData& data, const TransferStructure& structure, Inde
     for (Index input = 0; input < structure.inputs; ++input) {
         const TransferChannel& channel = structure.channel(output, input);
         const int n = structure.poles[static_cast<std::size_t>(channel.denominator)];
-        const Index a = structure.a_place(channel.denominator), b = structure.b_place(output, input);
+        const Index a = structure.denominator_start(channel.denominator), b = structure.numerator_start(output, input);
         Vector own = Vector::Constant(n + channel.zeros + 1, std::numeric_limits<double>::quiet_NaN());
         if (joint.allFinite()) {
             std::vector<Vector> shares;

@@ -33,7 +33,7 @@ Vector squared_errors(const TransferOutput& model, const Vector& output) {
 // Every denominator with its unstable poles mirrored.
 Vector with_stable_poles(const TransferStructure& structure, Vector theta) {
     for (std::size_t d = 0; d < structure.poles.size(); ++d) {
-        auto a = theta.segment(structure.a_place(static_cast<Index>(d)), structure.poles[d]);
+        auto a = theta.segment(structure.denominator_start(static_cast<Index>(d)), structure.poles[d]);
         a = reflect_unstable_roots(monic(a)).tail(a.size()).eval();
     }
     return theta;
@@ -75,7 +75,7 @@ std::vector<Vector> starts_around(const TransferStructure& structure, const IdDa
             if (structure.poles[static_cast<std::size_t>(channel.denominator)] - channel.zeros >= smooth) continue;
             for (const double step : {-0.5, 0.5}) {
                 starts.push_back(theta);
-                starts.back()[structure.delay_place(output, input)] += step;
+                starts.back()[structure.delay_index(output, input)] += step;
             }
         }
     return starts;
@@ -204,9 +204,9 @@ OutputProblem output_problem(const IdData& data, const TransferStructure& struct
         std::iota(problem.places.begin() + here, problem.places.begin() + here + count, there);
     };
     for (std::size_t d = 0; d < denominators.size(); ++d)
-        place(own.a_place(static_cast<Index>(d)), structure.a_place(denominators[d]), own.poles[d]);
+        place(own.denominator_start(static_cast<Index>(d)), structure.denominator_start(denominators[d]), own.poles[d]);
     for (Index input = 0; input < structure.inputs; ++input)
-        place(own.b_place(0, input), structure.b_place(output, input),
+        place(own.numerator_start(0, input), structure.numerator_start(output, input),
               own.channel(0, input).zeros + 1 + (own.free_delays ? 1 : 0));
     return problem;
 }
@@ -259,11 +259,11 @@ void keep_parameters(Fit& fit, const TransferOutput& model, const StartCondition
     fit.offsets = Matrix::Zero(static_cast<Index>(model.experiment_count()), model.weights().size());
     fit.initial_values.clear();
     for (std::size_t e = 0; e < model.experiment_count(); ++e) {
-        const Index first = model.initial_place(e, 0), next = model.initial_place(e + 1, 0);
+        const Index first = model.initial_start(e, 0), next = model.initial_start(e + 1, 0);
         if (condition.state == InitialState::kEstimate)
             fit.initial_values.emplace_back(all.segment(first - before, next - first));
         for (Index o = 0; o < fit.offsets.cols() && condition.offset; ++o)
-            fit.offsets(static_cast<Index>(e), o) = all[model.offset_place(e, o) - before];
+            fit.offsets(static_cast<Index>(e), o) = all[model.offset_index(e, o) - before];
     }
 }
 
@@ -272,10 +272,10 @@ Vector search_point(const Fit& fit, const TransferOutput& model, const Vector& s
     Vector theta = Vector::Zero(seconds.size());
     theta.head(fit.theta.size()) = fit.theta;
     for (std::size_t e = 0; e < fit.initial_values.size(); ++e)
-        theta.segment(model.initial_place(e, 0) - before, fit.initial_values[e].size()) = fit.initial_values[e];
+        theta.segment(model.initial_start(e, 0) - before, fit.initial_values[e].size()) = fit.initial_values[e];
     for (std::size_t e = 0; e < model.experiment_count() && model.has_offset(); ++e)
         for (Index o = 0; o < fit.offsets.cols(); ++o)
-            theta[model.offset_place(e, o) - before] = fit.offsets(static_cast<Index>(e), o);
+            theta[model.offset_index(e, o) - before] = fit.offsets(static_cast<Index>(e), o);
     return theta.cwiseQuotient(seconds);
 }
 

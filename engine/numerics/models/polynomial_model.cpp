@@ -59,25 +59,25 @@ PolynomialOrders PolynomialOrders::output_error(std::vector<int> nb, std::vector
 }
 
 Index PolynomialOrders::parameter_count() const {
-    return d_place() + nd;
+    return d_start() + nd;
 }
 
-Index PolynomialOrders::f_place(std::size_t input) const {
+Index PolynomialOrders::f_start(std::size_t input) const {
     Index place = na;
     for (std::size_t i = 0; i < input; ++i) place += nf[i] + nb[i];
     return place;
 }
 
-Index PolynomialOrders::b_place(std::size_t input) const {
-    return f_place(input) + nf[input];
+Index PolynomialOrders::b_start(std::size_t input) const {
+    return f_start(input) + nf[input];
 }
 
-Index PolynomialOrders::c_place() const {
-    return f_place(inputs());
+Index PolynomialOrders::c_start() const {
+    return f_start(inputs());
 }
 
-Index PolynomialOrders::d_place() const {
-    return c_place() + nc;
+Index PolynomialOrders::d_start() const {
+    return c_start() + nc;
 }
 
 Index PolynomialOrders::past() const {
@@ -121,12 +121,12 @@ PolynomialModel::PolynomialModel(const PolynomialOrders& orders, const VectorVie
         throw InvalidArgument("The polynomial model has " + std::to_string(orders.parameter_count()) +
                               " parameters, and " + std::to_string(theta.size()) + " values were given");
     A = monic(theta.head(orders.na));
-    C = monic(theta.segment(orders.c_place(), orders.nc));
-    D = monic(theta.segment(orders.d_place(), orders.nd));
+    C = monic(theta.segment(orders.c_start(), orders.nc));
+    D = monic(theta.segment(orders.d_start(), orders.nd));
     for (std::size_t i = 0; i < orders.inputs(); ++i) {
-        F.push_back(monic(theta.segment(orders.f_place(i), orders.nf[i])));
+        F.push_back(monic(theta.segment(orders.f_start(i), orders.nf[i])));
         B.push_back(Vector::Zero(orders.nk[i] + orders.nb[i]));
-        B.back().tail(orders.nb[i]) = theta.segment(orders.b_place(i), orders.nb[i]);
+        B.back().tail(orders.nb[i]) = theta.segment(orders.b_start(i), orders.nb[i]);
     }
 }
 

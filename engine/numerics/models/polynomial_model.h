@@ -20,10 +20,10 @@ struct PolynomialOrders {
     std::size_t inputs() const { return nb.size(); }
     Index parameter_count() const;
     std::vector<std::string> parameter_names() const;  ///< a1, f1, b1, ...; with several inputs f1_u1, b1_u2, ...
-    Index f_place(std::size_t input) const;            ///< of f_1 in the parameter vector
-    Index b_place(std::size_t input) const;            ///< of b_nk
-    Index c_place() const;
-    Index d_place() const;
+    Index f_start(std::size_t input) const;            ///< of f_1 in the parameter vector
+    Index b_start(std::size_t input) const;            ///< of b_nk
+    Index c_start() const;
+    Index d_start() const;
     /// Samples before the present one that bear on it: max(na, nk + nb - 1 of each input).
     Index past() const;
 

@@ -65,7 +65,7 @@ Index TransferStructure::parameter_count() const {
     return count;
 }
 
-Index TransferStructure::a_place(Index denominator) const {
+Index TransferStructure::denominator_start(Index denominator) const {
     Index place = 0;
     for (Index d = 0; d < denominator; ++d) place += poles[static_cast<std::size_t>(d)];
     for (const TransferChannel& channel : channels)
@@ -73,17 +73,17 @@ Index TransferStructure::a_place(Index denominator) const {
     return place;
 }
 
-Index TransferStructure::b_place(Index output, Index input) const {
+Index TransferStructure::numerator_start(Index output, Index input) const {
     const std::size_t position = static_cast<std::size_t>(output * inputs + input);
     const Index denominator = channels[position].denominator;
-    Index place = a_place(denominator) + poles[static_cast<std::size_t>(denominator)];
+    Index place = denominator_start(denominator) + poles[static_cast<std::size_t>(denominator)];
     for (std::size_t i = 0; i < position; ++i)
         if (channels[i].denominator == denominator) place += channels[i].zeros + 1 + (free_delays ? 1 : 0);
     return place;
 }
 
-Index TransferStructure::delay_place(Index output, Index input) const {
-    return free_delays ? b_place(output, input) + channel(output, input).zeros + 1 : -1;
+Index TransferStructure::delay_index(Index output, Index input) const {
+    return free_delays ? numerator_start(output, input) + channel(output, input).zeros + 1 : -1;
 }
 
 std::vector<std::string> TransferStructure::parameter_names() const {
@@ -101,11 +101,11 @@ std::vector<std::string> TransferStructure::parameter_names() const {
             const bool of_output = channels.front().denominator != channels.back().denominator;
             const bool of_input = inputs > 1 && channels[0].denominator != channels[1].denominator;
             for (int i = 1; i <= poles[static_cast<std::size_t>(here.denominator)]; ++i)
-                set(a_place(here.denominator) + i - 1,
+                set(denominator_start(here.denominator) + i - 1,
                     "a" + std::to_string(i) + suffix(of_output, output, of_input, input));
             for (int j = 0; j <= here.zeros; ++j)
-                set(b_place(output, input) + j, "b" + std::to_string(j) + suffix(true, output, true, input));
-            if (free_delays) set(delay_place(output, input), "Td" + suffix(true, output, true, input));
+                set(numerator_start(output, input) + j, "b" + std::to_string(j) + suffix(true, output, true, input));
+            if (free_delays) set(delay_index(output, input), "Td" + suffix(true, output, true, input));
         }
     }
     return names;
@@ -114,16 +114,16 @@ std::vector<std::string> TransferStructure::parameter_names() const {
 Vector TransferStructure::denominator(const VectorView& theta, Index output, Index input) const {
     const Index place = channel(output, input).denominator, n = poles[static_cast<std::size_t>(place)];
     Vector den(n + 1);
-    den << 1, theta.segment(a_place(place), n);
+    den << 1, theta.segment(denominator_start(place), n);
     return den;
 }
 
 Vector TransferStructure::numerator(const VectorView& theta, Index output, Index input) const {
-    return theta.segment(b_place(output, input), channel(output, input).zeros + 1);
+    return theta.segment(numerator_start(output, input), channel(output, input).zeros + 1);
 }
 
 double TransferStructure::delay(const VectorView& theta, Index output, Index input) const {
-    return free_delays ? theta[delay_place(output, input)] : channel(output, input).delay;
+    return free_delays ? theta[delay_index(output, input)] : channel(output, input).delay;
 }
 
 std::vector<TransferFunction> TransferStructure::models(const VectorView& theta) const {

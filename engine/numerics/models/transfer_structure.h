@@ -36,10 +36,10 @@ struct TransferStructure {
     bool single_channel() const { return channels.size() == 1; }
 
     Index parameter_count() const;
-    std::vector<std::string> parameter_names() const;    ///< a1, b0, Td; with _u1, _y1 or _y1u1 where there are several
-    Index a_place(Index denominator) const;              ///< of a_1 in theta
-    Index b_place(Index output, Index input) const;      ///< of b_0 in theta
-    Index delay_place(Index output, Index input) const;  ///< -1 when delays are fixed
+    std::vector<std::string> parameter_names() const;  ///< a1, b0, Td; with _u1, _y1 or _y1u1 where there are several
+    Index denominator_start(Index denominator) const;  ///< of a_1 in theta
+    Index numerator_start(Index output, Index input) const;  ///< of b_0 in theta
+    Index delay_index(Index output, Index input) const;      ///< -1 when delays are fixed
 
     Vector denominator(const VectorView& theta, Index output, Index input) const;  ///< monic, n + 1
     Vector numerator(const VectorView& theta, Index output, Index input) const;    ///< m + 1

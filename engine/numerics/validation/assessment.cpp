@@ -234,8 +234,8 @@ Assessment assess_transfer(const IdData& data, const Fit& fit, const ResidualOpt
     for (Index i = 0; i < structure.outputs; ++i)
         for (Index j = 0; j < structure.inputs; ++j) {
             const Index denominator = structure.channel(i, j).denominator;
-            channels.push_back({models[channels.size()], denominator, structure.a_place(denominator),
-                                structure.b_place(i, j), structure.delay_place(i, j)});
+            channels.push_back({models[channels.size()], denominator, structure.denominator_start(denominator),
+                                structure.numerator_start(i, j), structure.delay_index(i, j)});
         }
     const Index d = structure.parameter_count();
     return assess_channels(data, channels, fit.start, Matrix::Identity(d, d), fit.covariance, options);

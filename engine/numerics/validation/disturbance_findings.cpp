@@ -70,7 +70,7 @@ void keep_isolated(RepairedSignal& repaired, const Vector& x) {
 
 }  // namespace
 
-void find_error_outliers(FittedRecord& fit, Findings& findings) {
+void find_error_outliers(FittedRecord& fit, RecordFindings& findings) {
     const Index N = fit.error.size();
     RepairedSignal repaired = replace_outliers(fit.error);
     keep_isolated(repaired, fit.error);
@@ -94,7 +94,7 @@ void find_error_outliers(FittedRecord& fit, Findings& findings) {
     findings.push_back(std::move(finding));
 }
 
-void find_disturbance(FittedRecord& fit, Findings& findings) {
+void find_disturbance(FittedRecord& fit, RecordFindings& findings) {
     if (fit.error.size() < 10 * kSlowParts || wandering(fit.error) < kWanders) return;
     Vector slow = slow_part(error_without_free_motion(fit));
     slow.array() -= slow.mean();
@@ -145,7 +145,7 @@ bool is_at_the_beginning(const Segment& section) {
 
 }  // namespace
 
-bool find_strange_sections(const FittedRecord& fit, Findings& findings) {
+bool find_strange_sections(const FittedRecord& fit, RecordFindings& findings) {
     if (fit.error.size() < 10 * kSlowParts) return false;
     std::vector<Segment> sections = strange_sections(fit.error - slow_part(fit.error), fit.deviation());
     std::erase_if(sections, is_at_the_beginning);

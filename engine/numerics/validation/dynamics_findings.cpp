@@ -68,7 +68,7 @@ bool excludes_zero(const VectorView& u) {
 
 }  // namespace
 
-void find_noise(const FittedRecord& fit, Findings& findings) {
+void find_noise(const FittedRecord& fit, RecordFindings& findings) {
     const double error = fit.error.squaredNorm() / static_cast<double>(fit.error.size());
     const double total = std::pow(fit.deviation(), 2);
     if (error <= 1e-20 * total) return;
@@ -93,7 +93,7 @@ void find_noise(const FittedRecord& fit, Findings& findings) {
                   decibels));
 }
 
-void find_dead_time(const FittedRecord& fit, Findings& findings) {
+void find_dead_time(const FittedRecord& fit, RecordFindings& findings) {
     const double delay = fit.search.delay, Ts = fit.data.Ts;
     if (!(delay > Ts) || !(delay > 4 * fit.search.std)) return;
     findings.push_back(about(fit, "dead_time", Weight::kNote,
@@ -103,7 +103,7 @@ void find_dead_time(const FittedRecord& fit, Findings& findings) {
                              delay));
 }
 
-void find_offset(const FittedRecord& fit, Findings& findings) {
+void find_offset(const FittedRecord& fit, RecordFindings& findings) {
     const double deviation = fit.deviation(), offset = fit.simulation.offset;
     const double least = std::max(kOffset * deviation, 3 * fit.disturbance);
     if (!fit.simulation.start.offset || std::abs(offset) < least) return;
@@ -138,7 +138,7 @@ double free_motion(const FittedRecord& fit) {
 
 }  // namespace
 
-void find_running_start(const FittedRecord& fit, Findings& findings) {
+void find_running_start(const FittedRecord& fit, RecordFindings& findings) {
     const double largest = free_motion(fit), error = spread(fit.error);
     const bool moves = largest > std::max({kVisibleStart * fit.deviation(), kAboveError * error, 3 * fit.disturbance});
     if (!moves && !has_strange_beginning(fit)) return;
@@ -150,7 +150,7 @@ void find_running_start(const FittedRecord& fit, Findings& findings) {
                              largest));
 }
 
-void find_sampling_rate(const FittedRecord& fit, Findings& findings) {
+void find_sampling_rate(const FittedRecord& fit, RecordFindings& findings) {
     const double band = band_edge(fit);
     if (!std::isfinite(band)) return;
     const double ratio = 2 * std::numbers::pi / (fit.data.Ts * band);
@@ -170,7 +170,7 @@ void find_sampling_rate(const FittedRecord& fit, Findings& findings) {
                                  ratio));
 }
 
-void find_integrator(const FittedRecord& fit, Findings& findings) {
+void find_integrator(const FittedRecord& fit, RecordFindings& findings) {
     const std::optional<double> pole = slowest_pole(fit);
     if (!pole) return;
     const TransferFunction slow = part_of_pole(fit.model(), *pole);

@@ -113,7 +113,7 @@ JointTest joint_test(const Vector& r, const Vector& R, double N) {
 
 }  // namespace
 
-void find_feedback(const FittedRecord& fit, Findings& findings) {
+void find_feedback(const FittedRecord& fit, RecordFindings& findings) {
     const Index first = fit.window.first, count = std::min<Index>(fit.error.size() - first, kMostFeedbackSamples);
     if (count < 20 * kInputMemory) return;
     const VectorView error = fit.error.segment(first, count);
@@ -143,7 +143,7 @@ void find_feedback(const FittedRecord& fit, Findings& findings) {
         largest));
 }
 
-bool find_exchange(const FittedRecord& fit, const std::function<bool()>& cancel, Findings& findings) {
+bool find_exchange(const FittedRecord& fit, const std::function<bool()>& cancel, RecordFindings& findings) {
     const bool disturbed = wandering(fit.error) > kWanders;
     const double forward = std::max(fit.simulation.fit_percent, disturbed ? 100 * (1 - fit.movement_error) : 0.0);
     if (forward > kExplainsMost) return false;

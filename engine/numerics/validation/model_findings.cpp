@@ -24,7 +24,7 @@ RecordFinding too_short(Index samples) {
 }
 
 /// Then what the model leaves is no noise.
-bool has_nonlinearity(const Findings& findings) {
+bool has_nonlinearity(const RecordFindings& findings) {
     return std::any_of(findings.begin(), findings.end(), [](const RecordFinding& f) {
         return f.code == "nonlinear" || f.code == "saturation" || f.code == "changing_gain";
     });
@@ -34,7 +34,7 @@ bool has_nonlinearity(const Findings& findings) {
 
 ModelAdvice model_advice(const IdData& data, const std::function<bool()>& cancel) {
     ModelAdvice advice;
-    Findings& findings = advice.findings;
+    RecordFindings& findings = advice.findings;
     if (data.sample_count(0) < kFewest) {
         findings.push_back(too_short(data.sample_count(0)));
         return advice;

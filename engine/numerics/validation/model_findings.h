@@ -6,49 +6,49 @@
 namespace dynlab::inline numerics {
 
 // Each looks for one thing in a fitted record and adds what it finds.
-using Findings = std::vector<RecordFinding>;
+using RecordFindings = std::vector<RecordFinding>;
 
 /// Outliers of the model's error by Hampel's rule (signals/repair.h, six robust standard deviations). They are replaced
 /// in `fit.data`, so that nothing later stumbles over them.
-void find_error_outliers(FittedRecord& fit, Findings& findings);
+void find_error_outliers(FittedRecord& fit, RecordFindings& findings);
 
 /// "drift" (a straight line makes up most of it) and "random_walk": the error wanders (advice_record.h), and
 /// its mean over a twentieth of the record varies by more than 8 % of the output's standard deviation. The slow part
 /// is taken off `fit.data`.
-void find_disturbance(FittedRecord& fit, Findings& findings);
+void find_disturbance(FittedRecord& fit, RecordFindings& findings);
 
 /// "noise" and "low_snr" from the error's standard deviation.
-void find_noise(const FittedRecord& fit, Findings& findings);
+void find_noise(const FittedRecord& fit, RecordFindings& findings);
 /// "dead_time", when it is longer than a sample and than four standard errors.
-void find_dead_time(const FittedRecord& fit, Findings& findings);
+void find_dead_time(const FittedRecord& fit, RecordFindings& findings);
 /// "offset", chosen by BIC (compare) and more than a tenth of the output's standard deviation.
-void find_offset(const FittedRecord& fit, Findings& findings);
+void find_offset(const FittedRecord& fit, RecordFindings& findings);
 /// "running_start": a free motion, chosen by BIC (compare), that stands out from the error and is worth 5 % of the
 /// output's standard deviation; or only the first of 24 sections does not follow the model (behind a dead time the
 /// unknown inputs from before the record still act).
-void find_running_start(const FittedRecord& fit, Findings& findings);
+void find_running_start(const FittedRecord& fit, RecordFindings& findings);
 /// "slow_sampling" (below 6 times the bandwidth) and "fast_sampling" (above 400 times).
-void find_sampling_rate(const FittedRecord& fit, Findings& findings);
+void find_sampling_rate(const FittedRecord& fit, RecordFindings& findings);
 /// "integrator": a real pole whose time constant is longer than the search window, and which makes up most of the
 /// simulated movement.
-void find_integrator(const FittedRecord& fit, Findings& findings);
+void find_integrator(const FittedRecord& fit, RecordFindings& findings);
 /// "nonlinear" with sections (of 24, but for the first) whose rms error is more than four times the median of all and
 /// 5 % of the output's standard deviation. True when there are any: no other test of the error means much then.
-bool find_strange_sections(const FittedRecord& fit, Findings& findings);
+bool find_strange_sections(const FittedRecord& fit, RecordFindings& findings);
 /// The first section is such a one.
 bool has_strange_beginning(const FittedRecord& fit);
 
 /// "nonlinear", "saturation" and "changing_gain": F-tests at level 2e-7 each, after whitening, of whether a static
 /// curve at the input or at the output (broken lines), backlash there (play operators), or a gain that changes with
 /// time explains of the error what no lagged input and output does, at least 2 % of the output's standard deviation.
-void find_nonlinearity(const FittedRecord& fit, Findings& findings);
+void find_nonlinearity(const FittedRecord& fit, RecordFindings& findings);
 
 /// "feedback": the input follows what the input did not cause. Cross-correlation of the whitened error with the
 /// whitened input of the same and later samples (Haugh 1976; Pierce and Haugh 1977), chi-squared at level 1e-5.
-void find_feedback(const FittedRecord& fit, Findings& findings);
+void find_feedback(const FittedRecord& fit, RecordFindings& findings);
 
 /// "causality": the model from output to input leaves less than two thirds of what the one from input to output
 /// leaves, and explains more than half: columns exchanged. Searches a second model, if the first is poor.
-bool find_exchange(const FittedRecord& fit, const std::function<bool()>& cancel, Findings& findings);
+bool find_exchange(const FittedRecord& fit, const std::function<bool()>& cancel, RecordFindings& findings);
 
 }  // namespace dynlab::inline numerics

@@ -280,7 +280,7 @@ RecordFinding nonlinear_finding(const FittedRecord& fit, Curve kind, double effe
 
 }  // namespace
 
-void find_nonlinearity(const FittedRecord& fit, Findings& findings) {
+void find_nonlinearity(const FittedRecord& fit, RecordFindings& findings) {
     const NonlinearRegression regression = nonlinear_regression(fit);
     if (!regression.columns.allFinite()) return;
     const Verdict verdict = best_family(regression);

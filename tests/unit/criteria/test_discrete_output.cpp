@@ -146,8 +146,8 @@ TEST(discrete_output, instrument_products_are_those_of_the_filtered_signals) {
         phi_e += Phi.transpose() * e;
         squares += e.squaredNorm();
     }
-    const auto order = std::vector<Index>{orders.f_place(0), orders.f_place(0) + 1, orders.f_place(1),
-                                          orders.b_place(0), orders.b_place(1),     orders.b_place(1) + 1};
+    const auto order = std::vector<Index>{orders.f_start(0), orders.f_start(0) + 1, orders.f_start(1),
+                                          orders.b_start(0), orders.b_start(1),     orders.b_start(1) + 1};
     Vector placed(6);
     placed(order) = theta;
     const InstrumentProducts products = model.instrument_products(placed, model.target());

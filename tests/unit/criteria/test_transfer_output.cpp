@@ -60,12 +60,12 @@ Vector some_values(const TransferStructure& structure, const TransferOutput& mod
     for (std::size_t d = 0; d < structure.poles.size(); ++d) {
         const int n = structure.poles[d];
         const Vector a = n == 1 ? Vector{{0.2}} : n == 2 ? Vector{{0.25, 0.05}} : Vector{{0.6, 0.15, 0.01}};
-        theta.segment(structure.a_place(static_cast<Index>(d)), n) = a;
+        theta.segment(structure.denominator_start(static_cast<Index>(d)), n) = a;
     }
     if (structure.free_delays)
         for (Index o = 0; o < structure.outputs; ++o)
             for (Index i = 0; i < structure.inputs; ++i)
-                theta[structure.delay_place(o, i)] = 1.37 + static_cast<double>(i);
+                theta[structure.delay_index(o, i)] = 1.37 + static_cast<double>(i);
     return theta;
 }
 

@@ -25,10 +25,10 @@ TEST(polynomial_model, places_follow_the_names) {  // oracle: definition
     EXPECT_THAT(orders.parameter_names(),
                 ElementsAre("a1", "f1_u1", "b1_u1", "b2_u1", "f1_u2", "f2_u2", "b3_u2", "c1", "d1", "d2"));
     EXPECT_EQ(orders.parameter_count(), 10);
-    EXPECT_EQ(orders.f_place(1), 4);
-    EXPECT_EQ(orders.b_place(1), 6);
-    EXPECT_EQ(orders.c_place(), 7);
-    EXPECT_EQ(orders.d_place(), 8);
+    EXPECT_EQ(orders.f_start(1), 4);
+    EXPECT_EQ(orders.b_start(1), 6);
+    EXPECT_EQ(orders.c_start(), 7);
+    EXPECT_EQ(orders.d_start(), 8);
     EXPECT_EQ(orders.past(), 3);
 }
 

@@ -1,4 +1,4 @@
-#include "numerics/criteria/filtered_products.h"
+#include "numerics/criteria/sensitivity_products.h"
 
 #include <algorithm>
 #include <array>
@@ -199,14 +199,14 @@ class FilteredColumns {
 
 }  // namespace
 
-Matrix filtered_products(const std::vector<LateColumn>& columns, const LateColumn& error, Index first, Index rows,
-                         const Vector& C, const Vector& D) {
+Matrix sensitivity_products(const std::vector<LateColumn>& columns, const LateColumn& error, Index first, Index rows,
+                            const Vector& C, const Vector& D) {
     return FilteredColumns(columns, error, C, D).run(first, rows);
 }
 
-Matrix plain_products(const std::vector<LateColumn>& columns, const LateColumn& error, Index first, Index rows) {
+Matrix sensitivity_products(const std::vector<LateColumn>& columns, const LateColumn& error, Index first, Index rows) {
     const Vector one = Vector::Ones(1);
-    return filtered_products(columns, error, first, rows, one, one);
+    return sensitivity_products(columns, error, first, rows, one, one);
 }
 
 void add_to(OutputErrorProducts& sums, const Matrix& products, const std::vector<Index>& places) {
