@@ -99,6 +99,25 @@ TEST(architecture, layers_include_only_layers_above_them) {
     EXPECT_THAT(offences, IsEmpty());
 }
 
+// The order of the rooms is the one in which engine/README.md names them.
+TEST(architecture, rooms_of_numerics_include_only_rooms_named_before_them) {
+    const std::vector<std::string> rows =
+        matches(text_of(kRoot / "engine/README.md"), "\n\\| `numerics` \\| `([a-z ]+)` \\|");
+    ASSERT_EQ(rows.size(), 1u);
+    std::map<std::string, int> places;
+    std::istringstream names(rows[0]);
+    for (std::string name; names >> name;) places.emplace(name, static_cast<int>(places.size()));
+    std::vector<std::string> offences;
+    for (const fs::path& file : sources_below(kRoot / "engine/numerics")) {
+        const std::string room = file.parent_path().filename().string();
+        if (room == "numerics") continue;
+        if (!places.contains(room)) offences.push_back(room + " stands in no order");
+        for (const std::string& included : matches(text_of(file), "#include \"numerics/([a-z_]+)/"))
+            if (places[included] > places[room]) offences.push_back(place_of(file) + " includes " + included);
+    }
+    EXPECT_THAT(offences, IsEmpty());
+}
+
 TEST(architecture, every_source_is_in_the_namespace_of_its_layer) {
     std::vector<std::string> offences;
     for (const auto& [layer, layers] : allowed_layers()) {
@@ -186,7 +205,7 @@ TEST(architecture, no_symbol_is_defined_twice) {
 
 TEST(architecture, every_room_of_the_core_has_its_own_test) {
     std::vector<std::string> untested;
-    for (const char* room : {"filters", "criteria", "fit", "estimators"}) {
+    for (const char* room : {"statistics", "filters", "criteria", "fit", "estimators"}) {
         for (const fs::path& file : files_below(kRoot / "engine/numerics" / room, {".cpp"})) {
             const fs::path test = kRoot / "tests/unit" / room / ("test_" + file.filename().string());
             if (!fs::exists(test)) untested.push_back(place_of(file));

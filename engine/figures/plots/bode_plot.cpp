@@ -10,7 +10,7 @@
 #include "figures/confidence_band.h"
 #include "numerics/error.h"
 #include "numerics/simulation/frequency_response.h"
-#include "numerics/validation/chi_squared.h"
+#include "numerics/statistics/chi_squared.h"
 
 namespace dynlab::inline figures {
 namespace {

@@ -5,9 +5,9 @@
 #include <limits>
 #include <numeric>
 
-#include "numerics/filters/exact_filter.h"
-#include "numerics/filters/sampled_system.h"
 #include "numerics/linalg/polynomial.h"
+#include "numerics/models/sampled_system.h"
+#include "numerics/simulation/exact_filter.h"
 
 namespace dynlab::inline numerics {
 

@@ -7,8 +7,8 @@
 #include "numerics/fit/spectral_estimate.h"
 #include "numerics/number_text.h"
 #include "numerics/signals/correlation.h"
-#include "numerics/signals/whitening_filter.h"
-#include "numerics/validation/chi_squared.h"
+#include "numerics/statistics/autoregression.h"
+#include "numerics/statistics/chi_squared.h"
 
 namespace dynlab::inline numerics {
 
@@ -24,7 +24,19 @@ Vector joint_products(const IdData& data, const Matrix Experiment::*x, const Mat
     return sums;
 }
 
-void whiten(IdData& data, const Vector& filter) {
+Autoregression whitening_of(const IdData& data, Index order) {
+    Vector u(data.sample_count());
+    std::vector<Index> lengths;
+    Index first = 0;
+    for (const Experiment& experiment : data.experiments) {
+        lengths.push_back(experiment.u.rows());
+        u.segment(first, lengths.back()) = experiment.u.col(0);
+        first += lengths.back();
+    }
+    return fit_autoregression(u, lengths, order, AutoregressiveOrder::kHighest);
+}
+
+void whiten(IdData& data, const Autoregression& filter) {
     for (Experiment& experiment : data.experiments) {
         experiment.u = filtered_past(filter, experiment.u.col(0));
         experiment.y = filtered_past(filter, experiment.y.col(0));
@@ -47,9 +59,9 @@ CorrelationAnalysis cra(const IdData& data, const CraOptions& options) {
     for (const Experiment& experiment : record.experiments) shortest = std::min(shortest, experiment.y.rows());
     const Index lags = lags_or_default("cra", options.lags, shortest - options.whitening);
     CorrelationAnalysis result;
-    const Vector raw = joint_products(record, &Experiment::u, &Experiment::u, options.whitening);
-    result.whitening_filter = whitening_filter(raw, options.whitening);
-    whiten(record, result.whitening_filter);
+    const Autoregression whitening = whitening_of(record, options.whitening);
+    result.whitening_filter = whitening.filter();
+    whiten(record, whitening);
     const Vector input = joint_products(record, &Experiment::u, &Experiment::u, lags);
     const double output = joint_products(record, &Experiment::y, &Experiment::y, 0)[0];
     result.input_correlation = input / input[0];

@@ -8,7 +8,7 @@
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/number_text.h"
-#include "numerics/validation/chi_squared.h"
+#include "numerics/statistics/chi_squared.h"
 
 namespace dynlab::inline numerics {
 

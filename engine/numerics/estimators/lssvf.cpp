@@ -7,7 +7,7 @@
 #include "numerics/fit/diagnosis.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/number_text.h"
-#include "numerics/validation/robust_covariance.h"
+#include "numerics/statistics/robust_covariance.h"
 
 namespace dynlab::inline numerics {
 

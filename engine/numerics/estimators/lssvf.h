@@ -34,7 +34,7 @@ void check_carx(const char* method, const TransferStructure& structure);
 inline constexpr Index kMostColoured = 200'000;
 
 /// Replaces the covariance of an estimate by lssvf or, with `instruments`, by ivsvf, which takes the equation error as
-/// white, by one that takes its colour into account (criteria/estimating_terms.h, validation/robust_covariance.h):
+/// white, by one that takes its colour into account (criteria/estimating_terms.h, statistics/robust_covariance.h):
 /// the filters colour it even where the noise is white. It takes ten times as long as the estimate; records of more
 /// than kMostColoured samples keep the plain one, and a warning says so. data and options as for the estimate.
 void colour_covariance(Fit& fit, const IdData& data, const SvfOptions& options, bool instruments);

@@ -3,9 +3,9 @@
 
 #include "numerics/filters/delta_chain.h"
 #include "numerics/filters/delta_expansion.h"
-#include "numerics/filters/sampled_system.h"
 #include "numerics/linalg/matrix_exponential.h"
 #include "numerics/linalg/short_step.h"
+#include "numerics/models/sampled_system.h"
 
 namespace dynlab::inline numerics {
 

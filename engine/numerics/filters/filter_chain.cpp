@@ -1,8 +1,8 @@
 #include "numerics/filters/filter_chain.h"
 
-#include "numerics/filters/exact_filter.h"
-#include "numerics/filters/irregular_filter.h"
 #include "numerics/linalg/polynomial.h"
+#include "numerics/simulation/exact_filter.h"
+#include "numerics/simulation/irregular_filter.h"
 
 namespace dynlab::inline numerics {
 

@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
+#include "numerics/filters/filtered_signal.h"
 #include "numerics/filters/lanes.h"
-#include "numerics/filters/sampled_system.h"
 
 namespace dynlab::inline numerics {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "numerics/filters/sampled_system.h"
+#include "numerics/filters/filtered_signal.h"
 
 namespace dynlab::inline numerics {
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "numerics/error.h"
-#include "numerics/filters/exact_filter.h"
-#include "numerics/filters/irregular_filter.h"
-#include "numerics/filters/sampled_system.h"
 #include "numerics/filters/sensitivity_system.h"
 #include "numerics/linalg/matrix_exponential.h"
 #include "numerics/linalg/polynomial.h"
+#include "numerics/models/sampled_system.h"
+#include "numerics/simulation/exact_filter.h"
+#include "numerics/simulation/irregular_filter.h"
 
 namespace dynlab::inline numerics {
 

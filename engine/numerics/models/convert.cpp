@@ -4,10 +4,10 @@
 #include <string>
 
 #include "numerics/error.h"
-#include "numerics/filters/sampled_system.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/matrix_exponential.h"
 #include "numerics/linalg/polynomial.h"
+#include "numerics/models/sampled_system.h"
 #include "numerics/number_text.h"
 #include "numerics/signals/checks.h"
 

@@ -5,12 +5,12 @@
 #include <string>
 
 #include "numerics/error.h"
-#include "numerics/filters/exact_filter.h"
-#include "numerics/filters/irregular_filter.h"
-#include "numerics/filters/sampled_system.h"
 #include "numerics/linalg/polynomial.h"
+#include "numerics/models/sampled_system.h"
 #include "numerics/number_text.h"
 #include "numerics/signals/checks.h"
+#include "numerics/simulation/exact_filter.h"
+#include "numerics/simulation/irregular_filter.h"
 
 namespace dynlab::inline numerics {
 

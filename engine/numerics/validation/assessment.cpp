@@ -12,7 +12,7 @@
 #include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/simulation/time_response.h"
-#include "numerics/validation/robust_covariance.h"
+#include "numerics/statistics/robust_covariance.h"
 
 namespace dynlab::inline numerics {
 

@@ -4,10 +4,10 @@
 #include <limits>
 
 #include "numerics/error.h"
-#include "numerics/filters/exact_filter.h"
-#include "numerics/filters/sampled_system.h"
 #include "numerics/filters/sensitivity_system.h"
 #include "numerics/linalg/least_squares.h"
+#include "numerics/models/sampled_system.h"
+#include "numerics/simulation/exact_filter.h"
 
 namespace dynlab::inline numerics {
 namespace {

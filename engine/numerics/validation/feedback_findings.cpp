@@ -7,8 +7,8 @@
 #include "numerics/number_text.h"
 #include "numerics/signals/correlation.h"
 #include "numerics/signals/robust_statistics.h"
-#include "numerics/signals/whitening_filter.h"
-#include "numerics/validation/chi_squared.h"
+#include "numerics/statistics/autoregression.h"
+#include "numerics/statistics/chi_squared.h"
 #include "numerics/validation/model_findings.h"
 
 namespace dynlab::inline numerics {
@@ -116,8 +116,10 @@ JointTest joint_test(const Vector& r, const Vector& R, double N) {
 void find_feedback(const FittedRecord& fit, RecordFindings& findings) {
     const Index first = fit.window.first, count = std::min<Index>(fit.error.size() - first, kMostFeedbackSamples);
     if (count < 20 * kInputMemory) return;
-    const VectorView error = fit.error.segment(first, count);
-    const Vector e = standardised(filtered_past(whitening_filter_of(error, kInputMemory), error), kCutError);
+    const auto error = fit.error.segment(first, count);
+    const Vector centred = error.array() - error.mean();
+    const Autoregression memory = fit_autoregression(centred, {count}, kInputMemory, AutoregressiveOrder::kBic);
+    const Vector e = standardised(filtered_past(memory, centred), kCutError);
     const Vector u = fit.u().segment(first, count);
     const Vector w = standardised(input_innovations(u, fit.simulation.output.segment(first, count)), kCutInput);
     const Index common = std::min(e.size(), w.size());

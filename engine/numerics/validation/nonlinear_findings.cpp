@@ -5,9 +5,9 @@
 #include "numerics/linalg/decompositions.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/number_text.h"
-#include "numerics/signals/whitening_filter.h"
 #include "numerics/simulation/lsim.h"
-#include "numerics/validation/chi_squared.h"
+#include "numerics/statistics/autoregression.h"
+#include "numerics/statistics/chi_squared.h"
 #include "numerics/validation/model_findings.h"
 
 namespace dynlab::inline numerics {
@@ -169,9 +169,10 @@ Vector unexplained(const NonlinearRegression& regression) {
 }
 
 Verdict best_family(const NonlinearRegression& regression) {
-    const Vector memory = whitening_filter_of(unexplained(regression), kLongestErrorMemory);
-    const Index d = regression.columns.cols();
-    Matrix white(regression.columns.rows() - memory.size() + 1, d);
+    const Index rows = regression.columns.rows(), d = regression.columns.cols();
+    const Autoregression memory =
+        fit_autoregression(unexplained(regression), {rows}, kLongestErrorMemory, AutoregressiveOrder::kBic);
+    Matrix white(rows - memory.order(), d);
     for (Index i = 0; i < d; ++i) white.col(i) = filtered_past(memory, regression.columns.col(i));
     Elimination linear(white.transpose() * white);
     linear.eliminate(0, regression.linear);

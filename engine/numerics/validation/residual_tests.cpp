@@ -10,7 +10,7 @@
 #include "numerics/linalg/decompositions.h"
 #include "numerics/number_text.h"
 #include "numerics/signals/correlation.h"
-#include "numerics/validation/chi_squared.h"
+#include "numerics/statistics/chi_squared.h"
 
 namespace dynlab::inline numerics {
 

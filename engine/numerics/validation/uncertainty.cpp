@@ -11,7 +11,7 @@
 #include "numerics/linalg/polynomial.h"
 #include "numerics/number_text.h"
 #include "numerics/simulation/time_response.h"
-#include "numerics/validation/chi_squared.h"
+#include "numerics/statistics/chi_squared.h"
 
 namespace dynlab::inline numerics {
 

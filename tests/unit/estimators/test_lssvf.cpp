@@ -4,7 +4,7 @@
 
 #include "numerics/criteria/estimating_terms.h"
 #include "numerics/linalg/least_squares.h"
-#include "numerics/validation/robust_covariance.h"
+#include "numerics/statistics/robust_covariance.h"
 #include "support/thrown_message.h"
 #include "support/transfer_cases.h"
 

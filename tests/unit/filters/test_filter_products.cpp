@@ -7,10 +7,10 @@
 #include <limits>
 #include <numeric>
 
-#include "numerics/filters/exact_filter.h"
 #include "numerics/filters/sensitivity_system.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/signals/random.h"
+#include "numerics/simulation/exact_filter.h"
 
 namespace test_filter_products {
 

@@ -11,9 +11,9 @@
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
+#include "numerics/statistics/robust_covariance.h"
 #include "numerics/validation/assessment.h"
 #include "numerics/validation/compare.h"
-#include "numerics/validation/robust_covariance.h"
 
 namespace test_assessment {
 

@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "numerics/filters/sampled_system.h"
 #include "numerics/linalg/types.h"
+#include "numerics/models/sampled_system.h"
 
 namespace dynlab::inline numerics {
 

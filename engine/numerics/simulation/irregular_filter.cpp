@@ -1,4 +1,4 @@
-#include "numerics/filters/irregular_filter.h"
+#include "numerics/simulation/irregular_filter.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include "numerics/error.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/signals/random.h"
-#include "numerics/validation/robust_covariance.h"
+#include "numerics/statistics/robust_covariance.h"
 
 namespace test_robust_covariance {
 

@@ -1,4 +1,4 @@
-#include "numerics/validation/chi_squared.h"
+#include "numerics/statistics/chi_squared.h"
 
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/special_functions/erf.hpp>

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "numerics/error.h"
-#include "numerics/validation/chi_squared.h"
+#include "numerics/statistics/chi_squared.h"
 
 namespace test_chi_squared {
 

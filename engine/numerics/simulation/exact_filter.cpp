@@ -1,4 +1,4 @@
-#include "numerics/filters/exact_filter.h"
+#include "numerics/simulation/exact_filter.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "numerics/filters/sampled_system.h"
+#include "numerics/models/sampled_system.h"
 
 #include <cmath>
 

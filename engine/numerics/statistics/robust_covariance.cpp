@@ -1,4 +1,4 @@
-#include "numerics/validation/robust_covariance.h"
+#include "numerics/statistics/robust_covariance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "numerics/error.h"
 #include "numerics/linalg/least_squares.h"
-#include "numerics/signals/autoregression.h"
+#include "numerics/statistics/autoregression.h"
 
 namespace dynlab::inline numerics {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "numerics/filters/sampled_system.h"
+#include "numerics/models/sampled_system.h"
 
 namespace test_sampled_system {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "numerics/error.h"
-#include "numerics/validation/student_t.h"
+#include "numerics/statistics/student_t.h"
 
 namespace test_student_t {
 

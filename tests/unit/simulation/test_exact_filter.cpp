@@ -1,12 +1,12 @@
-#include "numerics/filters/exact_filter.h"
+#include "numerics/simulation/exact_filter.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "numerics/filters/irregular_filter.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/signals/random.h"
+#include "numerics/simulation/irregular_filter.h"
 
 namespace dynlab {
 namespace test_exact_filter {

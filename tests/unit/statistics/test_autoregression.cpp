@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "numerics/error.h"
-#include "numerics/signals/autoregression.h"
 #include "numerics/signals/random.h"
+#include "numerics/statistics/autoregression.h"
 
 namespace test_autoregression {
 
@@ -38,6 +38,46 @@ TEST(autoregression, chooses_no_order_for_white_noise_and_enough_for_coloured) {
         EXPECT_GE(fit_autoregression(coloured, {1000}, 40).order(), 4) << seed;
     }
     EXPECT_LE(orders, 3);
+}
+
+TEST(autoregression, chooses_the_order_of_the_process_by_bic) {
+    int right = 0;
+    for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+        const Vector e = autoregressive(Vector{{-1.2, 0.5}}, 3000, seed);
+        const Vector a = fit_autoregression(e, {3000}, 10, AutoregressiveOrder::kBic).filter();
+        if (a.size() != 3) continue;
+        ++right;
+        EXPECT_EQ(a[0], 1);
+        EXPECT_NEAR(a[1], -1.2, 0.08);
+        EXPECT_NEAR(a[2], 0.5, 0.08);
+    }
+    EXPECT_GE(right, 17);
+    EXPECT_LE(fit_autoregression(RandomStream(1).normal(2000), {2000}, 10, AutoregressiveOrder::kBic).order(), 1);
+}
+
+TEST(autoregression, of_the_highest_order_is_asked_for) {
+    const Vector e = RandomStream(2).normal(30);
+    EXPECT_EQ(fit_autoregression(e, {20, 10}, 12, AutoregressiveOrder::kHighest).order(), 12);
+}
+
+TEST(autoregression, a_sine_is_told_by_two_coefficients) {  // x(k) = 2 cos(w) x(k - 1) - x(k - 2)
+    Vector x(5000);
+    for (Index k = 0; k < x.size(); ++k) x[k] = std::cos(0.7 * static_cast<double>(k));
+    const Autoregression model = fit_autoregression(x, {x.size()}, 2, AutoregressiveOrder::kHighest);
+    EXPECT_NEAR(model.predictors.back()[0], -2 * std::cos(0.7), 1e-3);
+    EXPECT_NEAR(model.predictors.back()[1], 1, 1e-3);
+}
+
+TEST(autoregression, filters_where_the_past_is_known) {  // oracle: the definition
+    const Autoregression model{{Vector(), Vector{{0.3}}, Vector{{-0.5, 0.25}}}, 1};
+    const Vector x = RandomStream(3).normal(30), y = filtered_past(model, x);
+    ASSERT_EQ(y.size(), 28);
+    for (Index k = 0; k < 28; ++k) EXPECT_NEAR(y[k], x[k + 2] - 0.5 * x[k + 1] + 0.25 * x[k], 1e-14);
+    const Vector w = whitened(model, x, {29, 1});
+    EXPECT_TRUE(w.segment(2, 27).isApprox(y.head(27), 1e-14));
+    EXPECT_EQ(w[0], x[0]);
+    EXPECT_EQ(w[1], x[1] + 0.3 * x[0]);
+    EXPECT_EQ(w[29], x[29]);
 }
 
 TEST(autoregression, whitens_its_process) {

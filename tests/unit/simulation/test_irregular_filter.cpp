@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "numerics/filters/exact_filter.h"
-#include "numerics/filters/irregular_filter.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/signals/random.h"
+#include "numerics/simulation/exact_filter.h"
+#include "numerics/simulation/irregular_filter.h"
 
 namespace test_irregular_filter {
 

@@ -1,4 +1,4 @@
-#include "numerics/signals/autoregression.h"
+#include "numerics/statistics/autoregression.h"
 
 #include <algorithm>
 #include <cmath>
@@ -72,21 +72,41 @@ const Vector& predictor_at(const Autoregression& model, Index k) {
     return model.predictors[static_cast<std::size_t>(std::min(k, model.order()))];
 }
 
+/// What the chosen order makes smallest.
+double order_criterion(AutoregressiveOrder choice, double N, double order, double variance) {
+    switch (choice) {
+        case AutoregressiveOrder::kAicc:
+            return N * std::log(variance) + 2 * order * N / (N - order - 2);
+        case AutoregressiveOrder::kBic:
+            return N * std::log(variance) + order * std::log(N);
+        case AutoregressiveOrder::kHighest:
+            return -order;
+    }
+    return 0;
+}
+
 }  // namespace
+
+Vector Autoregression::filter() const {
+    Vector all = Vector::Ones(order() + 1);
+    all.tail(order()) = predictors.back();
+    return all;
+}
 
 Index highest_autoregressive_order(Index N) {
     return N < 2 ? 0 : static_cast<Index>(20 * std::log10(static_cast<double>(N)));
 }
 
-Autoregression fit_autoregression(const VectorView& e, const std::vector<Index>& lengths, Index most) {
+Autoregression fit_autoregression(const VectorView& e, const std::vector<Index>& lengths, Index most,
+                                  AutoregressiveOrder choice) {
     check_autoregression(e.size(), lengths);
     if (!e.allFinite()) throw InvalidArgument("The values of an autoregression must be finite");
     const double N = static_cast<double>(e.size());
     Autoregression model{{Vector()}, e.size() > 0 ? e.squaredNorm() / N : 0};
     if (model.variance == 0) return model;
     const Index longest = *std::max_element(lengths.begin(), lengths.end());
-    const Index highest = std::min(most, (longest - 1) / 4);
-    double least = N * std::log(model.variance), variance = model.variance;
+    const Index highest = choice == AutoregressiveOrder::kHighest ? most : std::min(most, (longest - 1) / 4);
+    double least = order_criterion(choice, N, 0, model.variance), variance = model.variance;
     std::size_t chosen = 0;
     BurgLattice lattice(e, lengths);
     for (Index p = 1; p <= highest; ++p) {
@@ -94,8 +114,7 @@ Autoregression fit_autoregression(const VectorView& e, const std::vector<Index>&
         variance *= 1 - reflection * reflection;
         if (!(variance > std::numeric_limits<double>::min())) break;
         model.predictors.push_back(with_reflection(model.predictors.back(), reflection));
-        const double order = static_cast<double>(p);
-        const double criterion = N * std::log(variance) + 2 * order * N / (N - order - 2);
+        const double criterion = order_criterion(choice, N, static_cast<double>(p), variance);
         if (criterion < least) {
             least = criterion;
             chosen = static_cast<std::size_t>(p);
@@ -106,15 +125,21 @@ Autoregression fit_autoregression(const VectorView& e, const std::vector<Index>&
     return model;
 }
 
+Vector filtered_past(const Autoregression& model, const VectorView& x) {
+    const Index p = model.order(), count = x.size() - p;
+    Vector w = x.tail(count);
+    for (Index i = 0; i < p; ++i) w += model.predictors.back()[i] * x.segment(p - 1 - i, count);
+    return w;
+}
+
 Vector whitened(const Autoregression& model, const VectorView& e, const std::vector<Index>& lengths) {
     check_autoregression(e.size(), lengths);
     Vector w = e;
     Index first = 0;
     for (const Index length : lengths) {
-        for (Index k = 0; k < length; ++k) {
-            const Vector& a = predictor_at(model, k);
-            w[first + k] += a.dot(e.segment(first + k - a.size(), a.size()).reverse());
-        }
+        const Index early = std::min(length, model.order());
+        for (Index k = 1; k < early; ++k) w[first + k] += predictor_at(model, k).dot(e.segment(first, k).reverse());
+        if (length > early) w.segment(first + early, length - early) = filtered_past(model, e.segment(first, length));
         first += length;
     }
     return w;

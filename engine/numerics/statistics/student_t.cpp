@@ -1,4 +1,4 @@
-#include "numerics/validation/student_t.h"
+#include "numerics/statistics/student_t.h"
 
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>

@@ -1,6 +1,4 @@
 #pragma once
-#include <vector>
-
 #include "numerics/linalg/types.h"
 #include "numerics/models/state_space.h"
 #include "numerics/signals/iddata.h"
@@ -42,20 +40,5 @@ SampledSystem discrete_system(const MatrixView& A, const VectorView& B, const Ma
 /// from the identity s^n/den = 1 - sum_i den_i s^(n-i)/den: what the regressors of continuous-time estimators are
 /// made of.
 SampledSystem derivative_filter(const VectorView& den, double Ts, Hold hold, double delay = 0);
-
-/// A SampledSystem driven by a signal of N samples that somebody else owns.
-struct FilteredSignal {
-    SampledSystem system;
-    Eigen::Map<const Vector> signal;
-};
-
-/// A weighted sum of outputs, of different signals as well.
-struct OutputSum {
-    struct Term {
-        Index output;
-        double weight;
-    };
-    std::vector<Term> terms;
-};
 
 }  // namespace dynlab::inline numerics
