@@ -178,7 +178,7 @@ OutputErrorProducts DiscreteOutput::products(const Vector& theta, const VectorVi
         Vector errors = -share.output;
         errors.tail(count) += y.segment(place, count);
         place += count;
-        add_to(sums, sensitivity_products(share.columns, {errors, 0, 1, 0}, errors.size() - count, count),
+        add_to(sums, prediction_error_products(share.columns, {errors, 0, 1, 0}, errors.size() - count, count),
                share.places);
     }
     return sums;
@@ -210,7 +210,7 @@ InstrumentProducts DiscreteOutput::instrument_products(const Vector& theta, cons
             }
         }
         share.places.push_back(-1);
-        add_to(sums, sensitivity_products(share.columns, {errors, 0, 1, 0}, N - count, count), share.places);
+        add_to(sums, prediction_error_products(share.columns, {errors, 0, 1, 0}, N - count, count), share.places);
     }
     InstrumentProducts all{sums.squares, sums.gram.topLeftCorner(d, d), sums.gram.topLeftCorner(d, d),
                            {},           sums.descent.head(d),          sums.descent.head(d)};

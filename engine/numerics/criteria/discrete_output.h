@@ -3,7 +3,7 @@
 
 #include "numerics/criteria/initial_conditions.h"
 #include "numerics/criteria/output_error_model.h"
-#include "numerics/criteria/sensitivity_products.h"
+#include "numerics/criteria/prediction_error_products.h"
 #include "numerics/models/polynomial_model.h"
 
 namespace dynlab::inline numerics {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "numerics/criteria/sensitivity_products.h"
+#include "numerics/criteria/prediction_error_products.h"
 #include "numerics/error.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/fit/diagnosis.h"
@@ -64,7 +64,7 @@ class WhitenedOutput : public OutputErrorModel {
         }
         places.push_back(-1);
         for (std::size_t e = 0; e < output_.experiment_count(); ++e) {
-            const Matrix all = sensitivity_products(columns, {errors, 0, 1, 0}, output_.row(e, 0), output_.rows(e),
+            const Matrix all = prediction_error_products(columns, {errors, 0, 1, 0}, output_.row(e, 0), output_.rows(e),
                                                     noise_.C, noise_.D);
             const auto count = static_cast<Index>(places.size());
             add_to(sums, all.topLeftCorner(count, count), places);

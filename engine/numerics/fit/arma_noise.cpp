@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "numerics/criteria/arx_equations.h"
-#include "numerics/criteria/sensitivity_products.h"
+#include "numerics/criteria/prediction_error_products.h"
 #include "numerics/error.h"
 #include "numerics/fit/output_error.h"
 #include "numerics/linalg/least_squares.h"
@@ -93,7 +93,8 @@ class Prediction : public OutputErrorModel {
         std::iota(places.begin(), places.end(), Index{-1});
         Index row = 0;
         for (const Vector& v : records_) {
-            const Matrix all = sensitivity_products({}, {y.segment(row, v.size()), 0, 1, 0}, 0, v.size(), at.C, at.D);
+            const Matrix all =
+                prediction_error_products({}, {y.segment(row, v.size()), 0, 1, 0}, 0, v.size(), at.C, at.D);
             add_to(sums, all, places);
             row += v.size();
         }

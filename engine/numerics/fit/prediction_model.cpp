@@ -109,7 +109,7 @@ OutputErrorProducts PredictionModel::products(const Vector& theta, const VectorV
         places.push_back(-1);
         for (Index j = 0; j < orders_.nc; ++j) places.push_back(orders_.c_start() + j);
         for (Index i = 0; i < orders_.nd; ++i) places.push_back(orders_.d_start() + i);
-        add_to(sums, sensitivity_products(columns, {w, 0, 1, 0}, first, rows, noise.C, noise.D), places);
+        add_to(sums, prediction_error_products(columns, {w, 0, 1, 0}, first, rows, noise.C, noise.D), places);
     }
     return sums;
 }

@@ -21,11 +21,12 @@ struct LateColumn {
 ///     D/C of each of `columns`;  e = D/C w;  q^-j e/C, j = 1..nc;  -q^-i w/C, i = 1..nd.
 /// The first nd rows are the past of the others and do not count; the recursions begin after them with zeros.
 /// Symmetric, columns + 1 + nc + nd.
-Matrix sensitivity_products(const std::vector<LateColumn>& columns, const LateColumn& error, Index first, Index rows,
-                            const Vector& C, const Vector& D);
+Matrix prediction_error_products(const std::vector<LateColumn>& columns, const LateColumn& error, Index first,
+                                 Index rows, const Vector& C, const Vector& D);
 
 /// The same without a noise model.
-Matrix sensitivity_products(const std::vector<LateColumn>& columns, const LateColumn& error, Index first, Index rows);
+Matrix prediction_error_products(const std::vector<LateColumn>& columns, const LateColumn& error, Index first,
+                                 Index rows);
 
 /// Adds such products to the sums of a search: `places` holds the parameter of each column, -1 for the one of the
 /// errors.

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include "numerics/criteria/discrete_output.h"
-#include "numerics/criteria/sensitivity_products.h"
+#include "numerics/criteria/prediction_error_products.h"
 #include "numerics/signals/random.h"
 
-namespace test_sensitivity_products {
+namespace test_prediction_error_products {
 
 using namespace dynlab;
 
@@ -49,7 +49,7 @@ Matrix by_definition(const std::vector<LateColumn>& columns, const LateColumn& e
     return M.transpose() * M;
 }
 
-TEST(sensitivity_products, equal_the_products_of_the_columns_written_out) {  // oracle: the definition
+TEST(prediction_error_products, equal_the_products_of_the_columns_written_out) {  // oracle: the definition
     RandomStream random(2);
     const std::vector<std::pair<Vector, Vector>> noises = {{Vector{{1.0}}, Vector{{1.0}}},
                                                            {Vector{{1.0, 0.9}}, Vector{{1.0, -1.0, 0.2}}},
@@ -62,14 +62,14 @@ TEST(sensitivity_products, equal_the_products_of_the_columns_written_out) {  // 
         for (const auto& [C, D] : noises)
             for (const std::vector<LateColumn>& columns : {std::vector<LateColumn>(), few, many}) {
                 const Matrix expected = by_definition(columns, {w, 0, 1, 0}, 7, rows, C, D);
-                const Matrix products = sensitivity_products(columns, {w, 0, 1, 0}, 7, rows, C, D);
+                const Matrix products = prediction_error_products(columns, {w, 0, 1, 0}, 7, rows, C, D);
                 ASSERT_EQ(products.rows(), expected.rows());
                 EXPECT_LT((products - expected).cwiseAbs().maxCoeff(), 1e-11 * (1 + expected.cwiseAbs().maxCoeff()));
             }
     }
 }
 
-TEST(sensitivity_products, go_to_the_places_of_their_parameters) {  // oracle: the definition
+TEST(prediction_error_products, go_to_the_places_of_their_parameters) {  // oracle: the definition
     OutputErrorProducts sums{1, Matrix::Zero(3, 3), Vector::Zero(3)};
     const Matrix products{{4.0, 5.0, 6.0}, {5.0, 7.0, 8.0}, {6.0, 8.0, 9.0}};
     add_to(sums, products, {2, -1, 0});
@@ -90,7 +90,7 @@ void expect_same_as_simulated(const OutputErrorModel& model, const Vector& theta
     }
 }
 
-TEST(sensitivity_products, of_a_discrete_model_are_those_of_its_sensitivities) {
+TEST(prediction_error_products, of_a_discrete_model_are_those_of_its_sensitivities) {
     RandomStream random(4);
     std::vector<SampledExperiment> experiments;
     for (const Index N : {400, 900}) {
@@ -109,4 +109,4 @@ TEST(sensitivity_products, of_a_discrete_model_are_those_of_its_sensitivities) {
         }
 }
 
-}  // namespace test_sensitivity_products
+}  // namespace test_prediction_error_products

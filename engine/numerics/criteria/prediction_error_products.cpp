@@ -1,4 +1,4 @@
-#include "numerics/criteria/sensitivity_products.h"
+#include "numerics/criteria/prediction_error_products.h"
 
 #include <algorithm>
 #include <array>
@@ -199,14 +199,15 @@ class FilteredColumns {
 
 }  // namespace
 
-Matrix sensitivity_products(const std::vector<LateColumn>& columns, const LateColumn& error, Index first, Index rows,
-                            const Vector& C, const Vector& D) {
+Matrix prediction_error_products(const std::vector<LateColumn>& columns, const LateColumn& error, Index first,
+                                 Index rows, const Vector& C, const Vector& D) {
     return FilteredColumns(columns, error, C, D).run(first, rows);
 }
 
-Matrix sensitivity_products(const std::vector<LateColumn>& columns, const LateColumn& error, Index first, Index rows) {
+Matrix prediction_error_products(const std::vector<LateColumn>& columns, const LateColumn& error, Index first,
+                                 Index rows) {
     const Vector one = Vector::Ones(1);
-    return sensitivity_products(columns, error, first, rows, one, one);
+    return prediction_error_products(columns, error, first, rows, one, one);
 }
 
 void add_to(OutputErrorProducts& sums, const Matrix& products, const std::vector<Index>& places) {
