@@ -6,6 +6,7 @@
 #include "cli/course_commands.h"
 #include "course/review/final_changes.h"
 #include "course/review/final_changes_document.h"
+#include "numerics/number_text.h"
 #include "platform/error.h"
 #include "platform/terminal/terminal_text.h"
 
@@ -38,7 +39,7 @@ int changes(const CourseArguments& where, const ChangesArguments& words) {
     const std::size_t written =
         write_change_documents(all, course, assignment, words.out, documents, writing.progress());
     writing.finish();
-    std::cout << fmt::format("{} document{} as PDF and Markdown in {}\n", written, written == 1 ? "" : "s", words.out);
+    std::cout << fmt::format("{} as PDF and Markdown in {}\n", counted(written, "document"), words.out);
     return kDone;
 }
 

@@ -8,6 +8,7 @@
 #include "course/store/hand_ins.h"
 #include "course/store/receipts.h"
 #include "course/store/store_check.h"
+#include "numerics/number_text.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/terminal/terminal_text.h"
@@ -29,8 +30,7 @@ std::string remark(const Received& r) {
     if (r.no_document) return "no PDF in the pack: ask for one";
     if (r.known) return "known already, nothing changed";
     if (r.rules_broken == 0) return "";
-    return fmt::format("{} rule{} broken{}", r.rules_broken, r.rules_broken == 1 ? "" : "s",
-                       r.names ? ": it names somebody" : "");
+    return counted(r.rules_broken, "rule") + " broken" + (r.names ? ": it names somebody" : "");
 }
 
 std::string what(const Received& r) {
@@ -47,11 +47,11 @@ void show(const ReceiveOutcome& outcome, const std::string& stage) {
         fresh += !r.known;
         late += !r.known && r.late > 0;
     }
-    std::cout << fmt::format("{}, {}: {} file{} taken, {} late{}\n", outcome.assignment.name,
+    std::cout << fmt::format("{}, {}: {} taken, {} late{}\n", outcome.assignment.name,
                              stage == "first"    ? "first version"
                              : stage == "review" ? "reviews"
                                                  : "final version",
-                             fresh, fresh == 1 ? "" : "s", late,
+                             counted(fresh, "file"), late,
                              rows.size() > static_cast<std::size_t>(fresh)
                                  ? fmt::format(", {} known already", rows.size() - static_cast<std::size_t>(fresh))
                                  : "");

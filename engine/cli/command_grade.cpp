@@ -7,6 +7,7 @@
 
 #include "cli/commands.h"
 #include "course/grading/grading.h"
+#include "numerics/number_text.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/terminal/terminal_text.h"
@@ -48,8 +49,8 @@ int grade(const GradeArguments& words) {
         std::cerr << "dynlab: no --secret FILE: anybody who reads the project can compute the hidden records\n";
     const GradingOutcome outcome = grade_class(request);
     for (const std::string& complaint : outcome.complaints) std::cerr << "dynlab: " << terminal_text(complaint) << '\n';
-    std::cout << fmt::format("{} submission{}: {} graded now, {} unchanged{}; isolation {}\n", outcome.submissions,
-                             outcome.submissions == 1 ? "" : "s", outcome.made, outcome.kept,
+    std::cout << fmt::format("{}: {} graded now, {} unchanged{}; isolation {}\n",
+                             counted(outcome.submissions, "submission"), outcome.made, outcome.kept,
                              outcome.not_whole > 0 ? fmt::format(", {} with ungraded checks", outcome.not_whole) : "",
                              isolation_name(request.setup.isolation))
               << (request.out / "gradebook.csv").string() << '\n'

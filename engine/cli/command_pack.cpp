@@ -5,6 +5,7 @@
 
 #include "cli/commands.h"
 #include "course/grading/hand_in.h"
+#include "numerics/number_text.h"
 #include "platform/terminal/terminal_text.h"
 
 namespace dynlab::inline cli {
@@ -24,8 +25,7 @@ int pack(const PackArguments& words) {
     for (const std::string& name : pack.files) std::cout << terminal_text(name) << '\n';
     for (const std::string& name : pack.left_out)
         std::cerr << "dynlab: left out, because it is not a regular file: " << terminal_text(name) << '\n';
-    std::cout << fmt::format("{}: {} file{}, SHA-256 {}\n", file.string(), pack.files.size(),
-                             pack.files.size() == 1 ? "" : "s", pack.hash);
+    std::cout << fmt::format("{}: {}, SHA-256 {}\n", file.string(), counted(pack.files.size(), "file"), pack.hash);
     return kDone;
 }
 

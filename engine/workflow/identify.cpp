@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "numerics/error.h"
+#include "numerics/number_text.h"
 #include "scripting/runtime/lua_text.h"
 #include "workflow/recording.h"
 
@@ -103,10 +104,6 @@ report.figure("responses{s}", responses{s}, "")
 
 constexpr const char* kNoValidation = R"( No
 -- validation record was given: a record that the model has not seen would say more.)";
-
-std::string counted(int number, const char* what) {
-    return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s");
-}
 
 std::string structure_of(const IdentifyRequest& request) {
     std::string delay = ", an estimated delay";

@@ -14,6 +14,7 @@
 #include "course/findings/section_findings.h"
 #include "course/names/name_findings.h"
 #include "documents/template_file.h"
+#include "numerics/number_text.h"
 #include "platform/program_lookup.h"
 #include "platform/text_file.h"
 
@@ -84,7 +85,7 @@ DocumentStandard standard_for(const DocumentText& text, const CheckOptions& wish
 
 std::string page_summary(const DocumentText& text, int pages, const DocumentRules& rules) {
     const char* unit = text.is_slides() ? "slide" : "page";
-    std::string summary = fmt::format("{} {}{}", pages, unit, pages == 1 ? "" : "s");
+    std::string summary = counted(pages, unit);
     if (rules.pages) summary += fmt::format(" of at most {}", *rules.pages);
     if (rules.pages && rules.appendix_pages) summary += fmt::format(" + {} of appendix", *rules.appendix_pages);
     return summary;
@@ -107,7 +108,7 @@ void check_text(const PdfLayout& layout, const DocumentText& text, const Documen
     result.checked.push_back(page_summary(text, result.pages, standard.rules));
     if (!standard.rules.sections.empty())
         result.checked.push_back(fmt::format("{} sections", standard.rules.sections.size()));
-    result.checked.push_back(fmt::format("{} numbered figure{}", figures.figures, figures.figures == 1 ? "" : "s"));
+    result.checked.push_back(counted(figures.figures, "numbered figure"));
     result.checked.push_back("unfilled slots");
     if (!result.language.empty()) result.checked.push_back(result.language == "fr" ? "French only" : "English only");
     result.checked.push_back(text.is_slides() ? "text size" : "text size and margins");
@@ -119,7 +120,7 @@ void check_names(const fs::path& file, const PdfLayout& layout, const SoughtName
     search.pdf = limits;
     result.findings = name_findings(file, layout, names, search);
     if (names.empty()) return;
-    result.checked.push_back(fmt::format("names of {} {}", names.people(), names.people() == 1 ? "person" : "people"));
+    result.checked.push_back("names of " + counted(names.people(), "person", "people"));
 }
 
 }  // namespace

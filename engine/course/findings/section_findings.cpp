@@ -7,6 +7,7 @@
 #include <set>
 
 #include "course/names/plain_words.h"
+#include "numerics/number_text.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -90,10 +91,6 @@ bool opens_appendix(const Heading& heading, const DocumentRules& rules) {
     return std::any_of(rules.sections.begin(), rules.sections.end(), [&](const SectionRule& section) {
         return section.optional && likeness(section, heading.text) > 0.6;
     });
-}
-
-std::string counted(int count, const std::string& one, const std::string& many) {
-    return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
 /// Pages that the text fills, the last one up to its lowest line.

@@ -9,6 +9,8 @@
 #include "data_io/text_table.h"
 #include "figures/gnuplot_renderer.h"
 #include "figures/histogram.h"
+#include "numerics/number_text.h"
+#include "numerics/signals/robust_statistics.h"
 #include "platform/atomic_file.h"
 #include "platform/temporary_folder.h"
 #include "workflow/run_script.h"
@@ -152,13 +154,12 @@ void add_numbers(const ClassResults& results, const Vector& points, double possi
     const Index n = points.size();
     value("lesson", results.setup->lesson.slug);
     value("isolation", isolation_name(results.setup->isolation));
-    value("submissions",
-          fmt::format("{} submission{}", results.entries.size(), results.entries.size() == 1 ? "" : "s"));
+    value("submissions", counted(results.entries.size(), "submission"));
     value("graded", std::to_string(n));
     value("not_whole", std::to_string(not_whole));
     value("possible", points_text(possible));
     value("mean", n == 0 ? "–" : points_text(points.mean()));
-    value("median", n == 0 ? "–" : points_text(0.5 * (points((n - 1) / 2) + points(n / 2))));
+    value("median", n == 0 ? "–" : points_text(median(points)));
 }
 
 /// A bar for each point, around it; for each several where there are many.

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "numerics/error.h"
+#include "numerics/number_text.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -280,8 +281,8 @@ class Allocator {
             say(fmt::format("{} groups write or get one review more than {}: what was written or sent stays.", more,
                             wanted_));
         if (allocation.swapped > 0)
-            say(fmt::format("{} {} of groups review each other; no exchange of two reviews avoids that.",
-                            allocation.swapped, allocation.swapped == 1 ? "couple" : "couples"));
+            say(fmt::format("{} of groups review each other; no exchange of two reviews avoids that.",
+                            counted(allocation.swapped, "couple")));
     }
 
     const AllocationProblem& problem_;

@@ -6,6 +6,7 @@
 
 #include "course/review/marked_text.h"
 #include "course/review/side_by_side.h"
+#include "numerics/number_text.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -18,10 +19,6 @@ constexpr char kNoTrace[] = "No change found that touches this.";
 
 std::string percent(double share) {
     return fmt::format("{:.0f} %", 100 * share);
-}
-
-std::string pages(int count) {
-    return fmt::format("{} page{}", count, count == 1 ? "" : "s");
 }
 
 std::string with_minus(const std::string& change) {
@@ -51,8 +48,8 @@ class Composition {
         std::vector<std::string> parts;
         if (g_.pages_before && g_.pages_after)
             parts.push_back(*g_.pages_before == *g_.pages_after
-                                ? fmt::format("{} as before", pages(*g_.pages_after))
-                                : fmt::format("{} instead of {}", pages(*g_.pages_after), *g_.pages_before));
+                                ? fmt::format("{} as before", counted(*g_.pages_after, "page"))
+                                : fmt::format("{} instead of {}", counted(*g_.pages_after, "page"), *g_.pages_before));
         if (g_.text) parts.push_back(fmt::format("{} of the text changed", percent(g_.text->share)));
         const int wanted = g_.traced() + g_.untraced();
         if (g_.text && wanted > 0)

@@ -4,6 +4,7 @@
 
 #include "course/review/final_changes.h"
 #include "course/store/aligned_table.h"
+#include "numerics/number_text.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -39,10 +40,9 @@ std::string to_look_at(const GroupChanges& g) {
     if (g.text->passages.empty()) things.push_back("no change in the text");
     const auto unread = std::count_if(g.reviews.begin(), g.reviews.end(),
                                       [](const AnsweredReview& review) { return !review.trouble.empty(); });
-    if (unread > 0) things.push_back(fmt::format("{} unreadable review{}", unread, unread == 1 ? "" : "s"));
+    if (unread > 0) things.push_back(counted(unread, "unreadable review"));
     if (g.reviews.empty()) things.push_back("no review was released");
-    if (g.untraced() > 0)
-        things.push_back(fmt::format("{} remark{} left?", g.untraced(), g.untraced() == 1 ? "" : "s"));
+    if (g.untraced() > 0) things.push_back(counted(g.untraced(), "remark") + " left?");
     if (!g.troubles.empty()) things.push_back(g.troubles.front());
     return fmt::format("{}", fmt::join(things, "; "));
 }

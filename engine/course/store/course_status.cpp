@@ -9,13 +9,10 @@
 #include "course/store/aligned_table.h"
 #include "course/store/groups.h"
 #include "course/store/newest_versions.h"
+#include "numerics/number_text.h"
 
 namespace dynlab::inline course {
 namespace {
-
-std::string plural(std::int64_t count, const std::string& word) {
-    return fmt::format("{} {}{}", count, word, count == 1 ? "" : "s");
-}
 
 std::string when(const CourseClock& clock, Instant due, Instant now) {
     const std::string distance = duration_text(std::abs(due - now));
@@ -35,7 +32,7 @@ std::string cell_of(const HandedInParts& parts, const std::string& main) {
     if (!h.trouble.empty())
         cell += " " + h.trouble;
     else if (h.rules_broken > 0)
-        cell += ", " + plural(h.rules_broken, "rule") + " broken";
+        cell += ", " + counted(h.rules_broken, "rule") + " broken";
     return cell;
 }
 
@@ -174,7 +171,7 @@ class Status {
         int open = 0;
         for (const ReviewPair& pair : pairs_)
             if (pair.reviewer == group.id && !pair.ended && !pair.written) ++open;
-        if (open > 0 && due_over(assignment_.review_due)) things.push_back("remind of " + plural(open, "review"));
+        if (open > 0 && due_over(assignment_.review_due)) things.push_back("remind of " + counted(open, "review"));
         only_pack(last, " of the final version");
         if (last.empty() && due_over(assignment_.final_due)) things.push_back("ask for the final version");
         return join(things);
@@ -185,12 +182,13 @@ class Status {
     }
 
     std::string sums() const {
-        std::string text = fmt::format("{}: {} handed in", plural(groups_, "group"), present_);
+        std::string text = fmt::format("{}: {} handed in", counted(groups_, "group"), present_);
         if (late_ > 0) text += fmt::format(", {} late", late_);
         if (unreadable_ > 0) text += fmt::format(", {} unreadable", unreadable_);
         if (missing_ > 0) text += fmt::format(", {} missing", missing_);
         if (assignment_.is_report() && !pairs_.empty())
-            text += fmt::format("; {} to come; {}", plural(open_reviews_, "review"), plural(finals_, "final version"));
+            text +=
+                fmt::format("; {} to come; {}", counted(open_reviews_, "review"), counted(finals_, "final version"));
         text += ".\n";
         return text;
     }
@@ -236,7 +234,7 @@ std::string assignment_status(Course& course, const Assignment& assignment, Inst
 std::string course_summary(Course& course, Instant now) {
     int active = 0, dropped_out = 0;
     for (const Group& group : groups_of(course)) ++(group.dropped_out ? dropped_out : active);
-    std::string text = fmt::format("{}: {}{}\n", course.name(), plural(active, "group"),
+    std::string text = fmt::format("{}: {}{}\n", course.name(), counted(active, "group"),
                                    dropped_out > 0 ? fmt::format(", {} dropped out", dropped_out) : "");
     std::vector<std::vector<std::string>> rows;
     for (const Assignment& a : assignments_of(course)) {

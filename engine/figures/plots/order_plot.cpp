@@ -6,6 +6,7 @@
 #include "figures/axis.h"
 #include "figures/style.h"
 #include "numerics/error.h"
+#include "numerics/number_text.h"
 
 namespace dynlab::inline figures {
 namespace {
@@ -71,7 +72,7 @@ Curve curve_of(const std::map<double, double>& values, int zeros, int index) {
     for (const auto& [x, y] : values) curve.x[i] = x, curve.y[i++] = y;
     curve.style = CurveStyle::kLinePoints;
     curve.colour = index;
-    curve.label = zeros == 0 ? "no zero" : std::to_string(zeros) + (zeros == 1 ? " zero" : " zeros");
+    curve.label = zeros == 0 ? "no zero" : counted(zeros, "zero");
     return curve;
 }
 

@@ -2,6 +2,7 @@
 
 #include "numerics/error.h"
 #include "numerics/fit/discrete_fit.h"
+#include "numerics/fit/operating_points.h"
 #include "numerics/fit/prediction_fit.h"
 
 namespace dynlab::inline numerics {

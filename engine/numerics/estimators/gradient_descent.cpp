@@ -28,7 +28,7 @@ void check(const MatrixView& Phi, const VectorView& y, const GradientDescentOpti
 }
 
 std::string message_of(const GradientDescentResult& result) {
-    const std::string count = iterations_text(static_cast<std::size_t>(result.iterations));
+    const std::string count = counted(result.iterations, "iteration");
     switch (result.termination) {
         case Termination::kConverged:
             return "Gradient descent converged after " + count + ".";

@@ -11,6 +11,7 @@
 #include "numerics/criteria/transfer_output.h"
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
+#include "numerics/fit/operating_points.h"
 #include "numerics/fit/output_error.h"
 #include "numerics/fit/transfer_search.h"
 #include "numerics/number_text.h"
@@ -292,7 +293,7 @@ Fit hammerstein(const IdData& data, const TransferStructure& structure, const Ha
     fit.start = {options.initial_state, false};
     add_warnings(fit, options);
     set_message(fit, "Hammerstein model with " + std::to_string(at.K) + " values of the characteristic, after " +
-                         iterations_text(fit.trace.size()) + ": " + simulation_text(fit) + ", against " +
+                         counted(fit.trace.size(), "iteration") + ": " + simulation_text(fit) + ", against " +
                          number_text(fit.characteristic->linear_fit_percent, 4) + " % of the best linear model.");
     return fit;
 }

@@ -7,6 +7,7 @@
 #include "numerics/error.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/fit/diagnosis.h"
+#include "numerics/fit/operating_points.h"
 #include "numerics/fit/output_error.h"
 #include "numerics/fit/transfer_refinement.h"
 #include "numerics/linalg/polynomial.h"
@@ -65,7 +66,7 @@ class WhitenedOutput : public OutputErrorModel {
         places.push_back(-1);
         for (std::size_t e = 0; e < output_.experiment_count(); ++e) {
             const Matrix all = prediction_error_products(columns, {errors, 0, 1, 0}, output_.row(e, 0), output_.rows(e),
-                                                    noise_.C, noise_.D);
+                                                         noise_.C, noise_.D);
             const auto count = static_cast<Index>(places.size());
             add_to(sums, all.topLeftCorner(count, count), places);
         }

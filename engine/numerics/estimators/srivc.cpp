@@ -8,6 +8,7 @@
 #include "numerics/fit/search_starts.h"
 #include "numerics/fit/srivc_iteration.h"
 #include "numerics/fit/transfer_search.h"
+#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -99,8 +100,7 @@ Fit estimate_by_passes(const IdData& data, const TransferStructure& structure, c
     check_transient("srivc", data, estimate, estimate.theta.size());
     set_covariance(estimate, data, options, solution.mirrored ? Matrix() : solution.gram);
     describe_models(estimate);
-    const std::string passes =
-        std::to_string(estimate.trace.size()) + (estimate.trace.size() == 1 ? " pass" : " passes");
+    const std::string passes = counted(estimate.trace.size(), "pass", "passes");
     if (estimate.termination == Termination::kConverged)
         set_message(estimate, "SRIVC converged after " + passes + ": " + simulation_text(estimate) + ".");
     else

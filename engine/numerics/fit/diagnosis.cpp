@@ -226,7 +226,7 @@ void describe_search(Fit& fit, const IdData& data, const std::string& method, co
 }
 
 std::string ending_text(const Fit& fit) {
-    return (has_settled(fit) ? "converged after " : "stopped after ") + iterations_text(fit.trace.size());
+    return (has_settled(fit) ? "converged after " : "stopped after ") + counted(fit.trace.size(), "iteration");
 }
 
 void set_message(Fit& fit, const std::string& first) {

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "numerics/error.h"
+#include "numerics/fit/operating_points.h"
 #include "numerics/fit/output_error.h"
 #include "numerics/number_text.h"
 

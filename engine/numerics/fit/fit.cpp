@@ -30,10 +30,6 @@ FitOptions FitOptions::limited(int iterations, double limit) const {
     return other;
 }
 
-std::string iterations_text(std::size_t count) {
-    return std::to_string(count) + (count == 1 ? " iteration" : " iterations");
-}
-
 double fit_percent_of_sums(double squared_errors, double squared_variations) {
     if (!std::isfinite(squared_errors)) return -kInfinity;
     return 100 * (1 - std::sqrt(squared_errors / squared_variations));
@@ -53,31 +49,6 @@ Vector output_powers(const IdData& data) {
     Vector sums = Vector::Zero(data.output_count());
     for (const Experiment& experiment : data.experiments) sums += experiment.y.colwise().squaredNorm().transpose();
     return sums / static_cast<double>(data.sample_count());
-}
-
-CentredData without_operating_points(const IdData& data) {
-    CentredData centred{data, {}};
-    for (Experiment& experiment : centred.data.experiments) {
-        auto& removed = centred.removed.emplace_back();
-        const Matrix u = experiment.u;
-        for (Index output = 0; output < experiment.y.cols(); ++output) {
-            removed.push_back(joint_operating_point(u, experiment.y.col(output)));
-            experiment.y.col(output).array() -= removed.back().output;
-        }
-        if (!removed.empty()) experiment.u.rowwise() -= removed.front().inputs.transpose();
-    }
-    return centred;
-}
-
-CentredData centred_for(const IdData& data, Offset offset) {
-    return offset == Offset::kRemove ? without_operating_points(data) : CentredData{data, {}};
-}
-
-void add_operating_points(Fit& fit, std::vector<std::vector<JointOperatingPoint>> removed) {
-    for (std::size_t e = 0; e < removed.size(); ++e)
-        for (std::size_t o = 0; o < removed[e].size(); ++o)
-            fit.offsets(static_cast<Index>(e), static_cast<Index>(o)) += removed[e][o].output;
-    fit.removed = std::move(removed);
 }
 
 }  // namespace dynlab::inline numerics

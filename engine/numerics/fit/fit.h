@@ -101,9 +101,6 @@ struct Fit {
     std::string message;                ///< one sentence, then the warnings
 };
 
-/// "1 iteration", "2 iterations".
-std::string iterations_text(std::size_t count);
-
 /// 100 (1 - |error|/|y - mean(y)|), the means taken experiment by experiment, from the two sums of squares;
 /// -infinity where the errors are not finite.
 double fit_percent_of_sums(double squared_errors, double squared_variations);
@@ -111,16 +108,5 @@ double fit_percent_of_sums(double squared_errors, double squared_variations);
 /// Per output: the sum of squares about the mean of each experiment, and the mean square.
 Vector output_variations(const IdData& data);
 Vector output_powers(const IdData& data);
-
-/// The data counted from each experiment's operating point, and those points: [experiment][output].
-struct CentredData {
-    IdData data;
-    std::vector<std::vector<JointOperatingPoint>> removed;
-};
-CentredData without_operating_points(const IdData& data);
-/// The data as they are, and no points, unless `offset` is kRemove.
-CentredData centred_for(const IdData& data, Offset offset);
-/// Adds the removed outputs to the fit's offsets and keeps the points.
-void add_operating_points(Fit& fit, std::vector<std::vector<JointOperatingPoint>> removed);
 
 }  // namespace dynlab::inline numerics

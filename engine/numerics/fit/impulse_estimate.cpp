@@ -29,7 +29,7 @@ void read_dead_time(ImpulseEstimate& estimate, double Ts, double half_width) {
                         number_text(static_cast<double>(first) * Ts) + " s); ";
     estimate.message += dead == 0 ? "no dead time is visible."
                                   : "the dead time is about " + number_text(static_cast<double>(dead) * Ts) + " s (" +
-                                        std::to_string(dead) + (dead == 1 ? " sample)." : " samples).");
+                                        counted(dead, "sample") + ").";
 }
 
 Index lags_or_default(const std::string& caller, Index lags, Index shortest) {

@@ -6,6 +6,7 @@
 
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
+#include "numerics/fit/operating_points.h"
 #include "numerics/fit/output_error.h"
 #include "numerics/fit/search_starts.h"
 #include "numerics/fit/srivc_iteration.h"

@@ -68,7 +68,7 @@ void check_selection(const std::vector<Index>& chosen, Index count, const std::s
     for (const Index channel : chosen)
         if (channel < 1 || channel > count)
             throw InvalidArgument("select: there is no " + kind + " " + std::to_string(channel) + "; the data have " +
-                                  std::to_string(count) + " " + kind + (count == 1 ? "" : "s"));
+                                  counted(count, kind));
 }
 
 }  // namespace

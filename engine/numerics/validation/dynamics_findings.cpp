@@ -74,9 +74,9 @@ void find_noise(const FittedRecord& fit, RecordFindings& findings) {
     if (error <= 1e-20 * total) return;
     const double decibels = 10 * std::log10(std::max(total - error, 1e-3 * total) / error);
     const int poles = fit.search.candidate.poles;
-    const std::string size = number_text(std::round(decibels), 3) + " dB (what a model with " + std::to_string(poles) +
-                             (poles == 1 ? " pole" : " poles") + " leaves unexplained has the standard deviation " +
-                             fit.with_unit(std::sqrt(error), 2) + ")";
+    const std::string size = number_text(std::round(decibels), 3) + " dB (what a model with " + counted(poles, "pole") +
+                             " leaves unexplained has the standard deviation " + fit.with_unit(std::sqrt(error), 2) +
+                             ")";
     const bool explained = std::any_of(findings.begin(), findings.end(), [](const RecordFinding& f) {
         return f.code == "nonlinear" || f.code == "saturation" || f.code == "changing_gain";
     });

@@ -12,10 +12,6 @@ constexpr double kSlightEvidence = 2;  // difference of N BIC that is not worth 
 constexpr double kSlightFit = 0.5;     // percentage points of validation fit
 constexpr double kNoteworthyFit = 1;   // the same, when another candidate is pointed to
 
-std::string counted(int number, const char* noun) {
-    return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
-}
-
 /// Smaller is better.
 double badness(const OrderCandidate& candidate, OrderCriterion criterion) {
     switch (criterion) {

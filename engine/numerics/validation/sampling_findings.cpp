@@ -56,9 +56,8 @@ RecordFinding gaps(const Clock& clock, Index count, std::size_t experiment, cons
     return {"gaps",
             Weight::kWarning,
             "",
-            "The time jumps at " + std::to_string(count) + (count == 1 ? " place" : " places") +
-                ", first after sample " + std::to_string(place + 1) + " by " + number_text(step, 4) + unit +
-                " instead of " + number_text(clock.usual, 4) + unit +
+            "The time jumps at " + counted(count, "place") + ", first after sample " + std::to_string(place + 1) +
+                " by " + number_text(step, 4) + unit + " instead of " + number_text(clock.usual, 4) + unit +
                 ": samples are missing. Interpolate small gaps (interp1); make experiments of the parts between large "
                 "ones.",
             step,

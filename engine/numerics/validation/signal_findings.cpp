@@ -277,8 +277,7 @@ void find_excitation(const Channel& channel, const Quantisation& grid, std::vect
     findings.push_back(
         about(channel, poor ? "poor_excitation" : "excitation", poor ? Weight::kWarning : Weight::kNote,
               subject(channel) +
-                  (poor ? " can determine no more than " + std::to_string(order) +
-                              (order == 1 ? " parameter" : " parameters") + ": it holds about " +
+                  (poor ? " can determine no more than " + counted(order, "parameter") + ": it holds about " +
                               std::to_string((order + 1) / 2) + (order > 2 ? " frequencies" : " frequency") +
                               " only. Excite with a prbs, a chirp or a multisine that covers the plant's bandwidth."
                         : " is rich enough for models with " +

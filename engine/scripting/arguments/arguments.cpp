@@ -5,6 +5,7 @@
 #include <new>
 
 #include "numerics/estimators/catalogue.h"
+#include "numerics/number_text.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
 #include "platform/spelling.h"
@@ -111,9 +112,8 @@ const char* Call::function_name() const {
 void Call::at_most(int arguments) const {
     if (arguments_ > arguments)
         throw InvalidArgument(
-            fmt::format("takes at most {} argument{}, but {} were given; options are written as one table "
-                        "{{name = value}}",
-                        arguments, arguments == 1 ? "" : "s", arguments_));
+            fmt::format("takes at most {}, but {} were given; options are written as one table {{name = value}}",
+                        counted(arguments, "argument"), arguments_));
 }
 
 double Call::number(int index, const char* what) const {

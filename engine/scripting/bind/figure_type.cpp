@@ -1,5 +1,6 @@
 #include <array>
 
+#include "numerics/number_text.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/panel_options.h"
 
@@ -89,8 +90,7 @@ int figure_to_text(Call& call) {
     const Figure& figure = figure_self(call);
     std::size_t curves = 0;
     for (const Panel& panel : figure.panels) curves += panel.curves.size();
-    return call.give(fmt::format("figure: {} panel{}, {} curve{}", figure.panels.size(),
-                                 figure.panels.size() == 1 ? "" : "s", curves, curves == 1 ? "" : "s"));
+    return call.give(fmt::format("figure: {}, {}", counted(figure.panels.size(), "panel"), counted(curves, "curve")));
 }
 
 int panel_count(Call& call) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "numerics/fit/discrete_fit.h"
+#include "numerics/fit/operating_points.h"
 #include "support/difference_equation.h"
 #include "support/thrown_message.h"
 

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "numerics/fit/fit.h"
+#include "numerics/fit/polynomial_fit.h"
+#include "numerics/models/polynomial_model.h"
 #include "support/thrown_message.h"
 #include "support/transfer_cases.h"
 
@@ -38,29 +40,6 @@ TEST(fit, the_percentage_is_that_of_the_norms) {  // oracle: the formula on numb
     const IdData data = IdData::merge({IdData(first, Matrix::Ones(3, 1), 1), IdData(second, Matrix::Ones(2, 1), 1)});
     EXPECT_LT((output_variations(data) - values({2 + 2, 24 + 0})).cwiseAbs().maxCoeff(), 1e-12);
     EXPECT_LT((output_powers(data) - values({258.0 / 5, 38.0 / 5})).cwiseAbs().maxCoeff(), 1e-12);
-}
-
-TEST(fit, operating_points_come_off_and_go_back) {  // oracle: the definition, a step and a record that swings
-    Matrix step(4, 1), swing(4, 1), y(4, 2);
-    step << 2, 2, 5, 5;
-    swing << 1, 3, 1, 3;
-    y << 10, 1, 20, 1, 30, 2, 40, 2;
-    const IdData data = IdData::merge({IdData(y, step, 1), IdData(y, swing, 1)});
-    const CentredData centred = without_operating_points(data);
-    EXPECT_EQ(centred.data.experiments[0].u(0, 0), 0);   // the step rests at its first value,
-    EXPECT_EQ(centred.removed[0][0].output, 20);         // up to the sample of the step: (10 + 20 + 30)/3
-    EXPECT_EQ(centred.data.experiments[1].u(0, 0), -1);  // the other swings about its mean
-    EXPECT_EQ(centred.removed[1][0].output, 25);
-    EXPECT_EQ(centred.removed[1][1].output, 1.5);
-    Fit fit;
-    fit.offsets = Matrix::Constant(2, 2, 0.5);
-    add_operating_points(fit, centred.removed);
-    EXPECT_EQ(fit.offsets(0, 0), 20.5);
-    EXPECT_EQ(fit.offsets(1, 1), 2);
-    EXPECT_EQ(fit.removed.size(), 2u);
-    EXPECT_TRUE(centred_for(data, Offset::kEstimate).removed.empty());
-    EXPECT_EQ(centred_for(data, Offset::kEstimate).data.experiments[0].y, y);
-    EXPECT_EQ(centred_for(data, Offset::kRemove).data.experiments[1].u, centred.data.experiments[1].u);
 }
 
 TEST(fit, of_difference_equations) {  // oracle: the orders' own names

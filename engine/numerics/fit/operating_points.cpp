@@ -1,0 +1,32 @@
+#include "numerics/fit/operating_points.h"
+
+#include <utility>
+
+namespace dynlab::inline numerics {
+
+CentredData without_operating_points(const IdData& data) {
+    CentredData centred{data, {}};
+    for (Experiment& experiment : centred.data.experiments) {
+        auto& removed = centred.removed.emplace_back();
+        const Matrix u = experiment.u;
+        for (Index output = 0; output < experiment.y.cols(); ++output) {
+            removed.push_back(joint_operating_point(u, experiment.y.col(output)));
+            experiment.y.col(output).array() -= removed.back().output;
+        }
+        if (!removed.empty()) experiment.u.rowwise() -= removed.front().inputs.transpose();
+    }
+    return centred;
+}
+
+CentredData centred_for(const IdData& data, Offset offset) {
+    return offset == Offset::kRemove ? without_operating_points(data) : CentredData{data, {}};
+}
+
+void add_operating_points(Fit& fit, std::vector<std::vector<JointOperatingPoint>> removed) {
+    for (std::size_t e = 0; e < removed.size(); ++e)
+        for (std::size_t o = 0; o < removed[e].size(); ++o)
+            fit.offsets(static_cast<Index>(e), static_cast<Index>(o)) += removed[e][o].output;
+    fit.removed = std::move(removed);
+}
+
+}  // namespace dynlab::inline numerics
