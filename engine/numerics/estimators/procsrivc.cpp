@@ -261,7 +261,7 @@ Fit procsrivc(const IdData& data, const ProcessStructure& structure, const Procs
     Fit fit = best_fit_to_long(problem, record.data, conditions);
     set_process(fit, structure);
     fit.output = simulated(fit, problem, record);
-    fit.removed = record.removed;
+    add_operating_points(fit, record.removed);
     warn_of_search(fit, options);
     warn_of_doubtful_parameters(fit);
     double longest = 0;

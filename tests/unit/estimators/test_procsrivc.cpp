@@ -290,6 +290,21 @@ TEST(procsrivc, heat_exchanger_with_the_operating_point_removed) {  // oracle: p
     EXPECT_LT((result.output - record.y).cwiseAbs().maxCoeff(), 1e-8);
 }
 
+TEST(procsrivc, offsets_hold_the_operating_point_that_was_taken_off) {  // oracle: the model simulated about it
+    const TransferFunction G = model_of("P1", Vector{{2, 0.7}});
+    const Vector u = rough_input(300, 15, 4);
+    const IdData data = IdData::merge({siso(lsim(G, u, 0.1).array() + 12, u, 0.1), siso(lsim(G, -u, 0.1), -u, 0.1)});
+    ProcsrivcOptions options = tight();
+    options.initial_state = InitialState::kZero;
+    options.offset = Offset::kRemove;
+    const Fit result = fit(data, "P1", options);
+    for (Index e = 0; e < 2; ++e) {
+        const Vector own = e == 0 ? u : Vector(-u);
+        const Vector simulated = lsim(result.models[0], own.array() - own.mean(), 0.1).array() + result.offsets(e, 0);
+        EXPECT_LT((simulated - result.output.segment(300 * e, 300)).cwiseAbs().maxCoeff(), 1e-9) << e;
+    }
+}
+
 TEST(procsrivc, suspension_just_works) {  // oracle: physical truth, standard errors, fixed seeds
     const SuspensionParameters p;
     const auto truth = suspension_truth(p);
