@@ -168,21 +168,20 @@ class DeltaSignals {
     }
     const DeltaSignal& operator[](std::size_t i) const { return signals_[i]; }
 
-    /// The sums of products of all outputs, or of all but the first signal's among themselves (first_alone = false);
-    /// nothing where a pair has no loop.
+    /// Of two signals or more: the sums of products of all outputs, or of all but the first signal's among themselves
+    /// (first_alone = false); nothing where a pair has no loop.
     std::optional<Matrix> products(Index N, bool first_alone = true) const {
         Matrix total(outputs_, outputs_);
         const std::size_t last = signals_.size() - 1;
         Index row = 0;
-        for (std::size_t i = 0; i < last || i == 0; row += signals_[i++].outputs.rows()) {
+        for (std::size_t i = 0; i < last; row += signals_[i++].outputs.rows()) {
             Index column = row;
-            for (std::size_t j = std::min(i + 1, last); j <= last; ++j) {
-                const bool own = last == 0 || (j == i + 1 && (i > 0 || first_alone));
+            for (std::size_t j = i + 1; j <= last; ++j) {
+                const bool own = j == i + 1 && (i > 0 || first_alone);
                 const bool highest = !signals_[j].outputs.rightCols<1>().isZero(0);
                 const auto products = delta_products(signals_[i].chain, signals_[j].chain, N, {own, highest});
                 if (!products) return {};
                 if (own) set(products->first, i, row, i, row, total);
-                if (i == j) break;
                 column += signals_[j - 1].outputs.rows();
                 set(products->both, i, row, j, column, total);
                 if (i + 1 == j && j == last) set(products->second, j, column, j, column, total);
@@ -352,18 +351,6 @@ bool poles_far_apart(const VectorView& A, double Ts) {
     return std::abs(alpha[0]) * kFarApart < std::pow(alpha[n - 1], n);
 }
 
-/// The inputs' sensitivities for all instruments after the signals that are there already.
-template <int n>
-void add_delta_sensitivities(const RegressionRecord& record, const SampledCascade<n>& cascade, const VectorView& A,
-                             const std::vector<Vector>& B, DeltaSignals& signals, EquationOutputs& equation) {
-    const bool longer = needs_longer(record);
-    for (std::size_t j = 0; j < record.u.size(); ++j) {
-        const Index first = signals.add(sensitivities<n>(record, j, cascade, A, B[j], longer));
-        equation.instruments.push_back(first);
-        append_range(equation.inputs, first + n, B[j].size());
-    }
-}
-
 }  // namespace
 
 std::optional<NormalEquations> delta_refined_equations(const RegressionRecord& record, const VectorView& A,
@@ -375,34 +362,15 @@ std::optional<NormalEquations> delta_refined_equations(const RegressionRecord& r
         DeltaSignals signals(1 + record.u.size());
         const SampledCascade<n> cascade(A, record.sampling.Ts);
         signals.add(filtered_output<n>(record, {A, step_of_first<n>(cascade.step)}));
-        add_delta_sensitivities<n>(record, cascade, A, B, signals, equation);
+        const bool longer = needs_longer(record);
+        for (std::size_t j = 0; j < record.u.size(); ++j) {
+            const Index first = signals.add(sensitivities<n>(record, j, cascade, A, B[j], longer));
+            equation.instruments.push_back(first);
+            append_range(equation.inputs, first + n, B[j].size());
+        }
         const std::optional<Matrix> products = signals.products(record.y.size(), false);
         if (!products) return {};
         return equation.equations(*products, 1, with_gram);
-    });
-}
-
-std::optional<Matrix> delta_sensitivity_products(const RegressionRecord& record, const VectorView& A,
-                                                 const std::vector<Vector>& B) {
-    if (!is_sampled_for(record, A)) return {};
-    return for_order<Matrix>(A.size() - 1, [&](auto n) -> std::optional<Matrix> {
-        if (poles_far_apart<n>(A, record.sampling.Ts)) return {};
-        EquationOutputs equation{n, {}, 1, {}};
-        DeltaSignals signals(record.u.size());
-        add_delta_sensitivities<n>(record, {A, record.sampling.Ts}, A, B, signals, equation);
-        const std::optional<Matrix> products = signals.products(record.y.size());
-        if (!products) return {};
-        std::vector<std::vector<Index>> z;
-        for (Index i = 0; i < n; ++i) {
-            z.emplace_back();
-            for (const Index first : equation.instruments) z.back().push_back(first + i);
-        }
-        for (const Index input : equation.inputs) z.push_back({input});
-        Matrix sums(z.size(), z.size());
-        for (std::size_t i = 0; i < z.size(); ++i)
-            for (std::size_t j = 0; j < z.size(); ++j)
-                sums(static_cast<Index>(i), static_cast<Index>(j)) = (*products)(z[i], z[j]).sum();
-        return sums;
     });
 }
 

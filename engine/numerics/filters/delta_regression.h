@@ -20,10 +20,6 @@ std::optional<NormalEquations> delta_auxiliary_equations(const RegressionRecord&
 std::optional<NormalEquations> delta_refined_equations(const RegressionRecord& record, const VectorView& A,
                                                        const std::vector<Vector>& B, bool with_gram);
 
-/// Sums of products of these sensitivities.
-std::optional<Matrix> delta_sensitivity_products(const RegressionRecord& record, const VectorView& A,
-                                                 const std::vector<Vector>& B);
-
 /// Sums of products of y, B_1/A_1 u_1, B_2/A_2 u_2, ..., simulated from rest; all A_j of one degree.
 std::optional<Matrix> delta_output_products(const RegressionRecord& record, const std::vector<Vector>& A,
                                             const std::vector<Vector>& B);

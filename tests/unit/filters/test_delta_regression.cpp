@@ -143,9 +143,6 @@ TEST_P(delta_regression, refined_sums_are_those_of_stored_signals) {
         for (std::size_t j = 0; j < B.size(); ++j)
             z.leftCols(n) += sensitivities(record.u[j], model_.A, B[j], record.hold, record.delays[j]);
         expect_sums(*sums, z, phi, model_.rounding);
-        const auto gram = delta_sensitivity_products(record, model_.A, B);
-        ASSERT_TRUE(gram);
-        EXPECT_LT(difference(*gram, z, z), model_.rounding);
         const auto without_gram = delta_refined_equations(record, model_.A, B, false);
         ASSERT_TRUE(without_gram);
         EXPECT_EQ(without_gram->z_z.size(), 0);
@@ -234,7 +231,6 @@ TEST(delta_regression_limits, other_kinds_are_left_to_the_general_way) {
         const bool refined = delta_refined_equations(of, A, B, false).has_value();
         EXPECT_EQ(delta_svf_equations(of, A, 1).has_value(), refined);
         EXPECT_EQ(delta_auxiliary_equations(of, A, A, B, 1).has_value(), refined);
-        EXPECT_EQ(delta_sensitivity_products(of, A, B).has_value(), refined);
         EXPECT_EQ(delta_output_products(of, {A}, B).has_value(), refined);
         return refined;
     };
