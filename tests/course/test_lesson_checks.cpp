@@ -15,10 +15,6 @@ struct Intended {
     std::string check, words;
 };
 
-fs::path lesson_folder(const std::string& lesson) {
-    return fs::path(DYNLAB_SOURCE_DIR) / "lessons" / lesson;
-}
-
 /// The lines "-- expects: CHECK: part of the message" at the head of a script.
 std::vector<Intended> intended_failures(const std::string& script) {
     static const std::regex line("-- expects: (\\w+): ([^\\n]+)");
@@ -105,9 +101,7 @@ TEST_P(lesson_checks, give_full_marks_none_and_the_intended_message) {
         }
 }
 
-INSTANTIATE_TEST_SUITE_P(all, lesson_checks,
-                         ::testing::Values("01_process_models", "02_least_squares", "03_crane", "03_workflow",
-                                           "04_estimators", "05_thruster"),
+INSTANTIATE_TEST_SUITE_P(all, lesson_checks, ::testing::ValuesIn(lessons_with_checks()),
                          [](const auto& lesson) { return lesson.param; });
 
 }  // namespace test_lesson_checks

@@ -50,6 +50,21 @@ std::size_t longest_common(const Words& a, const Words& b) {
     return length[a.size()][b.size()];
 }
 
+/// How many elements the edit script keeps, which must lead from one list to the other: its definition.
+std::size_t kept_by_edit_script(const Words& before, const Words& after) {
+    std::size_t b = 0, a = 0, kept = 0;
+    for (const char step : edit_script(before, after)) {
+        if (step == '=') {
+            EXPECT_EQ(before.at(b), after.at(a));
+            ++kept;
+        }
+        b += step != '+', a += step != '-';
+    }
+    EXPECT_EQ(b, before.size());
+    EXPECT_EQ(a, after.size());
+    return kept;
+}
+
 // oracle: the definition of an edit script, and the longest common subsequence for its being the shortest
 TEST(text_changes, edit_scripts_lead_from_one_list_to_the_other) {
     std::mt19937 random(7);
@@ -58,17 +73,7 @@ TEST(text_changes, edit_scripts_lead_from_one_list_to_the_other) {
         for (Words* list : {&before, &after})
             for (std::size_t i = random() % 30; i > 0; --i)
                 list->push_back(std::string(1, static_cast<char>('a' + random() % 4)));
-        std::size_t b = 0, a = 0, kept = 0;
-        for (const char step : edit_script(before, after)) {
-            if (step == '=') {
-                ASSERT_EQ(before[b], after[a]);
-                ++kept;
-            }
-            b += step != '+', a += step != '-';
-        }
-        EXPECT_EQ(b, before.size());
-        EXPECT_EQ(a, after.size());
-        EXPECT_EQ(kept, longest_common(before, after));
+        EXPECT_EQ(kept_by_edit_script(before, after), longest_common(before, after));
     }
 }
 
@@ -79,17 +84,7 @@ TEST(text_changes, edit_scripts_of_long_lists_lead_from_one_to_the_other) {
         before.push_back((i % 3 == 0 ? "both " : "old ") + std::to_string(i));
         after.push_back((i % 3 == 0 ? "both " : "new ") + std::to_string(i));
     }
-    std::size_t b = 0, a = 0, kept = 0;
-    for (const char step : edit_script(before, after)) {
-        if (step == '=') {
-            ASSERT_EQ(before[b], after[a]);
-            ++kept;
-        }
-        b += step != '+', a += step != '-';
-    }
-    EXPECT_EQ(b, before.size());
-    EXPECT_EQ(a, after.size());
-    EXPECT_EQ(kept, 3000u);
+    EXPECT_EQ(kept_by_edit_script(before, after), 3000u);
     EXPECT_EQ(edit_script({}, {"a", "b"}), "++");
     EXPECT_EQ(edit_script({"a", "b"}, {"b"}), "-=");
     EXPECT_EQ(edit_script({}, {}), "");

@@ -1,7 +1,11 @@
 // The course's experiments from scripts. Oracles: the stored data, which are those of seed 1; the models themselves.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "numerics/rigs/catalogue.h"
 #include "script_run.h"
+#include "scripting/runtime/help.h"
 
 namespace test_script_rigs {
 
@@ -16,10 +20,7 @@ TEST(script_rigs, repeat_the_stored_data) {
                       "    elseif norm(value - stored[key]) > 1e-6*(1 + norm(value)) then print(name, key) end\n"
                       "  end\n"
                       "end\n"
-                      "for _, name in ipairs{'crane', 'heat_exchanger', 'heat_transfer', 'linear_system', "
-                      "'step_response', 'suspension', 'thruster'} do\n"
-                      "  compare(name, rig(name), load(name))\n"
-                      "end\n"
+                      "for name in pairs(rig()) do compare(name, rig(name), load(name)) end\n"
                       "print('done')"),
               "done\n");
 }
@@ -39,12 +40,33 @@ TEST(script_rigs, static_curve_of_the_thruster_ends_at_its_greatest_thrusts) {
 }
 
 TEST(script_rigs, refuse_what_there_is_not) {
-    const std::string expected =
-        "there is no experiment 'cranes'; there are crane, heat_exchanger, heat_transfer, linear_system, "
-        "step_response, suspension, thruster";
+    std::string names;
+    for (const Rig& rig : rig_catalogue()) names += (names.empty() ? "" : ", ") + rig.name;
+    const std::string expected = "there is no experiment 'cranes'; there are " + names;
     EXPECT_NE(error_of("rig('cranes')").find(expected), std::string::npos) << error_of("rig('cranes')");
     EXPECT_NE(error_of("rig_truth('cranes')").find(expected), std::string::npos);
     EXPECT_NE(error_of("rig('crane', {seed = 2^33})").find("whole number"), std::string::npos);
+}
+
+/// The text from `head` on that belongs to it: up to the next point of a list or the next heading.
+std::string point_of(const std::string& page, const std::string& head) {
+    const std::size_t at = page.find(head);
+    if (at == page.npos) return "";
+    return page.substr(at, std::min(page.find("\n- ", at + 1), page.find("\n#", at + 1)) - at);
+}
+
+// oracle: the table of rigs, the fields of its truths and the names of its experiments
+TEST(script_rigs, stand_in_the_help_pages) {
+    const std::string rig_page(find_help_page("rig")->text), truth_page(find_help_page("rig_truth")->text);
+    for (const Rig& rig : rig_catalogue()) {
+        EXPECT_NE(point_of(rig_page, "\n- `name`:").find('"' + rig.name + '"'), std::string::npos) << rig.name;
+        const std::string experiments = point_of(rig_page, "\n- `" + rig.name + "`: ");
+        for (const std::string& experiment : rig.experiments)
+            EXPECT_NE(experiments.find('`' + experiment + '`'), std::string::npos) << rig.name << ' ' << experiment;
+        const std::string truth = point_of(truth_page, "\n- `" + rig.name + "`: ");
+        for (const RigValue& field : rig.truth(0))
+            EXPECT_NE(truth.find('`' + field.name + '`'), std::string::npos) << rig.name << ' ' << field.name;
+    }
 }
 
 // oracle: the fields of the records themselves

@@ -1,0 +1,11 @@
+-- How a test moves the answers of the worked solution on their way out: `move[name]` is a function of an answer, `e` the
+-- sign, and `inside` whether the answer must stay within what checks.lua allows or leave it; `scaled(near, far)` and
+-- `shifted(near, far)` do either by the first inside and by the second outside.
+move.ring_frequency = scaled(0.02, 0.2)
+move.dead_band = shifted(vector{3, -3}, vector{25, -25})
+move.delay = shifted(0.002, 0.02)
+move.thrust_300 = scaled(0.03, 0.3)
+move.model = function(m)
+    return {width = m.width, level = m.level*(1 + e*(inside and 0.01 or 0.6)), G = m.G, root = m.root}
+end
+move.fit = shifted(0.3, 30)
