@@ -25,8 +25,8 @@ CheckSession& session_of(const Call& call) {
 /// A judgement: {share =, message =}.
 int give_judgement(const Call& call, double share, const std::string& message) {
     lua_createtable(call.state(), 0, 2);
-    set_number(call.state(), "share", share);
-    set_text(call, "message", message);
+    set_field(call, "share", share);
+    set_field(call, "message", message);
     return 1;
 }
 
@@ -281,7 +281,7 @@ void push_answers(const Call& call, const std::string& run) {
     lua_State* L = call.state();
     lua_newtable(L);
     lua_createtable(L, 0, 2);
-    set_text(call, kRunOfAnswers, run);
+    set_field(call, kRunOfAnswers, run);
     lua_pushlightuserdata(L, const_cast<char*>("_"));
     call.give(run);
     lua_pushcclosure(L, guarded<answer_of>, 2);

@@ -74,7 +74,7 @@ int truth(Call& call) {
     const auto [name, specimen] = specimen_meant(call, service<CheckSession>(call.state()));
     call.give(name);
     lua_createtable(call.state(), 0, 1);
-    set_integer(call.state(), "specimen", specimen);
+    set_field(call, "specimen", specimen);
     call_library(call, "rig_truth", 2);
     return 1;
 }

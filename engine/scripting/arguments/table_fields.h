@@ -1,20 +1,65 @@
 #pragma once
+#include <concepts>
+#include <functional>
+#include <iterator>
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "scripting/arguments/arguments.h"
+#include "scripting/objects/boxed.h"
 
 namespace dynlab::inline scripting {
 
-/// Each sets a field of the table on top of the stack, which stays there.
-void set_number(lua_State* L, const char* name, double value);
-void set_integer(lua_State* L, const char* name, Index value);
-void set_flag(lua_State* L, const char* name, bool value);
-void set_text(const Call& call, const char* name, const std::string& value);
-void set_texts(const Call& call, const char* name, const std::vector<std::string>& texts);
-void set_vector(const Call& call, const char* name, const VectorView& values);
-void set_matrix(const Call& call, const char* name, const MatrixView& values);
+/// Pushes a table of what `push(item)` pushes for each item.
+template <class Items, class Push>
+int give_list(const Call& call, const Items& items, const Push& push) {
+    lua_createtable(call.state(), static_cast<int>(std::size(items)), 0);
+    lua_Integer index = 0;
+    for (const auto& item : items) {
+        push(item);
+        lua_rawseti(call.state(), -2, ++index);
+    }
+    return 1;
+}
+
+/// Pushes what a script sees of a value: a number, true or false, a text, a vector or a matrix, an object, a table of
+/// the values of a list.
+template <class T>
+int give_value(const Call& call, const T& value) {
+    if constexpr (std::same_as<T, bool> || std::floating_point<T>)
+        return call.give(value);
+    else if constexpr (std::integral<T>)
+        return call.give_integer(value);
+    else if constexpr (std::convertible_to<const T&, std::string>)
+        return call.give(std::string(value));
+    else if constexpr (requires { Boxed<T>::type; })
+        return push_object(call.state(), value), 1;
+    else if constexpr (requires { requires T::ColsAtCompileTime == 1; })
+        return call.give_vector(value);
+    else if constexpr (requires { T::ColsAtCompileTime; })
+        return call.give_matrix(value);
+    else
+        return give_list(call, value, [&](const auto& item) { give_value(call, item); });
+}
+
+/// One column as a vector, several as a matrix.
+inline int give_columns(const Call& call, const Matrix& columns) {
+    return columns.cols() == 1 ? call.give_vector(columns.col(0)) : call.give_matrix(columns);
+}
+
+/// Sets a field of the table on top of the stack, which stays there.
+template <class T>
+void set_field(const Call& call, const char* name, const T& value) {
+    give_value(call, value);
+    lua_setfield(call.state(), -2, name);
+}
+
+template <class T, auto kGet>
+int give_field(Call& call) {
+    return give_value(call, std::invoke(kGet, object_argument<T>(call, 1, Boxed<T>::type.name)));
+}
+/// A field that scripts read of a T: kGet(object), or the member that kGet points to.
+template <class T, auto kGet>
+constexpr lua_CFunction field = guarded<give_field<T, kGet>>;
 
 /// From now on reading a field that the table on top of the stack has not is an error that lists those it has; `name`
 /// is that of the data.

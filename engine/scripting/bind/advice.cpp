@@ -11,29 +11,22 @@ namespace dynlab::inline scripting {
 namespace {
 
 /// {{first, last}, ...} as data:discard takes it.
-void push_segments(lua_State* L, const std::vector<Segment>& segments) {
-    lua_createtable(L, static_cast<int>(segments.size()), 0);
-    for (std::size_t i = 0; i < segments.size(); ++i) {
-        lua_createtable(L, 2, 0);
-        lua_pushinteger(L, segments[i].first);
-        lua_rawseti(L, -2, 1);
-        lua_pushinteger(L, segments[i].last);
-        lua_rawseti(L, -2, 2);
-        lua_rawseti(L, -2, static_cast<lua_Integer>(i + 1));
-    }
+void set_segments(const Call& call, const char* name, const std::vector<Segment>& segments) {
+    give_list(call, segments, [&](const Segment& segment) {
+        give_value(call, std::array{segment.first, segment.last});
+    });
+    lua_setfield(call.state(), -2, name);
 }
 
 void push_finding(const Call& call, const RecordFinding& finding) {
-    lua_State* L = call.state();
-    lua_createtable(L, 0, 7);
-    set_text(call, "code", finding.code);
-    set_flag(L, "warning", finding.weight == Weight::kWarning);
-    set_text(call, "channel", finding.channel);
-    set_text(call, "message", in_lua_words(finding.message));
-    set_number(L, "value", finding.value);
-    set_integer(L, "experiment", static_cast<Index>(finding.experiment + 1));
-    push_segments(L, finding.sections);
-    lua_setfield(L, -2, "sections");
+    lua_createtable(call.state(), 0, 7);
+    set_field(call, "code", finding.code);
+    set_field(call, "warning", finding.weight == Weight::kWarning);
+    set_field(call, "channel", finding.channel);
+    set_field(call, "message", in_lua_words(finding.message));
+    set_field(call, "value", finding.value);
+    set_field(call, "experiment", static_cast<Index>(finding.experiment + 1));
+    set_segments(call, "sections", finding.sections);
 }
 
 std::string text_of(const Advice& advice, std::size_t experiments) {
@@ -51,15 +44,9 @@ int give_advice(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const Advice advice = advise(data, call.cancel());
     call.print(text_of(advice, data.experiments.size()));
-    lua_State* L = call.state();
-    lua_createtable(L, static_cast<int>(advice.findings.size()), 2);
-    for (std::size_t i = 0; i < advice.findings.size(); ++i) {
-        push_finding(call, advice.findings[i]);
-        lua_rawseti(L, -2, static_cast<lua_Integer>(i + 1));
-    }
-    set_flag(L, "clean", advice.clean());
-    push_segments(L, advice.discard);
-    lua_setfield(L, -2, "discard");
+    give_list(call, advice.findings, [&](const RecordFinding& finding) { push_finding(call, finding); });
+    set_field(call, "clean", advice.clean());
+    set_segments(call, "discard", advice.discard);
     return 1;
 }
 

@@ -2,7 +2,7 @@
 
 #include "numerics/control/state_feedback.h"
 #include "numerics/rigs/crane_control.h"
-#include "scripting/arguments/arguments.h"
+#include "scripting/arguments/table_fields.h"
 #include "scripting/bind/control_bindings.h"
 #include "scripting/objects/boxed.h"
 #include "scripting/objects/model.h"
@@ -79,10 +79,8 @@ int drive_crane(Call& call) {
         control_crane({}, {}, run, controller, static_cast<std::uint32_t>(options.size("seed", 1)));
     lua_createtable(L, 0, 4);
     for (const auto& [name, values] : {std::pair("t", &record.t), std::pair("u", &record.u), std::pair("x", &record.x),
-                                       std::pair("theta", &record.theta)}) {
-        call.give_vector(*values);
-        lua_setfield(L, -2, name);
-    }
+                                       std::pair("theta", &record.theta)})
+        set_field(call, name, *values);
     return 1;
 }
 

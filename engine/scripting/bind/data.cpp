@@ -28,29 +28,20 @@ void push_variables(const Call& call, const VariableTable& variables, const std:
 
 void push_list(const Call& call, const VariableList& list, const std::string& path) {
     luaL_checkstack(call.state(), 8, "the data are nested too deeply");
-    lua_createtable(call.state(), static_cast<int>(list.size()), 0);
-    for (std::size_t i = 0; i < list.size(); ++i) {
-        push_variable(call, list[i], fmt::format("{}[{}]", path, i + 1));
-        lua_rawseti(call.state(), -2, static_cast<lua_Integer>(i + 1));
-    }
+    std::size_t number = 0;
+    give_list(call, list,
+              [&](const Variable& one) { push_variable(call, one, fmt::format("{}[{}]", path, ++number)); });
 }
 
 /// What each kind of variable becomes in Lua.
 struct Pusher {
     const Call& call;
     const std::string& path;
-    void operator()(double value) const { call.give(value); }
-    void operator()(bool value) const { call.give(value); }
-    void operator()(const std::string& value) const { call.give(value); }
-    void operator()(const Vector& value) const { call.give_vector(value); }
-    void operator()(const Matrix& value) const { call.give_matrix(value); }
-    void operator()(const Eigen::VectorXcd& value) const { push_object(call.state(), ComplexVector(value)); }
+    void operator()(const auto& value) const { give_value(call, value); }
     void operator()(const Eigen::MatrixXcd& value) const {
         lua_createtable(call.state(), 0, 2);
-        call.give_matrix(value.real());
-        lua_setfield(call.state(), -2, "re");
-        call.give_matrix(value.imag());
-        lua_setfield(call.state(), -2, "im");
+        set_field(call, "re", Matrix(value.real()));
+        set_field(call, "im", Matrix(value.imag()));
     }
     void operator()(const std::shared_ptr<VariableTable>& value) const { push_variables(call, *value, path); }
     void operator()(const std::shared_ptr<VariableList>& value) const { push_list(call, *value, path); }

@@ -1,7 +1,9 @@
 #include <array>
 #include <cmath>
 
+#include "numerics/number_text.h"
 #include "numerics/signals/preprocess.h"
+#include "scripting/arguments/table_fields.h"
 #include "scripting/bind/preprocess_bindings.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/text_form.h"
@@ -13,61 +15,25 @@ const IdData& data_self(Call& call) {
     return object_argument<IdData>(call, 1, "data");
 }
 
-const Experiment& only_experiment(Call& call) {
-    const IdData& data = data_self(call);
+const Experiment& only_experiment(const IdData& data) {
     if (data.experiments.size() != 1)
         throw InvalidArgument(fmt::format("the data hold {} experiments; take one of them with data:experiment(k)",
                                           data.experiments.size()));
     return data.experiments.front();
 }
 
-/// One channel as a vector, several as a matrix with a column each.
-int give_channels(Call& call, const Matrix& channels) {
-    return channels.cols() == 1 ? call.give_vector(channels.col(0)) : call.give_matrix(channels);
+template <Matrix Experiment::*kSignals>
+int give_channels(Call& call) {
+    return give_columns(call, only_experiment(data_self(call)).*kSignals);
 }
 
-int give_texts(Call& call, const std::vector<std::string>& texts) {
-    lua_createtable(call.state(), static_cast<int>(texts.size()), 0);
-    for (std::size_t i = 0; i < texts.size(); ++i) {
-        lua_pushstring(call.state(), texts[i].c_str());
-        lua_rawseti(call.state(), -2, static_cast<lua_Integer>(i + 1));
-    }
-    return 1;
+Vector instants(const IdData& data) {
+    only_experiment(data);
+    return data.time();
 }
 
-int field_y(Call& call) {
-    return give_channels(call, only_experiment(call).y);
-}
-int field_u(Call& call) {
-    return give_channels(call, only_experiment(call).u);
-}
-int field_t(Call& call) {
-    only_experiment(call);
-    return call.give_vector(data_self(call).time());
-}
-int field_Ts(Call& call) {
-    return call.give(data_self(call).Ts);
-}
-int field_N(Call& call) {
-    return call.give_integer(data_self(call).sample_count());
-}
-int field_ny(Call& call) {
-    return call.give_integer(data_self(call).output_count());
-}
-int field_nu(Call& call) {
-    return call.give_integer(data_self(call).input_count());
-}
-int field_experiments(Call& call) {
-    return call.give_integer(static_cast<Index>(data_self(call).experiments.size()));
-}
-int field_hold(Call& call) {
-    return call.give(std::string(data_self(call).hold == Hold::kZoh ? "zoh" : "foh"));
-}
-int field_input_name(Call& call) {
-    return give_texts(call, data_self(call).input_names);
-}
-int field_output_name(Call& call) {
-    return give_texts(call, data_self(call).output_names);
+const char* hold_text(const IdData& data) {
+    return data.hold == Hold::kZoh ? "zoh" : "foh";
 }
 
 int part(Call& call) {
@@ -139,15 +105,13 @@ int remove_mean_of(Call& call) {
     return give_data(call, remove_mean(data_self(call)).data);
 }
 
-int data_to_text(Call& call) {
-    const IdData& data = data_self(call);
+std::string data_text(const IdData& data) {
     const std::string sampling =
         data.regular() ? "Ts = " + number_text(data.Ts) + " " + data.time_unit : "sampled irregularly";
     const std::size_t experiments = data.experiments.size();
-    return call.give(fmt::format("iddata: {} samples, {} output{}, {} input{}, {}{}", data.sample_count(),
-                                 data.output_count(), data.output_count() == 1 ? "" : "s", data.input_count(),
-                                 data.input_count() == 1 ? "" : "s", sampling,
-                                 experiments > 1 ? fmt::format(", {} experiments", experiments) : ""));
+    return fmt::format("iddata: {} samples, {}, {}, {}{}", data.sample_count(), counted(data.output_count(), "output"),
+                       counted(data.input_count(), "input"), sampling,
+                       experiments > 1 ? fmt::format(", {} experiments", experiments) : "");
 }
 
 void add_texts(DigestStream& digest, const std::vector<std::string>& texts) {
@@ -163,17 +127,17 @@ void add_numbers(DigestStream& digest, const Numbers& numbers) {
 }
 
 constexpr std::array kDataTypeFields = {
-    Member{"y", guarded<field_y>},
-    Member{"u", guarded<field_u>},
-    Member{"t", guarded<field_t>},
-    Member{"Ts", guarded<field_Ts>},
-    Member{"N", guarded<field_N>},
-    Member{"ny", guarded<field_ny>},
-    Member{"nu", guarded<field_nu>},
-    Member{"experiments", guarded<field_experiments>},
-    Member{"InterSample", guarded<field_hold>},
-    Member{"InputName", guarded<field_input_name>},
-    Member{"OutputName", guarded<field_output_name>},
+    Member{"y", guarded<give_channels<&Experiment::y>>},
+    Member{"u", guarded<give_channels<&Experiment::u>>},
+    Member{"t", field<IdData, instants>},
+    Member{"Ts", field<IdData, &IdData::Ts>},
+    Member{"N", field<IdData, [](const IdData& data) { return data.sample_count(); }>},
+    Member{"ny", field<IdData, &IdData::output_count>},
+    Member{"nu", field<IdData, &IdData::input_count>},
+    Member{"experiments", field<IdData, [](const IdData& data) { return data.experiments.size(); }>},
+    Member{"InterSample", field<IdData, hold_text>},
+    Member{"InputName", field<IdData, &IdData::input_names>},
+    Member{"OutputName", field<IdData, &IdData::output_names>},
 };
 constexpr std::array kDataTypeMethods = {
     Member{"range", guarded<part>},
@@ -189,7 +153,7 @@ constexpr std::array kDataTypeMethods = {
     Member{"keep", guarded<keep_parts>},
     Member{"discard", guarded<discard_parts>},
 };
-constexpr std::array kDataTypeOperators = {Member{"__tostring", guarded<data_to_text>}};
+constexpr std::array kDataTypeOperators = {Member{"__tostring", field<IdData, data_text>}};
 
 }  // namespace
 

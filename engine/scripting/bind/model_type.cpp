@@ -1,6 +1,9 @@
 #include <array>
 #include <cmath>
+#include <ranges>
+#include <span>
 
+#include "scripting/arguments/table_fields.h"
 #include "scripting/objects/model.h"
 #include "scripting/objects/present.h"
 #include "scripting/objects/text_form.h"
@@ -12,28 +15,22 @@ const Model& model_self(Call& call) {
     return object_argument<Model>(call, 1, "G");
 }
 
-const Estimate& estimate_of_self(Call& call) {
-    const Model& model = model_self(call);
+const Estimate& estimate_in(const Model& model) {
     if (!model.estimate)
         throw InvalidArgument("this model was written down, not estimated, so it has no standard errors and no report");
     return *model.estimate;
 }
 
 /// The transfer function of a model with one channel.
-const TransferFunction& only_channel(Call& call) {
-    const Model& model = model_self(call);
+const TransferFunction& only_channel(const Model& model) {
     if (model.single_channel()) return model.G;
     throw InvalidArgument("this field is one channel's, and the model has several channels: " + channels_hint(model));
 }
-
-int field_num(Call& call) {
-    return call.give_vector(only_channel(call).num());
+Vector numerator_of(const Model& model) {
+    return only_channel(model).num();
 }
-int field_den(Call& call) {
-    return call.give_vector(only_channel(call).den());
-}
-int field_delay(Call& call) {
-    return call.give(only_channel(call).delay());
+Vector denominator_of(const Model& model) {
+    return only_channel(model).den();
 }
 
 const PolynomialModel& polynomials(Call& call) {
@@ -53,116 +50,50 @@ const NoiseModel* noise_of(Call& call) {
 }
 template <Vector PolynomialModel::*kPolynomial>
 int field_polynomial(Call& call) {
-    if (kPolynomial == &PolynomialModel::A && is_carx(call)) return field_den(call);
+    if (kPolynomial == &PolynomialModel::A && is_carx(call)) return call.give_vector(denominator_of(model_self(call)));
     return call.give_vector(polynomials(call).*kPolynomial);
 }
 /// A vector, or a table of one vector for each of several inputs.
 template <std::vector<Vector> PolynomialModel::*kPolynomials>
 int field_input_polynomials(Call& call) {
-    if (kPolynomials == &PolynomialModel::B && is_carx(call)) return field_num(call);
+    if (kPolynomials == &PolynomialModel::B && is_carx(call)) return call.give_vector(numerator_of(model_self(call)));
     const std::vector<Vector>& list = polynomials(call).*kPolynomials;
-    if (list.size() == 1) return call.give_vector(list.front());
-    lua_createtable(call.state(), static_cast<int>(list.size()), 0);
-    for (std::size_t i = 0; i < list.size(); ++i) {
-        call.give_vector(list[i]);
-        lua_rawseti(call.state(), -2, static_cast<lua_Integer>(i + 1));
-    }
-    return 1;
+    return list.size() == 1 ? call.give_vector(list.front()) : give_value(call, list);
 }
 
-/// A list of models, one per input.
-void push_channels(const Call& call, const TransferFunction* first, std::size_t inputs) {
-    lua_createtable(call.state(), static_cast<int>(inputs), 0);
-    for (std::size_t i = 0; i < inputs; ++i) {
-        give_model(call, first[i]);
-        lua_rawseti(call.state(), -2, static_cast<lua_Integer>(i + 1));
-    }
-}
 /// The transfer function from each input; with several outputs such a list for each.
 int field_channels(Call& call) {
     const Model& model = model_self(call);
     const std::vector<TransferFunction> channels = channels_of(model);
-    if (model.outputs == 1) {
-        push_channels(call, channels.data(), model.inputs());
-        return 1;
-    }
-    lua_createtable(call.state(), static_cast<int>(model.outputs), 0);
-    for (std::size_t i = 0; i < model.outputs; ++i) {
-        push_channels(call, channels.data() + i * model.inputs(), model.inputs());
-        lua_rawseti(call.state(), -2, static_cast<lua_Integer>(i + 1));
-    }
-    return 1;
-}
-int field_sampling_time(Call& call) {
-    return call.give(model_self(call).G.Ts());
-}
-int field_param(Call& call) {
-    return call.give_vector(parameters_of(model_self(call)).values);
-}
-int field_std(Call& call) {
-    return call.give_vector(estimate_of_self(call).std);
-}
-int field_covariance(Call& call) {
-    return call.give_matrix(estimate_of_self(call).covariance);
+    const auto of_output = [&](std::size_t output) {
+        return give_list(call, std::span(channels).subspan(output * model.inputs(), model.inputs()),
+                         [&](const TransferFunction& channel) { give_model(call, channel); });
+    };
+    if (model.outputs == 1) return of_output(0);
+    return give_list(call, std::views::iota(std::size_t{0}, model.outputs), of_output);
 }
 
-const Assessment& assessment_of(Call& call) {
-    const Estimate& estimate = estimate_of_self(call);
+const Assessment& assessment_of(const Model& model) {
+    const Estimate& estimate = estimate_in(model);
     if (estimate.assessment) return *estimate.assessment;
     throw InvalidArgument(fmt::format("{} gives no robust standard errors", estimate.method));
-}
-int field_robust_std(Call& call) {
-    return call.give_vector(assessment_of(call).std);
-}
-int field_robust_covariance(Call& call) {
-    return call.give_matrix(assessment_of(call).covariance);
-}
-
-int field_names(Call& call) {
-    lua_newtable(call.state());
-    lua_Integer index = 0;
-    for (const std::string& name : parameters_of(model_self(call)).names) {
-        lua_pushstring(call.state(), name.c_str());
-        lua_rawseti(call.state(), -2, ++index);
-    }
-    return 1;
 }
 
 /// G.report: a plain table.
 int field_report(Call& call) {
-    const Estimate& estimate = estimate_of_self(call);
-    lua_State* L = call.state();
-    lua_newtable(L);
-    lua_pushstring(L, estimate.method.c_str());
-    lua_setfield(L, -2, "method");
-    lua_pushstring(L, estimate.message.c_str());
-    lua_setfield(L, -2, "message");
-    lua_pushboolean(L, estimate.converged);
-    lua_setfield(L, -2, "converged");
-    for (const auto& [name, value] : estimate.numbers) {
-        lua_pushnumber(L, value);
-        lua_setfield(L, -2, name.c_str());
-    }
-    for (const auto& [name, values] : estimate.vectors) {
-        call.give_vector(values);
-        lua_setfield(L, -2, name.c_str());
-    }
-    for (const auto& [name, values] : estimate.matrices) {
-        call.give_matrix(values);
-        lua_setfield(L, -2, name.c_str());
-    }
+    const Estimate& estimate = estimate_in(model_self(call));
+    lua_newtable(call.state());
+    set_field(call, "method", estimate.method);
+    set_field(call, "message", estimate.message);
+    set_field(call, "converged", estimate.converged);
+    for (const auto& [name, value] : estimate.numbers) set_field(call, name.c_str(), value);
+    for (const auto& [name, values] : estimate.vectors) set_field(call, name.c_str(), values);
+    for (const auto& [name, values] : estimate.matrices) set_field(call, name.c_str(), values);
     if (estimate.assessment) {
-        lua_pushboolean(L, estimate.assessment->white);
-        lua_setfield(L, -2, "white");
-        lua_pushstring(L, estimate.assessment->verdict.c_str());
-        lua_setfield(L, -2, "residual_verdict");
+        set_field(call, "white", estimate.assessment->white);
+        set_field(call, "residual_verdict", estimate.assessment->verdict);
     }
-    lua_createtable(L, static_cast<int>(estimate.warnings.size()), 0);
-    for (std::size_t i = 0; i < estimate.warnings.size(); ++i) {
-        lua_pushstring(L, estimate.warnings[i].c_str());
-        lua_rawseti(L, -2, static_cast<lua_Integer>(i + 1));
-    }
-    lua_setfield(L, -2, "warnings");
+    set_field(call, "warnings", estimate.warnings);
     return 1;
 }
 
@@ -193,10 +124,6 @@ int field_D(Call& call) {
     return model_self(call).polynomial ? field_polynomial<&PolynomialModel::D>(call) : field_parameter(call);
 }
 
-int to_text_of_model(Call& call) {
-    return call.give(channels_text(model_self(call)));
-}
-
 template <TransferFunction (*kOperator)(const TransferFunction&, const TransferFunction&)>
 int combine(Call& call) {
     return give_model(call, kOperator(model_argument(call, 1, "left side").G, model_argument(call, 2, "right side").G));
@@ -218,21 +145,21 @@ int raise_to_power(Call& call) {
     return give_model(call, pow(model_argument(call, 1, "base").G, static_cast<int>(call.integer(2, "exponent"))));
 }
 int negate(Call& call) {
-    const TransferFunction& G = only_channel(call);
+    const TransferFunction& G = only_channel(model_self(call));
     return give_model(call, TransferFunction(-G.num(), G.den(), G.Ts(), G.delay()));
 }
 
 constexpr std::array kModelTypeFields = {
-    Member{"num", guarded<field_num>},
-    Member{"den", guarded<field_den>},
-    Member{"IODelay", guarded<field_delay>},
-    Member{"Ts", guarded<field_sampling_time>},
-    Member{"param", guarded<field_param>},
-    Member{"std", guarded<field_std>},
-    Member{"covariance", guarded<field_covariance>},
-    Member{"robust_std", guarded<field_robust_std>},
-    Member{"robust_covariance", guarded<field_robust_covariance>},
-    Member{"names", guarded<field_names>},
+    Member{"num", field<Model, numerator_of>},
+    Member{"den", field<Model, denominator_of>},
+    Member{"IODelay", field<Model, [](const Model& model) { return only_channel(model).delay(); }>},
+    Member{"Ts", field<Model, [](const Model& model) { return model.G.Ts(); }>},
+    Member{"param", field<Model, [](const Model& model) { return parameters_of(model).values; }>},
+    Member{"std", field<Model, [](const Model& model) { return estimate_in(model).std; }>},
+    Member{"covariance", field<Model, [](const Model& model) { return estimate_in(model).covariance; }>},
+    Member{"robust_std", field<Model, [](const Model& model) { return assessment_of(model).std; }>},
+    Member{"robust_covariance", field<Model, [](const Model& model) { return assessment_of(model).covariance; }>},
+    Member{"names", field<Model, [](const Model& model) { return parameters_of(model).names; }>},
     Member{"report", guarded<field_report>},
     Member{"Kp", guarded<field_parameter>},
     Member{"Tp1", guarded<field_parameter>},
@@ -254,41 +181,22 @@ constexpr std::array kModelTypeFields = {
     Member{"channels", guarded<field_channels>},
 };
 constexpr std::array kModelTypeOperators = {
-    Member{"__add", guarded<combine<plus>>},         Member{"__sub", guarded<combine<minus>>},
-    Member{"__mul", guarded<combine<times>>},        Member{"__div", guarded<combine<over>>},
-    Member{"__pow", guarded<raise_to_power>},        Member{"__unm", guarded<negate>},
-    Member{"__tostring", guarded<to_text_of_model>},
+    Member{"__add", guarded<combine<plus>>},           Member{"__sub", guarded<combine<minus>>},
+    Member{"__mul", guarded<combine<times>>},          Member{"__div", guarded<combine<over>>},
+    Member{"__pow", guarded<raise_to_power>},          Member{"__unm", guarded<negate>},
+    Member{"__tostring", field<Model, channels_text>},
 };
 
-const StateSpace& system(Call& call) {
-    return object_argument<StateSpace>(call, 1, "system");
-}
-int system_A(Call& call) {
-    return call.give_matrix(system(call).A);
-}
-int system_B(Call& call) {
-    return call.give_matrix(system(call).B);
-}
-int system_C(Call& call) {
-    return call.give_matrix(system(call).C);
-}
-int system_D(Call& call) {
-    return call.give_matrix(system(call).D);
-}
-int system_Ts(Call& call) {
-    return call.give(system(call).Ts);
-}
-int system_text(Call& call) {
-    const StateSpace& s = system(call);
-    return call.give(fmt::format("A =\n{}\nB =\n{}\nC =\n{}\nD =\n{}{}", matrix_text(s.A), matrix_text(s.B),
-                                 matrix_text(s.C), matrix_text(s.D),
-                                 s.Ts > 0 ? fmt::format("\nTs = {} s", number_text(s.Ts)) : ""));
+std::string system_text(const StateSpace& s) {
+    return fmt::format("A =\n{}\nB =\n{}\nC =\n{}\nD =\n{}{}", matrix_text(s.A), matrix_text(s.B), matrix_text(s.C),
+                       matrix_text(s.D), s.Ts > 0 ? fmt::format("\nTs = {} s", number_text(s.Ts)) : "");
 }
 
-constexpr std::array kSystemFields = {Member{"A", guarded<system_A>}, Member{"B", guarded<system_B>},
-                                      Member{"C", guarded<system_C>}, Member{"D", guarded<system_D>},
-                                      Member{"Ts", guarded<system_Ts>}};
-constexpr std::array kSystemOperators = {Member{"__tostring", guarded<system_text>}};
+constexpr std::array kSystemFields = {
+    Member{"A", field<StateSpace, &StateSpace::A>}, Member{"B", field<StateSpace, &StateSpace::B>},
+    Member{"C", field<StateSpace, &StateSpace::C>}, Member{"D", field<StateSpace, &StateSpace::D>},
+    Member{"Ts", field<StateSpace, &StateSpace::Ts>}};
+constexpr std::array kSystemOperators = {Member{"__tostring", field<StateSpace, system_text>}};
 
 }  // namespace
 

@@ -61,18 +61,17 @@ int give_spectral(const Call& call, const Options& options, SpectralModels& read
     print_message(call, estimate.message, estimate.warnings);
     give_figure(call, spectral_plot(estimate, method, read.models, confidence_of(options)));
     lua_createtable(call.state(), 0, 8);
-    set_vector(call, "w", estimate.w);
-    push_object(call.state(), estimate.response);
-    lua_setfield(call.state(), -2, "response");
-    set_vector(call, "magnitude", estimate.response.cwiseAbs());
-    set_vector(call, "phase", phase_degrees_unwrapped(estimate.response));
+    set_field(call, "w", estimate.w);
+    set_field(call, "response", estimate.response);
+    set_field(call, "magnitude", estimate.response.cwiseAbs());
+    set_field(call, "phase", phase_degrees_unwrapped(estimate.response));
     if (estimate.std.size() > 0) {
-        set_vector(call, "std", estimate.std);
-        set_vector(call, "coherence", estimate.coherence);
-        set_vector(call, "noise_spectrum", estimate.noise_spectrum);
+        set_field(call, "std", estimate.std);
+        set_field(call, "coherence", estimate.coherence);
+        set_field(call, "noise_spectrum", estimate.noise_spectrum);
     }
-    set_text(call, "message", estimate.message);
-    set_texts(call, "warnings", estimate.warnings);
+    set_field(call, "message", estimate.message);
+    set_field(call, "warnings", estimate.warnings);
     return 2;
 }
 
@@ -80,19 +79,18 @@ int give_impulse(const Call& call, const Options& options, SpectralModels& read,
     name_models(options, read.models);
     print_message(call, estimate.message, estimate.warnings);
     give_figure(call, impulse_estimate_plot(estimate, read.data.Ts, read.models, confidence_of(options)));
-    lua_State* L = call.state();
-    lua_createtable(L, 0, 8);
-    set_vector(call, "t", estimate.t);
-    set_vector(call, "response", estimate.response);
-    set_vector(call, "std", estimate.std);
-    set_vector(call, "chance", estimate.null_std);
-    set_number(L, "noise_variance", estimate.noise_variance);
+    lua_createtable(call.state(), 0, 8);
+    set_field(call, "t", estimate.t);
+    set_field(call, "response", estimate.response);
+    set_field(call, "std", estimate.std);
+    set_field(call, "chance", estimate.null_std);
+    set_field(call, "noise_variance", estimate.noise_variance);
     if (estimate.first) {
-        set_integer(L, "first", *estimate.first);
-        set_number(L, "dead_time", static_cast<double>(std::max<Index>(*estimate.first - 1, 0)) * read.data.Ts);
+        set_field(call, "first", *estimate.first);
+        set_field(call, "dead_time", static_cast<double>(std::max<Index>(*estimate.first - 1, 0)) * read.data.Ts);
     }
-    set_text(call, "message", estimate.message);
-    set_texts(call, "warnings", estimate.warnings);
+    set_field(call, "message", estimate.message);
+    set_field(call, "warnings", estimate.warnings);
     return 2;
 }
 
@@ -134,8 +132,8 @@ int correlation_analysis(Call& call) {
     wanted.confidence = confidence_of(options);
     const CorrelationAnalysis result = cra(read.data, wanted);
     give_impulse(call, options, read, result.impulse);
-    set_vector(call, "whitening_filter", result.whitening_filter);
-    set_vector(call, "input_correlation", result.input_correlation);
+    set_field(call, "whitening_filter", result.whitening_filter);
+    set_field(call, "input_correlation", result.input_correlation);
     return 2;
 }
 

@@ -154,15 +154,15 @@ int select_structure(Call& call) {
 void push_search(const Call& call, const IdData& data, const DelaySearch& search) {
     lua_State* L = call.state();
     lua_createtable(L, 0, 10);
-    set_number(L, "delay", search.delay);
-    set_number(L, "std", search.std);
-    if (data.regular()) set_number(L, "samples", search.delay / data.Ts);
-    if (search.rival) set_number(L, "rival", *search.rival);
-    set_vector(call, "delays", search.grid());
-    set_vector(call, "losses", search.losses());
-    set_integer(L, "poles", search.candidate.poles);
-    set_integer(L, "zeros", search.candidate.zeros);
-    set_text(call, "message", in_lua_words(search.explanation));
+    set_field(call, "delay", search.delay);
+    set_field(call, "std", search.std);
+    if (data.regular()) set_field(call, "samples", search.delay / data.Ts);
+    if (search.rival) set_field(call, "rival", *search.rival);
+    set_field(call, "delays", search.grid());
+    set_field(call, "losses", search.losses());
+    set_field(call, "poles", search.candidate.poles);
+    set_field(call, "zeros", search.candidate.zeros);
+    set_field(call, "message", in_lua_words(search.explanation));
     give_transfer_estimate(call, "srivc", search.candidate.estimate);
     lua_setfield(L, -2, "model");
 }

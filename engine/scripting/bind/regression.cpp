@@ -3,6 +3,7 @@
 #include "figures/plots/regression_plot.h"
 #include "numerics/estimators/gradient_descent.h"
 #include "numerics/estimators/linear_regression.h"
+#include "scripting/arguments/table_fields.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/text_form.h"
@@ -25,57 +26,38 @@ struct Boxed<RegressionFit> {
 
 namespace {
 
-const RegressionFit& regression_self(Call& call) {
-    return object_argument<RegressionFit>(call, 1, "fit");
+template <auto kMember>
+constexpr lua_CFunction regression_field =
+    field<RegressionFit, [](const RegressionFit& fit) { return fit.regression.*kMember; }>;
+
+Vector coefficients_of(const RegressionFit& fit) {
+    return fit.polynomial ? fit.polynomial->coefficients : fit.regression.theta;
+}
+double centre_of(const RegressionFit& fit) {
+    return fit.polynomial ? fit.polynomial->centre : 0.0;
 }
 
-template <auto kMember>
-int field_vector(Call& call) {
-    return call.give_vector(regression_self(call).regression.*kMember);
-}
-template <auto kMember>
-int field_number(Call& call) {
-    return call.give(regression_self(call).regression.*kMember);
-}
-int regression_covariance(Call& call) {
-    return call.give_matrix(regression_self(call).regression.covariance);
-}
-int field_rank(Call& call) {
-    return call.give_integer(regression_self(call).regression.rank);
-}
-int field_message(Call& call) {
-    return call.give(regression_self(call).regression.message);
-}
-int field_coefficients(Call& call) {
-    const RegressionFit& fit = regression_self(call);
-    return call.give_vector(fit.polynomial ? fit.polynomial->coefficients : fit.regression.theta);
-}
-int field_centre(Call& call) {
-    return call.give(regression_self(call).polynomial ? regression_self(call).polynomial->centre : 0.0);
-}
-
-int fit_text(Call& call) {
-    const LinearRegression& fit = regression_self(call).regression;
-    return call.give(fmt::format("theta = {}\nstandard errors = {}\nRMSE = {}, condition number = {}\n{}",
-                                 vector_text(fit.theta), vector_text(fit.std), number_text(fit.rmse),
-                                 number_text(fit.condition_number), fit.message));
+std::string regression_text(const RegressionFit& given) {
+    const LinearRegression& fit = given.regression;
+    return fmt::format("theta = {}\nstandard errors = {}\nRMSE = {}, condition number = {}\n{}", vector_text(fit.theta),
+                       vector_text(fit.std), number_text(fit.rmse), number_text(fit.condition_number), fit.message);
 }
 
 constexpr std::array kRegressionFields = {
-    Member{"theta", guarded<field_vector<&LinearRegression::theta>>},
-    Member{"std", guarded<field_vector<&LinearRegression::std>>},
-    Member{"fitted", guarded<field_vector<&LinearRegression::fitted>>},
-    Member{"residuals", guarded<field_vector<&LinearRegression::residuals>>},
-    Member{"sigma", guarded<field_number<&LinearRegression::sigma>>},
-    Member{"rmse", guarded<field_number<&LinearRegression::rmse>>},
-    Member{"condition_number", guarded<field_number<&LinearRegression::condition_number>>},
-    Member{"covariance", guarded<regression_covariance>},
-    Member{"rank", guarded<field_rank>},
-    Member{"message", guarded<field_message>},
-    Member{"coefficients", guarded<field_coefficients>},
-    Member{"centre", guarded<field_centre>},
+    Member{"theta", regression_field<&LinearRegression::theta>},
+    Member{"std", regression_field<&LinearRegression::std>},
+    Member{"fitted", regression_field<&LinearRegression::fitted>},
+    Member{"residuals", regression_field<&LinearRegression::residuals>},
+    Member{"sigma", regression_field<&LinearRegression::sigma>},
+    Member{"rmse", regression_field<&LinearRegression::rmse>},
+    Member{"condition_number", regression_field<&LinearRegression::condition_number>},
+    Member{"covariance", regression_field<&LinearRegression::covariance>},
+    Member{"rank", regression_field<&LinearRegression::rank>},
+    Member{"message", regression_field<&LinearRegression::message>},
+    Member{"coefficients", field<RegressionFit, coefficients_of>},
+    Member{"centre", field<RegressionFit, centre_of>},
 };
-constexpr std::array kRegressionOperators = {Member{"__tostring", guarded<fit_text>}};
+constexpr std::array kRegressionOperators = {Member{"__tostring", field<RegressionFit, regression_text>}};
 
 int least_squares(Call& call) {
     call.at_most(3);
@@ -110,19 +92,16 @@ Forecast forecast_at(const RegressionFit& fit, double x, double level) {
 
 int predict(Call& call) {
     call.at_most(3);
-    const RegressionFit& fit = regression_self(call);
+    const RegressionFit& fit = object_argument<RegressionFit>(call, 1, "fit");
     const double level = call.number_or(3, "level", 0.95);
     const bool single = fit.polynomial && call.type(2) == LUA_TNUMBER;
     const Forecast result = single ? forecast_at(fit, call.number(2, "x"), level)
                                    : forecast(fit.regression, call.vector(2, "regressors"), level);
-    lua_State* L = call.state();
-    lua_createtable(L, 0, 6);
+    lua_createtable(call.state(), 0, 6);
     for (const auto& [name, value] :
          {std::pair("value", result.value), std::pair("low", result.low), std::pair("high", result.high),
-          std::pair("std", result.std), std::pair("mean_std", result.mean_std), std::pair("level", result.level)}) {
-        lua_pushnumber(L, value);
-        lua_setfield(L, -2, name);
-    }
+          std::pair("std", result.std), std::pair("mean_std", result.mean_std), std::pair("level", result.level)})
+        set_field(call, name, value);
     return 1;
 }
 
@@ -181,16 +160,15 @@ int descend(Call& call) {
     wanted.cancel = call.cancel();
     const MatrixMap Phi = call.matrix(1, "Phi");
     const GradientDescentResult result = gradient_descent(Phi, call.vector(2, "y"), wanted);
-    lua_State* L = call.state();
-    lua_createtable(L, 0, 8);
-    call.give_vector(result.theta), lua_setfield(L, -2, "theta");
-    call.give_vector(result.loss), lua_setfield(L, -2, "loss");
-    call.give(result.step_size), lua_setfield(L, -2, "step");
-    call.give(result.largest_step), lua_setfield(L, -2, "largest_step");
-    call.give(result.condition_number), lua_setfield(L, -2, "condition_number");
-    call.give_integer(result.iterations), lua_setfield(L, -2, "iterations");
-    call.give(result.termination == Termination::kConverged), lua_setfield(L, -2, "converged");
-    call.give(result.message), lua_setfield(L, -2, "message");
+    lua_createtable(call.state(), 0, 8);
+    set_field(call, "theta", result.theta);
+    set_field(call, "loss", result.loss);
+    set_field(call, "step", result.step_size);
+    set_field(call, "largest_step", result.largest_step);
+    set_field(call, "condition_number", result.condition_number);
+    set_field(call, "iterations", result.iterations);
+    set_field(call, "converged", result.termination == Termination::kConverged);
+    set_field(call, "message", result.message);
     return 1;
 }
 

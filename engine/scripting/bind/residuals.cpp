@@ -17,34 +17,30 @@ namespace {
 void push_independence(const Call& call, const IndependenceTest& test) {
     lua_State* L = call.state();
     lua_createtable(L, 0, 8);
-    set_vector(call, "correlation", test.correlation);
-    set_number(L, "bound", test.bound);
-    set_number(L, "outside", static_cast<double>(test.outside));
-    set_number(L, "p_value", test.p_value);
-    set_number(L, "p_value_future", test.p_value_future);
-    set_flag(L, "independent", test.independent);
-    set_flag(L, "without_feedback", test.without_feedback);
-    set_text(call, "verdict", test.verdict);
+    set_field(call, "correlation", test.correlation);
+    set_field(call, "bound", test.bound);
+    set_field(call, "outside", static_cast<double>(test.outside));
+    set_field(call, "p_value", test.p_value);
+    set_field(call, "p_value_future", test.p_value_future);
+    set_field(call, "independent", test.independent);
+    set_field(call, "without_feedback", test.without_feedback);
+    set_field(call, "verdict", test.verdict);
 }
 
 void push_output(const Call& call, const OutputResiduals& output) {
     lua_State* L = call.state();
     lua_createtable(L, 0, 10);
-    set_number(L, "mean", output.mean);
-    set_number(L, "variance", output.variance);
-    set_flag(L, "exact", output.exact);
-    set_text(call, "verdict", output.verdict);
+    set_field(call, "mean", output.mean);
+    set_field(call, "variance", output.variance);
+    set_field(call, "exact", output.exact);
+    set_field(call, "verdict", output.verdict);
     if (output.exact) return;
-    set_vector(call, "correlation", output.whiteness.correlation);
-    set_number(L, "bound", output.whiteness.bound);
-    set_number(L, "outside", static_cast<double>(output.whiteness.outside));
-    set_number(L, "p_value", output.whiteness.p_value);
-    set_flag(L, "white", output.whiteness.white);
-    lua_createtable(L, static_cast<int>(output.inputs.size()), 0);
-    for (std::size_t j = 0; j < output.inputs.size(); ++j) {
-        push_independence(call, output.inputs[j]);
-        lua_rawseti(L, -2, static_cast<lua_Integer>(j + 1));
-    }
+    set_field(call, "correlation", output.whiteness.correlation);
+    set_field(call, "bound", output.whiteness.bound);
+    set_field(call, "outside", static_cast<double>(output.whiteness.outside));
+    set_field(call, "p_value", output.whiteness.p_value);
+    set_field(call, "white", output.whiteness.white);
+    give_list(call, output.inputs, [&](const IndependenceTest& test) { push_independence(call, test); });
     lua_setfield(L, -2, "inputs");
 }
 
@@ -53,24 +49,17 @@ void push_tests(const Call& call, const ResidualTests& tests) {
     lua_State* L = call.state();
     lua_createtable(L, 0, 5);
     bool white = true, independent = true;
-    lua_createtable(L, static_cast<int>(tests.outputs.size()), 0);
-    for (std::size_t i = 0; i < tests.outputs.size(); ++i) {
-        white = white && tests.outputs[i].whiteness.white;
-        for (const IndependenceTest& test : tests.outputs[i].inputs) independent = independent && test.independent;
-        push_output(call, tests.outputs[i]);
-        lua_rawseti(L, -2, static_cast<lua_Integer>(i + 1));
-    }
+    give_list(call, tests.outputs, [&](const OutputResiduals& output) {
+        white = white && output.whiteness.white;
+        for (const IndependenceTest& test : output.inputs) independent = independent && test.independent;
+        push_output(call, output);
+    });
     lua_setfield(L, -2, "outputs");
-    lua_createtable(L, static_cast<int>(tests.residuals.size()), 0);
-    for (std::size_t k = 0; k < tests.residuals.size(); ++k) {
-        const Matrix& residuals = tests.residuals[k];
-        residuals.cols() == 1 ? call.give_vector(residuals.col(0)) : call.give_matrix(residuals);
-        lua_rawseti(L, -2, static_cast<lua_Integer>(k + 1));
-    }
+    give_list(call, tests.residuals, [&](const Matrix& residuals) { give_columns(call, residuals); });
     lua_setfield(L, -2, "residuals");
-    set_text(call, "verdict", tests.verdict);
-    set_flag(L, "white", white);
-    set_flag(L, "independent", independent);
+    set_field(call, "verdict", tests.verdict);
+    set_field(call, "white", white);
+    set_field(call, "independent", independent);
 }
 
 int test_residuals(Call& call) {
@@ -112,22 +101,19 @@ std::vector<TransferFunction> call_fitter(lua_State* L, const IdData& training) 
 void push_cross_validation(const Call& call, const CrossValidation& result) {
     lua_State* L = call.state();
     lua_createtable(L, 0, 5);
-    result.fit_percent.cols() == 1 ? call.give_vector(result.fit_percent.col(0)) : call.give_matrix(result.fit_percent);
+    give_columns(call, result.fit_percent);
     lua_setfield(L, -2, "fit_percent");
-    set_vector(call, "mean", result.mean);
-    set_vector(call, "std", result.spread);
-    set_text(call, "message", result.message);
-    lua_createtable(L, static_cast<int>(result.folds.size()), 0);
-    for (std::size_t k = 0; k < result.folds.size(); ++k) {
-        const CrossValidationFold& fold = result.folds[k];
+    set_field(call, "mean", result.mean);
+    set_field(call, "std", result.spread);
+    set_field(call, "message", result.message);
+    give_list(call, result.folds, [&](const CrossValidationFold& fold) {
         lua_createtable(L, 0, 4);
-        set_number(L, "experiment", static_cast<double>(fold.experiment + 1));
-        set_number(L, "first", static_cast<double>(fold.first));
-        set_number(L, "last", static_cast<double>(fold.last));
+        set_field(call, "experiment", static_cast<double>(fold.experiment + 1));
+        set_field(call, "first", static_cast<double>(fold.first));
+        set_field(call, "last", static_cast<double>(fold.last));
         give_model(call, fold.channels.front());
         lua_setfield(L, -2, "model");
-        lua_rawseti(L, -2, static_cast<lua_Integer>(k + 1));
-    }
+    });
     lua_setfield(L, -2, "folds");
 }
 

@@ -20,60 +20,42 @@ const MonteCarlo& study_self(Call& call) {
 int push_result(const Call& call, const MonteCarloResult& result) {
     lua_State* L = call.state();
     lua_createtable(L, 0, 16);
-    set_texts(call, "names", result.names);
-    set_matrix(call, "theta", result.theta);
-    set_matrix(call, "reported", result.std);
+    set_field(call, "names", result.names);
+    set_field(call, "theta", result.theta);
+    set_field(call, "reported", result.std);
     for (const auto& [name, values] :
          {std::pair("mean", &result.mean), std::pair("std", &result.spread), std::pair("median", &result.median),
           std::pair("min", &result.low), std::pair("max", &result.high), std::pair("reported_std", &result.reported)})
-        set_vector(call, name, *values);
+        set_field(call, name, *values);
     if (result.truth.size() > 0) {
-        set_vector(call, "truth", result.truth);
-        set_vector(call, "bias", result.bias);
+        set_field(call, "truth", result.truth);
+        set_field(call, "bias", result.bias);
     }
     if (result.bound.size() > 0) {
-        set_vector(call, "cramer_rao_std", result.least_spread());
-        set_matrix(call, "cramer_rao", result.bound);
+        set_field(call, "cramer_rao_std", result.least_spread());
+        set_field(call, "cramer_rao", result.bound);
     }
-    set_integer(L, "estimated", result.estimated);
-    set_integer(L, "failed", result.failed);
-    set_integer(L, "not_converged", result.not_converged);
-    set_text(call, "first_failure", in_lua_words(result.first_failure));
+    set_field(call, "estimated", result.estimated);
+    set_field(call, "failed", result.failed);
+    set_field(call, "not_converged", result.not_converged);
+    set_field(call, "first_failure", in_lua_words(result.first_failure));
     return 1;
+}
+
+std::vector<std::string> labels_of(const MonteCarlo& study) {
+    std::vector<std::string> labels;
+    for (const MonteCarloResult& result : study.results) labels.push_back(result.label);
+    return labels;
 }
 
 /// study.lssvf
 int study_named(Call& call) {
     const MonteCarlo& study = study_self(call);
     const std::string label = call.text(2, "label");
-    std::vector<std::string> labels;
-    for (const MonteCarloResult& result : study.results) {
+    for (const MonteCarloResult& result : study.results)
         if (result.label == label) return push_result(call, result);
-        labels.push_back(result.label);
-    }
     throw InvalidArgument(fmt::format("this study has no estimator or field '{}'; its estimators are {}", label,
-                                      fmt::join(labels, ", ")));
-}
-
-int study_labels(Call& call) {
-    std::vector<std::string> labels;
-    for (const MonteCarloResult& result : study_self(call).results) labels.push_back(result.label);
-    lua_createtable(call.state(), 0, 1);
-    set_texts(call, "labels", labels);
-    lua_getfield(call.state(), -1, "labels");
-    return 1;
-}
-int study_runs(Call& call) {
-    return call.give_integer(study_self(call).runs);
-}
-int study_sigma(Call& call) {
-    return call.give(study_self(call).sigma);
-}
-int study_snr(Call& call) {
-    return call.give(study_self(call).snr);
-}
-int study_text(Call& call) {
-    return call.give(monte_carlo_text(study_self(call)));
+                                      fmt::join(labels_of(study), ", ")));
 }
 
 int draw_histograms(Call& call) {
@@ -88,69 +70,59 @@ int draw_scatter(Call& call) {
                                                  call.text(3, "parameter on y"), options.number("level", 0.95)));
 }
 
-constexpr std::array kStudyFields = {Member{"labels", guarded<study_labels>}, Member{"runs", guarded<study_runs>},
-                                     Member{"sigma", guarded<study_sigma>}, Member{"snr", guarded<study_snr>}};
+constexpr std::array kStudyFields = {
+    Member{"labels", field<MonteCarlo, labels_of>}, Member{"runs", field<MonteCarlo, &MonteCarlo::runs>},
+    Member{"sigma", field<MonteCarlo, &MonteCarlo::sigma>}, Member{"snr", field<MonteCarlo, &MonteCarlo::snr>}};
 constexpr std::array kStudyMethods = {Member{"histograms", guarded<draw_histograms>},
                                       Member{"scatter", guarded<draw_scatter>}};
-constexpr std::array kStudyOperators = {Member{"__tostring", guarded<study_text>},
+constexpr std::array kStudyOperators = {Member{"__tostring", field<MonteCarlo, monte_carlo_text>},
                                         Member{"__named", guarded<study_named>}};
 
 // ---- order table
 
-const OrderTable& table_self(Call& call) {
-    return object_argument<OrderTable>(call, 1, "table");
-}
-
-void push_candidate(const Call& call, const OrderCandidate& candidate) {
+int push_candidate(const Call& call, const OrderCandidate& candidate) {
     lua_State* L = call.state();
     lua_createtable(L, 0, 16);
-    set_integer(L, "poles", candidate.poles);
-    set_integer(L, "zeros", candidate.zeros);
-    set_number(L, "delay", candidate.delay);
+    set_field(call, "poles", candidate.poles);
+    set_field(call, "zeros", candidate.zeros);
+    set_field(call, "delay", candidate.delay);
     if (!candidate.failure.empty()) {
-        set_text(call, "failure", in_lua_words(candidate.failure));
-        return;
+        set_field(call, "failure", in_lua_words(candidate.failure));
+        return 1;
     }
     for (const auto& [name, value] :
          {std::pair("r_squared", candidate.r_squared), std::pair("yic", candidate.yic), std::pair("aic", candidate.aic),
           std::pair("bic", candidate.bic), std::pair("fpe", candidate.fpe),
           std::pair("log_condition", candidate.log_condition), std::pair("fit_percent", candidate.fit_percent)})
-        set_number(L, name, value);
-    if (candidate.validation_fit) set_number(L, "validation_fit", *candidate.validation_fit);
-    set_integer(L, "iterations", candidate.iterations);
-    set_texts(call, "undetermined", candidate.undetermined);
-    set_flag(L, "cancellation", candidate.cancellation);
-    set_flag(L, "converged", candidate.converged);
+        set_field(call, name, value);
+    if (candidate.validation_fit) set_field(call, "validation_fit", *candidate.validation_fit);
+    set_field(call, "iterations", candidate.iterations);
+    set_field(call, "undetermined", candidate.undetermined);
+    set_field(call, "cancellation", candidate.cancellation);
+    set_field(call, "converged", candidate.converged);
     give_transfer_estimate(call, "srivc", candidate.estimate);
     lua_setfield(L, -2, "model");
+    return 1;
 }
 
 int table_rows(Call& call) {
-    const OrderTable& table = table_self(call);
-    lua_createtable(call.state(), static_cast<int>(table.selection.candidates.size()), 0);
-    lua_Integer index = 0;
-    for (const OrderCandidate& candidate : table.selection.candidates) {
-        push_candidate(call, candidate);
-        lua_rawseti(call.state(), -2, ++index);
-    }
-    return 1;
+    return give_list(call, object_argument<OrderTable>(call, 1, "table").selection.candidates,
+                     [&](const OrderCandidate& candidate) { push_candidate(call, candidate); });
 }
 int table_best(Call& call) {
-    const OrderTable& table = table_self(call);
-    push_candidate(call, table.selection.candidates[table.choice.place]);
-    return 1;
+    const OrderTable& table = object_argument<OrderTable>(call, 1, "table");
+    return push_candidate(call, table.selection.candidates[table.choice.place]);
 }
-int table_recommendation(Call& call) {
-    return call.give(table_self(call).choice.explanation);
+std::string recommendation(const OrderTable& table) {
+    return table.choice.explanation;
 }
-int table_text(Call& call) {
-    const OrderTable& table = table_self(call);
-    return call.give(order_table_text(table.selection, table.choice));
+std::string table_text(const OrderTable& table) {
+    return order_table_text(table.selection, table.choice);
 }
 
 constexpr std::array kTableFields = {Member{"rows", guarded<table_rows>}, Member{"best", guarded<table_best>},
-                                     Member{"recommendation", guarded<table_recommendation>}};
-constexpr std::array kTableOperators = {Member{"__tostring", guarded<table_text>}};
+                                     Member{"recommendation", field<OrderTable, recommendation>}};
+constexpr std::array kTableOperators = {Member{"__tostring", field<OrderTable, table_text>}};
 
 }  // namespace
 

@@ -82,7 +82,6 @@ int fit(Call& call) {
 
 int measure_fit(Call& call) {
     call.at_most(3);
-    lua_State* L = call.state();
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const Model model = model_argument(call, 2, "G");
     const Comparison comparison =
@@ -92,20 +91,18 @@ int measure_fit(Call& call) {
     const double mean_square = (y - simulated).squaredNorm() / static_cast<double>(y.size());
     const InformationCriteria criteria =
         information_criteria(mean_square, y.size(), parameters_of(model).values.size());
-    lua_createtable(L, 0, 10);
-    set_number(L, "fit_percent", fit_percent(y, simulated));
-    set_number(L, "r_squared_simulation", r_squared_simulation(y, simulated));
-    set_number(L, "rmse", std::sqrt(mean_square));
-    set_number(L, "fpe", criteria.fpe);
-    set_number(L, "aic", criteria.aic);
-    set_number(L, "aicc", criteria.aicc);
-    set_number(L, "bic", criteria.bic);
+    lua_createtable(call.state(), 0, 10);
+    set_field(call, "fit_percent", fit_percent(y, simulated));
+    set_field(call, "r_squared_simulation", r_squared_simulation(y, simulated));
+    set_field(call, "rmse", std::sqrt(mean_square));
+    set_field(call, "fpe", criteria.fpe);
+    set_field(call, "aic", criteria.aic);
+    set_field(call, "aicc", criteria.aicc);
+    set_field(call, "bic", criteria.bic);
     if (model.estimate && model.estimate->covariance.size() > 0)
-        set_number(L, "yic", yic(y, simulated, model.estimate->theta, model.estimate->covariance).value);
-    call.give_vector(comparison.results.front().front().output);
-    lua_setfield(L, -2, "output");
-    call.give(comparison.results.front().front().message);
-    lua_setfield(L, -2, "message");
+        set_field(call, "yic", yic(y, simulated, model.estimate->theta, model.estimate->covariance).value);
+    set_field(call, "output", comparison.results.front().front().output);
+    set_field(call, "message", comparison.results.front().front().message);
     return 1;
 }
 
