@@ -8,17 +8,8 @@ namespace dynlab::inline documents {
 /// Run records as data_io/values/described.h stores them. A figure's curves are not among it: what is needed of them is
 /// in its file.
 
-template <Is<RecordedValue> T, class V>
-void describe(T& object, V& member) {
-    auto& [number, text] = object;
-    member("number", number), member("text", text);
-}
-
-template <Is<RecordedTable> T, class V>
-void describe(T& object, V& member) {
-    auto& [header, rows] = object;
-    member("header", header), member("rows", rows);
-}
+DYNLAB_DESCRIBE(RecordedValue, number, text)
+DYNLAB_DESCRIBE(RecordedTable, header, rows)
 
 template <Is<RecordedFigure> T, class V>
 void describe(T& object, V& member) {
@@ -32,11 +23,7 @@ void describe(T& object, V& member) {
     member.unless_empty("printed", printed), member("figure", figure);
 }
 
-template <Is<RecordedError> T, class V>
-void describe(T& object, V& member) {
-    auto& [message, line] = object;
-    member("message", message), member("line", line);
-}
+DYNLAB_DESCRIBE(RecordedError, message, line)
 
 template <Is<RunRecord> T, class V>
 void describe(T& object, V& member) {
@@ -46,11 +33,7 @@ void describe(T& object, V& member) {
     member("error", error), member("files_read", files_read), member.kept("timings", timings);
 }
 
-template <Is<ExpectedAnswer> T, class V>
-void describe(T& object, V& member) {
-    auto& [name, kind] = object;
-    member("name", name), member("kind", kind);
-}
+DYNLAB_DESCRIBE(ExpectedAnswer, name, kind)
 
 /// An answer is its JSON; CBOR tells the kind beside it.
 void write_whole_value(ValueWriter& writer, const RecordedAnswer& answer);

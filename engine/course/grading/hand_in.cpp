@@ -29,17 +29,8 @@ struct Manifest {
     std::map<std::string, PackedFile> files = {};
 };
 
-template <Is<PackedFile> T, class V>
-void describe(T& object, V& member) {
-    auto& [bytes, sha256] = object;
-    member("bytes", bytes), member("sha256", sha256);
-}
-
-template <Is<Manifest> T, class V>
-void describe(T& object, V& member) {
-    auto& [format, files] = object;
-    member("format", format), member("files", files);
-}
+DYNLAB_DESCRIBE(PackedFile, bytes, sha256)
+DYNLAB_DESCRIBE(Manifest, format, files)
 
 namespace fs = std::filesystem;
 

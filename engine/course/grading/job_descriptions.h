@@ -11,71 +11,16 @@ namespace dynlab::inline course {
 
 /// Jobs for boxes and what comes of them, as data_io/values/described.h stores them.
 
-template <Is<GradedRun> T, class V>
-void describe(T& object, V& member) {
-    auto& [answers, figures, values, printed, error, seconds] = object;
-    member("answers", answers), member("figures", figures), member("values", values);
-    member("printed", printed), member("error", error), member("seconds", seconds);
-}
-
-template <Is<RunJob> T, class V>
-void describe(T& object, V& member) {
-    auto& [script, seed, answers, time_ms, memory_bytes] = object;
-    member("script", script), member("seed", seed), member("answers", answers);
-    member("time_ms", time_ms), member("memory_bytes", memory_bytes);
-}
-
-template <Is<CheckFile> T, class V>
-void describe(T& object, V& member) {
-    auto& [name, source, visible] = object;
-    member("name", name), member("source", source), member("visible", visible);
-}
-
-template <Is<CheckedSubmission> T, class V>
-void describe(T& object, V& member) {
-    auto& [runs, findings] = object;
-    member("runs", runs), member("findings", findings);
-}
-
-template <Is<CheckDescription> T, class V>
-void describe(T& object, V& member) {
-    auto& [id, about, hint, points, rerun, document, visible] = object;
-    member("id", id), member("about", about), member("hint", hint), member("points", points);
-    member("rerun", rerun), member("document", document), member("visible", visible);
-}
-
-template <Is<TriedCheck> T, class V>
-void describe(T& object, V& member) {
-    auto& [check, share, message, for_instructor] = object;
-    member("check", check), member("share", share);
-    member("message", message), member("for_instructor", for_instructor);
-}
-
-template <Is<CheckResults> T, class V>
-void describe(T& object, V& member) {
-    auto& [checks, error] = object;
-    member("checks", checks), member("error", error);
-}
-
-template <Is<ChecksJob> T, class V>
-void describe(T& object, V& member) {
-    auto& [files, hidden_folder, specimens, time_ms, only, submission] = object;
-    member("files", files), member("hidden_folder", hidden_folder), member("specimens", specimens);
-    member("time_ms", time_ms), member("only", only), member("submission", submission);
-}
-
-template <Is<Unpacked> T, class V>
-void describe(T& object, V& member) {
-    auto& [left_out, error] = object;
-    member("left_out", left_out), member("error", error);
-}
-
-template <Is<UnpackJob> T, class V>
-void describe(T& object, V& member) {
-    auto& [archive, to, bytes, files, keep_times] = object;
-    member("archive", archive), member("to", to), member("bytes", bytes);
-    member("files", files), member("keep_times", keep_times);
-}
+DYNLAB_DESCRIBE(GradedRun, answers, figures, values, printed, error, seconds)
+DYNLAB_DESCRIBE(RunJob, script, seed, answers, time_ms, memory_bytes)
+DYNLAB_DESCRIBE(CheckFile, name, source, visible)
+DYNLAB_DESCRIBE(CheckedSubmission, runs, findings)
+DYNLAB_DESCRIBE(CheckDescription, id, about, hint, points, rerun, document, visible)
+DYNLAB_DESCRIBE(TriedCheck, check, share, message, for_instructor)
+DYNLAB_DESCRIBE(CheckResults, checks, error)
+DYNLAB_DESCRIBE(ChecksJob, files, hidden_folder, specimens, time_ms, only, submission)
+DYNLAB_DESCRIBE(Unpacked, left_out, error)
+DYNLAB_DESCRIBE(UnpackJob, archive, to, bytes, files, keep_times)
 
 template <Is<DocumentJob> T, class V>
 void describe(T& object, V& member) {
@@ -84,16 +29,7 @@ void describe(T& object, V& member) {
     member("latex_format", latex_format), member("to", to);
 }
 
-template <Is<VersionJob> T, class V>
-void describe(T& object, V& member) {
-    auto& [folder, to, pdf] = object;
-    member("folder", folder), member("to", to), member("pdf", pdf);
-}
-
-template <Is<BoxedOutcome> T, class V>
-void describe(T& object, V& member) {
-    auto& [error] = object;
-    member("error", error);
-}
+DYNLAB_DESCRIBE(VersionJob, folder, to, pdf)
+DYNLAB_DESCRIBE(BoxedOutcome, error)
 
 }  // namespace dynlab::inline course

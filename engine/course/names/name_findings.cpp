@@ -26,11 +26,7 @@ constexpr std::array<const char*, 5> names_of(NameKind) {
     return {"name", "number", "mail", "group", "home"};
 }
 
-template <Is<NameHit> T, class V>
-void describe(T& object, V& member) {
-    auto& [who, kind, certain, begin, end] = object;
-    member("who", who), member("kind", kind), member("certain", certain), member("begin", begin), member("end", end);
-}
+DYNLAB_DESCRIBE(NameHit, who, kind, certain, begin, end)
 
 namespace {
 
@@ -84,19 +80,8 @@ struct SearchedObjects {
     std::string shown;  ///< the PDF with everything shown
 };
 
-template <Is<Found> T, class V>
-void describe(T& object, V& member) {
-    auto& [place, page, detail, excerpt, hit] = object;
-    member("place", place), member("page", page), member("detail", detail), member("excerpt", excerpt);
-    member("hit", hit);
-}
-
-template <Is<SearchedObjects> T, class V>
-void describe(T& object, V& member) {
-    auto& [found, authors, nested, trouble, shown] = object;
-    member("found", found), member("authors", authors), member("nested", nested), member("trouble", trouble);
-    member("shown", shown);
-}
+DYNLAB_DESCRIBE(Found, place, page, detail, excerpt, hit)
+DYNLAB_DESCRIBE(SearchedObjects, found, authors, nested, trouble, shown)
 
 std::string what_is_named(const NameHit& hit) {
     const std::string who = printable(hit.who, 80);

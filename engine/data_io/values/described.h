@@ -1,5 +1,8 @@
 #pragma once
 #include <array>
+#include <boost/preprocessor/seq/for_each.hpp>
+#include <boost/preprocessor/stringize.hpp>
+#include <boost/preprocessor/variadic/to_seq.hpp>
 #include <complex>
 #include <concepts>
 #include <cstring>
@@ -18,7 +21,12 @@
 
 namespace dynlab::inline data_io {
 
-/// A class that is stored or sent is described once, in its namespace or a later layer's:
+/// A class that is stored or sent is described once, in its namespace or a later layer's, by the names of its members
+/// in their order, under which they are stored:
+///
+///     DYNLAB_DESCRIBE(Level, value, from, to)
+///
+/// which stands for
 ///
 ///     template <Is<Level> T, class V>
 ///     void describe(T& object, V& member) {
@@ -26,13 +34,22 @@ namespace dynlab::inline data_io {
 ///         member("value", value), member("from", from), member("to", to);
 ///     }
 ///
-/// A structured binding must name all members, so that one that is added to the class and not here does not compile.
-/// `member.kept(...)` is for programs only (CBOR): JSON, which people read, leaves it out. `member.unless_empty(...)`
-/// is left out where it is empty, an optional one where it has no value; `member.null_if_empty(...)` is null there, for
-/// texts and numbers (0) of files in which every member always stands. After reading, `check_value(object, limits)`,
-/// where there is one, throws std::exception for what does not fit together.
+/// and is written out where a member has a name of its own or is stored in one of the ways below. A structured binding
+/// must name all members, so that one that is added to the class and not here does not compile. `member.kept(...)` is
+/// for programs only (CBOR): JSON, which people read, leaves it out. `member.unless_empty(...)` is left out where it is
+/// empty, an optional one where it has no value; `member.null_if_empty(...)` is null there, for texts and numbers (0)
+/// of files in which every member always stands. After reading, `check_value(object, limits)`, where there is one,
+/// throws std::exception for what does not fit together.
 template <class T, class Class>
 concept Is = std::same_as<std::remove_const_t<T>, Class>;
+
+#define DYNLAB_STORE_MEMBER(_, stream, name) stream(BOOST_PP_STRINGIZE(name), name);
+#define DYNLAB_DESCRIBE(Class, ...)                                                               \
+    template <Is<Class> T, class V>                                                               \
+    void describe(T& object, V& member) {                                                         \
+        auto& [__VA_ARGS__] = object;                                                             \
+        BOOST_PP_SEQ_FOR_EACH(DYNLAB_STORE_MEMBER, member, BOOST_PP_VARIADIC_TO_SEQ(__VA_ARGS__)) \
+    }
 
 /// A class that is stored as another: Form is the other, form() makes it, value() makes the class of it again.
 template <class T>

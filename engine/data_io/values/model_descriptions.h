@@ -19,19 +19,8 @@ constexpr std::array<const char*, 2> names_of(Hold) {
     return {"zoh", "foh"};
 }
 
-template <Is<Experiment> T, class V>
-void describe(T& object, V& member) {
-    auto& [y, u, t, start_time, name] = object;
-    member("y", y), member("u", u), member("t", t), member("start_time", start_time), member("name", name);
-}
-
-template <Is<IdData> T, class V>
-void describe(T& object, V& member) {
-    auto& [experiments, Ts, hold, input_names, output_names, input_units, output_units, time_unit] = object;
-    member("experiments", experiments), member("Ts", Ts), member("hold", hold);
-    member("input_names", input_names), member("output_names", output_names);
-    member("input_units", input_units), member("output_units", output_units), member("time_unit", time_unit);
-}
+DYNLAB_DESCRIBE(Experiment, y, u, t, start_time, name)
+DYNLAB_DESCRIBE(IdData, experiments, Ts, hold, input_names, output_names, input_units, output_units, time_unit)
 void check_value(const IdData& data, const ValueLimits& limits);
 
 /// Read by the constructor, which leaves what another one made as it is.
@@ -40,11 +29,7 @@ struct TransferFunctionMembers {
     double Ts = 0, delay = 0;
 };
 
-template <Is<TransferFunctionMembers> T, class V>
-void describe(T& object, V& member) {
-    auto& [num, den, Ts, delay] = object;
-    member("num", num), member("den", den), member("Ts", Ts), member("delay", delay);
-}
+DYNLAB_DESCRIBE(TransferFunctionMembers, num, den, Ts, delay)
 void check_value(const TransferFunctionMembers& members, const ValueLimits& limits);
 
 template <>
@@ -61,25 +46,13 @@ struct StoredAs<ProcessStructure> {
     static ProcessStructure value(Form&& text) { return ProcessStructure::parse(text); }
 };
 
-template <Is<ProcessModel> T, class V>
-void describe(T& object, V& member) {
-    auto& [structure, parameters] = object;
-    member("structure", structure), member("parameters", parameters);
-}
+DYNLAB_DESCRIBE(ProcessModel, structure, parameters)
 void check_value(const ProcessModel& model, const ValueLimits& limits);
 
-template <Is<PolynomialModel> T, class V>
-void describe(T& object, V& member) {
-    auto& [A, C, D, B, F, Ts] = object;
-    member("A", A), member("C", C), member("D", D), member("B", B), member("F", F), member("Ts", Ts);
-}
+DYNLAB_DESCRIBE(PolynomialModel, A, C, D, B, F, Ts)
 void check_value(const PolynomialModel& model, const ValueLimits& limits);
 
-template <Is<StateSpace> T, class V>
-void describe(T& object, V& member) {
-    auto& [A, B, C, D, Ts] = object;
-    member("A", A), member("B", B), member("C", C), member("D", D), member("Ts", Ts);
-}
+DYNLAB_DESCRIBE(StateSpace, A, B, C, D, Ts)
 void check_value(const StateSpace& system, const ValueLimits& limits);
 
 template <>

@@ -18,19 +18,8 @@
 
 namespace dynlab::inline documents {
 
-template <Is<PdfWord> T, class V>
-void describe(T& object, V& member) {
-    auto& [left, top, right, bottom, size, bold, fixed_width, rotated, space_after, text] = object;
-    member("left", left), member("top", top), member("right", right), member("bottom", bottom), member("size", size);
-    member("bold", bold), member("fixed_width", fixed_width), member("rotated", rotated);
-    member("space_after", space_after), member("text", text);
-}
-
-template <Is<PdfPage> T, class V>
-void describe(T& object, V& member) {
-    auto& [width, height, words] = object;
-    member("width", width), member("height", height), member("words", words);
-}
+DYNLAB_DESCRIBE(PdfWord, left, top, right, bottom, size, bold, fixed_width, rotated, space_after, text)
+DYNLAB_DESCRIBE(PdfPage, width, height, words)
 
 template <Is<PdfLayout> T, class V>
 void describe(T& object, V& member) {

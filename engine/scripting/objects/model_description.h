@@ -8,11 +8,7 @@ namespace dynlab::inline scripting {
 /// Objects of scripts as data_io/values/described.h stores them. Answers hold of an estimate what checks look at; what
 /// only plots and `present` use is kept for programs.
 
-template <Is<NoiseModel> T, class V>
-void describe(T& object, V& member) {
-    auto& [C, D, C_std, D_std] = object;
-    member("C", C), member("D", D), member("C_std", C_std), member("D_std", D_std);
-}
+DYNLAB_DESCRIBE(NoiseModel, C, D, C_std, D_std)
 
 template <Is<Estimate> T, class V>
 void describe(T& object, V& member) {
@@ -34,10 +30,6 @@ void describe(T& object, V& member) {
 }
 void check_value(const Model& model, const ValueLimits& limits);
 
-template <Is<OrderTable> T, class V>
-void describe(T& object, V& member) {
-    auto& [selection, choice] = object;
-    member("selection", selection), member("choice", choice);
-}
+DYNLAB_DESCRIBE(OrderTable, selection, choice)
 
 }  // namespace dynlab::inline scripting
