@@ -11,8 +11,10 @@ namespace dynlab::inline numerics {
 void check_signals(const std::string& method, const IdData& data);
 
 /// The same; data of other channels than the structure, with fewer than 3 samples per parameter, not longer than a
-/// fixed delay, or with a constant input although the output does not start from rest, so that it is no step.
-void check_transfer_data(const std::string& method, const IdData& data, const TransferStructure& structure);
+/// fixed delay, or with a constant input although the output does not start from rest, so that it is no step; where an
+/// `offset` is removed or estimated, the output may rest anywhere.
+void check_transfer_data(const std::string& method, const IdData& data, const TransferStructure& structure,
+                         Offset offset = Offset::kNone);
 
 /// Those of check_signals, and data that are not regularly sampled.
 void check_sampled_data(const std::string& method, const IdData& data);
