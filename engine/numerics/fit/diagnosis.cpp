@@ -235,6 +235,11 @@ void set_message(Fit& fit, const std::string& first) {
     for (const std::string& warning : fit.warnings) fit.message += " " + warning;
 }
 
+void add_warning(Fit& fit, const std::string& sentence) {
+    fit.warnings.push_back(sentence);
+    fit.message += " " + sentence;
+}
+
 std::string simulation_text(const Fit& fit) {
     std::string fits;
     for (Index output = 0; output < fit.fit_percent.size(); ++output)

@@ -65,6 +65,8 @@ void describe_search(Fit& fit, const IdData& data, const std::string& method, co
 std::string ending_text(const Fit& fit);
 /// The message: a first sentence, then all warnings.
 void set_message(Fit& fit, const std::string& first);
+/// One more warning, at the end of a message that stands already.
+void add_warning(Fit& fit, const std::string& sentence);
 /// "fit 93.21 % (simulation)", of all outputs.
 std::string simulation_text(const Fit& fit);
 

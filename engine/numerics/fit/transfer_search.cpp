@@ -12,6 +12,7 @@
 #include "numerics/fit/search_starts.h"
 #include "numerics/fit/srivc_iteration.h"
 #include "numerics/fit/transfer_refinement.h"
+#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -235,7 +236,11 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
         FitOptions stable = options;
         stable.stable = true;
         starts.push_back(best.theta);
-        if (Fit other = search(stable, {}); other.loss <= kClearly * best.loss) best = std::move(other);
+        if (Fit other = search(stable, {}); other.loss <= kClearly * best.loss) {
+            add_warning(other, "An unstable model has a loss " + number_text(100 * (1 - best.loss / other.loss), 2) +
+                                   " % smaller, which is no evidence for it: `stable` = false gives it.");
+            best = std::move(other);
+        }
     }
     if (options.goes_on && best.termination == Termination::kIterationLimit)
         best = continued(best, refine_output_error(record, structure, chosen, best.theta,
