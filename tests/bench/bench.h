@@ -31,5 +31,6 @@ void measure_program(Report& report);
 void measure_grading(Report& report);
 void measure_course(Report& report);
 void measure_lua(Report& report);
+void measure_searches(Report& report);
 
 }  // namespace dynlab::bench

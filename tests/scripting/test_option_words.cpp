@@ -35,6 +35,9 @@ TEST(option_words, errors_name_the_options_of_scripts) {
              {"procsrivc(d, 'P1I', {InitialState = 'estimate', Offset = 'estimate'})",
               "with InitialState \"estimate\""},
              {"srivc(d, {1, 2, 0}, {Tol = 0})", "Tol must be positive, and is 0"},
+             {"coe(d, {1, 2, 0}, {Fixed = {a3 = 1}})", "Fixed: the model has no parameter a3; it has a1, a2, b0"},
+             {"tfcoe(d, 2, 0, {Fixed = {Td = 1}})", "a delay is fixed with IODelay"},
+             {"coe(d, {1, 2, 0}, {OutputWeights = {1, 2}})", "OutputWeights holds a positive number for each"},
              {"hammerstein(d, 2, 0, {Bins = 0})", "Bins must lie between 1 and 1000"},
              {"hammerstein(d, 2, 0, {Breakpoints = {2, 1}})", "Breakpoints must increase"},
              {"n4sid(d, 3, {BlockRows = 2})", "BlockRows must be greater than the order"}}) {

@@ -59,4 +59,36 @@ TEST(script_estimators, difference_equations_have_robust_errors_too) {
             << method;
 }
 
+const std::string kDelayed =
+    "rng(3) local u = prbs(7, 8)\n"
+    "local data = iddata(lsim(tf({2}, {1, 4, 3}, {IODelay = 0.3}), u, 0.05) + 0.01*randn(#u), u, 0.05)\n"
+    "local free = tfsrivc(data, 2, 0)\n"
+    "local function same(a, b) return norm(a - b) < 1e-4*norm(b) end\n";
+
+TEST(script_estimators, a_model_or_a_delay_starts_the_search) {  // oracle: the search without a start
+    EXPECT_EQ(printed(kDelayed + "print(same(tfsrivc(data, tf({1.5}, {1, 3, 2}, {IODelay = 0.2})).param, free.param), "
+                                 "same(tfcoe(data, 2, 0, {Td0 = 0.25}).param, free.param))\n"
+                                 "print(#tfcoe(data, tf({1.5}, {1, 3, 2})).param)"),
+              "true\ttrue\n3\n");
+    EXPECT_THAT(error_of(kDelayed + "tfsrivc(data, tf({1}, {1, 2}), {Td0 = 1})"), HasSubstr("it has its own delay"));
+    EXPECT_THAT(error_of(kDelayed + "tfsrivc(data, tf({1}, {1, 2}, {Ts = 1}))"), HasSubstr("continuous time"));
+}
+
+TEST(script_estimators, known_parameters_stay_as_they_are) {  // oracle: the system
+    EXPECT_EQ(printed(kDelayed + "local G = srivc(data, {1, 2, 6}, {Fixed = {a2 = 3, b0 = 2}})\n"
+                                 "print(G.param[2], G.param[3], G.std[2], math.abs(G.param[1] - 4) < 4*G.std[1])\n"
+                                 "local T = tfcoe(data, 2, 0, {Fixed = {b0 = 2}})\n"
+                                 "print(T.param[3], math.abs(T.IODelay - 0.3) < 4*T.std[4], T.std[3])"),
+              "3\t2\t0\ttrue\n2\ttrue\t0\n");
+    EXPECT_THAT(error_of(kDelayed + "srivc(data, {1, 2, 6}, {Fixed = {3}})"), HasSubstr("must name its values"));
+}
+
+TEST(script_estimators, each_output_has_orders_of_its_own) {  // oracle: each output by itself
+    EXPECT_EQ(printed(kDelayed +
+                      "local two = iddata(matrix{data.y, cumsum(data.u)*0 + lsim(tf({1, 1}, {1, 2, 4, 2}), u, 0.05)}, u, 0.05)\n"
+                      "local G = srivc(two, {{1, 2}, {2, 3}, {6, 0}})\n"
+                      "print(same(G.channels[1][1].num, srivc(data, {1, 2, 6}).num), #G.channels[2][1].den, #G.channels[2][1].num)"),
+              "true\t4\t2\n");
+}
+
 }  // namespace test_script_estimators

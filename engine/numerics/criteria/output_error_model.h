@@ -28,6 +28,8 @@ class OutputErrorModel {
     /// The sums against the measured `y` (N), for which a model need not store J: what each step of a search needs. By
     /// simulate() unless a structure knows a faster way; a model may take the `y` it was made of for granted.
     virtual OutputErrorProducts products(const Vector& theta, const VectorView& y) const;
+    /// Rows that are zero for every theta, and in what is fitted: they do not count as samples.
+    virtual Index silent_rows() const { return 0; }
     /// Whether they cost little more than the output alone, so that a search asks for them before it knows whether it
     /// will go there.
     virtual bool products_come_cheap() const { return false; }

@@ -23,6 +23,7 @@ class Reparametrised : public OutputErrorModel {
     const Vector& upper() const override { return upper_; }
     void simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const override;
     OutputErrorProducts products(const Vector& theta, const VectorView& y) const override;
+    Index silent_rows() const override { return inner_.silent_rows(); }
     bool products_come_cheap() const override { return inner_.products_come_cheap(); }
 
   private:

@@ -6,6 +6,7 @@
 
 #include "numerics/error.h"
 #include "numerics/filters/transfer_filters.h"
+#include "numerics/linalg/polynomial.h"
 
 namespace dynlab::inline numerics {
 
@@ -157,9 +158,27 @@ void TransferOutput::set_weights(const Vector& weights) {
 Vector TransferOutput::target() const {
     Vector y(samples_ * structure_.outputs);
     for (std::size_t e = 0; e < experiments_.size(); ++e)
-        for (Index output = 0; output < structure_.outputs; ++output)
+        for (Index output = 0; output < structure_.outputs; ++output) {
             y.segment(row(e, output), rows(e)) = weights_[output] * experiments_[e].y.col(output);
+            y.segment(row(e, output), experiments_[e].silent).setZero();
+        }
     return y;
+}
+
+void TransferOutput::leave_out(double seconds) {
+    const double units = seconds / time_unit_;
+    for (Record& record : experiments_) {
+        const Index N = record.y.rows();
+        record.silent = 0;
+        while (record.silent < N && (record.t.size() > 0 ? record.t[record.silent] : static_cast<double>(record.silent)) < units)
+            ++record.silent;
+    }
+}
+
+Index TransferOutput::silent_rows() const {
+    Index rows = 0;
+    for (const Record& record : experiments_) rows += record.silent * structure_.outputs;
+    return rows;
 }
 
 bool TransferOutput::usable(const Vector& theta) const {
@@ -167,8 +186,23 @@ bool TransferOutput::usable(const Vector& theta) const {
         const Index place = structure_.denominator_start(static_cast<Index>(d));
         for (int i = 1; i <= structure_.poles[d]; ++i)
             if (!(std::abs(theta[place + i - 1]) <= std::pow(kFastest, i))) return false;
+        if (stable_only_ && !is_hurwitz(monic(theta.segment(place, structure_.poles[d])))) return false;
     }
     return true;
+}
+
+void TransferOutput::fix(const std::map<std::string, double>& values) {
+    const std::vector<std::string> names = structure_.parameter_names();
+    for (const auto& [name, value] : values) {
+        const auto known = std::find(names.begin(), names.end(), name);
+        if (known == names.end()) {
+            std::string all;
+            for (const std::string& one : names) all += (all.empty() ? "" : ", ") + one;
+            throw InvalidArgument("`fixed`: the model has no parameter " + name + "; it has " + all);
+        }
+        const Index place = known - names.begin();
+        lower_[place] = upper_[place] = value / seconds_[place];
+    }
 }
 
 void TransferOutput::simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const {
@@ -193,9 +227,13 @@ void TransferOutput::simulate(const Vector& theta, Vector& output, Matrix* sensi
                 block.output.array() += theta[offset_index(e, o)];
                 if (sensitivities) block.columns(offset_index(e, o), 1).setOnes();
             }
-            if (weights_[o] == 1) continue;
-            block.output *= weights_[o];
-            if (sensitivities) block.columns(0, parameter_count()) *= weights_[o];
+            if (weights_[o] != 1) {
+                block.output *= weights_[o];
+                if (sensitivities) block.columns(0, parameter_count()) *= weights_[o];
+            }
+            const Index silent = experiments_[e].silent;
+            block.output.head(silent).setZero();
+            if (sensitivities) sensitivities->middleRows(row(e, o), silent).setZero();
         }
     }
 }

@@ -1,4 +1,6 @@
 #pragma once
+#include <map>
+#include <string>
 #include <vector>
 
 #include "numerics/criteria/initial_conditions.h"
@@ -39,6 +41,13 @@ class TransferOutput : public OutputErrorModel {
     /// Not finite where a coefficient is beyond all use, instead of failing there.
     void simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const override;
 
+    /// Unstable models count as unusable, as those that grow beyond all bounds do.
+    void keep_stable() { stable_only_ = true; }
+    /// Holds parameters of the structure at values (s), by name. Throws InvalidArgument for a name that it lacks.
+    void fix(const std::map<std::string, double>& values);
+    /// The samples of the first seconds of each experiment do not count: their rows are zero, in target() too.
+    void leave_out(double seconds);
+    Index silent_rows() const override;
     /// Multiplies each output's rows, in target() too; ones at first.
     void set_weights(const Vector& weights);
     const Vector& weights() const { return weights_; }
@@ -48,11 +57,13 @@ class TransferOutput : public OutputErrorModel {
     const Vector& seconds() const { return seconds_; }  ///< factors that bring each parameter back to seconds
     /// The initial values and offsets, which stand last.
     Index linear_count() const { return parameter_count() - initial_start(0, 0); }
-    Index sample_count() const { return samples_; }  ///< over all experiments, of each output
+    /// That count, over all experiments, of each output.
+    Index sample_count() const { return samples_ - silent_rows() / structure_.outputs; }
 
     std::size_t experiment_count() const { return experiments_.size(); }
     Index row(std::size_t experiment, Index output) const;  ///< the first of its N
     Index rows(std::size_t experiment) const { return experiments_[experiment].y.rows(); }
+    Index counted_rows(std::size_t experiment) const { return rows(experiment) - experiments_[experiment].silent; }
     /// Where an output's initial values of one experiment lie among the parameters, and how many they are.
     Index initial_start(std::size_t experiment, Index output) const;
     Index initial_count(Index output) const;
@@ -73,6 +84,7 @@ class TransferOutput : public OutputErrorModel {
         Vector resting;  // first inputs, or zeros
         Vector t;        // in time units from the first on; empty with regular sampling
         Index row = 0;   // the first of its stacked rows
+        Index silent = 0;  // of each output, at the beginning
 
         Sampling sampling() const;  // in time units
     };
@@ -86,7 +98,7 @@ class TransferOutput : public OutputErrorModel {
 
     TransferStructure structure_;
     StartCondition condition_;
-    bool own_gains_;
+    bool own_gains_, stable_only_ = false;
     Hold hold_;
     double time_unit_ = 1;
     std::vector<Record> experiments_;

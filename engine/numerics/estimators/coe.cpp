@@ -4,9 +4,9 @@
 
 namespace dynlab::inline numerics {
 
-Fit coe(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
+Fit coe(const IdData& data, const TransferStructure& structure, const FitOptions& options, const SearchAids& aids) {
     options.validate();
-    return search_transfer("coe", data, structure, options);
+    return search_transfer("coe", data, structure, options, aids);
 }
 
 }  // namespace dynlab::inline numerics

@@ -1,5 +1,5 @@
 #pragma once
-#include "numerics/fit/fit.h"
+#include "numerics/fit/transfer_search.h"
 
 namespace dynlab::inline numerics {
 
@@ -8,7 +8,8 @@ namespace dynlab::inline numerics {
 /// over all parameters, free delays, initial values and offsets jointly, by Levenberg-Marquardt with exact
 /// sensitivities from the start that srivc also uses; free delays are first looked for on a grid. Efficient for white
 /// e; its optimum is srivc's fixed point. Structures, options, warnings and errors as for srivc. Reference: Ljung
-/// (1999), sections 4.2 and 10.2; Garnier and Wang (2008), chapter 1.
-Fit coe(const IdData& data, const TransferStructure& structure, const FitOptions& options = {});
+/// (1999), sections 4.2 and 10.2; Garnier and Wang (2008), chapter 1. `aids`: what is known already.
+Fit coe(const IdData& data, const TransferStructure& structure, const FitOptions& options = {},
+        const SearchAids& aids = {});
 
 }  // namespace dynlab::inline numerics

@@ -10,6 +10,7 @@
 #include "numerics/fit/operating_points.h"
 #include "numerics/fit/output_error.h"
 #include "numerics/fit/process_start.h"
+#include "numerics/fit/delay_scan.h"
 #include "numerics/fit/srivc_iteration.h"
 #include "numerics/fit/transfer_refinement.h"
 #include "numerics/number_text.h"
@@ -28,9 +29,14 @@ struct ProcessProblem {
     const ProcessStructure& structure;
     DelayRange range;
     const FitOptions& options;
+    Vector likely_delays = {};  // s
 
-    TransferOutput output(const IdData& data, const StartCondition& condition) const {
-        return {transfer_structure(structure), condition, data, range.least, range.largest, at_rest(structure)};
+    /// With an estimated start the first `unheard` seconds do not count (fit/transfer_refinement.h).
+    TransferOutput output(const IdData& data, const StartCondition& condition, double unheard = 0) const {
+        TransferOutput model(transfer_structure(structure), condition, data, range.least, range.largest,
+                             at_rest(structure));
+        if (condition.state == InitialState::kEstimate) model.leave_out(unheard);
+        return model;
     }
     Index value_count(const IdData& data, const StartCondition& condition) const {
         const Index initial =
@@ -38,7 +44,7 @@ struct ProcessProblem {
         return static_cast<Index>(structure.parameter_names().size()) +
                (initial + (condition.offset ? 1 : 0)) * static_cast<Index>(data.experiments.size());
     }
-    Fit fit(const IdData& data, const StartCondition& condition, const Fit* start = nullptr) const;
+    Fit fit(const IdData& data, const StartCondition& condition, const Fit* start = nullptr, double unheard = 0) const;
     Fit best_fit(const IdData& data, const std::vector<StartCondition>& conditions,
                  const std::vector<Fit>& starts = {}) const;
 };
@@ -75,18 +81,18 @@ std::vector<StartCondition> conditions_for(const IdData& data, const ProcessStru
 }
 
 /// The search under one start condition, from the best points of a grid unless a start is given.
-Fit ProcessProblem::fit(const IdData& data, const StartCondition& condition, const Fit* start) const {
-    const TransferOutput model = output(data, condition);
+Fit ProcessProblem::fit(const IdData& data, const StartCondition& condition, const Fit* start, double unheard) const {
+    const TransferOutput model = output(data, condition, unheard);
     const Vector y = model.target(), seconds = process_seconds(structure, model);
     ProcessScan scan;
     if (start != nullptr)
         scan = {{search_point(*start, model, seconds)}, start->delay_grid / model.time_unit(), start->delay_loss};
     else
-        scan = scan_process_grid(structure, model, options.delay_count);
+        scan = scan_process_grid(structure, model, options.delay_count, likely_delays / model.time_unit());
     Fit fit = minimise_output_error(process_output(structure, model), y, scan.starts, options);
     keep_parameters(fit, model, condition, seconds);
-    fit.fit_percent =
-        Vector::Constant(1, fit_percent_of_sums(fit.loss * static_cast<double>(y.size()), output_variations(data)[0]));
+    const double squares = fit.loss * static_cast<double>(model.sample_count());
+    fit.fit_percent = Vector::Constant(1, fit_percent_of_sums(squares, counted_variations(model)[0]));
     fit.delay_grid = scan.delays * model.time_unit();
     fit.delay_loss = scan.losses;
     return fit;
@@ -141,21 +147,39 @@ std::vector<Fit> worth_a_fit(const std::vector<Fit>& trials, const ProcessProble
     return chosen;
 }
 
+/// Where a transfer function of as many poles and zeros has its smallest losses: between the delays of a coarse grid
+/// such a valley may be missed.
+Vector likely_delays(const IdData& data, const ProcessProblem& problem) {
+    constexpr double kFineGrid = 2;  // samples
+    const double spacing = (problem.range.largest - problem.range.least) / problem.options.delay_count;
+    if (!problem.structure.delay || spacing <= kFineGrid * data.mean_step()) return {};
+    const TransferStructure transfer = transfer_structure(problem.structure);
+    const CentredData centred = without_operating_points(data);
+    const DelayScan scan = scan_delays(centred.data, transfer, problem.options);
+    Vector delays(scan.starts.size());
+    for (std::size_t i = 0; i < scan.starts.size(); ++i)
+        delays[static_cast<Index>(i)] = transfer.delay(scan.starts[i], 0, 0);
+    return delays;
+}
+
 bool input_changes(const IdData& data) {
     return std::any_of(data.experiments.begin(), data.experiments.end(),
                        [](const Experiment& e) { return (e.u.array() != e.u(0, 0)).any(); });
 }
 
 /// A long record: every start condition on its beginning, then those worth it on the whole, from where these ended.
-Fit best_fit_to_long(const ProcessProblem& problem, const IdData& data, const std::vector<StartCondition>& conditions) {
+Fit best_fit_to_long(ProcessProblem problem, const IdData& data, const std::vector<StartCondition>& conditions) {
     const IdData beginning = beginning_of(data, kProcessTrialSamples);
     ProcessProblem trial = problem;
     if (!problem.options.largest_delay)
         trial.range.largest =
             std::max(problem.range.least, std::min(problem.range.largest, shortest_record(beginning) / 4));
     if (data.sample_count() < 2 * beginning.sample_count() || !input_changes(beginning) ||
-        shortest_record(beginning) <= trial.range.largest)
+        shortest_record(beginning) <= trial.range.largest) {
+        problem.likely_delays = likely_delays(data, problem);
         return problem.best_fit(data, conditions);
+    }
+    problem.likely_delays = trial.likely_delays = likely_delays(beginning, trial);
     std::vector<Fit> trials;
     for (const StartCondition& condition : conditions) {
         trials.push_back(trial.fit(beginning, condition));
@@ -167,6 +191,17 @@ Fit best_fit_to_long(const ProcessProblem& problem, const IdData& data, const st
     std::vector<StartCondition> worth;
     for (const Fit& start : starts) worth.push_back(start.start);
     return problem.best_fit(data, worth, starts);
+}
+
+/// With an estimated start: without the beginning in which inputs from before the record still arrive.
+Fit without_unheard_inputs(const ProcessProblem& problem, const IdData& data, Fit fit) {
+    if (fit.start.state != InitialState::kEstimate || !problem.structure.delay) return fit;
+    const double delay = fit.theta[fit.theta.size() - 1];
+    const double unheard = delay + data.mean_step();
+    if (delay == 0 || unheard >= shortest_record(data) / 2) return fit;
+    Fit next = problem.fit(data, fit.start, &fit, unheard);
+    next.trace.insert(next.trace.begin(), fit.trace.begin(), fit.trace.end());
+    return next;
 }
 
 Index real_lag_count(const ProcessStructure& structure) {
@@ -259,6 +294,7 @@ Fit procsrivc(const IdData& data, const ProcessStructure& structure, const Procs
                               std::to_string(values) + " values, and the data hold " +
                               std::to_string(data.sample_count()));
     Fit fit = best_fit_to_long(problem, record.data, conditions);
+    fit = without_unheard_inputs(problem, record.data, std::move(fit));
     set_process(fit, structure);
     fit.output = simulated(fit, problem, record);
     add_operating_points(fit, record.removed);

@@ -1,5 +1,6 @@
 #include "numerics/estimators/srivc.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -82,6 +83,7 @@ NestedSolution solution_by_passes(const IdData& data, const TransferStructure& s
 bool passes_suffice(const TransferStructure& structure, const FitOptions& options) {
     if (structure.free_delays || options.initial_state != InitialState::kZero || options.offset != Offset::kNone)
         return false;
+    if (!options.fixed.empty() || options.output_weights.size() > 0) return false;
     for (Index output = 0; output < structure.outputs; ++output)
         for (Index input = 1; input < structure.inputs; ++input)
             if (structure.channel(output, input).denominator != structure.channel(output, 0).denominator) return false;
@@ -97,7 +99,6 @@ Fit estimate_by_passes(const IdData& data, const TransferStructure& structure, c
     estimate.termination = solution.termination;
     estimate.trace = std::move(solution.trace);
     measure_simulation(estimate, data);
-    check_transient("srivc", data, estimate, estimate.theta.size());
     set_covariance(estimate, data, options, solution.mirrored ? Matrix() : solution.gram);
     describe_models(estimate);
     const std::string passes = counted(estimate.trace.size(), "pass", "passes");
@@ -110,8 +111,8 @@ Fit estimate_by_passes(const IdData& data, const TransferStructure& structure, c
 }
 
 /// The minimum of the criterion that the passes aim at, if the search for it ends lower.
-Fit better_by_search(Fit estimate, const IdData& data, const FitOptions& options) {
-    Fit searched = search_transfer("srivc", data, estimate.structure, options);
+Fit better_by_search(Fit estimate, const IdData& data, const FitOptions& options, const SearchAids& aids) {
+    Fit searched = search_transfer("srivc", data, estimate.structure, options, aids);
     const bool settled = estimate.termination == Termination::kConverged;
     if (!(searched.loss < (settled ? 1 - kNoGain : 1) * estimate.loss)) return estimate;
     const std::string passes = std::to_string(estimate.trace.size()) + " passes";
@@ -131,17 +132,20 @@ std::optional<double> typical_frequency(const Fit& estimate) {
     return frequency > 0 && std::isfinite(frequency) ? std::optional<double>(frequency) : std::nullopt;
 }
 
-/// Whether the passes of a poorer structure lead to a loss hardly larger or smaller, on the beginning of a long record:
-/// then they may have ended in a bad minimum.
-bool gains_nothing(const Fit& estimate, const IdData& data, const FitOptions& options) {
+/// Whether a poorer structure has a loss hardly larger or smaller, by its known fit or by passes on the beginning of a
+/// long record: then the passes may have ended in a bad minimum.
+bool gains_nothing(const Fit& estimate, const IdData& data, const FitOptions& options,
+                   const std::vector<const Fit*>& poorer) {
+    const auto hardly_larger = [&](const Fit* fit) { return fit->loss < (1 + kNoGain) * estimate.loss; };
+    if (!poorer.empty()) return std::any_of(poorer.begin(), poorer.end(), hardly_larger);
     if (estimate.theta.size() < kFewestToCompare) return false;
     const bool whole = data.sample_count() <= 2 * kComparedSamples;
     const IdData part = whole ? IdData() : beginning_of(data, kComparedSamples);
     const IdData& record = whole ? data : part;
     FitOptions few = options.limited(kComparedPasses, kComparedTolerance);
     if (!few.lambda) few.lambda = typical_frequency(estimate);
-    const auto solve = [&](const TransferStructure& poorer, const std::vector<Vector>& starts) {
-        return solution_by_passes(record, poorer, starts, few);
+    const auto solve = [&](const TransferStructure& structure, const std::vector<Vector>& starts) {
+        return solution_by_passes(record, structure, starts, few);
     };
     const double loss = whole ? estimate.loss : simulation_loss(record, estimate.structure, estimate.theta);
     return !NestedSearch(record, solve).better_starts(estimate.structure, (1 + kNoGain) * loss).empty();
@@ -149,13 +153,17 @@ bool gains_nothing(const Fit& estimate, const IdData& data, const FitOptions& op
 
 }  // namespace
 
-Fit srivc(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
+Fit srivc(const IdData& data, const TransferStructure& structure, const FitOptions& options, const SearchAids& aids) {
     options.validate();
-    if (!passes_suffice(structure, options)) return search_transfer("srivc", data, structure, options);
+    if (!passes_suffice(structure, options) || aids.start.size() > 0)
+        return search_transfer("srivc", data, structure, options, aids);
     Fit estimate = estimate_by_passes(data, structure, options);
     if (estimate.termination == Termination::kCancelled) return estimate;
-    const bool good = estimate.termination == Termination::kConverged && !gains_nothing(estimate, data, options);
-    return good ? estimate : better_by_search(std::move(estimate), data, options);
+    const bool settled = estimate.termination == Termination::kConverged;
+    if (!settled || gains_nothing(estimate, data, options, aids.poorer))
+        return better_by_search(std::move(estimate), data, options, aids);
+    check_transient("srivc", data, estimate, estimate.theta.size());
+    return estimate;
 }
 
 }  // namespace dynlab::inline numerics

@@ -1,5 +1,5 @@
 #pragma once
-#include "numerics/fit/fit.h"
+#include "numerics/fit/transfer_search.h"
 
 namespace dynlab::inline numerics {
 
@@ -20,6 +20,8 @@ namespace dynlab::inline numerics {
 /// as well where the passes do not settle, and its end is given if it lies lower. Non-convergence and doubtful results
 /// are told in `warnings`. Throws InvalidArgument for unsuitable data (check_transfer_data) or options. References:
 /// Young and Jakeman (1980); Young, Garnier and Gilson in Garnier and Wang (2008), chapter 4.
-Fit srivc(const IdData& data, const TransferStructure& structure, const FitOptions& options = {});
+/// `aids`: what is known already (fit/transfer_search.h).
+Fit srivc(const IdData& data, const TransferStructure& structure, const FitOptions& options = {},
+          const SearchAids& aids = {});
 
 }  // namespace dynlab::inline numerics

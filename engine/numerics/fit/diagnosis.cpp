@@ -54,7 +54,8 @@ void check_signals(const std::string& method, const IdData& data) {
     check_outputs(method, data);
 }
 
-void check_transfer_data(const std::string& method, const IdData& data, const TransferStructure& structure) {
+void check_transfer_data(const std::string& method, const IdData& data, const TransferStructure& structure,
+                         Offset offset) {
     structure.validate();
     check_inputs(method, data);
     if (data.input_count() != structure.inputs || data.output_count() != structure.outputs)
@@ -73,7 +74,7 @@ void check_transfer_data(const std::string& method, const IdData& data, const Tr
                                       " s is not shorter than the record of " + number_text(data.duration(e)) + " s");
     for (Index input = 0; input < data.input_count(); ++input)
         if (in_all_experiments(data, [&](const Experiment& e) {
-                return is_constant(e.u.col(input)) && !starts_from_rest(e.y.col(0));
+                return is_constant(e.u.col(input)) && !starts_from_rest(e.y.col(0)) && offset == Offset::kNone;
             }))
             throw InvalidArgument(method + ": " + numbered("input", input, data.input_count()) +
                                   " never changes and the output does not start from rest, so there is no excitation: "
@@ -232,6 +233,11 @@ std::string ending_text(const Fit& fit) {
 void set_message(Fit& fit, const std::string& first) {
     fit.message = first;
     for (const std::string& warning : fit.warnings) fit.message += " " + warning;
+}
+
+void add_warning(Fit& fit, const std::string& sentence) {
+    fit.warnings.push_back(sentence);
+    fit.message += " " + sentence;
 }
 
 std::string simulation_text(const Fit& fit) {

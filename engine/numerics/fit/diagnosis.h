@@ -11,8 +11,10 @@ namespace dynlab::inline numerics {
 void check_signals(const std::string& method, const IdData& data);
 
 /// The same; data of other channels than the structure, with fewer than 3 samples per parameter, not longer than a
-/// fixed delay, or with a constant input although the output does not start from rest, so that it is no step.
-void check_transfer_data(const std::string& method, const IdData& data, const TransferStructure& structure);
+/// fixed delay, or with a constant input although the output does not start from rest, so that it is no step; where an
+/// `offset` is removed or estimated, the output may rest anywhere.
+void check_transfer_data(const std::string& method, const IdData& data, const TransferStructure& structure,
+                         Offset offset = Offset::kNone);
 
 /// Those of check_signals, and data that are not regularly sampled.
 void check_sampled_data(const std::string& method, const IdData& data);
@@ -63,6 +65,8 @@ void describe_search(Fit& fit, const IdData& data, const std::string& method, co
 std::string ending_text(const Fit& fit);
 /// The message: a first sentence, then all warnings.
 void set_message(Fit& fit, const std::string& first);
+/// One more warning, at the end of a message that stands already.
+void add_warning(Fit& fit, const std::string& sentence);
 /// "fit 93.21 % (simulation)", of all outputs.
 std::string simulation_text(const Fit& fit);
 

@@ -26,6 +26,7 @@ void FitOptions::validate() const {
 FitOptions FitOptions::limited(int iterations, double limit) const {
     FitOptions other = *this;
     other.max_iterations = iterations;
+    other.goes_on = false;
     other.tolerance = limit;
     return other;
 }

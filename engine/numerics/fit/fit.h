@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -40,9 +41,15 @@ struct FitOptions {
     std::optional<double> largest_delay;  ///< s; from the data unless given
     int delay_count = 100;                ///< most delays on the grid between the two
     int max_iterations = 50;
+    bool goes_on = true;           ///< a search that has not settled then, up to 500 iterations
     double tolerance = 1e-6;       ///< on the largest relative parameter change, made or still to come
     std::optional<double> lambda;  ///< rad/s, cut-off of the filter of the first estimate; several are tried without
     Hold hold_y = Hold::kFoh;      ///< how the output behaves between its samples inside the filters
+    /// Searches: true keeps to models with all poles in the left half plane; without, an unstable one is given only
+    /// where it is clearly better; false gives whatever has the smallest loss.
+    std::optional<bool> stable;
+    std::map<std::string, double> fixed;  ///< searches: parameters that are not estimated, by name, in seconds
+    Vector output_weights;                ///< of each output's errors; by their standard deviations when empty
     std::function<bool()> cancel;  ///< asked before every iteration
 
     /// Throws InvalidArgument naming the option.

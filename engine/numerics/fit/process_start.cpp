@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "numerics/filters/transfer_sensitivity.h"
 #include "numerics/linalg/decompositions.h"
@@ -74,15 +75,22 @@ struct GridProblem {
     Index parameters = 0, longest = 0;  // of the process alone; rows
 };
 
-// Whole time units to add to the least delay.
-std::vector<Index> delay_shifts(const GridProblem& problem, int count) {
+// Whole time units to add to the least delay, in rising order.
+std::vector<Index> delay_shifts(const GridProblem& problem, int count, const Vector& likely_delays) {
+    constexpr Index kNear = 2;
     if (!problem.structure.delay) return {0};
     const Index last = problem.parameters - 1;
-    const double range = std::floor(problem.model.upper()[last] - problem.model.lower()[last] + 1e-9);
+    const double least = problem.model.lower()[last];
+    const double range = std::floor(problem.model.upper()[last] - least + 1e-9);
     const double spacing = std::max(1.0, std::ceil(range / std::max(1, count - 1)));
-    std::vector<Index> shifts;
-    for (double shift = 0; shift <= range; shift += spacing) shifts.push_back(static_cast<Index>(shift));
-    return shifts;
+    std::set<Index> shifts;
+    for (double shift = 0; shift <= range; shift += spacing) shifts.insert(static_cast<Index>(shift));
+    for (const double delay : likely_delays) {
+        const auto nearest = static_cast<Index>(std::round(delay - least));
+        for (Index shift = nearest - kNear; shift <= nearest + kNear; ++shift)
+            if (shift >= 0 && static_cast<double>(shift) <= range) shifts.insert(shift);
+    }
+    return {shifts.begin(), shifts.end()};
 }
 
 // What B/A alone makes of the input, seen at any delay, and the free motions: as they are with regular sampling and
@@ -300,11 +308,12 @@ std::vector<GridPoint> best_that_differ(std::vector<GridPoint> points, const std
 
 }  // namespace
 
-ProcessScan scan_process_grid(const ProcessStructure& structure, const TransferOutput& output, int delay_count) {
+ProcessScan scan_process_grid(const ProcessStructure& structure, const TransferOutput& output, int delay_count,
+                              const Vector& likely_delays) {
     const GridProblem problem(structure, output);
     const Vector y = output.target();
     const std::vector<Vector> all_shapes = shapes(structure, problem.longest);
-    const std::vector<Index> shifts = delay_shifts(problem, delay_count);
+    const std::vector<Index> shifts = delay_shifts(problem, delay_count, likely_delays);
     Vector losses = Vector::Constant(static_cast<Index>(shifts.size()), std::numeric_limits<double>::infinity());
     std::vector<GridPoint> points;
     points.reserve(all_shapes.size() * shifts.size());

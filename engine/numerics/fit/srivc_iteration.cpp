@@ -299,4 +299,9 @@ Vector best_cutoff_start(const IdData& data, const TransferStructure& structure,
     return best;
 }
 
+Vector first_estimate(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
+    if (!options.lambda) return best_cutoff_start(data, structure, options);
+    return lssvf_start(data, structure, *options.lambda, options.hold_y);
+}
+
 }  // namespace dynlab::inline numerics

@@ -52,4 +52,7 @@ Vector lssvf_start(const IdData& data, const TransferStructure& structure, doubl
 /// followed by a few passes of iterate_srivc; the theta of smallest loss. Throws InvalidArgument when none is finite.
 Vector best_cutoff_start(const IdData& data, const TransferStructure& structure, const FitOptions& options);
 
+/// theta where a search begins: options.lambda's first estimate or the best of several cut-off frequencies.
+Vector first_estimate(const IdData& data, const TransferStructure& structure, const FitOptions& options);
+
 }  // namespace dynlab::inline numerics

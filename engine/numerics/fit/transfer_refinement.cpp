@@ -91,7 +91,9 @@ void set_weights(TransferOutput& model, const Vector& output, const Vector& powe
 Fit search(TransferOutput& model, const TransferStructure& structure, const IdData& data, const Vector& start,
            const FitOptions& options) {
     Vector theta = start;
-    if (structure.outputs > 1) {
+    if (options.output_weights.size() > 0) {
+        model.set_weights(options.output_weights);
+    } else if (structure.outputs > 1) {
         const FitOptions rough = options.limited(options.max_iterations, std::max(options.tolerance, kFirstTolerance));
         const Vector power = output_powers(data);
         set_weights(model, model.output_at(theta), power);
@@ -103,9 +105,26 @@ Fit search(TransferOutput& model, const TransferStructure& structure, const IdDa
     return minimise_output_error(model, model.target(), starts_around(structure, data, theta), options);
 }
 
+}  // namespace
+
+Vector counted_variations(TransferOutput model) {
+    model.set_weights(Vector::Ones(model.weights().size()));
+    const Vector y = model.target();
+    Vector sums = Vector::Zero(model.weights().size());
+    for (std::size_t e = 0; e < model.experiment_count(); ++e)
+        for (Index o = 0; o < sums.size(); ++o) {
+            const auto rows = y.segment(model.row(e, o), model.rows(e)).tail(model.counted_rows(e));
+            sums[o] += (rows.array() - rows.mean()).matrix().squaredNorm();
+        }
+    return sums;
+}
+
+namespace {
+
 /// Of the model at the end of a search, in its own parameters.
-void fill_errors(Fit& fit, const TransferOutput& model, const IdData& data) {
-    const Vector squares = squared_errors(model, model.output_at(fit.theta)), variation = output_variations(data);
+void fill_errors(Fit& fit, const TransferOutput& model) {
+    const Vector squares = squared_errors(model, model.output_at(fit.theta));
+    const Vector variation = counted_variations(model);
     const double N = static_cast<double>(model.sample_count());
     fit.noise_variance.resize(squares.size());
     fit.fit_percent.resize(squares.size());
@@ -120,11 +139,14 @@ void fill_errors(Fit& fit, const TransferOutput& model, const IdData& data) {
 }
 
 Fit refine_jointly(const IdData& data, const TransferStructure& structure, const StartCondition& condition,
-                   const Vector& theta_start, const FitOptions& options) {
+                   const Vector& theta_start, const FitOptions& options, double unheard) {
     const DelayRange range = structure.free_delays ? delay_range(data, options) : DelayRange{};
     TransferOutput model(structure, condition, data, range.least, range.largest);
+    if (options.stable.value_or(false)) model.keep_stable();
+    model.fix(options.fixed);
+    if (condition.state == InitialState::kEstimate) model.leave_out(unheard);
     Fit fit = search(model, structure, data, first_point(model, structure, theta_start), options);
-    fill_errors(fit, model, data);
+    fill_errors(fit, model);
     keep_parameters(fit, model, condition, model.seconds());
     fit.structure = structure;
     return fit;
@@ -282,14 +304,14 @@ Vector search_point(const Fit& fit, const TransferOutput& model, const Vector& s
 namespace {
 
 Fit refine_each_output(const IdData& data, const TransferStructure& structure, const StartCondition& condition,
-                       const Vector& theta_start, const FitOptions& options) {
+                       const Vector& theta_start, const FitOptions& options, double unheard) {
     std::vector<OutputProblem> problems;
     std::vector<Fit> estimates;
     for (Index output = 0; output < structure.outputs; ++output) {
         problems.push_back(output_problem(data, structure, output));
         const OutputProblem& problem = problems.back();
         estimates.push_back(
-            refine_jointly(problem.data, problem.structure, condition, theta_start(problem.places), options));
+            refine_jointly(problem.data, problem.structure, condition, theta_start(problem.places), options, unheard));
     }
     return join_outputs(structure, problems, estimates);
 }
@@ -311,16 +333,16 @@ Index value_count(const TransferStructure& structure, const StartCondition& cond
 }
 
 Fit refine_output_error(const IdData& data, const TransferStructure& structure, const StartCondition& condition,
-                        const Vector& theta_start, const FitOptions& options) {
-    check_transfer_data("Output error", data, structure);
+                        const Vector& theta_start, const FitOptions& options, double unheard) {
+    check_transfer_data("Output error", data, structure, condition.offset ? Offset::kEstimate : Offset::kNone);
     if (theta_start.size() != structure.parameter_count())
         throw InvalidArgument("The search needs " + std::to_string(structure.parameter_count()) +
                               " start values, and " + std::to_string(theta_start.size()) + " were given");
     const Index values = value_count(structure, condition, static_cast<Index>(data.experiments.size()));
     check_sample_count("Output error", data.sample_count() * structure.outputs, values);
-    Fit estimate = structure.outputs > 1 && outputs_are_separate(structure)
-                       ? refine_each_output(data, structure, condition, theta_start, options)
-                       : refine_jointly(data, structure, condition, theta_start, options);
+    Fit estimate = structure.outputs > 1 && options.fixed.empty() && outputs_are_separate(structure)
+                       ? refine_each_output(data, structure, condition, theta_start, options, unheard)
+                       : refine_jointly(data, structure, condition, theta_start, options, unheard);
     const DelayRange range = structure.free_delays ? delay_range(data, options) : DelayRange{};
     describe_search(estimate, data, "Output error", options, range);
     return estimate;

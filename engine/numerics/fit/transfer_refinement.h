@@ -18,16 +18,24 @@ namespace dynlab::inline numerics {
 /// Outputs that share no denominator are problems of their own and are solved one by one. Others are weighted with one
 /// over the standard deviation of their errors, which is found in two rounds; the trace counts weighted squares then.
 ///
-/// `FitOptions` count here: least_delay, largest_delay, max_iterations, tolerance, cancel. The data are taken as they
+/// `unheard`: with an estimated start, so many seconds at the beginning of each experiment do not count, because inputs
+/// from before it, which nobody knows, still arrive there; an initial value then is what the free motion after them
+/// would have begun with.
+///
+/// `FitOptions` count here: least_delay, largest_delay, max_iterations, tolerance, cancel, stable, fixed (their
+/// standard errors are zero), output_weights. The data are taken as they
 /// are: an operating point has to be removed before (without_operating_points). Fills every field but delay_grid and
 /// delay_loss; doubtful results are told in `warnings`, never thrown. Throws InvalidArgument for data that do not fit
 /// the structure (check_transfer_data), for another length of theta_start, or for no more samples than values to
 /// estimate.
 Fit refine_output_error(const IdData& data, const TransferStructure& structure, const StartCondition& condition,
-                        const Vector& theta_start, const FitOptions& options);
+                        const Vector& theta_start, const FitOptions& options, double unheard = 0);
 
 /// All values estimated under a start condition: parameters, initial values and offsets.
 Index value_count(const TransferStructure& structure, const StartCondition& condition, Index experiments);
+
+/// Per output: the sum of squares of the samples that count about the mean of each experiment.
+Vector counted_variations(TransferOutput model);
 
 /// Makes of a fit in the parameters of a search, [own ones; the initial values and offsets of `model`], one in seconds:
 /// its own parameters, their covariance and trace in the units `seconds`, start condition, initial values and offsets.

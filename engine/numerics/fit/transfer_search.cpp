@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "numerics/error.h"
+#include "numerics/fit/delay_scan.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/operating_points.h"
 #include "numerics/fit/output_error.h"
 #include "numerics/fit/search_starts.h"
 #include "numerics/fit/srivc_iteration.h"
 #include "numerics/fit/transfer_refinement.h"
+#include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
 
@@ -19,18 +22,54 @@ namespace {
 constexpr Index kTrialSamples = 50'000;  // the start for a longer record is found on its beginning
 constexpr double kTrialTolerance = 1e-4;
 constexpr Index kNestedSamples = 100'000;  // poorer structures of longer records are not fitted
+constexpr double kClearly = 1.02;          // times the loss of an unstable model: less is no evidence for one
 
-/// The best joint refinement from several starts.
+/// How far every start is followed before the best of them are taken to the end.
+constexpr int kRoughIterations = 15;
+constexpr double kRoughTolerance = 1e-3;
+constexpr int kLastIterations = 450;    // of a search that did not settle before
+constexpr double kMayStillWin = 1.1;   // of the smallest loss after so much
+constexpr double kSameSolution = 0.01; // of every parameter
+constexpr std::size_t kFollowed = 3;   // to the end
+
+FitOptions rough(const FitOptions& options) {
+    return options.limited(std::min(kRoughIterations, options.max_iterations),
+                           std::max(kRoughTolerance, options.tolerance));
+}
+
+/// The end of a search that began where `before` ended, with the iterations of both.
+Fit continued(const Fit& before, Fit fit) {
+    fit.trace.insert(fit.trace.begin(), before.trace.begin(), before.trace.end());
+    return fit;
+}
+
+bool is_same_solution(const Vector& a, const Vector& b) {
+    return ((a - b).array().abs() <= kSameSolution * a.array().abs().max(b.array().abs())).all();
+}
+
+/// The best joint refinement from several starts: all a little way, and those to the end that may still win.
 Fit refine_from(const IdData& data, const TransferStructure& structure, const StartCondition& condition,
                 const std::vector<Vector>& starts, const FitOptions& options) {
-    Fit best;
-    best.loss = kInfinity;
+    const auto refine = [&](const Vector& start, const FitOptions& how) {
+        return refine_output_error(data, structure, condition, start, how);
+    };
+    if (starts.size() == 1) return refine(starts.front(), options);
+    std::vector<Fit> trials;
     for (const Vector& start : starts) {
-        Fit estimate = refine_output_error(data, structure, condition, start, options);
-        if (best.theta.size() == 0 || estimate.loss < best.loss) best = std::move(estimate);
-        if (best.termination == Termination::kCancelled) break;
+        trials.push_back(refine(start, rough(options)));
+        if (trials.back().termination == Termination::kCancelled) break;
     }
-    return best;
+    std::stable_sort(trials.begin(), trials.end(), [](const Fit& a, const Fit& b) { return a.loss < b.loss; });
+    std::vector<Fit> ends;
+    for (std::size_t i = 0; i < trials.size() && ends.size() < kFollowed; ++i) {
+        if (i > 0 && !(trials[i].loss <= kMayStillWin * trials.front().loss)) break;
+        const bool known = std::any_of(trials.begin(), trials.begin() + static_cast<std::ptrdiff_t>(i),
+                                       [&](const Fit& t) { return is_same_solution(t.theta, trials[i].theta); });
+        if (known) continue;
+        ends.push_back(continued(trials[i], refine(trials[i].theta, options)));
+        if (ends.back().termination == Termination::kCancelled) break;
+    }
+    return *std::min_element(ends.begin(), ends.end(), [](const Fit& a, const Fit& b) { return a.loss < b.loss; });
 }
 
 /// One search under a start condition, and what it begins with.
@@ -45,37 +84,33 @@ class NestedFits {
     Fit best(const TransferStructure& structure, std::vector<Vector> starts) const {
         if (condition_.state == InitialState::kEstimate)
             starts.push_back(
-                refine_from(record_, structure, {InitialState::kZero, condition_.offset}, starts, options_).theta);
+                refine_from(record_, structure, {InitialState::kZero, condition_.offset}, starts, rough(options_)).theta);
         return refine_from(record_, structure, condition_, starts, options_);
     }
 
-    /// The fit, or a better one from solutions of poorer structures that have a smaller loss.
-    Fit no_worse(const TransferStructure& structure, Fit best) const {
-        if (structure.outputs > 1 || record_.sample_count() > kNestedSamples ||
+    /// The fit, or a better one from solutions of poorer structures that have a smaller loss: those `known`, or all
+    /// that the same search finds.
+    Fit no_worse(const TransferStructure& structure, Fit best, const std::vector<const Fit*>& known) const {
+        if (structure.outputs > 1 || record_.sample_count() > kNestedSamples || !options_.fixed.empty() ||
             best.termination == Termination::kCancelled)
             return best;
-        const TransferStructure at = with_delays_of(structure, best.theta);
-        NestedSearch nested(record_, [this](const TransferStructure& poorer, const std::vector<Vector>& own) {
-            return solution_of(poorer, own);
-        });
-        for (Vector start : nested.better_starts(at, best.loss)) {
-            if (structure.free_delays) start = with_delays(structure, at, start);
-            Fit other = refine_output_error(record_, structure, condition_, start, options_);
-            if (other.loss < best.loss) best = std::move(other);
+        std::vector<Vector> starts;
+        if (known.empty()) {
+            const TransferStructure at = with_delays_of(structure, best.theta);
+            NestedSearch nested(record_, [this](const TransferStructure& poorer, const std::vector<Vector>& own) {
+                return solution_of(poorer, own);
+            });
+            for (const Vector& start : nested.better_starts(at, best.loss))
+                starts.push_back(structure.free_delays ? with_delays(structure, at, start) : start);
+        } else {
+            starts = starts_from_poorer(record_, known, structure, best.loss);
         }
-        return best;
+        if (starts.empty()) return best;
+        Fit other = refine_from(record_, structure, condition_, starts, options_);
+        return other.loss < best.loss ? other : best;
     }
 
   private:
-    static TransferStructure with_delays_of(const TransferStructure& structure, const Vector& theta) {
-        TransferStructure at = with_fixed_delays(structure);
-        std::size_t channel = 0;
-        for (Index output = 0; output < structure.outputs; ++output)
-            for (Index input = 0; input < structure.inputs; ++input)
-                at.channels[channel++].delay = structure.delay(theta, output, input);
-        return at;
-    }
-
     NestedSolution solution_of(const TransferStructure& structure, std::vector<Vector> starts) const {
         try {
             if (starts.empty()) {
@@ -94,17 +129,52 @@ class NestedFits {
     const FitOptions& options_;
 };
 
-/// Where the search for free delays begins: the valleys of the scan, and the solution for the least delay, which a scan
-/// from neighbours may miss.
-std::vector<Vector> starts_of_scan(const DelayScan& scan, const IdData& data, const TransferStructure& structure,
-                                   const FitOptions& options) {
+/// The solution for these delays (s) of the channels, as a start of the search for free ones.
+Vector start_at_delays(const IdData& data, const TransferStructure& structure, const std::vector<double>& delays,
+                       const FitOptions& options) {
     TransferStructure at = with_fixed_delays(structure);
-    for (TransferChannel& channel : at.channels) channel.delay = options.least_delay;
-    std::vector<Vector> starts = scan.starts;
-    const Vector least = start_from_rest(data, at, options);
-    starts.push_back(
-        with_delays(structure, at, refine_output_error(data, at, {InitialState::kZero, false}, least, options).theta));
-    return starts;
+    for (std::size_t c = 0; c < at.channels.size(); ++c) at.channels[c].delay = delays[c];
+    const Vector start = start_from_rest(data, at, options);
+    return with_delays(structure, at, refine_output_error(data, at, {InitialState::kZero, false}, start, options).theta);
+}
+
+void check_search(const TransferStructure& structure, const FitOptions& options) {
+    for (const auto& [name, value] : options.fixed)
+        if (name.starts_with("Td")) throw InvalidArgument("`fixed`: a delay is fixed with `delay`, and not as " + name);
+    const Index weights = options.output_weights.size();
+    if (weights > 0 && (weights != structure.outputs || !(options.output_weights.minCoeff() > 0)))
+        throw InvalidArgument("`output_weights` holds a positive number for each of the " +
+                              std::to_string(structure.outputs) + " outputs, but has " + std::to_string(weights));
+}
+
+/// For the first estimates: counted from the operating point; where the inputs never change, from the first output.
+IdData levelled_for_start(const IdData& data) {
+    CentredData centred = without_operating_points(data);
+    for (Experiment& experiment : centred.data.experiments)
+        if ((experiment.u.rowwise() - experiment.u.row(0)).isZero(0))
+            experiment.y.rowwise() -= Eigen::RowVectorXd(experiment.y.row(0));
+    return centred.data;
+}
+
+/// With an estimated start: inputs from before a record reach the output during the delays, so that this beginning is
+/// left out and the search goes on from where it was.
+Fit without_unheard_inputs(const IdData& record, const TransferStructure& structure, Fit fit,
+                           const FitOptions& options) {
+    constexpr int kRounds = 3;
+    double left_out = 0;
+    for (int round = 0; round < kRounds && fit.start.state == InitialState::kEstimate; ++round) {
+        double longest = 0;
+        for (const TransferFunction& G : fit.models) longest = std::max(longest, G.delay());
+        if (longest <= left_out || longest >= shortest_record(record) / 2 || fit.termination == Termination::kCancelled)
+            break;
+        left_out = longest + record.mean_step();
+        fit = continued(fit, refine_output_error(record, structure, fit.start, fit.theta, options, left_out));
+    }
+    return fit;
+}
+
+bool has_unstable_model(const Fit& fit) {
+    return std::any_of(fit.models.begin(), fit.models.end(), [](const TransferFunction& G) { return !G.stable(); });
 }
 
 }  // namespace
@@ -122,22 +192,32 @@ Vector start_from_rest(const IdData& data, const TransferStructure& structure, c
 }
 
 Fit search_transfer(const char* method, const IdData& data, const TransferStructure& structure, const FitOptions& given,
-                    const Vector& start) {
-    check_transfer_data(method, data, structure);
+                    const SearchAids& aids) {
+    check_transfer_data(method, data, structure, given.offset);
+    check_search(structure, given);
     FitOptions options = given;
     const bool centre = options.offset != Offset::kNone || options.initial_state != InitialState::kZero;
-    const CentredData centred = centre ? without_operating_points(data) : CentredData{};
-    const IdData& for_start = centre ? centred.data : data;
-    const IdData& record = options.offset == Offset::kRemove ? centred.data : data;
+    const bool remove = options.offset == Offset::kRemove;
+    const CentredData centred = remove ? without_operating_points(data) : CentredData{};
+    const IdData& record = remove ? centred.data : data;
+    const IdData levelled = centre ? levelled_for_start(data) : IdData();
+    const IdData& for_start = centre ? levelled : data;
 
     DelayScan scan;
     std::vector<Vector> starts;
-    if (structure.free_delays) {
+    if (aids.start.size() > 0) {
+        starts = {aids.start};
+    } else if (!structure.free_delays) {
+        starts = {start_from_rest(for_start, structure, options)};
+    } else if (!aids.delays.empty()) {
+        starts = {start_at_delays(for_start, structure, aids.delays, options)};
+    } else {
         scan = scan_delays(for_start, structure, options);
         options.largest_delay = scan.largest;
-        starts = starts_of_scan(scan, for_start, structure, options);
-    } else {
-        starts = {start.size() > 0 ? start : start_from_rest(for_start, structure, options)};
+        starts = scan.starts;
+        // A scan from neighbours may miss the solution for the least delay.
+        const std::vector<double> least(structure.channels.size(), options.least_delay);
+        starts.push_back(start_at_delays(for_start, structure, least, options));
     }
     const auto experiments = static_cast<Index>(record.experiments.size());
     Fit best = fit_output_error(
@@ -147,8 +227,27 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
              return NestedFits(record, for_start, condition, options).best(structure, starts);
          }});
     const StartCondition chosen = best.start;
-    best = NestedFits(record, for_start, chosen, options).no_worse(structure, std::move(best));
-    if (options.offset == Offset::kRemove) add_operating_points(best, centred.removed);
+    const auto search = [&](const FitOptions& how, Fit found) {
+        const NestedFits fits(record, for_start, chosen, how);
+        if (found.theta.size() == 0) found = fits.best(structure, starts);
+        return fits.no_worse(structure, std::move(found), aids.poorer);
+    };
+    best = search(options, std::move(best));
+    if (!options.stable && has_unstable_model(best) && best.termination != Termination::kCancelled) {
+        FitOptions stable = options;
+        stable.stable = true;
+        starts.push_back(best.theta);
+        if (Fit other = search(stable, {}); other.loss <= kClearly * best.loss) {
+            add_warning(other, "An unstable model has a loss " + number_text(100 * (1 - best.loss / other.loss), 2) +
+                                   " % smaller, which is no evidence for it: `stable` = false gives it.");
+            best = std::move(other);
+        }
+    }
+    if (options.goes_on && best.termination == Termination::kIterationLimit)
+        best = continued(best, refine_output_error(record, structure, chosen, best.theta,
+                                                   options.limited(kLastIterations, options.tolerance)));
+    best = without_unheard_inputs(record, structure, std::move(best), options);
+    if (remove) add_operating_points(best, centred.removed);
     best.delay_grid = scan.delays;
     best.delay_loss = scan.losses;
     return best;

@@ -120,4 +120,19 @@ Complex evaluate(const VectorView& p, Complex x) {
     return horner(p, x);
 }
 
+bool is_hurwitz(const VectorView& p) {
+    const Index n = p.size() - 1;
+    const Vector scaled = p / p[0];
+    Vector before = Vector::Zero(n + 2), row = Vector::Zero(n + 2);
+    for (Index i = 0; i <= n; ++i) (i % 2 == 0 ? before : row)[i / 2] = scaled[i];
+    for (Index k = 1; k <= n; ++k) {  // row holds the k-th row of the array
+        if (!(row[0] > 0)) return false;
+        Vector next = Vector::Zero(n + 2);
+        for (Index i = 0; i + 1 < next.size(); ++i) next[i] = before[i + 1] - before[0] / row[0] * row[i + 1];
+        before = row;
+        row = next;
+    }
+    return true;
+}
+
 }  // namespace dynlab::inline numerics

@@ -17,6 +17,8 @@ Vector polynomial_from_roots(const ComplexVector& roots);
 Vector monic(const VectorView& tail);
 Vector multiply(const VectorView& a, const VectorView& b);
 Vector add(const VectorView& a, const VectorView& b);
+/// Whether all roots lie inside the left half plane (Routh's array); not for a root on its border.
+bool is_hurwitz(const VectorView& p);
 /// base^exponent, exponent >= 0.
 Vector power(const VectorView& base, int exponent);
 double evaluate(const VectorView& p, double x);

@@ -1,5 +1,6 @@
 #include "numerics/models/transfer_structure.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "numerics/error.h"
@@ -155,6 +156,36 @@ void TransferStructure::validate() const {
         if (!(channel.delay >= 0) || !std::isfinite(channel.delay))
             throw InvalidArgument("A delay must not be negative, and is " + number_text(channel.delay) + " s");
     }
+}
+
+TransferStructure TransferStructure::of_models(const std::vector<TransferFunction>& models, Index outputs,
+                                               Vector& theta) {
+    TransferStructure structure;
+    structure.outputs = outputs;
+    structure.inputs = static_cast<Index>(models.size()) / outputs;
+    std::vector<Vector> denominators;
+    for (const TransferFunction& G : models) {
+        if (G.Ts() > 0) throw InvalidArgument("a start model must be in continuous time, and this one is discrete");
+        const Vector den = G.den() / G.den()[0];
+        const auto known = std::find(denominators.begin(), denominators.end(), den);
+        structure.channels.push_back({known - denominators.begin(), static_cast<int>(G.zero_count()), G.delay()});
+        if (known != denominators.end()) continue;
+        denominators.push_back(den);
+        structure.poles.push_back(static_cast<int>(G.pole_count()));
+    }
+    structure.free_delays = std::any_of(models.begin(), models.end(), [](const auto& G) { return G.delay() > 0; });
+    structure.validate();
+    theta.resize(structure.parameter_count());
+    for (Index output = 0; output < outputs; ++output)
+        for (Index input = 0; input < structure.inputs; ++input) {
+            const TransferFunction& G = models[static_cast<std::size_t>(output * structure.inputs + input)];
+            const TransferChannel& channel = structure.channel(output, input);
+            theta.segment(structure.denominator_start(channel.denominator), G.pole_count()) =
+                G.den().tail(G.pole_count()) / G.den()[0];
+            theta.segment(structure.numerator_start(output, input), channel.zeros + 1) = G.num() / G.den()[0];
+            if (structure.free_delays) theta[structure.delay_index(output, input)] = channel.delay;
+        }
+    return structure;
 }
 
 }  // namespace dynlab::inline numerics

@@ -47,6 +47,11 @@ struct TransferStructure {
     /// The channels' transfer functions in the order of `channels`.
     std::vector<TransferFunction> models(const VectorView& theta) const;
 
+    /// With the poles and zeros of these models (output by output, `outputs` of them), whose denominators are shared
+    /// where they are equal, and their delays, which are free where one of them has any; `theta` becomes their values.
+    /// Throws InvalidArgument for a model in discrete time or with more zeros than poles.
+    static TransferStructure of_models(const std::vector<TransferFunction>& models, Index outputs, Vector& theta);
+
     /// Throws InvalidArgument unless 1 <= n, 0 <= m <= n, delays are not negative, and places and counts fit.
     void validate() const;
 };

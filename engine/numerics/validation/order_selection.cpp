@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <mutex>
 
 #include "numerics/error.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/filters/thread_count.h"
+#include "numerics/fit/search_starts.h"
 #include "numerics/validation/compare.h"
 #include "numerics/validation/fit_measures.h"
 #include "numerics/validation/uncertainty.h"
@@ -95,14 +97,15 @@ void measure(OrderCandidate& candidate, const IdData& data, const OrderSelection
     if (options.validation != nullptr) candidate.validation_fit = validation_fit(*options.validation, estimate, offset);
 }
 
+/// `poorer`: fits of all structures that are a step poorer, or none.
 OrderCandidate candidate_of(const IdData& data, const TransferStructure& structure,
-                            const OrderSelectionOptions& options) {
+                            const OrderSelectionOptions& options, std::vector<const Fit*> poorer) {
     OrderCandidate candidate;
     candidate.poles = structure.poles.front();
     candidate.zeros = structure.channels.front().zeros;
     candidate.delay = structure.channels.front().delay;
     try {
-        candidate.estimate = srivc(data, structure, options.estimation);
+        candidate.estimate = srivc(data, structure, options.estimation, {{}, {}, std::move(poorer)});
         if (!candidate.estimate.theta.allFinite()) throw InvalidArgument("a parameter is not finite");
         measure(candidate, data, options);
     } catch (const std::exception& error) {
@@ -131,10 +134,40 @@ void check_selection(const IdData& data, const std::vector<TransferStructure>& c
     }
 }
 
+/// Places of the structures in the order in which they are estimated: those of one list may be estimated together, for
+/// all that are poorer stand in lists before it.
+std::vector<std::vector<std::size_t>> levels_of(const std::vector<TransferStructure>& structures) {
+    std::map<int, std::vector<std::size_t>> levels;
+    for (std::size_t i = 0; i < structures.size(); ++i)
+        levels[structures[i].poles.front() + structures[i].channels.front().zeros].push_back(i);
+    std::vector<std::vector<std::size_t>> all;
+    for (auto& [sum, places] : levels) all.push_back(std::move(places));
+    return all;
+}
+
+bool is_structure_of(const TransferStructure& a, const TransferStructure& b) {
+    return a.poles == b.poles && a.channels.front().zeros == b.channels.front().zeros &&
+           a.channels.front().delay == b.channels.front().delay && a.free_delays == b.free_delays;
+}
+
+/// The fits of the structures a step poorer than one of them; none unless all of these are among the structures.
+std::vector<const Fit*> poorer_fits(const std::vector<TransferStructure>& structures, std::size_t of,
+                                    const std::vector<OrderCandidate>& candidates) {
+    std::vector<const Fit*> fits;
+    for (const TransferStructure& poorer : poorer_structures(structures[of])) {
+        const auto known = std::find_if(structures.begin(), structures.end(),
+                                        [&](const TransferStructure& one) { return is_structure_of(one, poorer); });
+        if (known == structures.end()) return {};
+        const OrderCandidate& candidate = candidates[static_cast<std::size_t>(known - structures.begin())];
+        if (candidate.failure.empty()) fits.push_back(&candidate.estimate);
+    }
+    return fits;
+}
+
 }  // namespace
 
 std::vector<TransferStructure> order_grid(std::pair<int, int> poles, std::pair<int, int> zeros,
-                                          const std::vector<double>& delays, bool free_delay) {
+                                          const std::vector<double>& delays, bool free_delay, bool feedthrough) {
     if (poles.first < 1 || poles.second < poles.first)
         throw InvalidArgument("poles must be a range from at least 1 upwards, such as {1, 4}");
     if (zeros.first < 0 || zeros.second < zeros.first)
@@ -147,7 +180,7 @@ std::vector<TransferStructure> order_grid(std::pair<int, int> poles, std::pair<i
                               " structures to try: take smaller ranges");
     std::vector<TransferStructure> grid;
     for (int n = poles.first; n <= poles.second; ++n)
-        for (int m = zeros.first; m <= zeros.second && m < n; ++m)
+        for (int m = zeros.first; m <= std::min(zeros.second, feedthrough ? n : n - 1); ++m)
             for (const double delay : delays) {
                 grid.push_back(TransferStructure::single(n, m, delay));
                 grid.back().free_delays = free_delay;
@@ -175,18 +208,19 @@ OrderSelection select_order(const IdData& data, const std::vector<TransferStruct
             candidate.failure = "the search was stopped before its turn";
             return;
         }
-        candidate = candidate_of(data, candidates[i], options);
+        candidate = candidate_of(data, candidates[i], options, poorer_fits(candidates, i, selection.candidates));
         const std::scoped_lock lock(callbacks);
         if (options.progress) options.progress(++done);
     };
     tbb::task_arena arena(thread_count(options.threads));
     arena.execute([&] {
-        tbb::parallel_for(
-            tbb::blocked_range<std::size_t>(0, candidates.size(), 1),
-            [&](const tbb::blocked_range<std::size_t>& range) {
-                for (std::size_t i = range.begin(); i < range.end(); ++i) try_one(i);
-            },
-            tbb::simple_partitioner());
+        for (const std::vector<std::size_t>& level : levels_of(candidates))
+            tbb::parallel_for(
+                tbb::blocked_range<std::size_t>(0, level.size(), 1),
+                [&](const tbb::blocked_range<std::size_t>& range) {
+                    for (std::size_t i = range.begin(); i < range.end(); ++i) try_one(level[i]);
+                },
+                tbb::simple_partitioner());
     });
     const auto estimated = [](const OrderCandidate& candidate) { return candidate.failure.empty(); };
     if (!selection.cancelled && std::none_of(selection.candidates.begin(), selection.candidates.end(), estimated))

@@ -47,13 +47,15 @@ struct OrderSelectionOptions {
     std::function<bool()> cancel = {};                    ///< asked before every candidate, by one thread at a time
 };
 
-/// All strictly proper structures with poles and zeros from .. to, and each of the delays (s); with `free_delay` the
-/// delay is estimated from FitOptions' least_delay to largest_delay instead. Throws InvalidArgument for empty or absurd
+/// All structures with poles and zeros from .. to, fewer zeros than poles or with `feedthrough` as many, and each of the
+/// delays (s); with `free_delay` the delay is estimated from FitOptions' least_delay to largest_delay instead. Throws InvalidArgument for empty or absurd
 /// ranges.
 std::vector<TransferStructure> order_grid(std::pair<int, int> poles, std::pair<int, int> zeros,
-                                          const std::vector<double>& delays, bool free_delay = false);
+                                          const std::vector<double>& delays, bool free_delay = false,
+                                          bool feedthrough = false);
 
-/// Estimates every structure on `data` (one input, one output, any number of experiments) by srivc, several at once.
+/// Estimates every structure on `data` (one input, one output, any number of experiments) by srivc, several at once,
+/// from few poles and zeros up: a structure's search knows the fits of those that are a step poorer.
 /// A second record is simulated as compare_all() does it with the initial state estimated, for that is the record's
 /// own, and with the offset that the estimation was asked for. Equal numbers for any number of threads. Throws
 /// InvalidArgument for other data, no candidates, and when none of them could be estimated.

@@ -303,6 +303,23 @@ VectorMap Options::vector(const char* name) const {
     return vector_at(call_.state(), push(name), label(name));
 }
 
+std::map<std::string, double> Options::numbers_by_name(const char* name) const {
+    lua_State* L = call_.state();
+    const int index = push(name);
+    std::map<std::string, double> values;
+    if (!lua_isnil(L, index)) {
+        if (lua_type(L, index) != LUA_TTABLE) wrong_value(L, index, label(name), "a table such as {a1 = 2}");
+        for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
+            if (lua_type(L, -2) != LUA_TSTRING)
+                throw InvalidArgument(fmt::format("{} must name its values, such as {{a1 = 2}}", label(name)));
+            const std::string key = lua_tostring(L, -2);
+            values[key] = number_at(L, -1, fmt::format("{} in {}", key, label(name)));
+        }
+    }
+    lua_settop(L, index - 1);
+    return values;
+}
+
 std::optional<std::pair<double, double>> Options::range(const char* name) const {
     if (!has(name)) return std::nullopt;
     const VectorMap bounds = vector(name);

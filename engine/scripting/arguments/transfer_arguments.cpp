@@ -3,22 +3,25 @@
 #include <cmath>
 
 #include "numerics/fit/integrated_input.h"
+#include "scripting/arguments/simulation_options.h"
 #include "scripting/objects/data_object.h"
+#include "scripting/objects/model.h"
 
 namespace dynlab::inline scripting {
 namespace {
 
-/// Orders of inputs, repeated for each output.
+/// Orders of all channels as they are, those of inputs repeated for each output.
 template <class Value>
 std::vector<Value> for_channels(const std::vector<Value>& of_inputs, const IdData& data) {
-    if (of_inputs.size() == 1 || data.output_count() == 1) return of_inputs;
+    const auto channels = static_cast<std::size_t>(data.output_count() * data.input_count());
+    if (of_inputs.size() == 1 || of_inputs.size() == channels) return of_inputs;
     std::vector<Value> all;
     for (Index output = 0; output < data.output_count(); ++output)
         all.insert(all.end(), of_inputs.begin(), of_inputs.end());
     return all;
 }
 
-/// A whole number, or a list of one for each input.
+/// A whole number, or a list of one for each input or for each channel.
 std::vector<int> counts_argument(const Call& call, int index, const char* what) {
     if (call.type(index) != LUA_TTABLE && !call.holds_vector(index)) return {static_cast<int>(call.size(index, what))};
     const auto values = call.vector(index, what);
@@ -31,11 +34,10 @@ std::vector<int> counts_argument(const Call& call, int index, const char* what) 
     return counts;
 }
 
-/// IODelay: a number of seconds or one for each input.
-std::vector<double> delays_option(const Options& options) {
-    if (options.push("IODelay") && lua_type(options.call().state(), -1) == LUA_TNUMBER)
-        return {options.number("IODelay", 0)};
-    const auto delays = options.vector("IODelay");
+/// A number of seconds or one for each input or channel.
+std::vector<double> seconds_option(const Options& options, const char* name) {
+    if (options.push(name) && lua_type(options.call().state(), -1) == LUA_TNUMBER) return {options.number(name, 0)};
+    const auto delays = options.vector(name);
     return {delays.begin(), delays.end()};
 }
 
@@ -93,7 +95,7 @@ StructureMaker structure_of_orders(std::span<const OrderEntry> entries, const st
 
 StructureMaker structure_of_counts(const Call& call, const Options& options, const FitOptions& wanted) {
     std::vector<double> delays{wanted.least_delay};
-    if (options.has("IODelay")) delays = delays_option(options);
+    if (options.has("IODelay")) delays = seconds_option(options, "IODelay");
     const bool free_delays = !options.has("IODelay") && wanted.largest_delay.value_or(1) > wanted.least_delay;
     return [poles = counts_argument(call, 2, "np"), zeros = counts_argument(call, 3, "nz"), delays,
             sharing = sharing_of(options), free_delays](const IdData& data) {
@@ -101,6 +103,29 @@ StructureMaker structure_of_counts(const Call& call, const Options& options, con
         structure.free_delays = free_delays;
         return structure;
     };
+}
+
+StartedStructure started_structure(const Call& call, const Options& options, const FitOptions& wanted) {
+    if (!holds_model(call, 2)) {
+        StartedStructure started{structure_of_counts(call, options, wanted), {}};
+        if (options.has("Td0")) started.aids.delays = seconds_option(options, "Td0");
+        return started;
+    }
+    for (const char* name : {"IODelay", "Td0"})
+        if (options.has(name))
+            throw InvalidArgument(fmt::format("option '{}' does not go with a start model: it has its own delay", name));
+    SearchAids aids;
+    const auto outputs = static_cast<Index>(object_argument<Model>(call, 2, "start model").outputs);
+    const auto structure =
+        TransferStructure::of_models(channels_argument(call, 2, "start model"), outputs, aids.start);
+    return {[structure](const IdData& data) {
+                if (data.input_count() != structure.inputs || data.output_count() != structure.outputs)
+                    throw InvalidArgument(fmt::format(
+                        "the start model has {} input(s) and {} output(s), and the data have {} and {}",
+                        structure.inputs, structure.outputs, data.input_count(), data.output_count()));
+                return structure;
+            },
+            aids};
 }
 
 TransferRequest transfer_request(const Options& options, const Estimation& estimate) {
@@ -129,7 +154,11 @@ void read_fit_options(const Options& options, FitOptions& wanted) {
     wanted.largest_delay = options.optional_number("TdMax");
     wanted.delay_count = static_cast<int>(options.size("NumTd", wanted.delay_count));
     wanted.max_iterations = static_cast<int>(options.size("MaxIter", wanted.max_iterations));
+    wanted.goes_on = !options.has("MaxIter");
     wanted.tolerance = options.number("Tol", wanted.tolerance);
+    if (options.has("Stable")) wanted.stable = options.flag("Stable", false);
+    wanted.fixed = options.numbers_by_name("Fixed");
+    if (options.has("OutputWeights")) wanted.output_weights = options.vector("OutputWeights");
     wanted.cancel = options.call().cancel();
     wanted.validate();
 }

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "numerics/fit/transfer_search.h"
 #include "scripting/arguments/estimation.h"
 #include "scripting/arguments/order_vector.h"
 
@@ -16,13 +17,21 @@ inline constexpr OrderEntry kNf{"nf", "poles"};
 inline constexpr OrderEntry kNk{"nk", "samples of delay"};
 
 /// Makes the structure for any data, in any thread, from arguments that were read and checked. Their lists have one
-/// entry for all inputs or one for each, and hold for every output. Throws InvalidArgument where the data do not suit.
+/// entry for all inputs or one for each, which hold for every output, or one for each channel. Throws InvalidArgument where the data do not suit.
 using StructureMaker = std::function<TransferStructure(const IdData&)>;
 /// From the orders at argument 2. The entries hold kNb, kNk, and na or nf.
 StructureMaker structure_of_orders(std::span<const OrderEntry> entries, const std::vector<std::vector<int>>& orders,
                                    Denominators sharing);
 /// From np and nz at arguments 2 and 3; the delay is free unless IODelay or TdMax = TdMin (in `wanted`) says otherwise.
 StructureMaker structure_of_counts(const Call& call, const Options& options, const FitOptions& wanted);
+
+/// A structure, and where the search for its parameters begins.
+struct StartedStructure {
+    StructureMaker structure;
+    SearchAids aids;
+};
+/// From np and nz as above, with the delays of Td0, or from a start model at argument 2.
+StartedStructure started_structure(const Call& call, const Options& options, const FitOptions& wanted);
 
 /// An estimation as it was asked for; with the option Integration, of models that have an integrator besides.
 struct TransferRequest {

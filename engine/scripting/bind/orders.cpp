@@ -62,7 +62,8 @@ std::vector<TransferStructure> grid_of(const Options& options, const IdData& dat
     if (free_delay && options.has("delays"))
         throw InvalidArgument("give either delays, to try those, or TdMax, to have the delay estimated up to it");
     return order_grid(range_of(options, "poles", {1, 4}), range_of(options, "zeros", {0, 2}),
-                      free_delay ? std::vector{options.number("TdMin", 0)} : delays_of(options, data), free_delay);
+                      free_delay ? std::vector{options.number("TdMin", 0)} : delays_of(options, data), free_delay,
+                      options.flag("Feedthrough", false));
 }
 
 /// A list of order vectors {{nb, nf, nk}, ...}, the second argument; each of them stands there while it is read.
@@ -101,10 +102,10 @@ int try_structures(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const bool listed = is_list(call, 2);
     const Options options =
-        listed ? Options(call, 3, {"validate", "lambda", "InitialState", "Offset", "MaxIter", "Tol", "threads"})
+        listed ? Options(call, 3, {"validate", "lambda", "InitialState", "Offset", "MaxIter", "Tol", "Stable", "threads"})
                : Options(call, 2,
                          {"poles", "zeros", "delays", "TdMin", "TdMax", "NumTd", "validate", "lambda", "InitialState",
-                          "Offset", "MaxIter", "Tol", "threads"});
+                          "Offset", "MaxIter", "Tol", "Stable", "Feedthrough", "threads"});
     const std::vector<TransferStructure> structures = listed ? listed_structures(call, data) : grid_of(options, data);
     OrderSelectionOptions wanted;
     if (options.has("validate")) {

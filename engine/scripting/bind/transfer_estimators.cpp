@@ -59,8 +59,13 @@ int give_refined(Call& call, const IdData& data, const TransferRequest& request)
 }
 
 template <auto kMethod>
-TransferRequest refined_request(const StructureMaker& structure, const Options& options, const FitOptions& wanted) {
-    return transfer_request(options, [=](const IdData& data) { return kMethod(data, structure(data), wanted); });
+TransferRequest refined_request(const StartedStructure& started, const Options& options, const FitOptions& wanted) {
+    return transfer_request(options, [=](const IdData& data) {
+        const TransferStructure structure = started.structure(data);
+        SearchAids aids = started.aids;
+        if (aids.delays.size() == 1) aids.delays.resize(structure.channels.size(), aids.delays.front());
+        return kMethod(data, structure, wanted, aids);
+    });
 }
 
 /// srivc and coe: orders and fixed delays in samples.
@@ -69,24 +74,27 @@ TransferRequest read_refined(const Call& call) {
     call.at_most(3);
     const auto orders = order_lists(call, 2, kOutputErrorOrders);
     const Options options(
-        call, 3, {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator", "Integration"});
+        call, 3,
+        {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator", "Integration", "Stable",
+         "Fixed", "OutputWeights"});
     FitOptions wanted;
     read_fit_options(options, wanted);
-    return refined_request<kMethod>(structure_of_orders(kOutputErrorOrders, orders, sharing_of(options)), options,
+    return refined_request<kMethod>({structure_of_orders(kOutputErrorOrders, orders, sharing_of(options)), {}}, options,
                                     wanted);
 }
 
 /// tfsrivc and tfcoe: numbers of poles and zeros, and a delay that is estimated unless it is given.
 template <auto kMethod>
 TransferRequest read_transfer_function(const Call& call) {
-    call.at_most(4);
-    const Options options(call, 4,
+    const int last = holds_model(call, 2) ? 3 : 4;
+    call.at_most(last);
+    const Options options(call, last,
                           {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator",
-                           "Integration", "TdMin", "TdMax", "NumTd", "IODelay"});
+                           "Integration", "TdMin", "TdMax", "NumTd", "IODelay", "Td0", "Stable", "Fixed",
+                           "OutputWeights"});
     FitOptions wanted;
     read_fit_options(options, wanted);
-    const StructureMaker structure = structure_of_counts(call, options, wanted);
-    return refined_request<kMethod>(structure, options, wanted);
+    return refined_request<kMethod>(started_structure(call, options, wanted), options, wanted);
 }
 
 template <auto kRead>
@@ -129,10 +137,10 @@ constexpr std::array kTransferEstimatorsFunctions = {
     FunctionEntry{"coe", kTransferEstimatorsArea, "coe(data, {nb, nf, nk}, {lambda =, MaxIter =, Tol =, ...}) -> G",
                   "y = B/F u + e with the smallest simulation error",
                   guarded<memoized_call<estimate_refined<read_refined<coe>>>>},
-    FunctionEntry{"tfsrivc", kTransferEstimatorsArea, "tfsrivc(data, np, nz, {TdMin =, TdMax =, IODelay =, ...}) -> G",
+    FunctionEntry{"tfsrivc", kTransferEstimatorsArea, "tfsrivc(data, np, nz, {TdMin =, TdMax =, IODelay =, Stable =, ...}) -> G",
                   "srivc by numbers of poles and zeros, the delay estimated",
                   guarded<memoized_call<estimate_refined<read_transfer_function<srivc>>>>},
-    FunctionEntry{"tfcoe", kTransferEstimatorsArea, "tfcoe(data, np, nz, {TdMin =, TdMax =, IODelay =, ...}) -> G",
+    FunctionEntry{"tfcoe", kTransferEstimatorsArea, "tfcoe(data, np, nz, {TdMin =, TdMax =, IODelay =, Stable =, ...}) -> G",
                   "coe by numbers of poles and zeros, the delay estimated",
                   guarded<memoized_call<estimate_refined<read_transfer_function<coe>>>>},
 };

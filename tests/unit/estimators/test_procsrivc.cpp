@@ -347,6 +347,30 @@ TEST(procsrivc, delay_needs_the_grid) {  // oracle: the simulated system; a loca
     EXPECT_LE(result.delay_grid.size(), 100);
 }
 
+// Oracle: the simulated system. Between the delays of the grid, fifty samples apart, the input changes ten times.
+TEST(procsrivc, a_delay_in_a_long_record_is_found_between_the_delays_of_the_grid) {
+    const Index N = 20'000;
+    const Vector u = rough_input(N, 5);
+    for (const double delay : {1.23, 2.71, 4.02}) {
+        const Vector truth{{1.5, 0.4, delay}};
+        const Vector y = lsim(model_of("P1D", truth), u, 0.05) + 0.1 * RandomStream(8).normal(N);
+        const Fit found = fit(siso(y, u, 0.05), "P1D");
+        for (Index i = 0; i < truth.size(); ++i) EXPECT_NEAR(found.theta[i], truth[i], 5 * found.std[i]) << delay;
+        EXPECT_LT(found.std[2], 0.02);
+    }
+}
+
+// Oracle: the simulated system. Nothing disturbs the record, so that only the unknown inputs before it can.
+TEST(procsrivc, inputs_from_before_a_record_do_no_harm) {
+    const Vector u = rough_input(900, 7), truth{{2, 0.6, 1.13}};
+    const IdData cut = siso(lsim(model_of("P1D", truth), u, 0.1), u, 0.1).range(301, 900);
+    ProcsrivcOptions options = tight();
+    options.initial_state = InitialState::kEstimate;
+    options.offset = Offset::kNone;
+    const Fit found = fit(cut, "P1D", options);
+    for (Index i = 0; i < truth.size(); ++i) EXPECT_NEAR(found.theta[i], truth[i], 1e-6 * truth[i]) << i;
+}
+
 TEST(procsrivc, delay_options_bound_the_answer) {  // oracle: the simulated system
     const Vector u = rough_input(600, 40);
     const IdData data = siso(lsim(model_of("P1D", Vector{{2.0, 0.3, 0.7}}), u, 0.01), u, 0.01);

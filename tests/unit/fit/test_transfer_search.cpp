@@ -2,11 +2,13 @@
 
 #include <cmath>
 
+#include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
-#include "numerics/fit/search_starts.h"
+#include "numerics/fit/delay_scan.h"
 #include "numerics/fit/srivc_iteration.h"
 #include "numerics/fit/transfer_search.h"
 #include "numerics/signals/random.h"
+#include "support/thrown_message.h"
 #include "support/transfer_cases.h"
 
 namespace test_transfer_search {
@@ -55,6 +57,133 @@ TEST(transfer_search, the_likely_delay_leaves_the_shortest_record_room) {  // or
     const IdData brief = irregular_record(80, 0.005, 21), slow = irregular_record(400, 0.2, 11);
     for (const IdData& data : {IdData::merge({brief, slow}), IdData::merge({slow, brief})})
         EXPECT_LE(likely_largest_delay(data), shortest_record(data) / 4);
+}
+
+/// A slow stable system in little data: the smallest simulation error is an unstable model's.
+IdData nearly_integrating_record(std::uint32_t seed) {
+    const Index N = 150;
+    Vector u = Vector::Zero(N);
+    u.segment(10, 40).setOnes();
+    const Vector x = lsim(TransferFunction(values({1}), values({1, 0.02})), u, 0.1);
+    return IdData(Matrix(x + 0.4 * RandomStream(seed).normal(N)), Matrix(u), 0.1);
+}
+
+// Oracle: the system is stable, and so says the record within chance; the loss of the unstable model is smaller.
+TEST(transfer_search, an_unstable_model_is_given_only_where_it_is_clearly_better_or_asked_for) {
+    int unstable = 0;
+    const TransferStructure structure = TransferStructure::single(1, 0);
+    for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+        const IdData data = nearly_integrating_record(seed);
+        FitOptions any, stable;
+        any.stable = false;
+        stable.stable = true;
+        const Fit smallest = search_transfer("test", data, structure, any);
+        const Fit held = search_transfer("test", data, structure, stable), unasked = search_transfer("test", data, structure, {});
+        EXPECT_TRUE(held.models[0].stable()) << seed;
+        EXPECT_TRUE(unasked.models[0].stable()) << seed;
+        EXPECT_LE(smallest.loss, held.loss * (1 + 1e-9)) << seed;
+        EXPECT_LE(unasked.loss, 1.02 * smallest.loss) << seed;
+        unstable += smallest.models[0].stable() ? 0 : 1;
+    }
+    EXPECT_GE(unstable, 3);
+}
+
+TEST(transfer_search, a_system_that_is_unstable_is_found_unstable) {  // oracle: the simulated system
+    const Index N = 300;
+    Vector u = Vector::Zero(N);
+    u.tail(N - 10).setOnes();
+    const Vector x = lsim(TransferFunction(values({1}), values({1, -0.2})), u, 0.05);
+    const IdData data(Matrix(x + 0.05 * RandomStream(2).normal(N)), Matrix(u), 0.05);
+    const Fit fit = search_transfer("test", data, TransferStructure::single(1, 0), {});
+    EXPECT_NEAR(fit.theta[0], -0.2, 5 * fit.std[0]);
+    EXPECT_LT(fit.std[0], 0.01);
+}
+
+// Oracle: with one parameter known, what is left is a search with a parameter less; at the free optimum it costs nothing.
+TEST(transfer_search, fixed_parameters_keep_their_values) {
+    const IdData data = course_record(0.1, 5);
+    const TransferStructure structure = TransferStructure::single(2, 0);
+    const Fit free = search_transfer("test", data, structure, {});
+    FitOptions options;
+    options.fixed = {{"a2", free.theta[1]}};
+    const Fit at_optimum = search_transfer("test", data, structure, options);
+    EXPECT_LT(relative_difference(at_optimum.theta, free.theta), 1e-5);
+    EXPECT_EQ(at_optimum.std[1], 0);
+    EXPECT_LT(at_optimum.std[0], free.std[0]);  // what is known makes the rest surer
+    options.fixed = {{"a2", 3}};
+    const Fit fit = search_transfer("test", data, structure, options);
+    EXPECT_DOUBLE_EQ(fit.theta[1], 3);
+    EXPECT_GT(fit.loss, free.loss);
+    EXPECT_NEAR(fit.theta[0], 4, 5 * fit.std[0]);
+    options.fixed = {{"a3", 1}};
+    EXPECT_EQ(thrown_message([&] { search_transfer("test", data, structure, options); }),
+              "`fixed`: the model has no parameter a3; it has a1, a2, b0");
+}
+
+// Oracle: the weighted criterion itself, searched from the two outputs' own optima.
+TEST(transfer_search, weights_of_outputs_decide_what_a_common_denominator_follows) {
+    const Vector u = prbs(6, 10);
+    Matrix y(u.size(), 2), inputs = u;
+    y.col(0) = lsim(TransferFunction(values({1}), values({1, 1})), u, 0.05);
+    y.col(1) = lsim(TransferFunction(values({2}), values({1, 3})), u, 0.05);
+    const IdData data(y, inputs, 0.05);
+    const auto structure = TransferStructure::grid(2, 1, Denominators::kCommon, {1}, {0}, {0});
+    FitOptions options;
+    const auto pole = [&](double first, double second) {
+        options.output_weights = values({first, second});
+        return search_transfer("test", data, structure, options).theta[0];
+    };
+    EXPECT_NEAR(pole(1000, 1), 1, 0.01);
+    EXPECT_NEAR(pole(1, 1000), 3, 0.01);
+    options.output_weights = values({1, 2, 3});
+    EXPECT_THROW(search_transfer("test", data, structure, options), InvalidArgument);
+}
+
+// Oracle: the optimum that the search without a start finds; a start elsewhere leads to the valley beside it.
+TEST(transfer_search, begins_at_a_start_or_a_delay_that_is_given) {
+    const Vector u = prbs(7, 5);
+    const Vector y = lsim(TransferFunction(values({3}), values({1, 1.5, 3}), 0, 0.62), u, 0.1) +
+                     0.1 * RandomStream(4).normal(u.size());
+    const IdData data{Matrix(y), Matrix(u), 0.1};
+    TransferStructure structure = TransferStructure::single(2, 0);
+    structure.free_delays = true;
+    const Fit unasked = search_transfer("test", data, structure, {});
+    SearchAids near_truth, delay;
+    near_truth.start = values({1.3, 3.3, 2.8, 0.5});
+    delay.delays = {0.5};
+    for (const SearchAids& aids : {near_truth, delay}) {
+        const Fit fit = search_transfer("test", data, structure, {}, aids);
+        EXPECT_LT(relative_difference(fit.theta, unasked.theta), 1e-4);
+        EXPECT_EQ(fit.delay_grid.size(), 0);
+    }
+}
+
+// Oracle: the simulated system. The record begins with the step and stands on a constant.
+TEST(transfer_search, a_step_at_the_first_sample_on_a_constant_is_fitted) {
+    const Index N = 400;
+    const Vector u = Vector::Constant(N, 2.0);
+    const Vector x = lsim(TransferFunction(values({0.6}), values({1, 0.9, 0.2})), u, 0.1);
+    const IdData data(Matrix((x + 0.02 * RandomStream(7).normal(N)).array() + 21.5), Matrix(u), 0.1);
+    FitOptions options;
+    options.offset = Offset::kAuto;
+    const Fit fit = search_transfer("test", data, TransferStructure::single(2, 0), options);
+    EXPECT_NEAR(fit.offsets(0, 0), 21.5, 0.05);
+    EXPECT_NEAR(fit.theta[1], 0.2, 5 * fit.std[1]);
+    EXPECT_NEAR(fit.theta[2], 0.6, 5 * fit.std[2]);
+}
+
+// Oracle: the simulated system. Nothing disturbs the record, so that only the unknown inputs before it can.
+TEST(transfer_search, inputs_from_before_a_record_do_no_harm_to_its_delay) {
+    const Vector u = prbs(8, 4);
+    const Vector y = lsim(TransferFunction(values({2}), values({1, 1.2}), 0, 1.73), u, 0.1);
+    const IdData cut = IdData(Matrix(y), Matrix(u), 0.1).range(301, 700);
+    TransferStructure structure = TransferStructure::single(1, 0);
+    structure.free_delays = true;
+    FitOptions options;
+    options.initial_state = InitialState::kEstimate;
+    const Fit fit = search_transfer("test", cut, structure, options);
+    EXPECT_LT(relative_difference(fit.theta, values({1.2, 2, 1.73})), 1e-6);
+    EXPECT_GT(fit.fit_percent[0], 99.9999);
 }
 
 }  // namespace test_transfer_search

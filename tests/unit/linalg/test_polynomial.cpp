@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "numerics/signals/random.h"
 #include "support/thrown_message.h"
 
 namespace dynlab {
@@ -24,6 +25,22 @@ TEST(polynomial, roots_of_known_products) {  // oracle: analytic
     const ComplexVector pair = sorted(roots(from({2, 4, 10})));
     EXPECT_NEAR(std::abs(pair(0) - Complex(-1, -2)), 0, 1e-14);
     EXPECT_EQ(pair(0), std::conj(pair(1)));
+}
+
+TEST(polynomial, hurwitz_as_the_roots_say) {  // oracle: second route, all roots
+    RandomStream random(3);
+    int stable = 0;
+    for (int run = 0; run < 400; ++run) {
+        Vector p = random.normal(2 + run % 6);
+        if (run % 2 == 0) p = p.cwiseAbs();
+        const bool left = roots(p).real().maxCoeff() < 0;
+        EXPECT_EQ(is_hurwitz(p), left) << p.transpose();
+        stable += left ? 1 : 0;
+    }
+    EXPECT_GT(stable, 80);
+    EXPECT_FALSE(is_hurwitz(from({1, 0, 4})));   // on the border
+    EXPECT_FALSE(is_hurwitz(from({1, 2, 0})));
+    EXPECT_TRUE(is_hurwitz(from({-2, -3, -1})));
 }
 
 TEST(polynomial, roots_at_zero_are_exact) {  // oracle: analytic, s^2 (s + 5)

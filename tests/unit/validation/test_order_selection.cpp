@@ -39,6 +39,7 @@ TEST(order_selection, grid_holds_every_strictly_proper_structure) {  // oracle: 
     EXPECT_EQ(grid.front().poles.front(), 1);
     EXPECT_EQ(grid.back().poles.front(), 3);
     EXPECT_EQ(grid.back().channels.front().zeros, 2);
+    EXPECT_EQ(order_grid({1, 3}, {0, 3}, {0.0}, false, true).size(), 9u);  // 2 + 3 + 4 with as many zeros
     EXPECT_THROW(order_grid({0, 2}, {0, 0}, {0.0}), InvalidArgument);
     EXPECT_THROW(order_grid({2, 1}, {0, 0}, {0.0}), InvalidArgument);
     EXPECT_THROW(order_grid({1, 2}, {0, 0}, {}), InvalidArgument);
@@ -179,6 +180,25 @@ TEST(order_selection, same_numbers_for_any_number_of_threads) {  // oracle: one 
     const OrderSelection many = select_order(data, order_grid({1, 3}, {0, 2}, {0.0}), options);
     for (std::size_t i = 0; i < one.candidates.size(); ++i)
         EXPECT_EQ(one.candidates[i].estimate.theta, many.candidates[i].estimate.theta);
+}
+
+// Oracle: nested least squares. No linear model fits a record with a threshold, where starts matter.
+TEST(order_selection, richer_structures_of_the_grid_never_fit_worse) {
+    Vector y = lsim(kSecondOrder, prbs(8, 6).head(700), 0.05) + 0.02 * RandomStream(3).normal(700);
+    y = y.unaryExpr([](double v) { return std::abs(v) < 0.2 ? 0.0 : v; }).eval();
+    const IdData data(Matrix(y), Matrix(prbs(8, 6).head(700)), 0.05);
+    for (const bool free_delay : {false, true}) {
+        OrderSelectionOptions options;
+        if (free_delay) options.estimation.largest_delay = 0.5;
+        const auto grid = order_grid({1, 4}, {0, 2}, {0.0}, free_delay);
+        const OrderSelection selection = select_order(data, grid, options);
+        for (const OrderCandidate& rich : selection.candidates)
+            for (const OrderCandidate& poor : selection.candidates)
+                if (poor.poles <= rich.poles && poor.zeros <= rich.zeros) {
+                    EXPECT_LE(rich.estimate.loss, poor.estimate.loss * (1 + 1e-3))
+                        << rich.poles << " " << rich.zeros << " after " << poor.poles << " " << poor.zeros;
+                }
+    }
 }
 
 TEST(order_selection, other_criteria_take_the_best_value) {  // oracle: the definition

@@ -1,0 +1,311 @@
+#include "numerics/fit/delay_scan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "numerics/criteria/transfer_output.h"
+#include "numerics/fit/diagnosis.h"
+#include "numerics/fit/srivc_iteration.h"
+#include "numerics/fit/transfer_refinement.h"
+#include "numerics/signals/correlation.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+constexpr Index kScannedSamples = 50'000;  // of a longer record, its beginning
+constexpr double kScanTolerance = 1e-4;
+constexpr int kScanPasses = 5, kScanIterations = 10;  // at each delay
+constexpr Index kFreshStart = 8;                      // so many delays apart the cut-off frequencies are tried anew
+constexpr std::size_t kValleys = 3;                   // of the loss over the delay that are looked at closely
+constexpr double kFineSpacing = 2;                    // samples
+constexpr Index kFewChanges = 3;                      // of an input that is a step
+
+struct DelayPoint {
+    double delay = 0;
+    Vector theta = {};
+    double loss = kInfinity;
+};
+
+/// A minimum of the loss over the delay between two neighbouring points, as their slopes tell it.
+struct Valley {
+    std::size_t left = 0;  ///< its points: this and the next, unless it is the last
+    double loss = 0;       ///< expected there
+};
+
+/// One channel's loss over the delay.
+class DelayCurve {
+  public:
+    DelayCurve(const IdData& data, TransferStructure& structure, std::size_t channel, const FitOptions& options)
+        : data_(data), structure_(structure), channel_(channel), options_(options) {}
+
+    void scan(const Vector& delays) {
+        for (const double delay : delays) points_.push_back({delay});
+        for (std::size_t i = 0; i < points_.size(); ++i) improve(i, i - 1, static_cast<Index>(i) % kFreshStart == 0);
+        for (std::size_t i = points_.size(); i-- > 0;) improve(i, i + 1, false);
+    }
+
+    /// More delays on both sides of the lowest valleys.
+    void look_closely(double spacing) {
+        for (const double delay : delays_of_valleys()) {
+            const auto found = std::find_if(points_.begin(), points_.end(),
+                                            [&](const DelayPoint& point) { return point.delay == delay; });
+            const auto i = static_cast<std::size_t>(found - points_.begin());
+            if (i > 0) fill(i - 1, spacing);
+            const std::size_t here = place_of(delay);
+            if (here + 1 < points_.size()) fill(here, spacing);
+        }
+    }
+
+    /// Where joint searches begin, best first: on both sides of the lowest minima. Solutions of neighbouring delays may
+    /// lie on different branches, so that a minimum between two points need not show in their losses.
+    std::vector<DelayPoint> beginnings() const {
+        std::vector<Valley> all = valleys_between();
+        std::stable_sort(all.begin(), all.end(), [](const Valley& a, const Valley& b) { return a.loss < b.loss; });
+        std::set<std::size_t> places;
+        std::vector<DelayPoint> chosen;
+        const auto choose = [&](std::size_t place) {
+            if (place < points_.size() && std::isfinite(points_[place].loss) && places.insert(place).second)
+                chosen.push_back(points_[place]);
+        };
+        for (std::size_t i = 0; i < std::min(kValleys, all.size()); ++i) {
+            choose(all[i].left);
+            choose(all[i].left + 1);
+        }
+        for (const std::size_t place : valleys()) choose(place);
+        return chosen;
+    }
+
+    /// Places of the lowest local minima of the points, lowest first.
+    std::vector<std::size_t> valleys() const {
+        std::vector<std::size_t> places;
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            const bool left = i == 0 || points_[i].loss <= points_[i - 1].loss;
+            const bool right = i + 1 == points_.size() || points_[i].loss < points_[i + 1].loss;
+            if (left && right && std::isfinite(points_[i].loss)) places.push_back(i);
+        }
+        std::sort(places.begin(), places.end(), [&](auto a, auto b) { return points_[a].loss < points_[b].loss; });
+        if (places.size() > kValleys) places.resize(kValleys);
+        return places;
+    }
+
+    const std::vector<DelayPoint>& points() const { return points_; }
+
+  private:
+    /// d loss/d delay at a point, where the other parameters have no slope.
+    double slope(const DelayPoint& point) const {
+        TransferStructure at = structure_;
+        at.channels[channel_].delay = point.delay;
+        TransferStructure free = at;
+        free.free_delays = true;
+        const Vector theta = with_delays(free, at, point.theta);
+        double furthest = point.delay;
+        for (const TransferChannel& channel : free.channels) furthest = std::max(furthest, channel.delay);
+        const TransferOutput model(free, {InitialState::kZero, false}, data_, 0, furthest);
+        const Index inputs = free.inputs, channel = static_cast<Index>(channel_);
+        const Index place = free.delay_index(channel / inputs, channel % inputs);
+        const Vector y = model.target();
+        const OutputErrorProducts sums = model.products(theta.cwiseQuotient(model.seconds()), y);
+        return -2 * sums.descent[place] / (static_cast<double>(y.size()) * model.seconds()[place]);
+    }
+
+    std::vector<Valley> valleys_between() const {
+        std::vector<Valley> all;
+        std::vector<double> slopes;
+        for (const DelayPoint& point : points_)
+            slopes.push_back(std::isfinite(point.loss) ? slope(point) : std::numeric_limits<double>::quiet_NaN());
+        for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
+            const double down = -slopes[i], up = slopes[i + 1];
+            if (!(down > 0 && up > 0)) continue;
+            const double gap = points_[i + 1].delay - points_[i].delay, fall = 0.5 * gap / (down + up);
+            all.push_back({i, std::min(points_[i].loss - down * down * fall, points_[i + 1].loss - up * up * fall)});
+        }
+        return all;
+    }
+
+    std::size_t place_of(double delay) const {
+        const auto found = std::lower_bound(points_.begin(), points_.end(), delay,
+                                            [](const DelayPoint& point, double at) { return point.delay < at; });
+        return static_cast<std::size_t>(found - points_.begin());
+    }
+
+    std::vector<double> delays_of_valleys() const {
+        std::vector<double> delays;
+        for (const std::size_t place : valleys()) delays.push_back(points_[place].delay);
+        return delays;
+    }
+
+    /// Delays between point i and the next, each fitted from its neighbour towards point i and back again.
+    void fill(std::size_t i, double spacing) {
+        const double gap = points_[i + 1].delay - points_[i].delay;
+        const auto parts = static_cast<std::size_t>(std::ceil(gap / spacing - 1e-9));
+        if (parts < 2) return;
+        std::vector<DelayPoint> between;
+        for (std::size_t k = 1; k < parts; ++k)
+            between.push_back({points_[i].delay + gap * static_cast<double>(k) / static_cast<double>(parts)});
+        points_.insert(points_.begin() + static_cast<std::ptrdiff_t>(i) + 1, between.begin(), between.end());
+        for (std::size_t k = i + 1; k < i + parts; ++k) improve(k, k - 1, false);
+        for (std::size_t k = i + parts; k-- > i + 1;) improve(k, k + 1, false);
+    }
+
+    /// Fits at a delay from a neighbour's solution (if there is such a point), from a filtered start where wanted.
+    void improve(std::size_t i, std::size_t neighbour, bool fresh) {
+        if (options_.cancel && options_.cancel()) return;
+        structure_.channels[channel_].delay = points_[i].delay;
+        const bool known = neighbour < points_.size() && std::isfinite(points_[neighbour].loss);
+        if (known) try_start(points_[i], Vector(points_[neighbour].theta));
+        if (fresh || !std::isfinite(points_[i].loss))
+            try_start(points_[i], first_estimate(data_, structure_, options_));
+    }
+
+    /// A few passes; where they end above their start, a few steps of the search, which never do.
+    void try_start(DelayPoint& point, const Vector& start) {
+        const double before = simulation_loss(data_, structure_, start);
+        if (before < point.loss && options_.fixed.empty()) point = {point.delay, start, before};
+        if (!start.allFinite()) return;
+        if (!options_.fixed.empty()) return search_from(point, start);
+        const Vector passed =
+            iterate_srivc(data_, structure_, start, options_.limited(kScanPasses, kScanTolerance)).theta;
+        const double after = simulation_loss(data_, structure_, passed);
+        if (after < point.loss) point = {point.delay, passed, after};
+        if (after <= before || !std::isfinite(before)) return;
+        search_from(point, start);
+    }
+
+    void search_from(DelayPoint& point, const Vector& start) {
+        const Fit fit = refine_output_error(data_, structure_, {InitialState::kZero, false}, start,
+                                            options_.limited(kScanIterations, kScanTolerance));
+        if (fit.loss < point.loss) point = {point.delay, fit.theta, fit.loss};
+    }
+
+    const IdData& data_;
+    TransferStructure& structure_;
+    std::size_t channel_;
+    const FitOptions& options_;
+    std::vector<DelayPoint> points_;  // in rising order of the delay
+};
+
+Vector delay_grid(const IdData& data, const DelayRange& range, int most) {
+    const double step = std::max(data.mean_step(), (range.largest - range.least) / std::max(1, most - 1));
+    const Index count = 1 + static_cast<Index>(std::floor((range.largest - range.least) / step + 1e-9));
+    Vector delays(count);
+    for (Index i = 0; i < count; ++i) delays[i] = range.least + static_cast<double>(i) * step;
+    return delays;
+}
+
+bool is_a_step(const Experiment& experiment, Index input) {
+    const auto u = experiment.u.col(input);
+    const Index N = u.size();
+    return (u.tail(N - 1).array() != u.head(N - 1).array()).count() <= kFewChanges;
+}
+
+DelayScan scan_range(const IdData& data, const TransferStructure& structure, const DelayRange& range,
+                     const FitOptions& options) {
+    const Vector delays = delay_grid(data, range, options.delay_count);
+    TransferStructure at = with_fixed_delays(structure);
+    for (TransferChannel& channel : at.channels) channel.delay = range.least;
+    const int rounds = at.channels.size() > 1 ? 2 : 1;
+    DelayScan scan;
+    scan.largest = range.largest;
+    for (int round = 0; round < rounds; ++round)
+        for (std::size_t channel = 0; channel < at.channels.size(); ++channel) {
+            DelayCurve curve(data, at, channel, options);
+            curve.scan(delays);
+            curve.look_closely(kFineSpacing * data.mean_step());
+            const std::vector<DelayPoint>& points = curve.points();
+            scan = {Vector(points.size()), Vector(points.size()), {}, range.largest};
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                scan.delays[static_cast<Index>(i)] = points[i].delay;
+                scan.losses[static_cast<Index>(i)] = points[i].loss;
+            }
+            for (const DelayPoint& point : curve.beginnings()) {
+                at.channels[channel].delay = point.delay;
+                scan.starts.push_back(with_delays(structure, at, point.theta));
+            }
+            const std::vector<std::size_t> valleys = curve.valleys();
+            at.channels[channel].delay = valleys.empty() ? range.least : points[valleys.front()].delay;
+        }
+    if (scan.starts.empty()) scan.starts.push_back(with_delays(structure, at, best_cutoff_start(data, at, options)));
+    return scan;
+}
+
+bool lowest_at_the_end(const DelayScan& scan) {
+    Index best = 0;
+    scan.losses.minCoeff(&best);
+    return best + 1 == scan.losses.size();
+}
+
+}  // namespace
+
+TransferStructure with_fixed_delays(TransferStructure structure) {
+    structure.free_delays = false;
+    return structure;
+}
+
+Vector with_delays(const TransferStructure& free, const TransferStructure& at, const Vector& theta) {
+    Vector all(free.parameter_count());
+    for (Index output = 0; output < free.outputs; ++output)
+        for (Index input = 0; input < free.inputs; ++input) {
+            const TransferChannel& channel = at.channel(output, input);
+            const Index n = at.poles[static_cast<std::size_t>(channel.denominator)];
+            all.segment(free.denominator_start(channel.denominator), n) = theta.segment(at.denominator_start(channel.denominator), n);
+            all.segment(free.numerator_start(output, input), channel.zeros + 1) =
+                theta.segment(at.numerator_start(output, input), channel.zeros + 1);
+            all[free.delay_index(output, input)] = channel.delay;
+        }
+    return all;
+}
+
+TransferStructure with_delays_of(const TransferStructure& structure, const Vector& theta) {
+    TransferStructure at = with_fixed_delays(structure);
+    std::size_t channel = 0;
+    for (Index output = 0; output < structure.outputs; ++output)
+        for (Index input = 0; input < structure.inputs; ++input)
+            at.channels[channel++].delay = structure.delay(theta, output, input);
+    return at;
+}
+
+double likely_largest_delay(const IdData& data) {
+    constexpr Index kFewest = 10;
+    constexpr double kMargin = 1.5, kNearlyPeak = 0.9;
+    const double quarter = shortest_record(data) / 4;
+    Index lags = std::numeric_limits<Index>::max();
+    for (const Experiment& experiment : data.experiments) lags = std::min(lags, experiment.y.rows() / 4);
+    Index furthest = kFewest;
+    for (Index output = 0; output < data.output_count(); ++output)
+        for (Index input = 0; input < data.input_count(); ++input) {
+            Vector products = Vector::Zero(2 * lags + 1);
+            for (const Experiment& experiment : data.experiments) {
+                if (is_a_step(experiment, input)) return quarter;
+                const Vector u = experiment.u.col(input).array() - experiment.u.col(input).mean();
+                const Vector y = experiment.y.col(output).array() - experiment.y.col(output).mean();
+                products += lagged_products(u, y, lags);
+            }
+            // Entry i pairs u(k + i - lags) with y(k): y late by lags - i.
+            const Vector later = products.head(lags + 1).reverse().cwiseAbs();
+            const double peak = later.maxCoeff();
+            Index lag = 0;
+            while (later[lag] < kNearlyPeak * peak) ++lag;
+            furthest = std::max(furthest, lag);
+        }
+    const double steps =
+        std::min(kMargin * static_cast<double>(furthest) + 2, static_cast<double>(std::max<Index>(1, lags)));
+    return std::min(std::ceil(steps) * data.mean_step(), std::max(quarter, data.mean_step()));
+}
+
+DelayScan scan_delays(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
+    const IdData beginning = beginning_of(data, kScannedSamples);
+    if (options.largest_delay) return scan_range(beginning, structure, delay_range(data, options), options);
+    const double quarter = std::max(options.least_delay, shortest_record(beginning) / 4);
+    DelayRange range{options.least_delay, std::clamp(likely_largest_delay(beginning), options.least_delay, quarter)};
+    DelayScan scan = scan_range(beginning, structure, range, options);
+    while (range.largest < quarter && lowest_at_the_end(scan) && !(options.cancel && options.cancel())) {
+        range.largest = std::min(quarter, 2 * range.largest);
+        scan = scan_range(beginning, structure, range, options);
+    }
+    return scan;
+}
+
+}  // namespace dynlab::inline numerics

@@ -1,0 +1,63 @@
+// Oracles: fits at fixed delays, and the delays of the records.
+#include "numerics/fit/delay_scan.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "numerics/fit/transfer_search.h"
+#include "support/transfer_cases.h"
+
+namespace test_delay_scan {
+
+using namespace dynlab;
+using namespace dynlab::test;
+
+// Oracle: the joint search at every fixed delay. Far from the true delay several minima lie close together.
+TEST(delay_scan, loss_over_the_delay_is_that_of_fixed_delays) {
+    const Vector u = prbs(7, 5);
+    const Vector y = lsim(TransferFunction(values({3}), values({1, 1.5, 3}), 0, 0.62), u, 0.1) +
+                     0.1 * RandomStream(4).normal(u.size());
+    const IdData data{Matrix(y), Matrix(u), 0.1};
+    TransferStructure structure = TransferStructure::single(2, 0);
+    structure.free_delays = true;
+    FitOptions options;
+    options.largest_delay = 3;
+    const DelayScan scan = scan_delays(data, structure, options);
+    ASSERT_GT(scan.delays.size(), 25);
+    for (Index i = 0; i < scan.delays.size(); i += 4) {
+        const double fixed = search_transfer("test", data, TransferStructure::single(2, 0, scan.delays[i]), {}).loss;
+        EXPECT_LT(scan.losses[i], 1.03 * fixed) << scan.delays[i];
+        EXPECT_GT(scan.losses[i], 0.999 * fixed) << scan.delays[i];
+    }
+}
+
+// Oracle: the delay of the record.
+TEST(delay_scan, the_range_of_delays_grows_until_the_delay_is_in_it) {
+    const Index N = 600;
+    Vector u = Vector::Zero(N);
+    u.tail(N - 10).setOnes();
+    const Vector y =
+        lsim(TransferFunction(values({1}), values({1, 0.5}), 0, 7.3), u, 0.1) + 0.02 * RandomStream(5).normal(N);
+    const IdData data{Matrix(y), Matrix(u), 0.1};
+    TransferStructure structure = TransferStructure::single(1, 0);
+    structure.free_delays = true;
+    const Fit fit = search_transfer("test", data, structure, {});
+    EXPECT_NEAR(fit.theta[2], 7.3, 0.05);
+}
+
+// Oracle: the beginning that is scanned has 50,000 samples, of which no delay may be longer than a quarter.
+TEST(delay_scan, delays_stay_within_the_part_of_a_long_record_that_is_scanned) {
+    const Index N = 400'000;
+    Vector u = Vector::Ones(N);
+    u.head(100).setZero();
+    const Vector y =
+        lsim(TransferFunction(values({1}), values({1, 0.5}), 0, 2.3), u, 0.1) + 0.02 * RandomStream(6).normal(N);
+    TransferStructure structure = TransferStructure::single(1, 0);
+    structure.free_delays = true;
+    const DelayScan scan = scan_delays(IdData{Matrix(y), Matrix(u), 0.1}, structure, {});
+    EXPECT_LE(scan.largest, 50'000 * 0.1 / 4);
+    EXPECT_NEAR(scan.starts.front()[2], 2.3, 0.3);
+}
+
+}  // namespace test_delay_scan
