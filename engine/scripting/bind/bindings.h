@@ -20,6 +20,7 @@ FunctionEntries nonparametric_functions();
 FunctionEntries regression_functions();
 FunctionEntries validation_functions();
 FunctionEntries residual_functions();
+FunctionEntries prediction_functions();
 FunctionEntries model_functions();
 FunctionEntries data_functions();
 FunctionEntries preprocess_functions();

@@ -17,10 +17,11 @@ const std::vector<FunctionEntry>& catalogue_of_functions() {
                                      subspace_functions(),      hammerstein_functions(),
                                      nonparametric_functions(), advice_functions(),
                                      regression_functions(),    validation_functions(),
-                                     residual_functions(),      order_functions(),
-                                     study_functions(),         figure_functions(),
-                                     control_functions(),       report_functions(),
-                                     answer_functions(),        help_functions()})
+                                     residual_functions(),      prediction_functions(),
+                                     order_functions(),         study_functions(),
+                                     figure_functions(),        control_functions(),
+                                     report_functions(),        answer_functions(),
+                                     help_functions()})
             all.insert(all.end(), area.begin(), area.end());
         return all;
     }();
