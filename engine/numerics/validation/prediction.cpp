@@ -218,9 +218,13 @@ bool NoisyModel::has_noise_model() const {
     return !is_one(C) || !is_one(D);
 }
 
+ColouredNoise noise_of(const NoisyModel& model) {
+    if (!model.polynomial) return {model.C, model.D};
+    return {model.polynomial->C, multiply(model.polynomial->A, model.polynomial->D)};
+}
+
 Vector noise_impulse_response(const NoisyModel& model, Index count) {
-    const Vector& num = model.polynomial ? model.polynomial->C : model.C;
-    const Vector den = model.polynomial ? multiply(model.polynomial->A, model.polynomial->D) : model.D;
+    const auto [num, den] = noise_of(model);
     Vector h = Vector::Zero(count);
     h.head(std::min(count, num.size())) = num.head(std::min(count, num.size()));
     for (Index k = 1; k < count; ++k)

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "numerics/models/polynomial_model.h"
+#include "numerics/simulation/noise.h"
 #include "numerics/validation/compare.h"
 
 namespace dynlab::inline numerics {
@@ -19,6 +20,9 @@ struct NoisyModel {
 
     bool has_noise_model() const;  ///< H is not 1
 };
+
+/// H as one filter of white noise.
+ColouredNoise noise_of(const NoisyModel& model);
 
 /// The first `count` values 1, h_1, h_2, ... of the impulse response of H, by long division.
 Vector noise_impulse_response(const NoisyModel& model, Index count);

@@ -28,6 +28,7 @@ FunctionEntries advice_functions();
 FunctionEntries saving_functions();
 FunctionEntries rig_functions();
 FunctionEntries simulation_functions();
+FunctionEntries noisy_simulation_functions();
 FunctionEntries figure_functions();
 FunctionEntries report_functions();
 FunctionEntries answer_functions();
