@@ -41,7 +41,7 @@ const PolynomialModel& polynomials(Call& call) {
     if (model.polynomial) return *model.polynomial;
     throw InvalidArgument(
         "only models of difference equations, as arx, oe and sriv give them, have this polynomial; lssvf and ivsvf "
-        "give A and B, rivc gives C and D, n4sid matrices A, B, C and D");
+        "give A and B, srivc and its like B and F, rivc gives C and D too, n4sid matrices A, B, C and D");
 }
 bool is_carx(Call& call) {
     const Model& model = model_self(call);
@@ -50,6 +50,11 @@ bool is_carx(Call& call) {
 const NoiseModel* noise_of(Call& call) {
     const Model& model = model_self(call);
     return model.estimate ? model.estimate->noise.get() : nullptr;
+}
+/// An estimate y = B/F u of one continuous-time channel, whose num is B and whose den is F.
+bool has_form_of_output_error(const Model& model) {
+    return model.estimate && !model.estimate->carx && !model.polynomial && !model.system && !model.process &&
+           model.single_channel() && model.G.continuous();
 }
 template <Vector PolynomialModel::*kPolynomial>
 int field_polynomial(Call& call) {
@@ -60,6 +65,8 @@ int field_polynomial(Call& call) {
 template <std::vector<Vector> PolynomialModel::*kPolynomials>
 int field_input_polynomials(Call& call) {
     if (kPolynomials == &PolynomialModel::B && is_carx(call)) return field_num(call);
+    if (has_form_of_output_error(model_self(call)))
+        return kPolynomials == &PolynomialModel::B ? field_num(call) : field_den(call);
     const std::vector<Vector>& list = polynomials(call).*kPolynomials;
     if (list.size() == 1) return call.give_vector(list.front());
     lua_createtable(call.state(), static_cast<int>(list.size()), 0);
