@@ -120,6 +120,10 @@ TEST(script_validation, predict_and_pe_know_the_noise) {
                                 "local two = white:range(1, 500):merge(white:range(600, 1016))\n"
                                 "local y, about = predict(two, G)\nprint(#y, #y[2], about.message:match('^%a+'))"),
               "0\n2\t417\tSimulated\n");
+    EXPECT_EQ(printed(kNoisyRecord + "local G = arx(d, {2, 2, 1})\nprint(fit(d, G, 4) == fit(d, G, {k = 4}), "
+                                     "compare(d, G, 4).curves[2].label == compare(d, G, {K = 4}).curves[2].label, "
+                                     "G.noise_variance == G.report.noise_variance)"),
+              "true\ttrue\ttrue\n");
     EXPECT_THAT(error_of(kNoisyRecord + "predict(d, arx(d, {2, 2, 1}), {k = 0.5})"),
                 HasSubstr("option 'k' must be a whole number of steps ahead"));
     EXPECT_THAT(error_of(kNoisyRecord + "predict(d, arx(d, {2, 2, 1}), -2)"), HasSubstr("but -2 was given"));

@@ -147,6 +147,10 @@ Predictions without_results(const IdData& data) {
 
 Predictions predict_difference_equation(const IdData& data, const NoisyModel& model, const PredictionOptions& options) {
     const OrderedParameters ordered = ordered_parameters(*model.polynomial);
+    if (static_cast<std::size_t>(data.input_count()) != ordered.orders.inputs())
+        throw InvalidArgument("The model has " + std::to_string(ordered.orders.inputs()) +
+                              " input(s), and the data have " + std::to_string(data.input_count()) +
+                              ": select those of the model");
     check_polynomial_data("The prediction", data, ordered.orders);
     check_sampling(data, model.polynomial->Ts);
     check_invertible(model.polynomial->C, model.polynomial->D);

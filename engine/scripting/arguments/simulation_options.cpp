@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "scripting/arguments/table_fields.h"
 #include "scripting/objects/model.h"
 
 namespace dynlab::inline scripting {
@@ -29,6 +30,14 @@ NoisyModel noisy_model_argument(const Call& call, int index, const char* what) {
     for (const auto& [name, value] : model->estimate->numbers)
         if (name == "Ts") noisy.noise_Ts = value;
     return noisy;
+}
+
+void read_steps_as_option(const Call& call, int index) {
+    if (call.type(index) != LUA_TNUMBER) return;
+    lua_State* L = call.state();
+    lua_createtable(L, 0, 1);
+    set_number(L, "k", call.number(index, "k"));
+    lua_replace(L, index);
 }
 
 std::optional<Index> steps_option(const Options& options, std::optional<Index> fallback) {

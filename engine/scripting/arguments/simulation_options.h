@@ -18,6 +18,8 @@ std::vector<TransferFunction> channels_argument(const Call& call, int index, con
 /// A model argument with what it says of its noise.
 NoisyModel noisy_model_argument(const Call& call, int index, const char* what);
 
+/// Makes a number at `index`, where options may stand, the table {k = number}: compare(data, G, 5).
+void read_steps_as_option(const Call& call, int index);
 /// The option k: a whole number of steps from 1 on, or nothing for math.huge, a simulation.
 std::optional<Index> steps_option(const Options& options, std::optional<Index> fallback);
 /// What stands behind a model's name in a legend: ", 5 steps ahead", or nothing for a simulation.

@@ -113,6 +113,13 @@ int field_covariance(Call& call) {
     return call.give_matrix(estimate_of_self(call).covariance);
 }
 
+int field_noise_variance(Call& call) {
+    const Estimate& estimate = estimate_of_self(call);
+    for (const auto& [name, value] : estimate.numbers)
+        if (name == "noise_variance") return call.give(value);
+    throw InvalidArgument(fmt::format("{} tells no variance of the noise", estimate.method));
+}
+
 const Assessment& assessment_of(Call& call) {
     const Estimate& estimate = estimate_of_self(call);
     if (estimate.assessment) return *estimate.assessment;
@@ -237,6 +244,7 @@ constexpr std::array kModelTypeFields = {
     Member{"param", guarded<field_param>},
     Member{"std", guarded<field_std>},
     Member{"covariance", guarded<field_covariance>},
+    Member{"noise_variance", guarded<field_noise_variance>},
     Member{"robust_std", guarded<field_robust_std>},
     Member{"robust_covariance", guarded<field_robust_covariance>},
     Member{"names", guarded<field_names>},

@@ -42,11 +42,7 @@ int predict_output(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const NoisyModel model = noisy_model_argument(call, 2, "G");
-    if (call.type(3) == LUA_TNUMBER) {
-        lua_createtable(call.state(), 0, 1);
-        set_number(call.state(), "k", call.number(3, "k"));
-        lua_replace(call.state(), 3);
-    }
+    read_steps_as_option(call, 3);
     const Options options(call, 3, {"k", "InitialState", "Offset"});
     const Predictions all = predict(data, model, {steps_option(options, 1), compare_options(options)});
     std::vector<Matrix> signals;

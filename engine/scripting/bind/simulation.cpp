@@ -108,6 +108,10 @@ int draw_models(Call& call) {
     int next = 0;
     std::vector<NamedModel> models = models_to_draw(call, next);
     const Vector grid = call.holds_vector(next) ? Vector(call.vector(next++, "t or w")) : Vector();
+    if (kBands && call.type(next) == LUA_TSTRING)
+        throw InvalidArgument(
+            "options are written as a table: {confidence = 0.99} for the bands; bode_values(G, w) and step(G, t) give "
+            "standard deviations as numbers");
     call.at_most(next);
     const Options options = kBands ? Options(call, next, {"labels", "confidence"}) : Options(call, next, {"labels"});
     name_models(call, options, models);

@@ -80,6 +80,7 @@ int compare_models(Call& call) {
     int next = 2;
     while (holds_model(call, next)) ++next;
     call.at_most(next);
+    read_steps_as_option(call, next);
     return draw_comparison(call, data, 2, next);
 }
 
@@ -92,6 +93,7 @@ int test_model(Call& call) {
 int fit(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
+    read_steps_as_option(call, 3);
     const Options options(call, 3, {"k", "InitialState", "Offset"});
     const CompareOptions start = compare_options(options);
     if (const auto steps = steps_option(options, std::nullopt))
