@@ -37,7 +37,10 @@ void check_invertible(const Vector& C, const Vector& D) {
 /// sum_{i < steps} h_i e(k - i)
 Vector unforeseen(const Vector& errors, const Vector& h) {
     Vector sum = Vector::Zero(errors.size());
-    for (Index i = 0; i < std::min(h.size(), errors.size()); ++i)
+    Index terms = std::min(h.size(), errors.size());
+    const double rounding = 1e-18 * h.head(terms).cwiseAbs().maxCoeff();
+    while (terms > 1 && std::abs(h[terms - 1]) <= rounding) --terms;  // all there is of them over many steps
+    for (Index i = 0; i < terms; ++i)
         if (h[i] != 0) sum.tail(errors.size() - i) += h[i] * errors.head(errors.size() - i);
     return sum;
 }

@@ -27,6 +27,10 @@ SimulationSpread simulation_spread(const ModelOfParameters& model, const Vector&
                                    const VectorView& u, double Ts, Hold hold, Index runs, RandomStream& random) {
     const Index d = theta.size();
     if (runs < 2) throw InvalidArgument("A spread needs at least 2 runs, and " + std::to_string(runs) + " were asked");
+    constexpr Index kMostValues = 50'000'000;
+    if (u.size() > kMostValues / runs)
+        throw InvalidArgument("A spread of " + std::to_string(runs) + " runs of " + std::to_string(u.size()) +
+                              " samples is too large to keep: give a shorter input or fewer runs");
     if (covariance.rows() != d || covariance.cols() != d || !covariance.allFinite())
         throw InvalidArgument("The spread needs the finite covariance of the " + std::to_string(d) +
                               " parameters, and got a matrix of " + std::to_string(covariance.rows()) + " x " +

@@ -21,8 +21,8 @@ using ModelOfParameters = std::function<TransferFunction(const Vector& theta)>;
 
 /// `runs` draws of theta with this covariance, simulated from rest for the input u (N samples every Ts s). Unlike the
 /// first-order bands of validation/uncertainty.h it shows what a large uncertainty does to the shape of the output.
-/// Throws InvalidArgument for fewer than two runs, a covariance of another size or one that is not finite, and as
-/// lsim(). Draws run by run, one normal number for each parameter.
+/// Throws InvalidArgument for fewer than two runs or more than 5e7 samples in all, a covariance of another size or one
+/// that is not finite, and as lsim(). Draws run by run, one normal number for each parameter.
 SimulationSpread simulation_spread(const ModelOfParameters& model, const Vector& theta, const Matrix& covariance,
                                    const VectorView& u, double Ts, Hold hold, Index runs, RandomStream& random);
 

@@ -165,6 +165,13 @@ TEST(prediction, errors_of_a_models_own_record_are_its_loss) {
         }
 }
 
+TEST(prediction, many_steps_ahead_is_nearly_the_simulation) {  // oracle: what the noise model has forgotten by then
+    const Simulated s = simulated(kArmax, kArmaxTheta, 4000);
+    const Predictions many = predict(s.data(), noisy(s.model), ahead(3000));
+    const Predictions run = predict(s.data(), noisy(s.model), ahead(std::nullopt));
+    EXPECT_LT((only(many).output - run.results[0][0].output).cwiseAbs().maxCoeff(), 1e-10);
+}
+
 TEST(prediction, of_continuous_models_with_noise) {  // oracle: the noise the record was made with; rivc's own variance
     const Index N = 900;
     const TransferFunction G(Vector{{2.0}}, Vector{{1.0, 1.2, 4.0}}, 0, 0.13);

@@ -74,6 +74,8 @@ TEST(simulation_spread, refuses_what_makes_no_spread) {  // oracle: definitions
     const UncertainModel uncertain(TransferFunction(Vector{{1.0}}, Vector{{1.0, 1.0}}), Matrix::Identity(2, 2));
     EXPECT_THAT(thrown_message([&] { simulation_spread(uncertain, Vector::Ones(9), 1, Hold::kZoh, 1, random); }),
                 HasSubstr("at least 2 runs"));
+    EXPECT_THAT(thrown_message([&] { simulation_spread(uncertain, Vector::Ones(9), 1, Hold::kZoh, 6000000, random); }),
+                HasSubstr("too large to keep"));
     const PolynomialModel model(PolynomialOrders::arx(1, {1}, {1}), Vector{{-0.5, 1}}, 1);
     EXPECT_THAT(thrown_message([&] { simulation_spread(model, Matrix::Identity(3, 3), Vector::Ones(9), 9, random); }),
                 HasSubstr("the 2 parameters, and got a matrix of 3 x 3"));
