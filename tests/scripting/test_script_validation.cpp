@@ -130,6 +130,14 @@ TEST(script_validation, predict_and_pe_know_the_noise) {
     EXPECT_THAT(error_of(kNoisyRecord + "pe(iddata(y, u, 0.5), arx(d, {2, 2, 1}))"), HasSubstr("both must be equal"));
 }
 
+TEST(script_validation, resid_tests_predictions_too) {
+    EXPECT_EQ(printed(kNoisyRecord + "local G = arx(d, {2, 2, 1})\n"
+                                     "local _, e = resid(d, G, {prediction = true, quiet = true})\n"
+                                     "local _, v = resid(d, G, {quiet = true})\n"
+                                     "print(e.white, v.white, norm(e.residuals[1] - pe(d, G)) < 1e-12)"),
+              "true\tfalse\ttrue\n");
+}
+
 TEST(script_validation, compare_gives_what_it_draws) {
     EXPECT_EQ(printed(kNoisyRecord +
                       "local G = arx(d, {2, 2, 1})\n"

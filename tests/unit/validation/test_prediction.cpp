@@ -10,6 +10,7 @@
 #include "numerics/estimators/rivc.h"
 #include "numerics/simulation/lsim.h"
 #include "numerics/validation/prediction.h"
+#include "numerics/validation/residual_tests.h"
 #include "support/difference_equation.h"
 #include "support/thrown_message.h"
 
@@ -195,6 +196,23 @@ TEST(prediction, of_continuous_models_with_noise) {  // oracle: the noise the re
     const double squares = only(predict(plain, noisy(fit), ahead(1))).errors.squaredNorm();
     EXPECT_NEAR(squares / (N - 1 - 5), fit.noise_variance[0], 1e-10);
     EXPECT_GT(predict(plain, noisy(fit)).fit_percent[0], predict(plain, noisy(fit), ahead({})).fit_percent[0] + 10);
+}
+
+TEST(prediction, its_errors_are_tested_for_whiteness) {  // oracle: the structures that the record has, and has not
+    const IdData data = simulated(kArmax, kArmaxTheta, 3000, 7).data();
+    const Fit right = armax(data, kArmax);
+    PolynomialOrders poorer = kArmax;
+    poorer.nc = 0;
+    const ResidualTests good = prediction_error_tests(data, predict(data, noisy(right)));
+    EXPECT_TRUE(good.outputs[0].whiteness.white) << good.verdict;
+    EXPECT_TRUE(good.outputs[0].inputs[0].independent);
+    EXPECT_THAT(good.verdict, HasSubstr("The prediction error is white"));
+    EXPECT_EQ(good.residuals[0].col(0), predict(data, noisy(right)).results[0][0].errors);
+    const ResidualTests poor = prediction_error_tests(data, predict(data, noisy(armax(data, poorer))));
+    EXPECT_THAT(poor.verdict, HasSubstr("The prediction error is not white"));
+    const ResidualTests of_simulation = residual_tests(data, {right.polynomial->transfer_function()});
+    EXPECT_THAT(of_simulation.verdict, HasSubstr("The output error is not white"));
+    EXPECT_THAT(of_simulation.verdict, HasSubstr("a method with a noise model"));
 }
 
 TEST(prediction, without_a_noise_model_is_the_simulation) {  // oracle: second route, compare_all
