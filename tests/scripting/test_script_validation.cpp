@@ -97,6 +97,58 @@ TEST(script_validation, figures_carry_bands_unless_refused) {
     EXPECT_THAT(error_of("nyquist(tf({1}, {1, 1}), {confidence = 0.9})"), HasSubstr("option 'confidence' is unknown"));
 }
 
+const std::string kNoisyRecord =
+    "local z = tf('z', 1)\n"
+    "local u = prbs(7, 4)\n"
+    "local y = lsim((z + 0.5)/(z^2 - 1.5*z + 0.7), u, 1) + lsim(z^2/(z^2 - 1.5*z + 0.7), 0.3*randn(#u), 1)\n"
+    "local d = iddata(y, u, 1)\n";
+
+TEST(script_validation, predict_and_pe_know_the_noise) {
+    EXPECT_EQ(printed(kNoisyRecord +
+                      "local G = armax(d, {2, 2, 1, 1})\n"
+                      "local e, about = pe(d, G)\n"
+                      "local yp = predict(d, G)\n"
+                      "print(#e, about.first, math.abs(about.loss/G.report.loss - 1) < 1e-9, norm(d.y - yp - e))\n"
+                      "print(norm(predict(d, G, 5) - predict(d, G, {k = 5})))\n"
+                      "print(fit(d, G, {k = 1}) > fit(d, G, {k = 3}), fit(d, G, {k = 3}) > fit(d, G))"),
+              "508\t3\ttrue\t0\n0\ntrue\ttrue\n");
+    EXPECT_EQ(printed(kRecord + "local G = rivc(coloured, {1, 0, 1, 2, 0})\n"
+                                "print(G.report.Ts, fit(coloured, G, {k = 1}) > fit(coloured, G) + 5)"),
+              "0.05\ttrue\n");
+    EXPECT_EQ(printed(kRecord + "local G = procsrivc(white, 'P2')\n"
+                                "print(norm(predict(white, G) - fit_measures(white, G).output))\n"
+                                "local two = white:range(1, 500):merge(white:range(600, 1016))\n"
+                                "local y, about = predict(two, G)\nprint(#y, #y[2], about.message:match('^%a+'))"),
+              "0\n2\t417\tSimulated\n");
+    EXPECT_EQ(printed(kNoisyRecord + "local G = arx(d, {2, 2, 1})\nprint(fit(d, G, 4) == fit(d, G, {k = 4}), "
+                                     "compare(d, G, 4).curves[2].label == compare(d, G, {K = 4}).curves[2].label, "
+                                     "G.noise_variance == G.report.noise_variance)"),
+              "true\ttrue\ttrue\n");
+    EXPECT_THAT(error_of(kNoisyRecord + "predict(d, arx(d, {2, 2, 1}), {k = 0.5})"),
+                HasSubstr("option 'k' must be a whole number of steps ahead"));
+    EXPECT_THAT(error_of(kNoisyRecord + "predict(d, arx(d, {2, 2, 1}), -2)"), HasSubstr("but -2 was given"));
+    EXPECT_THAT(error_of(kNoisyRecord + "pe(iddata(y, u, 0.5), arx(d, {2, 2, 1}))"), HasSubstr("both must be equal"));
+}
+
+TEST(script_validation, resid_tests_predictions_too) {
+    EXPECT_EQ(printed(kNoisyRecord + "local G = arx(d, {2, 2, 1})\n"
+                                     "local _, e = resid(d, G, {prediction = true, quiet = true})\n"
+                                     "local _, v = resid(d, G, {quiet = true})\n"
+                                     "print(e.white, v.white, norm(e.residuals[1] - pe(d, G)) < 1e-12)"),
+              "true\tfalse\ttrue\n");
+}
+
+TEST(script_validation, compare_gives_what_it_draws) {
+    EXPECT_EQ(printed(kNoisyRecord +
+                      "local G = arx(d, {2, 2, 1})\n"
+                      "local drawn = compare(d, G, {k = 2}).curves\n"
+                      "print(#drawn, drawn[1].label, norm(drawn[1].y - d.y), norm(drawn[2].y - predict(d, G, 2)))\n"
+                      "print(drawn[2].label == string.format('arx, 2 steps ahead: %.1f %%', fit(d, G, {k = 2})))\n"
+                      "local simulated = compare(d, G).curves[2]\n"
+                      "print(norm(simulated.y - fit_measures(d, G).output), simulated.panel)"),
+              "2\tmeasured\t0\t0\ntrue\n0\t1\n");
+}
+
 TEST(script_validation, crossvalidate_ranks_structures) {
     EXPECT_THAT(
         printed(kRecord + "local function fold(kind) return function(d) return procsrivc(d:experiment(1), kind) "

@@ -165,4 +165,30 @@ TransferFunction d2c(const TransferFunction& G, Discretisation method) {
     return method == Discretisation::kTustin ? tustin_d2c(G) : exact_d2c(G, hold_of(method));
 }
 
+TransferFunction with_rational_delay(const std::string& caller, const TransferFunction& G) {
+    if (G.delay() == 0) return G;
+    if (G.continuous())
+        throw InvalidArgument(caller + ": with the delay of " + number_text(G.delay()) +
+                              " s this is not a rational transfer function: give pade(G, n), which approximates it, "
+                              "or c2d(G, Ts), which is exact at the samples");
+    const auto samples = static_cast<Index>(std::lround(G.delay() / G.Ts()));
+    return TransferFunction(G.num(), multiply(G.den(), Vector::Unit(samples + 1, 0)), G.Ts());
+}
+
+TransferFunction pade(const TransferFunction& G, int order) {
+    if (order < 1 || order > 10)
+        throw InvalidArgument("pade: the order must lie between 1 and 10, and is " + std::to_string(order));
+    if (G.delay() == 0 || !G.continuous()) return with_rational_delay("pade", G);
+    // P(s) = sum_k c_k (delay s)^k with c_0 = 1, c_k/c_(k-1) = (order - k + 1)/((2 order - k + 1) k), highest power
+    // first
+    Vector P(order + 1), mirrored(order + 1);
+    double c = 1;
+    for (int k = 0; k <= order; ++k) {
+        if (k > 0) c *= G.delay() * (order - k + 1) / ((2 * order - k + 1) * k);
+        P[order - k] = c;
+        mirrored[order - k] = k % 2 == 0 ? c : -c;
+    }
+    return TransferFunction(multiply(G.num(), mirrored), multiply(G.den(), P));
+}
+
 }  // namespace dynlab::inline numerics

@@ -1,4 +1,6 @@
 #pragma once
+#include <string>
+
 #include "numerics/models/state_space.h"
 #include "numerics/models/transfer_function.h"
 
@@ -14,5 +16,14 @@ StateSpace c2d(const StateSpace& system, double Ts, Discretisation method = Disc
 /// Inverse of c2d. Throws InvalidArgument for poles on the closed negative real axis (no continuous-time
 /// equal under zoh), naming the pole.
 TransferFunction d2c(const TransferFunction& G, Discretisation method = Discretisation::kZoh);
+
+/// G with its delay as poles: a discrete one exactly, z^-d, a continuous one only where there is none. Throws
+/// InvalidArgument that begins with `caller` and names pade() for a delay in continuous time.
+TransferFunction with_rational_delay(const std::string& caller, const TransferFunction& G);
+
+/// A continuous-time G whose delay is replaced by Pade's approximation of exp(-delay s), an all-pass P(-s)/P(s) of
+/// `order` poles that agrees with it up to s^(2 order); a discrete G as with_rational_delay(). Throws InvalidArgument
+/// unless order is 1 to 10: higher ones lose their digits.
+TransferFunction pade(const TransferFunction& G, int order);
 
 }  // namespace dynlab::inline numerics

@@ -1,5 +1,6 @@
 #include "numerics/models/transfer_function.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -37,6 +38,12 @@ double common_sampling_time(const TransferFunction& a, const TransferFunction& b
     if (is_gain(a)) return b.Ts();
     throw InvalidArgument("transfer functions with the sampling times " + number_text(a.Ts()) + " s and " +
                           number_text(b.Ts()) + " s cannot be combined (0 means continuous time)");
+}
+
+/// The delay (s) of a discrete model beyond `kept` as poles at zero.
+TransferFunction with_later_poles(const TransferFunction& G, double Ts, double kept) {
+    const auto samples = static_cast<Index>(std::lround((G.delay() - kept) / Ts));
+    return TransferFunction(G.num(), multiply(G.den(), Vector::Unit(samples + 1, 0)), Ts, kept);
 }
 
 }  // namespace
@@ -95,9 +102,13 @@ TransferFunction TransferFunction::with_delay(double delay) const {
 }
 
 TransferFunction operator+(const TransferFunction& a, const TransferFunction& b) {
-    if (a.delay() != b.delay())
+    if (a.delay() != b.delay()) {
+        const double Ts = common_sampling_time(a, b), common = std::min(a.delay(), b.delay());
+        if (Ts > 0) return with_later_poles(a, Ts, common) + with_later_poles(b, Ts, common);
         throw InvalidArgument("transfer functions with the delays " + number_text(a.delay()) + " s and " +
-                              number_text(b.delay()) + " s cannot be added: the sum is not a rational function");
+                              number_text(b.delay()) +
+                              " s cannot be added: the sum is not a rational function; pade(G, n) approximates one");
+    }
     const Vector num = add(multiply(a.num(), b.den()), multiply(b.num(), a.den()));
     return TransferFunction(num, multiply(a.den(), b.den()), common_sampling_time(a, b), a.delay());
 }
@@ -128,7 +139,8 @@ TransferFunction pow(const TransferFunction& base, int exponent) {
 TransferFunction feedback(const TransferFunction& forward, const TransferFunction& backward, int sign) {
     if (forward.delay() > 0 || backward.delay() > 0)
         throw InvalidArgument(
-            "feedback: a loop with a delay is not a rational transfer function; give both without delay");
+            "feedback: a loop with a delay is not a rational transfer function: give pade(G, n) for one with a delay, "
+            "which approximates it, or close the loop of discrete models, c2d(G, Ts)");
     const double Ts = common_sampling_time(forward, backward);
     const Vector loop = multiply(forward.num(), backward.num());
     const Vector den = add(multiply(forward.den(), backward.den()), sign > 0 ? Vector(-loop) : loop);

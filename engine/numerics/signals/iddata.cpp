@@ -13,12 +13,15 @@ namespace dynlab::inline numerics {
 namespace {
 
 void check_channels(const Matrix& y, const Matrix& u) {
-    if (y.cols() == 0) throw InvalidArgument("iddata: the data need at least one output");
+    if (y.cols() == 0 && u.cols() == 0)
+        throw InvalidArgument("iddata: the data need at least one output, or, for a simulation, at least one input");
     if (u.cols() > 0 && u.rows() != y.rows())
         throw InvalidArgument("iddata: the output has " + std::to_string(y.rows()) + " samples but the input has " +
                               std::to_string(u.rows()));
-    check_samples("iddata", "the output", y);
-    check_magnitudes("iddata", "the output", y);
+    if (y.cols() > 0) {
+        check_samples("iddata", "the output", y);
+        check_magnitudes("iddata", "the output", y);
+    }
     if (u.cols() == 0) return;
     check_samples("iddata", "the input", u);
     check_magnitudes("iddata", "the input", u);

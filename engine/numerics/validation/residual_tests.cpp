@@ -11,10 +11,18 @@
 #include "numerics/number_text.h"
 #include "numerics/signals/correlation.h"
 #include "numerics/statistics/chi_squared.h"
+#include "numerics/validation/prediction.h"
 
 namespace dynlab::inline numerics {
 
 namespace {
+
+// What the tested errors are, in words.
+enum class ErrorKind { kOutput, kPrediction };
+
+const char* error_name(ErrorKind kind) {
+    return kind == ErrorKind::kOutput ? "output error" : "prediction error";
+}
 
 using Signals = std::vector<Vector>;  // one channel, an entry per experiment
 
@@ -70,7 +78,7 @@ double lag_variance(const Signals& e, Index lag) {
 }
 
 // R holds the covariances of e, lags 0..lags.
-WhitenessTest test_whiteness(const Signals& e, const VectorView& R, double confidence) {
+WhitenessTest test_whiteness(const Signals& e, const VectorView& R, double confidence, ErrorKind kind) {
     WhitenessTest test;
     const Index lags = R.size() - 1;
     if (R[0] == 0) return test;  // nothing but a constant
@@ -86,9 +94,10 @@ WhitenessTest test_whiteness(const Signals& e, const VectorView& R, double confi
     if (test.degrees == 0) return test;
     test.p_value = chi_squared_upper_tail(test.statistic, static_cast<double>(test.degrees));
     test.white = test.p_value >= 1 - confidence;
-    test.verdict = test.white ? "The output error is white (Ljung-Box " + probability_text(test.p_value) + " over " +
+    const std::string subject = std::string("The ") + error_name(kind);
+    test.verdict = test.white ? subject + " is white (Ljung-Box " + probability_text(test.p_value) + " over " +
                                     std::to_string(lags) + " lags)."
-                              : "The output error is not white (Ljung-Box " + probability_text(test.p_value) + "; " +
+                              : subject + " is not white (Ljung-Box " + probability_text(test.p_value) + "; " +
                                     std::to_string(test.outside) + " of " + std::to_string(lags) +
                                     " lags lie beyond the " + percent_text(confidence) + " bound).";
     return test;
@@ -214,7 +223,7 @@ IndependenceTest test_independence(const Signals& e, double variance, const Test
     return test;
 }
 
-std::string conclusion(const OutputResiduals& output) {
+std::string conclusion(const OutputResiduals& output, ErrorKind kind) {
     bool independent = true, tested = true;
     for (const IndependenceTest& test : output.inputs) {
         independent = independent && test.independent;
@@ -227,11 +236,14 @@ std::string conclusion(const OutputResiduals& output) {
     if (!tested)
         return "Missing dynamics or a coloured disturbance: without an input that changes the record cannot tell "
                "which.";
+    if (kind == ErrorKind::kPrediction)
+        return "The dynamics are described, but not the disturbance: try another order of its noise model, and until "
+               "then robust standard errors.";
     return "The dynamics are described; the disturbance is coloured, so that robust standard errors or a method with a "
            "noise model are in place.";
 }
 
-OutputResiduals test_output(const std::vector<Matrix>& errors, const IdData& data, Index output,
+OutputResiduals test_output(const std::vector<Matrix>& errors, const IdData& data, Index output, ErrorKind kind,
                             const ResidualOptions& options) {
     OutputResiduals result;
     const Signals e = centred_column(errors, output);
@@ -248,18 +260,18 @@ OutputResiduals test_output(const std::vector<Matrix>& errors, const IdData& dat
     constexpr double kRounding = 1e4 * std::numeric_limits<double>::epsilon();
     if (result.variance <= kRounding * kRounding * output_power) {
         result.exact = true;
-        result.verdict =
-            name + ": the simulated output equals the measured one to rounding, so nothing is left to test.";
+        result.verdict = name + ": the " + (kind == ErrorKind::kOutput ? "simulated" : "predicted") +
+                         " output equals the measured one to rounding, so nothing is left to test.";
         return result;
     }
-    result.whiteness = test_whiteness(e, R, options.confidence);
+    result.whiteness = test_whiteness(e, R, options.confidence, kind);
     result.verdict = name + ": " + result.whiteness.verdict;
     for (Index j = 0; j < data.input_count(); ++j) {
         const TestedInput& tested = inputs[static_cast<std::size_t>(j)];
         result.inputs.push_back(test_independence(e, R[0], tested, data, j, result.whiteness.white, options));
         result.verdict += " " + result.inputs.back().verdict;
     }
-    result.verdict += " " + conclusion(result);
+    result.verdict += " " + conclusion(result, kind);
     return result;
 }
 
@@ -282,6 +294,22 @@ std::vector<Matrix> output_errors(const IdData& data, std::vector<Matrix> simula
     return simulated;
 }
 
+ResidualTests tests_of(const IdData& data, std::vector<Matrix> errors, ErrorKind kind, const ResidualOptions& options) {
+    ResidualTests tests;
+    tests.residuals = std::move(errors);
+    Index most = 0;
+    for (const Matrix& own : tests.residuals) most = std::max(most, own.rows());
+    if (most < 2 * options.lags)
+        throw InvalidArgument("Tests over " + std::to_string(options.lags) + " lags need at least " +
+                              std::to_string(2 * options.lags) + " samples in one record, and the longest has " +
+                              std::to_string(most) + ": ask for fewer lags");
+    for (Index i = 0; i < data.output_count(); ++i) {
+        tests.outputs.push_back(test_output(tests.residuals, data, i, kind, options));
+        tests.verdict += (i == 0 ? "" : "\n") + tests.outputs.back().verdict;
+    }
+    return tests;
+}
+
 }  // namespace
 
 void ResidualOptions::validate() const {
@@ -294,24 +322,26 @@ WhitenessTest whiteness_test(const std::vector<Vector>& errors, const ResidualOp
     options.validate();
     const Signals e = centred(errors);
     const Index lags = std::max<Index>(1, std::min(options.lags, longest(e) / 2));
-    return test_whiteness(e, covariances(e, e, lags).tail(lags + 1), options.confidence);
+    return test_whiteness(e, covariances(e, e, lags).tail(lags + 1), options.confidence, ErrorKind::kOutput);
 }
 
 ResidualTests residual_tests(const IdData& data, std::vector<Matrix> simulated, const ResidualOptions& options) {
     options.validate();
-    ResidualTests tests;
-    tests.residuals = output_errors(data, std::move(simulated));
-    Index most = 0;
-    for (const Matrix& errors : tests.residuals) most = std::max(most, errors.rows());
-    if (most < 2 * options.lags)
-        throw InvalidArgument("Tests over " + std::to_string(options.lags) + " lags need at least " +
-                              std::to_string(2 * options.lags) + " samples in one record, and the longest has " +
-                              std::to_string(most) + ": ask for fewer lags");
-    for (Index i = 0; i < data.output_count(); ++i) {
-        tests.outputs.push_back(test_output(tests.residuals, data, i, options));
-        tests.verdict += (i == 0 ? "" : "\n") + tests.outputs.back().verdict;
+    return tests_of(data, output_errors(data, std::move(simulated)), ErrorKind::kOutput, options);
+}
+
+ResidualTests prediction_error_tests(const IdData& data, const Predictions& predictions,
+                                     const ResidualOptions& options) {
+    options.validate();
+    std::vector<Matrix> errors;
+    for (const auto& outputs : predictions.results) {
+        Matrix& own = errors.emplace_back(outputs.front().errors.size(), static_cast<Index>(outputs.size()));
+        for (std::size_t i = 0; i < outputs.size(); ++i) own.col(static_cast<Index>(i)) = outputs[i].errors;
+        if (!own.allFinite())
+            throw InvalidArgument(
+                "The prediction errors are not finite everywhere: the model is unstable on this record");
     }
-    return tests;
+    return tests_of(data, std::move(errors), ErrorKind::kPrediction, options);
 }
 
 ResidualTests residual_tests(const IdData& data, const std::vector<TransferFunction>& channels,

@@ -7,6 +7,8 @@
 
 namespace dynlab::inline numerics {
 
+struct Predictions;
+
 struct ResidualOptions {
     Index lags = 25;
     double confidence = 0.99;  ///< of the bounds; a test rejects below 1 - confidence
@@ -55,7 +57,7 @@ struct ResidualTests {
     std::string verdict;  ///< one paragraph per output
 };
 
-/// Tests on the output error e = y - simulated (never a prediction error), all experiments together. Means are taken
+/// Tests on the output error e = y - simulated, all experiments together. Means are taken
 /// off e and u first, experiment by experiment. Whiteness: Ljung and Box (1978). Independence: the cross-correlations
 /// r of lags 0..L have under independence the covariance P/N, P_ij = sum_k R_e(k) R_u(k + i - j) (Ljung 1999, section
 /// 16.6), whose diagonal gives the bound; the statistic is N r' P^-1 r. When e is not
@@ -68,6 +70,10 @@ ResidualTests residual_tests(const IdData& data, std::vector<Matrix> simulated, 
 /// The same for a model, whose initial state and offset are handled as by compare_all().
 ResidualTests residual_tests(const IdData& data, const std::vector<TransferFunction>& channels,
                              const CompareOptions& simulation = {}, const ResidualOptions& options = {});
+
+/// The same on the errors e of predictions one step ahead, which are white where the noise model is right.
+ResidualTests prediction_error_tests(const IdData& data, const Predictions& predictions,
+                                     const ResidualOptions& options = {});
 
 /// The whiteness test alone, of one output's errors in one or several uninterrupted records; for records too short for
 /// the lags fewer are tested.

@@ -1,6 +1,7 @@
 #include "scripting/arguments/arguments.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <new>
 
@@ -214,6 +215,18 @@ Options::Options(const Call& call, int index, std::initializer_list<const char*>
     check_names(known);
 }
 
+namespace {
+
+/// The name with its first letter in the other case: MATLAB's options are a mixture, Lambda and lambda.
+std::string with_other_case(std::string name) {
+    if (name.empty()) return name;
+    const auto first = static_cast<unsigned char>(name[0]);
+    name[0] = static_cast<char>(std::isupper(first) ? std::tolower(first) : std::toupper(first));
+    return name;
+}
+
+}  // namespace
+
 void Options::check_names(std::initializer_list<const char*> known) const {
     lua_State* L = call_.state();
     lua_pushnil(L);
@@ -223,7 +236,16 @@ void Options::check_names(std::initializer_list<const char*> known) const {
             throw InvalidArgument(
                 fmt::format("options are written {{name = value}}; the entry [{}] has no name", given_text(L, -1)));
         const std::string name = lua_tostring(L, -1);
-        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+        const auto is_known = [&](const std::string& word) {
+            return std::find(known.begin(), known.end(), word) != known.end();
+        };
+        if (is_known(name)) continue;
+        if (const std::string other = with_other_case(name); is_known(other)) {
+            if (lua_getfield(L, index_, other.c_str()) != LUA_TNIL)
+                throw InvalidArgument(fmt::format("options '{}' and '{}' are the same: give one of them", name, other));
+            lua_pop(L, 1);
+            continue;
+        }
         const std::vector<std::string> names(known.begin(), known.end());
         const auto near = nearest_word(name, names);
         throw InvalidArgument(
@@ -239,7 +261,11 @@ int Options::push(const char* name) const {
         lua_pushnil(L);
     } else {
         lua_pushstring(L, name);
-        lua_rawget(L, index_);
+        if (lua_rawget(L, index_) == LUA_TNIL) {
+            lua_pop(L, 1);
+            lua_pushstring(L, with_other_case(name).c_str());
+            lua_rawget(L, index_);
+        }
     }
     return lua_gettop(L);
 }

@@ -49,7 +49,11 @@ std::vector<int> entry_list(lua_State* L, int index, std::span<const OrderEntry>
 std::vector<std::vector<int>> order_lists(const Call& call, int index, std::span<const OrderEntry> entries) {
     lua_State* L = call.state();
     const auto wrong_count = [&](Index count) {
-        refuse_orders(index, entries, fmt::format("{} entries were given", count));
+        const bool many = count > static_cast<Index>(entries.size()) + 1;
+        refuse_orders(
+            index, entries,
+            fmt::format("{} entries were given{}", count,
+                        many ? "; with several inputs an entry is a list of one value for each, such as {1, 1}" : ""));
     };
     std::vector<std::vector<int>> lists;
     if (index <= call.count()) {

@@ -1,5 +1,8 @@
 #include "scripting/arguments/simulation_options.h"
 
+#include <cmath>
+
+#include "scripting/arguments/table_fields.h"
 #include "scripting/objects/model.h"
 
 namespace dynlab::inline scripting {
@@ -13,6 +16,42 @@ std::vector<TransferFunction> channels_argument(const Call& call, int index, con
     if (index <= call.count())
         if (const Model* model = to_object<Model>(call.state(), index)) return channels_of(*model);
     return {model_argument(call, index, what).G};
+}
+
+NoisyModel noisy_model_argument(const Call& call, int index, const char* what) {
+    NoisyModel noisy;
+    noisy.channels = channels_argument(call, index, what);
+    const Model* model = to_object<Model>(call.state(), index);
+    if (model == nullptr) return noisy;
+    noisy.polynomial = model->polynomial;
+    if (!model->estimate || !model->estimate->noise) return noisy;
+    noisy.C = model->estimate->noise->C;
+    noisy.D = model->estimate->noise->D;
+    for (const auto& [name, value] : model->estimate->numbers)
+        if (name == "Ts") noisy.noise_Ts = value;
+    return noisy;
+}
+
+void read_steps_as_option(const Call& call, int index) {
+    if (call.type(index) != LUA_TNUMBER) return;
+    lua_State* L = call.state();
+    lua_createtable(L, 0, 1);
+    set_number(L, "k", call.number(index, "k"));
+    lua_replace(L, index);
+}
+
+std::optional<Index> steps_option(const Options& options, std::optional<Index> fallback) {
+    const auto steps = options.optional_number("k");
+    if (!steps) return fallback;
+    if (std::isinf(*steps) && *steps > 0) return std::nullopt;
+    if (*steps >= 1 && *steps <= 1e9 && *steps == std::floor(*steps)) return static_cast<Index>(*steps);
+    throw InvalidArgument(fmt::format(
+        "option 'k' must be a whole number of steps ahead from 1 on, or math.huge for a simulation, but {} was given",
+        *steps));
+}
+
+std::string steps_text(const std::optional<Index>& steps) {
+    return steps ? fmt::format(", {} step{} ahead", *steps, *steps == 1 ? "" : "s") : std::string();
 }
 
 }  // namespace dynlab::inline scripting

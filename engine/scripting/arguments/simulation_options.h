@@ -1,7 +1,10 @@
 #pragma once
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "numerics/validation/compare.h"
+#include "numerics/validation/prediction.h"
 #include "scripting/arguments/arguments.h"
 
 namespace dynlab::inline scripting {
@@ -11,5 +14,15 @@ CompareOptions compare_options(const Options& options, const char* initial_state
 
 /// The transfer functions of a model argument, one per input.
 std::vector<TransferFunction> channels_argument(const Call& call, int index, const char* what);
+
+/// A model argument with what it says of its noise.
+NoisyModel noisy_model_argument(const Call& call, int index, const char* what);
+
+/// Makes a number at `index`, where options may stand, the table {k = number}: compare(data, G, 5).
+void read_steps_as_option(const Call& call, int index);
+/// The option k: a whole number of steps from 1 on, or nothing for math.huge, a simulation.
+std::optional<Index> steps_option(const Options& options, std::optional<Index> fallback);
+/// What stands behind a model's name in a legend: ", 5 steps ahead", or nothing for a simulation.
+std::string steps_text(const std::optional<Index>& steps);
 
 }  // namespace dynlab::inline scripting

@@ -105,7 +105,9 @@ int make_iddata(Call& call) {
         throw InvalidArgument(
             "argument 3 (Ts) must be a number of seconds, but instants were given; where they lie at uneven distances "
             "write iddata(y, u, nil, {SamplingInstants = t})");
-    const Matrix y = call.matrix(1, "y"), u = signals(call, 2, "u", y.rows());
+    const bool inputs_only = !call.given(1) && call.given(2);
+    const Matrix y = inputs_only ? Matrix(call.matrix(2, "u").rows(), 0) : Matrix(call.matrix(1, "y"));
+    const Matrix u = signals(call, 2, "u", y.rows());
     IdData data = options.has("SamplingInstants") ? IdData(y, u, options.vector("SamplingInstants"))
                                                   : IdData(y, u, call.number_or(3, "Ts", 1));
     data.hold = options.choice("InterSample", {"zoh", "foh"}, 0) == 0 ? Hold::kZoh : Hold::kFoh;
@@ -119,8 +121,16 @@ int make_iddata(Call& call) {
     return give_data(call, std::move(data));
 }
 
+/// idplot(data, first, last): these samples.
+int plot_part(Call& call) {
+    call.at_most(3);
+    const IdData part = signals_of_argument(call, 1, "data").range(call.integer(2, "first"), call.integer(3, "last"));
+    return give_figure(call, id_plot({&part}, {}));
+}
+
 /// idplot(data1, data2, ..., {labels = {...}})
 int idplot(Call& call) {
+    if (call.type(2) == LUA_TNUMBER) return plot_part(call);
     std::vector<const IdData*> all;
     int i = 1;
     for (; i <= call.count() && to_object<IdData>(call.state(), i) != nullptr; ++i)
@@ -136,8 +146,8 @@ constexpr std::array kDataFunctions = {
                   "reads a data set of the course, a .mat or a .csv file", guarded<load>},
     FunctionEntry{"iddata", kDataArea, "iddata(y, u, Ts, {InterSample =, InputName =, OutputName =, ...}) -> data",
                   "input-output data with their sampling", guarded<make_iddata>},
-    FunctionEntry{"idplot", kDataArea, "idplot(data, ..., {labels =}) -> fig", "outputs above inputs over time",
-                  guarded<idplot>},
+    FunctionEntry{"idplot", kDataArea, "idplot(data, ..., {labels =}) -> fig; idplot(data, first, last)",
+                  "outputs above inputs over time", guarded<idplot>},
 };
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace dynlab::inline scripting {
 namespace {
 
 const IdData& data_self(Call& call) {
-    return object_argument<IdData>(call, 1, "data");
+    return signals_of_argument(call, 1, "data");
 }
 
 const Experiment& only_experiment(const IdData& data) {
@@ -179,6 +179,22 @@ Digest Boxed<IdData>::digest(const IdData& data) {
         add_numbers(digest, t);
     }
     return digest.digest();
+}
+
+const IdData& signals_of_argument(const Call& call, int index, const char* what) {
+    const IdData* data = index <= call.count() ? to_object<IdData>(call.state(), index) : nullptr;
+    if (data == nullptr) wrong_argument(call.state(), index, what, Boxed<IdData>::type.name);
+    return *data;
+}
+
+template <>
+Access<IdData>& object_argument<IdData>(const Call& call, int index, const char* what) {
+    const IdData& data = signals_of_argument(call, index, what);
+    if (data.output_count() > 0) return data;
+    throw InvalidArgument(
+        fmt::format("argument {} ({}) must have an output, and these data hold inputs only, which is enough for sim, "
+                    "simsd and idplot",
+                    index, what));
 }
 
 int give_data(const Call& call, IdData data) {

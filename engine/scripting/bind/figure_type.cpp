@@ -1,6 +1,7 @@
 #include <array>
 
 #include "numerics/number_text.h"
+#include "scripting/arguments/table_fields.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/panel_options.h"
 
@@ -97,7 +98,27 @@ int panel_count(Call& call) {
     return call.give_integer(static_cast<Index>(figure_self(call).panels.size()));
 }
 
-constexpr std::array kFigureTypeFields = {Member{"panels", guarded<panel_count>}};
+/// fig.curves: what is drawn, a table {panel =, label =, x =, y =} for each curve, with y_upper for a band.
+int list_of_curves(Call& call) {
+    lua_State* L = call.state();
+    const Figure& figure = figure_self(call);
+    lua_newtable(L);
+    lua_Integer place = 0;
+    for (std::size_t i = 0; i < figure.panels.size(); ++i)
+        for (const Curve& curve : figure.panels[i].curves) {
+            lua_createtable(L, 0, 5);
+            set_integer(L, "panel", static_cast<Index>(i + 1));
+            set_text(call, "label", curve.label);
+            set_vector(call, "x", curve.x);
+            set_vector(call, "y", curve.y);
+            if (curve.y_upper.size() > 0) set_vector(call, "y_upper", curve.y_upper);
+            lua_rawseti(L, -2, ++place);
+        }
+    return 1;
+}
+
+constexpr std::array kFigureTypeFields = {Member{"panels", guarded<panel_count>},
+                                          Member{"curves", guarded<list_of_curves>}};
 constexpr std::array kFigureTypeMethods = {Member{"add", guarded<add_curve>},
                                            Member{"mark", guarded<add_mark>},
                                            Member{"hline", guarded<add_reference<true>>},

@@ -38,7 +38,7 @@ const PolynomialModel& polynomials(Call& call) {
     if (model.polynomial) return *model.polynomial;
     throw InvalidArgument(
         "only models of difference equations, as arx, oe and sriv give them, have this polynomial; lssvf and ivsvf "
-        "give A and B, rivc gives C and D, n4sid matrices A, B, C and D");
+        "give A and B, srivc and its like B and F, rivc gives C and D too, n4sid matrices A, B, C and D");
 }
 bool is_carx(Call& call) {
     const Model& model = model_self(call);
@@ -47,6 +47,11 @@ bool is_carx(Call& call) {
 const NoiseModel* noise_of(Call& call) {
     const Model& model = model_self(call);
     return model.estimate ? model.estimate->noise.get() : nullptr;
+}
+/// An estimate y = B/F u of one continuous-time channel, whose num is B and whose den is F.
+bool has_form_of_output_error(const Model& model) {
+    return model.estimate && !model.estimate->carx && !model.polynomial && !model.system && !model.process &&
+           model.single_channel() && model.G.continuous();
 }
 template <Vector PolynomialModel::*kPolynomial>
 int field_polynomial(Call& call) {
@@ -57,6 +62,9 @@ int field_polynomial(Call& call) {
 template <std::vector<Vector> PolynomialModel::*kPolynomials>
 int field_input_polynomials(Call& call) {
     if (kPolynomials == &PolynomialModel::B && is_carx(call)) return call.give_vector(numerator_of(model_self(call)));
+    if (has_form_of_output_error(model_self(call)))
+        return call.give_vector(kPolynomials == &PolynomialModel::B ? numerator_of(model_self(call))
+                                                                    : denominator_of(model_self(call)));
     const std::vector<Vector>& list = polynomials(call).*kPolynomials;
     return list.size() == 1 ? call.give_vector(list.front()) : give_value(call, list);
 }
@@ -71,6 +79,13 @@ int field_channels(Call& call) {
     };
     if (model.outputs == 1) return of_output(0);
     return give_list(call, std::views::iota(std::size_t{0}, model.outputs), of_output);
+}
+
+double noise_variance_of(const Model& model) {
+    const Estimate& estimate = estimate_in(model);
+    for (const auto& [name, value] : estimate.numbers)
+        if (name == "noise_variance") return value;
+    throw InvalidArgument(fmt::format("{} tells no variance of the noise", estimate.method));
 }
 
 const Assessment& assessment_of(const Model& model) {
@@ -157,6 +172,7 @@ constexpr std::array kModelTypeFields = {
     Member{"param", field<Model, [](const Model& model) { return parameters_of(model).values; }>},
     Member{"std", field<Model, [](const Model& model) { return estimate_in(model).std; }>},
     Member{"covariance", field<Model, [](const Model& model) { return estimate_in(model).covariance; }>},
+    Member{"noise_variance", field<Model, noise_variance_of>},
     Member{"robust_std", field<Model, [](const Model& model) { return assessment_of(model).std; }>},
     Member{"robust_covariance", field<Model, [](const Model& model) { return assessment_of(model).covariance; }>},
     Member{"names", field<Model, [](const Model& model) { return parameters_of(model).names; }>},

@@ -1,6 +1,7 @@
 #include <array>
 
 #include "numerics/models/convert.h"
+#include "numerics/simulation/stability_margins.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/model.h"
 #include "scripting/objects/present.h"
@@ -8,9 +9,9 @@
 namespace dynlab::inline scripting {
 namespace {
 
-/// tf("s"), tf("z", Ts), tf(num, den, {Ts =, IODelay =}), tf(system)
+/// tf("s"), tf("z", Ts), tf(num, den, {Ts =, IODelay =}), tf(num, den, Ts, {IODelay =}), tf(system)
 int make_tf(Call& call) {
-    call.at_most(3);
+    call.at_most(call.type(3) == LUA_TNUMBER ? 4 : 3);
     if (call.type(1) == LUA_TSTRING) {
         const std::string name = call.text(1, "variable");
         if (name == "s") return give_model(call, TransferFunction::variable());
@@ -18,13 +19,15 @@ int make_tf(Call& call) {
         throw InvalidArgument("the variable is written tf(\"s\"), or tf(\"z\", Ts) with the sampling time in seconds");
     }
     if (holds_model(call, 1)) return give_model(call, model_argument(call, 1, "model").G);
-    const Options options(call, 3, {"Ts", "IODelay"});
+    const bool sampled = call.type(3) == LUA_TNUMBER;  // tf(num, den, Ts)
+    const Options options(call, sampled ? 4 : 3, {"Ts", "IODelay"});
     auto coefficients = [&](int index, const char* what) {
         return call.type(index) == LUA_TNUMBER ? Vector(Vector::Constant(1, call.number(index, what)))
                                                : Vector(call.vector(index, what));
     };
-    return give_model(call, TransferFunction(coefficients(1, "num"), coefficients(2, "den"), options.number("Ts", 0),
-                                             options.number("IODelay", 0)));
+    const double Ts = sampled ? call.number(3, "Ts") : options.number("Ts", 0);
+    return give_model(
+        call, TransferFunction(coefficients(1, "num"), coefficients(2, "den"), Ts, options.number("IODelay", 0)));
 }
 
 int make_idproc(Call& call) {
@@ -54,7 +57,7 @@ int make_ss(Call& call) {
             push_object(call.state(), StateSpace(*model->system));
             return 1;
         }
-        push_object(call.state(), to_state_space(model_argument(call, 1, "G").G));
+        push_object(call.state(), to_state_space(with_rational_delay("ss", model_argument(call, 1, "G").G)));
         return 1;
     }
     const Options options(call, 5, {"Ts"});
@@ -75,8 +78,14 @@ int connect_feedback(Call& call) {
     call.at_most(3);
     const Index sign = call.given(3) ? call.integer(3, "sign") : -1;
     if (sign != 1 && sign != -1) throw InvalidArgument("the sign is -1 (negative feedback) or 1 (positive feedback)");
-    return give_model(call, feedback(model_argument(call, 1, "forward").G, model_argument(call, 2, "backward").G,
-                                     static_cast<int>(sign)));
+    const auto part = [&](int index, const char* what) {
+        return with_rational_delay("feedback", model_argument(call, index, what).G);
+    };
+    return give_model(call, feedback(part(1, "forward"), part(2, "backward"), static_cast<int>(sign)));
+}
+int replace_delay(Call& call) {
+    call.at_most(2);
+    return give_model(call, pade(model_argument(call, 1, "G").G, static_cast<int>(call.integer(2, "n"))));
 }
 
 Discretisation method_argument(const Call& call, int index) {
@@ -125,6 +134,16 @@ int stable(Call& call) {
     return call.give(model_argument(call, 1, "G").G.stable());
 }
 
+/// gain margin, phase margin (degrees), their frequencies (rad/s), delay margin (s)
+int margins(Call& call) {
+    call.at_most(1);
+    const StabilityMargins found = stability_margins(model_argument(call, 1, "G").G);
+    for (const double value :
+         {found.gain_margin, found.phase_margin, found.gain_frequency, found.phase_frequency, found.delay_margin})
+        call.give(value);
+    return 5;
+}
+
 /// natural frequencies, damping ratios, time constants
 int damp(Call& call) {
     call.at_most(1);
@@ -161,6 +180,8 @@ constexpr std::array kModelsFunctions = {
                   guarded<connect_parallel>},
     FunctionEntry{"feedback", kModelsArea, "feedback(forward, backward, sign) -> G",
                   "a closed loop, negative feedback unless sign is 1", guarded<connect_feedback>},
+    FunctionEntry{"pade", kModelsArea, "pade(G, n) -> G", "the delay replaced by an approximation of n poles",
+                  guarded<replace_delay>},
     FunctionEntry{"c2d", kModelsArea, "c2d(G, Ts, \"zoh\" | \"foh\" | \"tustin\") -> Gd",
                   "discrete-time equal of a continuous-time model", guarded<to_discrete>},
     FunctionEntry{"d2c", kModelsArea, "d2c(Gd, \"zoh\" | \"foh\" | \"tustin\") -> G",
@@ -173,6 +194,8 @@ constexpr std::array kModelsFunctions = {
     FunctionEntry{"bandwidth", kModelsArea, "bandwidth(G) -> w",
                   "frequency (rad/s) at which the gain is 3 dB below its dc value", guarded<bandwidth_of>},
     FunctionEntry{"stable", kModelsArea, "stable(G) -> true or false", "whether all poles are stable", guarded<stable>},
+    FunctionEntry{"margin", kModelsArea, "margin(G) -> Gm, Pm, Wcg, Wcp, Dm",
+                  "gain, phase and delay margin of the loop that G closes", guarded<margins>},
     FunctionEntry{"present", kModelsArea, "present(G, ...)", "prints all that is known of models", guarded<present>},
 };
 

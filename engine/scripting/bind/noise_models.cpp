@@ -24,6 +24,7 @@ int give_with_noise(Call& call, const IdData& data, const TransferRequest& reque
     const Fit result = request.estimate(data);
     Estimate estimate = estimate_of(call.function_name(), result);
     estimate.of_coefficients = !request.integration;
+    estimate.numbers.emplace_back("Ts", data.Ts);  // the samples that the noise model counts
     return give_fit(call, std::move(estimate), result);
 }
 

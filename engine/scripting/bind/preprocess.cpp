@@ -51,6 +51,17 @@ PassBand band_argument(const Call& call) {
     return {edges[0], edges[1]};
 }
 
+/// MATLAB's degrees 0 and 1 are the mean and the straight line.
+std::string trend_kind(const Call& call) {
+    if (!call.given(2)) return "linear";
+    if (call.type(2) != LUA_TNUMBER) return call.text(2, "kind");
+    const double degree = call.number(2, "kind");
+    if (degree == 0) return "mean";
+    if (degree == 1) return "linear";
+    throw InvalidArgument(
+        fmt::format("a trend has the degree 0 (\"mean\") or 1 (\"linear\"), but {} was given", degree));
+}
+
 /// The signal, and the indices of what was replaced.
 int give_repaired(const Call& call, const RepairedSignal& repaired) {
     Vector indices(static_cast<Index>(repaired.replaced.size()));
@@ -97,7 +108,7 @@ constexpr std::array kPreprocessFunctions = {
 int detrend_signals(Call& call) {
     call.at_most(3);
     const Signals signals = signals_argument(call, 1);
-    const std::string kind = call.given(2) ? call.text(2, "kind") : "linear";
+    const std::string kind = trend_kind(call);
     const Options options(call, 3, {"samples"});
     if (kind == "start")
         return give_signals(call, signals, remove_initial_level(signals.data, options.size("samples", 0)).data);
@@ -135,17 +146,17 @@ int resample_signals(Call& call) {
 
 int keep_parts(Call& call) {
     call.at_most(2);
-    return give_data(call, keep_segments(object_argument<IdData>(call, 1, "data"), segments_argument(call)));
+    return give_data(call, keep_segments(signals_of_argument(call, 1, "data"), segments_argument(call)));
 }
 
 int discard_parts(Call& call) {
     call.at_most(2);
-    return give_data(call, discard_segments(object_argument<IdData>(call, 1, "data"), segments_argument(call)));
+    return give_data(call, discard_segments(signals_of_argument(call, 1, "data"), segments_argument(call)));
 }
 
 int merge_data(Call& call) {
     std::vector<IdData> parts;
-    for (int i = 1; i <= call.count(); ++i) parts.push_back(object_argument<IdData>(call, i, "data"));
+    for (int i = 1; i <= call.count(); ++i) parts.push_back(signals_of_argument(call, i, "data"));
     return give_data(call, IdData::merge(parts));
 }
 

@@ -65,12 +65,16 @@ void push_tests(const Call& call, const ResidualTests& tests) {
 int test_residuals(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const Options options(call, 3, {"lags", "confidence", "InitialState", "Offset", "quiet"});
+    const Options options(call, 3, {"lags", "confidence", "InitialState", "Offset", "prediction", "quiet"});
     const bool quiet = options.flag("quiet", false);
     ResidualOptions wanted;
     wanted.lags = options.size("lags", wanted.lags);
     wanted.confidence = options.number("confidence", wanted.confidence);
-    const ResidualTests tests = residual_tests(data, channels_argument(call, 2, "G"), compare_options(options), wanted);
+    const CompareOptions start = compare_options(options);
+    const ResidualTests tests =
+        options.flag("prediction", false)
+            ? prediction_error_tests(data, predict(data, noisy_model_argument(call, 2, "G"), {1, start}), wanted)
+            : residual_tests(data, channels_argument(call, 2, "G"), start, wanted);
     if (!quiet) call.print(tests.verdict + "\n");
     bool drawable = false;
     for (const OutputResiduals& output : tests.outputs) drawable = drawable || !output.exact;
@@ -138,10 +142,10 @@ int validate_across(Call& call) {
 
 constexpr const char* kResidualsArea = "validation";
 constexpr std::array kResidualsFunctions = {
-    FunctionEntry{"resid", kResidualsArea,
-                  "resid(data, G, {lags =, confidence =, InitialState =, Offset =, quiet =}) -> fig, table",
-                  "is the simulation error white and independent of the input? with a verdict in words",
-                  guarded<test_residuals>},
+    FunctionEntry{
+        "resid", kResidualsArea,
+        "resid(data, G, {lags =, confidence =, InitialState =, Offset =, prediction =, quiet =}) -> fig, table",
+        "is the simulation error white and independent of the input? with a verdict in words", guarded<test_residuals>},
     FunctionEntry{"crossvalidate", kResidualsArea,
                   "crossvalidate(data, fit, {folds =, by_experiment =, InitialState =, Offset =}) -> fig, table",
                   "fits on all parts but one and simulates on that one, part by part", guarded<validate_across>},

@@ -108,6 +108,10 @@ int draw_models(Call& call) {
     int next = 0;
     std::vector<NamedModel> models = models_to_draw(call, next);
     const Vector grid = call.holds_vector(next) ? Vector(call.vector(next++, "t or w")) : Vector();
+    if (kBands && call.type(next) == LUA_TSTRING)
+        throw InvalidArgument(
+            "options are written as a table: {confidence = 0.99} for the bands; bode_values(G, w) and step(G, t) give "
+            "standard deviations as numbers");
     call.at_most(next);
     const Options options = kBands ? Options(call, next, {"labels", "confidence"}) : Options(call, next, {"labels"});
     name_models(call, options, models);
@@ -131,8 +135,11 @@ template <TimeResponse (*kResponse)(const TransferFunction&, const VectorView&),
 int time_response(Call& call) {
     if (!(holds_model(call, 1) && call.holds_vector(2))) return draw_models<kPlot, kBands>(call);
     call.at_most(2);
-    const TimeResponse response = kResponse(model_argument(call, 1, "G").G, call.vector(2, "t"));
-    return call.give_vector(response.y) + call.give_vector(response.t);
+    const Model model = model_argument(call, 1, "G");
+    const TimeResponse response = kResponse(model.G, call.vector(2, "t"));
+    const int given = call.give_vector(response.y) + call.give_vector(response.t);
+    const auto uncertain = kBands ? uncertain_model(model) : std::nullopt;
+    return uncertain ? given + call.give_vector(step_response_std(*uncertain, response.t)) : given;
 }
 
 int draw_histogram(Call& call) {
@@ -154,7 +161,7 @@ constexpr std::array kSimulationFunctions = {
                   "response of a model to an input, exact at the samples", guarded<simulate>},
     FunctionEntry{"svf", kSimulationArea, "svf(x, n, lambda, {Ts =, hold = \"zoh\" | \"foh\"}) -> matrix",
                   "outputs of the state-variable filter, highest derivative first", guarded<filter_states>},
-    FunctionEntry{"step", kSimulationArea, "step(G, t) -> y, t; step(G1, G2, ..., {labels =, confidence =}) -> fig",
+    FunctionEntry{"step", kSimulationArea, "step(G, t) -> y, t, sd; step(G1, G2, ..., {labels =, confidence =}) -> fig",
                   "response to a unit step, as numbers at given instants or as a figure",
                   guarded<time_response<step_response, step_plot, true>>},
     FunctionEntry{"impulse", kSimulationArea, "impulse(G, t) -> y, t; impulse(G1, G2, ..., {labels =}) -> fig",

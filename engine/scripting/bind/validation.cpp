@@ -20,22 +20,37 @@ std::string model_name(const Call& call, int index, const std::vector<std::strin
     return model != nullptr && model->estimate ? model->estimate->method : fmt::format("model {}", number + 1);
 }
 
-ModelOutput model_output(std::string name, const Comparison& comparison, std::size_t experiment) {
-    ModelOutput output{std::move(name), comparison.outputs(experiment), {}};
-    output.fit_percent.resize(output.y.cols());
-    for (Index i = 0; i < output.y.cols(); ++i)
-        output.fit_percent[i] = comparison.results[experiment][static_cast<std::size_t>(i)].fit_percent;
-    return output;
+/// What one model says of all experiments.
+struct ModelOutputs {
+    std::string name;
+    std::vector<Matrix> y;
+    std::vector<Vector> fit_percent;  // per output
+};
+
+template <class Result>
+Vector fits_of(const std::vector<Result>& outputs) {
+    Vector fits(static_cast<Index>(outputs.size()));
+    for (std::size_t i = 0; i < outputs.size(); ++i) fits[static_cast<Index>(i)] = outputs[i].fit_percent;
+    return fits;
+}
+
+template <class Results>
+ModelOutputs model_outputs(std::string name, const Results& all) {
+    ModelOutputs outputs{std::move(name), {}, {}};
+    for (std::size_t k = 0; k < all.results.size(); ++k) {
+        outputs.y.push_back(all.outputs(k));
+        outputs.fit_percent.push_back(fits_of(all.results[k]));
+    }
+    return outputs;
 }
 
 /// The figures of all experiments under each other.
-Figure comparison_figure(const IdData& data, const std::vector<std::string>& names,
-                         const std::vector<Comparison>& comparisons) {
+Figure comparison_figure(const IdData& data, const std::vector<ModelOutputs>& models) {
     Figure all;
     all.rows = 0;
     for (std::size_t k = 0; k < data.experiments.size(); ++k) {
         std::vector<ModelOutput> outputs;
-        for (std::size_t i = 0; i < names.size(); ++i) outputs.push_back(model_output(names[i], comparisons[i], k));
+        for (const ModelOutputs& model : models) outputs.push_back({model.name, model.y[k], model.fit_percent[k]});
         Figure one = compare_plot(data, outputs, k);
         if (data.experiments.size() > 1) one.panels.front().title = fmt::format("experiment {}", k + 1);
         all.rows += one.rows;
@@ -44,18 +59,20 @@ Figure comparison_figure(const IdData& data, const std::vector<std::string>& nam
     return all;
 }
 
-/// Draws measured and simulated output for the models from argument `first` on.
+/// Draws measured and simulated, with k predicted, output for the models from argument `first` on.
 int draw_comparison(Call& call, const IdData& data, int first, int options_index) {
-    const Options options(call, options_index, {"labels", "InitialState", "Offset"});
+    const Options options(call, options_index, {"labels", "k", "InitialState", "Offset"});
     const std::vector<std::string> labels = options.texts("labels");
-    std::vector<std::string> names;
-    std::vector<Comparison> comparisons;
+    const std::optional<Index> steps = steps_option(options, std::nullopt);
+    std::vector<ModelOutputs> models;
     for (int i = first; holds_model(call, i); ++i) {
-        names.push_back(model_name(call, i, labels, names.size()));
-        comparisons.push_back(compare_all(data, channels_argument(call, i, "G"), compare_options(options)));
+        const std::string name = model_name(call, i, labels, models.size()) + steps_text(steps);
+        const CompareOptions start = compare_options(options);
+        models.push_back(steps ? model_outputs(name, predict(data, noisy_model_argument(call, i, "G"), {steps, start}))
+                               : model_outputs(name, compare_all(data, channels_argument(call, i, "G"), start)));
     }
-    if (names.empty()) wrong_argument(call.state(), first, "G", "model");
-    return give_figure(call, comparison_figure(data, names, comparisons));
+    if (models.empty()) wrong_argument(call.state(), first, "G", "model");
+    return give_figure(call, comparison_figure(data, models));
 }
 
 int compare_models(Call& call) {
@@ -63,6 +80,7 @@ int compare_models(Call& call) {
     int next = 2;
     while (holds_model(call, next)) ++next;
     call.at_most(next);
+    read_steps_as_option(call, next);
     return draw_comparison(call, data, 2, next);
 }
 
@@ -75,9 +93,12 @@ int test_model(Call& call) {
 int fit(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const Comparison comparison = compare_all(data, channels_argument(call, 2, "G"),
-                                              compare_options(Options(call, 3, {"InitialState", "Offset"})));
-    return call.give(comparison.fit_percent[0]);
+    read_steps_as_option(call, 3);
+    const Options options(call, 3, {"k", "InitialState", "Offset"});
+    const CompareOptions start = compare_options(options);
+    if (const auto steps = steps_option(options, std::nullopt))
+        return call.give(predict(data, noisy_model_argument(call, 2, "G"), {steps, start}).fit_percent[0]);
+    return call.give(compare_all(data, channels_argument(call, 2, "G"), start).fit_percent[0]);
 }
 
 int measure_fit(Call& call) {
@@ -110,10 +131,11 @@ constexpr const char* kValidationArea = "validation";
 constexpr std::array kValidationFunctions = {
     FunctionEntry{"test_your_model", "step tests", "test_your_model(G, data, {InitialState =, Offset =}) -> fig",
                   "measured response and the model's over each other", guarded<test_model>},
-    FunctionEntry{"compare", kValidationArea, "compare(data, G1, G2, ..., {labels =, InitialState =, Offset =}) -> fig",
-                  "measured and simulated outputs with their fits", guarded<compare_models>},
-    FunctionEntry{"fit", kValidationArea, "fit(data, G, {InitialState =, Offset =}) -> percent",
-                  "fit of the simulated output, 100 % is perfect", guarded<fit>},
+    FunctionEntry{"compare", kValidationArea,
+                  "compare(data, G1, G2, ..., {labels =, k =, InitialState =, Offset =}) -> fig",
+                  "measured and simulated, or predicted, outputs with their fits", guarded<compare_models>},
+    FunctionEntry{"fit", kValidationArea, "fit(data, G, {k =, InitialState =, Offset =}) -> percent",
+                  "fit of the simulated, or predicted, output, 100 % is perfect", guarded<fit>},
     FunctionEntry{"fit_measures", kValidationArea, "fit_measures(data, G, {InitialState =, Offset =}) -> table",
                   "fit, R_T^2, RMSE, FPE, AIC, BIC and YIC of the simulated output", guarded<measure_fit>},
 };

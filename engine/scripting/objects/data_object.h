@@ -11,6 +11,12 @@ struct Boxed<IdData> {
     static Digest digest(const IdData& data);
 };
 
+/// The data of argument `index`, which must have an output: all functions but simulations and pictures need one.
+template <>
+Access<IdData>& object_argument<IdData>(const Call& call, int index, const char* what);
+/// The same, or inputs alone as iddata(nil, u, Ts) gives them.
+const IdData& signals_of_argument(const Call& call, int index, const char* what);
+
 int give_data(const Call& call, IdData data);
 
 }  // namespace dynlab::inline scripting

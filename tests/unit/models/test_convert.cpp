@@ -100,6 +100,43 @@ TEST(convert, state_space_agrees_with_transfer_function) {  // oracle: second ro
     }
 }
 
+TEST(convert, pade_agrees_with_the_delay_at_low_frequencies) {  // oracle: the series of exp(-T s), and |exp(-jwT)| = 1
+    for (const int order : {1, 2, 5, 10}) {
+        const TransferFunction G = pade(kSecondOrder.with_delay(0.8), order);
+        EXPECT_EQ(G.pole_count(), 2 + order);
+        EXPECT_EQ(G.delay(), 0);
+        EXPECT_TRUE(G.stable());
+        for (const double w : {0.1, 1.0, 10.0})
+            EXPECT_NEAR(std::abs(G.at(Complex(0, w)) / kSecondOrder.at(Complex(0, w))), 1, 1e-10);
+        // The first term that differs is (order!)^2/((2 order)! (2 order + 1)!) (T s)^(2 order + 1).
+        const double x = 0.8;
+        const double first =
+            std::exp(2 * std::lgamma(order + 1) - std::lgamma(2 * order + 1) - std::lgamma(2 * order + 2)) *
+            std::pow(x, 2 * order + 1);
+        const Complex s(0, 1);
+        const double error = std::abs(G.at(s) / kSecondOrder.at(s) - std::exp(-0.8 * s));
+        if (first > 1e-12) {
+            EXPECT_NEAR(error / first, 1, 0.1) << order;
+        }
+    }
+    const TransferFunction first = pade(TransferFunction().with_delay(3), 1);  // (1 - 3s/2)/(1 + 3s/2)
+    EXPECT_NEAR(std::abs(first.at(2.0) - (1 - 3.0) / (1 + 3.0)), 0, 1e-15);
+    EXPECT_NE(thrown_message([] { pade(kSecondOrder, 0); }).find("between 1 and 10"), std::string::npos);
+}
+
+TEST(convert, delays_become_poles_where_they_can) {  // oracle: second route, the delay itself
+    const TransferFunction G(from({2, 1}), from({1, -0.5}), 0.1, 0.3);
+    for (const TransferFunction& H : {with_rational_delay("test", G), pade(G, 2)}) {
+        EXPECT_EQ(H.delay(), 0);
+        EXPECT_EQ(H.pole_count(), 4);
+        for (const Complex z : {Complex(0.3, 0.8), Complex(-1.2, 0.1)})
+            EXPECT_NEAR(std::abs(H.at(z) - G.at(z)), 0, 1e-12);
+    }
+    EXPECT_EQ(with_rational_delay("test", kSecondOrder).den(), kSecondOrder.den());
+    EXPECT_NE(thrown_message([] { with_rational_delay("ss", kSecondOrder.with_delay(1)); }).find("give pade(G, n)"),
+              std::string::npos);
+}
+
 TEST(convert, says_what_is_wrong) {
     const TransferFunction discrete(from({1}), from({1, 0.5}), 0.1);
     EXPECT_EQ(thrown_message([&] { c2d(discrete, 0.1); }), "c2d: the model is already discrete, with Ts = 0.1 s");

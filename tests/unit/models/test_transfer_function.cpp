@@ -110,9 +110,19 @@ TEST(transfer_function, says_what_is_wrong) {
               "transfer function: the delay must not be negative, but it is -1 s");
     EXPECT_EQ(thrown_message([] { TransferFunction(from({1}), from({1}), 0.1, 0.25); }),
               "transfer function: in discrete time the delay must be a multiple of Ts = 0.1 s, but it is 0.25 s");
-    EXPECT_NE(thrown_message([] { kSecondOrder + kSecondOrder.with_delay(1); }), "");
+    EXPECT_NE(thrown_message([] { kSecondOrder + kSecondOrder.with_delay(1); }).find("pade(G, n)"), std::string::npos);
     EXPECT_NE(thrown_message([] { kSecondOrder / kSecondOrder.with_delay(1); }), "");
     EXPECT_NE(thrown_message([] { kSecondOrder / TransferFunction(from({0}), from({1})); }), "");
+}
+
+TEST(transfer_function, discrete_sums_know_different_delays) {  // oracle: the values of both at a point
+    const TransferFunction a(from({1, 0.5}), from({1, -0.8}), 0.1, 0.5), b(from({2}), from({1, 0.3}), 0.1, 0.2);
+    const Complex z(0.4, 0.9);
+    for (const TransferFunction& sum : {a + b, b + a}) {
+        EXPECT_NEAR(std::abs(sum.at(z) - a.at(z) - b.at(z)), 0, 1e-12);
+        EXPECT_DOUBLE_EQ(sum.delay(), 0.2);
+    }
+    EXPECT_NEAR(std::abs((TransferFunction(from({3}), from({1})) - a).at(z) - 3.0 + a.at(z)), 0, 1e-12);
 }
 
 }  // namespace test_transfer_function

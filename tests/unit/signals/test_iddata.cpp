@@ -118,6 +118,14 @@ TEST(iddata, says_what_is_wrong_with_the_samples) {
     EXPECT_THAT(thrown_message([&] { IdData(good, good, Vector{{0.0, 1.0, 2.0}}); }), HasSubstr("time vector has 3"));
 }
 
+TEST(iddata, may_hold_inputs_alone) {  // oracle: definition
+    const IdData data(Matrix(5, 0), Vector::LinSpaced(5, 1, 5), 0.5);
+    EXPECT_EQ(data.output_count(), 0);
+    EXPECT_EQ(data.sample_count(), 5);
+    EXPECT_EQ(data.range(2, 4).experiments[0].u(0, 0), 2);
+    EXPECT_THAT(thrown_message([] { IdData(Matrix(5, 0), Matrix(), 1.0); }), HasSubstr("at least one input"));
+}
+
 TEST(iddata, refuses_ranges_outside_the_record) {
     const IdData data = numbered(5);
     EXPECT_THROW(data.range(0, 3), InvalidArgument);

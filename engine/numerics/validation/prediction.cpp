@@ -1,0 +1,289 @@
+#include "numerics/validation/prediction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "numerics/error.h"
+#include "numerics/fit/arma_noise.h"
+#include "numerics/fit/discrete_fit.h"
+#include "numerics/fit/prediction_model.h"
+#include "numerics/linalg/polynomial.h"
+#include "numerics/number_text.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+bool is_one(const Vector& p) {
+    return p.tail(p.size() - 1).isZero(0);
+}
+
+void check_sampling(const IdData& data, double Ts) {
+    constexpr double kRounding = 1e-9;
+    if (Ts == 0 || std::abs(data.Ts - Ts) <= kRounding * Ts) return;
+    throw InvalidArgument("The model and its noise count samples of Ts = " + number_text(Ts) +
+                          " s, and the data are sampled every " + number_text(data.Ts) + " s: both must be equal");
+}
+
+void check_invertible(const Vector& C, const Vector& D) {
+    for (const auto& [name, p] : {std::pair{"C", C}, std::pair{"D", D}})
+        if (!inside_unit_circle(p))
+            throw InvalidArgument(std::string("The noise model's ") + name +
+                                  " has a root on or outside the unit circle, so that its white noise cannot be "
+                                  "recovered from the data");
+}
+
+/// sum_{i < steps} h_i e(k - i)
+Vector unforeseen(const Vector& errors, const Vector& h) {
+    Vector sum = Vector::Zero(errors.size());
+    Index terms = std::min(h.size(), errors.size());
+    const double rounding = 1e-18 * h.head(terms).cwiseAbs().maxCoeff();
+    while (terms > 1 && std::abs(h[terms - 1]) <= rounding) --terms;  // all there is of them over many steps
+    for (Index i = 0; i < terms; ++i)
+        if (h[i] != 0) sum.tail(errors.size() - i) += h[i] * errors.head(errors.size() - i);
+    return sum;
+}
+
+/// One output: what is known of it before its fit.
+struct OutputRecords {
+    std::vector<Vector> measured, simulated, errors;  // N each; simulated: before `first` the measured ones
+    std::vector<Index> first;
+};
+
+/// Adds one output to the predictions.
+void add_output(Predictions& all, const OutputRecords& records, const NoisyModel& model,
+                const std::optional<Index>& steps) {
+    double squares = 0, variation = 0, error_squares = 0, count = 0;
+    for (std::size_t k = 0; k < records.measured.size(); ++k) {
+        const Vector& y = records.measured[k];
+        const Index first = records.first[k], rows = y.size() - first;
+        PredictedOutput own{records.simulated[k], records.errors[k], first, 0};
+        if (steps && *steps < y.size() && model.has_noise_model())
+            own.output = y - unforeseen(own.errors, noise_impulse_response(model, *steps));
+        const double own_squares = (y - own.output).tail(rows).squaredNorm();
+        const double own_variation = (y.tail(rows).array() - y.tail(rows).mean()).matrix().squaredNorm();
+        own.fit_percent = fit_percent_of_sums(own_squares, own_variation);
+        squares += own_squares;
+        variation += own_variation;
+        error_squares += own.errors.squaredNorm();
+        count += static_cast<double>(rows);
+        all.results[k].push_back(std::move(own));
+    }
+    const Index place = all.fit_percent.size();
+    all.fit_percent.conservativeResize(place + 1);
+    all.loss.conservativeResize(place + 1);
+    all.fit_percent[place] = fit_percent_of_sums(squares, variation);
+    all.loss[place] = error_squares / count;
+}
+
+/// A difference equation under one start condition, all experiments one after the other.
+struct StartedPrediction {
+    StartCondition condition;
+    std::vector<Index> lengths;  // of the experiments' ends that are predicted
+    Vector errors, simulated;
+    Index values = 0;  // estimated ones
+
+    StartedPrediction(const OrderedParameters& model, const StartCondition& start,
+                      const std::vector<SampledExperiment>& experiments)
+        : condition(start) {
+        const PredictionModel predictor(model.orders, start, experiments);
+        lengths = predictor.lengths();
+        values = predictor.linear_count();
+        if (*std::min_element(lengths.begin(), lengths.end()) < 1 || predictor.target().size() <= values) return;
+        const Vector theta = predictor.completed(model.theta);
+        predictor.simulate(theta, errors, nullptr);
+        errors = predictor.target() - errors;
+        simulated = predictor.simulated(theta);
+    }
+    bool possible() const { return errors.size() > 0; }
+    /// Of the errors at the ends, `counts` samples of each experiment.
+    double bic(const std::vector<Index>& counts, double power) const {
+        double squares = 0;
+        Index end = 0, samples = 0;
+        for (std::size_t k = 0; k < lengths.size(); ++k) {
+            end += lengths[k];
+            squares += errors.segment(end - counts[k], counts[k]).squaredNorm();
+            samples += counts[k];
+        }
+        return bic_of_loss(squares / static_cast<double>(samples), power, samples, values);
+    }
+};
+
+std::vector<StartCondition> conditions_of(const IdData& data, const PolynomialOrders& orders,
+                                          const CompareOptions& options) {
+    CompareOptions wanted = options;
+    if (orders.na > 0 && wanted.initial_state == InitialState::kAuto) wanted.initial_state = InitialState::kEstimate;
+    if (orders.na > 0 && wanted.offset == Offset::kAuto) wanted.offset = Offset::kNone;
+    return start_conditions(data, wanted.initial_state, wanted.offset);
+}
+
+StartedPrediction best_start(const IdData& data, const OrderedParameters& model, const CompareOptions& options) {
+    const std::vector<SampledExperiment> experiments = sampled_experiments(data);
+    std::vector<StartedPrediction> candidates;
+    for (const StartCondition& condition : conditions_of(data, model.orders, options)) {
+        StartedPrediction candidate(model, condition, experiments);
+        if (candidate.possible()) candidates.push_back(std::move(candidate));
+    }
+    if (candidates.empty())
+        throw InvalidArgument("The data hold too few samples to predict: the model needs " +
+                              std::to_string(model.orders.past()) +
+                              " before the first that it predicts, and more than the values it estimates");
+    std::vector<Index> common = candidates.front().lengths;
+    for (const StartedPrediction& candidate : candidates)
+        for (std::size_t k = 0; k < common.size(); ++k) common[k] = std::min(common[k], candidate.lengths[k]);
+    double power = 0;
+    for (const Experiment& experiment : data.experiments) power += experiment.y.squaredNorm();
+    power /= static_cast<double>(data.sample_count());
+    const auto better = [&](const StartedPrediction& a, const StartedPrediction& b) {
+        return a.bic(common, power) < b.bic(common, power);
+    };
+    return *std::min_element(candidates.begin(), candidates.end(), better);
+}
+
+/// Predictions without their output, one empty row for each experiment.
+Predictions without_results(const IdData& data) {
+    Predictions all;
+    all.results.resize(data.experiments.size());
+    return all;
+}
+
+Predictions predict_difference_equation(const IdData& data, const NoisyModel& model, const PredictionOptions& options) {
+    const OrderedParameters ordered = ordered_parameters(*model.polynomial);
+    if (static_cast<std::size_t>(data.input_count()) != ordered.orders.inputs())
+        throw InvalidArgument("The model has " + std::to_string(ordered.orders.inputs()) +
+                              " input(s), and the data have " + std::to_string(data.input_count()) +
+                              ": select those of the model");
+    check_polynomial_data("The prediction", data, ordered.orders);
+    check_sampling(data, model.polynomial->Ts);
+    check_invertible(model.polynomial->C, model.polynomial->D);
+    const CentredData centred = centred_for(data, options.start.offset);
+    const StartedPrediction best = best_start(centred.data, ordered, options.start);
+    OutputRecords records;
+    Index place = 0;
+    for (std::size_t k = 0; k < data.experiments.size(); ++k) {
+        const Vector y = data.experiments[k].y.col(0);
+        const Index rows = best.lengths[k];
+        const double level = centred.removed.empty() ? 0 : centred.removed[k].front().output;
+        Vector errors = Vector::Zero(y.size()), simulated = y;
+        errors.tail(rows) = best.errors.segment(place, rows);
+        simulated.tail(rows) = best.simulated.segment(place, rows).array() + level;
+        place += rows;
+        records.measured.push_back(y);
+        records.errors.push_back(std::move(errors));
+        records.simulated.push_back(std::move(simulated));
+        records.first.push_back(y.size() - rows);
+    }
+    Predictions all = without_results(data);
+    add_output(all, records, model, options.steps);
+    all.message = description(best.condition);
+    return all;
+}
+
+Predictions predict_from_simulation(const IdData& data, const NoisyModel& model, const PredictionOptions& options) {
+    const bool noisy = model.has_noise_model();
+    if (noisy) {
+        if (!data.regular())
+            throw InvalidArgument(
+                "The noise model counts samples, and the data are sampled irregularly: resample them first");
+        check_sampling(data, model.noise_Ts);
+        check_invertible(model.C, model.D);
+        if (data.output_count() != 1)
+            throw InvalidArgument("A noise model belongs to one output, and the data hold " +
+                                  std::to_string(data.output_count()) + ": select one");
+    }
+    const Comparison comparison = compare_all(data, model.channels, options.start);
+    const ArmaNoise noise{model.C, model.D, {}};
+    Predictions all = without_results(data);
+    for (Index i = 0; i < data.output_count(); ++i) {
+        OutputRecords records;
+        for (std::size_t k = 0; k < data.experiments.size(); ++k) {
+            const Vector y = data.experiments[k].y.col(i);
+            const Vector& simulated = comparison.results[k][static_cast<std::size_t>(i)].output;
+            records.measured.push_back(y);
+            records.simulated.push_back(simulated);
+            records.errors.push_back(whitened(noise, y - simulated));
+            records.first.push_back(std::min(model.D.size() - 1, y.size() - 1));
+        }
+        add_output(all, records, model, options.steps);
+    }
+    all.message = description(comparison.results.front().front().start);
+    return all;
+}
+
+std::string sentence(const Predictions& all, const NoisyModel& model, const std::optional<Index>& steps) {
+    std::string text = "Simulated";
+    if (steps && model.has_noise_model())
+        text = "Predicted " + std::to_string(*steps) + (*steps == 1 ? " step" : " steps") + " ahead";
+    return text + " " + all.message + ": fit " + number_text(all.fit_percent[0], 4) + " %.";
+}
+
+}  // namespace
+
+bool NoisyModel::has_noise_model() const {
+    if (polynomial) return !is_one(polynomial->A) || !is_one(polynomial->C) || !is_one(polynomial->D);
+    return !is_one(C) || !is_one(D);
+}
+
+ColouredNoise noise_of(const NoisyModel& model) {
+    if (!model.polynomial) return {model.C, model.D};
+    return {model.polynomial->C, multiply(model.polynomial->A, model.polynomial->D)};
+}
+
+Vector noise_impulse_response(const NoisyModel& model, Index count) {
+    const auto [num, den] = noise_of(model);
+    Vector h = Vector::Zero(count);
+    h.head(std::min(count, num.size())) = num.head(std::min(count, num.size()));
+    for (Index k = 1; k < count; ++k)
+        for (Index i = 1; i < std::min(den.size(), k + 1); ++i) h[k] -= den[i] * h[k - i];
+    return h;
+}
+
+OrderedParameters ordered_parameters(const PolynomialModel& model) {
+    const auto order = [](const Vector& p) { return static_cast<int>(p.size()) - 1; };
+    OrderedParameters result;
+    PolynomialOrders& orders = result.orders;
+    orders.na = order(model.A);
+    orders.nc = order(model.C);
+    orders.nd = order(model.D);
+    for (std::size_t i = 0; i < model.B.size(); ++i) {
+        const Vector& B = model.B[i];
+        Index late = 0;
+        while (late < B.size() - 1 && B[late] == 0) ++late;
+        orders.nk.push_back(static_cast<int>(late));
+        orders.nb.push_back(static_cast<int>(B.size() - late));
+        orders.nf.push_back(order(model.F[i]));
+    }
+    result.theta.resize(orders.parameter_count());
+    result.theta.head(orders.na) = model.A.tail(orders.na);
+    for (std::size_t i = 0; i < model.B.size(); ++i) {
+        result.theta.segment(orders.f_place(i), orders.nf[i]) = model.F[i].tail(orders.nf[i]);
+        result.theta.segment(orders.b_place(i), orders.nb[i]) = model.B[i].tail(orders.nb[i]);
+    }
+    result.theta.segment(orders.c_place(), orders.nc) = model.C.tail(orders.nc);
+    result.theta.segment(orders.d_place(), orders.nd) = model.D.tail(orders.nd);
+    return result;
+}
+
+Matrix Predictions::outputs(std::size_t experiment) const {
+    const auto& row = results[experiment];
+    Matrix all(row.front().output.size(), static_cast<Index>(row.size()));
+    for (std::size_t i = 0; i < row.size(); ++i) all.col(static_cast<Index>(i)) = row[i].output;
+    return all;
+}
+
+Matrix Predictions::output_errors(const IdData& data, std::size_t experiment) const {
+    return data.experiments[experiment].y - outputs(experiment);
+}
+
+Predictions predict(const IdData& data, const NoisyModel& model, const PredictionOptions& options) {
+    if (options.steps && *options.steps < 1)
+        throw InvalidArgument("A prediction goes at least 1 step ahead, and " + std::to_string(*options.steps) +
+                              " was given");
+    Predictions all = model.polynomial && model.has_noise_model() ? predict_difference_equation(data, model, options)
+                                                                  : predict_from_simulation(data, model, options);
+    all.message = sentence(all, model, options.steps);
+    return all;
+}
+
+}  // namespace dynlab::inline numerics

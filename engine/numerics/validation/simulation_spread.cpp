@@ -1,0 +1,76 @@
+#include "numerics/validation/simulation_spread.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "numerics/error.h"
+#include "numerics/linalg/decompositions.h"
+#include "numerics/linalg/polynomial.h"
+#include "numerics/simulation/lsim.h"
+#include "numerics/validation/prediction.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+/// L with L L' = covariance, by the eigenvalues of the correlations: parameters of very different size keep theirs.
+Matrix root_of_covariance(const Matrix& covariance) {
+    const Vector std = covariance.diagonal().cwiseMax(0).cwiseSqrt();
+    const Vector scale = (std.array() > 0).select(std.cwiseInverse(), 0);
+    const auto [values, vectors] = symmetric_eigen(scale.asDiagonal() * covariance * scale.asDiagonal());
+    return std.asDiagonal() * vectors * values.cwiseMax(0).cwiseSqrt().asDiagonal();
+}
+
+}  // namespace
+
+SimulationSpread simulation_spread(const ModelOfParameters& model, const Vector& theta, const Matrix& covariance,
+                                   const VectorView& u, double Ts, Hold hold, Index runs, RandomStream& random) {
+    const Index d = theta.size();
+    if (runs < 2) throw InvalidArgument("A spread needs at least 2 runs, and " + std::to_string(runs) + " were asked");
+    constexpr Index kMostValues = 50'000'000;
+    if (u.size() > kMostValues / runs)
+        throw InvalidArgument("A spread of " + std::to_string(runs) + " runs of " + std::to_string(u.size()) +
+                              " samples is too large to keep: give a shorter input or fewer runs");
+    if (covariance.rows() != d || covariance.cols() != d || !covariance.allFinite())
+        throw InvalidArgument("The spread needs the finite covariance of the " + std::to_string(d) +
+                              " parameters, and got a matrix of " + std::to_string(covariance.rows()) + " x " +
+                              std::to_string(covariance.cols()));
+    const Matrix root = root_of_covariance(covariance);
+    SimulationSpread spread{lsim(model(theta), u, Ts, hold), {}, Matrix(u.size(), runs), 0};
+    for (Index run = 0; run < runs; ++run) {
+        const TransferFunction G = model(theta + root * random.normal(d));
+        if (!G.stable()) ++spread.unstable;
+        spread.drawn.col(run) = lsim(G, u, Ts, hold);
+    }
+    const Vector mean = spread.drawn.rowwise().mean();
+    spread.std = ((spread.drawn.colwise() - mean).rowwise().squaredNorm() / static_cast<double>(runs - 1)).cwiseSqrt();
+    return spread;
+}
+
+SimulationSpread simulation_spread(const UncertainModel& model, const VectorView& u, double Ts, Hold hold, Index runs,
+                                   RandomStream& random) {
+    const TransferFunction& G = model.G;
+    const Index n = G.pole_count(), m = G.zero_count();
+    Vector theta(model.covariance.rows());
+    theta.head(n + m + 1) << G.den().tail(n), G.num();
+    if (model.free_delay()) theta[n + m + 1] = G.delay();
+    const auto of_coefficients = [&](const Vector& drawn) {
+        const double delay = model.free_delay() ? std::max(0.0, drawn[n + m + 1]) : G.delay();
+        return TransferFunction(drawn.segment(n, m + 1), monic(drawn.head(n)), 0, delay);
+    };
+    return simulation_spread(of_coefficients, theta, model.covariance, u, Ts, hold, runs, random);
+}
+
+SimulationSpread simulation_spread(const PolynomialModel& model, const Matrix& covariance, const VectorView& u,
+                                   Index runs, RandomStream& random) {
+    if (model.B.size() != 1)
+        throw InvalidArgument("The spread is that of a model with one input, and this one has " +
+                              std::to_string(model.B.size()));
+    const auto [orders, theta] = ordered_parameters(model);
+    const auto of_parameters = [&orders = orders, Ts = model.Ts](const Vector& drawn) {
+        return PolynomialModel(orders, drawn, Ts).transfer_function();
+    };
+    return simulation_spread(of_parameters, theta, covariance, u, model.Ts, Hold::kZoh, runs, random);
+}
+
+}  // namespace dynlab::inline numerics

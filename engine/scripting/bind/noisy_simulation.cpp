@@ -1,0 +1,200 @@
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "figures/confidence_band.h"
+#include "numerics/simulation/frequency_response.h"
+#include "numerics/simulation/lsim.h"
+#include "numerics/validation/chi_squared.h"
+#include "numerics/validation/simulation_spread.h"
+#include "scripting/arguments/simulation_options.h"
+#include "scripting/arguments/table_fields.h"
+#include "scripting/bind/bindings.h"
+#include "scripting/objects/data_object.h"
+#include "scripting/objects/figure_object.h"
+#include "scripting/objects/model.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+/// What a model is simulated with: (G, u, Ts, options) or (G, data, options).
+struct InputSignals {
+    Matrix u;  // N x inputs
+    Vector t;
+    double Ts;  // 0 when sampled irregularly
+    Hold hold;
+    int options_index;
+};
+
+InputSignals input_argument(const Call& call) {
+    if (call.given(2) && to_object<IdData>(call.state(), 2) != nullptr) {
+        call.at_most(3);
+        const IdData& data = signals_of_argument(call, 2, "data");
+        if (data.experiments.size() != 1)
+            throw InvalidArgument(fmt::format("the data hold {} experiments; take one of them with data:experiment(k)",
+                                              data.experiments.size()));
+        return {data.experiments.front().u, data.time(), data.Ts, data.hold, 3};
+    }
+    call.at_most(4);
+    const Matrix u = call.matrix(2, "u");
+    const double Ts = call.number(3, "Ts");
+    return {u, Ts * Vector::LinSpaced(u.rows(), 0, static_cast<double>(u.rows() - 1)), Ts, Hold::kZoh, 4};
+}
+
+Hold hold_of(const Options& options, Hold fallback) {
+    return options.choice("hold", {"zoh", "foh"}, fallback == Hold::kZoh ? 0 : 1) == 0 ? Hold::kZoh : Hold::kFoh;
+}
+
+Matrix simulated_outputs(const std::vector<TransferFunction>& channels, const InputSignals& input, Hold hold) {
+    const auto inputs = static_cast<std::size_t>(input.u.cols());
+    if (inputs == 0 || channels.size() % inputs != 0)
+        throw InvalidArgument(
+            fmt::format("the model has {} channels, which do not fit the {} inputs", channels.size(), inputs));
+    Matrix y = Matrix::Zero(input.u.rows(), static_cast<Index>(channels.size() / inputs));
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+        const auto u = input.u.col(static_cast<Index>(i % inputs));
+        y.col(static_cast<Index>(i / inputs)) +=
+            input.Ts > 0 ? lsim(channels[i], u, input.Ts, hold) : lsim(channels[i], u, input.t, hold);
+    }
+    return y;
+}
+
+/// The standard deviation of a model's own white noise e.
+double own_noise_std(const Model* model) {
+    if (model == nullptr || !model->estimate)
+        throw InvalidArgument(
+            "this model was not estimated and knows nothing of its noise: give the option snr, in dB");
+    if (model->estimate->carx)
+        throw InvalidArgument(
+            fmt::format("{} knows the error of its equation, which is no noise of the output: give the option snr, in "
+                        "dB",
+                        model->estimate->method));
+    for (const auto& [name, value] : model->estimate->numbers)
+        if (name == "noise_variance" && value >= 0) return std::sqrt(value);
+    throw InvalidArgument(
+        fmt::format("{} tells no variance of the noise: give the option snr, in dB", model->estimate->method));
+}
+
+/// The script's own stream, or one of its own from the option seed.
+class DrawnNumbers {
+  public:
+    DrawnNumbers(const Call& call, const Options& options) : stream_(&call.context().random) {
+        if (!options.has("seed")) return;
+        const Index seed = options.size("seed", 0);
+        if (seed > 0xFFFFFFFF)
+            throw InvalidArgument(fmt::format("the seed must lie between 0 and 4294967295, but {} was given", seed));
+        own_ = RandomStream(static_cast<std::uint32_t>(seed));
+        stream_ = &*own_;
+    }
+    DrawnNumbers(const DrawnNumbers&) = delete;
+    RandomStream& stream() { return *stream_; }
+
+  private:
+    std::optional<RandomStream> own_;
+    RandomStream* stream_;
+};
+
+/// sim(G, u, Ts, {noise =, snr =, seed =, hold =}) or sim(G, data, {...})
+int simulate_with_noise(Call& call) {
+    const NoisyModel model = noisy_model_argument(call, 1, "G");
+    const InputSignals input = input_argument(call);
+    const Options options(call, input.options_index, {"noise", "snr", "seed", "hold"});
+    const Matrix y = simulated_outputs(model.channels, input, hold_of(options, input.hold));
+    const auto snr = options.optional_number("snr");
+    if (!options.flag("noise", snr.has_value()))
+        return y.cols() == 1 ? call.give_vector(y.col(0)) : call.give_matrix(y);
+    if (y.cols() != 1)
+        throw InvalidArgument(
+            fmt::format("noise is simulated for one output, and the model has {}: take its channels", y.cols()));
+    if (model.noise_Ts > 0 && std::abs(model.noise_Ts - input.Ts) > 1e-9 * model.noise_Ts)
+        throw InvalidArgument(fmt::format("the noise model counts samples of {} s, and the input is sampled every {} s",
+                                          model.noise_Ts, input.Ts));
+    const ColouredNoise noise = noise_of(model);
+    const double sigma =
+        snr ? noise_std_of_snr(y.col(0), *snr) / noise.gain() : own_noise_std(to_object<Model>(call.state(), 1));
+    const Vector v = noise.draw(y.rows(), sigma, DrawnNumbers(call, options).stream());
+    return call.give_vector(y.col(0) + v) + call.give_vector(v);
+}
+
+SimulationSpread spread_of(const Model& model, const InputSignals& input, Hold hold, Index runs, RandomStream& random) {
+    if (input.Ts == 0) throw InvalidArgument("the input must be sampled regularly");
+    if (input.u.cols() != 1)
+        throw InvalidArgument(fmt::format("one input is wanted, and {} were given", input.u.cols()));
+    if (const auto uncertain = uncertain_model(model))
+        return simulation_spread(*uncertain, input.u.col(0), input.Ts, hold, runs, random);
+    if (!model.estimate || !model.polynomial || model.estimate->covariance.size() == 0)
+        throw InvalidArgument(
+            "an estimated model with one input and one output is wanted, and the covariance of its parameters");
+    return simulation_spread(*model.polynomial, model.estimate->trusted_covariance(), input.u.col(0), runs, random);
+}
+
+Figure spread_figure(const std::string& name, const SimulationSpread& spread, const Vector& t, double level) {
+    Figure figure;
+    Panel& panel = figure.panels.emplace_back();
+    Curve curve;
+    curve.x = t;
+    curve.y = spread.output;
+    curve.label = name;
+    panel.curves.push_back(std::move(curve));
+    panel.x_label = "time (s)";
+    panel.y_label = "output";
+    fix_colours(panel);
+    add_confidence_band(panel, 0, normal_half_width(level) * spread.std, level);
+    return figure;
+}
+
+/// simsd(G, u, Ts, {runs =, seed =, hold =, confidence =}) or simsd(G, data, {...})
+int simulate_spread(Call& call) {
+    const Model model = model_argument(call, 1, "G");
+    const InputSignals input = input_argument(call);
+    const Options options(call, input.options_index, {"runs", "seed", "hold", "confidence"});
+    const double level = options.number("confidence", 0.99);
+    if (!(level > 0 && level < 1))
+        throw InvalidArgument(
+            fmt::format("option 'confidence' must be a probability between 0 and 1, but {} was given", level));
+    const SimulationSpread spread = spread_of(model, input, hold_of(options, input.hold), options.size("runs", 200),
+                                              DrawnNumbers(call, options).stream());
+    give_figure(call, spread_figure(model.estimate->method, spread, input.t, level));
+    lua_createtable(call.state(), 0, 4);
+    set_vector(call, "output", spread.output);
+    set_vector(call, "std", spread.std);
+    set_matrix(call, "drawn", spread.drawn);
+    set_integer(call.state(), "unstable", spread.unstable);
+    return 2;
+}
+
+/// bode_values(G, w) -> mag, ph, w, sdmag, sdph
+int frequency_values(Call& call) {
+    call.at_most(2);
+    const Model model = model_argument(call, 1, "G");
+    const Vector w = call.given(2) ? Vector(call.vector(2, "w")) : natural_frequency_grid(model.G);
+    const ComplexVector response = frequency_response(model.G, w);
+    const Vector magnitude = response.cwiseAbs();
+    const int given =
+        call.give_vector(magnitude) + call.give_vector(phase_degrees_unwrapped(response)) + call.give_vector(w);
+    const auto uncertain = uncertain_model(model);
+    if (!uncertain) return given;
+    const auto [decibels, degrees] = frequency_response_std(*uncertain, w);
+    return given + call.give_vector(std::numbers::ln10 / 20 * magnitude.cwiseProduct(decibels)) +
+           call.give_vector(degrees);
+}
+
+constexpr const char* kNoisySimulationArea = "simulation";
+constexpr std::array kNoisySimulationFunctions = {
+    FunctionEntry{
+        "sim", kNoisySimulationArea, "sim(G, u, Ts, {noise =, snr =, seed =, hold =}) -> y, v; sim(G, data, {...})",
+        "response of a model to an input, with noise of its own or of a given SNR", guarded<simulate_with_noise>},
+    FunctionEntry{"simsd", kNoisySimulationArea,
+                  "simsd(G, u, Ts, {runs =, seed =, hold =, confidence =}) -> fig, table; simsd(G, data, {...})",
+                  "how far the uncertainty of an estimate spreads its simulated output", guarded<simulate_spread>},
+    FunctionEntry{"bode_values", kNoisySimulationArea, "bode_values(G, w) -> mag, ph, w, sdmag, sdph",
+                  "the numbers of bode with their standard deviations", guarded<frequency_values>},
+};
+
+}  // namespace
+
+FunctionEntries noisy_simulation_functions() {
+    return kNoisySimulationFunctions;
+}
+
+}  // namespace dynlab::inline scripting
