@@ -70,6 +70,13 @@ int field_output_name(Call& call) {
     return give_texts(call, data_self(call).output_names);
 }
 
+int field_input_unit(Call& call) {
+    return give_texts(call, data_self(call).input_units);
+}
+int field_output_unit(Call& call) {
+    return give_texts(call, data_self(call).output_units);
+}
+
 int part(Call& call) {
     call.at_most(3);
     return give_data(call, data_self(call).range(call.integer(2, "first"), call.integer(3, "last")));
@@ -174,6 +181,8 @@ constexpr std::array kDataTypeFields = {
     Member{"InterSample", guarded<field_hold>},
     Member{"InputName", guarded<field_input_name>},
     Member{"OutputName", guarded<field_output_name>},
+    Member{"InputUnit", guarded<field_input_unit>},
+    Member{"OutputUnit", guarded<field_output_unit>},
 };
 constexpr std::array kDataTypeMethods = {
     Member{"range", guarded<part>},
