@@ -216,13 +216,23 @@ class CsvReader {
         CellScanner scanner(file_, text_, layout_.separator, layout_.rows_at, layout_.rows_line);
         while (scanner.next_record()) read_row(scanner, columns);
         for (std::size_t j = 0; j < columns.size(); ++j) {
-            const std::vector<double>& numbers = columns[j].numbers;
+            std::vector<double>& numbers = columns[j].numbers;
+            if (table_.names[j] == "Ts" && is_one_number(columns[j])) {
+                note("the only number in column Ts, in its first row, is the sampling time");
+                numbers.resize(1), columns[j].missing = 0;
+            }
             table_.columns.push_back(Eigen::Map<const Vector>(numbers.data(), static_cast<Index>(numbers.size())));
             if (layout_.is_text[j]) table_.texts[table_.names[j]] = std::move(columns[j].texts);
         }
         tell_missing(columns);
         if (!first_comma_.empty())
             note(fmt::format("numbers are written with a decimal comma, such as {}", first_comma_));
+    }
+
+    /// Benchmark records give the sampling time as a column of one number.
+    static bool is_one_number(const Column& column) {
+        return column.numbers.size() > 1 && column.missing + 1 == column.numbers.size() &&
+               column.numbers.front() == column.numbers.front();
     }
 
     void read_row(CellScanner& scanner, std::vector<Column>& columns) {

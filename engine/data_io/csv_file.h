@@ -14,7 +14,9 @@ namespace dynlab::inline data_io {
 /// time as `# Ts: 0.01`), one line of column names, then rows with commas.
 struct CsvTable {
     std::vector<std::string> names;
-    std::vector<Vector> columns;  ///< numeric columns by place, NaN where a cell is empty; empty where `texts` holds it
+    /// Numeric columns by place, NaN where a cell is empty; a column Ts of length 1 where only its first row has a
+    /// number; empty where `texts` holds the column.
+    std::vector<Vector> columns;
     std::map<std::string, std::vector<std::string>> texts;  ///< text columns by name
     std::map<std::string, std::string> units;               ///< column -> unit
     std::optional<double> Ts;                               ///< seconds

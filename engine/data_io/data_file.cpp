@@ -29,13 +29,26 @@ bool is_table(const std::string& ending) {
     return std::find(kTableEndings.begin(), kTableEndings.end(), ending) != kTableEndings.end();
 }
 
+Index rows_of(const CsvTable& table) {
+    Index rows = 0;
+    for (const Vector& column : table.columns) rows = std::max(rows, column.size());
+    for (const auto& [name, texts] : table.texts) rows = std::max(rows, static_cast<Index>(texts.size()));
+    return rows;
+}
+
 LoadedData from_table(CsvTable table) {
     LoadedData data;
+    data.rows = rows_of(table);
+    const Index rows = data.rows;
     for (std::size_t i = 0; i < table.names.size(); ++i) {
         const std::string& name = table.names[i];
         const auto texts = table.texts.find(name);
         if (texts == table.texts.end()) {
-            data.variables[name] = {std::move(table.columns[i])};
+            Vector& column = table.columns[i];
+            if (column.size() == 1 && rows > 1)
+                data.variables[name] = {column[0]};
+            else
+                data.variables[name] = {std::move(column)};
             continue;
         }
         auto list = std::make_shared<VariableList>();

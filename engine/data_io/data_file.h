@@ -19,6 +19,7 @@ struct LoadedData {
     std::map<std::string, std::string> headers =
         {};                                 ///< of a table's file, where a column has another name -> its name
     std::vector<std::string> columns = {};  ///< of a table, in the file's order
+    Index rows = 0;                         ///< of a table
     std::vector<std::string> notes = {};    ///< sentences that the user should see: what was left out, what was guessed
 };
 

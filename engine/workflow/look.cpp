@@ -38,6 +38,10 @@ std::string aligned(const TextRows& rows) {
     return text;
 }
 
+std::string counted_things(std::size_t number, const char* what) {
+    return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s");
+}
+
 /// A vector of the file, or a column of a matrix in it.
 struct LookedSignal {
     std::string name, unit;
@@ -88,14 +92,10 @@ class DataLooker {
 
     std::string title() const {
         const std::string file = data_.file.filename().string();
-        if (data_.columns.empty()) return fmt::format("{}: {} variables\n", file, data_.variables.size());
-        return fmt::format("{}: a table of {} columns and {} rows\n", file, data_.columns.size(), rows());
-    }
-
-    std::size_t rows() const {
-        const Variable& first = data_.variables.at(data_.columns.front());
-        if (const auto* vector = std::get_if<Vector>(&first.value)) return static_cast<std::size_t>(vector->size());
-        return std::get<std::shared_ptr<VariableList>>(first.value)->size();
+        if (data_.columns.empty())
+            return fmt::format("{}: {}\n", file, counted_things(data_.variables.size(), "variable"));
+        return fmt::format("{}: a table of {} and {}\n", file, counted_things(data_.columns.size(), "column"),
+                           counted_things(static_cast<std::size_t>(data_.rows), "row"));
     }
 
     std::string notes() const {
@@ -188,18 +188,19 @@ class DataLooker {
     std::string first_rows() const {
         constexpr std::size_t kRows = 5, kMostColumns = 10;
         if (data_.columns.empty()) return "";
-        TextRows table(1 + std::min(kRows, rows()));
+        TextRows table(1 + std::min(kRows, static_cast<std::size_t>(data_.rows)));
         for (std::size_t j = 0; j < std::min(kMostColumns, data_.columns.size()); ++j) {
             const std::string& name = data_.columns[j];
             const Variable& variable = data_.variables.at(name);
             const auto* numbers = std::get_if<Vector>(&variable.value);
             table[0].push_back(name);
             for (std::size_t i = 1; i < table.size(); ++i) {
-                if (numbers == nullptr)
-                    table[i].push_back(std::get<std::string>(
-                        std::get<std::shared_ptr<VariableList>>(variable.value)->at(i - 1).value));
-                else
+                if (numbers != nullptr)
                     table[i].push_back(fmt::format("{:.10g}", (*numbers)[static_cast<Index>(i - 1)]));
+                else if (const auto* texts = std::get_if<std::shared_ptr<VariableList>>(&variable.value))
+                    table[i].push_back(std::get<std::string>((*texts)->at(i - 1).value));
+                else
+                    table[i].push_back(i == 1 ? short_number(std::get<double>(variable.value)) : "");
             }
         }
         if (data_.columns.size() > kMostColumns)

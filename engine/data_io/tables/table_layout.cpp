@@ -188,15 +188,27 @@ class LayoutFinder {
         }
         header_ = wordy.back();
         const bool two = wordy.size() > 1 && wordy[wordy.size() - 2] + 1 == *header_;
-        if (two && holds_units(records_[*header_])) units_ = *header_, header_ = *header_ - 1;
+        if ((two && holds_units(records_[*header_])) || stands_below_numbered_channels(*header_))
+            units_ = *header_, header_ = *header_ - 1;
         layout_.numbered_rows = records_[*header_].cells.size() < columns();
     }
 
     static bool holds_units(const TableRecord& record) {
+        const auto [units, others] = units_and_others(record);
+        return units > 0 && units >= others;
+    }
+    static std::pair<std::size_t, std::size_t> units_and_others(const TableRecord& record) {
         std::size_t units = 0, others = 0;
         for (const std::string& cell : record.cells)
             if (!cell.empty()) ++(is_unit(without_brackets(cell)) ? units : others);
-        return units > 0 && units >= others;
+        return {units, others};
+    }
+    /// Oscilloscopes write: x-axis,1,2 and below it second,Volt,Volt.
+    bool stands_below_numbered_channels(std::size_t row) const {
+        const auto [units, others] = units_and_others(records_[row]);
+        if (row == 0 || units < 2 || others > 0) return false;
+        const TableRecord& above = records_[row - 1];
+        return above.cells.size() == records_[row].cells.size() && above.kinds.front() == NumberStatus::kNotANumber;
     }
 
     /// A comment right above the rows may hold the names.
@@ -243,6 +255,18 @@ double score_of(const std::filesystem::path& file, const TableSample& sample) {
     return LayoutFinder(file, sample, false).is_complete() ? good : good * kWithoutNames;
 }
 
+/// Throws what is wrong with the quotation marks, or that there is no record.
+[[noreturn]] void walk_through(const std::filesystem::path& file, std::string_view text, std::size_t at,
+                               std::size_t line, char separator) {
+    CellScanner scanner(file, text, separator, at, line);
+    while (scanner.next_record()) {
+        do {
+            scanner.next_cell();
+        } while (!scanner.record_ended());
+    }
+    throw EnvironmentError(fmt::format("{}: there is no header line with the names of the columns", file.string()));
+}
+
 }  // namespace
 
 TableLayout find_layout(const std::filesystem::path& file, std::string_view text, std::size_t at, std::size_t line,
@@ -256,13 +280,13 @@ TableLayout find_layout(const std::filesystem::path& file, std::string_view text
         sample->score = score_of(file, *sample);
         if (!best || sample->score > best->score) best = std::move(sample);
     }
-    if (!best) {  // no record, or quotation marks that no separator explains: walking through tells which
-        CellScanner scanner(file, text, separators.front(), at, line);
-        while (scanner.next_record()) do
-                scanner.next_cell();
-            while (!scanner.record_ended());
-        throw EnvironmentError(fmt::format("{}: there is no header line with the names of the columns", file.string()));
-    }
+    if (!best) walk_through(file, text, at, line, separators.front());
+    // In a single column, a quotation mark that is never closed may hide the separator.
+    const std::string_view first_line = text.substr(at, text.find('\n', at) - at);
+    for (const char separator : separators)
+        if (best->cells == 1 && separator != ' ' && first_line.find(separator) != std::string_view::npos &&
+            !sample_of(file, text, at, line, separator))
+            walk_through(file, text, at, line, separator);
     return LayoutFinder(file, *best, !options.names.empty()).layout();
 }
 

@@ -98,6 +98,7 @@ TEST_F(csv_file, names_line_and_column_of_what_is_wrong) {
     EXPECT_EQ(complaint("t;y\n0;1.234,5\n1;1.234,5\n"), ", line 2, column y: " + grouped);
     EXPECT_EQ(complaint("a,b\n\"two\nlines\",1\nx,y\n"), ", line 4, column b: wanted a number, given \"y\"" + remedy);
     EXPECT_EQ(complaint("a,b\nx,1\n\"never closed,2\ny,3\n"), ", line 3: a quotation mark is opened and never closed");
+    EXPECT_EQ(complaint("t,y\n0,\"1\n1,2\n"), ", line 2: a quotation mark is opened and never closed");
     EXPECT_EQ(complaint("a,b\n\"x\"y,1\n"), ", line 2: there is text after a closing quotation mark");
     EXPECT_EQ(complaint("y\n1\n" + std::string(60, 'z') + "\n"),
               ", line 3, column y: wanted a number, given \"" + std::string(40, 'z') + "...\"" + remedy);
@@ -180,6 +181,9 @@ TEST_F(csv_file, takes_missing_numbers_for_nan_and_says_so) {
                     ElementsAre("numbers are missing, NaN stands for them and fillmissing fills them: 2 of "
                                 "4 in y (first in line 2)"));
     }
+    const CsvTable benchmark = read("u,y,Ts,\n0,1,4,\n1,2,,\n2,3,,\n");
+    EXPECT_EQ(benchmark.columns[2], (Vector{{4}}));
+    EXPECT_THAT(benchmark.notes, ElementsAre("the only number in column Ts, in its first row, is the sampling time"));
     EXPECT_EQ(shown_table(read("y,t\n#N/A,0\n1,2\n")), "y|t\nnan|0\n1|2");
     EXPECT_EQ(shown_table(read("name,score\nAnna,\nBob,3\n")), "name|score\nAnna|nan\nBob|3");
 }
@@ -204,6 +208,9 @@ TEST_F(csv_file, finds_units) {
     EXPECT_EQ(row.units, (std::map<std::string, std::string>{{"t", "s"}, {"u", "V"}, {"y", "deg C"}}));
     EXPECT_THAT(row.notes, ElementsAre("line 2 is taken for units: t in s, u in V, y in deg C"));
     EXPECT_EQ(read("t\ty\n(ms)\t[m/s^2]\n0\t1\n").units.at("y"), "m/s^2");
+    const CsvTable scope = read("x-axis,1,2\nsecond,Volt,Volt\n-0.1,0.5,0.25\n0,0.6,0.3\n");
+    EXPECT_EQ(shown_table(scope), "x-axis|1|2\n-0.1|0.5|0.25\n0|0.6|0.3");
+    EXPECT_EQ(scope.units.at("x-axis"), "second");
     const CsvTable header = read("time (s);u [V];y (filtered);z(2)\n0;1;2;3\n");
     EXPECT_THAT(header.names, ElementsAre("time", "u", "y (filtered)", "z(2)"));
     EXPECT_EQ(header.units, (std::map<std::string, std::string>{{"time", "s"}, {"u", "V"}}));
