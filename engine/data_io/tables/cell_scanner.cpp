@@ -21,7 +21,13 @@ void CellScanner::fail(const std::string& what) const {
 }
 
 bool CellScanner::next_record() {
+    constexpr std::string_view kMayNotBeRecord = " \t\r\n#%";
     for (; !at_end(); ++line_) {
+        if (kMayNotBeRecord.find(text_[at_]) == std::string_view::npos) {
+            record_at_ = at_;
+            record_line_ = line_;
+            return true;
+        }
         const std::size_t end = std::min(text_.find('\n', at_), text_.size());
         const std::size_t begin = text_.find_first_not_of(" \t\r", at_);
         const bool blank = begin >= end;

@@ -8,6 +8,7 @@
 
 #include <map>
 #include <memory>
+#include <random>
 
 #include "data_io/data_file.h"
 #include "platform/atomic_file.h"
@@ -161,6 +162,23 @@ TEST_F(workbook, bombs_do_not_go_off) {
     for (int i = 0; i < 100000; ++i) nested += "<row>";
     write(parts_of(nested));
     EXPECT_NE(complaint(), "no error");
+}
+
+// oracle: the contract; whatever the bytes, reading gives a sheet or an EnvironmentError
+TEST_F(workbook, mutations_are_read_or_refused) {
+    write(parts_of(kRows));
+    const std::string bytes = read_file(file_);
+    std::mt19937 random(20240611);
+    int refused = 0;
+    for (int trial = 0; trial < 150; ++trial) {
+        std::string wrong = bytes;
+        for (unsigned k = 0; k <= random() % 8; ++k) wrong[random() % wrong.size()] = static_cast<char>(random());
+        write_file_atomically(file_, wrong);
+        const std::string message = complaint();
+        EXPECT_THAT(message, testing::Not(HasSubstr("crash")));
+        refused += message != "no error";
+    }
+    EXPECT_GT(refused, 0);
 }
 
 }  // namespace test_workbook
