@@ -49,7 +49,10 @@ void add_identify(CLI::App& app, Action& action) {
     auto words = std::make_shared<IdentifyArguments>();
     IdentifyRequest& request = words->request;
     CLI::App* command = app.add_subcommand("identify", "A model and a report from a data file, without writing Lua");
-    command->add_option("DATA", request.data, "The record: a .csv or .mat file, or a data set's name")->required();
+    command
+        ->add_option("DATA", request.data,
+                     "The record: a .mat file, a table (.csv, .txt, .dat, .tsv, .xlsx), or a data set's name")
+        ->required();
     command->add_option("--input", request.input, "Name of the input's column or variable")
         ->type_name("NAME")
         ->required();
@@ -65,6 +68,7 @@ void add_identify(CLI::App& app, Action& action) {
             "Delay in seconds, or the word auto: then it is estimated. 0 unless given")
         ->type_name("SECONDS|auto");
     command->add_option("--Ts", request.Ts, "Sampling time, instead of what the file says")->type_name("SECONDS");
+    command->add_option("--time", request.time, "Name of the column that holds the time")->type_name("NAME");
     command->add_option("--validate", request.validation, "A record with the same names, to test the model on")
         ->type_name("FILE");
     auto* report = command->add_option("-o,--output-file", words->report,
@@ -73,8 +77,11 @@ void add_identify(CLI::App& app, Action& action) {
     command->add_flag("--script", words->script, "Print the Lua script that does it, and do nothing else")
         ->excludes(report);
     command->footer(
-        "The sampling time is the one a CSV file states (# Ts: 0.01), a MAT file's variable Ts, or that of a column t "
-        "or\ntime, whose steps may differ. The summary is printed; the report also shows figures.\n"
+        "The sampling time is the one a CSV file states (# Ts: 0.01), a MAT file's variable Ts, or that of the column\n"
+        "--time, t, time, or else the only one with a unit of time; its steps may differ, and ms, min and h become "
+        "seconds.\nA column of a matrix y is called y1, y2, ...; dynlab look DATA shows what there is. Missing samples "
+        "are "
+        "filled by\nstraight lines. The summary is printed; the report also shows figures.\n"
         "A message such as identify.lua:35 speaks of line 35 of what --script prints.\n"
         "Example:  dynlab identify crane.csv --input u --output x,theta --poles 2 --zeros 0 --validate second.csv");
     command->callback([words, &action] {

@@ -12,6 +12,7 @@ using Action = std::function<int()>;
 
 /// Each adds its command with options and help text to `app` and sets `action` when it is the one called.
 void add_run(CLI::App& app, Action& action);
+void add_look(CLI::App& app, Action& action);
 void add_identify(CLI::App& app, Action& action);
 void add_report(CLI::App& app, Action& action);
 void add_weave(CLI::App& app, Action& action);

@@ -3,350 +3,313 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
+#include <limits>
+#include <set>
 #include <string_view>
 
-#include "numerics/error.h"
+#include "data_io/tables/cell_scanner.h"
+#include "data_io/tables/number_cell.h"
+#include "data_io/tables/table_layout.h"
+#include "data_io/tables/text_decoding.h"
+#include "data_io/tables/unit_text.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
-#include "platform/text_file.h"
 
 namespace dynlab::inline data_io {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-    const auto begin = text.find_first_not_of(" \t\r");
-    if (begin == std::string_view::npos) return {};
-    return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
-}
-
-enum class NumberStatus { kNumber, kEmpty, kNotANumber, kNotFinite, kOutOfRange };
-
-/// Reads a whole cell as a number, whatever the locale; `decimal_comma` also accepts "1,5".
-NumberStatus parse_number(std::string_view cell, bool decimal_comma, double& number) {
-    cell = trimmed(cell);
-    if (cell.empty()) return NumberStatus::kEmpty;
-    char with_point[64];
-    if (decimal_comma && cell.size() < sizeof with_point && cell.find('.') == std::string_view::npos) {
-        std::replace_copy(cell.begin(), cell.end(), with_point, ',', '.');
-        cell = {with_point, cell.size()};
-    }
-    if (cell.size() > 1 && cell[0] == '+' && cell[1] != '-') cell.remove_prefix(1);
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
-    if (error == std::errc::invalid_argument || end != cell.data() + cell.size()) return NumberStatus::kNotANumber;
-    if (error == std::errc::result_out_of_range) return NumberStatus::kOutOfRange;
-    return std::isfinite(number) ? NumberStatus::kNumber : NumberStatus::kNotFinite;
-}
-
-std::string shown(std::string_view given) {
-    constexpr std::size_t kLongest = 40;
-    given = trimmed(given);
-    if (given.empty()) return "an empty cell";
-    return given.size() <= kLongest ? fmt::format("\"{}\"", given)
-                                    : fmt::format("\"{}...\"", given.substr(0, kLongest));
-}
-
-/// The separator that occurs most often outside quotes; a comma when there is only one column.
-char separator_of(std::string_view header) {
-    std::size_t commas = 0, semicolons = 0, tabs = 0;
-    bool quoted = false;
-    for (const char c : header) {
-        if (c == '"') quoted = !quoted;
-        if (quoted) continue;
-        commas += c == ',', semicolons += c == ';', tabs += c == '\t';
-    }
-    // The rarer a character is in names, the sooner it is the separator.
-    if (tabs > 0 && tabs >= std::max(commas, semicolons)) return '\t';
-    return semicolons > 0 && semicolons >= commas ? ';' : ',';
-}
-
 class CsvReader {
   public:
-    CsvReader(const std::filesystem::path& file, std::string_view text) : file_(file), text_(text) {}
+    CsvReader(const std::filesystem::path& file, std::string_view text, const ImportOptions& options)
+        : file_(file), text_(text), options_(options) {}
 
     CsvTable read() {
-        if (text_.substr(0, 2) == "\xFF\xFE" || text_.substr(0, 2) == "\xFE\xFF") {
-            fail("the text is in UTF-16; save it as UTF-8");
-        }
+        skip_lines();
+        take_separator_line();
         read_comments();
-        read_header();
+        layout_ = find_layout(file_, text_, at_, line_, options_);
+        name_columns();
+        tell_layout();
         read_rows();
-        check_units();
         return std::move(table_);
     }
 
   private:
     struct Column {
-        bool is_text = false;
         std::vector<double> numbers;
         std::vector<std::string> texts;
+        std::size_t missing = 0, first_missing_line = 0;
     };
 
     [[noreturn]] void fail(const std::string& what) const {
         throw EnvironmentError(fmt::format("{}: {}", file_.string(), what));
     }
-    [[noreturn]] void fail_in_line(const std::string& what) const {
-        throw EnvironmentError(fmt::format("{}, line {}: {}", file_.string(), record_line_, what));
+    [[noreturn]] void fail_in_line(std::size_t line, const std::string& what) const {
+        throw EnvironmentError(fmt::format("{}, line {}: {}", file_.string(), line, what));
     }
-    [[noreturn]] void fail_in_column(std::size_t column, const std::string& what) const {
+    [[noreturn]] void fail_in_column(std::size_t line, std::size_t column, const std::string& what) const {
         throw EnvironmentError(
-            fmt::format("{}, line {}, column {}: {}", file_.string(), record_line_, table_.names[column], what));
+            fmt::format("{}, line {}, column {}: {}", file_.string(), line, table_.names[column], what));
     }
+    void note(std::string sentence) { table_.notes.push_back(std::move(sentence)); }
 
-    bool at_end() const { return at_ >= text_.size(); }
     std::string_view rest_of_line() const { return text_.substr(at_, text_.find('\n', at_) - at_); }
+    bool at_end() const { return at_ >= text_.size(); }
     void skip_line() {
         at_ = std::min(text_.find('\n', at_), text_.size() - 1) + 1;
         ++line_;
     }
-    void skip_blank_lines() {
-        while (!at_end() && trimmed(rest_of_line()).empty()) skip_line();
-    }
 
-    void read_comments() {
-        for (skip_blank_lines(); !at_end() && text_[at_] == '#'; skip_blank_lines()) {
-            record_line_ = line_;
-            const std::string_view comment = rest_of_line().substr(1);
-            const auto colon = comment.find(':');
-            if (colon != std::string_view::npos) {
-                take_remark(trimmed(comment.substr(0, colon)), trimmed(comment.substr(colon + 1)));
-            }
+    void skip_lines() {
+        for (std::size_t i = 0; i < options_.skip; ++i) {
+            if (at_end()) fail(fmt::format("{} lines are to be skipped, but it has only {}", options_.skip, i));
             skip_line();
         }
     }
 
+    /// Spreadsheets write the separator into a line of its own: sep=;
+    void take_separator_line() {
+        std::string_view line = trimmed_cell(rest_of_line());
+        if (line.size() > 2 && line.front() == '"' && line.back() == '"') line = line.substr(1, line.size() - 2);
+        if (at_end() || line.size() > 5 || (!line.starts_with("sep=") && !line.starts_with("SEP="))) return;
+        if (!options_.delimiter) options_.delimiter = line.size() == 5 ? line.back() : '\t';  // its own tab is trimmed
+        skip_line();
+    }
+
+    /// The comments above everything else may hold remarks, units and the sampling time.
+    void read_comments() {
+        const std::size_t at = at_, line = line_;
+        while (!at_end()) {
+            const std::string_view text = trimmed_cell(rest_of_line());
+            if (!text.empty() && !is_comment(text)) break;
+            const std::string_view comment = text.empty() ? text : text.substr(1);
+            const auto colon = comment.find(':');
+            if (colon != std::string_view::npos)
+                take_remark(trimmed_cell(comment.substr(0, colon)), trimmed_cell(comment.substr(colon + 1)));
+            skip_line();
+        }
+        at_ = at, line_ = line;
+    }
+
     void take_remark(std::string_view key, std::string_view value) {
         if (key.substr(0, 5) == "unit ") {
-            table_.units[std::string(trimmed(key.substr(5)))] = value;
+            stated_units_[std::string(trimmed_cell(key.substr(5)))] = value;
         } else if (key == "Ts") {
             double Ts = 0;
+            const std::string_view given = value;
             if (value.size() > 2 && value.substr(value.size() - 2) == " s") value.remove_suffix(2);
-            if (parse_number(value, true, Ts) != NumberStatus::kNumber || Ts <= 0) {
-                fail_in_line("the sampling time Ts must be a positive number of seconds, given " + shown(value));
-            }
+            if (parse_number(value, true, Ts) != NumberStatus::kNumber || Ts <= 0)
+                fail_in_line(line_, fmt::format("the sampling time Ts must be a positive number of seconds, given "
+                                                "\"{}\"",
+                                                given));
             table_.Ts = Ts;
         } else {
             table_.remarks[std::string(key)] = value;
         }
     }
 
-    /// One cell of the record at hand; afterwards either past its separator or, with `record_ended_`, in the next
-    /// line. Cells in quotes may hold separators, line ends and doubled quotes (RFC 4180).
-    std::string_view next_cell() {
-        std::size_t blanks = at_;
-        while (blanks < text_.size() && text_[blanks] == ' ') ++blanks;
-        if (blanks < text_.size() && text_[blanks] == '"') return next_quoted_cell(blanks + 1);
-        const std::size_t begin = at_;
-        while (at_ < text_.size() && text_[at_] != separator_ && text_[at_] != '\n') ++at_;
-        std::string_view cell = text_.substr(begin, at_ - begin);
-        if (!cell.empty() && cell.back() == '\r') cell.remove_suffix(1);
-        pass_cell_end();
-        return cell;
-    }
+    std::size_t columns() const { return layout_.is_text.size(); }
 
-    std::string_view next_quoted_cell(std::size_t begin) {
-        unquoted_.clear();
-        for (at_ = begin;; ++at_) {
-            if (at_end()) fail_in_line("a quotation mark is opened and never closed");
-            if (text_[at_] == '"') {
-                if (at_ + 1 >= text_.size() || text_[at_ + 1] != '"') break;
-                ++at_;
-            }
-            line_ += text_[at_] == '\n';
-            unquoted_ += text_[at_];
+    void name_columns() {
+        const std::vector<std::string> headers = headers_of_columns();
+        std::vector<std::string> units(columns());
+        if (!options_.names.empty()) {
+            if (options_.names.size() != columns())
+                fail(fmt::format("option names has {} names, but the table has {} columns", options_.names.size(),
+                                 columns()));
+            table_.names = options_.names;
+        } else {
+            take_units_of_headers(headers, units);
+            name_the_nameless();
+            number_equal_names();
         }
-        ++at_;
-        while (!at_end() && (text_[at_] == ' ' || text_[at_] == '\r')) ++at_;
-        if (!at_end() && text_[at_] != separator_ && text_[at_] != '\n') {
-            fail_in_line("there is text after a closing quotation mark");
+        for (std::size_t j = 0; j < columns(); ++j) {
+            if (j < layout_.units.size() && units[j].empty()) units[j] = without_brackets(layout_.units[j]);
+            if (!units[j].empty()) table_.units[table_.names[j]] = units[j];
+            if (!headers[j].empty() && headers[j] != table_.names[j])
+                table_.headers.insert({headers[j], table_.names[j]});
         }
-        pass_cell_end();
-        return unquoted_;
+        for (const auto& units_by_name : {stated_units_, options_.units})
+            for (const auto& [name, unit] : units_by_name) state_unit(name, unit);
     }
 
-    void pass_cell_end() {
-        record_ended_ = at_end() || text_[at_] == '\n';
-        line_ += !at_end() && text_[at_] == '\n';
-        if (!at_end()) ++at_;
+    /// One for each column, some perhaps empty.
+    std::vector<std::string> headers_of_columns() const {
+        std::vector<std::string> headers = layout_.names;
+        if (layout_.numbered_rows) headers.insert(headers.begin(), "");
+        headers.resize(columns());
+        return headers;
     }
 
-    void read_header() {
-        if (at_end()) fail("there is no header line with the names of the columns");
-        separator_ = separator_of(rest_of_line());
-        record_line_ = line_;
-        bool only_numbers = true;
-        do {
-            table_.names.emplace_back(trimmed(next_cell()));
-            double number = 0;
-            only_numbers = only_numbers && parse_number(table_.names.back(), true, number) != NumberStatus::kNotANumber;
-        } while (!record_ended_);
-        if (only_numbers) fail_in_line("wanted a header line with the names of the columns, given numbers");
-        check_names();
+    void take_units_of_headers(const std::vector<std::string>& headers, std::vector<std::string>& units) {
+        table_.names = headers;
+        std::map<std::string, int> times;
+        for (const std::string& header : headers) ++times[split_unit(header).name];
+        std::vector<std::string> told;
+        for (std::size_t j = 0; j < columns(); ++j) {
+            const auto [name, unit] = split_unit(headers[j]);
+            if (unit.empty() || times[name] > 1) continue;  // y (m) and y (V) are told apart by their units
+            table_.names[j] = name, units[j] = unit;
+            told.push_back(fmt::format("{} in {}", name, unit));
+        }
+        if (!told.empty()) note(fmt::format("units from the headers: {}", fmt::join(told, ", ")));
     }
 
-    void check_names() const {
-        for (auto name = table_.names.begin(); name != table_.names.end(); ++name) {
-            if (name->empty()) {
-                fail_in_line(fmt::format("column {} has no name", name - table_.names.begin() + 1));
-            }
-            if (std::find(table_.names.begin(), name, *name) != name) {
-                fail_in_line(fmt::format("two columns have the name {}", *name));
-            }
+    void name_the_nameless() {
+        std::vector<std::string> told;
+        const bool all = layout_.names.empty();
+        for (std::size_t j = 0; j < columns(); ++j) {
+            if (!table_.names[j].empty()) continue;
+            table_.names[j] = all ? fmt::format("c{}", j + 1) : j == 0 ? "index" : fmt::format("column_{}", j + 1);
+            told.push_back(all ? table_.names[j] : fmt::format("column {} is called {}", j + 1, table_.names[j]));
+        }
+        if (told.empty()) return;
+        constexpr std::size_t kMostTold = 8;
+        if (told.size() > kMostTold) told.resize(kMostTold), told.emplace_back("...");
+        note(all ? fmt::format("there is no line of names, so the columns are called {}; {{names = {{...}}}} gives "
+                               "them names",
+                               fmt::join(told, ", "))
+                 : fmt::format("the header has no name for it: {}", fmt::join(told, ", ")));
+    }
+
+    void number_equal_names() {
+        std::set<std::string> taken(table_.names.begin(), table_.names.end()), seen;
+        std::vector<std::string> told;
+        for (std::string& name : table_.names) {
+            if (seen.insert(name).second) continue;
+            int number = 2;
+            while (!taken.insert(fmt::format("{}_{}", name, number)).second) ++number;
+            name = fmt::format("{}_{}", name, number);
+            told.push_back(name);
+        }
+        if (!told.empty()) note(fmt::format("columns of equal names are numbered: {}", fmt::join(told, ", ")));
+    }
+
+    void state_unit(const std::string& name, const std::string& unit) {
+        const auto header = table_.headers.find(name);
+        const std::string& column = header == table_.headers.end() ? name : header->second;
+        if (std::find(table_.names.begin(), table_.names.end(), column) == table_.names.end())
+            fail(fmt::format("a unit is given for {}, but there is no such column; the columns are {}", name,
+                             fmt::join(table_.names, ", ")));
+        table_.units[column] = unit;
+    }
+
+    void tell_layout() {
+        if (layout_.passed_over > 0)
+            note(fmt::format("the table begins in line {}; {} above it {} passed over", layout_.table_line,
+                             layout_.passed_over == 1 ? "a line" : fmt::format("{} lines", layout_.passed_over),
+                             layout_.passed_over == 1 ? "is" : "are"));
+        if (layout_.named_by_comment) note("the names of the columns are those of the comment above the numbers");
+        if (layout_.units_line > 0) {
+            std::vector<std::string> told;
+            for (const auto& [name, unit] : table_.units) told.push_back(fmt::format("{} in {}", name, unit));
+            note(fmt::format("line {} is taken for units: {}", layout_.units_line, fmt::join(told, ", ")));
         }
     }
 
     void read_rows() {
-        std::vector<Column> columns(table_.names.size());
-        const auto lines_left = std::count(text_.begin() + static_cast<std::ptrdiff_t>(at_), text_.end(), '\n') + 1;
-        bool first = true;
-        for (skip_blank_lines(); !at_end(); skip_blank_lines()) {
-            read_row(columns, first, static_cast<std::size_t>(lines_left));
-            first = false;
-        }
-        if (first) fail("there are no rows below the header line");
-        for (std::size_t i = 0; i < columns.size(); ++i) {
-            const std::vector<double>& numbers = columns[i].numbers;
+        std::vector<Column> columns(this->columns());
+        const auto begin = text_.begin() + static_cast<std::ptrdiff_t>(layout_.rows_at);
+        const auto lines_left = static_cast<std::size_t>(std::count(begin, text_.end(), '\n') + 1);
+        for (std::size_t j = 0; j < columns.size(); ++j)
+            if (!layout_.is_text[j]) columns[j].numbers.reserve(lines_left);
+        CellScanner scanner(file_, text_, layout_.separator, layout_.rows_at, layout_.rows_line);
+        while (scanner.next_record()) read_row(scanner, columns);
+        for (std::size_t j = 0; j < columns.size(); ++j) {
+            std::vector<double>& numbers = columns[j].numbers;
+            if (table_.names[j] == "Ts" && is_one_number(columns[j])) {
+                note("the only number in column Ts, in its first row, is the sampling time");
+                numbers.resize(1), columns[j].missing = 0;
+            }
             table_.columns.push_back(Eigen::Map<const Vector>(numbers.data(), static_cast<Index>(numbers.size())));
-            if (columns[i].is_text) table_.texts[table_.names[i]] = std::move(columns[i].texts);
+            if (layout_.is_text[j]) table_.texts[table_.names[j]] = std::move(columns[j].texts);
         }
+        tell_missing(columns);
+        if (!first_comma_.empty())
+            note(fmt::format("numbers are written with a decimal comma, such as {}", first_comma_));
     }
 
-    void read_row(std::vector<Column>& columns, bool first, std::size_t rows_at_most) {
-        record_line_ = line_;
+    /// Benchmark records give the sampling time as a column of one number.
+    static bool is_one_number(const Column& column) {
+        return column.numbers.size() > 1 && column.missing + 1 == column.numbers.size() &&
+               column.numbers.front() == column.numbers.front();
+    }
+
+    void read_row(CellScanner& scanner, std::vector<Column>& columns) {
         std::size_t cells = 0;
+        bool rest_is_empty = true;
         do {
-            const std::string_view cell = next_cell();
-            if (cells < columns.size()) take_cell(columns[cells], cells, cell, first, rows_at_most);
+            const std::string_view cell = scanner.next_cell();
+            if (cells < columns.size())
+                take_cell(columns[cells], cells, cell, scanner);
+            else
+                rest_is_empty = rest_is_empty && cell.empty();
             ++cells;
-        } while (!record_ended_);
-        if (cells == columns.size()) return;
-        fail_in_line(fmt::format("wanted {} cells as in the header line, given {}", columns.size(), cells));
+        } while (!scanner.record_ended());
+        if (cells == columns.size() || (cells > columns.size() && rest_is_empty)) return;
+        fail_in_line(scanner.line(),
+                     fmt::format("wanted {} cells as in the header line, given {}", columns.size(), cells));
     }
 
-    void take_cell(Column& column, std::size_t index, std::string_view cell, bool first, std::size_t rows_at_most) {
-        if (column.is_text) {
-            column.texts.emplace_back(trimmed(cell));
+    void take_cell(Column& column, std::size_t index, std::string_view cell, const CellScanner& scanner) {
+        const bool decimal_comma = layout_.separator != ',' || scanner.cell_was_quoted();
+        if (layout_.is_text[index]) {
+            if (column.texts.empty() && looks_grouped(cell))
+                fail_in_column(scanner.line(), index, number_complaint(cell, decimal_comma));
+            column.texts.emplace_back(cell);
             return;
         }
         double number = 0;
-        switch (parse_number(cell, separator_ != ',', number)) {
-            case NumberStatus::kNumber:
-                if (first) column.numbers.reserve(rows_at_most);
-                column.numbers.push_back(number);
-                return;
-            case NumberStatus::kNotANumber:
-                if (!first) fail_in_column(index, "wanted a number, given " + shown(cell));
-                column.is_text = true;
-                column.texts.emplace_back(trimmed(cell));
-                return;
-            case NumberStatus::kEmpty:
-                fail_in_column(index, "wanted a number, given an empty cell");
-            case NumberStatus::kNotFinite:
-                fail_in_column(index, "wanted a finite number, given " + shown(cell));
-            case NumberStatus::kOutOfRange:
-                fail_in_column(index, "wanted a number that fits double precision, given " + shown(cell));
+        const NumberStatus status = parse_number(cell, decimal_comma, number);
+        if (status == NumberStatus::kMissing) {
+            number = std::numeric_limits<double>::quiet_NaN();
+            if (column.missing++ == 0) column.first_missing_line = scanner.line();
+        } else if (status != NumberStatus::kNumber) {
+            fail_in_column(scanner.line(), index, number_complaint(cell, decimal_comma));
+        } else if (decimal_comma && first_comma_.empty() && cell.find(',') != std::string_view::npos) {
+            first_comma_ = cell;
         }
+        column.numbers.push_back(number);
     }
 
-    void check_units() const {
-        for (const auto& [name, unit] : table_.units) {
-            if (std::find(table_.names.begin(), table_.names.end(), name) == table_.names.end()) {
-                fail(fmt::format("a unit is given for {}, but there is no such column; the columns are {}", name,
-                                 fmt::join(table_.names, ", ")));
-            }
-        }
+    void tell_missing(const std::vector<Column>& columns) {
+        std::vector<std::string> told;
+        for (std::size_t j = 0; j < columns.size(); ++j)
+            if (columns[j].missing > 0)
+                told.push_back(fmt::format("{} of {} in {} (first in line {})", columns[j].missing,
+                                           columns[j].numbers.size(), table_.names[j], columns[j].first_missing_line));
+        if (!told.empty())
+            note(fmt::format("numbers are missing, NaN stands for them and fillmissing fills them: {}",
+                             fmt::join(told, ", ")));
     }
 
     const std::filesystem::path& file_;
     std::string_view text_;
+    ImportOptions options_;
     std::size_t at_ = 0, line_ = 1;
-    std::size_t record_line_ = 1;  // where the record at hand begins: errors point there
-    char separator_ = ',';
-    bool record_ended_ = false;
-    std::string unquoted_;
+    TableLayout layout_;
+    std::map<std::string, std::string> stated_units_;
+    std::string first_comma_;
     CsvTable table_;
 };
 
-std::string quoted_where_needed(const std::string& text) {
-    if (text.find_first_of(",;\t\"\r\n#") == std::string::npos && trimmed(text) == text) return text;
-    std::string quoted = "\"";
-    for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-    return quoted + '"';
-}
-
-/// Number of rows; throws unless every column has it.
-std::size_t checked_rows(const CsvTable& table) {
-    std::size_t rows = 0;
-    for (std::size_t i = 0; i < table.names.size(); ++i) {
-        if (std::find(table.names.begin(), table.names.begin() + static_cast<std::ptrdiff_t>(i), table.names[i]) !=
-            table.names.begin() + static_cast<std::ptrdiff_t>(i)) {
-            throw InvalidArgument(
-                fmt::format("two columns are named {}; every column needs a name of its own", table.names[i]));
-        }
-        const auto text = table.texts.find(table.names[i]);
-        if (text == table.texts.end() && i >= table.columns.size()) {
-            throw InvalidArgument(fmt::format("column {} has a name but no data", table.names[i]));
-        }
-        const std::size_t here =
-            text != table.texts.end() ? text->second.size() : static_cast<std::size_t>(table.columns[i].size());
-        if (i > 0 && here != rows) {
-            throw InvalidArgument(fmt::format("columns of a table must have equal lengths: {} has {} rows, {} has {}",
-                                              table.names[0], rows, table.names[i], here));
-        }
-        rows = here;
-    }
-    if (rows == 0) throw InvalidArgument("a table needs at least one column and one row");
-    return rows;
-}
-
-void append_number(std::string& out, double number, int digits, const std::string& column, std::size_t row) {
-    if (!std::isfinite(number)) {
-        throw InvalidArgument(fmt::format("column {} holds a value that is not finite in row {}", column, row + 1));
-    }
-    char text[64];
-    const auto end = std::to_chars(text, text + sizeof text, number, std::chars_format::general, digits).ptr;
-    out.append(text, end);
-}
-
-void append_comments(std::string& out, const CsvTable& table) {
-    for (const auto& [key, value] : table.remarks) out += fmt::format("# {}: {}\n", key, value);
-    if (table.Ts) out += fmt::format("# Ts: {}\n", *table.Ts);
-    for (const auto& [column, unit] : table.units) out += fmt::format("# unit {}: {}\n", column, unit);
-}
-
 }  // namespace
 
-CsvTable read_csv_file(const std::filesystem::path& file) {
-    const std::string text = read_text(file);
-    return CsvReader(file, text).read();
+CsvTable read_csv_text(const std::filesystem::path& file, std::string bytes, const ImportOptions& options) {
+    std::vector<std::string> notes;
+    std::string text;
+    try {
+        text = decoded_text(std::move(bytes), notes);
+    } catch (const EnvironmentError& error) {
+        throw EnvironmentError(fmt::format("{}: {}", file.string(), error.what()));
+    }
+    CsvTable table = CsvReader(file, text, options).read();
+    table.notes.insert(table.notes.begin(), notes.begin(), notes.end());
+    return table;
 }
 
-void write_csv_file(const std::filesystem::path& file, const CsvTable& table, int digits) {
-    if (digits < 1 || digits > 17) {
-        throw InvalidArgument(fmt::format("a table is written with 1 to 17 significant digits, not {}", digits));
-    }
-    const std::size_t rows = checked_rows(table);
-    std::string out;
-    append_comments(out, table);
-    for (std::size_t i = 0; i < table.names.size(); ++i) {
-        if (i) out += ',';
-        out += quoted_where_needed(table.names[i]);
-    }
-    out += '\n';
-    for (std::size_t row = 0; row < rows; ++row) {
-        for (std::size_t i = 0; i < table.names.size(); ++i) {
-            if (i) out += ',';
-            const auto text = table.texts.find(table.names[i]);
-            if (text != table.texts.end()) {
-                out += quoted_where_needed(text->second[row]);
-            } else {
-                append_number(out, table.columns[i][static_cast<Index>(row)], digits, table.names[i], row);
-            }
-        }
-        out += '\n';
-    }
-    write_file_atomically(file, out);
+CsvTable read_csv_file(const std::filesystem::path& file, const ImportOptions& options) {
+    return read_csv_text(file, read_file(file), options);
 }
 
 }  // namespace dynlab::inline data_io

@@ -7,8 +7,6 @@
 #include <optional>
 #include <sstream>
 
-#include "data_io/csv_file.h"
-#include "data_io/mat_file.h"
 #include "data_io/packaged_record.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
@@ -26,19 +24,6 @@ constexpr char kPackageKey[] = "Package:";
 bool is_file(const fs::path& path) {
     std::error_code error;
     return fs::is_regular_file(path, error);
-}
-
-std::string lower_case_extension(const fs::path& file) {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return std::tolower(c); });
-    return extension;
-}
-bool is_mat(const fs::path& file) {
-    return lower_case_extension(file) == ".mat";
-}
-bool is_csv(const fs::path& file) {
-    return lower_case_extension(file) == ".csv";
 }
 
 /// Folders that hold data sets, in the order in which they are searched.
@@ -135,14 +120,14 @@ bool is_course_name(const fs::path& data_set, const std::string& name) {
 std::optional<Source> source_in_data_folder(const fs::path& data_folder, const std::string& name) {
     if (is_file(data_folder / name / kSourceFile)) return source_of(data_folder / name);
     for (const fs::path& data_set : data_sets_in(data_folder)) {
-        if (is_file(data_set / name) && (is_mat(name) || is_csv(name))) return Source{data_set / name};
+        if (is_file(data_set / name) && is_data_file(name)) return Source{data_set / name};
         if (is_course_name(data_set, name)) return source_of(data_set);
     }
     return std::nullopt;
 }
 
 std::optional<fs::path> file_beside(const fs::path& script_folder, const std::string& name) {
-    if (is_mat(name) || is_csv(name)) {
+    if (is_data_file(name)) {
         return is_file(script_folder / name) ? std::optional<fs::path>(script_folder / name) : std::nullopt;
     }
     for (const char* extension : {".mat", ".csv"}) {
@@ -178,6 +163,7 @@ Source find_source(const std::string& name_or_path, const fs::path& script_folde
         return {file};
     }
     if (const auto file = file_beside(script_folder, name_or_path)) return {*file};
+    if (path.has_extension() && is_file(script_folder / path)) return {script_folder / path};  // of another kind
     for (const fs::path& data_folder : data_folders(script_folder)) {
         if (const auto source = source_in_data_folder(data_folder, name_or_path)) return *source;
     }
@@ -195,39 +181,15 @@ Source find_graded_source(const std::string& name_or_path, const fs::path& scrip
     return source;
 }
 
-LoadedData from_csv(CsvTable table) {
-    LoadedData data;
-    for (std::size_t i = 0; i < table.names.size(); ++i) {
-        const std::string& name = table.names[i];
-        const auto texts = table.texts.find(name);
-        if (texts == table.texts.end()) {
-            data.variables[name] = {std::move(table.columns[i])};
-            continue;
-        }
-        auto list = std::make_shared<VariableList>();
-        for (std::string& text : texts->second) list->push_back({std::move(text)});
-        data.variables[name] = {std::move(list)};
-    }
-    if (table.Ts) data.variables.insert({"Ts", {*table.Ts}});  // a column of that name comes first
-    data.units = std::move(table.units);
-    return data;
-}
-
 }  // namespace
 
-LoadedData load_data(const std::string& name_or_path, const fs::path& script_folder, bool graded) {
+LoadedData load_data(const std::string& name_or_path, const fs::path& script_folder, bool graded,
+                     const ImportOptions& options) {
     const auto [file, record] =
         graded ? find_graded_source(name_or_path, script_folder) : find_source(name_or_path, script_folder);
+    if (!record) return read_data_file(file, !is_installed_data(file), options);
     LoadedData data;
-    if (record) {
-        data.variables = read_packaged_record(*record);
-    } else if (is_mat(file)) {
-        data.variables = read_mat_file(file, !is_installed_data(file));
-    } else if (is_csv(file)) {
-        data = from_csv(read_csv_file(file));
-    } else {
-        throw EnvironmentError(fmt::format("{} is neither a .mat nor a .csv file", file.string()));
-    }
+    data.variables = read_packaged_record(*record);
     data.file = file;
     return data;
 }

@@ -1,34 +1,27 @@
 #pragma once
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "data_io/variable.h"
+#include "data_io/data_file.h"
 
 namespace dynlab::inline data_io {
 
-/// A loaded data set: its variables, the file they came from, and the units a CSV file states (by variable).
-/// Columns of a CSV file are Vectors, text columns lists of strings, a stated sampling time the number Ts.
-struct LoadedData {
-    VariableTable variables;
-    std::filesystem::path file;
-    std::map<std::string, std::string> units;
-};
-
 /// Finds and reads a data set or file. `name_or_path` is a name of data/ ("heat_exchanger"), a course file name
-/// ("heatexchanger_data.mat", misspelled ones of the course too, with or without .mat) or a path to a .mat or .csv
-/// file. A data set is a folder data/NAME with a SOURCE.md; a line `Course file: NAME.mat` there (several separated by
-/// commas) says under which names a course knows it, and that is the only place where such names stand; they are names
-/// of files in that folder, never paths. Looked for in `script_folder` (NAME.mat, NAME.csv, data/NAME), then in
-/// data/NAME of the current folder, then in the installed data. Within a data set's folder a course's original file is
-/// preferred, then NAME.csv (which states units), then NAME.mat, then what a Debian package brings (packaged_record.h)
-/// according to a line `Package: NAME FILE SAMPLES samples TS s` of SOURCE.md, which is believed in the installed data
-/// only. `graded`: data sets of the installed data win over files beside the script, also when they are named by a path
-/// below data/, and a link that leads out of `script_folder` is refused. Files of the installed data are read without
-/// guard. Throws EnvironmentError that lists the names that exist and suggests the nearest one.
-LoadedData load_data(const std::string& name_or_path, const std::filesystem::path& script_folder, bool graded = false);
+/// ("heatexchanger_data.mat", misspelled ones of the course too, with or without .mat) or a path to a file of
+/// a kind that read_data_file() knows. A data set is a folder data/NAME with a SOURCE.md; a line `Course file:
+/// NAME.mat` there (several separated by commas) says under which names a course knows it, and that is the only place
+/// where such names stand; they are names of files in that folder, never paths. Looked for in `script_folder`
+/// (NAME.mat, NAME.csv, data/NAME), then in data/NAME of the current folder, then in the installed data. Within a data
+/// set's folder a course's original file is preferred, then NAME.csv (which states units), then NAME.mat, then what a
+/// Debian package brings (packaged_record.h) according to a line `Package: NAME FILE SAMPLES samples TS s` of
+/// SOURCE.md, which is believed in the installed data only. `graded`: data sets of the installed data win over files
+/// beside the script, also when they are named by a path below data/, and a link that leads out of `script_folder` is
+/// refused. Files of the installed data are read without guard. Throws EnvironmentError that lists the names that exist
+/// and suggests the nearest one.
+LoadedData load_data(const std::string& name_or_path, const std::filesystem::path& script_folder, bool graded = false,
+                     const ImportOptions& options = {});
 
 /// Names of the data sets in the installed data/, sorted.
 std::vector<std::string> dataset_names();

@@ -8,7 +8,9 @@
 #include "data_io/mat_layout.h"
 #include "data_io/mat_variable.h"
 #include "data_io/values/cbor_values.h"
+#include "data_io/values/described.h"
 #include "platform/atomic_file.h"
+#include "platform/confinement.h"
 #include "platform/error.h"
 #include "platform/guarded_call.h"
 #include "platform/temporary_folder.h"
@@ -36,6 +38,7 @@ class MatioComplaints {
         });
     }
     const std::string& first() const { return first_; }
+    void forget() { first_.clear(); }
 
   private:
     static inline std::string first_;
@@ -56,41 +59,78 @@ std::string variable_name(const matvar_t& variable, std::size_t number, const st
     return fmt::format("number {}{}", number, last_name.empty() ? "" : " (after " + last_name + ")");
 }
 
-VariableTable read_variables(const fs::path& file) {
+/// The next header; nothing at the end. HDF5 finds every variable by itself, so that one which is none (a link to
+/// another file) is passed over.
+MatVariable next_variable(mat_t* mat, bool is_hdf5, MatioComplaints& complaints, std::vector<std::string>& left_out) {
+    constexpr int kMostLost = 64;  // in a row; libmatio may complain of the last one for ever
+    for (int lost = 0; lost < kMostLost; ++lost) {
+        MatVariable variable(Mat_VarReadNextInfo(mat));
+        if (variable || !is_hdf5 || complaints.first().empty()) return variable;
+        const std::string how = "what lies in other files or is damaged cannot be read";
+        if (left_out.empty() || left_out.back() != how) left_out.push_back(how);
+        complaints.forget();
+    }
+    return nullptr;
+}
+
+/// What a file holds, as it comes from a guarded copy.
+struct MatContent {
+    VariableTable variables;
+    std::vector<std::string> left_out;
+};
+
+template <Is<MatContent> T, class V>
+void describe(T& object, V& member) {
+    auto& [variables, left_out] = object;
+    member("variables", variables), member("left_out", left_out);
+}
+
+/// `alone`: this process is a guarded copy, which may give up opening files (a box sees no others anyway). libmatio has
+/// opened the one it reads, and HDF5 would follow links of a v7.3 file to others.
+MatContent read_variables(const fs::path& file, bool alone) {
     const MatLayout layout = check_mat_layout(file);
-    const MatioComplaints complaints;
+    MatioComplaints complaints;
     const MatFile mat(Mat_Open(file.c_str(), MAT_ACC_RDONLY));
     if (!mat) fail_damaged(file, "it cannot be opened as a MATLAB file");
-    const std::size_t most_values = layout.version == MatVersion::k73 ? 0 : kLargestDeflateRatio * fs::file_size(file);
-    VariableTable variables;
+    const bool is_hdf5 = layout.version == MatVersion::k73;
+    const std::size_t most_values = is_hdf5 ? 0 : kLargestDeflateRatio * fs::file_size(file);
+    if (alone && is_hdf5 && !is_confined()) confine_to_memory();
+    MatContent content;
     std::size_t count = 0;
     std::string last_name;
-    while (const MatVariable variable{Mat_VarReadNextInfo(mat.get())}) {
+    while (const MatVariable variable{next_variable(mat.get(), is_hdf5, complaints, content.left_out)}) {
         const std::string name = variable_name(*variable, ++count, last_name);
         if (name.empty()) continue;  // MATLAB keeps the private data of objects in a nameless variable
         try {
             check_mat_header(*variable, name, most_values);
             const bool whole = Mat_VarReadDataAll(mat.get(), variable.get()) == 0 && complaints.first().empty();
-            if (!whole) break;
-            variables[name] = from_mat(*variable, name);
+            if (!whole && !is_hdf5) break;  // what follows would be read from a wrong place
+            if (!whole) throw EnvironmentError(fmt::format("variable {} cannot be read", name));
+            content.variables[name] = from_mat(*variable, name);
             last_name = name;
         } catch (const EnvironmentError& error) {
-            throw EnvironmentError(fmt::format("{}: {}", file.string(), error.what()));
+            if (is_hdf5) complaints.forget();
+            content.left_out.emplace_back(error.what());
         }
     }
-    if (!complaints.first().empty()) fail_damaged(file, without_line_end(complaints.first()));
+    if (content.left_out.empty() && !complaints.first().empty())
+        fail_damaged(file, without_line_end(complaints.first()));
     if (layout.variables > count) {
-        fail_damaged(file, fmt::format("only {} of its {} variables can be read", count, layout.variables));
+        const std::string how = fmt::format("only {} of its {} variables can be read", count, layout.variables);
+        if (content.left_out.empty()) fail_damaged(file, how);
+        content.left_out.push_back(how + ", because of that one");  // libmatio loses its way behind some of them
     }
-    return variables;
+    if (content.variables.empty() && !content.left_out.empty())
+        throw EnvironmentError(fmt::format("{}: {}", file.string(), fmt::join(content.left_out, "; ")));
+    return content;
 }
 
-VariableTable read_guarded(const fs::path& file) {
+MatContent read_guarded(const fs::path& file) {
     load_matio();
     const GuardLimits limits;
     const auto read = [&file] {
         try {
-            return cbor_of(read_variables(file));
+            return cbor_of(read_variables(file, true));
         } catch (const std::bad_alloc&) {
             fail_damaged(file, "reading it takes more than 2 GiB of memory");
         }
@@ -102,7 +142,7 @@ VariableTable read_guarded(const fs::path& file) {
     if (result.exit_code == 1 && !result.error_output.empty()) throw EnvironmentError(result.error_output);
     if (result.exit_code != 0) fail_damaged(file, "reading it ends in a crash");
     try {
-        return from_cbor<VariableTable>(result.output);
+        return from_cbor<MatContent>(result.output);
     } catch (const ValueError& error) {
         fail_damaged(file, error.what());
     }
@@ -120,8 +160,10 @@ std::size_t number_count(const Variable& variable) {
 
 }  // namespace
 
-VariableTable read_mat_file(const fs::path& file, bool guarded) {
-    return guarded ? read_guarded(file) : read_variables(file);
+VariableTable read_mat_file(const fs::path& file, bool guarded, std::vector<std::string>* left_out) {
+    MatContent content = guarded ? read_guarded(file) : read_variables(file, false);
+    if (left_out != nullptr) *left_out = std::move(content.left_out);
+    return std::move(content.variables);
 }
 
 void write_mat_file(const fs::path& file, const VariableTable& variables, int digits) {

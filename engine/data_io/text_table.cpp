@@ -6,19 +6,12 @@
 #include <array>
 #include <charconv>
 
+#include "data_io/tables/number_cell.h"
 #include "platform/error.h"
 #include "platform/text_file.h"
 
 namespace dynlab::inline data_io {
 namespace {
-
-constexpr std::string_view kBlanks = " \t\r";
-
-std::string trimmed_cell(std::string_view text) {
-    const auto begin = text.find_first_not_of(kBlanks);
-    if (begin == std::string_view::npos) return {};
-    return std::string(text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1));
-}
 
 /// The separator that the first line has most of.
 char table_separator_of(std::string_view text) {
@@ -100,7 +93,7 @@ class Reader {
         more = end < text_.size() && text_[end] == separator_;
         if (end < text_.size() && text_[end] == '\n') ++line_;
         at_ = end + 1;
-        return trimmed_cell(cell);
+        return std::string(trimmed_cell(cell));
     }
 
     const std::filesystem::path& file_;

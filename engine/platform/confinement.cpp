@@ -110,7 +110,8 @@ void confine_to_memory() {
     if (!filter) throw EnvironmentError("cannot filter the system calls of a process");
     allow(filter.get(), {SCMP_SYS(brk), SCMP_SYS(mmap), SCMP_SYS(munmap), SCMP_SYS(mremap), SCMP_SYS(mprotect),
                          SCMP_SYS(madvise), SCMP_SYS(futex), SCMP_SYS(sched_yield)});
-    allow(filter.get(), {SCMP_SYS(read), SCMP_SYS(write), SCMP_SYS(lseek), SCMP_SYS(fstat), SCMP_SYS(close)});
+    allow(filter.get(),
+          {SCMP_SYS(read), SCMP_SYS(pread64), SCMP_SYS(write), SCMP_SYS(lseek), SCMP_SYS(fstat), SCMP_SYS(close)});
     allow(filter.get(), {SCMP_SYS(rt_sigaction), SCMP_SYS(rt_sigprocmask), SCMP_SYS(rt_sigreturn),
                          SCMP_SYS(sigaltstack), SCMP_SYS(exit), SCMP_SYS(exit_group), SCMP_SYS(restart_syscall)});
     allow(filter.get(), {SCMP_SYS(getpid), SCMP_SYS(gettid), SCMP_SYS(clock_gettime), SCMP_SYS(gettimeofday),

@@ -133,6 +133,7 @@ void IdentifyRequest::validate() const {
             fmt::format("the number of zeros must be from 0 to that of the poles, {}; it is {}", poles, zeros));
     if (delay && !(std::isfinite(*delay) && *delay >= 0))
         throw InvalidArgument(fmt::format("the delay must be at least 0 s, not {}", *delay));
+    if (Ts && !time.empty()) throw InvalidArgument("give either Ts or the column of the time, not both");
     if (Ts && !(std::isfinite(*Ts) && *Ts > 0))
         throw InvalidArgument(fmt::format("Ts must be greater than 0 s, not {}", *Ts));
 }
@@ -140,9 +141,10 @@ void IdentifyRequest::validate() const {
 std::string identification_script(const IdentifyRequest& request) {
     using namespace fmt::literals;
     request.validate();
-    const Recording record(request.data, request.input, request.outputs, request.Ts);
+    const Recording record(request.data, request.input, request.outputs, request.Ts, request.time);
     std::optional<Recording> unseen;
-    if (!request.validation.empty()) unseen.emplace(request.validation, request.input, request.outputs, request.Ts);
+    if (!request.validation.empty())
+        unseen.emplace(request.validation, request.input, request.outputs, request.Ts, request.time);
 
     std::string script =
         fmt::format(kBegin, "load"_a = record.loading("record") + (unseen ? unseen->loading("validation") : ""),

@@ -7,13 +7,14 @@ namespace dynlab::inline workflow {
 
 /// A model wanted from a file: one input, one model for each output.
 struct IdentifyRequest {
-    std::string data;  ///< .mat or .csv file, or a data set's name
+    std::string data;  ///< a data file, or a data set's name
     std::string input;
     std::vector<std::string> outputs;  ///< at least one
     int poles = 2;
     int zeros = 0;                    ///< at most the number of poles
     std::optional<double> delay = 0;  ///< s; estimated when empty
-    std::optional<double> Ts;         ///< s; else as the file states it, or from its column t or time
+    std::optional<double> Ts;         ///< s; else as the file states it, or from its column of time
+    std::string time = {};            ///< name of that column; the most likely one when empty
     std::string validation = {};      ///< file with the same names; none when empty
 
     /// Throws InvalidArgument for names given twice and for orders, delay or Ts that make no sense.

@@ -2,98 +2,128 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
-
+#include "data_io/tables/unit_text.h"
 #include "platform/error.h"
 #include "platform/spelling.h"
 #include "scripting/runtime/lua_text.h"
 
 namespace dynlab::inline workflow {
-namespace {
-
-constexpr double kStepTolerance = 1e-3;  // relative; instants are often rounded when they are written
-
-bool is_time(std::string name) {
-    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
-    return name == "t" || name == "time";
-}
-
-}  // namespace
 
 Recording::Recording(const std::string& name, const std::string& input, const std::vector<std::string>& outputs,
-                     std::optional<double> Ts)
+                     std::optional<double> Ts, const std::string& time)
     : name_(name), input_(input), loaded_(load_data(name, ".")) {
-    const Index samples = signal(input).size();
+    const Index samples = signal(input).numbers.size();
     for (const std::string& output : outputs) {
-        if (signal(output).size() != samples)
+        const Index others = signal(output).numbers.size();
+        if (others != samples)
             throw EnvironmentError(fmt::format("{}: the output '{}' has {} samples, but the input '{}' has {}", name_,
-                                               output, signal(output).size(), input, samples));
+                                               output, others, input, samples));
     }
-    find_sampling(Ts);
+    find_sampling(Ts, time);
 }
 
-void Recording::find_sampling(std::optional<double> given) {
+void Recording::find_sampling(std::optional<double> given, const std::string& time) {
     if (given) {
         sampling_ = fmt::format("{}", *given);
         return;
     }
-    for (const std::string& column : signals()) {
-        if (is_time(column) && signal(column).size() == signal(input_).size()) time_ = column;
+    const Index samples = signal(input_).numbers.size();
+    if (time.empty()) {
+        time_ = time_column(loaded_, samples);
+    } else {
+        const Signal instants = signal(time);
+        if (instants.numbers.size() != samples)
+            throw EnvironmentError(fmt::format("{}: the time '{}' has {} samples, but the input '{}' has {}", name_,
+                                               time, instants.numbers.size(), input_, samples));
+        const auto unit = loaded_.units.find(instants.name);
+        time_ = {instants.name, unit == loaded_.units.end() ? 1 : seconds_of(unit->second).value_or(1)};
     }
-    if (!time_.empty()) look_at_instants();
+    if (time_) look_at_instants();
     const auto stated = loaded_.variables.find("Ts");
     const bool states_Ts = stated != loaded_.variables.end() && std::holds_alternative<double>(stated->second.value);
-    if (even_ && states_Ts) {
-        time_.clear();
+    if (even_ && states_Ts && time.empty()) {
+        time_.reset();
         sampling_ = "{0}.Ts";
-    } else if (time_.empty()) {
-        throw EnvironmentError(name_ +
-                               " states no sampling time and has no column t or time; give --Ts SECONDS, or write "
-                               "'# Ts: 0.01' into the first line of a CSV file");
+    } else if (!time_) {
+        throw EnvironmentError(
+            name_ +
+            " states no sampling time and has no column t or time, nor one whose header has a unit of "
+            "time; give --Ts SECONDS or --time NAME, or write '# Ts: 0.01' into the first line of a CSV "
+            "file");
     }
 }
 
 void Recording::look_at_instants() {
-    const Vector& t = signal(time_);
+    const Vector t = signal(time_->name).numbers;
     if (t.size() < 2) throw EnvironmentError(name_ + " has fewer than two samples");
-    const Vector steps = t.tail(t.size() - 1) - t.head(t.size() - 1);
-    even_ = (steps.array() - steps.mean()).abs().maxCoeff() <= kStepTolerance * steps.mean();
+    const InstantSpacing spacing = spacing_of(t);
+    if (spacing.disorder)
+        throw EnvironmentError(fmt::format("{}: the time '{}' must increase, but sample {} is {} and the next {}",
+                                           name_, time_->name, *spacing.disorder + 1, t[*spacing.disorder],
+                                           t[*spacing.disorder + 1]));
+    even_ = spacing.even;
     sampling_ = even_ ? "({0}_t[#{0}_t] - {0}_t[1])/(#{0}_t - 1)" : "nil";
 }
 
 std::string Recording::loading(const std::string& variable) const {
     const std::string code = fmt::format("local {} = load({})\n", variable, lua_text(name_));
-    return time_.empty() ? code : code + fmt::format("local {0}_t = {0}[{1}]\n", variable, lua_text(time_));
+    if (!time_) return code;
+    const std::string factor = time_->seconds == 1 ? "" : fmt::format("*{}", time_->seconds);
+    return code + fmt::format("local {0}_t = {0}{1}{2}\n", variable, signal(time_->name).access, factor);
+}
+
+/// Missing samples are filled, as no estimator takes them.
+std::string Recording::samples(const std::string& variable, const std::string& name) const {
+    const Signal found = signal(name);
+    const std::string read = variable + found.access;
+    if (!found.numbers.hasNaN()) return read;
+    return fmt::format("(fillmissing({}{}))", read, even_ ? "" : fmt::format(", {{t = {}_t}}", variable));
 }
 
 std::string Recording::data(const std::string& variable, const std::string& output) const {
     std::string options = fmt::format("InputName = {}, OutputName = {}{}{}", lua_text(input_), lua_text(output),
                                       unit("InputUnit", input_), unit("OutputUnit", output));
     if (!even_) options = fmt::format("SamplingInstants = {}_t, {}", variable, options);
-    return fmt::format("iddata({0}[{1}], {0}[{2}], {3},\n  {{{4}}})", variable, lua_text(output), lua_text(input_),
+    return fmt::format("iddata({}, {}, {},\n  {{{}}})", samples(variable, output), samples(variable, input_),
                        fmt::format(fmt::runtime(sampling_), variable), options);
 }
 
-const Vector& Recording::signal(const std::string& name) const {
-    const auto found = loaded_.variables.find(name);
-    const Vector* values = found == loaded_.variables.end() ? nullptr : std::get_if<Vector>(&found->second.value);
-    if (values != nullptr) return *values;
+Recording::Signal Recording::signal(const std::string& name) const {
+    const auto header = loaded_.headers.find(name);
+    const std::string& key = header == loaded_.headers.end() ? name : header->second;
+    const auto found = loaded_.variables.find(key);
+    const Vector* numbers = found == loaded_.variables.end() ? nullptr : std::get_if<Vector>(&found->second.value);
+    if (numbers != nullptr) return {*numbers, "[" + lua_text(key) + "]", key};
+    if (auto column = matrix_column(name)) return *std::move(column);
     const auto near = nearest_word(name, signals());
     throw EnvironmentError(fmt::format("{} has no column of numbers '{}'{}; there are {}", name_, name,
                                        near ? fmt::format(" (did you mean '{}'?)", *near) : "",
                                        fmt::join(signals(), ", ")));
 }
 
+std::optional<Recording::Signal> Recording::matrix_column(const std::string& name) const {
+    const std::size_t last = name.find_last_not_of("0123456789");
+    constexpr std::size_t kMostDigits = 6;
+    if (last == std::string::npos || last + 1 == name.size() || name.size() - last > kMostDigits) return std::nullopt;
+    const auto found = loaded_.variables.find(name.substr(0, last + 1));
+    const Matrix* matrix = found == loaded_.variables.end() ? nullptr : std::get_if<Matrix>(&found->second.value);
+    const int column = std::stoi(name.substr(last + 1));
+    if (matrix == nullptr || column < 1 || column > matrix->cols()) return std::nullopt;
+    return Signal{matrix->col(column - 1), fmt::format("[{}]:col({})", lua_text(found->first), column), name};
+}
+
 std::vector<std::string> Recording::signals() const {
     std::vector<std::string> names;
-    for (const auto& [name, variable] : loaded_.variables)
+    for (const auto& [name, variable] : loaded_.variables) {
         if (std::holds_alternative<Vector>(variable.value)) names.push_back(name);
+        if (const Matrix* matrix = std::get_if<Matrix>(&variable.value))
+            for (Index j = 0; j < matrix->cols(); ++j) names.push_back(fmt::format("{}{}", name, j + 1));
+    }
     return names;
 }
 
 std::string Recording::unit(const char* option, const std::string& column) const {
-    const auto found = loaded_.units.find(column);
+    const auto found = loaded_.units.find(signal(column).name);
     return found == loaded_.units.end() ? "" : fmt::format(", {} = {}", option, lua_text(found->second));
 }
 

@@ -10,11 +10,13 @@ namespace dynlab::inline workflow {
 /// Signals of a data file and how their samples lie in time, to be written down in Lua.
 class Recording {
   public:
-    /// `name`: a .mat or .csv file or a data set. `Ts`: sampling time in seconds instead of what the file says; without
-    /// it the file's own, or a column t or time. Throws EnvironmentError for a name that is not a column of numbers
-    /// there (listing those there are), signals of different lengths, unknown sampling.
+    /// `name`: a data file or a data set. Signals are columns or variables by name, also by the header of a table's
+    /// file, or columns of a matrix: y2 is the second of y. `Ts`: sampling time in seconds instead of what the file
+    /// says; without it the file's own, or the column `time`, or the one that is most likely the time (time_column()).
+    /// Throws EnvironmentError for a name that is not a column of numbers there (listing those there are), signals of
+    /// different lengths, unknown sampling, a time that does not increase.
     Recording(const std::string& name, const std::string& input, const std::vector<std::string>& outputs,
-              std::optional<double> Ts);
+              std::optional<double> Ts, const std::string& time);
 
     /// The lines that load the file into `variable`.
     std::string loading(const std::string& variable) const;
@@ -22,16 +24,23 @@ class Recording {
     std::string data(const std::string& variable, const std::string& output) const;
 
   private:
-    const Vector& signal(const std::string& name) const;
+    /// A signal's numbers, and what Lua reads it by behind the variable of the file: ["y"]:col(2).
+    struct Signal {
+        Vector numbers;
+        std::string access, name;
+    };
+    Signal signal(const std::string& name) const;
+    std::optional<Signal> matrix_column(const std::string& name) const;
     std::vector<std::string> signals() const;
-    void find_sampling(std::optional<double> given);
+    void find_sampling(std::optional<double> Ts, const std::string& time);
     void look_at_instants();
+    std::string samples(const std::string& variable, const std::string& name) const;
     std::string unit(const char* option, const std::string& column) const;
 
     std::string name_, input_;
     LoadedData loaded_;
-    std::string time_;      ///< the column of instants; empty when Ts is all that is needed
-    std::string sampling_;  ///< third argument of iddata, in which {0} stands for the variable
+    std::optional<TimeColumn> time_;  ///< nothing when Ts is all that is needed
+    std::string sampling_;            ///< third argument of iddata, in which {0} stands for the variable
     bool even_ = true;
 };
 

@@ -39,11 +39,11 @@ TEST(bad_input, broken_data_files_are_named) {
     bench.write("cut.mat", std::string("MATLAB 5.0 MAT-file").append(140, ' '));
     bench.write("ragged.csv", "t,y\n0,1\n1\n");
     bench.write("word.csv", "t,y\n0,1\n1,two\n");
-    bench.write("nan.csv", "t,y\n0,1\n1,NaN\n");
+    bench.write("inf.csv", "t,y\n0,1\n1,Inf\n");
     expect_failure(bench.dynlab({"run", "-e", "load('cut.mat')"}), 1, "cut.mat");
     expect_failure(bench.dynlab({"run", "-e", "load('ragged.csv')"}), 1, "ragged.csv, line 3");
     expect_failure(bench.dynlab({"run", "-e", "load('word.csv')"}), 1, "word.csv, line 3");
-    expect_failure(bench.dynlab({"run", "-e", "load('nan.csv')"}), 1, "nan.csv, line 3");
+    expect_failure(bench.dynlab({"run", "-e", "load('inf.csv')"}), 1, "inf.csv, line 3");
     expect_failure(bench.dynlab({"run", "-e", "load('nowhere.mat')"}), 1, "nowhere.mat");
 }
 

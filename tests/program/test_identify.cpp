@@ -16,7 +16,7 @@ using testing::StartsWith;
 
 /// Records of 2/(s^2 + 4s + 3) (x, with a delay of 0.33 s in late) and (s + 2)/(s^2 + 0.8s + 4) (theta), in files that
 /// state their sampling in different ways.
-constexpr const char* kRecords = R"(
+constexpr const char* kRecords = R"lua(
 local u, Ts = prbs(7, 8), 0.05
 local t = linspace(0, (#u - 1)*Ts, #u)
 local x, theta = lsim(tf({2}, {1, 4, 3}), u, Ts), lsim(tf({1, 2}, {1, 0.8, 4}), u, Ts)
@@ -27,8 +27,12 @@ save_csv("silent.csv", {u = u, x = x})
 save_mat("stated.mat", {u = u, x = x, Ts = Ts, short = u:range(1, 5), A = eye(2)})
 local instants = cumsum(0.02 + 0.06*rand(800))
 local w = sin(0.7*instants) + sin(1.9*instants)
+save_csv("headers.csv", {["Time (ms)"] = 1000*t, ["voltage [V]"] = u, x = x
+}, {columns = {"Time (ms)", "voltage [V]", "x"}})
+save_csv("clock.csv", {clock = t/60, u = u, x = x}, {units = {clock = "min"}})
+save_mat("matrix.mat", {y = matrix{theta, x}, u = u, Ts = Ts})
 save_csv("uneven.csv", {time = instants, u = w, x = lsim(tf({2}, {1, 4, 3}), w, instants)})
-)";
+)lua";
 
 class identify : public testing::Test {
   protected:
@@ -65,6 +69,31 @@ TEST_F(identify, finds_the_system_in_files_that_state_their_sampling_in_any_way)
     }
     EXPECT_THAT(report({"silent.csv", "--input", "u", "--output", "x", "--poles", "2", "--Ts", "0.05", "-o", "x.md"}),
                 HasSubstr("s^2 + 4 s + 3"));
+}
+
+TEST_F(identify, finds_the_time_by_name_unit_or_as_it_is_told) {
+    const auto system = HasSubstr("s^2 + 4 s + 3");
+    for (const char* input : {"voltage", "voltage [V]"})
+        EXPECT_THAT(report({"headers.csv", "--input", input, "--output", "x", "--poles", "2", "-o", "x.md"}), system);
+    EXPECT_THAT(report({"clock.csv", "--input", "u", "--output", "x", "--poles", "2", "-o", "x.md"}), system);
+    EXPECT_THAT(report({"even.csv", "--input", "u", "--output", "x", "--poles", "2", "--time", "t", "-o", "x.md"}),
+                system);
+    EXPECT_THAT(complaint({"even.csv", "--input", "u", "--output", "x", "--poles", "2", "--time", "late"}, 1),
+                HasSubstr("the time 'late' must increase, but sample"));
+    EXPECT_THAT(complaint({"even.csv", "--input", "u", "--output", "x", "--poles", "2", "--time", "t", "--Ts", "1"}, 2),
+                HasSubstr("not both"));
+}
+
+TEST_F(identify, reads_a_column_of_a_matrix) {
+    EXPECT_THAT(report({"matrix.mat", "--input", "u", "--output", "y2", "--poles", "2", "-o", "x.md"}),
+                HasSubstr("s^2 + 4 s + 3"));
+    EXPECT_THAT(complaint({"matrix.mat", "--input", "u", "--output", "y3", "--poles", "2"}, 1), HasSubstr("u, y1, y2"));
+}
+
+TEST_F(identify, fills_missing_samples_and_says_so) {
+    bench_.shell("awk -F, -v OFS=, 'NR > 100 && NR % 97 == 0 { $5 = \"\" } { print }' even.csv > holes.csv");
+    EXPECT_THAT(report({"holes.csv", "--input", "u", "--output", "x", "--poles", "2", "-o", "x.md"}),
+                AllOf(HasSubstr("holes.csv: numbers are missing"), HasSubstr("fit to the estimation data: 9")));
 }
 
 TEST_F(identify, takes_uneven_instants_as_they_are) {

@@ -182,7 +182,8 @@ TEST(program, weaves_to_html_and_markdown) {
 
 TEST(program, every_command_has_help_and_doctor_is_content) {
     const Workbench bench;
-    for (const char* command : {"run", "identify", "report", "weave", "new", "lessons", "demo", "help", "doctor"}) {
+    for (const char* command :
+         {"run", "look", "identify", "report", "weave", "new", "lessons", "demo", "help", "doctor"}) {
         const ChildResult result = bench.dynlab({command, "--help"});
         EXPECT_EQ(result.exit_code, 0) << command;
         EXPECT_THAT(result.output, HasSubstr(command));

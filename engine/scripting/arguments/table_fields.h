@@ -64,6 +64,9 @@ constexpr lua_CFunction field = guarded<give_field<T, kGet>>;
 /// From now on reading a field that the table on top of the stack has not is an error that lists those it has; `name`
 /// is that of the data.
 void refuse_unknown_fields(lua_State* L, const std::string& name);
+/// Gives the data table below the table on top of the stack, which is taken off, that one's fields: they are read like
+/// its own and not listed.
+void add_hidden_fields(lua_State* L);
 /// The name of the data in the table at `index`, when refuse_unknown_fields() was called for it.
 std::optional<std::string> name_of_refusing_table(lua_State* L, int index);
 

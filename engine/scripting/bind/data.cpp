@@ -9,6 +9,7 @@
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/model.h"
+#include "scripting/objects/units.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -61,13 +62,71 @@ void check_stays_inside(const std::filesystem::path& path) {
             path.string()));
 }
 
+std::map<std::string, std::string> units_by_name(const Options& options) {
+    std::map<std::string, std::string> units;
+    if (!options.has("units")) return units;
+    lua_State* L = options.call().state();
+    const int index = options.push("units");
+    const auto refuse = [] { throw InvalidArgument("option 'units' must be a table like {u = \"V\"}"); };
+    if (lua_type(L, index) != LUA_TTABLE) refuse();
+    lua_pushnil(L);
+    while (lua_next(L, index)) {
+        if (lua_type(L, -2) != LUA_TSTRING || lua_type(L, -1) != LUA_TSTRING) refuse();
+        units[lua_tostring(L, -2)] = lua_tostring(L, -1);
+        lua_pop(L, 1);
+    }
+    lua_pop(L, 1);
+    return units;
+}
+
+ImportOptions import_options(const Options& options) {
+    ImportOptions import;
+    import.skip = static_cast<std::size_t>(options.size("skip", 0));
+    import.names = options.texts("names");
+    const std::string delimiter = options.text("delimiter", "");
+    if (delimiter.size() > 1)
+        throw InvalidArgument(fmt::format(
+            "option 'delimiter' must be one character (\" \" for blanks and tabs), but \"{}\" was given", delimiter));
+    if (!delimiter.empty()) import.delimiter = delimiter.front();
+    import.units = units_by_name(options);
+    import.time = options.text("time", "");
+    import.sheet = options.text("sheet", "");
+    return import;
+}
+
+/// Each column knows its unit, which iddata takes over; the table on top of the stack has them all as `units`, and
+/// gives its columns by the names that the file has for them, too.
+void add_units_and_headers(const Call& call, const LoadedData& loaded) {
+    lua_State* L = call.state();
+    const int table = lua_gettop(L);
+    lua_newtable(L);
+    for (const auto& [header, name] : loaded.headers) {
+        lua_getfield(L, table, name.c_str());
+        lua_setfield(L, -2, header.c_str());
+    }
+    lua_createtable(L, 0, static_cast<int>(loaded.units.size()));
+    for (const auto& [name, unit] : loaded.units) {
+        set_text(call, name.c_str(), unit);
+        lua_getfield(L, table, name.c_str());
+        remember_unit(L, -1, unit);
+        lua_pop(L, 1);
+    }
+    lua_setfield(L, -2, "units");
+    add_hidden_fields(L);
+}
+
 int load(Call& call) {
-    call.at_most(1);
+    call.at_most(2);
+    const Options options(call, 2, {"skip", "names", "delimiter", "units", "time", "sheet"});
     const std::string name = call.text(1, "name or path");
     if (call.context().options.graded) check_stays_inside(name);
-    const LoadedData loaded = load_data(name, call.context().options.script_folder, call.context().options.graded);
+    const LoadedData loaded =
+        load_data(name, call.context().options.script_folder, call.context().options.graded, import_options(options));
     call.context().recorder.note_file_read(loaded.file);
+    for (const std::string& note : loaded.notes)
+        call.print(fmt::format("{}: {}\n", loaded.file.filename().string(), note));
     push_variables(call, loaded.variables, name);
+    add_units_and_headers(call, loaded);
     return 1;
 }
 
@@ -84,6 +143,14 @@ void set_texts(const Options& options, const char* name, std::vector<std::string
     if (static_cast<Index>(texts.size()) != channels)
         throw InvalidArgument(
             fmt::format("option '{}' has {} texts, but there are {} channels", name, texts.size(), channels));
+}
+
+/// The same for units; a column that load() gave brings its own.
+void set_units(const Options& options, const char* name, int argument, std::vector<std::string>& units,
+               Index channels) {
+    set_texts(options, name, units, channels);
+    if (options.has(name) || channels != 1 || !options.call().given(argument)) return;
+    if (const auto unit = remembered_unit(options.call().state(), argument)) units = {*unit};
 }
 
 /// Figures, tables and choices of channels speak of them by name.
@@ -113,8 +180,8 @@ int make_iddata(Call& call) {
     data.hold = options.choice("InterSample", {"zoh", "foh"}, 0) == 0 ? Hold::kZoh : Hold::kFoh;
     set_texts(options, "InputName", data.input_names, u.cols());
     set_texts(options, "OutputName", data.output_names, y.cols());
-    set_texts(options, "InputUnit", data.input_units, u.cols());
-    set_texts(options, "OutputUnit", data.output_units, y.cols());
+    set_units(options, "InputUnit", 2, data.input_units, u.cols());
+    set_units(options, "OutputUnit", 1, data.output_units, y.cols());
     check_names(data);
     data.time_unit = options.text("TimeUnit", data.time_unit);
     data.experiments.front().start_time = options.number("Tstart", data.experiments.front().start_time);
@@ -142,8 +209,9 @@ int idplot(Call& call) {
 
 constexpr const char* kDataArea = "data";
 constexpr std::array kDataFunctions = {
-    FunctionEntry{"load", kDataArea, "load(name_or_path) -> table",
-                  "reads a data set of the course, a .mat or a .csv file", guarded<load>},
+    FunctionEntry{"load", kDataArea,
+                  "load(name_or_path, {skip =, names =, delimiter =, units =, time =, sheet =}) -> table",
+                  "reads a data set of the course, a .mat file, or a table in a text file or workbook", guarded<load>},
     FunctionEntry{"iddata", kDataArea, "iddata(y, u, Ts, {InterSample =, InputName =, OutputName =, ...}) -> data",
                   "input-output data with their sampling", guarded<make_iddata>},
     FunctionEntry{"idplot", kDataArea, "idplot(data, ..., {labels =}) -> fig; idplot(data, first, last)",

@@ -138,6 +138,8 @@ constexpr std::array kDataTypeFields = {
     Member{"InterSample", field<IdData, hold_text>},
     Member{"InputName", field<IdData, &IdData::input_names>},
     Member{"OutputName", field<IdData, &IdData::output_names>},
+    Member{"InputUnit", field<IdData, &IdData::input_units>},
+    Member{"OutputUnit", field<IdData, &IdData::output_units>},
 };
 constexpr std::array kDataTypeMethods = {
     Member{"range", guarded<part>},

@@ -1,5 +1,6 @@
 #include "data_io/csv_file.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -80,38 +81,180 @@ TEST_F(csv_file, does_not_depend_on_the_locale) {
 }
 
 TEST_F(csv_file, names_line_and_column_of_what_is_wrong) {
-    EXPECT_EQ(complaint("t,y\n0,1\n1,abc\n"), ", line 3, column y: wanted a number, given \"abc\"");
-    EXPECT_EQ(complaint("# Ts: 1\n\nt,y\n0,1\n1,\n"), ", line 5, column y: wanted a number, given an empty cell");
-    EXPECT_EQ(complaint("t,y\n0,NaN\n"), ", line 2, column y: wanted a finite number, given \"NaN\"");
-    EXPECT_EQ(complaint("t,y\n0,1\n-inf,1\n"), ", line 3, column t: wanted a finite number, given \"-inf\"");
+    const std::string remedy = "; where a sample is missing, write nothing or NaN";
+    EXPECT_EQ(complaint("t,y\n0,1\n1,abc\n"), ", line 3, column y: wanted a number, given \"abc\"" + remedy);
+    EXPECT_EQ(complaint("t,y\n0,1\n-inf,1\n"), ", line 3, column t: wanted a finite number, given \"-inf\"" + remedy);
     EXPECT_EQ(complaint("t\n1e999\n"),
               ", line 2, column t: wanted a number that fits double precision, given \"1e999\"");
     EXPECT_EQ(complaint("t,y\n0,1\n1\n"), ", line 3: wanted 2 cells as in the header line, given 1");
-    EXPECT_EQ(complaint("t,y\n0,1,2\n"), ", line 2: wanted 2 cells as in the header line, given 3");
-    EXPECT_EQ(complaint("t,y\n0,1.5.2\n1,2\n2,3\n"), "no error");  // the first row decides: a text column
-    EXPECT_EQ(complaint("t,y\n0,1\n1,1 2\n"), ", line 3, column y: wanted a number, given \"1 2\"");
-    EXPECT_EQ(complaint("t;y\n0;1\n1;1.234,5\n"), ", line 3, column y: wanted a number, given \"1.234,5\"");
-    EXPECT_EQ(complaint("a,b\n\"two\nlines\",1\nx,y\n"), ", line 4, column b: wanted a number, given \"y\"");
+    EXPECT_EQ(complaint("t,y\n0,1\n0,1,2\n1,2\n"), ", line 3: wanted 2 cells as in the header line, given 3");
+    EXPECT_EQ(complaint("t,y\n0,1,2\n"),
+              ", line 1: 2 names, but the rows below have 3 cells; where that line does not belong to the table, write "
+              "load(file, {skip = 1})");
+    EXPECT_EQ(complaint("t,y\n0,1.5.2\n1,2\n2,3\n"), ", line 2, column y: wanted a number, given \"1.5.2\"" + remedy);
+    EXPECT_EQ(complaint("t,y\n0,1\n1,1 2\n"), ", line 3, column y: wanted a number, given \"1 2\"" + remedy);
+    const std::string grouped = "wanted a number, given \"1.234,5\"; write it without a sign between the thousands";
+    EXPECT_EQ(complaint("t;y\n0;1\n1;1.234,5\n"), ", line 3, column y: " + grouped);
+    EXPECT_EQ(complaint("t;y\n0;1.234,5\n1;1.234,5\n"), ", line 2, column y: " + grouped);
+    EXPECT_EQ(complaint("a,b\n\"two\nlines\",1\nx,y\n"), ", line 4, column b: wanted a number, given \"y\"" + remedy);
     EXPECT_EQ(complaint("a,b\nx,1\n\"never closed,2\ny,3\n"), ", line 3: a quotation mark is opened and never closed");
+    EXPECT_EQ(complaint("t,y\n0,\"1\n1,2\n"), ", line 2: a quotation mark is opened and never closed");
     EXPECT_EQ(complaint("a,b\n\"x\"y,1\n"), ", line 2: there is text after a closing quotation mark");
     EXPECT_EQ(complaint("y\n1\n" + std::string(60, 'z') + "\n"),
-              ", line 3, column y: wanted a number, given \"" + std::string(40, 'z') + "...\"");
+              ", line 3, column y: wanted a number, given \"" + std::string(40, 'z') + "...\"" + remedy);
 }
 
 TEST_F(csv_file, names_what_is_wrong_above_the_rows) {
     EXPECT_EQ(complaint(""), ": there is no header line with the names of the columns");
     EXPECT_EQ(complaint("# only: remarks\n"), ": there is no header line with the names of the columns");
     EXPECT_EQ(complaint("t,y\n\n"), ": there are no rows below the header line");
-    EXPECT_EQ(complaint("0,1\n1,2\n"), ", line 1: wanted a header line with the names of the columns, given numbers");
-    EXPECT_EQ(complaint("t,y,t\n1,2,3\n"), ", line 1: two columns have the name t");
-    EXPECT_EQ(complaint("t,,y\n1,2,3\n"), ", line 1: column 2 has no name");
     EXPECT_EQ(complaint("\n# Ts: fast\nt\n1\n"),
               ", line 2: the sampling time Ts must be a positive number of seconds, given \"fast\"");
     EXPECT_EQ(complaint("# Ts: -1\nt\n1\n"),
               ", line 1: the sampling time Ts must be a positive number of seconds, given \"-1\"");
     EXPECT_EQ(complaint("# unit z: m\nt,y\n1,2\n"),
               ": a unit is given for z, but there is no such column; the columns are t, y");
-    EXPECT_EQ(complaint("\xFF\xFEt\0,\0"), ": the text is in UTF-16; save it as UTF-8");
+    EXPECT_EQ(complaint(std::string("t,y\n1,\0\n", 8)),
+              ": it holds bytes that are no text; export the table as CSV in UTF-8");
+}
+
+/// What a table says: names, then the rows, one line each.
+std::string shown_table(const CsvTable& table) {
+    std::string text = fmt::format("{}", fmt::join(table.names, "|"));
+    const auto texts_of_first = table.texts.find(table.names.front());
+    const std::size_t rows = texts_of_first != table.texts.end()
+                                 ? texts_of_first->second.size()
+                                 : static_cast<std::size_t>(table.columns.front().size());
+    for (std::size_t i = 0; i < rows; ++i) {
+        text += '\n';
+        for (std::size_t j = 0; j < table.names.size(); ++j) {
+            const auto texts = table.texts.find(table.names[j]);
+            text += j > 0 ? "|" : "";
+            text += texts != table.texts.end() ? texts->second[i]
+                                               : fmt::format("{}", table.columns[j][static_cast<Index>(i)]);
+        }
+    }
+    return text;
+}
+
+// Every separator with every form of number that goes with it tells the same table.
+TEST_F(csv_file, finds_the_separator) {
+    const std::string wanted = "t|u|y\n0|-1|2.5\n0.1|1e-05|3\n0.2|3|-4.5";
+    for (const char* text :
+         {"t,u,y\n0,-1,2.5\n0.1,1e-5,3\n0.2,3,-4.5\n",          //
+          "t;u;y\n0;-1;2,5\n0,1;1e-5;3\n0,2;3;-4,5\n",          //
+          "t;u;y\n0;-1;2.5\n0.1;1e-5;3\n0.2;3;-4.5\n",          //
+          "t\tu\ty\n0\t-1\t2,5\n0,1\t1e-5\t3\n0,2\t3\t-4,5\n",  //
+          "t | u | y\n0 | -1 | 2.5\n0.1|1e-5|3\n0.2|3|-4.5",    //
+          "t u y\n0 -1 2.5\n0.1 1e-5 3\n0.2 3 -4.5\n",          //
+          "  t    u \t y  \r\n 0   -1   2,5 \r\n 0,1  1.0D-05 3\r\n\r\n 0,2\t3   -4,5\r\n",
+          "t, u, y\n0, -1, 2.5\n0.1, 1e-5, 3\n0.2, 3, -4.5\n",  //
+          "\"t\",\"u\",\"y\"\n\"0\",\"-1\",\"2,5\"\n\"0,1\",\"1e-5\",\"3\"\n\"0,2\",\"3\",\"-4,5\"\n",
+          "sep=;\nt;u;y\n0;-1;2,5\n0,1;1e-5;3\n0,2;3;-4,5\n",
+          "t,u,y,\n0,-1,2.5,\n0.1,1e-5,3,\n0.2,3,-4.5,\n",  // rows end in a separator
+          "t,u,y\n0,-1,2.5,\n0.1,1e-5,3,\n0.2,3,-4.5,\n"})
+        EXPECT_EQ(shown_table(read(text)), wanted) << text;
+    EXPECT_EQ(shown_table(read("y\n1,5\n2,5\n")), "y\n1.5\n2.5");
+    EXPECT_THAT(read("t;u\n0;1,5\n").notes, ElementsAre("numbers are written with a decimal comma, such as 1,5"));
+    EXPECT_THAT(read("t,u\n0,1.5\n").notes, testing::IsEmpty());
+}
+
+TEST_F(csv_file, passes_over_what_stands_around_a_table) {
+    const std::string wanted = "t|y\n0|1\n1|2";
+    for (const char* text : {"% made by hand\nt,y\n0,1\n# changed the probe\n1,2\n% end\n",
+                             "LabVIEW Measurement\nDate;2024/01/31\n\nt;y\n0;1\n1;2\n",
+                             "Model,TDS 210\nRecord Length,2500\nSample Interval,0.001\nt,y\n0,1\n1,2\n",
+                             "# t,y\n0,1\n1,2\n", "% t  y\n0 1\n1 2\n"})
+        EXPECT_EQ(shown_table(read(text)), wanted) << text;
+    EXPECT_THAT(read("A\nB\n\nt;y\n0;1\n1;2\n").notes,
+                ElementsAre("the table begins in line 4; 2 lines above it are passed over"));
+    EXPECT_THAT(read("# t,y\n0,1\n1,2\n").notes,
+                ElementsAre("the names of the columns are those of the comment above the numbers"));
+}
+
+TEST_F(csv_file, takes_missing_numbers_for_nan_and_says_so) {
+    const std::string wanted = "t|y\n0|nan\n1|2\n2|nan\n3|4";
+    for (const char* missing : {"", "NaN", "nan", "NA", "N/A", "#N/A", "null", "-", "\"\"", " "}) {
+        const CsvTable table = read(fmt::format("t,y\n0,{0}\n1,2\n2,{0}\n3,4\n", missing));
+        EXPECT_EQ(shown_table(table), wanted) << missing;
+        EXPECT_THAT(table.notes,
+                    ElementsAre("numbers are missing, NaN stands for them and fillmissing fills them: 2 of "
+                                "4 in y (first in line 2)"));
+    }
+    const CsvTable benchmark = read("u,y,Ts,\n0,1,4,\n1,2,,\n2,3,,\n");
+    EXPECT_EQ(benchmark.columns[2], (Vector{{4}}));
+    EXPECT_THAT(benchmark.notes, ElementsAre("the only number in column Ts, in its first row, is the sampling time"));
+    EXPECT_EQ(shown_table(read("y,t\n#N/A,0\n1,2\n")), "y|t\nnan|0\n1|2");
+    EXPECT_EQ(shown_table(read("name,score\nAnna,\nBob,3\n")), "name|score\nAnna|nan\nBob|3");
+}
+
+TEST_F(csv_file, gives_names_where_there_are_none) {
+    const CsvTable pandas = read(",t,y\n0,0,1\n1,0.1,2\n");
+    EXPECT_EQ(shown_table(pandas), "index|t|y\n0|0|1\n1|0.1|2");
+    EXPECT_THAT(pandas.notes, ElementsAre("the header has no name for it: column 1 is called index"));
+    EXPECT_EQ(shown_table(read("\"t\" \"y\"\n\"1\" 0 1\n\"2\" 0.1 2\n")), "index|t|y\n1|0|1\n2|0.1|2");  // as R does
+    EXPECT_EQ(shown_table(read("t,,y\n1,2,3\n")), "t|column_2|y\n1|2|3");
+    const CsvTable twice = read("t,y,y,y_2,y\n1,2,3,4,5\n");
+    EXPECT_THAT(twice.names, ElementsAre("t", "y", "y_3", "y_2", "y_4"));
+    EXPECT_THAT(twice.notes, ElementsAre("columns of equal names are numbered: y_3, y_4"));
+    const CsvTable bare = read("0 1\n1 2\n");
+    EXPECT_EQ(shown_table(bare), "c1|c2\n0|1\n1|2");
+    EXPECT_THAT(bare.notes, ElementsAre(HasSubstr("there is no line of names, so the columns are called c1, c2")));
+}
+
+TEST_F(csv_file, finds_units) {
+    const CsvTable row = read("t,u,y,label\ns,V,deg C,\n0,1,2,a\n1,2,3,b\n");
+    EXPECT_EQ(shown_table(row), "t|u|y|label\n0|1|2|a\n1|2|3|b");
+    EXPECT_EQ(row.units, (std::map<std::string, std::string>{{"t", "s"}, {"u", "V"}, {"y", "deg C"}}));
+    EXPECT_THAT(row.notes, ElementsAre("line 2 is taken for units: t in s, u in V, y in deg C"));
+    EXPECT_EQ(read("t\ty\n(ms)\t[m/s^2]\n0\t1\n").units.at("y"), "m/s^2");
+    const CsvTable scope = read("x-axis,1,2\nsecond,Volt,Volt\n-0.1,0.5,0.25\n0,0.6,0.3\n");
+    EXPECT_EQ(shown_table(scope), "x-axis|1|2\n-0.1|0.5|0.25\n0|0.6|0.3");
+    EXPECT_EQ(scope.units.at("x-axis"), "second");
+    const CsvTable header = read("time (s);u [V];y (filtered);z(2)\n0;1;2;3\n");
+    EXPECT_THAT(header.names, ElementsAre("time", "u", "y (filtered)", "z(2)"));
+    EXPECT_EQ(header.units, (std::map<std::string, std::string>{{"time", "s"}, {"u", "V"}}));
+    EXPECT_EQ(header.headers, (std::map<std::string, std::string>{{"time (s)", "time"}, {"u [V]", "u"}}));
+    EXPECT_THAT(header.notes, ElementsAre("units from the headers: time in s, u in V"));
+    EXPECT_THAT(read("y (V),y (m)\n0,1\n").names, ElementsAre("y (V)", "y (m)"));
+    EXPECT_EQ(read("# unit u (V): mV\nt,u (V)\n0,1\n").units.at("u"), "mV");
+}
+
+TEST_F(csv_file, reads_other_alphabets) {
+    const std::string wanted = "temps|Temp\u00E9rature\n0|20.5\n1|21";
+    EXPECT_EQ(shown_table(read("temps;Temp\u00E9rature (\u00B0C)\n0;20,5\n1;21\n")), wanted);
+    const CsvTable windows = read(
+        "temps;Temp\xE9rature (\xB0"
+        "C)\r\n0;20,5\r\n1;21\r\n");
+    EXPECT_EQ(shown_table(windows), wanted);
+    EXPECT_EQ(windows.units.at("Temp\u00E9rature"), "\u00B0C");
+    EXPECT_EQ(windows.notes.front(),
+              "the text is not UTF-8 and is read as Windows-1252, for example \"Temp\u00E9rature\"");
+    for (const bool big_endian : {false, true}) {
+        std::string utf16 = big_endian ? "\xFE\xFF" : "\xFF\xFE";
+        for (const char16_t c : std::u16string(u"temps;Temp\u00E9rature\n0;20,5\n1;21\n")) {
+            const char low = static_cast<char>(c & 0xFF), high = static_cast<char>(c >> 8);
+            utf16 += big_endian ? std::string{high, low} : std::string{low, high};
+        }
+        EXPECT_EQ(shown_table(read(utf16)), wanted);
+    }
+    EXPECT_EQ(shown_table(read("t,y\r0,1\r1,2\r")), "t|y\n0|1\n1|2");
+}
+
+TEST_F(csv_file, does_as_it_is_told) {
+    const auto with = [this](const std::string& text, const ImportOptions& options) {
+        write_file_atomically(file_, text);
+        return read_csv_file(file_, options);
+    };
+    EXPECT_EQ(shown_table(with("a,b\n5,6\nt,y\n0,1\n", {.skip = 2})), "t|y\n0|1");
+    EXPECT_THROW(with("t\n1\n", {.skip = 3}), EnvironmentError);
+    EXPECT_EQ(shown_table(with("0,1\n1,2\n", {.names = {"t", "y"}})), "t|y\n0|1\n1|2");
+    EXPECT_EQ(shown_table(with("a,b\n0,1\n", {.names = {"t", "y"}})), "t|y\n0|1");
+    EXPECT_THAT(with("0,1\n1,2\n", {.names = {"t", "y"}}).notes, testing::IsEmpty());
+    EXPECT_EQ(shown_table(with("a;1,2\nb;4,5\n", {.names = {"p", "q"}, .delimiter = ','})), "p|q\na;1|2\nb;4|5");
+    EXPECT_EQ(with("t,y (m)\n0,1\n", {.units = {{"y", "mm"}}}).units.at("y"), "mm");
+    EXPECT_THROW(with("t,y\n0,1\n", {.units = {{"z", "mm"}}}), EnvironmentError);
+    EXPECT_THROW(with("t,y\n0,1\n", {.names = {"t"}}), EnvironmentError);
 }
 
 TEST_F(csv_file, missing_file_is_named) {

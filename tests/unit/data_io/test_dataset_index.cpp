@@ -125,8 +125,10 @@ TEST_F(dataset_index, unknown_names_list_the_known_ones) {
     EXPECT_THAT(complaint("pendulum"), HasSubstr("\"pendulum\"; the data sets are heat_exchanger, step_response"));
     EXPECT_THAT(complaint("step_respose.csv"), HasSubstr("did you mean \"step_response\"?"));
     EXPECT_EQ(complaint("records/none.csv"), "there is no file " + (scripts_.path() / "records/none.csv").string());
-    write_file_atomically(scripts_.path() / "notes.txt", "x");
-    EXPECT_THAT(complaint("./notes.txt"), HasSubstr("is neither a .mat nor a .csv file"));
+    write_file_atomically(scripts_.path() / "notes.doc", "x");
+    for (const char* name : {"./notes.doc", "notes.doc"})
+        EXPECT_THAT(complaint(name),
+                    HasSubstr("notes.doc is of no kind that can be read: those are .mat, .xlsx, .csv,"));
     for (const char* name : {"", ".", "..", "not_a_set"}) EXPECT_NE(complaint(name), "no error") << name;
 }
 

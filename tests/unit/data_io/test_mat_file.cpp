@@ -228,7 +228,54 @@ TEST_F(mat_file, tells_where_a_table_stands) {
     const std::string table = element_5(6, std::string("\x11\0\0\0\0\0\0\0", 8)) + element_5(1, "weather") +
                               element_5(1, "MCOS") + element_5(1, "table") + numbers;
     write_file_atomically(file_, read_file(file_) + element_5(14, table));
-    EXPECT_THAT(complaint(), HasSubstr("variable number 2 (after a) is an object, a table or a string array"));
+    std::vector<std::string> left_out;
+    EXPECT_TRUE(equal(read_mat_file(file_, true, &left_out), one));
+    EXPECT_THAT(left_out, testing::ElementsAre(testing::StartsWith(
+                              "variable number 2 (after a) is an object, a table or a string array")));
+    // What follows it is read as well.
+    VariableTable last;
+    last["z"] = {Vector{{1, 2, 3}}};
+    const std::string begin = read_file(file_);
+    write(MAT_FT_MAT5, last);
+    write_file_atomically(file_, begin + read_file(file_).substr(128));
+    EXPECT_TRUE(equal(read_mat_file(file_, true, &left_out), {{"a", {1.0}}, {"z", {Vector{{1, 2, 3}}}}}));
+    EXPECT_EQ(left_out.size(), 1u);
+}
+
+// Oracle: the variables that were written; the one of three dimensions stands between them.
+TEST_F(mat_file, an_unreadable_variable_does_not_block_the_others) {
+    std::size_t size[3] = {1, 2, 2};
+    std::vector<double> numbers = {1, 2, 3, 4};
+    for (const mat_ft version : {MAT_FT_MAT5, MAT_FT_MAT73}) {
+        for (const auto compression : {MAT_COMPRESSION_NONE, MAT_COMPRESSION_ZLIB}) {
+            {
+                const MatFile mat(Mat_CreateVer(file_.c_str(), nullptr, version));
+                const MatVariable cube(
+                    Mat_VarCreate("b", MAT_C_DOUBLE, MAT_T_DOUBLE, 3, size, numbers.data(), MAT_F_DONT_COPY_DATA));
+                ASSERT_EQ(Mat_VarWrite(mat.get(), to_mat({Vector{{5, 6}}}, "a").get(), compression), 0);
+                ASSERT_EQ(Mat_VarWrite(mat.get(), cube.get(), compression), 0);
+                ASSERT_EQ(Mat_VarWrite(mat.get(), to_mat({7.0}, "c").get(), compression), 0);
+            }
+            for (const bool guarded : {true, false}) {
+                std::vector<std::string> left_out;
+                EXPECT_TRUE(equal(read_mat_file(file_, guarded, &left_out), {{"a", {Vector{{5, 6}}}}, {"c", {7.0}}}));
+                EXPECT_THAT(left_out, testing::ElementsAre("variable b has 3 dimensions; only vectors and matrices can "
+                                                           "be read"));
+            }
+        }
+    }
+}
+
+// Oracle: the file that the link leads to holds 41, 42, 43; tests/reference/data/README.md tells how both were made.
+TEST_F(mat_file, a_link_to_another_file_is_not_followed) {
+    const std::filesystem::path data = DYNLAB_SOURCE_DIR "/tests/reference/data";
+    std::filesystem::copy_file(data / "external_link.mat", file_);
+    std::filesystem::copy_file(data / "link_target.mat", folder_.path() / "outside.mat");
+    EXPECT_TRUE(equal(read_mat_file(folder_.path() / "outside.mat"), {{"y", {Vector{{41, 42, 43}}}}}));
+    std::vector<std::string> left_out;
+    const Vector numbers{{1, 2, 3}};
+    EXPECT_TRUE(equal(read_mat_file(file_, true, &left_out), {{"x", {numbers}}, {"z", {numbers}}}));
+    EXPECT_THAT(left_out, testing::ElementsAre("what lies in other files or is damaged cannot be read"));
 }
 
 TEST_F(mat_file, says_what_is_wrong_with_a_file) {

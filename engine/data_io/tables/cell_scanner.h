@@ -1,0 +1,53 @@
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace dynlab::inline data_io {
+
+/// Walks through the cells of a separated text: records of one line each, except that a cell in quotes may hold
+/// separators, line ends and doubled quotes (RFC 4180). Blank lines and lines that begin with # or % are passed over.
+/// The separator ' ' stands for any number of blanks and tabs, at the ends of a line too.
+class CellScanner {
+  public:
+    /// From the byte `at` of `text`, where line number `line` begins; both texts must live as long as this.
+    CellScanner(const std::filesystem::path& file, std::string_view text, char separator, std::size_t at,
+                std::size_t line)
+        : file_(file), text_(text), separator_(separator), at_(at), line_(line) {}
+
+    /// Goes to the next record; false at the end of the text. Call it when the record at hand has ended.
+    bool next_record();
+    /// Its next cell, without blanks around it; valid until the next call. There is at least one.
+    std::string_view next_cell();
+    bool record_ended() const { return record_ended_; }  ///< after its last cell
+    bool cell_was_quoted() const { return quoted_; }
+    std::size_t line() const { return record_line_; }                ///< on which the record at hand begins
+    std::size_t place() const { return record_at_; }                 ///< byte at which it begins
+    std::string_view last_comment() const { return last_comment_; }  ///< without its sign; empty when there was none
+
+    /// Throws EnvironmentError "FILE, line N: what".
+    [[noreturn]] void fail(const std::string& what) const;
+
+  private:
+    bool is_blank(char c) const { return c == ' ' || (c == '\t' && separator_ != '\t'); }
+    bool at_end() const { return at_ >= text_.size(); }
+    std::string_view next_quoted_cell();
+    void pass_cell_end();
+    bool at_separator() const;
+
+    const std::filesystem::path& file_;
+    std::string_view text_;
+    char separator_;
+    std::size_t at_, line_;
+    std::size_t record_at_ = 0, record_line_ = 1;
+    bool record_ended_ = false, quoted_ = false;
+    std::string unquoted_;
+    std::string_view last_comment_;
+};
+
+/// Whether a line, without blanks before it, is a comment: it begins with # or %, and not with a spreadsheet's error
+/// value such as #N/A.
+bool is_comment(std::string_view line);
+
+}  // namespace dynlab::inline data_io

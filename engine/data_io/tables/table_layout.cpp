@@ -1,0 +1,293 @@
+#include "data_io/tables/table_layout.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <span>
+
+#include "data_io/tables/cell_scanner.h"
+#include "data_io/tables/number_cell.h"
+#include "data_io/tables/unit_text.h"
+#include "platform/error.h"
+
+namespace dynlab::inline data_io {
+namespace {
+
+constexpr std::size_t kMostRecords = 300, kMostCells = 200000;  // of the sample
+
+struct TableRecord {
+    std::size_t at = 0, line = 1;
+    std::vector<std::string> cells;
+    std::vector<NumberStatus> kinds;
+};
+
+bool is_numeric(NumberStatus kind) {
+    return kind != NumberStatus::kMissing && kind != NumberStatus::kNotANumber;
+}
+
+/// The beginning of a text, cut into cells by one separator.
+struct TableSample {
+    char separator;
+    std::vector<TableRecord> records;
+    std::string last_comment;  ///< before the first record
+    std::size_t cells = 0;     ///< of most records in the last half
+
+    /// What speaks for this separator, 1 at most.
+    double score = 0;
+};
+
+NumberStatus kind_of(const CellScanner& scanner, std::string_view cell, char separator) {
+    double number = 0;
+    return parse_number(cell, separator != ',' || scanner.cell_was_quoted(), number);
+}
+
+/// Nothing when quotation marks show that the separator is another.
+std::optional<TableSample> sample_of(const std::filesystem::path& file, std::string_view text, std::size_t at,
+                                     std::size_t line, char separator) try {
+    TableSample sample{separator, {}, {}, 0, 0};
+    CellScanner scanner(file, text, separator, at, line);
+    std::size_t cells = 0;
+    while (sample.records.size() < kMostRecords && cells < kMostCells && scanner.next_record()) {
+        if (sample.records.empty()) sample.last_comment = scanner.last_comment();
+        TableRecord record{scanner.place(), scanner.line(), {}, {}};
+        do {
+            const std::string_view cell = scanner.next_cell();
+            record.kinds.push_back(kind_of(scanner, cell, separator));
+            record.cells.emplace_back(cell);
+        } while (!scanner.record_ended());
+        cells += record.cells.size();
+        sample.records.push_back(std::move(record));
+    }
+    return sample;
+} catch (const EnvironmentError&) {
+    return std::nullopt;
+}
+
+/// The records that are believed to be rows.
+std::span<const TableRecord> last_half(const TableSample& sample) {
+    return std::span(sample.records).subspan(sample.records.size() / 2);
+}
+
+/// Of most records; those of the last half count twice.
+std::size_t most_frequent_size(const TableSample& sample) {
+    std::map<std::size_t, int> times;
+    for (const TableRecord& record : sample.records) ++times[record.cells.size()];
+    for (const TableRecord& record : last_half(sample)) ++times[record.cells.size()];
+    std::size_t best = 0;
+    for (const auto& [size, count] : times)
+        if (best == 0 || count >= times[best]) best = size;
+    return best;
+}
+
+class LayoutFinder {
+  public:
+    LayoutFinder(const std::filesystem::path& file, const TableSample& sample, bool named)
+        : file_(file), sample_(sample), records_(sample.records), named_(named) {
+        layout_.separator = sample.separator;
+        layout_.cells = sample.cells;
+        look_at_columns();
+        find_names();
+    }
+
+    /// Whether the lines above the rows name the columns, or there are none.
+    bool is_complete() const { return header_ || first_row_ == 0 || named_; }
+
+    TableLayout layout() {
+        if (mismatch_) fail_mismatch();
+        TableLayout& layout = layout_;
+        const std::size_t first = header_ ? *header_ : first_row_;
+        if (header_) layout.names = records_[*header_].cells;
+        if (units_) {
+            layout.units = records_[*units_].cells;
+            layout.units_line = records_[*units_].line;
+        }
+        const std::size_t rows = header_ ? (units_ ? *units_ : *header_) + 1 : first_row_;
+        if (rows >= records_.size())
+            throw EnvironmentError(fmt::format("{}: there are no rows below the header line", file_.string()));
+        layout.rows_at = records_[rows].at, layout.rows_line = records_[rows].line;
+        layout.table_line = records_[first].line, layout.passed_over = first;
+        if (!header_ && first_row_ == 0) take_names_of_comment();
+        return std::move(layout);
+    }
+
+  private:
+    void look_at_columns() {
+        std::vector<std::size_t> numbers(sample_.cells), texts(sample_.cells);
+        bool last_is_empty = sample_.cells > 1;
+        for (const TableRecord& record : last_half(sample_)) {
+            if (record.cells.size() != sample_.cells) continue;
+            for (std::size_t j = 0; j < sample_.cells; ++j) {
+                numbers[j] += is_numeric(record.kinds[j]) || looks_grouped(record.cells[j]);
+                texts[j] += record.kinds[j] == NumberStatus::kNotANumber;
+            }
+            last_is_empty = last_is_empty && record.cells.back().empty();
+        }
+        layout_.empty_end = last_is_empty;
+        for (std::size_t j = 0; j < sample_.cells; ++j) layout_.is_text.push_back(numbers[j] < texts[j]);
+        if (layout_.empty_end) layout_.is_text.pop_back();
+    }
+
+    std::size_t columns() const { return layout_.is_text.size(); }
+
+    bool holds_number(const TableRecord& record) const { return any_numeric(record, is_numeric); }
+    bool holds_text(const TableRecord& record) const {
+        return any_numeric(record, [](NumberStatus kind) { return kind == NumberStatus::kNotANumber; });
+    }
+    /// Of the columns that hold numbers.
+    template <class Predicate>
+    bool any_numeric(const TableRecord& record, Predicate holds) const {
+        for (std::size_t j = 0; j < std::min(columns(), record.cells.size()); ++j)
+            if (!layout_.is_text[j] && holds(record.kinds[j])) return true;
+        return false;
+    }
+
+    /// Row numbers count on from row to row, so that their column needs no name.
+    bool first_column_counts() const {
+        const std::span<const TableRecord> rows = last_half(sample_);
+        double before = 0, number = 0;
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            if (parse_number(rows[i].cells.front(), false, number) != NumberStatus::kNumber) return false;
+            if (i > 0 && number != before + 1) return false;
+            before = number;
+        }
+        return rows.size() > 1;
+    }
+
+    /// Whether a record has a name for each column.
+    bool names_columns(const TableRecord& record) {
+        const std::size_t size = record.cells.size();
+        if (size == sample_.cells || (layout_.empty_end && size == columns())) return true;
+        const bool one_decimal = size == 1 && sample_.separator == ',';  // 1,5 below a single name
+        return size + 1 == columns() && !one_decimal && first_column_counts();
+    }
+
+    void find_names() {
+        const bool has_numbers =
+            std::find(layout_.is_text.begin(), layout_.is_text.end(), false) != layout_.is_text.end();
+        first_row_ = 0;
+        if (!has_numbers) {  // a table of texts: the first line of that length names them
+            while (first_row_ < records_.size() && !names_columns(records_[first_row_])) ++first_row_;
+            if (first_row_ < records_.size()) header_ = first_row_++;
+            return;
+        }
+        const auto is_row = [this](const TableRecord& record) {
+            return record.cells.size() == sample_.cells && holds_number(record) && !holds_text(record);
+        };
+        first_row_ =
+            static_cast<std::size_t>(std::find_if(records_.begin(), records_.end(), is_row) - records_.begin());
+        std::vector<std::size_t> wordy;  // records above that may hold names or units
+        for (std::size_t i = 0; i < first_row_; ++i)
+            if (!holds_number(records_[i]) && holds_text(records_[i]) && names_columns(records_[i])) wordy.push_back(i);
+        if (wordy.empty()) {
+            const TableRecord* above =
+                first_row_ > 0 && first_row_ < records_.size() ? &records_[first_row_ - 1] : nullptr;
+            mismatch_ = above != nullptr && above->cells.size() > 1 && !holds_number(*above) && !named_;
+            return;
+        }
+        header_ = wordy.back();
+        const bool two = wordy.size() > 1 && wordy[wordy.size() - 2] + 1 == *header_;
+        if ((two && holds_units(records_[*header_])) || stands_below_numbered_channels(*header_))
+            units_ = *header_, header_ = *header_ - 1;
+        layout_.numbered_rows = records_[*header_].cells.size() < columns();
+    }
+
+    static bool holds_units(const TableRecord& record) {
+        const auto [units, others] = units_and_others(record);
+        return units > 0 && units >= others;
+    }
+    static std::pair<std::size_t, std::size_t> units_and_others(const TableRecord& record) {
+        std::size_t units = 0, others = 0;
+        for (const std::string& cell : record.cells)
+            if (!cell.empty()) ++(is_unit(without_brackets(cell)) ? units : others);
+        return {units, others};
+    }
+    /// Oscilloscopes write: x-axis,1,2 and below it second,Volt,Volt.
+    bool stands_below_numbered_channels(std::size_t row) const {
+        const auto [units, others] = units_and_others(records_[row]);
+        if (row == 0 || units < 2 || others > 0) return false;
+        const TableRecord& above = records_[row - 1];
+        return above.cells.size() == records_[row].cells.size() && above.kinds.front() == NumberStatus::kNotANumber;
+    }
+
+    /// A comment right above the rows may hold the names.
+    void take_names_of_comment() {
+        const auto sample = sample_of(file_, sample_.last_comment, 0, layout_.rows_line - 1, sample_.separator);
+        if (!sample || sample->records.size() != 1 || sample_.last_comment.find(':') != std::string::npos) return;
+        const TableRecord& record = sample->records.front();
+        if (!holds_number(record) && holds_text(record) && record.cells.size() == columns()) {
+            layout_.names = record.cells;
+            layout_.named_by_comment = true;
+        }
+    }
+
+    [[noreturn]] void fail_mismatch() const {
+        const TableRecord& above = records_[first_row_ - 1];
+        throw EnvironmentError(fmt::format(
+            "{}, line {}: {} names, but the rows below have {} cells; where that line does not belong to the table, "
+            "write load(file, {{skip = {}}})",
+            file_.string(), above.line, above.cells.size(), columns(), above.line));
+    }
+
+    const std::filesystem::path& file_;
+    const TableSample& sample_;
+    const std::vector<TableRecord>& records_;
+    const bool named_;
+    TableLayout layout_;
+    std::size_t first_row_ = 0;
+    std::optional<std::size_t> header_, units_;
+    bool mismatch_ = false;
+};
+
+/// How much of the last half is numbers, in rows of equal length; less for one column and where names are missing.
+double score_of(const std::filesystem::path& file, const TableSample& sample) {
+    double good = 0;
+    for (const TableRecord& record : last_half(sample)) {
+        if (record.cells.size() != sample.cells) continue;
+        std::size_t numbers = 0;
+        for (const NumberStatus kind : record.kinds) numbers += kind != NumberStatus::kNotANumber;
+        good += 0.5 + 0.5 * static_cast<double>(numbers) / static_cast<double>(sample.cells);
+    }
+    good /= static_cast<double>(last_half(sample).size());
+    constexpr double kOneColumn = 0.45, kWithoutNames = 0.4;
+    if (sample.cells == 1) good *= kOneColumn;
+    return LayoutFinder(file, sample, false).is_complete() ? good : good * kWithoutNames;
+}
+
+/// Throws what is wrong with the quotation marks, or that there is no record.
+[[noreturn]] void walk_through(const std::filesystem::path& file, std::string_view text, std::size_t at,
+                               std::size_t line, char separator) {
+    CellScanner scanner(file, text, separator, at, line);
+    while (scanner.next_record()) {
+        do {
+            scanner.next_cell();
+        } while (!scanner.record_ended());
+    }
+    throw EnvironmentError(fmt::format("{}: there is no header line with the names of the columns", file.string()));
+}
+
+}  // namespace
+
+TableLayout find_layout(const std::filesystem::path& file, std::string_view text, std::size_t at, std::size_t line,
+                        const ImportOptions& options) {
+    std::optional<TableSample> best;
+    const std::string_view separators = options.delimiter ? std::string_view(&*options.delimiter, 1) : "\t;,| ";
+    for (const char separator : separators) {
+        std::optional<TableSample> sample = sample_of(file, text, at, line, separator);
+        if (!sample || sample->records.empty()) continue;
+        sample->cells = most_frequent_size(*sample);
+        sample->score = score_of(file, *sample);
+        if (!best || sample->score > best->score) best = std::move(sample);
+    }
+    if (!best) walk_through(file, text, at, line, separators.front());
+    // In a single column, a quotation mark that is never closed may hide the separator.
+    const std::string_view first_line = text.substr(at, text.find('\n', at) - at);
+    for (const char separator : separators)
+        if (best->cells == 1 && separator != ' ' && first_line.find(separator) != std::string_view::npos &&
+            !sample_of(file, text, at, line, separator))
+            walk_through(file, text, at, line, separator);
+    return LayoutFinder(file, *best, !options.names.empty()).layout();
+}
+
+}  // namespace dynlab::inline data_io

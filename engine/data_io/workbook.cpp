@@ -1,0 +1,273 @@
+#include "data_io/workbook.h"
+
+#include <archive.h>
+#include <archive_entry.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <memory>
+#include <pugixml.hpp>
+
+#include "data_io/values/cbor_values.h"
+#include "data_io/values/described.h"
+#include "platform/atomic_file.h"
+#include "platform/confinement.h"
+#include "platform/error.h"
+#include "platform/guarded_call.h"
+#include "platform/utf8_locale.h"
+
+namespace dynlab::inline data_io {
+
+template <Is<SheetText> T, class V>
+void describe(T& object, V& member) {
+    auto& [csv, sheets] = object;
+    member("csv", csv), member("sheets", sheets);
+}
+
+namespace {
+
+constexpr std::size_t kMostUnpacked = std::size_t{512} << 20, kMostText = std::size_t{512} << 20;
+constexpr int kMostParts = 10000;
+constexpr std::size_t kMostRows = 1048576, kMostSheetColumns = 16384;  // of the format
+
+[[noreturn]] void fail_workbook(const std::string& what) {
+    throw EnvironmentError(what);
+}
+
+/// The parts of the workbook that matter, by path.
+using WorkbookParts = std::map<std::string, std::string>;
+
+bool is_wanted(std::string_view path) {
+    return path.ends_with(".xml") || path.ends_with(".rels");
+}
+
+WorkbookParts unpacked(const std::string& bytes) {
+    const Utf8Locale names_are_utf8;
+    const std::unique_ptr<archive, int (*)(archive*)> zip(::archive_read_new(), ::archive_read_free);
+    if (!zip || ::archive_read_support_format_zip(zip.get()) != ARCHIVE_OK ||
+        ::archive_read_open_memory(zip.get(), bytes.data(), bytes.size()) != ARCHIVE_OK)
+        fail_workbook("is no workbook (.xlsx): it is no zip archive");
+    WorkbookParts parts;
+    std::size_t total = 0;
+    archive_entry* entry = nullptr;
+    int result = ARCHIVE_OK;
+    for (int count = 0; (result = ::archive_read_next_header(zip.get(), &entry)) == ARCHIVE_OK; ++count) {
+        if (count == kMostParts) fail_workbook(fmt::format("has more than {} parts", kMostParts));
+        const char* path = ::archive_entry_pathname(entry);
+        if (path == nullptr || !is_wanted(path)) continue;
+        std::string& part = parts[path];
+        part.clear();
+        char block[65536];
+        la_ssize_t size = 0;
+        while ((size = ::archive_read_data(zip.get(), block, sizeof block)) > 0) {
+            total += static_cast<std::size_t>(size);
+            if (total > kMostUnpacked) fail_workbook("unpacks to more than 512 MiB");
+            part.append(block, static_cast<std::size_t>(size));
+        }
+        if (size < 0) fail_workbook("is damaged: a part of it cannot be unpacked");
+    }
+    if (result != ARCHIVE_EOF && parts.empty()) fail_workbook("is no workbook (.xlsx): it is no zip archive");
+    if (result != ARCHIVE_EOF) fail_workbook("is damaged: it is cut off, or no zip archive throughout");
+    return parts;
+}
+
+std::string_view local_name(const char* name) {
+    const std::string_view whole = name;
+    return whole.substr(whole.find(':') == std::string_view::npos ? 0 : whole.find(':') + 1);
+}
+
+/// The first child of that name, whatever its namespace's prefix.
+pugi::xml_node child_of(const pugi::xml_node& node, std::string_view name) {
+    return node.find_child([name](const pugi::xml_node& child) { return local_name(child.name()) == name; });
+}
+
+std::string attribute_of(const pugi::xml_node& node, std::string_view name) {
+    return node.find_attribute([name](const pugi::xml_attribute& a) { return local_name(a.name()) == name; }).value();
+}
+
+/// pugixml knows XML's own five entities and character references; it reads no document type.
+pugi::xml_document parsed(const WorkbookParts& parts, const std::string& path) {
+    const auto part = parts.find(path);
+    if (part == parts.end()) fail_workbook(fmt::format("is no workbook, or damaged: it has no part {}", path));
+    pugi::xml_document document;
+    constexpr unsigned kOptions =
+        pugi::parse_cdata | pugi::parse_escapes | pugi::parse_eol | pugi::parse_ws_pcdata_single;
+    const auto result = document.load_buffer(part->second.data(), part->second.size(), kOptions);
+    if (!result)
+        fail_workbook(
+            fmt::format("is damaged: {} at byte {} of its part {}", result.description(), result.offset, path));
+    return document;
+}
+
+/// Path of a part that another one names: from the root, or beside it.
+std::string part_path(const std::string& target) {
+    if (target.starts_with("/")) return target.substr(1);
+    return "xl/" + target;
+}
+
+/// The text of a string item: its runs joined, phonetic hints left out.
+std::string item_text(const pugi::xml_node& item) {
+    std::string text;
+    for (const pugi::xml_node& child : item.children()) {
+        const std::string_view name = local_name(child.name());
+        if (name == "t") text += child.text().get();
+        if (name == "r") text += child_of(child, "t").text().get();
+    }
+    return text;
+}
+
+std::vector<std::string> shared_texts(const WorkbookParts& parts) {
+    std::vector<std::string> texts;
+    if (parts.count("xl/sharedStrings.xml") == 0) return texts;
+    const pugi::xml_document document = parsed(parts, "xl/sharedStrings.xml");
+    for (const pugi::xml_node& item : document.document_element().children())
+        if (local_name(item.name()) == "si") texts.push_back(item_text(item));
+    return texts;
+}
+
+std::string in_quotes(const std::string& text) {
+    std::string quoted = "\"";
+    for (const char c : text)
+        if (c == '"')
+            quoted += "\"\"";
+        else
+            quoted += c == '\n' || c == '\r' || c == '\0' ? ' ' : c;  // a row stays one line
+    return quoted + '"';
+}
+
+std::string number_or_text(const std::string& value) {
+    const bool plain = !value.empty() && value.find_first_not_of("0123456789+-.eE") == std::string::npos;
+    return plain || value.empty() ? value : in_quotes(value);
+}
+
+class SheetReader {
+  public:
+    explicit SheetReader(std::vector<std::string> texts) : texts_(std::move(texts)) {}
+
+    std::string csv(const pugi::xml_node& sheet_data) {
+        for (const pugi::xml_node& row : sheet_data.children())
+            if (local_name(row.name()) == "row") add_row(row);
+        std::size_t width = 0;
+        for (const auto& [number, cells] : rows_)
+            width = std::max(width, cells.empty() ? 0 : cells.rbegin()->first + 1);
+        if (width * rows_.size() > kMostText) fail_workbook("has a sheet of more than 512 MiB");
+        std::string text;
+        std::size_t line = 1;
+        for (const auto& [number, cells] : rows_) {
+            text.append(number - line, '\n');
+            line = number + 1;
+            for (std::size_t j = 0; j < width && !cells.empty(); ++j) {
+                const auto cell = cells.find(j);
+                if (cell != cells.end()) text += cell->second;
+                if (j + 1 < width) text += ',';
+            }
+            text += '\n';
+            if (text.size() > kMostText) fail_workbook("has a sheet of more than 512 MiB");
+        }
+        return text;
+    }
+
+  private:
+    void add_row(const pugi::xml_node& row) {
+        const std::string stated = attribute_of(row, "r");
+        const std::size_t before = rows_.empty() ? 0 : rows_.rbegin()->first;
+        const std::size_t number = stated.empty() ? before + 1 : whole_number(stated);
+        if (number <= before || number > kMostRows) fail_workbook("is damaged: its rows are not in order");
+        auto& cells = rows_[number];
+        std::size_t next = 0;
+        for (const pugi::xml_node& cell : row.children()) {
+            if (local_name(cell.name()) != "c") continue;
+            const std::string place = attribute_of(cell, "r");
+            const std::size_t column = place.empty() ? next : column_of(place);
+            if (column >= kMostSheetColumns) fail_workbook("is damaged: a cell lies beyond the last column");
+            std::string text = cell_text(cell);
+            if (!text.empty()) cells[column] = std::move(text);
+            next = column + 1;
+        }
+    }
+
+    static std::size_t whole_number(const std::string& text) {
+        std::size_t number = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+        if (error != std::errc() || end != text.data() + text.size())
+            fail_workbook(fmt::format("is damaged: wanted a whole number, given \"{}\"", text.substr(0, 20)));
+        return number;
+    }
+
+    /// 0 for A5, 26 for AA5.
+    static std::size_t column_of(const std::string& place) {
+        std::size_t column = 0;
+        for (const char c : place) {
+            if (c < 'A' || c > 'Z' || column > kMostSheetColumns) break;
+            column = column * 26 + static_cast<std::size_t>(c - 'A' + 1);
+        }
+        if (column == 0) fail_workbook(fmt::format("is damaged: \"{}\" is no cell", place.substr(0, 20)));
+        return column - 1;
+    }
+
+    std::string cell_text(const pugi::xml_node& cell) const {
+        const std::string type = attribute_of(cell, "t");
+        if (type == "inlineStr") return in_quotes(item_text(child_of(cell, "is")));
+        const std::string value = child_of(cell, "v").text().get();
+        if (type == "s") {
+            const std::size_t index = whole_number(value);
+            if (index >= texts_.size()) fail_workbook("is damaged: a cell has a text that is not there");
+            return texts_[index].empty() ? "" : in_quotes(texts_[index]);
+        }
+        if (type == "str" || type == "e" || type == "d") return value.empty() ? "" : in_quotes(value);
+        return number_or_text(value);
+    }
+
+    std::vector<std::string> texts_;
+    std::map<std::size_t, std::map<std::size_t, std::string>> rows_;  ///< by number, from 1; cells by column, from 0
+};
+
+SheetText sheet_of(const std::string& bytes, const std::string& wanted) {
+    const WorkbookParts parts = unpacked(bytes);
+    const pugi::xml_document workbook = parsed(parts, "xl/workbook.xml");
+    const pugi::xml_document relations = parsed(parts, "xl/_rels/workbook.xml.rels");
+    SheetText text;
+    std::string relation;
+    for (const pugi::xml_node& sheet : child_of(workbook.document_element(), "sheets").children()) {
+        text.sheets.push_back(attribute_of(sheet, "name"));
+        if (relation.empty() && (wanted.empty() || text.sheets.back() == wanted)) relation = attribute_of(sheet, "id");
+    }
+    if (relation.empty())
+        fail_workbook(fmt::format("has no sheet \"{}\"; it has {}", wanted, fmt::join(text.sheets, ", ")));
+    std::string path;
+    for (const pugi::xml_node& entry : relations.document_element().children())
+        if (attribute_of(entry, "Id") == relation) path = part_path(attribute_of(entry, "Target"));
+    const pugi::xml_document sheet = parsed(parts, path);
+    text.csv = SheetReader(shared_texts(parts)).csv(child_of(sheet.document_element(), "sheetData"));
+    return text;
+}
+
+}  // namespace
+
+SheetText read_sheet(const std::filesystem::path& file, const std::string& sheet) {
+    GuardLimits limits;
+    limits.timeout = std::chrono::seconds(20);
+    const std::string name = file.string();
+    const auto read = [&file, &sheet, &name] {
+        const std::string bytes = read_file(file);
+        if (!is_confined()) confine_to_memory();
+        try {
+            return cbor_of(sheet_of(bytes, sheet));
+        } catch (const EnvironmentError& error) {
+            throw EnvironmentError(fmt::format("{} {}", name, error.what()));
+        } catch (const std::bad_alloc&) {
+            throw EnvironmentError(name + " is damaged: reading it takes more than 2 GiB of memory");
+        }
+    };
+    const ChildResult result = run_guarded(read, limits);
+    if (result.timed_out)
+        throw EnvironmentError(fmt::format("{}: reading it takes more than {} s", name, limits.timeout.count() / 1000));
+    if (result.exit_code == 1 && !result.error_output.empty()) throw EnvironmentError(result.error_output);
+    if (result.exit_code != 0 || result.output_exceeded)
+        throw EnvironmentError(name + " is damaged: reading it ends in a crash");
+    return from_cbor<SheetText>(result.output);
+}
+
+}  // namespace dynlab::inline data_io

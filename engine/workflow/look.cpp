@@ -1,0 +1,271 @@
+#include "workflow/look.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "data_io/dataset_index.h"
+#include "figures/plots/id_plot.h"
+#include "platform/terminal/terminal_text.h"
+#include "platform/utf8.h"
+
+namespace dynlab::inline workflow {
+namespace {
+
+using TextRows = std::vector<std::vector<std::string>>;
+
+std::string short_number(double number) {
+    return std::isfinite(number) ? fmt::format("{:.6g}", number) : "";
+}
+
+/// Rows with their cells below each other.
+std::string aligned(const TextRows& rows) {
+    std::vector<std::size_t> widths;
+    for (const auto& row : rows) {
+        widths.resize(std::max(widths.size(), row.size()));
+        for (std::size_t j = 0; j < row.size(); ++j) widths[j] = std::max(widths[j], columns_of(row[j]));
+    }
+    std::string text;
+    for (const auto& row : rows) {
+        std::string line = " ";
+        for (std::size_t j = 0; j < row.size(); ++j)
+            line += " " + row[j] + std::string(widths[j] - columns_of(row[j]) + 1, ' ');
+        line.erase(line.find_last_not_of(' ') + 1);
+        text += line + '\n';
+    }
+    return text;
+}
+
+std::string counted_things(std::size_t number, const char* what) {
+    return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s");
+}
+
+/// A vector of the file, or a column of a matrix in it.
+struct LookedSignal {
+    std::string name, unit;
+    Vector numbers;
+};
+
+class DataLooker {
+  public:
+    explicit DataLooker(LoadedData data) : data_(std::move(data)) {
+        names_ = data_.columns;
+        for (const auto& [name, variable] : data_.variables)
+            if (std::find(names_.begin(), names_.end(), name) == names_.end()) names_.push_back(name);
+        for (const std::string& name : names_) collect(name, data_.variables.at(name));
+        find_length();
+        time_ = time_column(data_, samples_);
+    }
+
+    DataLook look() const {
+        DataLook shown;
+        shown.text = title() + notes() + columns() + sampling() + first_rows();
+        shown.text = terminal_text(shown.text);
+        shown.figure = figure();
+        return shown;
+    }
+
+  private:
+    std::string unit_of(const std::string& name) const {
+        const auto unit = data_.units.find(name);
+        return unit == data_.units.end() ? "" : unit->second;
+    }
+
+    void collect(const std::string& name, const Variable& variable) {
+        if (const auto* vector = std::get_if<Vector>(&variable.value))
+            signals_.push_back({name, unit_of(name), *vector});
+        if (const auto* matrix = std::get_if<Matrix>(&variable.value))
+            for (Index j = 0; j < matrix->cols() && j < kMostPanels; ++j)
+                signals_.push_back({fmt::format("{}{}", name, j + 1), "", matrix->col(j)});
+    }
+
+    /// Most signals are as long as the record.
+    void find_length() {
+        std::map<Index, int> times;
+        for (const LookedSignal& signal : signals_) ++times[signal.numbers.size()];
+        int most = 0;
+        for (const auto& [length, count] : times)
+            if (count >= most) most = count, samples_ = length;
+    }
+
+    std::string title() const {
+        const std::string file = data_.file.filename().string();
+        if (data_.columns.empty())
+            return fmt::format("{}: {}\n", file, counted_things(data_.variables.size(), "variable"));
+        return fmt::format("{}: a table of {} and {}\n", file, counted_things(data_.columns.size(), "column"),
+                           counted_things(static_cast<std::size_t>(data_.rows), "row"));
+    }
+
+    std::string notes() const {
+        std::string text;
+        for (const std::string& note : data_.notes) text += fmt::format("- {}\n", note);
+        return text;
+    }
+
+    std::string columns() const {
+        TextRows rows = {
+            {data_.columns.empty() ? "variable" : "column", "unit", "holds", "missing", "smallest", "largest", "mean"}};
+        for (const std::string& name : names_) add_rows(rows, name, data_.variables.at(name));
+        return "\n" + aligned(rows);
+    }
+
+    void add_rows(TextRows& rows, const std::string& name, const Variable& variable) const {
+        rows.push_back(row_of(name, variable));
+        if (const auto* table = std::get_if<std::shared_ptr<VariableTable>>(&variable.value))
+            for (const auto& [field, value] : **table) add_rows(rows, name + "." + field, value);
+    }
+
+    std::vector<std::string> row_of(const std::string& name, const Variable& variable) const {
+        std::vector<std::string> row = {name, unit_of(name)};
+        if (const auto* number = std::get_if<double>(&variable.value)) {
+            row.push_back("the number " + short_number(*number));
+        } else if (const auto* vector = std::get_if<Vector>(&variable.value)) {
+            row.push_back(fmt::format("{} numbers", vector->size()));
+            add_range(row, *vector);
+        } else if (const auto* matrix = std::get_if<Matrix>(&variable.value)) {
+            row.push_back(fmt::format("{} x {} numbers", matrix->rows(), matrix->cols()));
+            add_range(row, matrix->reshaped());
+        } else if (const auto* list = std::get_if<std::shared_ptr<VariableList>>(&variable.value)) {
+            row.push_back(fmt::format("{} {}", (*list)->size(), data_.columns.empty() ? "entries" : "texts"));
+        } else if (std::holds_alternative<std::shared_ptr<VariableTable>>(variable.value)) {
+            row.emplace_back("a struct");
+        } else if (const auto* text = std::get_if<std::string>(&variable.value)) {
+            row.push_back(fmt::format("the text \"{}\"", *text));
+        } else {
+            row.emplace_back(std::holds_alternative<bool>(variable.value) ? "true or false" : "complex numbers");
+        }
+        return row;
+    }
+
+    static void add_range(std::vector<std::string>& row, const Vector& numbers) {
+        double least = INFINITY, most = -INFINITY, sum = 0;
+        Index count = 0;
+        for (const double number : numbers) {
+            if (std::isnan(number)) continue;
+            least = std::min(least, number), most = std::max(most, number), sum += number, ++count;
+        }
+        const Index missing = numbers.size() - count;
+        row.push_back(missing > 0 ? fmt::format("{}", missing) : "");
+        if (count > 0)
+            row.insert(row.end(),
+                       {short_number(least), short_number(most), short_number(sum / static_cast<double>(count))});
+    }
+
+    const Vector& instants() const { return std::get<Vector>(data_.variables.at(time_->name).value); }
+
+    std::string sampling() const {
+        const auto stated = data_.variables.find("Ts");
+        const double* Ts = stated == data_.variables.end() ? nullptr : std::get_if<double>(&stated->second.value);
+        std::string text =
+            Ts == nullptr ? "" : fmt::format("\nsampling time: {} s, as the file states it\n", short_number(*Ts));
+        if (signals_.empty()) return text;
+        if (!time_ || samples_ < 2)
+            return Ts != nullptr ? text
+                                 : "\nsampling time: unknown; no column is called t or time or has a unit of time\n";
+        const Vector& t = instants();
+        const InstantSpacing spacing = spacing_of(t);
+        if (spacing.disorder)
+            return text + fmt::format("\ntime: column {} does not increase: sample {} is {} and the next {}\n",
+                                      time_->name, *spacing.disorder + 1, t[*spacing.disorder],
+                                      t[*spacing.disorder + 1]);
+        const auto seconds = [this](double value) { return short_number(value * time_->seconds) + " s"; };
+        text += fmt::format("\ntime: column {}, from {} to {}, {} {}\n", time_->name, seconds(t[0]),
+                            seconds(t[samples_ - 1]), spacing.even ? "every" : "in uneven steps, median",
+                            seconds(spacing.step));
+        constexpr std::size_t kMostGaps = 5;
+        if (!spacing.gaps.empty()) text += fmt::format("gaps: {}", spacing.gaps.size());
+        for (std::size_t i = 0; i < std::min(kMostGaps, spacing.gaps.size()); ++i) {
+            const Index at = spacing.gaps[i];
+            text += fmt::format("{} {} after {} s", i == 0 ? "," : ";", seconds(t[at + 1] - t[at]),
+                                short_number(t[at] * time_->seconds));
+        }
+        if (spacing.gaps.size() > kMostGaps) text += "; ...";
+        return spacing.gaps.empty() ? text : text + "\n";
+    }
+
+    std::string first_rows() const {
+        constexpr std::size_t kRows = 5, kMostColumns = 10;
+        if (data_.columns.empty()) return "";
+        TextRows table(1 + std::min(kRows, static_cast<std::size_t>(data_.rows)));
+        for (std::size_t j = 0; j < std::min(kMostColumns, data_.columns.size()); ++j) {
+            const std::string& name = data_.columns[j];
+            const Variable& variable = data_.variables.at(name);
+            const auto* numbers = std::get_if<Vector>(&variable.value);
+            table[0].push_back(name);
+            for (std::size_t i = 1; i < table.size(); ++i) {
+                if (numbers != nullptr)
+                    table[i].push_back(fmt::format("{:.10g}", (*numbers)[static_cast<Index>(i - 1)]));
+                else if (const auto* texts = std::get_if<std::shared_ptr<VariableList>>(&variable.value))
+                    table[i].push_back(std::get<std::string>((*texts)->at(i - 1).value));
+                else
+                    table[i].push_back(i == 1 ? short_number(std::get<double>(variable.value)) : "");
+            }
+        }
+        if (data_.columns.size() > kMostColumns)
+            for (auto& row : table) row.emplace_back("...");
+        return "\nfirst rows:\n" + aligned(table);
+    }
+
+    /// Long records are drawn by the least and the largest of each of many short stretches.
+    static Curve thinned(const Vector& x, const Vector& y) {
+        constexpr Index kMostPoints = 4000;
+        Curve curve;
+        if (y.size() <= kMostPoints) {
+            curve.x = x, curve.y = y;
+            return curve;
+        }
+        std::vector<double> xs, ys;
+        for (Index k = 0; k < kMostPoints / 2; ++k) {
+            const Index begin = k * y.size() / (kMostPoints / 2), end = (k + 1) * y.size() / (kMostPoints / 2);
+            Index least = begin, most = begin;
+            for (Index i = begin; i < end; ++i) {
+                if (!(y[i] >= y[least])) least = i;
+                if (!(y[i] <= y[most])) most = i;
+            }
+            for (const Index i : {std::min(least, most), std::max(least, most)}) xs.push_back(x[i]), ys.push_back(y[i]);
+        }
+        curve.x = Eigen::Map<const Vector>(xs.data(), static_cast<Index>(xs.size()));
+        curve.y = Eigen::Map<const Vector>(ys.data(), static_cast<Index>(ys.size()));
+        return curve;
+    }
+
+    std::optional<Figure> figure() const {
+        if (samples_ < 2) return std::nullopt;
+        const bool timed = time_ && !spacing_of(instants()).disorder;
+        const Vector x = timed ? Vector(instants() * time_->seconds)
+                               : Vector(Vector::LinSpaced(samples_, 1, static_cast<double>(samples_)));
+        Figure figure;
+        for (const LookedSignal& signal : signals_) {
+            const bool drawable = signal.numbers.size() == samples_ && signal.numbers.array().isFinite().any();
+            if (!drawable || (timed && signal.name == time_->name)) continue;
+            Panel panel;
+            panel.y_label = axis_label(signal.name, signal.unit);
+            panel.legend = LegendPlace::kNone;
+            panel.x_range = {x[0], x[samples_ - 1]};
+            panel.curves.push_back(thinned(x, signal.numbers));
+            figure.panels.push_back(std::move(panel));
+            if (figure.panels.size() == kMostPanels) break;
+        }
+        if (figure.panels.empty()) return std::nullopt;
+        figure.rows = static_cast<int>(figure.panels.size());
+        figure.panels.back().x_label = timed ? axis_label(time_->name, "s") : "sample";
+        return figure;
+    }
+
+    static constexpr Index kMostPanels = 8;
+    LoadedData data_;
+    std::vector<std::string> names_;  ///< in the file's order, or alphabetically
+    std::vector<LookedSignal> signals_;
+    Index samples_ = 0;
+    std::optional<TimeColumn> time_;
+};
+
+}  // namespace
+
+DataLook look_at_data(const std::string& name, const ImportOptions& options) {
+    return DataLooker(load_data(name, ".", false, options)).look();
+}
+
+}  // namespace dynlab::inline workflow

@@ -1,0 +1,19 @@
+#pragma once
+#include <optional>
+#include <string>
+
+#include "data_io/tables/import_options.h"
+#include "figures/figure.h"
+
+namespace dynlab::inline workflow {
+
+/// What `dynlab look` shows of a data file.
+struct DataLook {
+    std::string text;              ///< what was read: notes, columns with units and ranges, sampling, gaps, first rows
+    std::optional<Figure> figure;  ///< the signals over time (over the samples where it is unknown); at most eight
+};
+
+/// `name`: a data file or a data set. Throws EnvironmentError as load_data().
+DataLook look_at_data(const std::string& name, const ImportOptions& options);
+
+}  // namespace dynlab::inline workflow
