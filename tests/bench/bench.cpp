@@ -77,7 +77,8 @@ int main(int argc, char** argv) {
     dynlab::keep_freed_memory();  // as the program does
     const std::vector<std::pair<std::string, void (*)(Report&)>> groups{
         {"numerics", measure_numerics}, {"estimators", measure_estimators}, {"program", measure_program},
-        {"grading", measure_grading},   {"course", measure_course},         {"lua", measure_lua}, {"searches", measure_searches}};
+        {"grading", measure_grading},   {"course", measure_course},         {"lua", measure_lua},
+        {"searches", measure_searches}};
     const std::vector<std::string> named(argv + 1, argv + argc);
     for (const std::string& name : named) {
         if (std::any_of(groups.begin(), groups.end(), [&](const auto& group) { return group.first == name; })) continue;

@@ -55,8 +55,8 @@ void count_unsolved(const char* method, int systems, Index longest, bool irregul
         }
         if (ratio <= kSolved) return;
         ++count.failed;
-        std::printf("%s: system %u (%d poles, %d zeros%s, %td samples): loss %.4g of the true system's %s\n", method, seed,
-                    one.poles, one.zeros, one.delayed ? ", a delay" : "", one.data.sample_count(), ratio,
+        std::printf("%s: system %u (%d poles, %d zeros%s, %td samples): loss %.4g of the true system's %s\n", method,
+                    seed, one.poles, one.zeros, one.delayed ? ", a delay" : "", one.data.sample_count(), ratio,
                     failure.c_str());
     });
 }

@@ -84,11 +84,14 @@ TEST(script_estimators, known_parameters_stay_as_they_are) {  // oracle: the sys
 }
 
 TEST(script_estimators, each_output_has_orders_of_its_own) {  // oracle: each output by itself
-    EXPECT_EQ(printed(kDelayed +
-                      "local two = iddata(matrix{data.y, cumsum(data.u)*0 + lsim(tf({1, 1}, {1, 2, 4, 2}), u, 0.05)}, u, 0.05)\n"
-                      "local G = srivc(two, {{1, 2}, {2, 3}, {6, 0}})\n"
-                      "print(same(G.channels[1][1].num, srivc(data, {1, 2, 6}).num), #G.channels[2][1].den, #G.channels[2][1].num)"),
-              "true\t4\t2\n");
+    EXPECT_EQ(
+        printed(
+            kDelayed +
+            "local two = iddata(matrix{data.y, cumsum(data.u)*0 + lsim(tf({1, 1}, {1, 2, 4, 2}), u, 0.05)}, u, 0.05)\n"
+            "local G = srivc(two, {{1, 2}, {2, 3}, {6, 0}})\n"
+            "print(same(G.channels[1][1].num, srivc(data, {1, 2, 6}).num), #G.channels[2][1].den, "
+            "#G.channels[2][1].num)"),
+        "true\t4\t2\n");
 }
 
 }  // namespace test_script_estimators

@@ -114,8 +114,7 @@ inline SearchCase search_case(std::uint32_t seed, Index most = 20'000, bool irre
     constexpr Index kLengths[] = {200, 500, 1000, 2000, 5000, 20'000};
     const Index N = std::min(most, kLengths[chance.below(6)]);
     made.delayed = chance.below(3) > 0;
-    if (made.delayed)
-        G = G.with_delay(std::min(chance.log_between(0.3, 30) * Ts, 0.15 * Ts * static_cast<double>(N)));
+    if (made.delayed) G = G.with_delay(std::min(chance.log_between(0.3, 30) * Ts, 0.15 * Ts * static_cast<double>(N)));
     made.G = G;
     const Vector u = search_input(chance, N, Ts);
     Vector t(N);

@@ -170,7 +170,8 @@ void TransferOutput::leave_out(double seconds) {
     for (Record& record : experiments_) {
         const Index N = record.y.rows();
         record.silent = 0;
-        while (record.silent < N && (record.t.size() > 0 ? record.t[record.silent] : static_cast<double>(record.silent)) < units)
+        while (record.silent < N &&
+               (record.t.size() > 0 ? record.t[record.silent] : static_cast<double>(record.silent)) < units)
             ++record.silent;
     }
 }

@@ -80,10 +80,10 @@ class TransferOutput : public OutputErrorModel {
 
   private:
     struct Record {
-        Matrix u, y;     // the inputs counted from where they rest
-        Vector resting;  // first inputs, or zeros
-        Vector t;        // in time units from the first on; empty with regular sampling
-        Index row = 0;   // the first of its stacked rows
+        Matrix u, y;       // the inputs counted from where they rest
+        Vector resting;    // first inputs, or zeros
+        Vector t;          // in time units from the first on; empty with regular sampling
+        Index row = 0;     // the first of its stacked rows
         Index silent = 0;  // of each output, at the beginning
 
         Sampling sampling() const;  // in time units

@@ -265,7 +265,8 @@ Fit hammerstein(const IdData& data, const TransferStructure& structure, const Ha
     const IdData hats = expanded(data, characteristic.breakpoints);
     TransferStructure channels = TransferStructure::grid(1, at.K, Denominators::kPerOutput, structure.poles,
                                                          {structure.channels[0].zeros}, {delay});
-    const Fit start = search_transfer("hammerstein", hats, channels, options, {channels_start(hats, channels, options), {}});
+    const Fit start =
+        search_transfer("hammerstein", hats, channels, options, {channels_start(hats, channels, options), {}});
     channels.free_delays = structure.free_delays;
     const DelayRange range = structure.free_delays ? delay_range(data, options) : DelayRange{};
     const TransferOutput output(channels, {options.initial_state, false}, hats, range.least, range.largest);

@@ -250,7 +250,8 @@ Vector with_delays(const TransferStructure& free, const TransferStructure& at, c
         for (Index input = 0; input < free.inputs; ++input) {
             const TransferChannel& channel = at.channel(output, input);
             const Index n = at.poles[static_cast<std::size_t>(channel.denominator)];
-            all.segment(free.denominator_start(channel.denominator), n) = theta.segment(at.denominator_start(channel.denominator), n);
+            all.segment(free.denominator_start(channel.denominator), n) =
+                theta.segment(at.denominator_start(channel.denominator), n);
             all.segment(free.numerator_start(output, input), channel.zeros + 1) =
                 theta.segment(at.numerator_start(output, input), channel.zeros + 1);
             all[free.delay_index(output, input)] = channel.delay;

@@ -50,7 +50,7 @@ struct FitOptions {
     std::optional<bool> stable;
     std::map<std::string, double> fixed;  ///< searches: parameters that are not estimated, by name, in seconds
     Vector output_weights;                ///< of each output's errors; by their standard deviations when empty
-    std::function<bool()> cancel;  ///< asked before every iteration
+    std::function<bool()> cancel;         ///< asked before every iteration
 
     /// Throws InvalidArgument naming the option.
     void validate() const;

@@ -94,7 +94,8 @@ class Search {
     void hold_at_bounds() {
         held_.assign(static_cast<std::size_t>(theta_.size()), false);
         for (Index i = 0; i < theta_.size(); ++i) {
-            const bool outwards = model_.lower()[i] == model_.upper()[i] || (theta_[i] <= model_.lower()[i] && descent_[i] < 0) ||
+            const bool outwards = model_.lower()[i] == model_.upper()[i] ||
+                                  (theta_[i] <= model_.lower()[i] && descent_[i] < 0) ||
                                   (theta_[i] >= model_.upper()[i] && descent_[i] > 0);
             held_[static_cast<std::size_t>(i)] = outwards;
         }

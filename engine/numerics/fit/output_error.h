@@ -10,13 +10,13 @@ namespace dynlab::inline numerics {
 
 /// Minimises |y - output(theta)|^2 within the bounds by damped Gauss-Newton (Levenberg-Marquardt with the columns of
 /// the sensitivities scaled to norm one, More 1978); a parameter at a bound is held while the descent direction
-/// points outwards or both bounds are equal, and steps are cut back at the bounds. It has converged when every parameter changes by
-/// at most tolerance (|theta_i| + |y - mean(y)|/|J_i|), where the second term is the change that would move the output
-/// by as much as it varies: it takes over for parameters near zero. Of the options max_iterations, tolerance and cancel
-/// count. Gives theta, covariance (zero for parameters held at a bound), noise_variance (sum of squares/(N - d), d the
-/// parameters not held), loss, condition_number, at_bound, termination and trace of a Fit, in the model's own
-/// parameters. Throws InvalidArgument for bad options, when sizes do not fit or there are no more samples than
-/// parameters.
+/// points outwards or both bounds are equal, and steps are cut back at the bounds. It has converged when every
+/// parameter changes by at most tolerance (|theta_i| + |y - mean(y)|/|J_i|), where the second term is the change that
+/// would move the output by as much as it varies: it takes over for parameters near zero. Of the options
+/// max_iterations, tolerance and cancel count. Gives theta, covariance (zero for parameters held at a bound),
+/// noise_variance (sum of squares/(N - d), d the parameters not held), loss, condition_number, at_bound, termination
+/// and trace of a Fit, in the model's own parameters. Throws InvalidArgument for bad options, when sizes do not fit or
+/// there are no more samples than parameters.
 Fit minimise_output_error(const OutputErrorModel& model, const VectorView& y, const Vector& start,
                           const FitOptions& options = {});
 

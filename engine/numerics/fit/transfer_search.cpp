@@ -28,9 +28,9 @@ constexpr double kClearly = 1.02;          // times the loss of an unstable mode
 constexpr int kRoughIterations = 15;
 constexpr double kRoughTolerance = 1e-3;
 constexpr int kLastIterations = 450;    // of a search that did not settle before
-constexpr double kMayStillWin = 1.1;   // of the smallest loss after so much
-constexpr double kSameSolution = 0.01; // of every parameter
-constexpr std::size_t kFollowed = 3;   // to the end
+constexpr double kMayStillWin = 1.1;    // of the smallest loss after so much
+constexpr double kSameSolution = 0.01;  // of every parameter
+constexpr std::size_t kFollowed = 3;    // to the end
 
 FitOptions rough(const FitOptions& options) {
     return options.limited(std::min(kRoughIterations, options.max_iterations),
@@ -84,7 +84,8 @@ class NestedFits {
     Fit best(const TransferStructure& structure, std::vector<Vector> starts) const {
         if (condition_.state == InitialState::kEstimate)
             starts.push_back(
-                refine_from(record_, structure, {InitialState::kZero, condition_.offset}, starts, rough(options_)).theta);
+                refine_from(record_, structure, {InitialState::kZero, condition_.offset}, starts, rough(options_))
+                    .theta);
         return refine_from(record_, structure, condition_, starts, options_);
     }
 
@@ -135,7 +136,8 @@ Vector start_at_delays(const IdData& data, const TransferStructure& structure, c
     TransferStructure at = with_fixed_delays(structure);
     for (std::size_t c = 0; c < at.channels.size(); ++c) at.channels[c].delay = delays[c];
     const Vector start = start_from_rest(data, at, options);
-    return with_delays(structure, at, refine_output_error(data, at, {InitialState::kZero, false}, start, options).theta);
+    return with_delays(structure, at,
+                       refine_output_error(data, at, {InitialState::kZero, false}, start, options).theta);
 }
 
 void check_search(const TransferStructure& structure, const FitOptions& options) {

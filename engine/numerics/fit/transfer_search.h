@@ -9,7 +9,7 @@ namespace dynlab::inline numerics {
 struct SearchAids {
     /// theta where the search begins, with the delays where they are free; found unless given.
     Vector start = {};
-    std::vector<double> delays = {};  ///< s, of each channel: where the search for free ones begins
+    std::vector<double> delays = {};      ///< s, of each channel: where the search for free ones begins
     std::vector<const Fit*> poorer = {};  ///< of poorer structures under the same options; they are not fitted again
 };
 

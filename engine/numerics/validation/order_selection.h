@@ -47,9 +47,9 @@ struct OrderSelectionOptions {
     std::function<bool()> cancel = {};                    ///< asked before every candidate, by one thread at a time
 };
 
-/// All structures with poles and zeros from .. to, fewer zeros than poles or with `feedthrough` as many, and each of the
-/// delays (s); with `free_delay` the delay is estimated from FitOptions' least_delay to largest_delay instead. Throws InvalidArgument for empty or absurd
-/// ranges.
+/// All structures with poles and zeros from .. to, fewer zeros than poles or with `feedthrough` as many, and each of
+/// the delays (s); with `free_delay` the delay is estimated from FitOptions' least_delay to largest_delay instead.
+/// Throws InvalidArgument for empty or absurd ranges.
 std::vector<TransferStructure> order_grid(std::pair<int, int> poles, std::pair<int, int> zeros,
                                           const std::vector<double>& delays, bool free_delay = false,
                                           bool feedthrough = false);

@@ -7,6 +7,7 @@
 #include "numerics/error.h"
 #include "numerics/fit/arma_noise.h"
 #include "numerics/fit/discrete_fit.h"
+#include "numerics/fit/operating_points.h"
 #include "numerics/fit/prediction_model.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/number_text.h"
@@ -257,11 +258,11 @@ OrderedParameters ordered_parameters(const PolynomialModel& model) {
     result.theta.resize(orders.parameter_count());
     result.theta.head(orders.na) = model.A.tail(orders.na);
     for (std::size_t i = 0; i < model.B.size(); ++i) {
-        result.theta.segment(orders.f_place(i), orders.nf[i]) = model.F[i].tail(orders.nf[i]);
-        result.theta.segment(orders.b_place(i), orders.nb[i]) = model.B[i].tail(orders.nb[i]);
+        result.theta.segment(orders.f_start(i), orders.nf[i]) = model.F[i].tail(orders.nf[i]);
+        result.theta.segment(orders.b_start(i), orders.nb[i]) = model.B[i].tail(orders.nb[i]);
     }
-    result.theta.segment(orders.c_place(), orders.nc) = model.C.tail(orders.nc);
-    result.theta.segment(orders.d_place(), orders.nd) = model.D.tail(orders.nd);
+    result.theta.segment(orders.c_start(), orders.nc) = model.C.tail(orders.nc);
+    result.theta.segment(orders.d_start(), orders.nd) = model.D.tail(orders.nd);
     return result;
 }
 

@@ -73,7 +73,7 @@ class Options {
     std::string text(const char* name, const std::string& fallback) const;
     std::vector<std::string> texts(const char* name) const;  ///< a text or a list of texts; empty when absent
     VectorMap vector(const char* name) const;                ///< throws when absent
-    std::map<std::string, double> numbers_by_name(const char* name) const;  ///< {a1 = 2}; empty when absent
+    std::map<std::string, double> numbers_by_name(const char* name) const;   ///< {a1 = 2}; empty when absent
     std::optional<std::pair<double, double>> range(const char* name) const;  ///< {low, high}
     /// Place of the text among `choices`; throws for any other text, naming them.
     std::size_t choice(const char* name, std::initializer_list<const char*> choices, std::size_t fallback) const;

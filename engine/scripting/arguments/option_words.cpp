@@ -9,14 +9,21 @@ namespace {
 
 using OptionWord = std::pair<std::string_view, std::string_view>;
 constexpr std::array kOptionWords = {
-    OptionWord{"initial_state", "InitialState"}, OptionWord{"offset", "Offset"},
-    OptionWord{"least_delay", "TdMin"},          OptionWord{"largest_delay", "TdMax"},
-    OptionWord{"delay_count", "NumTd"},          OptionWord{"delay", "IODelay"},
-    OptionWord{"max_iterations", "MaxIter"},     OptionWord{"tolerance", "Tol"},
-    OptionWord{"stable", "Stable"},              OptionWord{"fixed", "Fixed"},
+    OptionWord{"initial_state", "InitialState"},
+    OptionWord{"offset", "Offset"},
+    OptionWord{"least_delay", "TdMin"},
+    OptionWord{"largest_delay", "TdMax"},
+    OptionWord{"delay_count", "NumTd"},
+    OptionWord{"delay", "IODelay"},
+    OptionWord{"max_iterations", "MaxIter"},
+    OptionWord{"tolerance", "Tol"},
+    OptionWord{"stable", "Stable"},
+    OptionWord{"fixed", "Fixed"},
     OptionWord{"output_weights", "OutputWeights"},
-    OptionWord{"integration", "Integration"},    OptionWord{"bins", "Bins"},
-    OptionWord{"breakpoints", "Breakpoints"},    OptionWord{"block_rows", "BlockRows"},
+    OptionWord{"integration", "Integration"},
+    OptionWord{"bins", "Bins"},
+    OptionWord{"breakpoints", "Breakpoints"},
+    OptionWord{"block_rows", "BlockRows"},
     OptionWord{"weighting", "Weighting"},
 };
 

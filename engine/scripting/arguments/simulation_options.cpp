@@ -36,7 +36,7 @@ void read_steps_as_option(const Call& call, int index) {
     if (call.type(index) != LUA_TNUMBER) return;
     lua_State* L = call.state();
     lua_createtable(L, 0, 1);
-    set_number(L, "k", call.number(index, "k"));
+    set_field(call, "k", call.number(index, "k"));
     lua_replace(L, index);
 }
 

@@ -113,16 +113,16 @@ StartedStructure started_structure(const Call& call, const Options& options, con
     }
     for (const char* name : {"IODelay", "Td0"})
         if (options.has(name))
-            throw InvalidArgument(fmt::format("option '{}' does not go with a start model: it has its own delay", name));
+            throw InvalidArgument(
+                fmt::format("option '{}' does not go with a start model: it has its own delay", name));
     SearchAids aids;
     const auto outputs = static_cast<Index>(object_argument<Model>(call, 2, "start model").outputs);
-    const auto structure =
-        TransferStructure::of_models(channels_argument(call, 2, "start model"), outputs, aids.start);
+    const auto structure = TransferStructure::of_models(channels_argument(call, 2, "start model"), outputs, aids.start);
     return {[structure](const IdData& data) {
                 if (data.input_count() != structure.inputs || data.output_count() != structure.outputs)
-                    throw InvalidArgument(fmt::format(
-                        "the start model has {} input(s) and {} output(s), and the data have {} and {}",
-                        structure.inputs, structure.outputs, data.input_count(), data.output_count()));
+                    throw InvalidArgument(
+                        fmt::format("the start model has {} input(s) and {} output(s), and the data have {} and {}",
+                                    structure.inputs, structure.outputs, data.input_count(), data.output_count()));
                 return structure;
             },
             aids};

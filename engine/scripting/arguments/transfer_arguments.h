@@ -17,7 +17,8 @@ inline constexpr OrderEntry kNf{"nf", "poles"};
 inline constexpr OrderEntry kNk{"nk", "samples of delay"};
 
 /// Makes the structure for any data, in any thread, from arguments that were read and checked. Their lists have one
-/// entry for all inputs or one for each, which hold for every output, or one for each channel. Throws InvalidArgument where the data do not suit.
+/// entry for all inputs or one for each, which hold for every output, or one for each channel. Throws InvalidArgument
+/// where the data do not suit.
 using StructureMaker = std::function<TransferStructure(const IdData&)>;
 /// From the orders at argument 2. The entries hold kNb, kNk, and na or nf.
 StructureMaker structure_of_orders(std::span<const OrderEntry> entries, const std::vector<std::vector<int>>& orders,

@@ -106,7 +106,7 @@ void add_units_and_headers(const Call& call, const LoadedData& loaded) {
     }
     lua_createtable(L, 0, static_cast<int>(loaded.units.size()));
     for (const auto& [name, unit] : loaded.units) {
-        set_text(call, name.c_str(), unit);
+        set_field(call, name.c_str(), unit);
         lua_getfield(L, table, name.c_str());
         remember_unit(L, -1, unit);
         lua_pop(L, 1);

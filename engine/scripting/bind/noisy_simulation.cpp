@@ -5,7 +5,7 @@
 #include "figures/confidence_band.h"
 #include "numerics/simulation/frequency_response.h"
 #include "numerics/simulation/lsim.h"
-#include "numerics/validation/chi_squared.h"
+#include "numerics/statistics/chi_squared.h"
 #include "numerics/validation/simulation_spread.h"
 #include "scripting/arguments/simulation_options.h"
 #include "scripting/arguments/table_fields.h"
@@ -156,10 +156,10 @@ int simulate_spread(Call& call) {
                                               DrawnNumbers(call, options).stream());
     give_figure(call, spread_figure(model.estimate->method, spread, input.t, level));
     lua_createtable(call.state(), 0, 4);
-    set_vector(call, "output", spread.output);
-    set_vector(call, "std", spread.std);
-    set_matrix(call, "drawn", spread.drawn);
-    set_integer(call.state(), "unstable", spread.unstable);
+    set_field(call, "output", spread.output);
+    set_field(call, "std", spread.std);
+    set_field(call, "drawn", spread.drawn);
+    set_field(call, "unstable", spread.unstable);
     return 2;
 }
 

@@ -102,10 +102,11 @@ int try_structures(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const bool listed = is_list(call, 2);
     const Options options =
-        listed ? Options(call, 3, {"validate", "lambda", "InitialState", "Offset", "MaxIter", "Tol", "Stable", "threads"})
-               : Options(call, 2,
-                         {"poles", "zeros", "delays", "TdMin", "TdMax", "NumTd", "validate", "lambda", "InitialState",
-                          "Offset", "MaxIter", "Tol", "Stable", "Feedthrough", "threads"});
+        listed
+            ? Options(call, 3, {"validate", "lambda", "InitialState", "Offset", "MaxIter", "Tol", "Stable", "threads"})
+            : Options(call, 2,
+                      {"poles", "zeros", "delays", "TdMin", "TdMax", "NumTd", "validate", "lambda", "InitialState",
+                       "Offset", "MaxIter", "Tol", "Stable", "Feedthrough", "threads"});
     const std::vector<TransferStructure> structures = listed ? listed_structures(call, data) : grid_of(options, data);
     OrderSelectionOptions wanted;
     if (options.has("validate")) {

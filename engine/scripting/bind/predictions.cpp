@@ -11,7 +11,7 @@ namespace {
 
 /// A number for one output, a vector for several.
 void set_per_output(const Call& call, const char* name, const Vector& values) {
-    values.size() == 1 ? set_number(call.state(), name, values[0]) : set_vector(call, name, values);
+    values.size() == 1 ? set_field(call, name, values[0]) : set_field(call, name, values);
 }
 
 /// A vector, a matrix with a column for each of several outputs, and of several experiments a list of them.
@@ -32,8 +32,8 @@ void push_report(const Call& call, const Predictions& all) {
     lua_createtable(L, 0, 4);
     set_per_output(call, "fit_percent", all.fit_percent);
     set_per_output(call, "loss", all.loss);
-    set_integer(L, "first", all.results.front().front().first + 1);
-    set_text(call, "message", all.message);
+    set_field(call, "first", all.results.front().front().first + 1);
+    set_field(call, "message", all.message);
 }
 
 /// predict(data, G, {k =, ...}) or predict(data, G, k); with kErrors what they leave of the output.

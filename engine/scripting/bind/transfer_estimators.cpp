@@ -73,10 +73,9 @@ template <auto kMethod>
 TransferRequest read_refined(const Call& call) {
     call.at_most(3);
     const auto orders = order_lists(call, 2, kOutputErrorOrders);
-    const Options options(
-        call, 3,
-        {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator", "Integration", "Stable",
-         "Fixed", "OutputWeights"});
+    const Options options(call, 3,
+                          {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator",
+                           "Integration", "Stable", "Fixed", "OutputWeights"});
     FitOptions wanted;
     read_fit_options(options, wanted);
     return refined_request<kMethod>({structure_of_orders(kOutputErrorOrders, orders, sharing_of(options)), {}}, options,
@@ -88,10 +87,10 @@ template <auto kMethod>
 TransferRequest read_transfer_function(const Call& call) {
     const int last = holds_model(call, 2) ? 3 : 4;
     call.at_most(last);
-    const Options options(call, last,
-                          {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator",
-                           "Integration", "TdMin", "TdMax", "NumTd", "IODelay", "Td0", "Stable", "Fixed",
-                           "OutputWeights"});
+    const Options options(
+        call, last,
+        {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator", "Integration", "TdMin",
+         "TdMax", "NumTd", "IODelay", "Td0", "Stable", "Fixed", "OutputWeights"});
     FitOptions wanted;
     read_fit_options(options, wanted);
     return refined_request<kMethod>(started_structure(call, options, wanted), options, wanted);
@@ -137,10 +136,12 @@ constexpr std::array kTransferEstimatorsFunctions = {
     FunctionEntry{"coe", kTransferEstimatorsArea, "coe(data, {nb, nf, nk}, {lambda =, MaxIter =, Tol =, ...}) -> G",
                   "y = B/F u + e with the smallest simulation error",
                   guarded<memoized_call<estimate_refined<read_refined<coe>>>>},
-    FunctionEntry{"tfsrivc", kTransferEstimatorsArea, "tfsrivc(data, np, nz, {TdMin =, TdMax =, IODelay =, Stable =, ...}) -> G",
+    FunctionEntry{"tfsrivc", kTransferEstimatorsArea,
+                  "tfsrivc(data, np, nz, {TdMin =, TdMax =, IODelay =, Stable =, ...}) -> G",
                   "srivc by numbers of poles and zeros, the delay estimated",
                   guarded<memoized_call<estimate_refined<read_transfer_function<srivc>>>>},
-    FunctionEntry{"tfcoe", kTransferEstimatorsArea, "tfcoe(data, np, nz, {TdMin =, TdMax =, IODelay =, Stable =, ...}) -> G",
+    FunctionEntry{"tfcoe", kTransferEstimatorsArea,
+                  "tfcoe(data, np, nz, {TdMin =, TdMax =, IODelay =, Stable =, ...}) -> G",
                   "coe by numbers of poles and zeros, the delay estimated",
                   guarded<memoized_call<estimate_refined<read_transfer_function<coe>>>>},
 };

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "numerics/error.h"
-#include "numerics/fit/diagnosis.h"
 #include "numerics/fit/delay_scan.h"
+#include "numerics/fit/diagnosis.h"
 #include "numerics/fit/srivc_iteration.h"
 #include "numerics/fit/transfer_search.h"
 #include "numerics/signals/random.h"
@@ -78,7 +78,8 @@ TEST(transfer_search, an_unstable_model_is_given_only_where_it_is_clearly_better
         any.stable = false;
         stable.stable = true;
         const Fit smallest = search_transfer("test", data, structure, any);
-        const Fit held = search_transfer("test", data, structure, stable), unasked = search_transfer("test", data, structure, {});
+        const Fit held = search_transfer("test", data, structure, stable),
+                  unasked = search_transfer("test", data, structure, {});
         EXPECT_TRUE(held.models[0].stable()) << seed;
         EXPECT_TRUE(unasked.models[0].stable()) << seed;
         EXPECT_LE(smallest.loss, held.loss * (1 + 1e-9)) << seed;
@@ -99,7 +100,8 @@ TEST(transfer_search, a_system_that_is_unstable_is_found_unstable) {  // oracle:
     EXPECT_LT(fit.std[0], 0.01);
 }
 
-// Oracle: with one parameter known, what is left is a search with a parameter less; at the free optimum it costs nothing.
+// Oracle: with one parameter known, what is left is a search with a parameter less; at the free optimum it costs
+// nothing.
 TEST(transfer_search, fixed_parameters_keep_their_values) {
     const IdData data = course_record(0.1, 5);
     const TransferStructure structure = TransferStructure::single(2, 0);

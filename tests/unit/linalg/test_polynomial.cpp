@@ -38,7 +38,7 @@ TEST(polynomial, hurwitz_as_the_roots_say) {  // oracle: second route, all roots
         stable += left ? 1 : 0;
     }
     EXPECT_GT(stable, 80);
-    EXPECT_FALSE(is_hurwitz(from({1, 0, 4})));   // on the border
+    EXPECT_FALSE(is_hurwitz(from({1, 0, 4})));  // on the border
     EXPECT_FALSE(is_hurwitz(from({1, 2, 0})));
     EXPECT_TRUE(is_hurwitz(from({-2, -3, -1})));
 }
