@@ -4,6 +4,7 @@
 
 #include "numerics/signals/iddata.h"
 #include "numerics/validation/compare.h"
+#include "numerics/validation/model_verdict.h"
 
 namespace dynlab::inline numerics {
 
@@ -46,7 +47,8 @@ struct OutputResiduals {
     bool exact = false;  ///< nothing but rounding is left, so that nothing is tested
     WhitenessTest whiteness;
     std::vector<IndependenceTest> inputs;
-    std::string verdict;  ///< what the tests together say
+    double fit_percent = 0;  ///< of the simulation
+    std::string verdict;     ///< what the tests say, and in the end the model_verdict()
 };
 
 struct ResidualTests {
@@ -65,9 +67,11 @@ struct ResidualTests {
 /// than two samples per lag.
 ResidualTests residual_tests(const IdData& data, std::vector<Matrix> simulated, const ResidualOptions& options = {});
 
-/// The same for a model, whose initial state and offset are handled as by compare_all().
+/// The same for a model, whose initial state and offset are handled as by compare_all(). The verdict weighs its
+/// stability, its direct terms and delays, other starts, and what its estimation doubts.
 ResidualTests residual_tests(const IdData& data, const std::vector<TransferFunction>& channels,
-                             const CompareOptions& simulation = {}, const ResidualOptions& options = {});
+                             const CompareOptions& simulation = {}, const ResidualOptions& options = {},
+                             const ModelDoubts& doubts = {});
 
 /// The whiteness test alone, of one output's errors in one or several uninterrupted records; for records too short for
 /// the lags fewer are tested.
