@@ -29,6 +29,15 @@ TEST(script_validation, resid_says_what_is_left) {
                 testing::AllOf(HasSubstr("to rounding"), HasSubstr("nil\n")));
 }
 
+TEST(script_validation, a_fit_and_resid_name_the_option_that_the_defaults_miss) {
+    EXPECT_THAT(
+        printed(kRecord + "local raised = iddata(x + 0.1*randn(#u) + 5, u, 0.05)\n"
+                          "local G = srivc(raised, {1, 2, 0})\nprint(G.report.warnings[#G.report.warnings])\n"
+                          "local fig, t = resid(raised, G)\nprint(t.verdict)"),
+        testing::AllOf(HasSubstr("With Offset = \"estimate\" the fit is"), Not(HasSubstr("Dynamics are missing"))));
+    EXPECT_THAT(printed(kRecord + "print(#srivc(white, {1, 2, 0}).report.warnings)"), HasSubstr("0\n"));
+}
+
 TEST(script_validation, resid_can_be_quiet_in_a_loop) {
     EXPECT_EQ(printed(kRecord + "local fig, t = resid(white, procsrivc(white, 'P1'), {quiet = true})\n"
                                 "print(fig, t.independent)"),

@@ -39,7 +39,7 @@ MonteCarloMethod filtered(const std::string& label, int poles, int zeros, double
 template <auto kMethod>
 MonteCarloMethod refined(const std::string& label, int poles, int zeros, const FitOptions& options) {
     return {label, [=](const IdData& data) {
-                return estimate_of(kMethod(data, TransferStructure::single(poles, zeros), options));
+                return estimate_of(kMethod(data, TransferStructure::single(poles, zeros), options, {}));
             }};
 }
 

@@ -277,6 +277,7 @@ void TransferOutput::add_free_motion(const Vector& theta, Index denominator, Ind
     block.output += motions * initial;
     if (!block.sensitivities) return;
     block.columns(place, n) = motions;
+    if (initial.isZero(0)) return;
     block.columns(a, n) += transfer_filters().free_sensitivities(den, initial, N, sampling);
 }
 

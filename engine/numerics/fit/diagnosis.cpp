@@ -142,11 +142,9 @@ void warn_of_cancellation(Fit& fit) {
 }
 
 void warn_of_instability(Fit& fit) {
-    for (std::size_t i = 0; i < fit.models.size(); ++i) {
-        const ComplexVector poles = fit.models[i].poles();
-        if ((poles.real().array() > 1e-9 * poles.cwiseAbs().maxCoeff()).any())
+    for (std::size_t i = 0; i < fit.models.size(); ++i)
+        if (has_unstable_pole(fit.models[i]))
             fit.warnings.push_back("The model" + channel_text(fit.structure, i) + " is unstable.");
-    }
 }
 
 /// A step of a held input reaches the output through the direct term at the next sampling instant, wherever between
@@ -171,6 +169,15 @@ void warn_of_search(Fit& fit, const FitOptions& options) {
         fit.warnings.push_back("The search was stopped before its end; the best point so far is given.");
 }
 
+std::string undetermined_names(const std::vector<std::string>& names, const VectorView& theta, const VectorView& std) {
+    std::string list;
+    for (Index i = 0; i < std::min(theta.size(), std.size()); ++i) {
+        const std::string& name = names[static_cast<std::size_t>(i)];
+        if (std[i] > std::abs(theta[i]) && !name.starts_with("Td")) list += (list.empty() ? "" : ", ") + name;
+    }
+    return list;
+}
+
 void warn_of_doubtful_parameters(Fit& fit, const std::string& simpler) {
     if (!(fit.condition_number < kAmbiguousCondition)) {
         fit.warnings.push_back("The data do not determine all parameters separately (badly conditioned: " +
@@ -178,11 +185,7 @@ void warn_of_doubtful_parameters(Fit& fit, const std::string& simpler) {
                                " or a richer input is wanted.");
         return;
     }
-    std::string names;
-    for (Index i = 0; i < fit.theta.size(); ++i) {
-        const std::string& name = fit.names[static_cast<std::size_t>(i)];
-        if (fit.std[i] > std::abs(fit.theta[i]) && !name.starts_with("Td")) names += (names.empty() ? "" : ", ") + name;
-    }
+    const std::string names = undetermined_names(fit.names, fit.theta, fit.std);
     if (!names.empty())
         fit.warnings.push_back("The data hardly determine " + names + ": the standard error is larger than the value.");
 }
@@ -196,8 +199,22 @@ void warn_of_delay(Fit& fit, double delay, const DelayRange& range, const std::s
     else if (delay <= range.least + edge && range.least > 0)
         fit.warnings.push_back(subject + "`least_delay` = " + number_text(range.least) + searched +
                                "lower `least_delay`.");
-    else if (delay <= edge && range.largest > 0)
+    else if (delay <= edge && range.largest > 0 &&
+             std::none_of(fit.fit_percent.begin(), fit.fit_percent.end(), explains_little))
         fit.warnings.push_back("No delay" + channel + " is visible: a model without one suits.");
+}
+
+bool explains_little(double fit_percent) {
+    return !(std::pow(std::max(0.0, 1 - fit_percent / 100), 2) <= 1 - kLittleExplained / 100);
+}
+
+bool has_unstable_pole(const TransferFunction& G) {
+    constexpr double kRounding = 1e-9;
+    const ComplexVector poles = G.poles();
+    if (poles.size() == 0) return false;
+    const auto sizes = poles.cwiseAbs();
+    return G.continuous() ? (poles.real().array() > kRounding * sizes.maxCoeff()).any()
+                          : (sizes.array() > 1 + kRounding).any();
 }
 
 std::string channel_text(const TransferStructure& structure, std::size_t channel) {

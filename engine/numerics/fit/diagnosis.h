@@ -42,10 +42,20 @@ inline constexpr double kAmbiguousCondition = 1e10;
 
 /// Of a search that did not come to its end.
 void warn_of_search(Fit& fit, const FitOptions& options);
+/// "a1, b0": the parameters (but for delays) whose standard error is larger than their value.
+std::string undetermined_names(const std::vector<std::string>& names, const VectorView& theta, const VectorView& std);
 /// Of an ambiguous condition number, otherwise of parameters (but for delays) whose standard error is larger than their
 /// value. `simpler` is what may help, apart from a richer input.
 void warn_of_doubtful_parameters(Fit& fit, const std::string& simpler = "a simpler structure");
-/// Of an estimated delay (s) at an edge of the `range` it was looked for in, or of zero; `channel` as channel_text.
+/// A model of an output that explains less than so many per cent of its variance is poor: what its parameters are says
+/// little of the system. With white noise as strong as the answer to the input, the true model explains half.
+inline constexpr double kLittleExplained = 25;
+/// Whether a fit in per cent is that poor.
+bool explains_little(double fit_percent);
+/// A continuous-time pole to the right of the imaginary axis, a discrete-time one outside the unit circle.
+bool has_unstable_pole(const TransferFunction& G);
+/// Of an estimated delay (s) at an edge of the `range` it was looked for in, or of zero where the model explains more
+/// than a little; `channel` as channel_text.
 void warn_of_delay(Fit& fit, double delay, const DelayRange& range, const std::string& channel);
 
 /// " from input 2 to output 1" for messages, nothing for the only channel.

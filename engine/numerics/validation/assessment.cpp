@@ -135,7 +135,15 @@ Linearised linearise(const AssessedRecord& record, std::span<const ChannelPlaces
     return result;
 }
 
-std::string verdict_of(const Assessment& assessment, const std::vector<std::string>& names) {
+// Why standard errors of the model mean little, however they are worked out; nothing where they do not.
+std::string worthlessness(const Fit& fit) {
+    if (std::any_of(fit.models.begin(), fit.models.end(), has_unstable_pole)) return "the model is unstable";
+    for (const double percent : fit.fit_percent)
+        if (explains_little(percent)) return "the model explains little of the output";
+    return "";
+}
+
+std::string verdict_of(const Assessment& assessment, const Fit& fit, const std::vector<std::string>& names) {
     std::string text;
     for (std::size_t i = 0; i < assessment.whiteness.size(); ++i) {
         const WhitenessTest& test = assessment.whiteness[i];
@@ -144,7 +152,11 @@ std::string verdict_of(const Assessment& assessment, const std::vector<std::stri
         if (assessment.whiteness.size() > 1) text += names[i] + ": ";
         text += test.verdict;
     }
-    if (!assessment.white) text += " The robust standard errors are the ones to use.";
+    const std::string worthless = fit.polynomial ? "" : worthlessness(fit);
+    if (!worthless.empty())
+        text += " Its standard errors mean little: " + worthless + ".";
+    else if (!assessment.white)
+        text += " The robust standard errors are the ones to use.";
     return text;
 }
 
@@ -176,8 +188,8 @@ void weigh(Eigen::Ref<Matrix> Psi, Eigen::Ref<Vector> errors) {
 }
 
 // `by_parameter` (columns of Psi x q) leads from the channels' coefficients to the parameters of the estimate.
-Assessment assess_channels(const IdData& data, const std::vector<ChannelPlaces>& channels, const StartCondition& start,
-                           const MatrixView& by_parameter, const MatrixView& plain, const ResidualOptions& options) {
+Assessment assess_channels(const IdData& data, const std::vector<ChannelPlaces>& channels, const Fit& fit,
+                           const MatrixView& by_parameter, const ResidualOptions& options) {
     const Index ny = data.output_count(), nu = data.input_count(), q = by_parameter.cols();
     if (static_cast<Index>(channels.size()) != ny * nu)
         throw InvalidArgument("The estimate has " + std::to_string(channels.size()) + " channel(s) and the data have " +
@@ -195,7 +207,7 @@ Assessment assess_channels(const IdData& data, const std::vector<ChannelPlaces>&
             const Experiment& experiment = data.experiments[k];
             const AssessedRecord record{experiment.u, experiment.y.col(i), data.time(k), data.Ts, data.hold};
             const std::span<const ChannelPlaces> own(channels.data() + i * nu, static_cast<std::size_t>(nu));
-            const Linearised part = linearise(record, own, start, by_parameter.rows());
+            const Linearised part = linearise(record, own, fit.start, by_parameter.rows());
             Psi.middleRows(first, lengths[k]) = part.Psi * by_parameter;
             errors.segment(first, lengths[k]) = part.errors;
             first += lengths[k];
@@ -206,8 +218,8 @@ Assessment assess_channels(const IdData& data, const std::vector<ChannelPlaces>&
         assessment.whiteness.push_back(whiteness_test(own_errors, options));
         assessment.white = assessment.white && assessment.whiteness.back().white;
     }
-    finish(assessment, Psi, errors, lengths, ny, plain, linear_unknowns);
-    assessment.verdict = verdict_of(assessment, data.output_names);
+    finish(assessment, Psi, errors, lengths, ny, fit.covariance, linear_unknowns);
+    assessment.verdict = verdict_of(assessment, fit, data.output_names);
     return assessment;
 }
 
@@ -238,15 +250,14 @@ Assessment assess_transfer(const IdData& data, const Fit& fit, const ResidualOpt
                                 structure.numerator_start(i, j), structure.delay_index(i, j)});
         }
     const Index d = structure.parameter_count();
-    return assess_channels(data, channels, fit.start, Matrix::Identity(d, d), fit.covariance, options);
+    return assess_channels(data, channels, fit, Matrix::Identity(d, d), options);
 }
 
 Assessment assess_process(const IdData& data, const Fit& fit, const ResidualOptions& options) {
     const TransferFunction G = fit.process->transfer_function();
     const Index n = G.pole_count(), b_count = G.num().size();
     const ChannelPlaces channel{G, 0, 0, n, fit.process->structure.delay ? n + b_count : -1};
-    return assess_channels(data, {channel}, fit.start, coefficients_by_parameter(*fit.process), fit.covariance,
-                           options);
+    return assess_channels(data, {channel}, fit, coefficients_by_parameter(*fit.process), options);
 }
 
 Assessment assess_prediction(const IdData& data, const Fit& fit, const ResidualOptions& options) {
@@ -276,7 +287,7 @@ Assessment assess_prediction(const IdData& data, const Fit& fit, const ResidualO
     assessment.whiteness = {whiteness_test(records, options)};
     assessment.white = assessment.whiteness.front().white;
     finish(assessment, Psi, errors, lengths, 1, fit.covariance, linear_unknowns);
-    assessment.verdict = verdict_of(assessment, data.output_names);
+    assessment.verdict = verdict_of(assessment, fit, data.output_names);
     return assessment;
 }
 

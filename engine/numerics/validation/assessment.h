@@ -17,7 +17,9 @@ struct Assessment {
     Matrix covariance;                     ///< robust, in the order of the estimate's theta
     Vector std;
     Index bandwidth = 1;  ///< samples, of its window
-    std::string verdict;  ///< one sentence per output
+    /// One sentence per output, and which standard errors to use; none for an unstable model or one that explains
+    /// little.
+    std::string verdict;
 };
 
 /// Sensitivities and output errors are worked out again at the estimate, from its start condition and with the values

@@ -4,6 +4,7 @@
 
 #include "numerics/signals/iddata.h"
 #include "numerics/validation/compare.h"
+#include "numerics/validation/model_verdict.h"
 
 namespace dynlab::inline numerics {
 
@@ -48,7 +49,8 @@ struct OutputResiduals {
     bool exact = false;  ///< nothing but rounding is left, so that nothing is tested
     WhitenessTest whiteness;
     std::vector<IndependenceTest> inputs;
-    std::string verdict;  ///< what the tests together say
+    double fit_percent = 0;  ///< of the simulation
+    std::string verdict;     ///< what the tests say, and in the end the model_verdict()
 };
 
 struct ResidualTests {
@@ -67,9 +69,11 @@ struct ResidualTests {
 /// than two samples per lag.
 ResidualTests residual_tests(const IdData& data, std::vector<Matrix> simulated, const ResidualOptions& options = {});
 
-/// The same for a model, whose initial state and offset are handled as by compare_all().
+/// The same for a model, whose initial state and offset are handled as by compare_all(). The verdict weighs its
+/// stability, its direct terms and delays, other starts, and what its estimation doubts.
 ResidualTests residual_tests(const IdData& data, const std::vector<TransferFunction>& channels,
-                             const CompareOptions& simulation = {}, const ResidualOptions& options = {});
+                             const CompareOptions& simulation = {}, const ResidualOptions& options = {},
+                             const ModelDoubts& doubts = {});
 
 /// The same on the errors e of predictions one step ahead, which are white where the noise model is right.
 ResidualTests prediction_error_tests(const IdData& data, const Predictions& predictions,

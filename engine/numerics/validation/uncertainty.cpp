@@ -58,25 +58,31 @@ Eigen::Matrix2d covariance_of(const Eigen::RowVectorXcd& derivatives, const Matr
     return parts * covariance * parts.transpose();
 }
 
-double largest_std(const Eigen::Matrix2d& covariance) {
-    return std::sqrt(symmetric_eigenvalues(covariance)[1]);
+constexpr double kNear = 3;
+
+// Whether the distance of two roots is within three of its standard deviations, along the line through them: what both
+// have in common cancels.
+bool lie_near(Complex one, Complex other, const Eigen::RowVectorXcd& difference, const Matrix& covariance) {
+    const double distance = std::abs(other - one);
+    if (!(distance > 0)) return true;
+    const Complex direction = (other - one) / distance;
+    const Matrix along = (difference * std::conj(direction)).real();
+    const double variance = (along * covariance * along.transpose()).value();
+    return !(distance > kNear * std::sqrt(std::max(0.0, variance)));
 }
 
 // A conjugate pair is near multiple when it comes close to the real axis, as any two roots that come close.
 std::vector<RootUncertainty> root_uncertainty(const ComplexVector& roots, const Vector& p, const Matrix& covariance) {
-    constexpr double kNear = 3;
+    std::vector<Eigen::RowVectorXcd> derivatives;
+    for (const Complex& root : roots) derivatives.push_back(root_derivatives(p, root).tail(covariance.rows()));
     std::vector<RootUncertainty> all;
-    for (const Complex& root : roots) {
-        RootUncertainty next{root, covariance_of(root_derivatives(p, root).tail(covariance.rows()), covariance)};
-        double distance = std::numeric_limits<double>::infinity();
-        bool found_itself = false;
-        for (const Complex& other : roots) {
-            if (other == root && !found_itself)
-                found_itself = true;
-            else
-                distance = std::min(distance, std::abs(other - root));
-        }
-        next.near_multiple = !next.covariance.allFinite() || distance <= kNear * largest_std(next.covariance);
+    for (std::size_t i = 0; i < derivatives.size(); ++i) {
+        const Complex root = roots[static_cast<Index>(i)];
+        RootUncertainty next{root, covariance_of(derivatives[i], covariance)};
+        next.near_multiple = !next.covariance.allFinite();
+        for (std::size_t j = 0; j < derivatives.size() && !next.near_multiple; ++j)
+            next.near_multiple =
+                j != i && lie_near(root, roots[static_cast<Index>(j)], derivatives[j] - derivatives[i], covariance);
         all.push_back(next);
     }
     return all;

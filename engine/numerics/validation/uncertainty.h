@@ -38,7 +38,8 @@ FrequencyUncertainty frequency_response_std(const UncertainModel& model, const V
 struct RootUncertainty {
     Complex root;
     Eigen::Matrix2d covariance;
-    bool near_multiple = false;  ///< another root lies within three standard deviations: first order says little
+    /// Another root lies within three standard deviations of their difference: first order says little.
+    bool near_multiple = false;
 };
 std::vector<RootUncertainty> pole_uncertainty(const UncertainModel& model);
 std::vector<RootUncertainty> zero_uncertainty(const UncertainModel& model);

@@ -128,13 +128,14 @@ StartedStructure started_structure(const Call& call, const Options& options, con
             aids};
 }
 
-TransferRequest transfer_request(const Options& options, const Estimation& estimate) {
-    if (!options.flag("Integration", false)) return {false, estimate};
-    return {true, [estimate](const IdData& data) {
-                Fit result = estimate(integrated_inputs(data));
-                append_integrator(result);
-                return result;
-            }};
+TransferRequest transfer_request(const Options& options, const FitOptions& wanted, const Estimation& estimate) {
+    if (!options.flag("Integration", false)) return {false, estimate, wanted};
+    const auto with_integrator = [estimate](const IdData& data) {
+        Fit result = estimate(integrated_inputs(data));
+        append_integrator(result);
+        return result;
+    };
+    return {true, with_integrator, wanted};
 }
 
 Denominators sharing_of(const Options& options) {

@@ -38,8 +38,9 @@ StartedStructure started_structure(const Call& call, const Options& options, con
 struct TransferRequest {
     bool integration;
     Estimation estimate;
+    FitOptions wanted;  ///< that the estimation uses
 };
-TransferRequest transfer_request(const Options& options, const Estimation& estimate);
+TransferRequest transfer_request(const Options& options, const FitOptions& wanted, const Estimation& estimate);
 
 /// The option CommonDenominator.
 Denominators sharing_of(const Options& options);

@@ -30,7 +30,8 @@ int give_with_noise(Call& call, const IdData& data, const TransferRequest& reque
 
 TransferRequest noisy_request(const StructureMaker& structure, const NoiseOrders& noise, const Options& options,
                               const FitOptions& wanted) {
-    return transfer_request(options, [=](const IdData& data) { return rivc(data, structure(data), noise, wanted); });
+    return transfer_request(options, wanted,
+                            [=](const IdData& data) { return rivc(data, structure(data), noise, wanted); });
 }
 
 TransferRequest read_rivc(const Call& call) {

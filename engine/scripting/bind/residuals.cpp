@@ -2,6 +2,8 @@
 
 #include "figures/plots/cross_validation_plot.h"
 #include "figures/plots/residual_plot.h"
+#include "numerics/fit/diagnosis.h"
+#include "numerics/fit/missed_options.h"
 #include "numerics/validation/crossvalidate.h"
 #include "numerics/validation/residual_tests.h"
 #include "scripting/arguments/simulation_options.h"
@@ -62,6 +64,14 @@ void push_tests(const Call& call, const ResidualTests& tests) {
     set_field(call, "independent", independent);
 }
 
+/// Nothing for models that were not estimated.
+ModelDoubts doubts_of(const Call& call, int index) {
+    const Model* model = to_object<Model>(call.state(), index);
+    if (model == nullptr || !model->estimate) return {};
+    const Estimate& estimate = *model->estimate;
+    return {undetermined_names(estimate.names, estimate.theta, estimate.std), missed_option_among(estimate.warnings)};
+}
+
 int test_residuals(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
@@ -74,7 +84,7 @@ int test_residuals(Call& call) {
     const ResidualTests tests =
         options.flag("prediction", false)
             ? prediction_error_tests(data, predict(data, noisy_model_argument(call, 2, "G"), {1, start}), wanted)
-            : residual_tests(data, channels_argument(call, 2, "G"), start, wanted);
+            : residual_tests(data, channels_argument(call, 2, "G"), start, wanted, doubts_of(call, 2));
     if (!quiet) call.print(tests.verdict + "\n");
     bool drawable = false;
     for (const OutputResiduals& output : tests.outputs) drawable = drawable || !output.exact;

@@ -5,6 +5,7 @@
 #include "numerics/estimators/lssvf.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/fit/integrated_input.h"
+#include "numerics/fit/missed_options.h"
 #include "numerics/fit/srivc_iteration.h"
 #include "scripting/arguments/transfer_arguments.h"
 #include "scripting/bind/bindings.h"
@@ -50,17 +51,19 @@ int estimate_filtered(Call& call) {
 }
 
 int give_refined(Call& call, const IdData& data, const TransferRequest& request) {
-    const Fit result = request.estimate(data);
+    Fit result = request.estimate(data);
+    const IdData integrated = request.integration ? integrated_inputs(data) : IdData();
+    const IdData& seen = request.integration ? integrated : data;
+    warn_of_missed_option(result, seen, request.wanted);
     Estimate estimate = estimate_of(call.function_name(), result);
     estimate.of_coefficients = !request.integration;
-    estimate.set_assessment(request.integration ? assess_if_affordable(integrated_inputs(data), result)
-                                                : assess_if_affordable(data, result));
+    estimate.set_assessment(assess_if_affordable(seen, result));
     return give_fit(call, std::move(estimate), result);
 }
 
 template <auto kMethod>
 TransferRequest refined_request(const StartedStructure& started, const Options& options, const FitOptions& wanted) {
-    return transfer_request(options, [=](const IdData& data) {
+    return transfer_request(options, wanted, [=](const IdData& data) {
         const TransferStructure structure = started.structure(data);
         SearchAids aids = started.aids;
         if (aids.delays.size() == 1) aids.delays.resize(structure.channels.size(), aids.delays.front());

@@ -70,7 +70,7 @@ TEST(coe, delay_trap_is_avoided_from_default_settings) {
     for (const std::uint32_t seed : {1, 2, 3}) {
         const IdData data(Matrix(with_noise(x, 15, seed)), Matrix(u), 0.1);
         for (const auto method : {coe, srivc}) {
-            const Fit found = method(data, with_free_delay(2, 1), {});
+            const Fit found = method(data, with_free_delay(2, 1), {}, {});
             EXPECT_NEAR(found.models[0].delay(), 8, 0.1) << found.message;
             EXPECT_LT(std::abs(found.theta[0] - 1), 4 * found.std[0]) << found.message;
             EXPECT_LT(std::abs(found.theta[1] - 4), 4 * found.std[1]) << found.message;

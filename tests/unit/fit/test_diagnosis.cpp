@@ -68,6 +68,27 @@ TEST(diagnosis, of_delays) {  // oracle: the definition
     EXPECT_THAT(said(0.7, {0.7, 0.7}), ElementsAre(HasSubstr("`least_delay`")));
 }
 
+// Oracle: a fit f leaves (1 - f)^2 of the variance, and a quarter has to be explained.
+TEST(diagnosis, of_poor_fits) {
+    EXPECT_FALSE(explains_little(13.5));
+    EXPECT_TRUE(explains_little(13.3));
+    EXPECT_TRUE(explains_little(-100));
+    EXPECT_TRUE(explains_little(-kInfinity));
+    Fit poor = fit_of(1, 0, values({1, 2}));
+    poor.fit_percent = values({-4});
+    warn_of_delay(poor, 0, {0, 1}, "");
+    EXPECT_THAT(poor.warnings, IsEmpty());
+    warn_of_delay(poor, 1, {0, 1}, "");
+    EXPECT_THAT(poor.warnings, ElementsAre(HasSubstr("lies at `largest_delay`")));
+}
+
+TEST(diagnosis, of_unstable_poles) {  // oracle: poles written down
+    EXPECT_TRUE(has_unstable_pole(TransferFunction(values({1}), values({1, -0.1}))));
+    EXPECT_FALSE(has_unstable_pole(TransferFunction(values({1}), values({1, 3, 0}))));
+    EXPECT_TRUE(has_unstable_pole(TransferFunction(values({1}), values({1, -1.1}), 1)));
+    EXPECT_FALSE(has_unstable_pole(TransferFunction(values({1}), values({1, -1}), 1)));
+}
+
 TEST(diagnosis, of_the_search) {  // oracle: the sentences that scripts promise
     Fit fit = fit_of(1, 0, values({1, 2}));
     FitOptions options;

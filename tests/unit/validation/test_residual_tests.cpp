@@ -84,6 +84,44 @@ TEST(residual_tests, coloured_noise_on_the_true_model_is_told_apart_from_missing
     EXPECT_THAT(missing.verdict, HasSubstr("Dynamics are missing"));
 }
 
+// Oracle: how the records were made; each has one cause, which the verdict names in the place of missing poles.
+TEST(residual_tests, known_causes_are_named) {
+    const Vector u = prbs(7, 8), e = 0.02 * RandomStream(1).normal(u.size());
+    const auto verdict_on = [](const Vector& input, const Vector& y, const TransferFunction& G,
+                               const ModelDoubts& doubts) {
+        const std::string text =
+            residual_tests(record(y, input), {G}, {InitialState::kZero, Offset::kNone}, {}, doubts).verdict;
+        EXPECT_EQ(text.find("Dynamics are missing"), std::string::npos) << text;
+        return text;
+    };
+    const auto verdict = [&](const Vector& y, const TransferFunction& G, const ModelDoubts& doubts = {}) {
+        return verdict_on(u, y, G, doubts);
+    };
+    const Vector answer = lsim(kG, u, kTs);
+    EXPECT_THAT(verdict(answer + 0.2 * u + e, kG), HasSubstr("as many zeros as poles"));
+    const Vector fast = RandomStream(3).normal(u.size());
+    const TransferFunction quick(Vector{{9.0}}, Vector{{1.0, 9.0}}), late(quick.num(), quick.den(), 0, 0.3);
+    EXPECT_THAT(verdict_on(fast, lsim(quick, fast, kTs) + e, late, {}), HasSubstr("try a shorter delay"));
+    const Vector long_u = (Vector(2 * u.size()) << Vector::Constant(u.size(), 3), u).finished();
+    const Vector running = lsim(kG, long_u, kTs).tail(u.size());
+    EXPECT_THAT(verdict(running + e, kG), HasSubstr("The record does not start as was assumed: simulated"));
+    EXPECT_THAT(verdict(answer + 0.2 * u + e, kG, {"", "With this the fit is 9 %."}), HasSubstr("With this the fit"));
+    EXPECT_THAT(verdict(answer + e, kG, {"b0", ""}), HasSubstr("the data hardly determine b0"));
+}
+
+TEST(residual_tests, tests_do_not_make_poor_models_good) {  // oracle: how the records were made
+    const Vector u = prbs(7, 8), e = RandomStream(1).normal(u.size());
+    const auto poor = plain_tests(record(0.1 * lsim(kG, u, kTs) + e, u), TransferFunction(0.1 * kG.num(), kG.den()));
+    EXPECT_TRUE(poor.outputs[0].whiteness.white && poor.outputs[0].inputs[0].independent);
+    EXPECT_THAT(poor.verdict, HasSubstr("The model explains little of the output (fit "));
+    const TransferFunction unstable(Vector{{2.0}}, Vector{{1.0, 4.0, -0.004}});  // a pole at 0.001
+    const auto explodes = plain_tests(record(lsim(unstable, u, kTs) + 0.01 * e, u), unstable);
+    EXPECT_TRUE(explodes.outputs[0].whiteness.white && explodes.outputs[0].inputs[0].independent);
+    EXPECT_THAT(explodes.verdict, HasSubstr("The model is unstable and not to be used"));
+    for (const ResidualTests* tests : {&poor, &explodes})
+        EXPECT_EQ(tests->verdict.find("standard errors hold"), std::string::npos);
+}
+
 TEST(residual_tests, feedback_shows_at_negative_lags) {  // oracle: how the record was made
     const Index N = 1000;
     const Vector noise = 0.3 * RandomStream(2).normal(N), r = RandomStream(5).normal(N);

@@ -139,6 +139,23 @@ TEST(uncertainty, poles_equal_finite_differences) {  // oracle: differences of t
     EXPECT_NEAR(std::sqrt(zeros[0].covariance(0, 0)), std_by_differences(zero, kCovariance, kTheta)[0], 1e-8);
 }
 
+// Oracle: a pair x +- iy of a1 = -2x, a2 = x^2 + y^2 whose distance 2y has the standard deviation s/y when a2 alone has
+// s, and none when x alone moves, da2 = a1/2 da1.
+TEST(uncertainty, roots_are_told_apart_along_their_difference) {
+    const TransferFunction G(Vector{{1.0}}, Vector{{1.0, 6.0, 10.0}});  // -3 +- i
+    const auto near = [&](const Eigen::Vector2d& moves, double std) {
+        Matrix covariance = Matrix::Zero(3, 3);
+        covariance.topLeftCorner(2, 2) = std * std * moves * moves.transpose();
+        const UncertainModel model(G, covariance);
+        const bool warned = !describe_uncertainty(model).warnings.empty();
+        EXPECT_EQ(warned, pole_uncertainty(model)[0].near_multiple);
+        return warned;
+    };
+    EXPECT_FALSE(near({0, 1}, 0.6));  // 2 beside three times 0.6
+    EXPECT_TRUE(near({0, 1}, 0.7));
+    EXPECT_FALSE(near({1, 3}, 5));  // both move along the real axis by 2.5, together
+}
+
 TEST(uncertainty, modes_and_gain_equal_finite_differences) {  // oracle: differences
     const auto result = describe_uncertainty({model_at(kTheta), kCovariance});
     ASSERT_EQ(result.modes.size(), 3u);

@@ -1,0 +1,344 @@
+#include "numerics/fit/missed_options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "numerics/criteria/transfer_output.h"
+#include "numerics/error.h"
+#include "numerics/fit/diagnosis.h"
+#include "numerics/fit/srivc_iteration.h"
+#include "numerics/fit/transfer_refinement.h"
+#include "numerics/fit/transfer_search.h"
+#include "numerics/linalg/decompositions.h"
+#include "numerics/number_text.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+constexpr Index kLookedAt = 3000, kFitted = 100'000;  // samples
+constexpr double kStrongEvidence = 10;                // BIC
+constexpr double kHalfPoint = 0.5, kFairShare = 0.2, kLeastPoints = 0.05;
+constexpr double kRidge = 1e-9;     // of a sum of squares of sensitivities
+constexpr double kFastestPole = 2;  // per sample: faster ones are as good as none
+constexpr double kLargestCorrelation = 0.999;
+const std::string kFirstWord = "With ", kThenFit = " the fit";
+constexpr double kLeastSquares = 1e-300;  // keeps logarithms finite without errors
+
+/// How well a model explains one output.
+struct Explanation {
+    double squares = 0, variation = 0;  ///< of the errors; of the output about its means
+    double samples = 0;                 ///< that count
+    Index values = 0;                   ///< estimated
+
+    double fit() const { return fit_percent_of_sums(squares, variation); }
+};
+
+bool is_worth_telling(double fit, double better) {
+    const double gain = better - fit;
+    return gain >= kHalfPoint || gain >= std::max(kLeastPoints, kFairShare * (100 - fit));
+}
+
+/// Whether the second is better by more than chance, and by enough.
+bool gains(const Explanation& one, const Explanation& other) {
+    const double N = std::max(other.samples, 2.0);
+    const double evidence =
+        N * std::log(one.squares / other.squares) - static_cast<double>(other.values - one.values) * std::log(N);
+    return evidence > kStrongEvidence && is_worth_telling(one.fit(), other.fit());
+}
+
+/// The structure with so many more poles, and the zeros that `zeros_of` gives for the poles and zeros it has.
+template <class Zeros>
+TransferStructure changed(TransferStructure structure, int more_poles, const Zeros& zeros_of) {
+    for (TransferChannel& channel : structure.channels)
+        channel.zeros = zeros_of(structure.poles[static_cast<std::size_t>(channel.denominator)], channel.zeros);
+    for (int& poles : structure.poles) poles += more_poles;
+    return structure;
+}
+
+TransferStructure with_direct_terms(const TransferStructure& structure) {
+    return changed(structure, 0, [](int poles, int) { return poles; });
+}
+
+/// theta of the structure with as many zeros as poles: the further coefficients are zero.
+Vector with_direct_terms(const TransferStructure& structure, const TransferStructure& direct, const Vector& theta) {
+    Vector all = Vector::Zero(direct.parameter_count());
+    for (Index input = 0; input < structure.inputs; ++input) {
+        const TransferChannel& channel = structure.channel(0, input);
+        const Index n = structure.poles[static_cast<std::size_t>(channel.denominator)], own = channel.zeros + 1;
+        all.segment(direct.denominator_start(channel.denominator), n) =
+            theta.segment(structure.denominator_start(channel.denominator), n);
+        all.segment(direct.numerator_start(0, input) + n + 1 - own, own) =
+            theta.segment(structure.numerator_start(0, input), own);
+        if (structure.free_delays) all[direct.delay_index(0, input)] = theta[structure.delay_index(0, input)];
+    }
+    return all;
+}
+
+/// What one Gauss-Newton step from a fit of one output by the defaults gains with further values.
+class LookAhead {
+  public:
+    LookAhead(const IdData& data, const TransferStructure& structure, const Vector& theta) {
+        const IdData part = data.sample_count() > kLookedAt ? beginning_of(data, kLookedAt) : IdData();
+        const IdData& record = data.sample_count() > kLookedAt ? part : data;
+        samples_ = static_cast<double>(data.sample_count());
+        whole_ = samples_ / static_cast<double>(record.sample_count());
+        variation_ = output_variations(record)[0];
+        const TransferStructure direct = with_direct_terms(structure);
+        // Nothing rests at the first input here, so that the free motions are added to a start from rest.
+        const TransferOutput model(direct, {InitialState::kEstimate, true}, record, 0, shortest_record(record),
+                                   TransferOutput::AtRest::kNothing);
+        Vector point = Vector::Zero(model.parameter_count());
+        point.head(direct.parameter_count()) =
+            with_direct_terms(structure, direct, theta).cwiseQuotient(model.seconds().head(direct.parameter_count()));
+        sums_ = model.products(point, model.target());
+        scale_ = sums_.gram.diagonal().cwiseSqrt();
+        set_places(structure, direct, point);
+        for (Index i = model.initial_start(0, 0); i < model.offset_index(0, 0); ++i) motions_.push_back(i);
+        for (Index i = model.offset_index(0, 0); i < model.parameter_count(); ++i) constants_.push_back(i);
+    }
+
+    /// Whether the sums have a meaning.
+    bool usable() const { return sums_.gram.allFinite() && std::isfinite(sums_.squares); }
+
+    bool constant_promises() const { return gains(left({}, false), left({&constants_}, false)); }
+    bool start_promises() const { return gains(left({}, false), left({&motions_}, true)); }
+    bool both_promise() const {
+        const Explanation constant = left({&constants_}, false);
+        Explanation both = left({&constants_, &motions_}, false);
+        both.squares = constant.squares - (constant.squares - both.squares) / whole_;
+        return gains(left({}, false), both);
+    }
+    bool feedthrough_promises() const {
+        return !direct_.empty() && gains(left({&zeros_}, false), left({&zeros_, &direct_}, false));
+    }
+
+  private:
+    using Places = std::vector<Index>;
+
+    void set_places(const TransferStructure& structure, const TransferStructure& direct, const Vector& point) {
+        const auto add = [](Places& places, Index first, Index count) {
+            for (Index i = first; i < first + count; ++i) places.push_back(i);
+        };
+        for (std::size_t d = 0; d < direct.poles.size(); ++d)
+            add(own_, direct.denominator_start(static_cast<Index>(d)), direct.poles[d]);
+        for (Index input = 0; input < direct.inputs; ++input) {
+            const Index place = direct.numerator_start(0, input), n = direct.channel(0, input).zeros;
+            const Index m = structure.channel(0, input).zeros;
+            if (m < n) direct_.push_back(place);
+            add(zeros_, place + 1, std::max<Index>(0, n - m - 1));
+            add(own_, place + n - m, m + 1);
+            const Index delay = direct.delay_index(0, input);
+            if (direct.free_delays && point[delay] > 0) own_.push_back(delay);
+        }
+    }
+
+    /// Of the whole record, when the parameters and these values make their step; what is gained at `the_beginning`
+    /// only is gained once.
+    Explanation left(const std::vector<const Places*>& more, bool the_beginning) const {
+        const double own = gained(own_);
+        Places all = own_;
+        for (const Places* places : more) all.insert(all.end(), places->begin(), places->end());
+        const double further = gained(all) - own;
+        const double squares = whole_ * (sums_.squares - own) - (the_beginning ? 1 : whole_) * further;
+        return {std::max(squares, kLeastSquares), whole_ * variation_, samples_, static_cast<Index>(all.size())};
+    }
+
+    /// g' (J'J)^-1 g of these columns.
+    double gained(const Places& places) const {
+        Vector scale = scale_(places);
+        for (double& value : scale)
+            if (!(value > 0)) value = 1;
+        const auto scaling = scale.cwiseInverse().asDiagonal();
+        Matrix gram = scaling * sums_.gram(places, places) * scaling;
+        gram.diagonal().array() += kRidge;
+        const Vector descent = scaling * sums_.descent(places);
+        return std::max(0.0, descent.dot(solve_semidefinite(gram, descent)));
+    }
+
+    OutputErrorProducts sums_;
+    Vector scale_;
+    double samples_ = 0, whole_ = 1, variation_ = 0;
+    Places own_, zeros_, direct_, motions_, constants_;
+};
+
+/// A way to fit one output anew.
+struct Remedy {
+    TransferStructure structure;
+    StartCondition condition;
+    bool feedthrough = false;
+};
+
+double correlation_of_neighbours(const Vector& errors, const TransferOutput& model) {
+    double products = 0, squares = 0;
+    for (std::size_t e = 0; e < model.experiment_count(); ++e) {
+        const auto own = errors.segment(model.row(e, 0), model.rows(e));
+        products += own.head(own.size() - 1).dot(own.tail(own.size() - 1));
+        squares += own.squaredNorm();
+    }
+    return squares > 0 ? std::clamp(products / squares, 0.0, kLargestCorrelation) : 0;
+}
+
+Explanation explanation_of(const IdData& record, const Fit& fit) {
+    const TransferOutput model(fit.structure, fit.start, record, 0, shortest_record(record));
+    const Vector errors = model.target() - model.output_at(search_point(fit, model, model.seconds()));
+    const bool finite = errors.allFinite();
+    const double r = finite ? correlation_of_neighbours(errors, model) : 0;
+    return {finite ? std::max(errors.squaredNorm(), kLeastSquares) : kInfinity, output_variations(record)[0],
+            static_cast<double>(record.sample_count()) * (1 - r) / (1 + r), model.parameter_count()};
+}
+
+/// The search that a user's options lead to; nothing where the data do not allow it.
+std::optional<Fit> fit_of(const IdData& record, const Remedy& remedy, FitOptions options) {
+    options.initial_state = remedy.condition.state;
+    options.offset = remedy.condition.offset ? Offset::kEstimate : Offset::kNone;
+    try {
+        Fit fit = search_transfer("missed_option", record, remedy.structure, options);
+        if (fit.termination != Termination::kCancelled) return fit;
+    } catch (const InvalidArgument&) {
+        return std::nullopt;
+    }
+    return std::nullopt;
+}
+
+/// Whether a direct term does what neither more zeros nor one more pole does. A pole that is too fast to be seen is
+/// one.
+bool is_direct(const IdData& record, const TransferStructure& structure, const Explanation& direct,
+               const FitOptions& options) {
+    const StartCondition rest{InitialState::kZero, false};
+    const auto zeros =
+        fit_of(record, {changed(structure, 0, [](int n, int m) { return std::max(m, n - 1); }), rest}, options);
+    if (zeros && !gains(explanation_of(record, *zeros), direct)) return false;
+    const auto pole = fit_of(record, {changed(structure, 1, [](int, int m) { return m + 1; }), rest}, options);
+    if (!pole || is_worth_telling(explanation_of(record, *pole).fit(), direct.fit())) return true;
+    double fastest = 0;
+    for (const TransferFunction& G : pole->models) fastest = std::max(fastest, G.poles().cwiseAbs().maxCoeff());
+    return fastest * record.mean_step() > kFastestPole;
+}
+
+std::string option_text(const Remedy& remedy) {
+    if (remedy.feedthrough) return "as many zeros as poles";
+    std::string text;
+    if (remedy.condition.state != InitialState::kZero)
+        text = remedy.condition.state == InitialState::kSteady ? "`initial_state` = \"steady\""
+                                                               : "`initial_state` = \"estimate\"";
+    if (remedy.condition.offset) text += (text.empty() ? "" : " and ") + std::string("`offset` = \"estimate\"");
+    return text;
+}
+
+std::string reason_text(const Remedy& remedy) {
+    if (remedy.feedthrough) return "the output follows the input at once (a direct feedthrough)";
+    std::string text;
+    if (remedy.condition.state == InitialState::kEstimate) text = "the record begins in the middle of a movement";
+    if (remedy.condition.state == InitialState::kSteady)
+        text = "the record begins at rest at the first value of the input, not at zero";
+    if (!remedy.condition.offset) return text;
+    return text + (text.empty() ? "" : ", and ") + "the output stands on a constant that no input explains";
+}
+
+std::vector<Remedy> promised_remedies(const IdData& data, const IdData& record, const TransferStructure& structure,
+                                      const Vector& theta, double fit_percent, bool may_be_direct) {
+    const LookAhead ahead(data, structure, theta);
+    const bool lost = !ahead.usable() || !(fit_percent > 0);  // too far away to look ahead from
+    const bool constant = lost || ahead.constant_promises(), start = lost || ahead.start_promises();
+    const bool both = lost || ahead.both_promise();
+    std::vector<Remedy> remedies;
+    if (may_be_direct && ahead.usable() && ahead.feedthrough_promises())
+        remedies.push_back({with_direct_terms(structure), {InitialState::kZero, false}, true});
+    if (!constant && !start && !both) return remedies;
+    for (const StartCondition& condition : start_conditions(record, InitialState::kAuto, Offset::kAuto)) {
+        const bool rests = condition.state == InitialState::kZero;
+        const bool promised = rests ? constant : condition.offset ? both : start || both;
+        if (promised && !(rests && !condition.offset)) remedies.push_back({structure, condition, false});
+    }
+    const auto experiments = static_cast<Index>(record.experiments.size());
+    std::stable_sort(remedies.begin(), remedies.end(), [&](const Remedy& a, const Remedy& b) {
+        return value_count(a.structure, a.condition, experiments) < value_count(b.structure, b.condition, experiments);
+    });
+    return remedies;
+}
+
+struct Told {
+    double gain = 0;  ///< points of fit
+    std::string sentence;
+};
+
+/// For one output, which messages call ` of NAME` or nothing.
+Told remedy_of(const IdData& data, const Fit& given, const FitOptions& options, bool may_be_direct,
+               const std::string& name) {
+    const bool shorter = data.sample_count() > kFitted;
+    const IdData beginning = shorter ? beginning_of(data, kFitted) : IdData();
+    const IdData& record = shorter ? beginning : data;
+    const std::vector<Remedy> remedies =
+        promised_remedies(data, record, given.structure, given.theta, given.fit_percent[0], may_be_direct);
+    if (remedies.empty()) return {};
+    const Explanation present = explanation_of(record, given);
+    Explanation best = present;
+    const Remedy* chosen = nullptr;
+    for (const Remedy& remedy : remedies) {
+        const std::optional<Fit> fit = fit_of(record, remedy, options);
+        if (!fit) continue;
+        const Explanation found = explanation_of(record, *fit);
+        if (!gains(best, found) || (remedy.feedthrough && !is_direct(record, given.structure, found, options)))
+            continue;
+        best = found;
+        chosen = &remedy;
+    }
+    if (!chosen) return {};
+    const std::string where =
+        shorter ? " of the first " + std::to_string(record.sample_count()) + " samples" : std::string();
+    const std::string instead =
+        std::isfinite(present.fit()) ? " instead of " + number_text(present.fit(), 4) + " %" : std::string();
+    return {best.fit() - present.fit(), kFirstWord + option_text(*chosen) + kThenFit + name + where + " is " +
+                                            number_text(best.fit(), 4) + " %" + instead + ": " + reason_text(*chosen) +
+                                            "."};
+}
+
+bool by_defaults(const Fit& fit) {
+    return fit.start.state == InitialState::kZero && !fit.start.offset && fit.removed.empty() &&
+           fit.termination != Termination::kCancelled;
+}
+
+bool has_further_poles(const Fit& fit) {  // those of an appended integrator
+    const Index own = fit.structure.poles[static_cast<std::size_t>(fit.structure.channels.front().denominator)];
+    return fit.models.front().pole_count() > own;
+}
+
+}  // namespace
+
+std::optional<std::string> missed_option(const IdData& data, const Fit& fit, const FitOptions& options) {
+    if (!by_defaults(fit)) return std::nullopt;
+    const bool may_be_direct = !has_further_poles(fit);
+    Told told;
+    if (fit.structure.outputs == 1) {
+        told = remedy_of(data, fit, options, may_be_direct, "");
+    } else if (outputs_are_separate(fit.structure)) {
+        for (Index output = 0; output < fit.structure.outputs; ++output) {
+            const OutputProblem problem = output_problem(data, fit.structure, output);
+            Fit own;
+            own.structure = problem.structure;
+            own.theta = fit.theta(problem.places);
+            own.fit_percent = Vector::Constant(1, fit.fit_percent[output]);
+            Told other = remedy_of(problem.data, own, options, may_be_direct,
+                                   " of " + data.output_names[static_cast<std::size_t>(output)]);
+            if (other.gain > told.gain) told = std::move(other);
+        }
+    }
+    return told.sentence.empty() ? std::nullopt : std::optional(told.sentence);
+}
+
+void warn_of_missed_option(Fit& fit, const IdData& data, const FitOptions& options) {
+    const std::optional<std::string> sentence = missed_option(data, fit, options);
+    if (!sentence) return;
+    fit.warnings.push_back(*sentence);
+    fit.message += " " + *sentence;
+}
+
+std::string missed_option_among(const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings)
+        if (warning.starts_with(kFirstWord) && warning.find(kThenFit) != std::string::npos) return warning;
+    return "";
+}
+
+}  // namespace dynlab::inline numerics

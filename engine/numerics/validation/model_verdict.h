@@ -1,0 +1,31 @@
+#pragma once
+#include <string>
+
+namespace dynlab::inline numerics {
+
+/// What an estimation doubts of its model, for verdicts on it.
+struct ModelDoubts {
+    std::string undetermined = {};  ///< parameters whose standard errors are larger than they: "a1, b0"
+    std::string remedy = {};        ///< a sentence: what the estimation missed (fit/missed_options.h)
+};
+
+/// What is known of the model of one output: stability, fit, the tests of its errors, the estimation's own doubts.
+struct ModelStanding {
+    double fit_percent = 100;     ///< of the simulation
+    bool unstable = false;        ///< a pole to the right of the stability limit
+    bool white = true;            ///< the errors
+    bool of_predictions = false;  ///< the errors, by one step with a noise model; else of the simulation
+    bool independent = true;      ///< the errors, of every input
+    bool tested = true;           ///< every input changes
+    bool acts_at_once = false;    ///< the errors go most with the input of the same instant, which the model leaves out
+    bool acts_earlier = false;    ///< the errors go most with an input that the model's delay holds back still
+    std::string start = {};       ///< a sentence: a start that would explain the errors
+    ModelDoubts doubts = {};
+};
+
+/// What all of it says together, in a sentence or two. An unstable model is never called good, nor is one that explains
+/// little (explains_little in fit/diagnosis.h), however white its errors; a cause that is known is named in the place
+/// of missing poles.
+std::string model_verdict(const ModelStanding& model);
+
+}  // namespace dynlab::inline numerics

@@ -1,0 +1,45 @@
+// Oracle: the rules, written down case by case.
+#include "numerics/validation/model_verdict.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace test_model_verdict {
+
+using namespace dynlab;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+TEST(model_verdict, good_models_only_are_called_good) {
+    EXPECT_EQ(model_verdict({}), "The model explains all that the data show, and its standard errors hold.");
+    const auto not_good = Not(HasSubstr("explains all"));
+    EXPECT_THAT(model_verdict({.unstable = true}), not_good);
+    EXPECT_THAT(model_verdict({.fit_percent = 5}), not_good);
+    EXPECT_THAT(model_verdict({.fit_percent = -30}), not_good);
+    EXPECT_THAT(model_verdict({.white = false}), not_good);
+    EXPECT_THAT(model_verdict({.independent = false}), not_good);
+    EXPECT_THAT(model_verdict({.doubts = {.undetermined = "a2, b2"}}), not_good);
+}
+
+TEST(model_verdict, the_gravest_comes_first) {
+    EXPECT_THAT(model_verdict({.fit_percent = 5, .unstable = true}), StartsWith("The model is unstable"));
+    EXPECT_THAT(model_verdict({.fit_percent = 5, .white = false}), StartsWith("The model explains little"));
+    EXPECT_THAT(model_verdict({.fit_percent = 5, .independent = false}),
+                testing::AllOf(StartsWith("The model explains little"), HasSubstr("Dynamics are missing")));
+    EXPECT_THAT(model_verdict({.white = false, .doubts = {.undetermined = "b0"}}), HasSubstr("hardly determine b0"));
+    EXPECT_THAT(model_verdict({.white = false}), HasSubstr("the disturbance is coloured"));
+    EXPECT_THAT(model_verdict({.white = false, .tested = false}), HasSubstr("cannot tell which"));
+}
+
+TEST(model_verdict, known_causes_come_before_missing_dynamics) {
+    const ModelStanding remedy{.independent = false, .acts_at_once = true, .start = "B.", .doubts = {.remedy = "A."}};
+    EXPECT_EQ(model_verdict(remedy), "A.");
+    const ModelStanding start{.independent = false, .acts_at_once = true, .start = "B."};
+    EXPECT_EQ(model_verdict(start), "B.");
+    EXPECT_THAT(model_verdict({.independent = false, .acts_at_once = true}), HasSubstr("direct feedthrough"));
+    EXPECT_THAT(model_verdict({.independent = false, .acts_earlier = true}), HasSubstr("shorter delay"));
+    EXPECT_THAT(model_verdict({.independent = false}), StartsWith("Dynamics are missing"));
+}
+
+}  // namespace test_model_verdict
