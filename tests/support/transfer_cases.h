@@ -28,6 +28,14 @@ inline IdData course_record(double sigma, std::uint32_t seed) {
     return IdData(Matrix(y), Matrix(u), 0.01);
 }
 
+/// 3 exp(-0.62 s)/(s^2 + 1.5s + 3), prbs(7, 5), Ts = 0.1 s, with some white noise.
+inline IdData delayed_record() {
+    const Vector u = prbs(7, 5);
+    const Vector y = lsim(TransferFunction(values({3}), values({1, 1.5, 3}), 0, 0.62), u, 0.1) +
+                     0.1 * RandomStream(4).normal(u.size());
+    return IdData(Matrix(y), Matrix(u), 0.1);
+}
+
 /// Largest relative difference of two vectors.
 inline double relative_difference(const Vector& a, const Vector& b) {
     return ((a - b).array() / b.array()).abs().maxCoeff();

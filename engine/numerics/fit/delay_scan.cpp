@@ -20,6 +20,7 @@ constexpr double kScanTolerance = 1e-4;
 constexpr int kScanPasses = 5, kScanIterations = 10;  // at each delay
 constexpr Index kFreshStart = 8;                      // so many delays apart the cut-off frequencies are tried anew
 constexpr std::size_t kValleys = 3;                   // of the loss over the delay that are looked at closely
+constexpr std::size_t kMostBeginnings = 5;            // of joint searches
 constexpr double kFineSpacing = 2;                    // samples
 constexpr Index kFewChanges = 3;                      // of an input that is a step
 
@@ -59,8 +60,9 @@ class DelayCurve {
         }
     }
 
-    /// Where joint searches begin, best first: on both sides of the lowest minima. Solutions of neighbouring delays may
-    /// lie on different branches, so that a minimum between two points need not show in their losses.
+    /// Where joint searches begin, best first: on both sides of the lowest minimum, and at the next ones. Solutions of
+    /// neighbouring delays may lie on different branches, so that a minimum between two points need not show in their
+    /// losses.
     std::vector<DelayPoint> beginnings() const {
         std::vector<Valley> all = valleys_between();
         std::stable_sort(all.begin(), all.end(), [](const Valley& a, const Valley& b) { return a.loss < b.loss; });
@@ -70,11 +72,14 @@ class DelayCurve {
             if (place < points_.size() && std::isfinite(points_[place].loss) && places.insert(place).second)
                 chosen.push_back(points_[place]);
         };
-        for (std::size_t i = 0; i < std::min(kValleys, all.size()); ++i) {
-            choose(all[i].left);
-            choose(all[i].left + 1);
+        if (!all.empty()) {
+            choose(all[0].left);
+            choose(all[0].left + 1);
         }
-        for (const std::size_t place : valleys()) choose(place);
+        for (std::size_t i = 1; i < std::min(kValleys, all.size()); ++i)
+            choose(all[i].left + (points_[all[i].left + 1].loss < points_[all[i].left].loss ? 1 : 0));
+        for (const std::size_t place : valleys())
+            if (chosen.size() < kMostBeginnings) choose(place);
         return chosen;
     }
 
@@ -176,7 +181,7 @@ class DelayCurve {
 
     void search_from(DelayPoint& point, const Vector& start) {
         const Fit fit = refine_output_error(data_, structure_, {InitialState::kZero, false}, start,
-                                            options_.limited(kScanIterations, kScanTolerance));
+                                            options_.rough(kScanIterations, kScanTolerance));
         if (fit.loss < point.loss) point = {point.delay, fit.theta, fit.loss};
     }
 

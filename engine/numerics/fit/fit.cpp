@@ -31,6 +31,12 @@ FitOptions FitOptions::limited(int iterations, double limit) const {
     return other;
 }
 
+FitOptions FitOptions::rough(int iterations, double limit) const {
+    FitOptions other = limited(iterations, limit);
+    other.precision = false;
+    return other;
+}
+
 double fit_percent_of_sums(double squared_errors, double squared_variations) {
     if (!std::isfinite(squared_errors)) return -kInfinity;
     return 100 * (1 - std::sqrt(squared_errors / squared_variations));

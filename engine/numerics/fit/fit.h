@@ -50,12 +50,15 @@ struct FitOptions {
     std::optional<bool> stable;
     std::map<std::string, double> fixed;  ///< searches: parameters that are not estimated, by name, in seconds
     Vector output_weights;                ///< of each output's errors; by their standard deviations when empty
+    bool precision = true;                ///< a search ends with the covariance
     std::function<bool()> cancel;         ///< asked before every iteration
 
     /// Throws InvalidArgument naming the option.
     void validate() const;
     /// The same with other limits.
     FitOptions limited(int iterations, double limit) const;
+    /// The same for a search that only shows where another begins: without covariance.
+    FitOptions rough(int iterations, double limit) const;
 };
 
 /// Noise v = C(q^-1)/D(q^-1) e of an estimated model, monic, with standard errors (zero for the leading ones). C and D

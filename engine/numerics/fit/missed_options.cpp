@@ -191,6 +191,7 @@ Explanation explanation_of(const IdData& record, const Fit& fit) {
 
 /// The search that a user's options lead to; nothing where the data do not allow it.
 std::optional<Fit> fit_of(const IdData& record, const Remedy& remedy, FitOptions options) {
+    options.goes_on = false;  // what settles that late is told apart from the present fit by chance alone
     options.initial_state = remedy.condition.state;
     options.offset = remedy.condition.offset ? Offset::kEstimate : Offset::kNone;
     try {
@@ -331,8 +332,7 @@ std::optional<std::string> missed_option(const IdData& data, const Fit& fit, con
 void warn_of_missed_option(Fit& fit, const IdData& data, const FitOptions& options) {
     const std::optional<std::string> sentence = missed_option(data, fit, options);
     if (!sentence) return;
-    fit.warnings.push_back(*sentence);
-    fit.message += " " + *sentence;
+    add_warning(fit, *sentence);
 }
 
 std::string missed_option_among(const std::vector<std::string>& warnings) {

@@ -67,6 +67,7 @@ class Search {
         const double variance = square_sum_ / (samples() - static_cast<double>(free.size()));
         result.noise_variance = Vector::Constant(1, variance);
         result.covariance = Matrix::Zero(count, count);
+        if (!options_.precision) return result;
         const Matrix gram = scale_.asDiagonal() * gram_ * scale_.asDiagonal();
         const SensitivityPrecision precision = sensitivity_precision(model_, theta_, gram, free);
         if (precision.inverse_gram.size() == 0) return result;

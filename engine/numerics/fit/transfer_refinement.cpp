@@ -334,7 +334,7 @@ Index value_count(const TransferStructure& structure, const StartCondition& cond
 
 Fit refine_output_error(const IdData& data, const TransferStructure& structure, const StartCondition& condition,
                         const Vector& theta_start, const FitOptions& options, double unheard) {
-    check_transfer_data("Output error", data, structure, condition.offset ? Offset::kEstimate : Offset::kNone);
+    check_transfer_data("Output error", data, structure, condition.offset ? Offset::kEstimate : options.offset);
     if (theta_start.size() != structure.parameter_count())
         throw InvalidArgument("The search needs " + std::to_string(structure.parameter_count()) +
                               " start values, and " + std::to_string(theta_start.size()) + " were given");

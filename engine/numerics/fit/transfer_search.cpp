@@ -33,8 +33,8 @@ constexpr double kSameSolution = 0.01;  // of every parameter
 constexpr std::size_t kFollowed = 3;    // to the end
 
 FitOptions rough(const FitOptions& options) {
-    return options.limited(std::min(kRoughIterations, options.max_iterations),
-                           std::max(kRoughTolerance, options.tolerance));
+    return options.rough(std::min(kRoughIterations, options.max_iterations),
+                         std::max(kRoughTolerance, options.tolerance));
 }
 
 /// The end of a search that began where `before` ended, with the iterations of both.

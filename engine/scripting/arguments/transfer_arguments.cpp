@@ -129,13 +129,14 @@ StartedStructure started_structure(const Call& call, const Options& options, con
 }
 
 TransferRequest transfer_request(const Options& options, const FitOptions& wanted, const Estimation& estimate) {
-    if (!options.flag("Integration", false)) return {false, estimate, wanted};
+    const bool start_is_given = options.has("InitialState") && options.has("Offset");
+    if (!options.flag("Integration", false)) return {false, estimate, wanted, start_is_given};
     const auto with_integrator = [estimate](const IdData& data) {
         Fit result = estimate(integrated_inputs(data));
         append_integrator(result);
         return result;
     };
-    return {true, with_integrator, wanted};
+    return {true, with_integrator, wanted, start_is_given};
 }
 
 Denominators sharing_of(const Options& options) {

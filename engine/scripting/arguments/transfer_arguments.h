@@ -38,7 +38,8 @@ StartedStructure started_structure(const Call& call, const Options& options, con
 struct TransferRequest {
     bool integration;
     Estimation estimate;
-    FitOptions wanted;  ///< that the estimation uses
+    FitOptions wanted;    ///< that the estimation uses
+    bool start_is_given;  ///< the script says how records begin, and whether they stand on a constant
 };
 TransferRequest transfer_request(const Options& options, const FitOptions& wanted, const Estimation& estimate);
 

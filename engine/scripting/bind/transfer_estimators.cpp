@@ -54,7 +54,7 @@ int give_refined(Call& call, const IdData& data, const TransferRequest& request)
     Fit result = request.estimate(data);
     const IdData integrated = request.integration ? integrated_inputs(data) : IdData();
     const IdData& seen = request.integration ? integrated : data;
-    warn_of_missed_option(result, seen, request.wanted);
+    if (!request.start_is_given) warn_of_missed_option(result, seen, request.wanted);
     Estimate estimate = estimate_of(call.function_name(), result);
     estimate.of_coefficients = !request.integration;
     estimate.set_assessment(assess_if_affordable(seen, result));

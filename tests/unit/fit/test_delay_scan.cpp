@@ -15,10 +15,7 @@ using namespace dynlab::test;
 
 // Oracle: the joint search at every fixed delay. Far from the true delay several minima lie close together.
 TEST(delay_scan, loss_over_the_delay_is_that_of_fixed_delays) {
-    const Vector u = prbs(7, 5);
-    const Vector y = lsim(TransferFunction(values({3}), values({1, 1.5, 3}), 0, 0.62), u, 0.1) +
-                     0.1 * RandomStream(4).normal(u.size());
-    const IdData data{Matrix(y), Matrix(u), 0.1};
+    const IdData data = delayed_record();
     TransferStructure structure = TransferStructure::single(2, 0);
     structure.free_delays = true;
     FitOptions options;
