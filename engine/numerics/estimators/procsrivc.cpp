@@ -195,10 +195,9 @@ Fit best_fit_to_long(ProcessProblem problem, const IdData& data, const std::vect
 
 /// With an estimated start: without the beginning in which inputs from before the record still arrive.
 Fit without_unheard_inputs(const ProcessProblem& problem, const IdData& data, Fit fit) {
-    if (fit.start.state != InitialState::kEstimate || !problem.structure.delay) return fit;
-    const double delay = fit.theta[fit.theta.size() - 1];
-    const double unheard = delay + data.mean_step();
-    if (delay == 0 || unheard >= shortest_record(data) / 2) return fit;
+    if (!problem.structure.delay) return fit;
+    const double unheard = unheard_beginning(fit.start, fit.theta[fit.theta.size() - 1], data);
+    if (unheard == 0) return fit;
     Fit next = problem.fit(data, fit.start, &fit, unheard);
     next.trace.insert(next.trace.begin(), fit.trace.begin(), fit.trace.end());
     return next;

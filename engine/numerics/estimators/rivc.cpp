@@ -111,7 +111,7 @@ class Passes {
             }
             const double change = one_pass(pass > 0);
             const Vector errors = y_ - simulated();
-            trace_.push_back({theta_, errors.squaredNorm() / static_cast<double>(y_.size()), change});
+            trace_.push_back({theta_, errors.squaredNorm() / static_cast<double>(model_.sample_count()), change});
             if (change <= options_.tolerance) {
                 termination_ = Termination::kConverged;
                 break;
@@ -130,7 +130,7 @@ class Passes {
     Fit fit(const StartCondition& condition) const {
         const Vector errors = y_ - simulated();
         Fit result = solution_;
-        result.loss = errors.squaredNorm() / static_cast<double>(y_.size());
+        result.loss = errors.squaredNorm() / static_cast<double>(model_.sample_count());
         result.noise_variance = Vector::Constant(1, variance_);
         result.termination = termination_;
         result.trace = trace_;
@@ -146,7 +146,7 @@ class Passes {
         const Vector errors = y_ - simulated();
         std::vector<Vector> records;
         for (std::size_t e = 0; e < model_.experiment_count(); ++e)
-            records.push_back(errors.segment(model_.row(e, 0), model_.rows(e)));
+            records.push_back(errors.segment(model_.row(e, 0), model_.rows(e)).tail(model_.counted_rows(e)));
         return records;
     }
 
@@ -172,7 +172,8 @@ class Passes {
     void set_matrix() {
         const WhitenedOutput whitened_output(model_, noise_, y_);
         const double squares = whitened_output.filtered(y_ - simulated()).squaredNorm();
-        const double used = static_cast<double>(y_.size() - orders_.nd * static_cast<Index>(model_.experiment_count()));
+        const double used =
+            static_cast<double>(model_.sample_count() - orders_.nd * static_cast<Index>(model_.experiment_count()));
         variance_ = squares / (used - static_cast<double>(theta_.size() + orders_.nc + orders_.nd));
         if (solution_.noise_variance[0] > 0) solution_.covariance *= variance_ / solution_.noise_variance[0];
     }
@@ -222,14 +223,17 @@ Fit rivc(const IdData& data, const TransferStructure& structure, const NoiseOrde
         wanted.largest_delay = start.delay_grid[start.delay_grid.size() - 1];
     const DelayRange range = structure.free_delays ? delay_range(data, wanted) : DelayRange{};
     const CentredData centred = centred_for(data, options.offset);
-    const TransferOutput model(structure, start.start, centred.data, range.least, range.largest);
+    TransferOutput model(structure, start.start, centred.data, range.least, range.largest);
+    model.leave_out(unheard_beginning(start, centred.data));
+    if (std::none_of(start.models.begin(), start.models.end(), has_unstable_pole)) model.keep_stable();
+    model.fix(options.fixed);
     const Vector y = model.target();
     Passes passes(model, y, orders, wanted);
     passes.run(search_point(start, model, model.seconds()).cwiseMax(model.lower()).cwiseMin(model.upper()));
     Fit result = passes.fit(start.start);
     result.structure = structure;
     result.fit_percent = Vector::Constant(
-        1, fit_percent_of_sums(result.loss * static_cast<double>(y.size()), output_variations(data)[0]));
+        1, fit_percent_of_sums(result.loss * static_cast<double>(model.sample_count()), counted_variations(model)[0]));
     if (options.offset == Offset::kRemove) add_operating_points(result, centred.removed);
     result.delay_grid = start.delay_grid;
     result.delay_loss = start.delay_loss;

@@ -20,11 +20,12 @@ struct NoiseOrders {
 /// the instrumental equations of RIVC whose instruments z are the exact sensitivities of the simulated output. The
 /// passes end when one changes neither theta nor C and D by more than the tolerance. Efficient for ARMA noise of these
 /// orders; with nc = nd = 0 it is srivc. One output; several inputs and experiments; free delays, initial states and
-/// offsets as srivc chose or found them, refined jointly. The fit's noise_variance is that of e, its covariance
-/// noise_variance (Psi'Psi)^-1 with the sensitivities Psi filtered by D/C; theta and the noise model are asymptotically
-/// independent. Non-convergence and doubtful results are told in `warnings`. Throws InvalidArgument as srivc, for
-/// irregular sampling, and for several outputs. Reference: Young, Garnier and Gilson in Garnier and Wang (2008),
-/// chapter 4.
+/// offsets as srivc chose or found them, refined jointly; a stable start stays stable, and with an estimated start the
+/// beginning that it does not hear is left out (fit/transfer_refinement.h). The fit's noise_variance is that of e, its
+/// covariance noise_variance (Psi'Psi)^-1 with the sensitivities Psi filtered by D/C; theta and the noise model are
+/// asymptotically independent. Non-convergence and doubtful results are told in `warnings`. Throws InvalidArgument as
+/// srivc, for irregular sampling, and for several outputs. Reference: Young, Garnier and Gilson in Garnier and Wang
+/// (2008), chapter 4.
 Fit rivc(const IdData& data, const TransferStructure& structure, const NoiseOrders& orders,
          const FitOptions& options = {});
 

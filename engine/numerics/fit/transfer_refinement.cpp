@@ -318,6 +318,17 @@ Fit refine_each_output(const IdData& data, const TransferStructure& structure, c
 
 }  // namespace
 
+double unheard_beginning(const StartCondition& start, double delay, const IdData& data) {
+    const bool unknown = start.state == InitialState::kEstimate && delay > 0;
+    return unknown && delay < shortest_record(data) / 2 ? delay + data.mean_step() : 0;
+}
+
+double unheard_beginning(const Fit& fit, const IdData& data) {
+    double longest = 0;
+    for (const TransferFunction& G : fit.models) longest = std::max(longest, G.delay());
+    return unheard_beginning(fit.start, longest, data);
+}
+
 Index value_count(const TransferStructure& structure, const StartCondition& condition, Index experiments) {
     Index values = condition.offset ? structure.outputs : 0;
     if (condition.state == InitialState::kEstimate)

@@ -31,6 +31,11 @@ namespace dynlab::inline numerics {
 Fit refine_output_error(const IdData& data, const TransferStructure& structure, const StartCondition& condition,
                         const Vector& theta_start, const FitOptions& options, double unheard = 0);
 
+/// `unheard` for a model with this delay (s), or with those of a fit: the longest and a sample more; zero where the
+/// start is not estimated, and where it would be half of the shortest record.
+double unheard_beginning(const StartCondition& start, double delay, const IdData& data);
+double unheard_beginning(const Fit& fit, const IdData& data);
+
 /// All values estimated under a start condition: parameters, initial values and offsets.
 Index value_count(const TransferStructure& structure, const StartCondition& condition, Index experiments);
 

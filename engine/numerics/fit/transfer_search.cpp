@@ -1,8 +1,6 @@
 #include "numerics/fit/transfer_search.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <utility>
 
 #include "numerics/error.h"
@@ -27,7 +25,7 @@ constexpr double kClearly = 1.02;          // times the loss of an unstable mode
 /// How far every start is followed before the best of them are taken to the end.
 constexpr int kRoughIterations = 15;
 constexpr double kRoughTolerance = 1e-3;
-constexpr int kLastIterations = 450;    // of a search that did not settle before
+constexpr int kLastIterations = 500;    // of a search that did not settle before
 constexpr double kMayStillWin = 1.1;    // of the smallest loss after so much
 constexpr double kSameSolution = 0.01;  // of every parameter
 constexpr std::size_t kFollowed = 3;    // to the end
@@ -164,19 +162,13 @@ Fit without_unheard_inputs(const IdData& record, const TransferStructure& struct
                            const FitOptions& options) {
     constexpr int kRounds = 3;
     double left_out = 0;
-    for (int round = 0; round < kRounds && fit.start.state == InitialState::kEstimate; ++round) {
-        double longest = 0;
-        for (const TransferFunction& G : fit.models) longest = std::max(longest, G.delay());
-        if (longest <= left_out || longest >= shortest_record(record) / 2 || fit.termination == Termination::kCancelled)
-            break;
-        left_out = longest + record.mean_step();
+    for (int round = 0; round < kRounds && fit.termination != Termination::kCancelled; ++round) {
+        const double unheard = unheard_beginning(fit, record);
+        if (unheard <= left_out + record.mean_step()) break;
+        left_out = unheard;
         fit = continued(fit, refine_output_error(record, structure, fit.start, fit.theta, options, left_out));
     }
     return fit;
-}
-
-bool has_unstable_model(const Fit& fit) {
-    return std::any_of(fit.models.begin(), fit.models.end(), [](const TransferFunction& G) { return !G.stable(); });
 }
 
 }  // namespace
@@ -235,7 +227,8 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
         return fits.no_worse(structure, std::move(found), aids.poorer);
     };
     best = search(options, std::move(best));
-    if (!options.stable && has_unstable_model(best) && best.termination != Termination::kCancelled) {
+    const bool unstable = std::any_of(best.models.begin(), best.models.end(), has_unstable_pole);
+    if (!options.stable && unstable && best.termination != Termination::kCancelled) {
         FitOptions stable = options;
         stable.stable = true;
         starts.push_back(best.theta);

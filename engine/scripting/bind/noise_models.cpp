@@ -1,6 +1,7 @@
 #include <array>
 
 #include "numerics/estimators/rivc.h"
+#include "numerics/fit/missed_options.h"
 #include "scripting/arguments/transfer_arguments.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/memoized_calls/memoized_call.h"
@@ -21,7 +22,8 @@ int noise_order(const std::vector<int>& entry, const OrderEntry& what) {
 }
 
 int give_with_noise(Call& call, const IdData& data, const TransferRequest& request) {
-    const Fit result = request.estimate(data);
+    Fit result = request.estimate(data);
+    if (!request.start_is_given && !request.integration) warn_of_missed_option(result, data, request.wanted);
     Estimate estimate = estimate_of(call.function_name(), result);
     estimate.of_coefficients = !request.integration;
     estimate.numbers.emplace_back("Ts", data.Ts);  // the samples that the noise model counts
@@ -37,8 +39,9 @@ TransferRequest noisy_request(const StructureMaker& structure, const NoiseOrders
 TransferRequest read_rivc(const Call& call) {
     call.at_most(3);
     const auto orders = order_lists(call, 2, kNoiseModelOrders);
-    const Options options(
-        call, 3, {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator", "Integration"});
+    const Options options(call, 3,
+                          {"lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator",
+                           "Integration", "Stable", "Fixed"});
     FitOptions wanted;
     read_fit_options(options, wanted);
     return noisy_request(structure_of_orders(kNoiseModelOrders, orders, sharing_of(options)),
@@ -47,9 +50,10 @@ TransferRequest read_rivc(const Call& call) {
 
 TransferRequest read_tfrivc(const Call& call) {
     call.at_most(4);
-    const Options options(call, 4,
-                          {"nc", "nd", "lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol",
-                           "CommonDenominator", "Integration", "TdMin", "TdMax", "NumTd", "IODelay"});
+    const Options options(
+        call, 4,
+        {"nc", "nd", "lambda", "hold_y", "InitialState", "Offset", "MaxIter", "Tol", "CommonDenominator", "Integration",
+         "TdMin", "TdMax", "NumTd", "IODelay", "Stable", "Fixed"});
     FitOptions wanted;
     read_fit_options(options, wanted);
     const StructureMaker structure = structure_of_counts(call, options, wanted);

@@ -97,6 +97,25 @@ TEST(rivc, delays_offsets_inputs_and_experiments) {  // oracle: the simulated sy
     for (Index i = 0; i < 5; ++i) EXPECT_NEAR(both.theta[i], truth[i], 6 * both.std[i]) << both.message;
 }
 
+// oracle: the simulated system. Inputs from before the record reach its first 1.2 s, and nobody knows them
+TEST(rivc, a_record_cut_from_a_running_experiment) {
+    const Vector u = prbs(7, 8);
+    const Vector x = lsim(TransferFunction(values({2}), values({1, 4, 3}), 0, 1.2), u, 0.05);
+    FitOptions options = exact();
+    options.initial_state = InitialState::kEstimate;
+    TransferStructure late = kCourse;
+    late.channels[0].delay = 1.2;
+    const Fit found = rivc(IdData(Matrix(x), Matrix(u), 0.05).range(301, 900), late, {0, 1}, options);
+    EXPECT_LT(relative_difference(found.theta, values({4, 3, 2})), 1e-7) << found.message;
+
+    // What does not count makes no noise either.
+    const Vector v = 0.05 * arma_signal(values({1}), values({1, -0.8}), u.size(), 5);
+    const Fit noisy = rivc(IdData(Matrix(x + v), Matrix(u), 0.05).range(301, 900), late, {0, 1}, options);
+    EXPECT_NEAR(noisy.noise->D[1], -0.8, 3 * noisy.noise->D_std[1]);
+    EXPECT_NEAR(std::sqrt(noisy.noise_variance[0]), 0.05, 0.005);
+    for (Index i = 0; i < 3; ++i) EXPECT_NEAR(noisy.theta[i], values({4, 3, 2})[i], 3 * noisy.std[i]);
+}
+
 TEST(rivc, refuses_what_it_cannot_do) {
     const IdData data = ColouredProblem().record(1);
     const Matrix u = data.experiments[0].u, y = data.experiments[0].y;
