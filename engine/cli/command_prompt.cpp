@@ -1,6 +1,7 @@
 #include <unistd.h>
 
 #include <iostream>
+#include <sstream>
 
 #include "cli/commands.h"
 #include "scripting/prompt/console.h"
@@ -16,12 +17,18 @@ constexpr const char* kGreeting =
 
 }  // namespace
 
-int open_prompt() {
+int open_prompt(const std::string& script) {
+    std::string quoted;
+    for (const char c : script) quoted += (c == '"' || c == '\\' ? "\\" : "") + std::string(1, c);
+    const std::string first = script.empty() ? "" : "run(\"" + quoted + "\")";
     if (::isatty(STDIN_FILENO) && ::isatty(STDOUT_FILENO)) {
-        run_prompt(kFigureFolder, kGreeting);
+        run_prompt(kFigureFolder, kGreeting, first);
         return kDone;
     }
-    return run_statements_of(std::cin, kFigureFolder) ? kDone : kFailed;
+    std::stringstream input;
+    if (!first.empty()) input << first << '\n';
+    input << std::cin.rdbuf();
+    return run_statements_of(first.empty() ? std::cin : input, kFigureFolder) ? kDone : kFailed;
 }
 
 }  // namespace dynlab::inline cli

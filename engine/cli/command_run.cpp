@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 
 struct RunArguments {
     std::string file, code, out;
+    bool interactive = false;
     SeedOption seed;
 };
 
@@ -44,9 +45,10 @@ RunRecord run_showing_activity(RunRequest& request, GnuplotRenderer& renderer) {
 int run(const RunArguments& words) {
     const bool from_file = !words.file.empty();
     RunRequest request;
-    request.script = from_file ? read_percent_script(words.file) : parse_percent_script(words.code, "command line");
+    const fs::path file = fs::is_directory(words.file) ? fs::path(words.file) / "analysis.lua" : fs::path(words.file);
+    request.script = from_file ? read_percent_script(file) : parse_percent_script(words.code, "command line");
     request.seed = words.seed.value();
-    const std::string stem = from_file ? fs::path(words.file).stem().string() : "dynlab";
+    const std::string stem = from_file ? file.stem().string() : "dynlab";
     const fs::path out = words.out.empty() ? fs::path(stem + "_out") : fs::path(words.out);
     request.out_folder = words.out.empty() ? fs::path(".") : out;
     if (!words.out.empty()) fs::create_directories(out);
@@ -71,9 +73,11 @@ int run(const RunArguments& words) {
 void add_run(CLI::App& app, Action& action) {
     auto words = std::make_shared<RunArguments>();
     CLI::App* command = app.add_subcommand("run", "Run a Lua script, or code given on the command line");
-    auto* file = command->add_option("FILE", words->file, "The script");
+    auto* file = command->add_option("FILE", words->file, "The script, or a folder with an analysis.lua");
     auto* code = command->add_option("-e", words->code, "Code to run instead of a file")->type_name("CODE");
     file->excludes(code);
+    command->add_flag("-i,--interactive", words->interactive, "Open the prompt afterwards, with the script's variables")
+        ->needs(file);
     command->add_option("--out", words->out, "Folder for figures, saved files and the run's record (record.json)")
         ->type_name("DIR");
     words->seed.add_to(*command);
@@ -84,7 +88,7 @@ void add_run(CLI::App& app, Action& action) {
         if (words->file.empty() && words->code.empty()) {
             throw CLI::RequiredError("a script FILE or -e CODE");
         }
-        action = [words] { return run(*words); };
+        action = [words] { return words->interactive ? open_prompt(words->file) : run(*words); };
     });
 }
 

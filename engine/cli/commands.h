@@ -30,6 +30,7 @@ void add_course(CLI::App& app, Action& action);
 void add_boxed(CLI::App& app, Action& action);
 
 /// What `dynlab` without a command does: the prompt on a terminal, statements from a pipe or file otherwise.
-int open_prompt();
+/// After running a script, unless `script` is empty, whose variables stay.
+int open_prompt(const std::string& script = "");
 
 }  // namespace dynlab::inline cli

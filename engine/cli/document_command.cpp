@@ -58,6 +58,8 @@ int make_document(ReportRequest request, bool show_timings) {
     const std::string file = std::filesystem::absolute(request.output).lexically_normal().string();
     const char* const state = result.up_to_date ? " (up to date)" : result.error ? " (up to the error)" : "";
     if (result.error) std::cerr << "dynlab: " << terminal_text(*result.error) << std::endl;
+    for (const std::string& sentence : result.unplaced)
+        std::cerr << "dynlab: note: " << terminal_text(sentence) << '\n';
     std::cout << file << state << '\n';
     if (show_timings) show(result);
     return result.error ? kFailed : kDone;

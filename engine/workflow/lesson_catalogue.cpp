@@ -26,13 +26,17 @@ std::vector<Lesson> lessons() {
     return found;
 }
 
-Lesson find_lesson(const std::string& beginning) {
+Lesson find_lesson(const std::string& name) {
     const std::vector<Lesson> all = lessons();
-    std::vector<Lesson> fitting;
+    const bool digit = name.size() == 1 && name[0] >= '0' && name[0] <= '9';
+    const std::string beginning = (digit ? "0" : "") + name;
+    std::vector<Lesson> fitting, holding;
     for (const Lesson& lesson : all) {
         if (lesson.slug == beginning) return lesson;
         if (!beginning.empty() && lesson.slug.starts_with(beginning)) fitting.push_back(lesson);
+        if (!name.empty() && lesson.slug.find("_" + name) != std::string::npos) holding.push_back(lesson);
     }
+    if (fitting.empty()) fitting = holding;
     if (fitting.size() == 1) return fitting.front();
     if (fitting.empty()) {
         throw EnvironmentError("there is no lesson or folder '" + beginning + "'; the lessons are " +

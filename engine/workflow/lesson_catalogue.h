@@ -18,8 +18,8 @@ struct Lesson {
 
 std::vector<Lesson> lessons();  ///< all that are installed, sorted by slug
 
-/// The lesson whose slug starts with `beginning` ("02", "02_least"). Throws EnvironmentError that lists the lessons
-/// when none or several do.
-Lesson find_lesson(const std::string& beginning);
+/// The lesson whose slug starts with `name` ("02", "2", "02_least"), or holds it as a word ("crane"). Throws
+/// EnvironmentError that lists the lessons when none or several do.
+Lesson find_lesson(const std::string& name);
 
 }  // namespace dynlab::inline workflow

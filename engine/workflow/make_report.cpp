@@ -5,11 +5,13 @@
 
 #include "documents/error.h"
 #include "documents/template_file.h"
+#include "documents/unplaced_entries.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
 #include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
+#include "platform/text_file.h"
 #include "scripting/memoized_calls/call_cache.h"
 #include "workflow/lesson_catalogue.h"
 #include "workflow/report_cache.h"
@@ -180,6 +182,7 @@ ReportResult make_report(const ReportRequest& request) {
     source.metadata = request.metadata;
     source.record = &record;
     source.cells = weave_cells(request.script, record);
+    if (!record.error) result.unplaced = unplaced_entries(record, read_text(request.template_file) + source.cells.text);
     try {
         DocumentMaker({.use_cache = true, .timings = &result.timings}).make(source, request.output, format, [&] {
             renderer.finish();

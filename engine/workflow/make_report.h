@@ -35,6 +35,7 @@ inline constexpr const char* kRunStep = "run the script";
 struct ReportResult {
     bool up_to_date = false;                              ///< nothing had changed, nothing was made
     std::optional<std::string> error;                     ///< the script stopped with it; the report says so
+    std::vector<std::string> unplaced;                    ///< sentences about what was reported and is not shown
     std::vector<std::pair<std::string, double>> timings;  ///< seconds of each step
     std::vector<std::pair<std::string, double>> cells;    ///< seconds of each code cell, when the script was run
     std::optional<CacheUse> long_calls, figures;          ///< of the script, when it was run

@@ -5,6 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
+#include "platform/temporary_folder.h"
 #include "script_run.h"
 #include "scripting/prompt/prompt_session.h"
 #include "scripting/runtime/lua_tokens.h"
@@ -104,6 +107,20 @@ TEST(prompt_statement, a_local_may_have_the_name_of_a_function) {
     EXPECT_THAT(session({"sum = 3"}), HasSubstr("cannot be replaced"));
     EXPECT_EQ(session({"local sum = error('no')", "sum({1, 2})"}), "ERROR prompt:1: no\n3\n")
         << "a declaration that failed hides nothing";
+}
+
+TEST(prompt_statement, a_script_that_is_run_leaves_its_variables) {
+    const TemporaryFolder folder;
+    std::ofstream(folder.path() / "analysis.lua") << "local k = 3\nlocal d = load('d.csv')\ngain = 2*k\nk\n";
+    std::ofstream(folder.path() / "d.csv") << "t,y\n0,1\n1,5\n";
+    std::ofstream(folder.path() / "wrong.lua") << "local ok = 1\nlocal = 2\n";
+    const std::string path = folder.path().string();
+    EXPECT_EQ(session({"run('" + path + "/analysis.lua')", "k + 1, gain, d.y"}), "3\n4\t6\t[1 5]\n");
+    EXPECT_EQ(session({"run('" + path + "')", "k"}), "3\n3\n");
+    EXPECT_EQ(session({"local k = 1", "g = 'text'", "who"}), "g  text\nk  1\n");
+    EXPECT_THAT(session({"run('" + path + "/wrong.lua')"}), HasSubstr("wrong.lua:2: "));
+    EXPECT_THAT(session({"run('absent.lua')"}), HasSubstr("there is no script absent.lua"));
+    EXPECT_THAT(error_of("run('x.lua')"), HasSubstr("in a script write require(name)"));
 }
 
 TEST(prompt_statement, globals_random_numbers_and_errors_live_on) {

@@ -19,6 +19,58 @@ TEST(script_vectors, calculate_element_by_element) {
     EXPECT_EQ(error_of("local v = vector{1, 2} + 'a'"), "lesson.lua:1: x + y cannot work with the text \"a\"");
 }
 
+TEST(script_vectors, measure_matrices_by_columns) {
+    EXPECT_EQ(
+        printed("local A = matrix{{1, 2}, {3, 6}, {8, 1}}\nprint(sum(A), mean(A), median(A))\n"
+                "print(max(A))\nprint(min(A))\nprint(var(matrix{{1, 2}, {3, 6}}), std(matrix{{0, 1}, {2, 1}})^2)"),
+        "[12 9]\t[4 3]\t[3 2]\n[8 6]\t[3 2]\n[1 1]\t[1 3]\n[2 8]\t[2 0]\n");
+    EXPECT_EQ(printed("print(median{5, 1, 3}, median{4, 1, 3, 2}, sum(gt({1, 5, 7}, 2)), sum(5), sum(zeros(0)))"),
+              "3\t2.5\t2\t5.0\t0.0\n");
+    EXPECT_EQ(error_of("median{}"), "lesson.lua:1: median: argument 1 (v) has no elements");
+    EXPECT_EQ(error_of("std(matrix{{1, 2}})"),
+              "lesson.lua:1: std: the spread of a single value is not defined; at least two values are needed");
+}
+
+TEST(script_vectors, round_and_take_logarithms) {
+    EXPECT_EQ(printed("print(round(2.5), round(-2.5), floor(-2.5), ceil(2.1), sign(-3), sign(0), log10(1000))"),
+              "3.0\t-3.0\t-3.0\t3.0\t-1.0\t0.0\t3.0\n");
+    EXPECT_EQ(printed("print(round{0.4, 0.6}, logspace(-1, 2, 4), #logspace(0, 1))"), "[0 1]\t[0.1 1 10 100]\t50\n");
+}
+
+// Oracle: A inv(A) = 1, det by the rule of Sarrus, eigenvalues of a companion matrix, the definition of the transform.
+TEST(script_vectors, know_the_inverse_the_eigenvalues_and_the_transform) {
+    EXPECT_EQ(printed("local A = matrix{{2, 1, 0}, {1, 3, 1}, {0, 1, 4}}\nlocal E = A:times(inv(A))\n"
+                      "for i = 1, 3 do for j = 1, 3 do\n"
+                      "  if abs(E[{i, j}] - (i == j and 1 or 0)) > 1e-14 then print(i, j) end\nend end\n"
+                      "print(abs(det(A) - 18) < 1e-12, abs(det(matrix{{1, 2}, {3, 4}}) + 2) < 1e-14)\n"
+                      "local v = eig(matrix{{0, 1}, {-3, -4}})\nprint(abs(min(v.re) + 3) < 1e-14, abs(max(v.re) + 1) < "
+                      "1e-14)\nprint(eig(matrix{{2, 0}, {0, 1}}))"),
+              "true\ttrue\ntrue\ttrue\n[1 2]\n");
+    EXPECT_EQ(printed("local x = vector{1, 2, 0, -1, 3}\nlocal X = fft(x)\nlocal worst = 0\nfor k = 1, 5 do\n"
+                      "  local re, im = 0, 0\n  for n = 1, 5 do\n    local a = -2*math.pi*(k - 1)*(n - 1)/5\n"
+                      "    re, im = re + x[n]*math.cos(a), im + x[n]*math.sin(a)\n  end\n"
+                      "  worst = math.max(worst, math.abs(X.re[k] - re), math.abs(X.im[k] - im))\nend\n"
+                      "print(worst < 1e-14, abs(abs(X[1]) - 5) < 1e-14, #abs(X))"),
+              "true\ttrue\t5\n");
+    EXPECT_NE(error_of("inv(matrix{{1, 2}, {2, 4}})").find("singular to working precision"), std::string::npos);
+    EXPECT_EQ(error_of("det(matrix{{1, 2}})"),
+              "lesson.lua:1: det: argument 1 (A) must be a square matrix, but it is 1 x 2");
+}
+
+TEST(script_vectors, delays_are_written_as_exponentials) {
+    EXPECT_EQ(printed("local s = tf('s')\nlocal G = exp(-2*s)/(s + 1)\nprint(G.IODelay, dcgain(G), #pole(G))"),
+              "2.0\t1.0\t1\n");
+    EXPECT_NE(error_of("local s = tf('s')\nprint(exp(2*s))").find("of models only a delay is there"),
+              std::string::npos);
+}
+
+TEST(script_vectors, logarithmic_axes_say_what_they_leave_out) {
+    EXPECT_EQ(
+        printed("local fig = semilogy(range(1, 4), vector{1, 0, -1, 2})"),
+        "semilogy: 2 of 4 points are left out: a logarithmic axis has no place for values that are not positive\n");
+    EXPECT_EQ(printed("local fig = loglog(range(1, 4), range(1, 4), {colour = 'red'})"), "");
+}
+
 TEST(script_vectors, give_and_take_elements) {
     EXPECT_EQ(printed("local v = vector{1, 2, 3}\nv[2] = 7\nprint(#v, v[2], v[3.0], v:range(2, 3), v:range(2, 1))"),
               "3\t7\t3\t[7 3]\t[]\n");

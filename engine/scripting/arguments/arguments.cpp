@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstring>
 #include <new>
+#include <string_view>
 
 #include "numerics/estimators/catalogue.h"
 #include "numerics/number_text.h"
@@ -13,6 +15,7 @@
 #include "scripting/arguments/option_words.h"
 #include "scripting/objects/boxed.h"
 #include "scripting/objects/numeric_tables.h"
+#include "scripting/runtime/sandbox.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -56,6 +59,10 @@ std::string text_at(lua_State* L, int index, const std::string& label) {
 VectorMap vector_at(lua_State* L, int index, const std::string& label) {
     index = lua_absindex(L, index);
     if (lua_type(L, index) == LUA_TTABLE) make_vector_of_table(L, index, label);
+    if (lua_type(L, index) == LUA_TNUMBER) {
+        push_vector(L, 1).data()[0] = lua_tonumber(L, index);
+        lua_replace(L, index);
+    }
     if (NumericBlock* block = to_vector(L, index)) return {block->data(), block->rows};
     if (NumericBlock* block = to_matrix(L, index); block != nullptr && block->columns == 1)
         return {block->data(), block->rows};
@@ -73,6 +80,29 @@ std::string with_name(const std::string& name, const std::string& message) {
     if (first == name) return message;
     const bool of_method = message.compare(first.size(), 2, ": ") == 0 && find_method(first) && find_method(name);
     return name + ": " + (of_method ? message.substr(first.size() + 2) : message);
+}
+
+/// Messages count the arguments of a method as the script writes them, without the object.
+std::string of_called_method(lua_State* L, const char* name, std::string message) {
+    constexpr std::string_view kArgument = "argument ";
+    lua_Debug call;
+    if (message.compare(0, kArgument.size(), kArgument) != 0 || !lua_getstack(L, 0, &call) ||
+        !lua_getinfo(L, "n", &call) || call.namewhat == nullptr)
+        return message;
+    const std::string_view how = call.namewhat;
+    std::size_t end = kArgument.size();
+    while (end < message.size() && std::isdigit(static_cast<unsigned char>(message[end]))) ++end;
+    if (end == kArgument.size() || end > kArgument.size() + 3) return message;
+    const int number = std::stoi(message.substr(kArgument.size(), end - kArgument.size()));
+    if (how == "method" && number > 1) return std::string(kArgument) + std::to_string(number - 1) + message.substr(end);
+    if (how == "field" && number == 1 && name != nullptr && std::strchr(name, '.') == nullptr) {
+        push_library(L);
+        lua_pushstring(L, name);
+        const bool is_function = lua_rawget(L, -2) != LUA_TNIL;
+        lua_pop(L, 2);
+        if (!is_function) message += fmt::format("; a method is called with a colon: object:{}(...)", name);
+    }
+    return message;
 }
 
 }  // namespace
@@ -381,6 +411,7 @@ int run_guarded(lua_State* L, Binding body) {
     }
     if (message.empty()) raise_stop(L, StopReason::kInterrupted);
     const char* name = static_cast<const char*>(lua_touserdata(L, lua_upvalueindex(1)));
+    message = of_called_method(L, name, std::move(message));
     raise_error(L, name == nullptr || name[0] == '_' ? message : with_name(name, message));
 }
 

@@ -7,6 +7,9 @@ namespace dynlab::inline scripting {
 
 /// The functions of each area; catalogue_of_functions() joins them in the order of help().
 FunctionEntries vector_functions();
+FunctionEntries column_statistics();
+FunctionEntries element_functions();
+FunctionEntries linear_algebra();
 FunctionEntries vector_comparisons();
 FunctionEntries random_functions();
 FunctionEntries signal_functions();
@@ -32,6 +35,7 @@ FunctionEntries noisy_simulation_functions();
 FunctionEntries figure_functions();
 FunctionEntries report_functions();
 FunctionEntries answer_functions();
+FunctionEntries program_functions();
 FunctionEntries help_functions();
 
 }  // namespace dynlab::inline scripting

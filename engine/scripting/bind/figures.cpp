@@ -15,7 +15,8 @@ namespace {
 /// Options of plot that hold one value for all curves or one per curve.
 struct CurveLists {
     std::vector<std::string> labels, styles;
-    std::vector<double> dashes, colours;
+    std::vector<double> dashes;
+    std::vector<int> colours;
 };
 
 std::vector<double> numbers(const Options& options, const char* name) {
@@ -47,7 +48,7 @@ const T* value_for(const std::vector<T>& values, std::size_t i, std::size_t coun
 
 void read_curve_lists(const Options& options, std::vector<Curve>& curves) {
     const CurveLists lists{options.texts("label"), options.texts("style"), numbers(options, "dash"),
-                           numbers(options, "colour")};
+                           colours_of(options)};
     if (lists.labels.size() > curves.size())
         throw InvalidArgument(
             fmt::format("option 'label' has {} texts, but there are {} curves", lists.labels.size(), curves.size()));
@@ -56,8 +57,7 @@ void read_curve_lists(const Options& options, std::vector<Curve>& curves) {
         if (i < lists.labels.size()) curve.label = lists.labels[i];
         if (auto style = value_for(lists.styles, i, curves.size(), "style")) curve.style = parse_curve_style(*style);
         if (auto dash = value_for(lists.dashes, i, curves.size(), "dash")) curve.dash = place_of_look(*dash, "dash");
-        if (auto colour = value_for(lists.colours, i, curves.size(), "colour"))
-            curve.colour = place_of_look(*colour, "colour");
+        if (auto colour = value_for(lists.colours, i, curves.size(), "colour")) curve.colour = *colour;
         curve.line_width = options.number("line_width", curve.line_width);
     }
 }
@@ -73,6 +73,13 @@ bool is_line_specification(const std::string& text) {
 
 std::string curve_name(const Call& call, int index) {
     const std::string name = call.text(index, "name of the curve");
+    static constexpr std::array kProperties = {"LineWidth",  "LineStyle",   "Color",          "Marker",
+                                               "MarkerSize", "DisplayName", "MarkerFaceColor"};
+    if (std::find(kProperties.begin(), kProperties.end(), name) != kProperties.end())
+        throw InvalidArgument(
+            fmt::format("\"{}\" is an option of MATLAB's plot; write the options as one table, "
+                        "plot(x, y, {{line_width = 2, colour = \"red\", style = \"points\"}})",
+                        name));
     if (is_line_specification(name))
         throw InvalidArgument(fmt::format(
             "a text names the curve; for the look \"{}\" write {{style = \"points\"}} or {{dash = 1}}", name));
@@ -102,6 +109,23 @@ bool holds_options(const Call& call, int index) {
     return index > 0 && call.type(index) == LUA_TTABLE && !call.holds_vector(index);
 }
 
+/// Says how many values a logarithmic axis cannot show.
+void note_left_out(const Call& call, const Panel& panel) {
+    Index left_out = 0, all = 0;
+    for (const Curve& curve : panel.curves) {
+        all += curve.y.size();
+        for (Index i = 0; i < curve.y.size(); ++i)
+            left_out += (panel.log_y && !(curve.y[i] > 0)) || (panel.log_x && !(curve.x[i] > 0)) ? 1 : 0;
+    }
+    if (left_out > 0)
+        call.print(
+            fmt::format("{}: {} of {} points are left out: a logarithmic axis has no place for values that are not "
+                        "positive\n",
+                        call.function_name(), left_out, all));
+}
+
+/// plot, and the same with logarithmic axes.
+template <bool kLogX, bool kLogY>
 int plot(Call& call) {
     const bool with_options = holds_options(call, call.count());
     Panel panel;
@@ -111,7 +135,10 @@ int plot(Call& call) {
                            "equal_axes", "legend", "curves", "references", "annotations", "arrows", "label",
                            "style",      "dash",   "colour", "line_width", "width",       "height"});
     read_curve_lists(options, panel.curves);
+    panel.log_x = kLogX;
+    panel.log_y = kLogY;
     read_panel_options(call, options, panel);
+    note_left_out(call, panel);
     Figure figure(std::move(panel));
     figure.width_cm = options.number("width", figure.width_cm);
     figure.height_cm = options.number("height", figure.height_cm);
@@ -187,7 +214,13 @@ int save(Call& call) {
 constexpr const char* kFiguresArea = "figures";
 constexpr std::array kFiguresFunctions = {
     FunctionEntry{"plot", kFiguresArea, "plot(x, y, \"name\", ..., {title =, xlabel =, ylabel =, style =, ...}) -> fig",
-                  "draws curves in one panel", guarded<plot>},
+                  "draws curves in one panel", guarded<plot<false, false>>},
+    FunctionEntry{"semilogx", kFiguresArea, "semilogx(x, y, \"name\", ..., {options}) -> fig",
+                  "the same with a logarithmic x axis", guarded<plot<true, false>>},
+    FunctionEntry{"semilogy", kFiguresArea, "semilogy(x, y, \"name\", ..., {options}) -> fig",
+                  "the same with a logarithmic y axis", guarded<plot<false, true>>},
+    FunctionEntry{"loglog", kFiguresArea, "loglog(x, y, \"name\", ..., {options}) -> fig",
+                  "the same with two logarithmic axes", guarded<plot<true, true>>},
     FunctionEntry{"figure", kFiguresArea, "figure{...} -> fig; figure(n)",
                   "a figure from its description; or the number of the next figure", guarded<figure>},
     FunctionEntry{"subplot", kFiguresArea, "subplot(rows, columns, {fig1, fig2, ...}) -> fig",

@@ -1,7 +1,8 @@
 #include <array>
 
 #include "scripting/bind/bindings.h"
-#include "scripting/objects/boxed.h"
+#include "scripting/objects/figure_object.h"
+#include "scripting/objects/text_form.h"
 #include "scripting/runtime/help.h"
 
 namespace dynlab::inline scripting {
@@ -24,9 +25,24 @@ int help(Call& call) {
     return 0;
 }
 
+int show(Call& call) {
+    lua_State* L = call.state();
+    std::string line;
+    for (int i = 1; i <= call.count(); ++i) {
+        if (const FigurePointer* figure = to_object<FigurePointer>(L, i))
+            call.context().recorder.show_figure(*figure);
+        else
+            line += (line.empty() ? "" : "\t") + value_text(L, i);
+    }
+    if (!line.empty()) call.print(line + '\n');
+    return 0;
+}
+
 constexpr std::array kHelpFunctions = {
     FunctionEntry{"help", "help", "help(name)", "explains a function; without a name, lists everything by area",
                   guarded<help>},
+    FunctionEntry{"show", "help", "show(x, ...)", "prints values as the prompt does, figures as figures",
+                  guarded<show>},
 };
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/signals/interpolation.h"
 #include "scripting/bind/bindings.h"
@@ -14,16 +13,14 @@ namespace dynlab::inline scripting {
 namespace {
 
 int make_vector(Call& call) {
-    call.at_most(1);
-    if (to_vector(call.state(), 1) == nullptr && call.type(1) != LUA_TTABLE)
+    if (call.count() != 1 || (to_vector(call.state(), 1) == nullptr && call.type(1) != LUA_TTABLE))
         throw InvalidArgument("a vector is written with braces: vector{1, 2, 3}");
     const VectorMap values = call.vector(1, "values");
     return call.give_vector(values);
 }
 
 int make_matrix(Call& call) {
-    call.at_most(1);
-    if (call.type(1) != LUA_TTABLE)
+    if (call.count() != 1 || call.type(1) != LUA_TTABLE)
         throw InvalidArgument(
             "a matrix is written with braces: matrix{{1, 2}, {3, 4}} (rows) or matrix{v1, v2} (columns)");
     make_matrix_of_table(call.state(), 1, "argument 1 (rows or columns)");
@@ -62,6 +59,16 @@ int linspace(Call& call) {
     return 1;
 }
 
+int logspace(Call& call) {
+    call.at_most(3);
+    const double first = call.number(1, "first"), last = call.number(2, "last");
+    if (!std::isfinite(first) || !std::isfinite(last)) throw InvalidArgument("first and last must be finite numbers");
+    const Index count = call.given(3) ? call.size(3, "n") : 50;
+    push_vector(call.state(), count).vector() =
+        Vector::LinSpaced(count, first, last).unaryExpr([](double x) { return std::pow(10, x); });
+    return 1;
+}
+
 int range(Call& call) {
     call.at_most(3);
     const double first = call.number(1, "first"), last = call.number(call.given(3) ? 3 : 2, "last");
@@ -74,34 +81,6 @@ int range(Call& call) {
     return 1;
 }
 
-VectorMap not_empty(Call& call, int index, const char* what) {
-    const VectorMap v = call.vector(index, what);
-    if (v.size() == 0) throw InvalidArgument(fmt::format("argument {} ({}) has no elements", index, what));
-    return v;
-}
-
-double variance_of(const VectorMap& v) {
-    if (v.size() < 2)
-        throw InvalidArgument("the spread of a single value is not defined; at least two values are needed");
-    return (v.array() - v.mean()).square().sum() / static_cast<double>(v.size() - 1);
-}
-
-int sum(Call& call) {
-    call.at_most(1);
-    return call.give(call.vector(1, "v").sum());
-}
-int mean(Call& call) {
-    call.at_most(1);
-    return call.give(not_empty(call, 1, "v").mean());
-}
-int variance(Call& call) {
-    call.at_most(1);
-    return call.give(variance_of(not_empty(call, 1, "v")));
-}
-int standard_deviation(Call& call) {
-    call.at_most(1);
-    return call.give(std::sqrt(variance_of(not_empty(call, 1, "v"))));
-}
 int norm(Call& call) {
     call.at_most(1);
     return call.give(call.vector(1, "v").norm());
@@ -114,44 +93,10 @@ int dot(Call& call) {
     return call.give(a.dot(b));
 }
 
-/// max(v) gives the value and its place; max(x, y) the larger one, element by element.
-template <bool kLargest>
-int extreme(Call& call) {
-    call.at_most(2);
-    auto better = [](double x, double y) { return kLargest ? std::fmax(x, y) : std::fmin(x, y); };
-    if (call.given(2) && call.type(1) == LUA_TNUMBER && call.type(2) == LUA_TNUMBER)
-        return call.give(better(call.number(1, "x"), call.number(2, "y")));
-    if (call.given(2)) {
-        const int vector_index = call.type(1) == LUA_TNUMBER ? 2 : 1, other = 3 - vector_index;
-        const VectorMap v = call.vector(vector_index, vector_index == 1 ? "x" : "y");
-        if (call.type(other) == LUA_TNUMBER) {
-            const double bound = call.number(other, "bound");
-            return call.give_vector(v.unaryExpr([&](double x) { return better(x, bound); }));
-        }
-        const VectorMap w = call.vector(other, "y");
-        if (v.size() != w.size())
-            throw InvalidArgument(fmt::format("x has {} values, but y has {}", v.size(), w.size()));
-        return call.give_vector(v.binaryExpr(w, better));
-    }
-    const VectorMap v = not_empty(call, 1, "v");
-    Index index = 0;
-    const double value = kLargest ? v.maxCoeff<Eigen::PropagateNumbers>(&index)  // like fmax: nan only if all are
-                                  : v.minCoeff<Eigen::PropagateNumbers>(&index);
-    return call.give(value) + call.give_integer(index + 1);
-}
-
-/// A function of one number, applied to a number or to every element. `kLowest`: smallest argument it is defined for.
-template <double (*kFunction)(double), bool kFromZero = false>
-int apply(Call& call) {
-    call.at_most(1);
-    auto checked = [](double x) {
-        if (kFromZero && x < 0)
-            throw InvalidArgument(fmt::format("it is not defined for the negative number {:.6g}", x));
-        return kFunction(x);
-    };
-    if (call.type(1) == LUA_TNUMBER) return call.give(checked(call.number(1, "x")));
-    if (to_matrix(call.state(), 1) != nullptr) return call.give_matrix(call.matrix(1, "x").unaryExpr(checked));
-    return call.give_vector(call.vector(1, "x").unaryExpr(checked));
+VectorMap not_empty(Call& call, int index, const char* what) {
+    const VectorMap v = call.vector(index, what);
+    if (v.size() == 0) throw InvalidArgument(fmt::format("argument {} ({}) has no elements", index, what));
+    return v;
 }
 
 int cumulative_sum(Call& call) {
@@ -200,15 +145,6 @@ int interp1(Call& call) {
     return call.give(interpolate_linearly(x, y, Vector::Constant(1, call.number(3, "x_new")), outside)[0]);
 }
 
-int solve(Call& call) {
-    call.at_most(2);
-    const MatrixMap A = call.matrix(1, "A"), b = call.matrix(2, "b");
-    const bool vector = to_matrix(call.state(), 2) == nullptr;
-    Matrix solution(A.cols(), b.cols());
-    for (Index j = 0; j < b.cols(); ++j) solution.col(j) = solve_least_squares(A, b.col(j)).solution;
-    return vector ? call.give_vector(solution.col(0)) : call.give_matrix(solution);
-}
-
 constexpr const char* kVectorsArea = "vectors";
 constexpr std::array kVectorsFunctions = {
     FunctionEntry{"vector", kVectorsArea, "vector{x1, x2, ...} -> v",
@@ -220,29 +156,10 @@ constexpr std::array kVectorsFunctions = {
     FunctionEntry{"eye", kVectorsArea, "eye(n) -> A", "the n x n identity matrix", guarded<eye>},
     FunctionEntry{"linspace", kVectorsArea, "linspace(first, last, n) -> v",
                   "n equally spaced values from first to last", guarded<linspace>},
+    FunctionEntry{"logspace", kVectorsArea, "logspace(first, last, n) -> v",
+                  "n values from 10^first to 10^last with equal ratios", guarded<logspace>},
     FunctionEntry{"range", kVectorsArea, "range(first, last) or range(first, step, last) -> v",
                   "values from first to last, step by step (MATLAB's first:step:last)", guarded<range>},
-    FunctionEntry{"sum", kVectorsArea, "sum(v) -> x", "sum of the elements", guarded<sum>},
-    FunctionEntry{"mean", kVectorsArea, "mean(v) -> x", "arithmetic mean", guarded<mean>},
-    FunctionEntry{"std", kVectorsArea, "std(v) -> x", "standard deviation (divided by N - 1)",
-                  guarded<standard_deviation>},
-    FunctionEntry{"var", kVectorsArea, "var(v) -> x", "variance (divided by N - 1)", guarded<variance>},
-    FunctionEntry{"min", kVectorsArea, "min(v) -> x, place; min(x, y) -> v",
-                  "smallest element and its place; the smaller of two, element by element", guarded<extreme<false>>},
-    FunctionEntry{"max", kVectorsArea, "max(v) -> x, place; max(x, y) -> v",
-                  "largest element and its place; the larger of two, element by element", guarded<extreme<true>>},
-    FunctionEntry{"abs", kVectorsArea, "abs(x) -> y", "absolute value of a number or of every element",
-                  guarded<apply<std::fabs>>},
-    FunctionEntry{"sqrt", kVectorsArea, "sqrt(x) -> y", "square root of a number or of every element",
-                  guarded<apply<std::sqrt, true>>},
-    FunctionEntry{"exp", kVectorsArea, "exp(x) -> y", "exponential of a number or of every element",
-                  guarded<apply<std::exp>>},
-    FunctionEntry{"log", kVectorsArea, "log(x) -> y", "natural logarithm of a number or of every element",
-                  guarded<apply<std::log, true>>},
-    FunctionEntry{"sin", kVectorsArea, "sin(x) -> y", "sine (radians) of a number or of every element",
-                  guarded<apply<std::sin>>},
-    FunctionEntry{"cos", kVectorsArea, "cos(x) -> y", "cosine (radians) of a number or of every element",
-                  guarded<apply<std::cos>>},
     FunctionEntry{"cumsum", kVectorsArea, "cumsum(v) -> w", "running sum", guarded<cumulative_sum>},
     FunctionEntry{"diff", kVectorsArea, "diff(v) -> w", "differences of neighbours, one element fewer",
                   guarded<difference>},
@@ -254,9 +171,6 @@ constexpr std::array kVectorsFunctions = {
                   guarded<polyval>},
     FunctionEntry{"interp1", kVectorsArea, "interp1(x, y, x_new, {outside =}) -> y_new", "linear interpolation",
                   guarded<interp1>},
-    FunctionEntry{"solve", kVectorsArea, "solve(A, b) -> x",
-                  "A x = b; the least-squares solution when A has more rows than columns (MATLAB's A\\b)",
-                  guarded<solve>},
 };
 
 }  // namespace

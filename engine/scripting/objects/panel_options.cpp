@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 
 namespace dynlab::inline scripting {
@@ -59,6 +60,35 @@ Arrow read_arrow(const Call& call, int index) {
             options.flag("both_heads", false)};
 }
 
+struct ColourName {
+    std::string_view name;
+    int place;  ///< in the palette of figures/style
+};
+
+constexpr std::array kColourNames = {ColourName{"blue", 0},  ColourName{"orange", 1},  ColourName{"black", 2},
+                                     ColourName{"green", 3}, ColourName{"purple", 4},  ColourName{"cyan", 5},
+                                     ColourName{"red", 6},   ColourName{"magenta", 7}, ColourName{"grey", 8},
+                                     ColourName{"gray", 8}};
+
+int colour_at(const Call& call, int index) {
+    lua_State* L = call.state();
+    if (lua_type(L, index) == LUA_TSTRING) {
+        const std::string name = lua_tostring(L, index);
+        for (const ColourName& known : kColourNames)
+            if (known.name == name) return known.place;
+        std::string all;
+        for (const ColourName& known : kColourNames)
+            all += (all.empty() ? "\"" : ", \"") + std::string(known.name) + '"';
+        throw InvalidArgument(
+            fmt::format("option 'colour' must be a number from 0 on, or one of {}, but \"{}\" was given", all, name));
+    }
+    const double number = lua_type(L, index) == LUA_TNUMBER ? lua_tonumber(L, index) : -1;
+    if (number < 0 || number != std::floor(number) || number > 1000)
+        throw InvalidArgument("option 'colour' must be a whole number from 0 on, or a name such as \"red\", but " +
+                              given_text(L, index) + " was given");
+    return static_cast<int>(number);
+}
+
 std::optional<int> optional_index(const Options& options, const char* name) {
     if (!options.has(name)) return std::nullopt;
     return static_cast<int>(options.size(name, 0));
@@ -74,9 +104,30 @@ CurveStyle parse_curve_style(const std::string& name) {
     return static_cast<CurveStyle>(found - kStyleNames.begin());
 }
 
+std::vector<int> colours_of(const Options& options) {
+    if (!options.has("colour")) return {};
+    lua_State* L = options.call().state();
+    const int given = options.push("colour");
+    std::vector<int> colours;
+    if (const NumericBlock* v = to_vector(L, given)) {
+        for (Index i = 0; i < v->rows; ++i) {
+            lua_pushnumber(L, to_vector(L, given)->data()[i]);
+            colours.push_back(colour_at(options.call(), -1));
+            lua_pop(L, 1);
+        }
+    } else if (lua_type(L, given) == LUA_TTABLE) {
+        for (lua_Integer i = 1; lua_rawgeti(L, given, i) != LUA_TNIL; ++i, lua_pop(L, 1))
+            colours.push_back(colour_at(options.call(), -1));
+    } else {
+        colours.push_back(colour_at(options.call(), given));
+    }
+    lua_settop(L, given - 1);
+    return colours;
+}
+
 void read_curve_look(const Options& options, Curve& curve) {
     if (options.has("style")) curve.style = parse_curve_style(options.text("style", ""));
-    curve.colour = optional_index(options, "colour");
+    if (const std::vector<int> colours = colours_of(options); !colours.empty()) curve.colour = colours.front();
     curve.dash = optional_index(options, "dash");
     curve.marker = optional_index(options, "marker");
     curve.line_width = options.number("line_width", curve.line_width);

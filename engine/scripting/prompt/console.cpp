@@ -39,7 +39,8 @@ class Prompt {
           history_(history_file()),
           editor_(history_, [this](const auto& line) { return session_.complete_end(pending_ + line); }) {}
 
-    void run() {
+    void run(const std::string& first) {
+        if (!first.empty()) run(read_statement(first));
         while (take_line(editor_.read(pending_.empty() ? kPrompt : kContinuation))) {
         }
     }
@@ -126,10 +127,10 @@ bool run_from_pipe(PromptSession& session, const PromptStatement& statement, int
 
 }  // namespace
 
-void run_prompt(const std::filesystem::path& figure_folder, const std::string& greeting) {
+void run_prompt(const std::filesystem::path& figure_folder, const std::string& greeting, const std::string& first) {
     Prompt prompt(figure_folder);
     print_now(greeting);
-    prompt.run();
+    prompt.run(first);
 }
 
 bool run_statements_of(std::istream& input, const std::filesystem::path& figure_folder) {

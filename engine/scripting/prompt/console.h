@@ -7,7 +7,8 @@ namespace dynlab::inline scripting {
 
 /// The prompt on the terminal (standard input and output): reads statements, one line or several, until Ctrl-D or quit.
 /// An error or Ctrl-C ends the statement, not the prompt. Expects an InterruptScope.
-void run_prompt(const std::filesystem::path& figure_folder, const std::string& greeting);
+/// `first`: a statement that is run before, unless empty.
+void run_prompt(const std::filesystem::path& figure_folder, const std::string& greeting, const std::string& first = "");
 
 /// The same for statements that come from a pipe or file, without prompts and colours: values and the paths of figures
 /// go to standard output, errors with the line of the input to standard error. After an error the next statement runs.

@@ -96,6 +96,9 @@ std::optional<std::string> without_habit(const std::string& source, const Tokens
     std::smatch words;
     if (tokens.size() <= 5 && std::regex_match(source, words, help))
         return words[2].matched ? "help(\"" + words[2].str() + "\")" : "help()";
+    if (tokens.size() <= 2 && (tokens.front().is("who") || tokens.front().is("whos")) &&
+        (tokens.size() == 1 || tokens.back().is(";")))
+        return "who()";
     if (tokens.front().is("=")) return std::string(source).replace(tokens.front().begin, 1, " ");
     return std::nullopt;
 }

@@ -32,7 +32,10 @@ struct RuntimeContext {
 
     lua_State* main = nullptr;
     std::string script_name;  ///< as messages show it
-    lua_Debug main_chunk{};   ///< activation record of the running main chunk
+    std::string source;       ///< of the running script
+    /// Where tic() was called last, and the script began.
+    std::chrono::steady_clock::time_point tic{}, began = std::chrono::steady_clock::now();
+    lua_Debug main_chunk{};  ///< activation record of the running main chunk
     bool main_chunk_known = false;
     bool running = false;
     StopReason stop = StopReason::kNone;  ///< once set, every protected call passes the stop on

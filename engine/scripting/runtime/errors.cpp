@@ -36,11 +36,12 @@ std::string subject(const std::string& text) {
 }
 
 std::string with_article(const std::string& type) {
+    const bool vowel = !type.empty() && std::string_view("aeiou").find(type.front()) != std::string_view::npos;
     if (type == "nil") return "nil (it has no value)";
     if (type == "boolean") return "true or false";
     if (type == "string") return "a text";
     if (type == "userdata") return "an object";
-    return "a " + type;
+    return (vowel ? "an " : "a ") + type;
 }
 
 std::string call_sentence(const std::string& text, const std::string& type) {
@@ -69,11 +70,15 @@ std::string argument_sentence(const std::string& text) {
     const auto reason = between(text, " (", "");
     if (!number || !function || !reason) return text;
     const std::string inside = reason->substr(0, reason->size() - 1);
+    if (*function == "format" && inside.find("no integer representation") != std::string::npos)
+        return fmt::format("format: argument {} is not a whole number, which %d wants; write %g or %.0f", *number);
     if (auto wanted = between(inside, "", " expected, got "))
         return fmt::format("{}: argument {} must be a {}, but {} was given", *function, *number, *wanted,
                            *between(inside, " expected, got ", ""));
     return fmt::format("{}: argument {}: {}", *function, *number, inside);
 }
+
+constexpr int kLinesBack = 5;  // from a syntax error to a comment that caused it
 
 struct PlainMessage {
     std::string_view start;  ///< of Lua's message
@@ -118,7 +123,10 @@ std::string plain_sentence(const std::string& text) {
         return fmt::format("{} is {}, so .. cannot join it to a text; use tostring(x)", subject(text),
                            with_article(*type));
     if (auto type = between(text, "attempt to get length of a ", " value"))
-        return fmt::format("{} is {}, so # cannot count its elements", subject(text), with_article(*type));
+        return fmt::format("{} is {}, so # cannot count its elements{}", subject(text), with_article(*type),
+                           *type == "iddata" ? "; data.N is the number of samples" : "");
+    if (text.find(" a 'string' with a ") != std::string::npos)
+        return "a text cannot be calculated with; two dots join texts and numbers: \"a = \" .. x";
     if (starts_with(text, "attempt to compare ")) return compare_sentence(text);
     if (starts_with(text, "bad argument #")) return argument_sentence(text);
     if (auto part = between(text, "bad 'for' ", " (number expected, got "))
@@ -127,16 +135,6 @@ std::string plain_sentence(const std::string& text) {
     for (const PlainMessage& fixed : kFixed)
         if (starts_with(text, fixed.start)) return fixed.sentence;
     return text;
-}
-
-std::string line_of(const std::string& source, int line) {
-    std::size_t start = 0;
-    for (int i = 1; i < line && start != std::string::npos; ++i) {
-        start = source.find('\n', start);
-        if (start != std::string::npos) ++start;
-    }
-    if (start == std::string::npos) return {};
-    return source.substr(start, source.find('\n', start) - start);
 }
 
 std::string syntax_sentence(const std::string& text, const std::string& near) {
@@ -151,6 +149,8 @@ std::string syntax_sentence(const std::string& text, const std::string& near) {
         return fmt::format("'{}' was declared constant and cannot change", *name);
     if (text.find("unfinished string") != std::string::npos) return "a text is not closed with its quote";
     if (near == "<eof>") return "the script ends in the middle of a statement";
+    if (starts_with(text, "<eof> expected"))
+        return fmt::format("this '{}' closes nothing: there is one too many", near);
     if (starts_with(text, "<name> expected")) return fmt::format("a name is missing before '{}'", near);
     if (auto wanted = between(text, "", " expected")) return fmt::format("{} is missing before '{}'", *wanted, near);
     if (!near.empty()) return fmt::format("'{}' cannot stand here", near);
@@ -158,6 +158,16 @@ std::string syntax_sentence(const std::string& text, const std::string& near) {
 }
 
 }  // namespace
+
+std::string line_of(const std::string& source, int line) {
+    std::size_t start = 0;
+    for (int i = 1; i < line && start != std::string::npos; ++i) {
+        start = source.find('\n', start);
+        if (start != std::string::npos) ++start;
+    }
+    if (start == std::string::npos) return {};
+    return source.substr(start, source.find('\n', start) - start);
+}
 
 std::string LocatedMessage::joined() const {
     return line > 0 ? fmt::format("{}:{}: {}", file, line, text) : text;
@@ -188,8 +198,16 @@ std::string plain_syntax_message(const std::string& message, const std::string& 
     std::string near = between(placed.text, " near '", "").value_or("");
     if (!near.empty()) near.pop_back();
     if (placed.text.find(" near <eof>") != std::string::npos) near = "<eof>";
+    // A comment of another language may end a statement before it, or look like a part of it.
+    for (int line = placed.line; line > 0 && line > placed.line - kLinesBack; --line)
+        if (begins_foreign_comment(line_of(source, line)))
+            return LocatedMessage{placed.file, line, "a comment starts with -- in Lua"}.joined();
+    const std::string wrong = line_of(source, placed.line);
+    if (starts_with(near, "<\\"))
+        if (const auto sentence = foreign_character_sentence(wrong))
+            return LocatedMessage{placed.file, placed.line, *sentence}.joined();
     const bool ended_early = near == "<eof>" && placed.text.find("unfinished string") == std::string::npos;
-    const std::string hint = ended_early ? "" : matlab_syntax_hint(line_of(source, placed.line), near);
+    const std::string hint = ended_early ? "" : matlab_syntax_hint(wrong, near);
     placed.text = syntax_sentence(placed.text, near);
     if (!hint.empty()) placed.text += "; " + hint;
     return placed.joined();

@@ -6,6 +6,9 @@ namespace dynlab::inline scripting {
 
 struct RuntimeContext;
 
+/// A line of a text, counted from 1; empty where it has none.
+std::string line_of(const std::string& source, int line);
+
 /// Message handler: turns Lua's own runtime messages on top of the stack into plain sentences; other values stay.
 int translate_error(lua_State* L);
 void translate_value_on_top(lua_State* L);

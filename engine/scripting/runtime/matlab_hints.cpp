@@ -1,9 +1,14 @@
 #include "scripting/runtime/matlab_hints.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <regex>
 #include <string_view>
+
+#include "platform/utf8.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -17,38 +22,44 @@ constexpr std::array kNames = {
     NameHint{"ans", "keep the result in a variable: local x = ..."},
     NameHint{"axis", "give x_range = {a, b} and y_range = {a, b} among the options of plot"},
     NameHint{"bar", "write plot(x, y, {style = \"bars\"})"},
+    NameHint{"cd", "scripts read and write in their own folder"},
+    NameHint{"cell", "write a Lua table: local c = {}"},
     NameHint{"cell2mat", "a Lua table of numbers is accepted wherever a vector is: vector(t)"},
     NameHint{"clc", "at the prompt Ctrl-L clears the screen"},
     NameHint{"clear", "every run and every prompt starts afresh; one variable is cleared by x = nil"},
     NameHint{"close", "there is nothing to close: figures go into the document"},
+    NameHint{"dir", "scripts cannot list folders; load(name) reads a file by its name"},
     NameHint{"disp", "write print(x)"},
+    NameHint{"dofile", "write require(\"name\") for name.lua in the script's folder"},
+    NameHint{"eps", "write 2^-52"},
+    NameHint{"exist", "a variable that has no value is nil: x == nil"},
     NameHint{"fclose", "scripts read data with load(name) and write with save_csv(path, data)"},
     NameHint{"fopen", "scripts read data with load(name) and write with save_csv(path, data)"},
     NameHint{"fprintf", "write print(string.format(\"%.3f\", x))"},
     NameHint{"grid", "the grid is always drawn"},
+    NameHint{"fzero", "write find(gt(v, 0))[1] for a change of sign in a vector; there is no solver of equations"},
     NameHint{"hold", "give all curves to one call: plot(x1, y1, \"a\", x2, y2, \"b\")"},
     NameHint{"horzcat", "write matrix{v1, v2}: vectors are the columns"},
-    NameHint{"inv", "write solve(A, b), which is also more accurate than an inverse"},
+    NameHint{"io", "scripts read with load(name), write with save_csv(path, data), and print with print(x)"},
     NameHint{"isempty", "write #v == 0"},
     NameHint{"isnan", "a vector with NaN is refused by name where it matters; for one number x write x ~= x"},
     NameHint{"legend", "name the curves: plot(x1, y1, \"first\", x2, y2, \"second\")"},
     NameHint{"length", "write #v"},
     NameHint{"line", "write plot(x, y)"},
-    NameHint{"log10", "write log(x)/log(10)"},
-    NameHint{"logspace", "write exp(linspace(log(a), log(b), n))"},
+    NameHint{"ls", "scripts cannot list folders; load(name) reads a file by its name"},
+    NameHint{"lsode", "there is no solver of differential equations; lsim(G, u, Ts) simulates linear ones"},
     NameHint{"mldivide", "write solve(A, b)"},
     NameHint{"nnz", "write #find(mask)"},
     NameHint{"num2str", "write string.format(\"%g\", x)"},
     NameHint{"numel", "write #v"},
+    NameHint{"ode45", "there is no solver of differential equations; lsim(G, u, Ts) simulates linear ones"},
     NameHint{"pi", "write math.pi"},
     NameHint{"rem", "write a % b"},
     NameHint{"mod", "write a % b"},
-    NameHint{"floor", "write math.floor(x)"},
-    NameHint{"ceil", "write math.ceil(x)"},
-    NameHint{"round", "write math.floor(x + 0.5)"},
     NameHint{"inf", "write math.huge"},
     NameHint{"Inf", "write math.huge"},
     NameHint{"NaN", "write 0/0"},
+    NameHint{"pwd", "scripts read and write in their own folder"},
     NameHint{"scatter", "write plot(x, y, {style = \"points\"})"},
     NameHint{"set", "give the options to plot: plot(x, y, {xlabel = \"time (s)\"})"},
     NameHint{"size", "write #v for a vector, A.rows and A.columns for a matrix"},
@@ -56,11 +67,13 @@ constexpr std::array kNames = {
     NameHint{"sqrtm", "write sqrt(x) for the root of every element"},
     NameHint{"stairs", "write plot(x, y, {style = \"stairs\"})"},
     NameHint{"stem", "write plot(x, y, {style = \"stems\"})"},
+    NameHint{"strcmp", "write a == b"},
     NameHint{"strcat", "write a .. b"},
     NameHint{"struct", "write {name = value}"},
     NameHint{"title", "give it among the options: plot(x, y, {title = \"...\"})"},
     NameHint{"transpose", "write A:t()"},
     NameHint{"vertcat", "write vector{v1, v2}"},
+    NameHint{"whos", "write who()"},
     NameHint{"xlabel", "give it among the options: plot(x, y, {xlabel = \"time (s)\"})"},
     NameHint{"xlim", "give it among the options: plot(x, y, {x_range = {a, b}})"},
     NameHint{"ylabel", "give it among the options: plot(x, y, {ylabel = \"output\"})"},
@@ -74,8 +87,7 @@ constexpr std::array kNames = {
     NameHint{"comparec", "write compare(data, G); fit_measures(data, G).output holds the simulated output"},
     NameHint{"conv", "write (tf(a, {1})*tf(b, {1})).num for the product of two polynomials"},
     NameHint{"cov", "std(v), var(v) and dot(v, w) are there; a model's covariance is G.covariance"},
-    NameHint{"etime", "scripts have no clock; dynlab report tells what each cell took"},
-    NameHint{"fft", "write etfe(data) or spa(data) for frequency responses; a single spectrum is not there"},
+    NameHint{"etime", "write tic() before and toc() after"},
     NameHint{"filter", "write lsim(G, u, Ts) for a transfer function, idfilt(data, {lower, upper}) for data"},
     NameHint{"frd", "write spa(data) or etfe(data): they give frequency responses"},
     NameHint{"getcov", "write G.covariance"},
@@ -93,7 +105,7 @@ constexpr std::array kNames = {
     NameHint{"misdata", "write fillmissing(data)"},
     NameHint{"nlarx", "write hammerstein(data, ...) for a static characteristic before linear dynamics"},
     NameHint{"nlhw", "write hammerstein(data, ...) for a static characteristic before linear dynamics"},
-    NameHint{"os", "scripts have no clock and no access to the system; dynlab report tells what each cell took"},
+    NameHint{"os", "scripts have no access to the system and no date; tic(), toc() and clock() time them"},
     NameHint{"pem", "write armax, bj or oe in discrete time, rivc or coe in continuous time"},
     NameHint{"poly", "write ((s - r1)*(s - r2)).num with s = tf(\"s\")"},
     NameHint{"polyest", "write armax(data, {na, nb, nc, nk}), bj or oe"},
@@ -110,12 +122,36 @@ constexpr std::array kNames = {
     NameHint{"ssregest", "write n4sid(data, order)"},
     NameHint{"tfdata", "write G.num and G.den"},
     NameHint{"tfest", "write tfsrivc(data, poles, zeros)"},
-    NameHint{"tic", "scripts have no clock; dynlab report tells what each cell took"},
-    NameHint{"toc", "scripts have no clock; dynlab report tells what each cell took"},
     NameHint{"xcorr", "write cra(data), or resid(data, G) for the correlations of a model's errors"},
     NameHint{"zpk", "write tf(num, den); pole(G) and zero(G) give the roots"},
     NameHint{"zpplot", "write pzmap(G)"},
 };
+
+constexpr const char* kCommentHint = "a comment starts with -- in Lua";
+
+/// A character that word processors and printed pages put in the place of one that Lua knows.
+struct ForeignCharacter {
+    char32_t character;
+    const char* instead;
+};
+
+constexpr std::array kForeign = {ForeignCharacter{U'\u201c', "\""},      ForeignCharacter{U'\u201d', "\""},
+                                 ForeignCharacter{U'\u201e', "\""},      ForeignCharacter{U'\u00ab', "\""},
+                                 ForeignCharacter{U'\u00bb', "\""},      ForeignCharacter{U'\u2018', "'"},
+                                 ForeignCharacter{U'\u2019', "'"},       ForeignCharacter{U'\u00b4', "'"},
+                                 ForeignCharacter{U'\u2010', "-"},       ForeignCharacter{U'\u2011', "-"},
+                                 ForeignCharacter{U'\u2012', "-"},       ForeignCharacter{U'\u2013', "-"},
+                                 ForeignCharacter{U'\u2014', "-"},       ForeignCharacter{U'\u2212', "-"},
+                                 ForeignCharacter{U'\u00d7', "*"},       ForeignCharacter{U'\u00b7', "*"},
+                                 ForeignCharacter{U'\u22c5', "*"},       ForeignCharacter{U'\u00f7', "/"},
+                                 ForeignCharacter{U'\u2044', "/"},       ForeignCharacter{U'\u2264', "<="},
+                                 ForeignCharacter{U'\u2265', ">="},      ForeignCharacter{U'\u2260', "~="},
+                                 ForeignCharacter{U'\u02c6', "^"},       ForeignCharacter{U'\u00b2', "^2"},
+                                 ForeignCharacter{U'\u00b3', "^3"},      ForeignCharacter{U'\u221a', "sqrt(x)"},
+                                 ForeignCharacter{U'\u03c0', "math.pi"}, ForeignCharacter{U'\u2026', "..."},
+                                 ForeignCharacter{U'\u00a0', "a space"}, ForeignCharacter{U'\u2009', "a space"},
+                                 ForeignCharacter{U'\u202f', "a space"}, ForeignCharacter{U'\u200b', "nothing"},
+                                 ForeignCharacter{U'\ufeff', "nothing"}};
 
 /// The line without its strings and Lua comment, so that their contents are not taken for code.
 std::string code_only(const std::string& line) {
@@ -202,6 +238,19 @@ bool has_assignment_condition(const std::string& code) {
     return false;
 }
 
+std::string element_hint(const std::string& code) {
+    if (contains(code, "[end") || contains(code, "(end"))
+        return "the last element is x[#x]; vector{x, y} appends y to x";
+    static const std::regex kTwoPlaces(R"(\w\[\s*[\w.:]+\s*,)");
+    if (std::regex_search(code, kTwoPlaces)) return "the element in row 1 and column 2 is A[{1, 2}]";
+    if (contains(code, "?")) return "write if ... then ... else ... end instead of ?";
+    static const std::regex kImaginary(R"((^|[^\w.])\d+(\.\d*)?[ij]\b)");
+    if (std::regex_search(code, kImaginary))
+        return "there are no complex numbers to calculate with; those that functions give have the fields re, im, abs, "
+               "arg";
+    return {};
+}
+
 std::string operator_hint(const std::string& code) {
     if (contains(code, ".*")) return "for vectors write x*y, for matrices A:times(B), instead of .*";
     if (contains(code, "./")) return "for vectors write x/y instead of ./";
@@ -241,6 +290,34 @@ std::string command_hint(const std::string& code) {
 
 }  // namespace
 
+std::optional<std::string> foreign_character_sentence(const std::string& line) {
+    const std::string code = code_only(line);
+    std::string_view rest = code;
+    while (!rest.empty()) {
+        const std::optional<char32_t> character = take_character(rest);
+        if (!character) return "a byte that is not UTF-8 cannot stand here; save the script as UTF-8";
+        if (*character < 128) continue;
+        const auto known = std::find_if(kForeign.begin(), kForeign.end(),
+                                        [&](const ForeignCharacter& one) { return one.character == *character; });
+        const std::string instead = known == kForeign.end() ? "names are made of the letters a to z, digits and _"
+                                                            : std::string("write ") + known->instead + " instead";
+        return fmt::format("the character {} (U+{:04X}) cannot stand here; {}", utf8_of(*character),
+                           static_cast<unsigned>(*character), instead);
+    }
+    return std::nullopt;
+}
+
+std::string comment_hint(const std::string& line, const std::string& name) {
+    const std::string code = code_only(line);
+    const auto sign = code.find_first_of("%#");
+    return sign != std::string::npos && code.find(name, sign) != std::string::npos ? kCommentHint : "";
+}
+
+bool begins_foreign_comment(const std::string& line) {
+    const auto first = line.find_first_not_of(" \t");
+    return first != std::string::npos && (line[first] == '%' || line.compare(first, 2, "# ") == 0);
+}
+
 const char* matlab_name_hint(const std::string& name) {
     const auto found =
         std::find_if(kNames.begin(), kNames.end(), [&](const NameHint& hint) { return hint.name == name; });
@@ -251,16 +328,17 @@ std::string matlab_syntax_hint(const std::string& line, const std::string& near)
     const std::string code = code_only(line);
     if (std::string hint = command_hint(code); !hint.empty()) return hint;
     const auto first = code.find_first_not_of(" \t");
-    if (first != std::string::npos && code[first] == '%') return "a comment starts with -- in Lua";
+    if (first != std::string::npos && (code[first] == '%' || code[first] == '#')) return kCommentHint;
     if (has_assignment_condition(code)) return "to compare, write == instead of =";
     if (std::string hint = operator_hint(code); !hint.empty()) return hint;
     if (ends_with(code, "...") && near != ")") return "a statement may simply go on in the next line, without ...";
     if (has_transpose(code)) return "the transpose is A:t(); vectors are columns already";
     if (std::string hint = block_hint(code); !hint.empty()) return hint;
+    if (std::string hint = element_hint(code); !hint.empty()) return hint;
     if (has_bracket_list(code)) return "a vector is written vector{1, 2, 3}, a matrix matrix{{1, 2}, {3, 4}}";
     if (has_colon_range(code))
         return "a range is range(first, last) or range(first, step, last), a part of a vector v:range(i, j)";
-    if (contains(code, "%")) return "a comment starts with -- in Lua";
+    if (contains(code, "%") || contains(code, "# ")) return kCommentHint;
     if (contains(code, "\\")) return "A\\b is written solve(A, b)";
     if (contains(code, "@(")) return "a function is written function(x) return x^2 end";
     return {};

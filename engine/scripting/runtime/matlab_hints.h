@@ -1,13 +1,18 @@
 #pragma once
+#include <optional>
 #include <string>
 
 namespace dynlab::inline scripting {
 
-/// What to write instead of a MATLAB function that has no namesake here ("write print(x)"); nullptr when unknown.
+/// How a habit from MATLAB or another language is written in Lua; nothing (nullptr, empty) where none is recognised.
 const char* matlab_name_hint(const std::string& name);
-
-/// The Lua form of a MATLAB habit seen in a line that Lua cannot read; empty when none is recognised. `near` is the
-/// token at which Lua gave up.
+/// For a line that Lua cannot read; `near` is the word at which it stopped.
 std::string matlab_syntax_hint(const std::string& line, const std::string& near);
+/// For a word that is no variable, where it stands behind the % or # of a comment.
+std::string comment_hint(const std::string& line, const std::string& name);
+/// Whether a line begins as a comment does in other languages.
+bool begins_foreign_comment(const std::string& line);
+/// About the first character outside of texts that no program can hold: typographic quotes, dashes, accents.
+std::optional<std::string> foreign_character_sentence(const std::string& line);
 
 }  // namespace dynlab::inline scripting

@@ -8,6 +8,7 @@
 #include "platform/spelling.h"
 #include "scripting/prompt/prompt_variables.h"
 #include "scripting/runtime/context.h"
+#include "scripting/runtime/errors.h"
 #include "scripting/runtime/matlab_hints.h"
 #include "scripting/runtime/sandbox.h"
 
@@ -64,7 +65,13 @@ int unknown_global(lua_State* L) {
     {
         const std::string name = key_text(L, 2);
         const char* matlab = matlab_name_hint(name);
-        if (matlab != nullptr) {
+        RuntimeContext& context = context_of(L);
+        const LocatedMessage here = take_apart(script_location(L) + ": ");
+        const std::string comment =
+            here.file == context.script_name ? comment_hint(line_of(context.source, here.line), name) : "";
+        if (!comment.empty()) {
+            message = fmt::format("there is no variable '{}'; {}", name, comment);
+        } else if (matlab != nullptr) {
             message = fmt::format("there is no function '{}' here; {}", name, matlab);
         } else {
             std::vector<std::string> names;

@@ -9,17 +9,14 @@
 #include "scripting/runtime/context.h"
 
 namespace dynlab::inline scripting {
-namespace {
 
 namespace fs = std::filesystem;
 
-bool lies_below(const fs::path& file, const fs::path& folder) {
-    const fs::path root = fs::weakly_canonical(fs::absolute(folder));
+bool lies_below(const fs::path& path, const fs::path& folder) {
+    const fs::path root = fs::weakly_canonical(fs::absolute(folder)), file = fs::weakly_canonical(fs::absolute(path));
     const auto [end, rest] = std::mismatch(root.begin(), root.end(), file.begin(), file.end());
     return end == root.end() || (std::next(end) == root.end() && end->empty());
 }
-
-}  // namespace
 
 fs::path output_path(const RuntimeContext& context, const std::string& path) {
     if (path.empty() || path.find('\0') != std::string::npos)

@@ -10,4 +10,7 @@ struct RuntimeContext;
 /// script's folder, symbolic links followed. Makes missing folders in between. Throws InvalidArgument for other places.
 std::filesystem::path output_path(const RuntimeContext& context, const std::string& path);
 
+/// Whether a path, links resolved, lies in a folder or below it.
+bool lies_below(const std::filesystem::path& path, const std::filesystem::path& folder);
+
 }  // namespace dynlab::inline scripting

@@ -14,6 +14,7 @@
 #include "scripting/runtime/context.h"
 #include "scripting/runtime/errors.h"
 #include "scripting/runtime/sandbox.h"
+#include "scripting/runtime/shown_expressions.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -94,18 +95,14 @@ int tidy_variables(lua_State* L) {
     return 0;
 }
 
-/// Calls the chunk below it and prints the values it returns; figures among them are shown as figures.
+/// Calls the chunk below it and prints the values it returns: show(...).
 int show_values(lua_State* L) {
     lua_call(L, 0, LUA_MULTRET);
-    std::string line;
-    for (int i = 1; i <= lua_gettop(L); ++i) {
-        if (const FigurePointer* figure = to_object<FigurePointer>(L, i)) {
-            context_of(L).recorder.show_figure(*figure);
-        } else {
-            line += (line.empty() ? "" : "\t") + value_text(L, i);
-        }
-    }
-    if (!line.empty()) Call(L).print(line + '\n');
+    push_library(L);
+    lua_getfield(L, -1, "show");
+    lua_remove(L, -2);
+    lua_insert(L, 1);
+    lua_call(L, lua_gettop(L) - 1, 0);
     return 0;
 }
 
@@ -160,7 +157,7 @@ void Runtime::set_service_pointer(std::size_t key, void* service) {
 }
 
 RunRecord Runtime::run(const PercentScript& script) {
-    return run_recorded(script, [&] { run_source(script.source, nullptr); });
+    return run_recorded(script, [&] { run_source(with_shown_expressions(script.source), nullptr); });
 }
 
 RunRecord Runtime::run_code(const std::string& code, const std::string& name) {
@@ -181,6 +178,8 @@ RunRecord Runtime::run_recorded(const PercentScript& script, const std::function
     call_protected(L, seal_once);
     lua_settop(L, 0);
     context.script_name = script.file.filename().string();
+    context.source = script.source;
+    context.began = std::chrono::steady_clock::now();
     context.recorder.start(
         script, context.options.seed, [&context] { return main_chunk_line(context); }, context.options.enter_cell);
     context.refusal_line = 0;
@@ -201,6 +200,14 @@ void Runtime::run_source(const std::string& source, const PromptStatement* state
     const bool shows = statement != nullptr && !statement->silent;
     if (shows) lua_pushcfunction(L, show_values);
     const std::string chunk_name = "@" + context.script_name;
+    if (const std::optional<int> line = line_with_semicolon_rows(source)) {
+        lua_pushstring(L, LocatedMessage{context.script_name, *line,
+                                         "the rows of a matrix are tables of their own: matrix{{1, 2}, {3, 4}}; a "
+                                         "semicolon separates entries as a comma does"}
+                              .joined()
+                              .c_str());
+        return record_error(LUA_ERRRUN, {});
+    }
     int status = luaL_loadbufferx(L, source.data(), source.size(), chunk_name.c_str(), "t");
     if (status == LUA_OK) {
         if (statement != nullptr) {
@@ -214,7 +221,7 @@ void Runtime::run_source(const std::string& source, const PromptStatement* state
         lua_sethook(L, nullptr, 0, 0);
         if (status != LUA_OK) record_error(status, {});
     } else {
-        record_error(status, source);
+        record_error(status, statement != nullptr ? statement->source : context.source);
     }
 }
 

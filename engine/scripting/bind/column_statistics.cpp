@@ -1,0 +1,136 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "scripting/bind/bindings.h"
+#include "scripting/objects/boxed.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+void need_values(const Call& call, Index count, Index least) {
+    if (count == 0) throw InvalidArgument("argument 1 (v) has no elements");
+    if (count < least)
+        throw InvalidArgument(
+            fmt::format("{}: the spread of a single value is not defined; at least two values are "
+                        "needed",
+                        call.function_name()));
+}
+
+/// A number for a vector, a vector with one number for each column of a matrix. Every column is summed in the same
+/// order as a vector.
+template <double (*kMeasure)(const VectorView&), Index kLeast>
+int measure_columns(Call& call) {
+    call.at_most(1);
+    if (to_matrix(call.state(), 1) == nullptr) {
+        const VectorMap v = call.vector(1, "v");
+        need_values(call, kLeast == 0 ? 1 : v.size(), kLeast);
+        return call.give(kMeasure(v));
+    }
+    const MatrixMap A = call.matrix(1, "A");
+    need_values(call, kLeast == 0 ? 1 : A.rows(), kLeast);
+    Vector measures(A.cols());
+    for (Index j = 0; j < A.cols(); ++j) measures[j] = kMeasure(A.col(j));
+    return call.give_vector(measures);
+}
+
+double sum_of(const VectorView& v) {
+    return v.sum();
+}
+double mean_of(const VectorView& v) {
+    return v.mean();
+}
+double variance_of(const VectorView& v) {
+    return (v.array() - v.mean()).square().sum() / static_cast<double>(v.size() - 1);
+}
+double deviation_of(const VectorView& v) {
+    return std::sqrt(variance_of(v));
+}
+double median_of(const VectorView& v) {
+    if (v.hasNaN()) return std::nan("");
+    Vector sorted = v;
+    const Index middle = v.size() / 2;
+    std::nth_element(sorted.begin(), sorted.begin() + middle, sorted.end());
+    if (v.size() % 2 == 1) return sorted[middle];
+    return (sorted[middle] + *std::max_element(sorted.begin(), sorted.begin() + middle)) / 2;
+}
+
+int sum(Call& call) {
+    const MaskBlock* mask = call.given(1) ? to_mask(call.state(), 1) : nullptr;
+    if (mask == nullptr) return measure_columns<sum_of, 0>(call);
+    bool* values = to_mask(call.state(), 1)->data();
+    return call.give_integer(std::count(values, values + mask->size, true));
+}
+
+/// Like fmax and fmin, NaN only where all are; the first of several equal ones.
+template <bool kLargest>
+double extreme_of(const VectorView& v, Index& place) {
+    return kLargest ? v.maxCoeff<Eigen::PropagateNumbers>(&place) : v.minCoeff<Eigen::PropagateNumbers>(&place);
+}
+
+/// max(v) gives the value and its place, max(A) those of every column; max(x, y) the larger one, element by element.
+template <bool kLargest>
+int extreme(Call& call) {
+    call.at_most(2);
+    const auto better = [](double x, double y) { return kLargest ? std::fmax(x, y) : std::fmin(x, y); };
+    if (call.given(2) && call.type(1) == LUA_TNUMBER && call.type(2) == LUA_TNUMBER)
+        return call.give(better(call.number(1, "x"), call.number(2, "y")));
+    if (call.given(2)) {
+        const int vector_index = call.type(1) == LUA_TNUMBER ? 2 : 1, other = 3 - vector_index;
+        const VectorMap v = call.vector(vector_index, vector_index == 1 ? "x" : "y");
+        if (call.type(other) == LUA_TNUMBER) {
+            const double bound = call.number(other, "bound");
+            return call.give_vector(v.unaryExpr([&](double x) { return better(x, bound); }));
+        }
+        const VectorMap w = call.vector(other, "y");
+        if (v.size() != w.size())
+            throw InvalidArgument(fmt::format("x has {} values, but y has {}", v.size(), w.size()));
+        return call.give_vector(v.binaryExpr(w, better));
+    }
+    if (to_matrix(call.state(), 1) != nullptr) {
+        const MatrixMap A = call.matrix(1, "A");
+        need_values(call, A.rows(), 1);
+        Vector values(A.cols()), places(A.cols());
+        for (Index j = 0; j < A.cols(); ++j) {
+            Index place = 0;
+            values[j] = extreme_of<kLargest>(A.col(j), place);
+            places[j] = static_cast<double>(place + 1);
+        }
+        return call.give_vector(values) + call.give_vector(places);
+    }
+    const VectorMap v = call.vector(1, "v");
+    need_values(call, v.size(), 1);
+    Index place = 0;
+    const double value = extreme_of<kLargest>(v, place);
+    return call.give(value) + call.give_integer(place + 1);
+}
+
+constexpr const char* kStatisticsArea = "vectors";
+constexpr std::array kStatisticsFunctions = {
+    FunctionEntry{"sum", kStatisticsArea, "sum(v) -> x; sum(A) -> v", "sum of the elements, of a matrix by columns",
+                  guarded<sum>},
+    FunctionEntry{"mean", kStatisticsArea, "mean(v) -> x; mean(A) -> v", "arithmetic mean, of a matrix by columns",
+                  guarded<measure_columns<mean_of, 1>>},
+    FunctionEntry{"median", kStatisticsArea, "median(v) -> x; median(A) -> v",
+                  "the value in the middle, of a matrix by columns", guarded<measure_columns<median_of, 1>>},
+    FunctionEntry{"std", kStatisticsArea, "std(v) -> x; std(A) -> v",
+                  "standard deviation (divided by N - 1), of a matrix by columns",
+                  guarded<measure_columns<deviation_of, 2>>},
+    FunctionEntry{"var", kStatisticsArea, "var(v) -> x; var(A) -> v",
+                  "variance (divided by N - 1), of a matrix by columns", guarded<measure_columns<variance_of, 2>>},
+    FunctionEntry{"min", kStatisticsArea, "min(v) -> x, place; min(x, y) -> v",
+                  "smallest element and its place, of a matrix by columns; the smaller of two, element by element",
+                  guarded<extreme<false>>},
+    FunctionEntry{"max", kStatisticsArea, "max(v) -> x, place; max(x, y) -> v",
+                  "largest element and its place, of a matrix by columns; the larger of two, element by element",
+                  guarded<extreme<true>>},
+};
+
+}  // namespace
+
+FunctionEntries column_statistics() {
+    return kStatisticsFunctions;
+}
+
+}  // namespace dynlab::inline scripting

@@ -1,0 +1,79 @@
+#include <array>
+
+#include "numerics/linalg/decompositions.h"
+#include "numerics/linalg/least_squares.h"
+#include "numerics/number_text.h"
+#include "numerics/signals/fourier.h"
+#include "scripting/bind/bindings.h"
+#include "scripting/objects/model.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+constexpr double kSingular = 1e-15;  // reciprocal condition number
+
+MatrixMap square_matrix(Call& call) {
+    call.at_most(1);
+    const MatrixMap A = call.matrix(1, "A");
+    if (A.rows() != A.cols())
+        throw InvalidArgument(
+            fmt::format("argument 1 (A) must be a square matrix, but it is {} x {}", A.rows(), A.cols()));
+    if (!A.allFinite()) throw InvalidArgument("argument 1 (A) must have finite elements");
+    return A;
+}
+
+int solve(Call& call) {
+    call.at_most(2);
+    const MatrixMap A = call.matrix(1, "A"), b = call.matrix(2, "b");
+    const bool vector = to_matrix(call.state(), 2) == nullptr;
+    Matrix solution(A.cols(), b.cols());
+    for (Index j = 0; j < b.cols(); ++j) solution.col(j) = solve_least_squares(A, b.col(j)).solution;
+    return vector ? call.give_vector(solution.col(0)) : call.give_matrix(solution);
+}
+
+int inverse(Call& call) {
+    const MatrixMap A = square_matrix(call);
+    const SquareSolution solution = solve_by_lu(A, Matrix::Identity(A.rows(), A.rows()));
+    if (A.rows() > 0 && !(solution.reciprocal_condition > kSingular))
+        throw InvalidArgument("the matrix is singular to working precision (condition number " +
+                              number_text(1 / solution.reciprocal_condition, 2) + "), so it has no inverse");
+    return call.give_matrix(solution.x);
+}
+
+int determinant(Call& call) {
+    const MatrixMap A = square_matrix(call);
+    return call.give(A.rows() == 0 ? 1 : eigenvalues(A).prod().real());
+}
+
+int give_eigenvalues(Call& call) {
+    const MatrixMap A = square_matrix(call);
+    if (A.rows() == 0) throw InvalidArgument("argument 1 (A) has no elements");
+    if (A == A.transpose()) return call.give_vector(symmetric_eigenvalues(A));
+    push_object(call.state(), eigenvalues(A));
+    return 1;
+}
+
+int fft(Call& call) {
+    call.at_most(1);
+    push_object(call.state(), fourier_transform(call.vector(1, "x")));
+    return 1;
+}
+
+constexpr const char* kAlgebraArea = "vectors";
+constexpr std::array kAlgebraFunctions = {
+    FunctionEntry{"solve", kAlgebraArea, "solve(A, b) -> x",
+                  "A x = b; the least-squares solution when A has more rows than columns (MATLAB's A\\b)",
+                  guarded<solve>},
+    FunctionEntry{"inv", kAlgebraArea, "inv(A) -> B", "the inverse of a square matrix", guarded<inverse>},
+    FunctionEntry{"det", kAlgebraArea, "det(A) -> x", "the determinant of a square matrix", guarded<determinant>},
+    FunctionEntry{"eig", kAlgebraArea, "eig(A) -> v", "the eigenvalues of a square matrix", guarded<give_eigenvalues>},
+    FunctionEntry{"fft", kAlgebraArea, "fft(x) -> X", "discrete Fourier transform", guarded<fft>},
+};
+
+}  // namespace
+
+FunctionEntries linear_algebra() {
+    return kAlgebraFunctions;
+}
+
+}  // namespace dynlab::inline scripting

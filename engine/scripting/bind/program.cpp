@@ -1,0 +1,188 @@
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <map>
+
+#include "platform/text_file.h"
+#include "scripting/bind/bindings.h"
+#include "scripting/objects/boxed.h"
+#include "scripting/objects/text_form.h"
+#include "scripting/prompt/prompt_statement.h"
+#include "scripting/prompt/prompt_variables.h"
+#include "scripting/runtime/errors.h"
+#include "scripting/runtime/output_path.h"
+#include "scripting/runtime/shown_expressions.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+int tic(Call& call) {
+    call.at_most(0);
+    call.context().tic = Clock::now();
+    return 0;
+}
+
+int toc(Call& call) {
+    call.at_most(0);
+    if (call.context().tic == Clock::time_point{}) throw InvalidArgument("tic() has to be called before");
+    return call.give(seconds_since(call.context().tic));
+}
+
+int clock(Call& call) {
+    call.at_most(0);
+    return call.give(seconds_since(call.context().began));
+}
+
+/// "lib.tools" is lib/tools.lua in the script's folder.
+std::filesystem::path file_of_module(const Call& call, const std::string& name) {
+    const auto allowed = [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || c == '.';
+    };
+    if (name.empty() || !std::all_of(name.begin(), name.end(), allowed) || name.find("..") != std::string::npos)
+        throw InvalidArgument(
+            fmt::format("a file beside the script is named without its ending, such as \"tools\" for "
+                        "tools.lua, but \"{}\" was given",
+                        name));
+    std::string relative = name;
+    std::replace(relative.begin(), relative.end(), '.', '/');
+    const std::filesystem::path folder = call.context().options.script_folder, file = folder / (relative + ".lua");
+    if (!std::filesystem::is_regular_file(file))
+        throw InvalidArgument(
+            fmt::format("there is no file {}.lua in the script's folder; libraries from elsewhere "
+                        "are not there",
+                        relative));
+    if (!lies_below(file, folder))
+        throw InvalidArgument(fmt::format("{}.lua leads outside the script's folder", relative));
+    return file;
+}
+
+/// Runs a file of the script's folder once and gives what it returns, true when that is nothing.
+int require_file(Call& call) {
+    call.at_most(1);
+    lua_State* L = call.state();
+    const std::string name = call.text(1, "name");
+    luaL_getsubtable(L, LUA_REGISTRYINDEX, "dynlab.required");
+    const int known = lua_gettop(L);
+    if (lua_getfield(L, known, name.c_str()) != LUA_TNIL) return 1;
+    lua_pop(L, 1);
+    const std::filesystem::path file = file_of_module(call, name);
+    call.context().recorder.note_file_read(file);
+    const std::string code = read_text(file);
+    const std::string chunk = "@" + file.filename().string();
+    if (luaL_loadbufferx(L, code.data(), code.size(), chunk.c_str(), "t") != LUA_OK)
+        throw InvalidArgument(plain_syntax_message(lua_tostring(L, -1), code));
+    lua_pushboolean(L, true);
+    lua_setfield(L, known, name.c_str());  // a file that requires itself gets true
+    lua_call(L, 0, 1);
+    if (lua_isnil(L, -1)) {
+        lua_pop(L, 1);
+        lua_pushboolean(L, true);
+    }
+    lua_pushvalue(L, -1);
+    lua_setfield(L, known, name.c_str());
+    return 1;
+}
+
+std::filesystem::path script_at(const std::string& path) {
+    std::filesystem::path file = path;
+    if (std::filesystem::is_directory(file)) file /= "analysis.lua";
+    if (!std::filesystem::is_regular_file(file))
+        throw InvalidArgument(fmt::format("there is no script {}", file.string()));
+    return file;
+}
+
+/// load() looks beside the script while it runs.
+class InFolder {
+  public:
+    InFolder(RunOptions& options, const std::filesystem::path& folder)
+        : options_(options), before_(options.script_folder) {
+        options.script_folder = folder.empty() ? std::filesystem::path(".") : folder;
+    }
+    ~InFolder() { options_.script_folder = before_; }
+    InFolder(const InFolder&) = delete;
+    InFolder& operator=(const InFolder&) = delete;
+
+  private:
+    RunOptions& options_;
+    std::filesystem::path before_;
+};
+
+/// Its variables, local ones too, are the prompt's afterwards.
+int run_file(Call& call) {
+    call.at_most(1);
+    lua_State* L = call.state();
+    push_prompt_variables(L);
+    if (lua_isnil(L, -1))
+        throw InvalidArgument(
+            "scripts are run at the prompt, where their variables stay; in a script write require(name)");
+    const std::filesystem::path file = script_at(call.text(1, "path"));
+    const std::string text = read_text(file);
+    const PromptStatement script = read_statement(with_shown_expressions(text));
+    announce_variables(L, script.variables);
+    const std::string chunk = "@" + file.filename().string();
+    if (luaL_loadbufferx(L, script.code.data(), script.code.size(), chunk.c_str(), "t") != LUA_OK)
+        throw InvalidArgument(plain_syntax_message(lua_tostring(L, -1), text));
+    push_prompt_variables(L);
+    lua_setupvalue(L, -2, 1);
+    const InFolder folder(call.context().options, file.parent_path());
+    lua_call(L, 0, 0);
+    forget_unassigned(L, script.variables);
+    return 0;
+}
+
+/// Variables of the table on top, by name.
+void add_variables(lua_State* L, std::map<std::string, std::string>& variables) {
+    constexpr std::size_t kLongest = 60;
+    const int table = lua_absindex(L, -1);
+    lua_pushnil(L);
+    while (lua_next(L, table)) {
+        if (lua_type(L, -2) == LUA_TSTRING) {
+            std::string text = value_text(L, -1);
+            text = text.substr(0, text.find('\n'));
+            variables[lua_tostring(L, -2)] = text.size() > kLongest ? text.substr(0, kLongest) + " ..." : text;
+        }
+        lua_pop(L, 1);
+    }
+    lua_pop(L, 1);
+}
+
+int who(Call& call) {
+    call.at_most(0);
+    lua_State* L = call.state();
+    std::map<std::string, std::string> variables;
+    lua_pushglobaltable(L);
+    add_variables(L, variables);
+    push_prompt_variables(L);
+    if (lua_istable(L, -1)) add_variables(L, variables);
+    std::size_t width = 0;
+    for (const auto& [name, text] : variables) width = std::max(width, name.size());
+    for (const auto& [name, text] : variables) call.print(fmt::format("{:<{}}  {}\n", name, width, text));
+    return 0;
+}
+
+constexpr const char* kProgramArea = "program";
+constexpr std::array kProgramFunctions = {
+    FunctionEntry{"require", kProgramArea, "require(name) -> value", "runs NAME.lua of the script's folder, once",
+                  guarded<require_file>},
+    FunctionEntry{"run", kProgramArea, "run(path)", "runs a script at the prompt and keeps its variables",
+                  guarded<run_file>},
+    FunctionEntry{"who", kProgramArea, "who()", "lists the variables", guarded<who>},
+    FunctionEntry{"tic", kProgramArea, "tic()", "starts the stop watch", guarded<tic>},
+    FunctionEntry{"toc", kProgramArea, "toc() -> seconds", "time since tic()", guarded<toc>},
+    FunctionEntry{"clock", kProgramArea, "clock() -> seconds", "time since the script began", guarded<clock>},
+};
+
+}  // namespace
+
+FunctionEntries program_functions() {
+    return kProgramFunctions;
+}
+
+}  // namespace dynlab::inline scripting

@@ -1,0 +1,155 @@
+#include "scripting/runtime/shown_expressions.h"
+
+#include <algorithm>
+#include <lua.hpp>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "scripting/runtime/errors.h"
+#include "scripting/runtime/lua_tokens.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+constexpr int kMostExpressions = 1000;
+constexpr int kMostLines = 40;  // of one expression
+
+/// Where Lua stops reading: the token, as an index into the tokens (their number at the end of the source).
+struct Stop {
+    std::size_t token = 0;
+    std::size_t offset = 0;
+};
+
+/// Reads Lua text in a state of its own, which runs nothing.
+class LuaReader {
+  public:
+    LuaReader() : state_(luaL_newstate(), lua_close) {}
+
+    /// The message of a syntax error, nothing for text that is Lua.
+    std::optional<std::string> error_of(const std::string& code) {
+        if (!state_) return "no memory";
+        lua_State* L = state_.get();
+        lua_settop(L, 0);
+        if (luaL_loadbufferx(L, code.data(), code.size(), "=s", "t") == LUA_OK) return std::nullopt;
+        std::size_t length = 0;
+        const char* text = lua_tolstring(L, -1, &length);
+        return std::string(text, length);
+    }
+
+  private:
+    std::unique_ptr<lua_State, void (*)(lua_State*)> state_;
+};
+
+std::size_t line_start(const std::string& code, int line) {
+    std::size_t start = 0;
+    for (int i = 1; i < line; ++i) {
+        start = code.find('\n', start);
+        if (start == std::string::npos) return code.size();
+        ++start;
+    }
+    return start;
+}
+
+bool begins_line(const std::string& code, const std::vector<LuaToken>& tokens, std::size_t i) {
+    if (i == 0) return true;
+    const std::string_view between =
+        std::string_view(code).substr(tokens[i - 1].end(), tokens[i].begin - tokens[i - 1].end());
+    return between.find('\n') != std::string_view::npos;
+}
+
+/// The tokens where Lua may have stopped: those of the line that read like the one it names.
+std::vector<std::size_t> stops_of(const std::string& message, const std::string& code,
+                                  const std::vector<LuaToken>& tokens) {
+    if (message.ends_with("near <eof>")) return {tokens.size()};
+    const int line = take_apart(message).line;
+    const auto at = message.rfind(" near '");
+    if (at == std::string::npos || line == 0) return {};
+    const std::string word = message.substr(at + 7, message.size() - at - 8);
+    const std::size_t first = line_start(code, line), last = line_start(code, line + 1);
+    std::vector<std::size_t> stops;
+    for (std::size_t i = 0; i < tokens.size(); ++i)
+        if (tokens[i].begin >= first && tokens[i].begin < last && tokens[i].text == word) stops.push_back(i);
+    return stops;
+}
+
+bool ends_statement(const std::string& code, const std::vector<LuaToken>& tokens, std::size_t next) {
+    if (next >= tokens.size() || begins_line(code, tokens, next)) return true;
+    for (const std::string_view word : {";", "end", "else", "elseif", "until"})
+        if (tokens[next].is(word)) return true;
+    return false;
+}
+
+/// A length begins with # right before what it counts; "# text" is somebody's comment.
+bool may_begin_expression(const std::vector<LuaToken>& tokens, std::size_t i) {
+    if (tokens[i].is("#")) return i + 1 < tokens.size() && tokens[i + 1].begin == tokens[i].end();
+    return tokens[i].kind != LuaToken::Kind::kKeyword || tokens[i].is("not") || tokens[i].is("nil") ||
+           tokens[i].is("true") || tokens[i].is("false") || tokens[i].is("function");
+}
+
+/// The source with the expression made a call in which Lua stopped at this token, or before it.
+std::optional<std::string> rewritten(LuaReader& reader, const std::string& code, const std::vector<LuaToken>& tokens,
+                                     std::size_t stop) {
+    int lines = 0;
+    for (std::size_t first = std::min(stop, tokens.size() - 1) + 1; first-- > 0 && lines <= kMostLines;) {
+        if (!begins_line(code, tokens, first)) continue;
+        ++lines;
+        if (first == stop && stop > 0 && !may_begin_expression(tokens, first)) continue;
+        if (!may_begin_expression(tokens, first)) return std::nullopt;
+        for (std::size_t last = first; last < tokens.size() && last <= stop + 200; ++last) {
+            if (last + 1 < stop || !ends_statement(code, tokens, last + 1)) continue;
+            const std::size_t begin = tokens[first].begin, length = tokens[last].end() - begin;
+            const std::string expression = code.substr(begin, length);
+            if (reader.error_of("show(" + expression + ")")) continue;
+            const bool silent = last + 1 < tokens.size() && tokens[last + 1].is(";");
+            const std::string statement = silent ? "local _ = " + expression : "dynlab.show(" + expression + ");";
+            return code.substr(0, begin) + statement + code.substr(begin + length);
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::string with_shown_expressions(const std::string& source) {
+    LuaReader reader;
+    std::string code = source;
+    std::size_t reached = 0;
+    for (int i = 0; i < kMostExpressions; ++i) {
+        const std::optional<std::string> error = reader.error_of(code);
+        if (!error) return code;
+        const std::vector<LuaToken> tokens = lua_tokens(code);
+        if (tokens.empty()) return source;
+        std::optional<std::string> next;
+        for (const std::size_t stop : stops_of(*error, code, tokens)) {
+            next = rewritten(reader, code, tokens, stop);
+            if (next) break;
+        }
+        if (!next) return source;
+        // Each call must bring Lua further, or the guess was wrong.
+        const std::optional<std::string> after = reader.error_of(*next);
+        const std::size_t line = after ? static_cast<std::size_t>(take_apart(*after).line) : std::string::npos;
+        if (after && line < reached) return source;
+        reached = line;
+        code = std::move(*next);
+    }
+    return source;
+}
+
+std::optional<int> line_with_semicolon_rows(const std::string& source) {
+    const std::vector<LuaToken> tokens = lua_tokens(source);
+    for (std::size_t i = 0; i + 1 < tokens.size(); ++i) {
+        if (!tokens[i].is("matrix") || !tokens[i + 1].is("{")) continue;
+        int depth = 0;
+        for (std::size_t k = i + 1; k < tokens.size() && !tokens[k].is("function"); ++k) {
+            if (tokens[k].is("{")) ++depth;
+            if (tokens[k].is("}") && --depth == 0) break;
+            if (tokens[k].is(";"))
+                return 1 + static_cast<int>(std::count(
+                               source.begin(), source.begin() + static_cast<std::ptrdiff_t>(tokens[k].begin), '\n'));
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace dynlab::inline scripting

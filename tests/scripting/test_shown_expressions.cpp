@@ -1,0 +1,91 @@
+// Oracle: what the same text prints at the prompt, and the texts of mistakes that stay mistakes, written by hand.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "platform/temporary_folder.h"
+#include "script_run.h"
+#include "scripting/runtime/shown_expressions.h"
+
+namespace test_shown_expressions {
+
+using namespace dynlab;
+using dynlab::test::error_of;
+using dynlab::test::printed;
+using dynlab::test::run;
+using testing::HasSubstr;
+
+TEST(shown_expressions, stand_alone_in_a_line) {
+    EXPECT_EQ(printed("local x = vector{1, 2, 3}\nx\nx + 1\n2*x[2]\n#x\n-x\n(x)\n'text'\n{1, 2}"),
+              "[1 2 3]\n[2 3 4]\n4\n3\n[-1 -2 -3]\n[1 2 3]\ntext\n{1, 2}\n");
+}
+
+TEST(shown_expressions, are_shown_in_blocks_and_over_several_lines) {
+    EXPECT_EQ(printed("for k = 1, 2 do\n  k*10\nend"), "10\n20\n");
+    EXPECT_EQ(printed("local a, b = 2, 3\nsum{\n  a, -- the first\n  b\n} + 1\na, b"), "6\n2\t3\n");
+    EXPECT_EQ(printed("local f = function(x)\n  x\n  return x + 1\nend\nf(1) == 2"), "1\ntrue\n");
+}
+
+TEST(shown_expressions, are_hidden_by_a_semicolon) {
+    EXPECT_EQ(printed("local x = 3\nx;\nx + 1;\nx"), "3\n");
+    EXPECT_EQ(error_of("local x\nx + 1;"),
+              "lesson.lua:2: the variable 'x' is nil (it has no value), so it cannot be calculated with");
+}
+
+TEST(shown_expressions, keep_lines_in_messages_and_change_nothing_that_is_lua) {
+    EXPECT_EQ(error_of("local x = 1\nx\nprint(y)"), "lesson.lua:3: there is no function or variable 'y'");
+    for (const char* code : {"local x = 1\nprint(x)\n", "f(x)\n(g or h)(y)\n", "-- only a comment", ""})
+        EXPECT_EQ(with_shown_expressions(code), code);
+}
+
+TEST(shown_expressions, leave_mistakes_as_they_are) {
+    for (const char* code : {"local x = = 1", "hold on", "x y z", "for k = 1:10\nend", "print(1) end", "if x\nend",
+                             "local v = [1 2 3]", "x = {1, 2", "x +", "a = b c", "if true then 1 + 1 end"})
+        EXPECT_EQ(with_shown_expressions(code), code);
+}
+
+TEST(shown_expressions, show_figures_too) {
+    const RunRecord record = run("local fig = plot({1, 2, 3})\nfig");
+    ASSERT_FALSE(record.error) << record.error->message;
+    EXPECT_EQ(record.figures.size(), 1u);
+}
+
+TEST(shown_expressions, rows_of_a_matrix_are_not_set_apart_by_semicolons) {
+    EXPECT_THAT(error_of("local x = 1\nlocal A = matrix{{1, 2;\n3, 4}}"),
+                HasSubstr("lesson.lua:2: the rows of a matrix are tables of their own: matrix{{1, 2}, {3, 4}}"));
+    EXPECT_FALSE(line_with_semicolon_rows("local t = {1; 2}\nlocal A = matrix{{1, 2}, {3, 4}};"));
+}
+
+TEST(shown_expressions, files_of_the_folder_can_be_required) {
+    const TemporaryFolder folder;
+    std::ofstream(folder.path() / "tools.lua")
+        << "count = (count or 0) + 1\nreturn {double = function(x) return 2*x end}\n";
+    std::ofstream(folder.path() / "wrong.lua") << "local x = 1\nlocal y = = 2\n";
+    std::ofstream(folder.path() / "fails.lua") << "\n\nerror('no luck')\n";
+    std::filesystem::create_directories(folder.path() / "lib");
+    std::ofstream(folder.path() / "lib" / "more.lua") << "local t = 1\n";
+    RunOptions options;
+    options.script_folder = folder.path();
+    EXPECT_EQ(printed("local t = require('tools')\nprint(t.double(4), require('tools') == t, count)", options),
+              "8\ttrue\t1\n");
+    EXPECT_EQ(printed("print(require('lib.more'))", options), "true\n");
+    EXPECT_THAT(error_of("require('wrong')", options), HasSubstr("wrong.lua:2: "));
+    EXPECT_THAT(error_of("require('fails')", options), HasSubstr("fails.lua:3: no luck"));
+    EXPECT_THAT(error_of("require('absent')", options),
+                HasSubstr("there is no file absent.lua in the script's folder"));
+    for (const char* outside : {"../tools", "/etc/passwd", "lib..more", ""})
+        EXPECT_THAT(error_of(std::string("require('") + outside + "')", options),
+                    HasSubstr("named without its ending"));
+    std::filesystem::create_symlink("/etc/hostname", folder.path() / "link.lua");
+    EXPECT_THAT(error_of("require('link')", options), HasSubstr("leads outside the script's folder"));
+}
+
+TEST(shown_expressions, scripts_can_be_timed) {
+    EXPECT_EQ(printed("tic()\nlocal a = toc()\nlocal b = toc()\nprint(a >= 0, b >= a, clock() >= 0)"),
+              "true\ttrue\ttrue\n");
+    EXPECT_EQ(error_of("toc()"), "lesson.lua:1: toc: tic() has to be called before");
+}
+
+}  // namespace test_shown_expressions

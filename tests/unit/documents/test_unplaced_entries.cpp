@@ -1,0 +1,44 @@
+// Oracle: the sentences, written here by hand.
+#include "documents/unplaced_entries.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace test_unplaced_entries {
+
+using namespace dynlab;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+RunRecord record() {
+    RunRecord all;
+    all.values["gain"] = {3.0, "3"};
+    all.tables["models"] = {{"a"}, {{"1"}}};
+    all.figures["residuals"] = {};
+    all.figures["residuals_2"] = {};
+    all.figures["cell-1-figure-1"] = {};
+    all.outputs["cell-1"] = {{"", "cell-1-figure-1"}};
+    all.texts["remark"] = {"words"};
+    return all;
+}
+
+TEST(unplaced_entries, are_told_with_the_line_to_write) {
+    EXPECT_THAT(unplaced_entries(record(), "Only words, and `gain` without a slot; ![](figure:residuals_3){#fig:x}"),
+                ElementsAre("the figures 'residuals', 'residuals_2' are reported, but have no place in the text; write "
+                            "![](figure:residuals){#fig:residuals}",
+                            "the table 'models' is reported, but has no place in the text; write ::: {.table "
+                            "name=models} above and ::: below its caption",
+                            "the text 'remark' is reported, but has no place in the text; write ::: {.text "
+                            "name=remark} and ::: below",
+                            "the value 'gain' is reported, but has no place in the text; write `gain`{.value}"));
+}
+
+TEST(unplaced_entries, are_none_where_all_have_a_slot) {
+    EXPECT_THAT(unplaced_entries(record(),
+                                 "![](figure:residuals){#fig:residuals} ![Words](figure:residuals_2)\n"
+                                 "::: {.table name=models}\nCaption {#tbl:models}\n:::\n"
+                                 "::: {.text name=\"remark\"}\n:::\nThe gain is `gain`{.value}."),
+                IsEmpty());
+}
+
+}  // namespace test_unplaced_entries
