@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "course/grading/feedback.h"
 #include "data_io/text_table.h"
@@ -22,6 +23,7 @@ using Entry = ClassResults::Entry;
 
 std::string state_of(const Entry& entry) {
     if (!entry.grade) return "not graded yet";
+    if (entry.grade->without_marks()) return "unreadable";
     return entry.grade->whole() ? "graded" : "partly ungraded";
 }
 
@@ -60,39 +62,68 @@ std::vector<std::string> row_of(const std::string& id, const std::string& name, 
     return row;
 }
 
-/// Of several submissions of one student, the better one.
-const Entry* better(const Entry* a, const Entry* b) {
-    const auto points = [](const Entry* entry) { return entry->grade ? entry->grade->earned() : -1; };
-    return a == nullptr || points(b) > points(a) ? b : a;
+/// Of several submissions of one student, the one that counts: one without marks never before one with.
+const Entry* counting(const Entry* a, const Entry* b, bool newest_counts) {
+    const auto points = [](const Entry* entry) {
+        return entry->grade && !entry->grade->without_marks() ? entry->grade->earned() : -1;
+    };
+    if (a == nullptr) return b;
+    if (newest_counts && points(a) >= 0 && points(b) >= 0) return b->received > a->received ? b : a;
+    return points(b) > points(a) ? b : a;
 }
 
-TextTable gradebook_of(const ClassResults& results, std::vector<std::string>& remarks) {
+/// For each student.
+std::vector<const Entry*> work_that_counts(const ClassResults& results) {
+    std::vector<const Entry*> work(results.roster->students().size(), nullptr);
+    for (const Entry& entry : results.entries)
+        for (const std::size_t owner : entry.owner.students)
+            work[owner] = counting(work[owner], &entry, results.newest_counts);
+    return work;
+}
+
+/// A sentence for each owner with several submissions.
+std::vector<std::string> several_of_one(const ClassResults& results) {
+    if (!results.roster) return {};
+    std::map<std::string, std::vector<const Entry*>> by_owner;
+    for (const Entry& entry : results.entries)
+        if (!entry.owner.students.empty())
+            by_owner[entry.owner.group.empty() ? results.roster->students()[entry.owner.students.front()].id
+                                               : entry.owner.group]
+                .push_back(&entry);
+    std::vector<std::string> sentences;
+    for (const auto& [owner, entries] : by_owner) {
+        if (entries.size() < 2) continue;
+        const Entry* counts = nullptr;
+        std::vector<std::string> names;
+        for (const Entry* entry : entries) {
+            counts = counting(counts, entry, results.newest_counts);
+            names.push_back(fmt::format("\"{}\"", entry->submission.name));
+        }
+        sentences.push_back(fmt::format("{} has several submissions, of which the {} one counts, \"{}\": {}", owner,
+                                        results.newest_counts ? "newest" : "better", counts->submission.name,
+                                        fmt::join(names, ", ")));
+    }
+    return sentences;
+}
+
+TextTable gradebook_of(const ClassResults& results) {
     const std::vector<std::string> ids = check_ids(results);
     TextTable table;
     table.names = {"id", "name", "submission", "state", "points", "possible", "penalty", "late_hours"};
     table.names.insert(table.names.end(), ids.begin(), ids.end());
+    if (results.deadlines) table.names.push_back("lateness");
+    const auto row_for = [&](const std::string& id, const std::string& name, const Entry* entry) {
+        std::vector<std::string> row = row_of(id, name, entry, ids);
+        if (results.deadlines) row.push_back(entry && entry->grade ? entry->grade->lateness : "");
+        table.rows.push_back(std::move(row));
+    };
     if (!results.roster) {
-        for (const Entry& entry : results.entries)
-            table.rows.push_back(row_of(entry.submission.lms_id, entry.submission.person, &entry, ids));
+        for (const Entry& entry : results.entries) row_for(entry.submission.lms_id, entry.submission.person, &entry);
         return table;
     }
     const auto& students = results.roster->students();
-    std::vector<const Entry*> work(students.size(), nullptr);
-    for (const Entry& entry : results.entries) {
-        const auto owners = results.roster->owners(entry.submission);
-        if (owners.empty())
-            remarks.push_back(
-                fmt::format("the submission \"{}\" belongs to nobody in the roster", entry.submission.name));
-        for (const std::size_t owner : owners) {
-            if (work[owner] != nullptr)
-                remarks.push_back(
-                    fmt::format("{} has several submissions, of which the better one counts: \"{}\", \"{}\"",
-                                students[owner].id, work[owner]->submission.name, entry.submission.name));
-            work[owner] = better(work[owner], &entry);
-        }
-    }
-    for (std::size_t i = 0; i < students.size(); ++i)
-        table.rows.push_back(row_of(students[i].id, students[i].name, work[i], ids));
+    const std::vector<const Entry*> work = work_that_counts(results);
+    for (std::size_t i = 0; i < students.size(); ++i) row_for(students[i].id, students[i].name, work[i]);
     return table;
 }
 
@@ -120,20 +151,23 @@ RecordedTable success_of(const ClassResults& results) {
     return table;
 }
 
-std::string attention_of(const ClassResults& results, const std::vector<std::string>& remarks) {
+std::string attention_of(const ClassResults& results) {
     std::string attention;
     const auto add = [&](const std::string& sentence) { attention += "- " + escaped_markdown(sentence) + "\n"; };
     for (const std::string& complaint : results.complaints) add(complaint);
-    for (const std::string& remark : remarks) add(remark);
+    for (const std::string& sentence : what_needs_the_eye(results).sentences) add(sentence);
+    for (const std::string& sentence : several_of_one(results)) add(sentence);
     for (const Entry& entry : results.entries) {
-        if (!entry.grade) continue;
+        if (!entry.grade || entry.grade->without_marks()) continue;
         const std::string& name = entry.submission.name;
-        if (!entry.grade->whole()) add(fmt::format("\"{}\" is not graded completely", name));
+        if (!entry.grade->remark.empty()) add(fmt::format("\"{}\": {}", name, entry.grade->remark));
         if (!entry.grade->trouble.empty())
-            add(fmt::format("the script of \"{}\" did not run to its end: {}", name, entry.grade->trouble));
+            add(fmt::format("the script of \"{}\" {}: {}", name,
+                            entry.grade->began ? "did not run to its end" : "could not be begun",
+                            entry.grade->trouble));
         if (entry.grade->penalty > 0)
-            add(fmt::format("\"{}\" was {:.1f} hours late, which costs {} points", name, entry.grade->late_hours,
-                            points_text(entry.grade->penalty)));
+            add(fmt::format("\"{}\" was late, which costs {} points: {}", name, points_text(entry.grade->penalty),
+                            entry.grade->lateness));
     }
     return attention.empty() ? "Nothing.\n" : attention;
 }
@@ -149,14 +183,19 @@ Vector points_of(const ClassResults& results) {
 
 void add_numbers(const ClassResults& results, const Vector& points, double possible, RunRecord& record) {
     const auto value = [&record](const char* name, const std::string& text) { record.values[name] = {{}, text}; };
-    const auto not_whole = std::count_if(results.entries.begin(), results.entries.end(),
-                                         [](const Entry& entry) { return entry.grade && !entry.grade->whole(); });
+    const auto not_whole = std::count_if(results.entries.begin(), results.entries.end(), [](const Entry& entry) {
+        return entry.grade && !entry.grade->whole() && !entry.grade->unreadable;
+    });
+    const auto unreadable = std::count_if(results.entries.begin(), results.entries.end(), [](const Entry& entry) {
+        return entry.grade && entry.grade->without_marks();
+    });
     const Index n = points.size();
     value("lesson", results.setup->lesson.slug);
     value("isolation", isolation_name(results.setup->isolation));
     value("submissions", counted(results.entries.size(), "submission"));
     value("graded", std::to_string(n));
     value("not_whole", std::to_string(not_whole));
+    value("unreadable", std::to_string(unreadable));
     value("possible", points_text(possible));
     value("mean", n == 0 ? "–" : points_text(points.mean()));
     value("median", n == 0 ? "–" : points_text(median(points)));
@@ -178,9 +217,45 @@ RecordedFigure histogram_of(const Vector& points, double possible) {
 
 }  // namespace
 
+NeedsTheEye what_needs_the_eye(const ClassResults& results) {
+    NeedsTheEye eye;
+    // A broken check is complained of once; it is not the fault of any submission.
+    const auto whole = [](const Entry& entry) {
+        return !entry.grade || entry.grade->unreadable || entry.grade->whole();
+    };
+    const bool some_whole = std::any_of(results.entries.begin(), results.entries.end(),
+                                        [&](const Entry& entry) { return entry.grade && whole(entry); });
+    std::map<std::string, const Entry*> by_content;
+    for (const Entry& entry : results.entries) {
+        const std::string& name = entry.submission.name;
+        const auto add = [&](const std::string& what) {
+            eye.sentences.push_back(fmt::format("\"{}\" {}", name, what));
+        };
+        if (results.roster && !entry.owner.anybody()) {
+            add(fmt::format("belongs to nobody in the roster: {}; write it into a list for --owners",
+                            entry.owner.trouble));
+            ++eye.unowned;
+        }
+        if (!entry.grade) continue;
+        if (entry.grade->without_marks()) {
+            add("cannot be read: " + entry.grade->trouble);
+            ++eye.unreadable;
+        } else if (!whole(entry) && some_whole) {
+            add("is not graded completely");
+        } else if (entry.grade->silent && entry.grade->trouble.empty()) {
+            add("ran to its end but gave no answer");
+        }
+        if (entry.content.empty()) continue;
+        const auto [same, fresh] = by_content.emplace(entry.content, &entry);
+        const bool others = !fresh && results.roster && same->second->owner.students != entry.owner.students;
+        if (others)
+            add(fmt::format("is the same, byte for byte, as \"{}\" of somebody else", same->second->submission.name));
+    }
+    return eye;
+}
+
 void write_class_results(const ClassResults& results) {
-    std::vector<std::string> remarks;
-    write_file_atomically(results.out / "gradebook.csv", csv_text(gradebook_of(results, remarks)));
+    write_file_atomically(results.out / "gradebook.csv", csv_text(gradebook_of(results)));
     double possible = 0;
     for (const Entry& entry : results.entries)
         if (entry.grade) possible = std::max(possible, entry.grade->possible());
@@ -188,7 +263,7 @@ void write_class_results(const ClassResults& results) {
     RunRecord record;
     add_numbers(results, points, possible, record);
     record.tables["success"] = success_of(results);
-    record.texts["attention"] = {attention_of(results, remarks)};
+    record.texts["attention"] = {attention_of(results)};
     record.figures["points"] = histogram_of(points, possible);
     GnuplotRenderer renderer;
     const TemporaryFolder drawn;
