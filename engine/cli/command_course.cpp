@@ -36,7 +36,7 @@ void add_init(CLI::App& course, Action& action) {
             std::cout << fmt::format(
                 "Course made in {}, times in {}.\n"
                 "course.key signs the receipts: keep a copy of the whole folder, and give the key to nobody.\n"
-                "course.pub verifies them: give it to your students, who need dynlab verify-receipt and no course.\n"
+                "course.pub verifies them: give it to your students, who need dynlab verify and no course.\n"
                 "Next: cd {} and dynlab course roster import roster.csv\n",
                 folder.string(), words->zone, words->folder);
             return kDone;
@@ -95,28 +95,77 @@ add_move("return", "A group that had dropped out is back", false);
 }  // namespace dynlab::inline cli
 
 struct AssignmentArguments {
-    std::string name, kind = "report", lesson, first, review, final, grace = "0",
-                      criteria = "data:5,steps:5,conclusions:5,strength:5,suggestions:5";
+    std::string name, kind = "report", lesson, first, review, final, grace, criteria, costs, reason;
+    std::optional<double> final_weight;
     int reviews = 2;
     std::uint32_t seed = 0;
 };
 
+/// Sets what was given.
+void apply(const AssignmentArguments& words, const CourseClock& clock, Assignment& a) {
+    if (!words.lesson.empty()) a.lesson = words.lesson;
+    if (!words.first.empty()) a.first_due = clock.parse(words.first, "--first");
+    if (!words.review.empty()) a.review_due = clock.parse(words.review, "--review");
+    if (!words.final.empty()) a.final_due = clock.parse(words.final, "--final");
+    if (!words.grace.empty()) {
+        const auto grace = duration_of(words.grace);
+        if (!grace)
+            throw InvalidArgument("--grace must be a duration such as 15min, 2h or 1d, but \"" + words.grace +
+                                  "\" was given");
+        a.grace = *grace;
+    }
+    if (!words.costs.empty()) a.costs = costs_of(words.costs == "none" ? "" : words.costs);
+    if (words.final_weight) a.final_weight = *words.final_weight;
+}
+
+int change_one(const CourseArguments& where, const AssignmentArguments& words) {
+    Course course(where.folder);
+    Assignment a = assignment_named(course, words.name);
+    apply(words, course.clock(), a);
+    std::cout << (change_assignment(course, a, words.reason) ? "" : "Nothing new. ")
+              << terminal_text(course_summary(course, CourseClock::now()));
+    return kDone;
+}
+
+int remove_one(const CourseArguments& where, const AssignmentArguments& words) {
+    Course course(where.folder);
+    remove_assignment(course, assignment_named(course, words.name), words.reason);
+    std::cout << terminal_text(course_summary(course, CourseClock::now()));
+    return kDone;
+}
+
 int add_one(const CourseArguments& where, const AssignmentArguments& words) {
     Course course(where.folder);
     Assignment a;
-    a.name = words.name, a.kind = words.kind, a.lesson = words.lesson, a.reviews = words.reviews, a.seed = words.seed;
-    a.first_due = course.clock().parse(words.first, "--first");
-    if (!words.review.empty()) a.review_due = course.clock().parse(words.review, "--review");
-    if (!words.final.empty()) a.final_due = course.clock().parse(words.final, "--final");
-    const auto grace = duration_of(words.grace);
-    if (!grace)
-        throw InvalidArgument("--grace must be a duration such as 15min, 2h or 1d, but \"" + words.grace +
-                              "\" was given");
-    a.grace = *grace;
-    a.criteria = criteria_of(words.criteria);
+    a.name = words.name, a.kind = words.kind, a.reviews = words.reviews, a.seed = words.seed;
+    apply(words, course.clock(), a);
+    a.criteria = words.criteria.empty() ? usual_criteria(a.kind) : criteria_of(words.criteria);
     std::cout << (add_assignment(course, a) ? "" : "Nothing new. ")
               << terminal_text(course_summary(course, CourseClock::now()));
     return kDone;
+}
+
+/// Those that may be changed later; returns the option of the first deadline.
+CLI::Option* add_settings(CLI::App& command, AssignmentArguments& words) {
+    command.add_option("--lesson", words.lesson, "The lesson it belongs to")->type_name("NN");
+    CLI::Option* const first =
+        command
+            .add_option("--first", words.first, "Deadline of the first version (or the slides): \"2026-03-01 18:00\"")
+            ->type_name("TIME");
+    command.add_option("--review", words.review, "Deadline of the reviews")->type_name("TIME");
+    command.add_option("--final", words.final, "Deadline of the final version")->type_name("TIME");
+    command.add_option("--grace", words.grace, "So much later counts as in time: 15min, 2h, 1d; 0 at first")
+        ->type_name("DURATION");
+    command
+        .add_option("--costs", words.costs,
+                    "Percent points off marks: late-day:10,missing-final:30 off the work, late-review:5,"
+                    "missing-review:25 off the reviews; none at first")
+        ->type_name("NAME:POINTS,...");
+    command
+        .add_option("--final-weight", words.final_weight,
+                    "Percent of the work's mark that the final version has once it is scored; 50 at first")
+        ->check(CLI::Range(0, 100));
+    return first;
 }
 
 void add_assignment_commands(CLI::App& course, CourseArguments& where, Action& action) {
@@ -128,26 +177,39 @@ void add_assignment_commands(CLI::App& course, CourseArguments& where, Action& a
     add->add_option("--kind", words->kind, "report: reviewed and improved; presentation: slides and script")
         ->check(CLI::IsMember({"report", "presentation"}))
         ->capture_default_str();
-    add->add_option("--lesson", words->lesson, "The lesson it belongs to")->type_name("NN");
-    add->add_option("--first", words->first, "Deadline of the first version (or the slides): \"2026-03-01 18:00\"")
-        ->type_name("TIME")
-        ->required();
-    add->add_option("--review", words->review, "Deadline of the reviews")->type_name("TIME");
-    add->add_option("--final", words->final, "Deadline of the final version")->type_name("TIME");
-    add->add_option("--grace", words->grace, "So much later counts as in time: 15min, 2h, 1d")->capture_default_str();
+    add_settings(*add, *words)->required();
     add->add_option("--reviews", words->reviews, "Reviews that each group writes and gets")
         ->check(CLI::Range(1, 20))
         ->capture_default_str();
-    add->add_option("--criteria", words->criteria, "What reviewers (or you, at the oral) score: name:points,...")
-        ->capture_default_str();
+    add->add_option("--criteria", words->criteria,
+                    "What reviewers (or you, at the oral) score: name:points,...; unless given data, steps, "
+                    "conclusions, strength, suggestions, at the oral content, slides, delivery, answers, of 5 each");
     add->add_option("--seed", words->seed, "Of allocation and pseudonyms; drawn unless given")->type_name("N");
     add->footer(
         "Times are in the course's time zone. The same command again changes nothing; once work was handed in, "
         "deadlines can\n"
-        "only move to later.\n"
+        "only move to later here; assignment change moves them both ways.\n"
         "Example:  dynlab course assignment add crane --lesson 03_crane --first \"2026-02-28 13:00\" \\\n"
         "            --review \"2026-03-04 13:00\" --final \"2026-03-07 14:00\" --grace 15min --reviews 2");
     add->callback([&where, words, &action] { action = [&where, words] { return add_one(where, *words); }; });
+
+    auto changes = std::make_shared<AssignmentArguments>();
+    CLI::App* change = assignment->add_subcommand("change", "Move deadlines, set costs and weights, at any time");
+    change->add_option("NAME", changes->name, "The assignment")->required();
+    add_settings(*change, *changes);
+    change->add_option("--reason", changes->reason, "Stands in the history")->required();
+    change->footer(
+        "What is not named stays. Lateness and marks follow at once, also of what came before.\n"
+        "Example:  dynlab course assignment change crane --final \"2026-03-08 14:00\" --reason \"strike on Friday\"");
+    change->callback(
+        [&where, changes, &action] { action = [&where, changes] { return change_one(where, *changes); }; });
+
+    auto gone = std::make_shared<AssignmentArguments>();
+    CLI::App* remove = assignment->add_subcommand("remove", "Take an assignment out, while nothing hangs on it");
+    remove->add_option("NAME", gone->name, "The assignment")->required();
+    remove->add_option("--reason", gone->reason, "Stands in the history")->required();
+    remove->footer("Example:  dynlab course assignment remove carne --reason \"mistyped\"");
+    remove->callback([&where, gone, &action] { action = [&where, gone] { return remove_one(where, *gone); }; });
 }
 
 void add_status(CLI::App& course, CourseArguments& where, Action& action) {
@@ -205,6 +267,7 @@ void add_course(CLI::App& app, Action& action) {
     add_findings_command(*course, where, action);
     add_peer_commands(*course, where, action);
     add_mark_commands(*course, where, action);
+    add_correction_commands(*course, where, action);
     add_status(*course, where, action);
     course->footer(
         "Every command is all or nothing and may be repeated; nothing is ever deleted.\n"

@@ -12,7 +12,7 @@ namespace dynlab::inline cli {
 namespace {
 
 struct PeerArguments {
-    std::string assignment, at;
+    std::string assignment, at, reviewer, author, reason;
     bool early = false;
 };
 
@@ -72,9 +72,31 @@ int send(const CourseArguments& where, const PeerArguments& words, Way way) {
     const SendOutcome done =
         send_copies(course, assignment, way, time_of(course, words.at), anonymous_copier(), words.early);
     for (const std::string& hit : done.hits) std::cerr << "dynlab: " << terminal_text(hit) << '\n';
-    std::cout << fmt::format("{}: {} sent now, {} before, {} stopped, {} not come yet; in {}\n", assignment.name,
-                             done.sent, done.before, done.stopped, done.waiting, done.folder.string());
+    std::cout << fmt::format("{}: {} sent now{}, {} before, {} stopped, {} not come yet{}; in {}\n", assignment.name,
+                             done.sent, done.again > 0 ? fmt::format(" ({} in a newer version)", done.again) : "",
+                             done.before, done.stopped, done.waiting,
+                             done.held > 0 ? fmt::format(", {} held back", done.held) : "", done.folder.string());
+    for (const std::string& file : done.removed)
+        std::cout << terminal_text(fmt::format("Taken out of the folder: {}\n", file));
     return done.stopped == 0 ? kDone : kFailed;
+}
+
+int wish(const CourseArguments& where, const PeerArguments& words, const char* wanted) {
+    Course course(where.folder);
+    const Assignment assignment = assignment_named(course, words.assignment);
+    wish_pair(course, assignment, words.reviewer, words.author, wanted, words.reason, time_of(course, words.at));
+    std::cout << fmt::format("Noted; dynlab course peer assign {} does it.\n", assignment.name);
+    return kDone;
+}
+
+int set_pair(const CourseArguments& where, const PeerArguments& words) {
+    return wish(where, words, "set");
+}
+int forbid_pair(const CourseArguments& where, const PeerArguments& words) {
+    return wish(where, words, "forbid");
+}
+int free_pair(const CourseArguments& where, const PeerArguments& words) {
+    return wish(where, words, "free");
 }
 
 int send_reports(const CourseArguments& where, const PeerArguments& words) {
@@ -88,7 +110,14 @@ CLI::App* add_one(CLI::App& parent, const char* name, const char* about, CourseA
                   int (*run)(const CourseArguments&, const PeerArguments&)) {
     auto words = std::make_shared<PeerArguments>();
     CLI::App* command = parent.add_subcommand(name, about);
-    command->add_option("ASSIGNMENT", words->assignment, "Needed when there are several");
+    const bool of_pair = run == set_pair || run == forbid_pair || run == free_pair;
+    auto* const assignment = command->add_option("ASSIGNMENT", words->assignment, "Needed when there are several");
+    if (of_pair) {
+        assignment->required();
+        command->add_option("REVIEWER", words->reviewer, "A group")->required();
+        command->add_option("AUTHOR", words->author, "Another group")->required();
+        command->add_option("--reason", words->reason, "Stands in the history")->required();
+    }
     add_time_option(*command, words->at);
     if (run == assign) command->add_flag("--early", words->early, "Although first versions may still come");
     if (run == release) command->add_flag("--early", words->early, "Although reviews may still come");
@@ -115,6 +144,14 @@ void add_peer_commands(CLI::App& course, CourseArguments& where, Action& action)
         ->footer(
             "A review that names somebody is stopped, like a report. Repeated, it makes what is new only.\n"
             "Example:  dynlab course release crane");
+    add_one(*peer, "set", "A group is to review another one's report", where, action, set_pair)
+        ->footer("Example:  dynlab course peer set crane group-02 group-07 --reason \"agreed with both\"");
+    add_one(*peer, "forbid", "Two groups do not review each other", where, action, forbid_pair)
+        ->footer(
+            "A review that is not written yet is handed on to another group by the next peer assign.\n"
+            "Example:  dynlab course peer forbid crane group-02 group-07 --reason \"they share a flat\"");
+    add_one(*peer, "free", "Take back what peer set or peer forbid said of two groups", where, action, free_pair)
+        ->footer("Example:  dynlab course peer free crane group-02 group-07 --reason \"settled\"");
     add_one(*peer, "show", "The pairs with their pseudonyms; for your eyes only", where, action, show_pairs)
         ->footer("Example:  dynlab course peer show crane");
 }

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "cli/course_commands.h"
+#include "course/corrections/arrival_times.h"
 #include "course/store/aligned_table.h"
 #include "course/store/hand_ins.h"
 #include "course/store/receipts.h"
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 
 struct ReceiveArguments {
     std::vector<std::string> files;
-    std::string assignment, from, of, at, isolation = "full";
+    std::string assignment, from, of, at, times, isolation = "full";
     bool no_checks = false, first = false;
 };
 
@@ -28,9 +29,13 @@ std::string remark(const Received& r) {
     if (!r.trouble.empty() && r.part == "pack") return r.trouble + ": ask for a pack that opens";
     if (!r.trouble.empty()) return fmt::format("{}: ask for a readable file", r.trouble);
     if (r.no_document) return "no PDF in the pack: ask for one";
+    if (r.withdrawn) return "known and withdrawn; dynlab course restore lets it stand again";
     if (r.known) return "known already, nothing changed";
-    if (r.rules_broken == 0) return "";
-    return counted(r.rules_broken, "rule") + " broken" + (r.names ? ": it names somebody" : "");
+    std::string text = r.twin.empty() ? "" : "the same file as " + r.twin + "'s";
+    if (r.rules_broken > 0)
+        text += (text.empty() ? "" : "; ") + counted(r.rules_broken, "rule") + " broken" +
+                (r.names ? ": it names somebody" : "");
+    return text;
 }
 
 std::string what(const Received& r) {
@@ -68,6 +73,13 @@ int receive_files(const CourseArguments& where, const ReceiveArguments& words, c
     for (const std::string& file : words.files) request.files.emplace_back(file);
     request.assignment = words.assignment, request.from = words.from, request.of = words.of, request.stage = stage;
     request.at = time_of(course, words.at);
+    if (words.times == "archive") {
+        request.time_of = time_in_archive;
+    } else if (!words.times.empty()) {
+        request.time_of = [times = ArrivalTimes(words.times, course.clock())](const IncomingFile& file) {
+            return times.of(file);
+        };
+    }
     request.level = words.isolation == "full" ? Isolation::kFull : Isolation::kProcess;
     request.program = fs::read_symlink("/proc/self/exe");
     request.take_as_first = words.first;
@@ -95,6 +107,12 @@ void add_receive(CLI::App& parent, const char* name, const char* about, const st
         command->add_option("--of", words->of, "Which report it reviews; by the file's name unless given")
             ->type_name("report-NN");
     add_time_option(*command, words->at);
+    command
+        ->add_option(
+            "--times", words->times,
+            "When each was handed in: Moodle's grading worksheet or another CSV (column id, identifier, group, "
+            "name or mail, and time), or `archive` for the files' own times; --at for the others")
+        ->type_name("CSV|archive");
     command->add_option("--isolation", words->isolation, "How far archives are kept apart while they are unpacked")
         ->type_name("full|process")
         ->capture_default_str()
@@ -113,7 +131,7 @@ void add_receive(CLI::App& parent, const char* name, const char* about, const st
     });
 }
 
-int verify(const CourseArguments& where, const std::vector<std::string>& receipts) {
+int verify_course(const CourseArguments& where, const std::vector<std::string>& receipts) {
     Course course(where.folder);
     bool well = true;
     for (const std::string& file : receipts) {
@@ -131,15 +149,15 @@ int verify(const CourseArguments& where, const std::vector<std::string>& receipt
     return well ? kDone : kFailed;
 }
 
-void add_verify(CLI::App& course, CourseArguments& where, Action& action) {
+void add_course_verify(CLI::App& course, CourseArguments& where, Action& action) {
     auto receipts = std::make_shared<std::vector<std::string>>();
     CLI::App* command = course.add_subcommand("verify", "Whether receipts are genuine; without one, the whole store");
     command->add_option("RECEIPT", *receipts, "Receipts that students show");
     command->footer(
-        "Students verify theirs without the course: dynlab verify-receipt.\n"
+        "Students verify theirs without the course: dynlab verify.\n"
         "Example:  dynlab course verify 00012-group-07-first-report.txt");
     command->callback(
-        [&where, receipts, &action] { action = [&where, receipts] { return verify(where, *receipts); }; });
+        [&where, receipts, &action] { action = [&where, receipts] { return verify_course(where, *receipts); }; });
 }
 
 void add_key(CLI::App& course, CourseArguments& where, Action& action) {
@@ -173,7 +191,7 @@ void add_receive_commands(CLI::App& course, CourseArguments& where, Action& acti
     add_receive(*final, "receive", "Take final versions", "final",
                 "dynlab course final receive final.zip --assignment crane", where, action);
     add_final_changes(*final, where, action);
-    add_verify(course, where, action);
+    add_course_verify(course, where, action);
     add_key(course, where, action);
 }
 

@@ -25,7 +25,7 @@ void add_doctor(CLI::App& app, Action& action);
 void add_pack(CLI::App& app, Action& action);
 void add_bundle(CLI::App& app, Action& action);
 void add_grade(CLI::App& app, Action& action);
-void add_verify_receipt(CLI::App& app, Action& action);
+void add_verify(CLI::App& app, Action& action);
 void add_course(CLI::App& app, Action& action);
 void add_boxed(CLI::App& app, Action& action);
 

@@ -43,6 +43,9 @@ void add_receive_commands(CLI::App& course, CourseArguments& where, Action& acti
 /// peer assign, peer send, peer show, release.
 void add_peer_commands(CLI::App& course, CourseArguments& where, Action& action);
 
+/// time, withdraw, restore, extend, hold, history.
+void add_correction_commands(CLI::App& course, CourseArguments& where, Action& action);
+
 /// findings.
 void add_findings_command(CLI::App& course, CourseArguments& where, Action& action);
 

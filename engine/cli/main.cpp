@@ -65,7 +65,7 @@ int main(int argc, char** argv) {
     Action action;
     for (const auto add :
          {add_run, add_look, add_identify, add_report, add_weave, add_new, add_check, add_lessons, add_demo, add_help,
-          add_doctor, add_pack, add_verify_receipt, add_bundle, add_grade, add_course, add_boxed})
+          add_doctor, add_pack, add_verify, add_bundle, add_grade, add_course, add_boxed})
         add(app, action);
     try {
         app.parse(argc, argv);

@@ -53,7 +53,7 @@ class TaskMaker {
   private:
     void read_versions(const Group& group, std::vector<ReceivedFile>& received) {
         for (Rows rows = course_.database().query(
-                 "SELECT id, stage, part, number, name, hash, received_at, late FROM versions WHERE assignment = ? AND "
+                 "SELECT id, stage, part, number, name, hash, received_at, late FROM standing WHERE assignment = ? AND "
                  "group_id = ? AND stage <> 'review' ORDER BY stage = 'final', received_at, id",
                  assignment_.id, group.id);
              rows.next();) {

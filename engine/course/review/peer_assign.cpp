@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <random>
 #include <set>
 
+#include "course/corrections/corrections.h"
 #include "course/review/allocation.h"
 #include "course/review/peer_review.h"
 #include "numerics/error.h"
@@ -20,8 +22,9 @@ class ReviewAssigner {
 
     AssignOutcome run() {
         read();
+        add_wished_pairs();
         const Allocation allocation = allocate_reviews(problem_);
-        outcome_.remarks = allocation.remarks;
+        outcome_.remarks.insert(outcome_.remarks.end(), allocation.remarks.begin(), allocation.remarks.end());
         give_pseudonyms();
         write(allocation);
         return outcome_;
@@ -34,7 +37,7 @@ class ReviewAssigner {
         problem_.seed = assignment_.seed;
         problem_.active.assign(groups_.size(), false);
         for (Rows rows = db_.query(
-                 "SELECT DISTINCT group_id FROM versions WHERE assignment = ? AND stage = 'first' AND part = 'report'",
+                 "SELECT DISTINCT group_id FROM standing WHERE assignment = ? AND stage = 'first' AND part = 'report'",
                  assignment_.id);
              rows.next();) {
             const auto index = static_cast<std::size_t>(index_.at(rows.integer(0)));
@@ -42,14 +45,43 @@ class ReviewAssigner {
             outcome_.groups += problem_.active[index];
         }
         for (const auto& [a, b] : kindred_groups(course_))
-            if (index_.contains(a) && index_.contains(b)) problem_.kin.emplace_back(index_[a], index_[b]);
+            if (index_.contains(a) && index_.contains(b)) keep_apart(index_[a], index_[b]);
+        for (const PairWish& wish : pair_wishes(course_, assignment_))
+            if (wish.wish == "forbid") keep_apart(index_.at(wish.reviewer), index_.at(wish.author));
         for (const ReviewPair& pair : review_pairs(course_, assignment_)) {
             if (pair.ended) continue;
             const ReviewEdge edge(index_.at(pair.reviewer), index_.at(pair.author));
             const bool both = problem_.active[static_cast<std::size_t>(edge.first)] &&
                               problem_.active[static_cast<std::size_t>(edge.second)];
-            (pair.written || (pair.sent && both) ? problem_.fixed : problem_.loose).push_back(edge);
             known_[edge] = pair;
+            if (!pair.written && refused_.contains(edge)) continue;
+            (pair.written || (pair.sent && both) ? problem_.fixed : problem_.loose).push_back(edge);
+        }
+    }
+
+    void keep_apart(int a, int b) {
+        problem_.kin.emplace_back(a, b);
+        refused_.insert({a, b}), refused_.insert({b, a});
+    }
+
+    /// The instructor's own pairs hold as if they had been sent.
+    void add_wished_pairs() {
+        for (const PairWish& wish : pair_wishes(course_, assignment_)) {
+            if (wish.wish != "set") continue;
+            const ReviewEdge edge(index_.at(wish.reviewer), index_.at(wish.author));
+            const auto& fixed = problem_.fixed;
+            if (std::find(fixed.begin(), fixed.end(), edge) != fixed.end()) continue;
+            const bool both = problem_.active[static_cast<std::size_t>(edge.first)] &&
+                              problem_.active[static_cast<std::size_t>(edge.second)];
+            if (!both || refused_.contains(edge)) {
+                outcome_.remarks.push_back(
+                    fmt::format("{} was to review {}, but {}.", groups_[static_cast<std::size_t>(edge.first)].name,
+                                groups_[static_cast<std::size_t>(edge.second)].name,
+                                both ? "they share a member, or are kept apart" : "one of them has handed in nothing"));
+                continue;
+            }
+            std::erase(problem_.loose, edge);
+            problem_.fixed.push_back(edge);
         }
     }
 
@@ -82,9 +114,10 @@ class ReviewAssigner {
         for (const auto& [edge, pair] : known_) {
             if (wanted.contains(edge)) continue;
             const auto gone = [&](int index) { return !problem_.active[static_cast<std::size_t>(index)]; };
-            const std::string reason = gone(edge.first)    ? "the reviewer dropped out"
-                                       : gone(edge.second) ? "the author dropped out"
-                                                           : "handed on to another group";
+            const std::string reason = gone(edge.first)          ? "the reviewer dropped out"
+                                       : gone(edge.second)       ? "the author dropped out"
+                                       : refused_.contains(edge) ? "they share a member, or are kept apart"
+                                                                 : "handed on to another group";
             db_.run("UPDATE pairs SET ended_at = ?, ended_reason = ? WHERE id = ?", now_, reason, pair.id);
             ++outcome_.ended;
         }
@@ -112,11 +145,52 @@ class ReviewAssigner {
     std::vector<Group> groups_;
     std::map<std::int64_t, int> index_;
     std::map<ReviewEdge, ReviewPair> known_;
+    std::set<ReviewEdge> refused_;  ///< reviewers with a member among the authors, and who is kept apart
     AllocationProblem problem_;
     AssignOutcome outcome_;
 };
 
 }  // namespace
+
+std::vector<PairWish> pair_wishes(Course& course, const Assignment& assignment) {
+    std::vector<PairWish> wishes;
+    for (Rows rows = course.database().query(
+             "SELECT w.reviewer, w.author, w.wish FROM pair_wishes w WHERE w.assignment = ? AND w.wish <> 'free' AND "
+             "w.id = (SELECT max(n.id) FROM pair_wishes n WHERE n.assignment = w.assignment AND n.reviewer = "
+             "w.reviewer "
+             "AND n.author = w.author) ORDER BY w.id",
+             assignment.id);
+         rows.next();)
+        wishes.push_back({rows.integer(0), rows.integer(1), rows.text(2)});
+    return wishes;
+}
+
+void wish_pair(Course& course, const Assignment& assignment, const std::string& reviewer, const std::string& author,
+               const std::string& wish, const std::string& reason, Instant now) {
+    refuse_without_reason(reason);
+    refuse_without_reviews(assignment);
+    Transaction transaction(course.database());
+    const Group reads = group_named(course, reviewer), writes = group_named(course, author);
+    if (reads.id == writes.id) throw InvalidArgument(fmt::format("{} cannot review its own report", reads.name));
+    if (wish == "set")
+        for (const auto& [a, b] : kindred_groups(course))
+            if ((a == reads.id && b == writes.id) || (a == writes.id && b == reads.id))
+                throw InvalidArgument(fmt::format("{} and {} share a member, or did", reads.name, writes.name));
+    const auto enter = [&](const Group& one, const Group& other, const std::string& what) {
+        course.database().run(
+            "INSERT INTO pair_wishes (assignment, reviewer, author, wish, reason, made_at) VALUES (?, ?, ?, ?, ?, ?)",
+            assignment.id, one.id, other.id, what, reason, now);
+    };
+    enter(reads, writes, wish);
+    if (wish != "set") enter(writes, reads, wish);
+    course.note(fmt::format("{}: {} {} {}; reason: {}", assignment.name, reads.name,
+                            wish == "set"      ? "is to review"
+                            : wish == "forbid" ? "is kept apart from"
+                                               : "may review again, or not,",
+                            writes.name, reason),
+                now);
+    transaction.commit();
+}
 
 AssignOutcome assign_reviews(Course& course, const Assignment& assignment, Instant now, bool early) {
     refuse_without_reviews(assignment);

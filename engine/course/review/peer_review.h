@@ -14,9 +14,21 @@ struct AssignOutcome {
     std::vector<std::string> remarks;
 };
 /// Allots the reviews of an assignment, or mends the allotment after late-comers and drop-outs: what is written stays,
-/// and what is sent as long as both are in the course. Repeating it changes nothing. Throws InvalidArgument before the
-/// deadline of the first version (unless `early`), for a presentation, and where there are too few groups.
+/// and what is sent as long as both are in the course and nobody reviews work of their own. Repeating it changes
+/// nothing. Throws InvalidArgument before the deadline of the first version (unless `early`), for a presentation, and
+/// where there are too few groups.
 AssignOutcome assign_reviews(Course& course, const Assignment& assignment, Instant now, bool early);
+
+/// What the instructor wants of a pair: "set" (this group reviews that one) or "forbid" (neither reviews the other).
+struct PairWish {
+    std::int64_t reviewer = 0, author = 0;
+    std::string wish;
+};
+std::vector<PairWish> pair_wishes(Course& course, const Assignment& assignment);
+/// "set", "forbid", or "free", which takes back what was wished before; for the next assign_reviews. Throws
+/// InvalidArgument: no reason, a group and itself, one that shares a member with the other.
+void wish_pair(Course& course, const Assignment& assignment, const std::string& reviewer, const std::string& author,
+               const std::string& wish, const std::string& reason, Instant now);
 
 /// A copy that must not tell whose it is. Only `copy`, one PDF, leaves the course: a pack's text and script stay, so
 /// that names in their comments reach nobody and are not looked for; what the PDF made from them holds is searched.
@@ -41,12 +53,17 @@ enum class Way {
 
 struct SendOutcome {
     int sent = 0, before = 0, stopped = 0, waiting = 0;  ///< copies: now; earlier; with hits; of what has not come
-    std::vector<std::string> hits;                       ///< a line for each document that was stopped
-    std::filesystem::path folder;                        ///< FOR/NAME.pdf for each receiver
+    int again = 0;                                       ///< of those now: newer versions of what had been sent before
+    int held = 0;                                        ///< that the instructor holds back
+    std::vector<std::string> removed;  ///< files of the outbox that nobody is to get any more: taken back, withdrawn
+    std::vector<std::string> hits;     ///< a line for each document that was stopped
+    std::filesystem::path folder;      ///< FOR/NAME.pdf for each receiver
 };
-/// Makes the copies that have not been made yet and puts them into outbox/ASSIGNMENT/WAY/GROUP/. A hit stops that copy
-/// only. Copies are kept in the store like all that is handed in. Throws InvalidArgument for a presentation, and for
-/// reviews that may still come (unless `early`).
+/// Makes the copies that have not been made yet, or of which a newer version stands (of a report as long as its review
+/// is not written), and puts them into outbox/ASSIGNMENT/WAY/GROUP/. A hit stops that copy only. What is held back is
+/// not sent; what nobody is to get any more is taken out of the outbox. Copies are kept in the store like all that is
+/// handed in. Throws InvalidArgument for a presentation, and for reviews that may still come (unless `early`);
+/// EnvironmentError for a copy that the store does not hold as it was made.
 SendOutcome send_copies(Course& course, const Assignment& assignment, Way way, Instant now,
                         const AnonymousCopier& copier, bool early = false);
 

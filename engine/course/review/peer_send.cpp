@@ -1,10 +1,14 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
+#include "course/corrections/corrections.h"
 #include "course/review/peer_review.h"
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
+#include "platform/error.h"
+#include "platform/hash.h"
 #include "platform/temporary_folder.h"
 
 namespace dynlab::inline course {
@@ -20,7 +24,7 @@ struct Version {
 std::optional<Version> newest(Course& course, const Assignment& assignment, std::int64_t group, const char* stage,
                               std::int64_t pair, const char* part) {
     Rows rows = course.database().query(
-        "SELECT id, hash, name FROM versions WHERE assignment = ? AND group_id = ? AND stage = ? AND ifnull(pair, 0) = "
+        "SELECT id, hash, name FROM standing WHERE assignment = ? AND group_id = ? AND stage = ? AND ifnull(pair, 0) = "
         "? "
         "AND part = ? ORDER BY number DESC LIMIT 1",
         assignment.id, group, stage, pair, part);
@@ -43,6 +47,7 @@ class CopySender {
     SendOutcome run() {
         for (const ReviewPair& pair : review_pairs(course_, assignment_))
             if (!pair.ended) send(pair);
+        empty_outbox_of_others();
         return std::move(outcome_);
     }
 
@@ -55,16 +60,50 @@ class CopySender {
         return outcome_.folder / pair.author_name / fmt::format("review-by-{}.pdf", pair.reviewer_pseudonym());
     }
 
-    void put(const ReviewPair& pair, const std::string& hash) const {
-        fs::create_directories(outgoing_file(pair).parent_path());
-        if (!fs::exists(outgoing_file(pair))) write_file_atomically(outgoing_file(pair), read_file(course_.file(hash)));
+    void put(const ReviewPair& pair, const std::string& hash) {
+        const fs::path file = outgoing_file(pair);
+        const std::string copy = read_file(course_.file(hash));
+        const bool named = course_.database()
+                               .query("SELECT 1 FROM versions WHERE hash = ? AND group_id = ?", hash,
+                                      to_reviewers() ? pair.author : pair.reviewer)
+                               .next();
+        if (named || sha256_of(copy) != hash)
+            throw EnvironmentError(fmt::format(
+                "the copy for {} is not as it was made; nothing more was sent: dynlab course verify", file.string()));
+        kept_.insert(file);
+        fs::create_directories(file.parent_path());
+        if (!fs::exists(file) || read_file(file) != copy) write_file_atomically(file, copy);
+    }
+
+    /// What was taken back, withdrawn or held after it was laid there.
+    void empty_outbox_of_others() {
+        if (!fs::exists(outcome_.folder)) return;
+        std::vector<fs::path> others;
+        for (const auto& entry : fs::recursive_directory_iterator(outcome_.folder))
+            if (entry.is_regular_file() && !kept_.contains(entry.path())) others.push_back(entry.path());
+        for (const fs::path& file : others) {
+            fs::remove(file);
+            outcome_.removed.push_back(file.lexically_relative(outcome_.folder).string());
+        }
+        std::sort(outcome_.removed.begin(), outcome_.removed.end());
+    }
+
+    std::optional<std::string> sent_before(const ReviewPair& pair) const {
+        Rows rows = course_.database().query("SELECT hash FROM sendings WHERE pair = ? AND way = ? ORDER BY id DESC",
+                                             pair.id, way_name());
+        return rows.next() ? std::optional(rows.text(0)) : std::nullopt;
     }
 
     void send(const ReviewPair& pair) {
-        if (to_reviewers() ? pair.sent : pair.released) {
-            Rows rows = course_.database().query(
-                "SELECT hash FROM sendings WHERE pair = ? AND way = ? ORDER BY id DESC", pair.id, way_name());
-            if (rows.next()) put(pair, rows.text(0));  // a crash may have come before the file
+        if (is_held(course_, assignment_, to_reviewers() ? pair.author : pair.reviewer,
+                    to_reviewers() ? std::nullopt : std::optional(pair.id))) {
+            ++outcome_.held;
+            return;
+        }
+        const auto before = sent_before(pair);
+        const bool stands = to_reviewers() || pair.written;
+        if (before && stands) put(pair, *before);  // a crash may have come before the file
+        if (before && stands && !(to_reviewers() ? pair.newer_report : pair.newer_review)) {
             ++outcome_.before;
             return;
         }
@@ -114,6 +153,7 @@ class CopySender {
         course_.database().run("INSERT INTO sendings (pair, way, version, hash, made_at) VALUES (?, ?, ?, ?, ?)",
                                pair.id, way_name(), version.id, hash, now_);
         transaction.commit();
+        outcome_.again += to_reviewers() ? pair.sent : pair.released;
         put(pair, hash);
         ++outcome_.sent;
     }
@@ -125,6 +165,7 @@ class CopySender {
     const AnonymousCopier& copier_;
     std::vector<Student> people_;
     std::set<std::int64_t> stopped_;  ///< versions
+    std::set<fs::path> kept_;         ///< what is to lie in the outbox
     SendOutcome outcome_;
 };
 

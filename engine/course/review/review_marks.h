@@ -53,8 +53,12 @@ int import_oral_scores(Course& course, const Assignment& assignment, const std::
 /// The sheet for the oral: a row a group, a column a criterion with what was given so far, as CSV.
 std::string oral_sheet(Course& course, const Assignment& assignment);
 
-/// The instructor's word, which always wins; the newest holds. `what`: "work" or "reviews".
+/// The instructor's word, which always wins; the newest holds. `what`: "work" or "reviews"; up to 200 percent, for what
+/// deserves more than all.
 void override_mark(Course& course, const Assignment& assignment, const std::string& group, const std::string& what,
                    double percent, const std::string& reason, Instant now);
+/// The mark of the scores holds again. Throws InvalidArgument where the instructor has set none.
+void take_back_override(Course& course, const Assignment& assignment, const std::string& group, const std::string& what,
+                        const std::string& reason, Instant now);
 
 }  // namespace dynlab::inline course

@@ -20,9 +20,14 @@ std::vector<ReviewPair> review_pairs(Course& course, const Assignment& assignmen
     for (Rows rows = course.database().query(
              "SELECT p.id, p.reviewer, p.author, r.name, w.name, pw.number, pr.number, p.ended_at IS NOT NULL, "
              "EXISTS (SELECT 1 FROM sendings WHERE pair = p.id AND way = 'to reviewer'), "
-             "EXISTS (SELECT 1 FROM versions WHERE pair = p.id AND part = 'review'), "
+             "EXISTS (SELECT 1 FROM standing WHERE pair = p.id AND part = 'review'), "
              "EXISTS (SELECT 1 FROM sendings WHERE pair = p.id AND way = 'to author'), "
-             "EXISTS (SELECT 1 FROM versions WHERE pair = p.id AND part = 'review' AND late = 0) "
+             "EXISTS (SELECT 1 FROM standing WHERE pair = p.id AND part = 'review' AND late = 0), "
+             "(SELECT id FROM standing WHERE pair = p.id AND part = 'review' ORDER BY number DESC LIMIT 1), "
+             "(SELECT version FROM sendings WHERE pair = p.id AND way = 'to author' ORDER BY id DESC LIMIT 1), "
+             "(SELECT id FROM standing v WHERE v.assignment = p.assignment AND v.group_id = p.author AND v.stage = "
+             "'first' AND v.part = 'report' ORDER BY number DESC LIMIT 1), "
+             "(SELECT version FROM sendings WHERE pair = p.id AND way = 'to reviewer' ORDER BY id DESC LIMIT 1) "
              "FROM pairs p JOIN groups r ON r.id = p.reviewer JOIN groups w ON w.id = p.author "
              "JOIN pseudonyms pw ON pw.assignment = p.assignment AND pw.group_id = p.author AND pw.role = 'author' "
              "JOIN pseudonyms pr ON pr.assignment = p.assignment AND pr.group_id = p.reviewer AND pr.role = 'reviewer' "
@@ -36,6 +41,9 @@ std::vector<ReviewPair> review_pairs(Course& course, const Assignment& assignmen
         pair.ended = rows.integer(7) != 0, pair.sent = rows.integer(8) != 0;
         pair.written = rows.integer(9) != 0, pair.released = rows.integer(10) != 0;
         pair.late = pair.written && rows.integer(11) == 0;
+        pair.newer_review = pair.released && pair.written && rows.integer(12) != rows.integer(13);
+        pair.newer_report =
+            pair.sent && !pair.written && !rows.isColumnNull(14) && rows.integer(14) != rows.integer(15);
         pairs.push_back(std::move(pair));
     }
     return pairs;

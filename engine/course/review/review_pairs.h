@@ -15,7 +15,9 @@ struct ReviewPair {
     std::int64_t report_number = 0, reviewer_number = 0;  ///< pseudonyms in this assignment
     bool ended = false;                                   ///< taken back before the review was written
     bool sent = false, written = false, released = false;
-    bool late = false;  ///< written, but no version of it was in time
+    bool late = false;          ///< written, but no version of it was in time
+    bool newer_report = false;  ///< sent, but another version of the report stands since, and no review is written
+    bool newer_review = false;  ///< released, but another version of the review stands since
 
     std::string report_pseudonym() const;    ///< "report-17": what the reviewer sees
     std::string reviewer_pseudonym() const;  ///< "reviewer-05": what the authors see

@@ -7,6 +7,7 @@
 #include <random>
 #include <set>
 
+#include "course/corrections/corrections.h"
 #include "numerics/error.h"
 #include "platform/spelling.h"
 
@@ -42,8 +43,9 @@ void refuse_bad_deadlines(const Assignment& a, const CourseClock& clock) {
 
 bool same(const Assignment& a, const Assignment& b) {
     const auto words = [](const Assignment& x) {
-        std::string all = fmt::format("{}|{}|{}|{}|{}|{}|{}", x.kind, x.lesson, x.first_due, x.review_due.value_or(0),
-                                      x.final_due.value_or(0), x.grace, x.reviews);
+        std::string all =
+            fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}", x.kind, x.lesson, x.first_due, x.review_due.value_or(0),
+                        x.final_due.value_or(0), x.grace, x.reviews, costs_text(x.costs), x.final_weight);
         for (const Criterion& c : x.criteria) all += fmt::format("|{}:{}", c.name, c.most);
         return all;
     };
@@ -68,6 +70,32 @@ void write_criteria(Database& db, const Assignment& assignment) {
     db.run("DELETE FROM criteria WHERE assignment = ? AND place >= ?", assignment.id, position);
 }
 
+/// "a:5, b" as {a, 5}, {b, ""}.
+std::vector<std::pair<std::string, std::string>> named_numbers(const std::string& text) {
+    std::vector<std::pair<std::string, std::string>> items;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find(',', at), text.size());
+        std::string item = text.substr(at, end - at);
+        std::erase(item, ' ');
+        at = end + 1;
+        const auto colon = item.find(':');
+        items.emplace_back(item.substr(0, colon), colon == std::string::npos ? "" : item.substr(colon + 1));
+    }
+    return items;
+}
+
+std::optional<double> number_in(const std::string& text) {
+    double value = 0;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || stop != text.data() + text.size()) return {};
+    return value;
+}
+
+constexpr std::pair<const char*, double Costs::*> kCosts[] = {{"late-day", &Costs::late_day},
+                                                              {"missing-final", &Costs::missing_final},
+                                                              {"late-review", &Costs::late_review},
+                                                              {"missing-review", &Costs::missing_review}};
+
 }  // namespace
 
 bool add_assignment(Course& course, Assignment wanted) {
@@ -81,13 +109,14 @@ bool add_assignment(Course& course, Assignment wanted) {
         const bool used = db.query("SELECT 1 FROM versions WHERE assignment = ?", known.id).next();
         if (used && !only_later(known, wanted))
             throw InvalidArgument(fmt::format(
-                "work was handed in for {} already: only deadlines may move, to later ones, and the grace grow",
-                known.name));
+                "work was handed in for {} already: only deadlines may move, to later ones, and the grace grow; "
+                "dynlab course assignment change {} moves them both ways",
+                known.name, known.name));
         db.run(
             "UPDATE assignments SET kind = ?, lesson = ?, first_due = ?, review_due = ?, final_due = ?, grace = ?, "
-            "reviews = ? WHERE id = ?",
+            "reviews = ?, costs = ?, final_weight = ? WHERE id = ?",
             wanted.kind, wanted.lesson, wanted.first_due, wanted.review_due, wanted.final_due, wanted.grace,
-            wanted.reviews, known.id);
+            wanted.reviews, costs_text(wanted.costs), wanted.final_weight, known.id);
         wanted.id = known.id;
         write_criteria(db, wanted);
         course.note(fmt::format("assignment {} changed", known.name));
@@ -96,10 +125,11 @@ bool add_assignment(Course& course, Assignment wanted) {
     }
     if (wanted.seed == 0) wanted.seed = std::random_device{}() | 1u;
     db.run(
-        "INSERT INTO assignments (name, kind, lesson, first_due, review_due, final_due, grace, reviews, seed, made_at) "
-        "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+        "INSERT INTO assignments (name, kind, lesson, first_due, review_due, final_due, grace, reviews, seed, made_at, "
+        "costs, final_weight) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
         wanted.name, wanted.kind, wanted.lesson, wanted.first_due, wanted.review_due, wanted.final_due, wanted.grace,
-        wanted.is_report() ? wanted.reviews : 0, std::int64_t{wanted.seed}, CourseClock::now());
+        wanted.is_report() ? wanted.reviews : 0, std::int64_t{wanted.seed}, CourseClock::now(),
+        costs_text(wanted.costs), wanted.final_weight);
     wanted.id = db.getLastInsertRowid();
     write_criteria(db, wanted);
     course.note(fmt::format("assignment {} added", wanted.name));
@@ -107,17 +137,65 @@ bool add_assignment(Course& course, Assignment wanted) {
     return true;
 }
 
+bool change_assignment(Course& course, const Assignment& wanted, const std::string& reason) {
+    refuse_without_reason(reason);
+    refuse_bad_deadlines(wanted, course.clock());
+    Transaction transaction(course.database());
+    const Assignment known = assignment_named(course, wanted.name);
+    std::vector<std::string> changes;
+    const auto compare = [&changes](const char* what, const std::string& before, const std::string& now) {
+        if (before != now) changes.push_back(fmt::format("{} {} instead of {}", what, now, before));
+    };
+    const auto time = [&course](std::optional<Instant> due) {
+        return due ? course.clock().show_exactly(*due) : std::string("none");
+    };
+    const auto named = [](const std::string& text) { return text.empty() ? std::string("none") : text; };
+    compare("lesson", named(known.lesson), named(wanted.lesson));
+    compare("first", time(known.first_due), time(wanted.first_due));
+    compare("review", time(known.review_due), time(wanted.review_due));
+    compare("final", time(known.final_due), time(wanted.final_due));
+    compare("grace", duration_text(known.grace), duration_text(wanted.grace));
+    compare("costs", named(costs_text(known.costs)), named(costs_text(wanted.costs)));
+    compare("final weight", fmt::format("{}", known.final_weight), fmt::format("{}", wanted.final_weight));
+    if (changes.empty()) return false;
+    course.database().run(
+        "UPDATE assignments SET lesson = ?, first_due = ?, review_due = ?, final_due = ?, grace = ?, costs = ?, "
+        "final_weight = ? WHERE id = ?",
+        wanted.lesson, wanted.first_due, wanted.review_due, wanted.final_due, wanted.grace, costs_text(wanted.costs),
+        wanted.final_weight, known.id);
+    course.note(fmt::format("assignment {} changed: {}; reason: {}", known.name, fmt::join(changes, ", "), reason));
+    transaction.commit();
+    return true;
+}
+
+void remove_assignment(Course& course, const Assignment& assignment, const std::string& reason) {
+    refuse_without_reason(reason);
+    Database& db = course.database();
+    Transaction transaction(db);
+    for (const char* table : {"versions", "pairs", "oral_scores", "instructor_scores", "overrides", "extensions"})
+        if (db.query(fmt::format("SELECT 1 FROM {} WHERE assignment = ?", table), assignment.id).next())
+            throw InvalidArgument(fmt::format(
+                "{} cannot be removed: something hangs on it (its {}); nothing was changed", assignment.name, table));
+    for (const char* table : {"criteria", "pair_wishes", "holds", "pseudonyms", "allocations"})
+        db.run(fmt::format("DELETE FROM {} WHERE assignment = ?", table), assignment.id);
+    db.run("DELETE FROM assignments WHERE id = ?", assignment.id);
+    course.note(
+        fmt::format("assignment {} removed, before anything was handed in; reason: {}", assignment.name, reason));
+    transaction.commit();
+}
+
 std::vector<Assignment> assignments_of(Course& course) {
     std::vector<Assignment> all;
     for (Rows rows = course.database().query(
-             "SELECT id, name, kind, lesson, first_due, review_due, final_due, grace, reviews, seed FROM assignments "
-             "ORDER BY first_due, name");
+             "SELECT id, name, kind, lesson, first_due, review_due, final_due, grace, reviews, seed, costs, "
+             "final_weight FROM assignments ORDER BY first_due, name");
          rows.next();) {
         Assignment a;
         a.id = rows.integer(0), a.name = rows.text(1), a.kind = rows.text(2), a.lesson = rows.text(3);
         a.first_due = rows.integer(4), a.review_due = rows.optional_integer(5), a.final_due = rows.optional_integer(6);
         a.grace = rows.integer(7), a.reviews = static_cast<int>(rows.integer(8));
         a.seed = static_cast<std::uint32_t>(rows.integer(9));
+        a.costs = costs_of(rows.text(10)), a.final_weight = rows.number(11);
         for (Rows criteria =
                  course.database().query("SELECT name, most FROM criteria WHERE assignment = ? ORDER BY place", a.id);
              criteria.next();)
@@ -152,25 +230,46 @@ void refuse_without_reviews(const Assignment& assignment) {
 std::vector<Criterion> criteria_of(const std::string& text) {
     std::vector<Criterion> criteria;
     std::set<std::string> seen;
-    for (std::size_t at = 0; at < text.size();) {
-        const std::size_t end = std::min(text.find(',', at), text.size());
-        std::string item = text.substr(at, end - at);
-        std::erase(item, ' ');
-        at = end + 1;
-        const auto colon = item.find(':');
-        const std::string name = item.substr(0, colon),
-                          points = colon == std::string::npos ? "5" : item.substr(colon + 1);
+    for (const auto& [name, points] : named_numbers(text)) {
         refuse_odd_name("the criterion", name);
-        double most = 0;
-        const auto [stop, error] = std::from_chars(points.data(), points.data() + points.size(), most);
-        if (error != std::errc() || stop != points.data() + points.size() || !(most > 0 && most <= 1000))
+        const std::optional<double> given = points.empty() ? 5.0 : number_in(points);
+        if (!given || !(*given > 0 && *given <= 1000))
             throw InvalidArgument(fmt::format(
                 "the points of criterion {} must be a number from 0 to 1000, but \"{}\" was given", name, points));
+        const double most = *given;
         if (!seen.insert(name).second) throw InvalidArgument(fmt::format("the criterion {} occurs twice", name));
         criteria.push_back({name, most});
     }
     if (criteria.empty()) throw InvalidArgument("give at least one criterion, such as clarity:5,methods:10");
     return criteria;
+}
+
+std::vector<Criterion> usual_criteria(const std::string& kind) {
+    return criteria_of(kind == "presentation" ? "content:5,slides:5,delivery:5,answers:5"
+                                              : "data:5,steps:5,conclusions:5,strength:5,suggestions:5");
+}
+
+Costs costs_of(const std::string& text) {
+    Costs costs;
+    for (const auto& [name, points] : named_numbers(text)) {
+        const auto known =
+            std::find_if(std::begin(kCosts), std::end(kCosts), [&](const auto& cost) { return cost.first == name; });
+        const auto value = number_in(points);
+        if (known == std::end(kCosts) || !value || !(*value >= 0 && *value <= 100))
+            throw InvalidArgument(fmt::format(
+                "costs are late-day, missing-final, late-review and missing-review with percent points from 0 to 100, "
+                "such as late-day:10,missing-review:25, but \"{}:{}\" was given",
+                name, points));
+        costs.*(known->second) = *value;
+    }
+    return costs;
+}
+
+std::string costs_text(const Costs& costs) {
+    std::vector<std::string> items;
+    for (const auto& [name, cost] : kCosts)
+        if (costs.*cost > 0) items.push_back(fmt::format("{}:{}", name, costs.*cost));
+    return fmt::format("{}", fmt::join(items, ","));
 }
 
 }  // namespace dynlab::inline course

@@ -12,6 +12,13 @@ struct Criterion {
     double most = 5;  ///< points
 };
 
+/// What is taken off marks, in percent points.
+struct Costs {
+    double late_day = 0;       ///< off the work, for each day begun between the deadline and a late report or slides
+    double missing_final = 0;  ///< off the work
+    double late_review = 0, missing_review = 0;  ///< off the reviews, for each
+};
+
 /// A piece of work with its deadlines. A report has a first version, reviews and a final version; a presentation has
 /// slides and script with one deadline, and a marking sheet for the oral.
 struct Assignment {
@@ -23,6 +30,8 @@ struct Assignment {
     int reviews = 2;         ///< that each group writes
     std::uint32_t seed = 0;  ///< of allocation and pseudonyms
     std::vector<Criterion> criteria;
+    Costs costs;
+    double final_weight = 50;  ///< percent of the work's mark, where the final version is scored
 
     bool is_report() const { return kind == "report"; }
 };
@@ -33,6 +42,13 @@ struct Assignment {
 /// than later deadlines or more grace.
 bool add_assignment(Course& course, Assignment assignment);
 
+/// Changes deadlines in both directions, grace, lesson, costs and weight of an assignment, at any time; lateness and
+/// marks follow. The journal tells what was before, and the reason. Returns whether something changed. Throws
+/// InvalidArgument: no reason, deadlines out of order.
+bool change_assignment(Course& course, const Assignment& wanted, const std::string& reason);
+/// Takes an assignment out. Throws InvalidArgument where something hangs on it: files, pairs, scores, marks.
+void remove_assignment(Course& course, const Assignment& assignment, const std::string& reason);
+
 std::vector<Assignment> assignments_of(Course& course);  ///< in the order of their deadlines
 /// By name; with an empty name the only one. Throws InvalidArgument.
 Assignment assignment_named(Course& course, const std::string& name);
@@ -42,5 +58,12 @@ void refuse_without_reviews(const Assignment& assignment);
 
 /// "clarity:5, methods:10" as criteria. Throws InvalidArgument.
 std::vector<Criterion> criteria_of(const std::string& text);
+/// The criteria of an assignment of this kind for which none were given: the questions of the reviews, or content,
+/// slides, delivery and answers.
+std::vector<Criterion> usual_criteria(const std::string& kind);
+
+/// "late-day:10,missing-review:25"; empty for none. Throws InvalidArgument.
+Costs costs_of(const std::string& text);
+std::string costs_text(const Costs& costs);
 
 }  // namespace dynlab::inline course

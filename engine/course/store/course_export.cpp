@@ -139,6 +139,27 @@ void insert_row(Database& db, const std::string& table, const StoredRow& row) {
     statement.next();
 }
 
+/// Makes the imported course in `folder`, a new one.
+void fill_imported(const fs::path& folder, const fs::path& from, std::map<std::string, std::string>& settings,
+                   const std::vector<fs::path>& handed_in, CourseExport& all) {
+    fs::create_directories(folder);
+    if (fs::exists(from / "course.key")) fs::copy_file(from / "course.key", folder / "course.key");
+    Course::create(folder, settings["name"], settings["zone"]);
+    Course course(folder);
+    std::vector<std::string> hashes;
+    for (const fs::path& kept : handed_in) hashes.push_back(course.keep(read_file(kept)));
+    course.settle(hashes);
+    Database& db = course.database();
+    Transaction transaction(db);
+    db.execute("DELETE FROM course; DELETE FROM journal; DELETE FROM seals");  // what create wrote
+    const bool older = all.tables_version.value_or(0) < static_cast<std::int64_t>(course_steps().size());
+    for (const std::string& table : course_tables()) {
+        if (older && !all.tables.contains(table)) continue;  // one that a later version brought
+        for (const StoredRow& row : all.tables[table]) insert_row(db, table, row);
+    }
+    transaction.commit();
+}
+
 /// Throws ValueError for a file that is not an export.
 CourseExport read_export(const fs::path& file) {
     auto read = from_json<CourseExport>(read_file(file));
@@ -241,23 +262,21 @@ void import_course(const fs::path& file, const fs::path& from, const fs::path& f
         if (!fs::exists(kept))
             throw EnvironmentError(
                 fmt::format("{} has no file {}; nothing was made", from.string(), kept.filename().string()));
-    fs::create_directories(folder);
-    if (!fs::exists(folder / "course.key") && fs::exists(from / "course.key"))
-        fs::copy_file(from / "course.key", folder / "course.key");
-    Course::create(folder, settings["name"], settings["zone"]);
-    Course course(folder);
-    std::vector<std::string> hashes;
-    for (const fs::path& kept : handed_in) hashes.push_back(course.keep(read_file(kept)));
-    course.settle(hashes);
-    Database& db = course.database();
-    Transaction transaction(db);
-    db.execute("DELETE FROM course; DELETE FROM journal");  // what create wrote
-    const bool older = all.tables_version.value_or(0) < static_cast<std::int64_t>(course_steps().size());
-    for (const std::string& table : course_tables()) {
-        if (older && !all.tables.contains(table)) continue;  // one that a later version brought
-        for (const StoredRow& row : all.tables[table]) insert_row(db, table, row);
+    const fs::path place = fs::absolute(folder).lexically_normal();
+    const fs::path whole = place.has_filename() ? place : place.parent_path();
+    if (fs::exists(whole) && !(fs::is_directory(whole) && fs::is_empty(whole)))
+        throw EnvironmentError(
+            fmt::format("{} exists already and is not an empty folder; name a new one", folder.string()));
+    const fs::path growing = whole.string() + ".unfinished";
+    fs::remove_all(growing);  // of an import that was interrupted
+    try {
+        fill_imported(growing, from, settings, handed_in, all);
+    } catch (const EnvironmentError& error) {
+        fs::remove_all(growing);
+        throw EnvironmentError(fmt::format("{}: {}; nothing was made", file.string(), error.what()));
     }
-    transaction.commit();
+    if (fs::exists(whole)) fs::remove(whole);
+    fs::rename(growing, whole);
 }
 
 }  // namespace dynlab::inline course

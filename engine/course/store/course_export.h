@@ -14,8 +14,9 @@ std::string marks_csv(Course& course, const Assignment& assignment);
 /// All of the store but the handed-in files, as JSON: tables with their rows.
 std::string course_json(Course& course);
 
-/// Makes a course from course_json in `folder`, which must not hold one, with the handed-in files and the key from
-/// `from`, the folder of the course that was exported. Throws EnvironmentError: no such export, a file missing.
+/// Makes a course from course_json in `folder`, a new or empty one, with the handed-in files and the key from `from`,
+/// the folder of the course that was exported: whole, or not at all. Throws EnvironmentError: no such export, a file
+/// missing, rows that the tables refuse.
 void import_course(const std::filesystem::path& json, const std::filesystem::path& from,
                    const std::filesystem::path& folder);
 

@@ -58,6 +58,57 @@ CREATE TABLE journal (id INTEGER PRIMARY KEY, at INTEGER NOT NULL, what TEXT NOT
     R"(
 CREATE TABLE former_names (student TEXT NOT NULL REFERENCES students, name TEXT NOT NULL, mail TEXT NOT NULL,
   until INTEGER NOT NULL, PRIMARY KEY (student, name, mail)) WITHOUT ROWID;
+)",
+    // Corrections are rows of their own, the newest of which holds; what was received stays as it was signed. The view
+    // `standing` is what holds now: versions that are not withdrawn, with time, deadline and lateness as corrected.
+    R"(
+CREATE TABLE arrivals (id INTEGER PRIMARY KEY, version INTEGER NOT NULL REFERENCES versions,
+  received_at INTEGER NOT NULL, due_at INTEGER NOT NULL, late INTEGER NOT NULL CHECK (late >= 0),
+  reason TEXT NOT NULL, made_at INTEGER NOT NULL, signature TEXT NOT NULL);
+CREATE INDEX arrivals_of_version ON arrivals (version);
+CREATE TABLE extensions (id INTEGER PRIMARY KEY, assignment INTEGER NOT NULL REFERENCES assignments,
+  group_id INTEGER NOT NULL REFERENCES groups, stage TEXT NOT NULL CHECK (stage IN ('first', 'review', 'final')),
+  due_at INTEGER, reason TEXT NOT NULL, made_at INTEGER NOT NULL);
+CREATE INDEX extensions_of_group ON extensions (assignment, group_id, stage);
+CREATE TABLE withdrawals (id INTEGER PRIMARY KEY, version INTEGER NOT NULL REFERENCES versions,
+  withdrawn INTEGER NOT NULL CHECK (withdrawn IN (0, 1)), reason TEXT NOT NULL, made_at INTEGER NOT NULL);
+CREATE INDEX withdrawals_of_version ON withdrawals (version);
+CREATE TABLE holds (id INTEGER PRIMARY KEY, assignment INTEGER NOT NULL REFERENCES assignments,
+  group_id INTEGER NOT NULL REFERENCES groups, pair INTEGER REFERENCES pairs,
+  held INTEGER NOT NULL CHECK (held IN (0, 1)), reason TEXT NOT NULL, made_at INTEGER NOT NULL);
+CREATE TABLE pair_wishes (id INTEGER PRIMARY KEY, assignment INTEGER NOT NULL REFERENCES assignments,
+  reviewer INTEGER NOT NULL REFERENCES groups, author INTEGER NOT NULL REFERENCES groups,
+  wish TEXT NOT NULL CHECK (wish IN ('set', 'forbid', 'free')), reason TEXT NOT NULL, made_at INTEGER NOT NULL,
+  CHECK (reviewer <> author));
+CREATE TABLE instructor_scores (assignment INTEGER NOT NULL REFERENCES assignments,
+  group_id INTEGER NOT NULL REFERENCES groups, stage TEXT NOT NULL CHECK (stage IN ('first', 'final')),
+  criterion INTEGER NOT NULL, given_at INTEGER NOT NULL, points REAL NOT NULL CHECK (points >= 0),
+  PRIMARY KEY (assignment, group_id, stage, criterion, given_at)) WITHOUT ROWID;
+CREATE TABLE returns (id INTEGER PRIMARY KEY, group_id INTEGER NOT NULL REFERENCES groups, place TEXT NOT NULL,
+  hash TEXT NOT NULL, made_at INTEGER NOT NULL);
+CREATE TABLE seals (id INTEGER PRIMARY KEY, at INTEGER NOT NULL, contents TEXT NOT NULL, signature TEXT NOT NULL);
+ALTER TABLE assignments ADD COLUMN costs TEXT NOT NULL DEFAULT '';
+ALTER TABLE assignments ADD COLUMN final_weight REAL NOT NULL DEFAULT 50;
+ALTER TABLE overrides RENAME TO former_overrides;
+CREATE TABLE overrides (id INTEGER PRIMARY KEY, assignment INTEGER NOT NULL REFERENCES assignments,
+  group_id INTEGER NOT NULL REFERENCES groups, what TEXT NOT NULL CHECK (what IN ('work', 'reviews')),
+  percent REAL CHECK (percent >= 0), reason TEXT NOT NULL, made_at INTEGER NOT NULL);
+INSERT INTO overrides SELECT id, assignment, group_id, what, percent, reason, made_at FROM former_overrides;
+DROP TABLE former_overrides;
+CREATE INDEX versions_of_pair ON versions (pair);
+CREATE INDEX versions_of_hash ON versions (hash);
+CREATE INDEX sendings_of_pair ON sendings (pair);
+CREATE VIEW arrived AS SELECT v.id, v.assignment, v.group_id, v.stage, v.pair, v.part, v.number, v.hash, v.name,
+  v.findings, a.grace,
+  ifnull((SELECT c.received_at FROM arrivals c WHERE c.version = v.id ORDER BY c.id DESC LIMIT 1), v.received_at)
+    AS received_at,
+  ifnull((SELECT e.due_at FROM extensions e WHERE e.assignment = v.assignment AND e.group_id = v.group_id AND
+    e.stage = v.stage ORDER BY e.id DESC LIMIT 1),
+    CASE v.stage WHEN 'first' THEN a.first_due WHEN 'review' THEN a.review_due ELSE a.final_due END) AS due_at,
+  ifnull((SELECT w.withdrawn FROM withdrawals w WHERE w.version = v.id ORDER BY w.id DESC LIMIT 1), 0) AS withdrawn
+  FROM versions v JOIN assignments a ON a.id = v.assignment;
+CREATE VIEW standing AS SELECT *, CASE WHEN received_at > due_at + grace THEN received_at - due_at ELSE 0 END AS late
+  FROM arrived WHERE NOT withdrawn;
 )"};
 
 std::int64_t pragma(Database& database, const char* name) {
@@ -70,9 +121,11 @@ std::int64_t pragma(Database& database, const char* name) {
 
 const std::vector<std::string>& course_tables() {
     static const std::vector<std::string> tables = {
-        "course", "groups",      "students",    "memberships", "assignments", "criteria",
-        "files",  "pseudonyms",  "allocations", "pairs",       "versions",    "sendings",
-        "scores", "oral_scores", "overrides",   "journal",     "former_names"};
+        "course",     "groups",      "students",    "memberships", "assignments",       "criteria",
+        "files",      "pseudonyms",  "allocations", "pairs",       "versions",          "sendings",
+        "scores",     "oral_scores", "overrides",   "journal",     "former_names",      "arrivals",
+        "extensions", "withdrawals", "holds",       "pair_wishes", "instructor_scores", "returns",
+        "seals"};
     return tables;
 }
 
@@ -80,7 +133,7 @@ const std::vector<const char*>& course_steps() {
     return kSteps;
 }
 
-void migrate_course(Database& database, Database::Opening opening, const std::string& file,
+bool migrate_course(Database& database, Database::Opening opening, const std::string& file,
                     const std::vector<const char*>& steps) {
     const auto newest = static_cast<std::int64_t>(steps.size());
     const auto version_of = [&] {
@@ -95,13 +148,14 @@ void migrate_course(Database& database, Database::Opening opening, const std::st
                 file, version, newest));
         return version;
     };
-    if (version_of() == newest) return;
+    if (version_of() == newest) return false;
     if (opening == Database::Opening::kNew) database.execute("PRAGMA journal_mode = WAL");
     Transaction transaction(database);
     for (std::int64_t version = version_of(); version < newest; ++version)  // another may have done it meanwhile
         database.execute(steps[static_cast<std::size_t>(version)]);
     database.execute(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", kApplicationId, newest));
     transaction.commit();
+    return true;
 }
 
 }  // namespace dynlab::inline course

@@ -12,9 +12,10 @@ const std::vector<std::string>& course_tables();
 /// SQL that makes each version of the tables out of the one before, the first one out of nothing.
 const std::vector<const char*>& course_steps();
 
-/// Brings an opened course to the version of tables that `steps` end with, in one transaction. Throws
-/// EnvironmentError for a course made by a newer dynlab, or for a database that is not a course; it stays untouched.
-void migrate_course(Database& database, Database::Opening opening, const std::string& file,
+/// Brings an opened course to the version of tables that `steps` end with, in one transaction; returns whether it was
+/// an earlier one. Throws EnvironmentError for a course made by a newer dynlab, or for a database that is not a course;
+/// it stays untouched.
+bool migrate_course(Database& database, Database::Opening opening, const std::string& file,
                     const std::vector<const char*>& steps = course_steps());
 
 }  // namespace dynlab::inline course

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "course/corrections/corrections.h"
 #include "course/review/review_pairs.h"
 #include "course/store/aligned_table.h"
 #include "course/store/groups.h"
@@ -36,6 +37,23 @@ std::string cell_of(const HandedInParts& parts, const std::string& main) {
     return cell;
 }
 
+/// By group: others who handed in the very same bytes.
+std::map<std::int64_t, std::string> groups_with_the_same_file(Course& course, const Assignment& assignment) {
+    std::map<std::int64_t, std::string> twins;
+    for (Rows rows = course.database().query(
+             "SELECT DISTINCT v.group_id, g.name FROM versions v JOIN versions w ON w.hash = v.hash AND w.assignment = "
+             "v.assignment AND w.group_id <> v.group_id JOIN groups g ON g.id = w.group_id WHERE v.assignment = ? AND "
+             "v.stage <> 'review' AND w.stage <> 'review' AND EXISTS (SELECT 1 FROM standing s WHERE s.id = v.id) AND "
+             "EXISTS (SELECT 1 FROM standing s WHERE s.id = "
+             "w.id) ORDER BY 1, 2",
+             assignment.id);
+         rows.next();) {
+        std::string& names = twins[rows.integer(0)];
+        names += (names.empty() ? "" : " and ") + rows.text(1);
+    }
+    return twins;
+}
+
 class Status {
   public:
     Status(Course& course, const Assignment& assignment, Instant now)
@@ -44,7 +62,8 @@ class Status {
           now_(now),
           main_(assignment.is_report() ? "report" : "slides"),
           versions_(newest_versions(course, assignment)),
-          pairs_(review_pairs(course, assignment)) {}
+          pairs_(review_pairs(course, assignment)),
+          twins_(groups_with_the_same_file(course, assignment)) {}
 
     std::string text() {
         for (const Group& group : groups_of(course_)) add(group);
@@ -71,6 +90,17 @@ class Status {
         line(assignment_.is_report() ? "first version" : "slides, script", assignment_.first_due);
         if (assignment_.review_due) line("reviews", *assignment_.review_due);
         if (assignment_.final_due) line("final version", *assignment_.final_due);
+        for (Rows rows = course_.database().query(
+                 "SELECT g.name, e.stage, e.due_at FROM extensions e JOIN groups g ON g.id = e.group_id WHERE "
+                 "e.assignment = ? AND e.due_at IS NOT NULL AND e.id = (SELECT max(n.id) FROM extensions n WHERE "
+                 "n.assignment = e.assignment AND n.group_id = e.group_id AND n.stage = e.stage) ORDER BY 1, 2",
+                 assignment_.id);
+             rows.next();)
+            text += fmt::format("  extended       {}, {}: {}\n", rows.text(0),
+                                rows.text(1) == "first"    ? "first version"
+                                : rows.text(1) == "review" ? "reviews"
+                                                           : "final version",
+                                when(clock, rows.integer(2), now_));
         return text + fmt::format("  times in {}\n", clock.zone());
     }
 
@@ -136,7 +166,10 @@ class Status {
     std::string to_do(const Group& group, const HandedInParts& first, const HandedInParts& last) const {
         if (group.dropped_out) return "dropped out";
         std::vector<std::string> things;
-        const auto due_over = [&](std::optional<Instant> due) { return due && now_ > *due + assignment_.grace; };
+        const auto due_over = [&](const char* stage) {
+            const bool given = assignment_.is_report() || std::string_view(stage) == "first";
+            return given && now_ > due_for(course_, assignment_, group.id, stage) + assignment_.grace;
+        };
         const auto found = first.find(main_);
         const auto only_pack = [&](const HandedInParts& parts, const char* of) {
             if (parts.contains("pack") && !parts.contains(main_))
@@ -144,13 +177,13 @@ class Status {
         };
         if (found == first.end()) {
             only_pack(first, "");
-            if (things.empty() && due_over(assignment_.first_due))
+            if (things.empty() && due_over("first"))
                 things.push_back(assignment_.is_report() ? "ask for the first version, or roster drop"
                                                          : "ask for the slides, or roster drop");
             return join(things);
         }
         if (!assignment_.is_report()) {
-            if (!first.contains("script") && !first.contains("pack") && due_over(assignment_.first_due))
+            if (!first.contains("script") && !first.contains("pack") && due_over("first"))
                 things.push_back("ask for the script");
         }
         const auto readable = [&](const HandedInParts& parts, const char* what) {
@@ -161,19 +194,33 @@ class Status {
         readable(first, assignment_.is_report() ? "first version" : "file");
         readable(last, "final version");
         const auto id = group.id;
+        if (const auto twin = twins_.find(id); twin != twins_.end())
+            things.push_back(fmt::format("handed in the same file as {}", twin->second));
+        if (is_held(course_, assignment_, id, {})) things.push_back("its report is held back");
+        if (any_pair([id](const ReviewPair& p) { return p.author == id && p.newer_report; }) &&
+            !is_held(course_, assignment_, id, {}))
+            things.push_back("a newer version than was sent: peer send");
+        if (any_pair([&](const ReviewPair& p) {
+                return p.reviewer == id && p.newer_review && !is_held(course_, assignment_, id, p.id);
+            }))
+            things.push_back("a newer review than was released: release");
+        if (any_pair([&](const ReviewPair& p) { return p.reviewer == id && is_held(course_, assignment_, id, p.id); }))
+            things.push_back("a review by it is held back");
         if (any_pair([](const ReviewPair& p) { return p.sent; }) &&
-            any_pair([id](const ReviewPair& p) { return p.author == id && !p.sent && !p.written; }))
+            any_pair([id](const ReviewPair& p) { return p.author == id && !p.sent && !p.written; }) &&
+            !is_held(course_, assignment_, id, {}))
             things.push_back("its copy was not sent: peer send tells why");
-        if (any_pair([](const ReviewPair& p) { return p.released; }) &&
-            any_pair([id](const ReviewPair& p) { return p.reviewer == id && p.written && !p.released; }))
+        if (any_pair([](const ReviewPair& p) { return p.released; }) && any_pair([&](const ReviewPair& p) {
+                return p.reviewer == id && p.written && !p.released && !is_held(course_, assignment_, id, p.id);
+            }))
             things.push_back("a review by it was not released: release tells why");
         if (!pairs_.empty() && !in_allocation(group.id)) things.push_back("came after the allocation: peer assign");
         int open = 0;
         for (const ReviewPair& pair : pairs_)
             if (pair.reviewer == group.id && !pair.ended && !pair.written) ++open;
-        if (open > 0 && due_over(assignment_.review_due)) things.push_back("remind of " + counted(open, "review"));
+        if (open > 0 && due_over("review")) things.push_back("remind of " + counted(open, "review"));
         only_pack(last, " of the final version");
-        if (last.empty() && due_over(assignment_.final_due)) things.push_back("ask for the final version");
+        if (last.empty() && due_over("final")) things.push_back("ask for the final version");
         return join(things);
     }
 
@@ -201,8 +248,14 @@ class Status {
         if (!assignment_.is_report()) return command("oral sheet");
         if (now_ <= assignment_.first_due + assignment_.grace) return {};
         if (pairs_.empty() || unassigned_ > 0) return command("peer assign");
-        if (any_pair([](const ReviewPair& p) { return !p.sent && !p.written; })) return command("peer send");
-        if (any_pair([](const ReviewPair& p) { return p.written && !p.released; }) &&
+        if (any_pair([this](const ReviewPair& p) {
+                return ((!p.sent && !p.written) || p.newer_report) && !is_held(course_, assignment_, p.author, {});
+            }))
+            return command("peer send");
+        if (any_pair([this](const ReviewPair& p) {
+                return ((p.written && !p.released) || p.newer_review) &&
+                       !is_held(course_, assignment_, p.reviewer, p.id);
+            }) &&
             now_ > *assignment_.review_due + assignment_.grace)
             return command("release");
         const bool released = any_pair([](const ReviewPair& p) { return p.released; });
@@ -220,6 +273,7 @@ class Status {
     std::string main_;
     std::map<std::int64_t, std::map<std::string, HandedInParts>> versions_;
     std::vector<ReviewPair> pairs_;
+    std::map<std::int64_t, std::string> twins_;
     std::vector<std::vector<std::string>> rows_;
     int groups_ = 0, present_ = 0, late_ = 0, unreadable_ = 0, missing_ = 0, unassigned_ = 0, open_reviews_ = 0,
         finals_ = 0;

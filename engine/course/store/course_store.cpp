@@ -9,6 +9,7 @@
 
 #include "course/store/course_key.h"
 #include "course/store/course_schema.h"
+#include "course/store/store_seal.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/hash.h"
@@ -45,9 +46,11 @@ void sync_folder(const fs::path& folder) {
     if (!fd || ::fsync(fd.get()) != 0) fail_on(folder, "write into");
 }
 
+/// A new one is its owner's alone: names, addresses and who reviews whom are below.
 void make_folder(const fs::path& folder) {
     std::error_code error;
-    fs::create_directories(folder, error);
+    const bool made = fs::create_directories(folder, error);
+    if (made && !error) fs::permissions(folder, fs::perms::owner_all, error);
     if (error)
         throw EnvironmentError(
             fmt::format("cannot make the folder {}: {}", folder.string(), system_reason(error.value())));
@@ -90,25 +93,27 @@ fs::path write_public_key(const fs::path& folder, const std::string& name, const
     return file;
 }
 
-Database open_database(const fs::path& file) {
-    Database database(file, Database::Opening::kExisting);
-    migrate_course(database, Database::Opening::kExisting, file.string());
-    return database;
+void seal_commits(Database& database, const SigningKey& key) {
+    database.before_commits([key](Database& changed) { seal_store(changed, key, CourseClock::now()); });
 }
 
 }  // namespace
 
 void Course::create(const fs::path& folder, const std::string& name, const std::string& zone) {
     const CourseClock clock(zone);
-    make_folder(folder / "files");
+    make_folder(folder);
+    for (const char* own : {"files", "outbox", "receipts"}) make_folder(folder / own);
     Database database(folder / kDatabase, Database::Opening::kNew);
+    fs::permissions(folder / kDatabase, fs::perms::owner_read | fs::perms::owner_write);
     migrate_course(database, Database::Opening::kNew, (folder / kDatabase).string());
     Transaction transaction(database);
     if (database.query("SELECT 1 FROM course").next())
         throw EnvironmentError(
             fmt::format("there is a course in {} already; nothing was changed", fs::absolute(folder).string()));
     make_key(folder / kKey);
-    write_public_key(folder, name, signing_key_of(read_key(folder / kKey)));
+    const SigningKey signing_key = signing_key_of(read_key(folder / kKey));
+    write_public_key(folder, name, signing_key);
+    seal_commits(database, signing_key);
     const auto set = [&](const char* key, const std::string& value) {
         database.run("INSERT INTO course VALUES (?, ?)", key, value);
     };
@@ -121,11 +126,15 @@ void Course::create(const fs::path& folder, const std::string& name, const std::
 
 Course::Course(const fs::path& folder)
     : folder_(course_folder(folder)),
-      database_(open_database(folder_ / kDatabase)),
+      database_(folder_ / kDatabase, Database::Opening::kExisting),
+      migrated_(migrate_course(database_, Database::Opening::kExisting, (folder_ / kDatabase).string())),
       name_(setting("name")),
       clock_(setting("zone")),
       key_(read_key(folder_ / kKey)),
-      signing_key_(signing_key_of(key_)) {}
+      signing_key_(signing_key_of(key_)) {
+    seal_commits(database_, signing_key_);
+    if (migrated_) Transaction(database_).commit();  // what came before seals is taken as it is
+}
 
 fs::path Course::publish_key() const {
     return write_public_key(folder_, name_, signing_key_);

@@ -11,8 +11,9 @@
 namespace dynlab::inline course {
 
 /// A course on disk: course.db, the handed-in files under their hashes below files/, the secret course.key, which signs
-/// receipts, and course.pub, by which anybody verifies them. Nothing is ever deleted. A file is on disk before the
-/// transaction that speaks of it commits, so that a crash leaves at worst a file that nobody speaks of.
+/// receipts and seals, and course.pub, by which anybody verifies them. Only their owner can read them. Nothing is
+/// ever deleted. A file is on disk before the transaction that speaks of it commits, so that a crash leaves at worst a
+/// file that nobody speaks of. Every transaction seals what it leaves (store_seal.h).
 class Course {
   public:
     /// Makes a course in `folder`, which may exist. Finishes what an interrupted one began. Throws EnvironmentError
@@ -47,6 +48,7 @@ class Course {
 
     std::filesystem::path folder_;
     Database database_;
+    bool migrated_ = false;  ///< from the tables of an earlier version
     std::string name_;
     CourseClock clock_;
     std::string key_;

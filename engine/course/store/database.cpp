@@ -90,6 +90,7 @@ Transaction::Transaction(Database& database) : database_(database) {
 }
 
 void Transaction::commit() {
+    if (database_.before_commits_) database_.before_commits_(database_);
     with_plain_errors(database_, [this] { transaction_->commit(); });
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -59,6 +60,13 @@ class Database : public SQLite::Database {
         Rows rows = query(sql, values...);
         while (rows.next()) continue;
     }
+
+    /// What every transaction does as the last of its work.
+    void before_commits(std::function<void(Database&)> work) { before_commits_ = std::move(work); }
+
+  private:
+    friend class Transaction;
+    std::function<void(Database&)> before_commits_;
 };
 
 /// All or nothing: what is not committed when this object goes is undone. Holds the only right to write from its

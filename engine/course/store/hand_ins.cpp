@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "course/corrections/corrections.h"
 #include "course/review/review_pairs.h"
 #include "course/review/side_by_side.h"
 #include "course/store/file_kind.h"
@@ -26,15 +27,6 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kMostBytes = 200u << 20;
 
-Instant due_of(const Assignment& assignment, const std::string& stage) {
-    if (stage == "first") return assignment.first_due;
-    const auto& due = stage == "review" ? assignment.review_due : assignment.final_due;
-    if (!due)
-        throw InvalidArgument(fmt::format("{} is a presentation: it has no {}", assignment.name,
-                                          stage == "review" ? "reviews" : "final version"));
-    return *due;
-}
-
 /// Under which name a file is kept: report, slides, script, review or pack.
 std::string part_of(const Assignment& assignment, const std::string& stage, const std::string& kind) {
     if (kind != "pdf") return kind;
@@ -48,6 +40,7 @@ struct Candidate {
     Group group;
     std::string part, hash;
     std::int64_t bytes = 0;
+    Instant at = 0;  ///< when it was handed in
     std::optional<ReviewPair> pair;
     bool from_pack = false;    ///< a PDF that was taken out of the group's pack
     bool no_document = false;  ///< a pack without the PDF that is wanted
@@ -59,7 +52,7 @@ class HandInReceiver {
     HandInReceiver(Course& course, const ReceiveRequest& request)
         : course_(course), request_(request), senders_(course), incoming_(way()) {
         outcome_.assignment = assignment_named(course, request.assignment);
-        due_ = due_of(outcome_.assignment, request.stage);
+        due_for(course, outcome_.assignment, 0, request.stage);  // a presentation has no reviews
         if (!request.from.empty()) from_ = group_named(course, request.from);
         if (request.stage != "final") pairs_ = review_pairs(course, outcome_.assignment);
     }
@@ -122,6 +115,7 @@ class HandInReceiver {
         const std::optional<Group> group = from_ ? from_ : senders_.find(file.sender);
         if (!group) throw EnvironmentError(senders_.complaint(file.sender));
         candidate.group = *group;
+        candidate.at = request_.time_of ? request_.time_of(file).value_or(request_.at) : request_.at;
         candidate.bytes = static_cast<std::int64_t>(fs::file_size(file.file));
         if (candidate.bytes == 0) throw EnvironmentError("the file is empty");
         if (static_cast<std::uintmax_t>(candidate.bytes) > kMostBytes)
@@ -148,7 +142,7 @@ class HandInReceiver {
             released = released || pair.released;
         }
         const Assignment& a = outcome_.assignment;
-        const bool over = a.review_due && request_.at > *a.review_due + a.grace;
+        const bool over = a.review_due && candidate.at > *a.review_due + a.grace;
         if (!released && !(sent && over)) return;
         if (is_known(candidate, sha256_of(read_file(candidate.file->file)))) return;
         throw EnvironmentError(fmt::format(
@@ -170,14 +164,24 @@ class HandInReceiver {
         return fmt::format("{}/{}/{}", c.group.id, part, c.pair ? c.pair->id : 0);
     }
 
-    /// Two files of a group for the same thing: nobody can say which holds.
+    /// Two files of a group for the same thing: nobody can say which holds, unless they are the same, as platforms give
+    /// a team's file once for each member.
     void refuse_doubles() {
-        std::map<std::string, int> count;
-        for (const Candidate& c : candidates_) ++count[slot_of(c, c.part)];
+        std::map<std::string, std::vector<const Candidate*>> by_slot;
+        for (const Candidate& c : candidates_) by_slot[slot_of(c, c.part)].push_back(&c);
+        std::set<std::string> ambiguous;
+        for (const auto& [slot, all] : by_slot) {
+            if (all.size() == 1) continue;
+            const std::string content = sha256_of_file(all.front()->file->file);
+            for (const Candidate* c : all)
+                if (sha256_of_file(c->file->file) != content) ambiguous.insert(slot);
+        }
         std::vector<Candidate> single;
+        std::set<std::string> taken;
         for (Candidate& c : candidates_) {
-            if (count[slot_of(c, c.part)] == 1) {
-                single.push_back(std::move(c));
+            const std::string slot = slot_of(c, c.part);
+            if (!ambiguous.contains(slot)) {
+                if (taken.insert(slot).second) single.push_back(std::move(c));
                 continue;
             }
             outcome_.refused.push_back(
@@ -218,6 +222,7 @@ class HandInReceiver {
                            whole.sender, whole.folder});
         Candidate candidate;
         candidate.file = &packed_.back(), candidate.group = pack.group, candidate.pair = pack.pair;
+        candidate.at = pack.at;
         candidate.part = part, candidate.from_pack = true;
         candidates_.push_back(std::move(candidate));
     }
@@ -276,6 +281,17 @@ class HandInReceiver {
             .next();
     }
 
+    /// Another group that handed in these very bytes, which is worth a look.
+    std::string group_with_the_same(const Candidate& c) const {
+        if (c.pair) return "";
+        Rows rows = course_.database().query(
+            "SELECT g.name FROM versions v JOIN groups g ON g.id = v.group_id WHERE v.assignment = ? AND v.hash = ? "
+            "AND "
+            "v.group_id <> ? AND v.stage <> 'review' AND EXISTS (SELECT 1 FROM standing s WHERE s.id = v.id) LIMIT 1",
+            outcome_.assignment.id, c.hash, c.group.id);
+        return rows.next() ? rows.text(0) : "";
+    }
+
     Received take(const Candidate& c) {
         Database& db = course_.database();
         std::optional<std::int64_t> pair;
@@ -287,25 +303,28 @@ class HandInReceiver {
         received.from_pack = c.from_pack, received.no_document = c.no_document && !has_any(c, document_part());
         if (c.pair) received.about = c.pair->report_pseudonym();
         Rows before = db.query(
-            "SELECT id, number, hash, late FROM versions WHERE assignment = ? AND group_id = ? AND stage = ? AND "
-            "ifnull(pair, 0) = ? AND part = ? ORDER BY number DESC LIMIT 1",
+            "SELECT v.id, v.number, v.hash, s.late, s.id IS NULL FROM versions v LEFT JOIN standing s ON s.id = v.id "
+            "WHERE v.assignment = ? AND v.group_id = ? AND v.stage = ? AND ifnull(v.pair, 0) = ? AND v.part = ? ORDER "
+            "BY v.number DESC LIMIT 1",
             outcome_.assignment.id, c.group.id, request_.stage, pair.value_or(0), c.part);
         const bool any = before.next();
         if (any && before.text(2) == c.hash) {
             received.known = true, received.id = before.integer(0), received.version = before.integer(1);
-            received.late = before.integer(3);
+            received.late = before.integer(3), received.withdrawn = before.integer(4) != 0;
             return received;
         }
         received.version = any ? before.integer(1) + 1 : 1;
         const Assignment& a = outcome_.assignment;
-        received.late = request_.at > due_ + a.grace ? request_.at - due_ : 0;
+        const Instant due = due_for(course_, a, c.group.id, request_.stage);
+        received.late = c.at > due + a.grace ? c.at - due : 0;
         course_.record_file(c.hash, c.bytes, request_.at);
-        const Receipt receipt{course_.name(), a.name,           c.group.name, request_.stage, c.part,      c.file->name,
-                              c.hash,         received.version, c.bytes,      received.late,  request_.at, due_};
+        received.twin = group_with_the_same(c);
+        const Receipt receipt{course_.name(), a.name,           c.group.name, request_.stage, c.part, c.file->name,
+                              c.hash,         received.version, c.bytes,      received.late,  c.at,   due};
         db.run(
             "INSERT INTO versions (assignment, group_id, stage, pair, part, number, hash, name, received_at, due_at, "
             "late, findings, signature) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
-            a.id, c.group.id, request_.stage, pair, c.part, received.version, c.hash, c.file->name, request_.at, due_,
+            a.id, c.group.id, request_.stage, pair, c.part, received.version, c.hash, c.file->name, c.at, due,
             received.late, c.inspection.json, version_signature(course_, receipt));
         received.id = db.getLastInsertRowid();
         return received;
@@ -315,7 +334,6 @@ class HandInReceiver {
     const ReceiveRequest& request_;
     Senders senders_;
     IncomingFiles incoming_;
-    Instant due_ = 0;
     std::optional<Group> from_;
     std::vector<ReviewPair> pairs_;
     std::vector<Candidate> candidates_;
@@ -326,12 +344,13 @@ class HandInReceiver {
 
 }  // namespace
 
-fs::path write_receipt(Course& course, std::int64_t version) {
-    const Receipt receipt = receipt_of(course, version);
+fs::path write_receipt(Course& course, std::int64_t version, std::optional<std::int64_t> correction) {
+    const Receipt receipt = receipt_of(course, version, correction);
     const fs::path folder = course.folder() / "receipts" / receipt.assignment;
     fs::create_directories(folder);
     const fs::path file =
-        folder / fmt::format("{:05}-{}-{}-{}.txt", version, receipt.group, receipt.stage, receipt.part);
+        folder / fmt::format("{:05}-{}-{}-{}{}.txt", version, receipt.group, receipt.stage, receipt.part,
+                             receipt.correction > 0 ? fmt::format("-corrected-{}", receipt.correction) : "");
     if (!fs::exists(file)) write_file_atomically(file, signed_receipt(receipt, course.signing_key()));
     return file;
 }

@@ -15,7 +15,8 @@ struct ReceiveRequest {
     std::string assignment, stage = "first";  ///< "first", "review", "final"
     std::string from;                         ///< a group; empty: by the files' names
     std::string of;                           ///< of a review: the pseudonym of the report; empty: by the file's name
-    Instant at = 0;                           ///< time of receipt
+    Instant at = 0;                           ///< time of receipt, where `time_of` tells none
+    std::function<std::optional<Instant>(const IncomingFile&)> time_of;  ///< may be empty (arrival_times.h)
     Isolation level = Isolation::kFull;
     std::filesystem::path program;
     bool take_as_first = false;  ///< a first version even when the group's report was reviewed already
@@ -29,6 +30,8 @@ struct Received {
     std::int64_t version = 0, late = 0, id = 0;
     bool known = false;        ///< the same content as the version before: nothing was changed
     bool from_pack = false;    ///< a PDF that was taken out of the group's pack
+    bool withdrawn = false;    ///< known, and withdrawn by the instructor
+    std::string twin;          ///< another group that handed in the same bytes
     bool no_document = false;  ///< a pack without the PDF that is wanted
     int rules_broken = 0;
     bool names = false;   ///< of a review: it names somebody of the course
@@ -47,7 +50,8 @@ struct ReceiveOutcome {
 /// written after it, so that a crash loses nothing and the same command completes it.
 ReceiveOutcome receive(Course& course, const ReceiveRequest& request);
 
-/// Writes a version's receipt into receipts/ASSIGNMENT/; returns the file.
-std::filesystem::path write_receipt(Course& course, std::int64_t version);
+/// Writes a version's receipt, or its newest correction, or the one with this number, into receipts/ASSIGNMENT/;
+/// returns the file.
+std::filesystem::path write_receipt(Course& course, std::int64_t version, std::optional<std::int64_t> correction = {});
 
 }  // namespace dynlab::inline course

@@ -8,7 +8,7 @@ std::map<std::int64_t, std::map<std::string, HandedInParts>> newest_versions(Cou
                                                                              const Assignment& assignment) {
     std::map<std::int64_t, std::map<std::string, HandedInParts>> all;
     for (Rows rows = course.database().query(
-             "SELECT group_id, stage, part, number, late, received_at, findings FROM versions WHERE assignment = ? AND "
+             "SELECT group_id, stage, part, number, late, received_at, findings FROM standing WHERE assignment = ? AND "
              "stage <> 'review' ORDER BY number",
              assignment.id);
          rows.next();) {

@@ -14,7 +14,7 @@
 namespace dynlab::inline course {
 namespace {
 
-constexpr std::string_view kSignature = "signature: ", kHash = "sha256: ";
+constexpr std::string_view kSignature = "signature: ", kHash = "sha256: ", kPublicKey = "public key: ";
 constexpr std::size_t kCodeDigits = 64;
 
 std::string_view first_line(ReceiptKind kind) {
@@ -34,7 +34,7 @@ std::string one_line(std::string text) {
 
 /// A receipt's file taken apart; the signature is its last line.
 struct ReceiptFile {
-    std::string content, signature;
+    std::string content, signature, public_key;
     ReceiptKind kind = ReceiptKind::kSigned;
 };
 
@@ -48,6 +48,8 @@ std::optional<ReceiptFile> read_receipt(std::string_view text) {
         if (!file.signature.empty()) return {};
         if (line.starts_with(kSignature))
             file.signature = line.substr(kSignature.size());
+        else if (line.starts_with(kPublicKey) && file.public_key.empty())
+            file.public_key = line.substr(kPublicKey.size());
         else
             file.content += line + '\n';
     }
@@ -66,7 +68,8 @@ const ReceiptVerdict kNeedsCourse{
     "course can verify it (dynlab course verify)"};
 
 ReceiptVerdict verify_signature(const ReceiptFile& file, std::string_view public_key) {
-    return is_signature(file.signature, file.content, public_key) ? kGenuine : kNotGenuine;
+    const bool other_key = !file.public_key.empty() && file.public_key != public_key;
+    return !other_key && is_signature(file.signature, file.content, public_key) ? kGenuine : kNotGenuine;
 }
 
 }  // namespace
@@ -84,16 +87,17 @@ std::string hmac_sha256(std::string_view key, std::string_view message) {
 
 std::string receipt_text(const Receipt& receipt, ReceiptKind kind) {
     return fmt::format(
-        "{}\ncourse: {}\nassignment: {}\ngroup: {}\nhanded in as: {}, {}, version {}\nfile: {}\n"
+        "{}\n{}course: {}\nassignment: {}\ngroup: {}\nhanded in as: {}, {}, version {}\nfile: {}\n"
         "{}{}\nbytes: {}\nreceived: {}\ndue: {}\nlate: {}\n",
-        first_line(kind), one_line(receipt.course), one_line(receipt.assignment), one_line(receipt.group),
-        receipt.stage, receipt.part, receipt.version, one_line(receipt.name), kHash, receipt.hash, receipt.bytes,
-        utc_text(receipt.received), utc_text(receipt.due), receipt.late > 0 ? duration_text(receipt.late) : "no");
+        first_line(kind), receipt.correction > 0 ? fmt::format("correction: {}\n", receipt.correction) : "",
+        one_line(receipt.course), one_line(receipt.assignment), one_line(receipt.group), receipt.stage, receipt.part,
+        receipt.version, one_line(receipt.name), kHash, receipt.hash, receipt.bytes, utc_text(receipt.received),
+        utc_text(receipt.due), receipt.late > 0 ? duration_text(receipt.late) : "no");
 }
 
 std::string signed_receipt(const Receipt& receipt, const SigningKey& key) {
     const std::string text = receipt_text(receipt);
-    return fmt::format("{}{}{}\n", text, kSignature, key.sign(text));
+    return fmt::format("{}{}{}\n{}{}\n", text, kPublicKey, key.public_key(), kSignature, key.sign(text));
 }
 
 ReceiptVerdict verify_receipt(std::string_view text, std::string_view public_key) {
@@ -107,6 +111,16 @@ ReceiptVerdict verify_receipt(std::string_view text, const Course& course) {
     if (!file) return kNoReceipt;
     if (file->kind == ReceiptKind::kSigned) return verify_signature(*file, course.signing_key().public_key());
     return equal_digits(file->signature, hmac_sha256(course.key(), file->content)) ? kGenuine : kNotGenuine;
+}
+
+std::string signed_part(std::string_view text) {
+    const auto file = read_receipt(text);
+    return file ? file->content : "";
+}
+
+std::string key_in_receipt(std::string_view text) {
+    const auto file = read_receipt(text);
+    return file ? file->public_key : "";
 }
 
 bool is_receipt_for(std::string_view text, const std::filesystem::path& file) {
@@ -125,15 +139,24 @@ bool is_version_signature(const Course& course, const Receipt& receipt, std::str
     return is_signature(signature, receipt_text(receipt), course.signing_key().public_key());
 }
 
-Receipt receipt_of(Course& course, std::int64_t version) {
-    Rows rows = course.database().query(
+Receipt receipt_of(Course& course, std::int64_t version, std::optional<std::int64_t> correction) {
+    Database& db = course.database();
+    Rows rows = db.query(
         "SELECT a.name, g.name, v.stage, v.part, v.name, v.hash, v.number, f.bytes, v.late, v.received_at, v.due_at "
         "FROM versions v JOIN assignments a ON a.id = v.assignment JOIN groups g ON g.id = v.group_id "
         "JOIN files f ON f.hash = v.hash WHERE v.id = ?",
         version);
     if (!rows.next()) throw EnvironmentError(fmt::format("there is no version {} in this course", version));
-    return {course.name(), rows.text(0),    rows.text(1),    rows.text(2),    rows.text(3),    rows.text(4),
-            rows.text(5),  rows.integer(6), rows.integer(7), rows.integer(8), rows.integer(9), rows.integer(10)};
+    Receipt receipt{course.name(),   rows.text(0),    rows.text(1),    rows.text(2),
+                    rows.text(3),    rows.text(4),    rows.text(5),    rows.integer(6),
+                    rows.integer(7), rows.integer(8), rows.integer(9), rows.integer(10)};
+    Rows corrected = db.query("SELECT received_at, due_at, late FROM arrivals WHERE version = ? ORDER BY id", version);
+    while (receipt.correction != correction && corrected.next()) {
+        ++receipt.correction;
+        receipt.received = corrected.integer(0), receipt.due = corrected.integer(1);
+        receipt.late = corrected.integer(2);
+    }
+    return receipt;
 }
 
 }  // namespace dynlab::inline course

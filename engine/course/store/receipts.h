@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -13,6 +14,7 @@ struct Receipt {
     std::string course, assignment, group, stage, part, name, hash;
     std::int64_t version = 0, bytes = 0, late = 0;
     Instant received = 0, due = 0;
+    std::int64_t correction = 0;  ///< which one it is of the first receipt; 0 for that one itself
 };
 
 /// The first line says how a receipt is signed: by Ed25519, so that everybody with the course's public key can verify
@@ -22,7 +24,7 @@ enum class ReceiptKind { kSigned, kCoded };
 /// One "key: value" a line, always in the same order, control characters as blanks: equal facts give equal text.
 std::string receipt_text(const Receipt& receipt, ReceiptKind kind = ReceiptKind::kSigned);
 
-/// The receipt as a file: its text and a line "signature: ...".
+/// The receipt as a file: its text, a line "public key: ..." that is not signed, and a line "signature: ...".
 std::string signed_receipt(const Receipt& receipt, const SigningKey& key);
 
 /// What somebody holds against a receipt, in words: "genuine", or why it is not.
@@ -36,6 +38,11 @@ struct ReceiptVerdict {
 ReceiptVerdict verify_receipt(std::string_view text, std::string_view public_key);
 /// The same by the course itself, coded receipts too.
 ReceiptVerdict verify_receipt(std::string_view text, const Course& course);
+/// The lines that are signed; empty for what is no receipt.
+std::string signed_part(std::string_view text);
+/// The public key that a receipt names itself: who trusts it needs to know it from elsewhere. Empty where there is
+/// none.
+std::string key_in_receipt(std::string_view text);
 /// Whether the receipt is for this file: the SHA-256 it names is the file's. Throws EnvironmentError when that cannot
 /// be read.
 bool is_receipt_for(std::string_view text, const std::filesystem::path& file);
@@ -44,8 +51,9 @@ bool is_receipt_for(std::string_view text, const std::filesystem::path& file);
 std::string version_signature(const Course& course, const Receipt& receipt);
 bool is_version_signature(const Course& course, const Receipt& receipt, std::string_view signature);
 
-/// The receipt of a version, from the store. Throws EnvironmentError for an unknown one.
-Receipt receipt_of(Course& course, std::int64_t version);
+/// The receipt of a version, from the store: with the newest correction, or the one with this number. Throws
+/// EnvironmentError for an unknown one.
+Receipt receipt_of(Course& course, std::int64_t version, std::optional<std::int64_t> correction = {});
 
 /// HMAC-SHA256 (RFC 2104, FIPS 198-1) as 64 lower-case hexadecimal digits: of coded receipts.
 std::string hmac_sha256(std::string_view key, std::string_view message);

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "course/corrections/corrections.h"
 #include "course/review/review_marks.h"
 #include "course/store/groups.h"
 #include "data_io/text_table.h"
@@ -13,6 +14,8 @@
 
 namespace dynlab::inline course {
 namespace {
+
+constexpr double kMostPercent = 200;
 
 using Points = std::vector<std::optional<double>>;
 
@@ -185,14 +188,33 @@ void override_mark(Course& course, const Assignment& a, const std::string& group
                    double percent, const std::string& reason, Instant now) {
     if (what == "reviews") refuse_without_reviews(a);
     if (reason.empty()) throw InvalidArgument("say why: --reason \"...\"; it stands in the export");
-    if (!(percent >= 0 && percent <= 100))
-        throw InvalidArgument(fmt::format("a mark is a number from 0 to 100 percent, but {} was given", percent));
+    if (!(percent >= 0 && percent <= kMostPercent))
+        throw InvalidArgument(
+            fmt::format("a mark is a number from 0 to {} percent, but {} was given", kMostPercent, percent));
     Transaction transaction(course.database());
     const Group whose = group_named(course, group);
     course.database().run(
         "INSERT INTO overrides (assignment, group_id, what, percent, reason, made_at) VALUES (?, ?, ?, ?, ?, ?)", a.id,
         whose.id, what, percent, reason, now);
     course.note(fmt::format("{}: {} of {} set to {} percent: {}", a.name, what, whose.name, percent, reason), now);
+    transaction.commit();
+}
+
+void take_back_override(Course& course, const Assignment& a, const std::string& group, const std::string& what,
+                        const std::string& reason, Instant now) {
+    refuse_without_reason(reason);
+    Transaction transaction(course.database());
+    const Group whose = group_named(course, group);
+    Rows newest = course.database().query(
+        "SELECT percent FROM overrides WHERE assignment = ? AND group_id = ? AND what = ? ORDER BY id DESC LIMIT 1",
+        a.id, whose.id, what);
+    if (!newest.next() || newest.isColumnNull(0))
+        throw InvalidArgument(fmt::format("you have set no mark of {} for its {}", whose.name, what));
+    course.database().run(
+        "INSERT INTO overrides (assignment, group_id, what, percent, reason, made_at) VALUES (?, ?, ?, NULL, ?, ?)",
+        a.id, whose.id, what, reason, now);
+    course.note(fmt::format("{}: {} of {} is that of the scores again; reason: {}", a.name, what, whose.name, reason),
+                now);
     transaction.commit();
 }
 
@@ -214,9 +236,9 @@ Marks course_marks(Course& course, const Assignment& a) {
          rows.next();)
         for (GroupMark& mark : marks.groups) {
             if (mark.group != rows.integer(0)) continue;
-            const bool work = rows.text(1) == "work";
-            (work ? mark.work_override : mark.reviews_override) = rows.number(2);
-            (work ? mark.work_reason : mark.reviews_reason) = rows.text(3);
+            const bool work = rows.text(1) == "work", holds = !rows.isColumnNull(2);
+            (work ? mark.work_override : mark.reviews_override) = holds ? std::optional(rows.number(2)) : std::nullopt;
+            (work ? mark.work_reason : mark.reviews_reason) = holds ? rows.text(3) : "";
         }
     return marks;
 }

@@ -2,10 +2,67 @@
 
 #include <fmt/format.h>
 
+#include <map>
+#include <set>
+
 #include "course/store/receipts.h"
+#include "course/store/store_seal.h"
+#include "platform/atomic_file.h"
 #include "platform/hash.h"
 
 namespace dynlab::inline course {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Every receipt that the store would give today or gave before.
+std::set<std::string> receipts_given(Course& course) {
+    std::set<std::string> texts;
+    const auto add = [&](const Receipt& receipt) {
+        for (const ReceiptKind kind : {ReceiptKind::kSigned, ReceiptKind::kCoded})
+            texts.insert(receipt_text(receipt, kind));
+    };
+    for (Rows rows = course.database().query("SELECT id FROM versions"); rows.next();)
+        add(receipt_of(course, rows.integer(0), 0));
+    std::map<std::int64_t, std::int64_t> number;
+    for (Rows rows = course.database().query("SELECT version FROM arrivals ORDER BY id"); rows.next();)
+        add(receipt_of(course, rows.integer(0), ++number[rows.integer(0)]));
+    return texts;
+}
+
+void check_receipts(Course& course, StoreCheck& check) {
+    const fs::path folder = course.folder() / "receipts";
+    if (!fs::exists(folder)) return;
+    const std::set<std::string> given = receipts_given(course);
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        if (!entry.is_regular_file() || entry.path().extension() != ".txt") continue;
+        const std::string text = read_file(entry.path());
+        if (!verify_receipt(text, course).genuine)
+            check.troubles.push_back(fmt::format("{} is not a genuine receipt", entry.path().string()));
+        else if (!given.contains(signed_part(text)))
+            check.troubles.push_back(
+                fmt::format("{} is genuine, but what it speaks of is not in the store any more; take a backup",
+                            entry.path().string()));
+    }
+}
+
+void check_signatures(Course& course, StoreCheck& check) {
+    Database& db = course.database();
+    for (Rows rows = db.query("SELECT id, signature FROM versions ORDER BY id"); rows.next(); ++check.versions)
+        if (!is_version_signature(course, receipt_of(course, rows.integer(0), 0), rows.text(1)))
+            check.troubles.push_back(
+                fmt::format("version {}: its facts are not those that were signed", rows.integer(0)));
+    std::map<std::int64_t, std::int64_t> number;
+    for (Rows rows = db.query("SELECT version, signature FROM arrivals ORDER BY id"); rows.next();) {
+        const std::int64_t version = rows.integer(0), correction = ++number[version];
+        if (!is_version_signature(course, receipt_of(course, version, correction), rows.text(1)))
+            check.troubles.push_back(
+                fmt::format("version {}: its correction {} is not as it was signed", version, correction));
+    }
+}
+
+}  // namespace
 
 StoreCheck check_store(Course& course) {
     StoreCheck check;
@@ -21,10 +78,10 @@ StoreCheck check_store(Course& course) {
         else if (sha256_of_file(file) != rows.text(0))
             check.troubles.push_back(fmt::format("{} was altered; put it back from a backup", file.string()));
     }
-    for (Rows rows = db.query("SELECT id, signature FROM versions ORDER BY id"); rows.next(); ++check.versions)
-        if (!is_version_signature(course, receipt_of(course, rows.integer(0)), rows.text(1)))
-            check.troubles.push_back(
-                fmt::format("version {}: its facts are not those that were signed", rows.integer(0)));
+    check_signatures(course, check);
+    check_receipts(course, check);
+    for (const std::string& trouble : seal_troubles(db, course.signing_key().public_key()))
+        check.troubles.push_back(trouble);
     return check;
 }
 

@@ -11,8 +11,10 @@ struct StoreCheck {
     std::vector<std::string> troubles;  ///< sentences; none when all is well
 };
 
-/// Whether the database is whole, every file it speaks of is there and has its hash, and every version's signature is
-/// that of its receipt.
+/// Whether the database is whole, every file it speaks of is there and has its hash, every version's signature, and
+/// that of every correction, is that of its receipt, every receipt in receipts/ is one that the store would write, and
+/// the tables are as their seals say: versions taken away, pairs, marks and sendings changed by something else are
+/// told.
 StoreCheck check_store(Course& course);
 
 }  // namespace dynlab::inline course

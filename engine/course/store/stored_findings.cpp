@@ -11,8 +11,8 @@ std::vector<StoredFindings> stored_findings(Course& course, const Assignment& as
                                             const std::string& stage, std::optional<std::int64_t> number) {
     const std::vector<ReviewPair> pairs = review_pairs(course, assignment);
     Rows rows = course.database().query(
-        "SELECT part, ifnull(pair, 0), number, received_at, findings FROM versions v WHERE assignment = ? AND "
-        "group_id = ? AND stage = ? AND number = ifnull(?, (SELECT max(number) FROM versions w WHERE "
+        "SELECT part, ifnull(pair, 0), number, received_at, findings FROM standing v WHERE assignment = ? AND "
+        "group_id = ? AND stage = ? AND number = ifnull(?, (SELECT max(number) FROM standing w WHERE "
         "w.assignment = v.assignment AND w.group_id = v.group_id AND w.stage = v.stage AND w.part = v.part AND "
         "ifnull(w.pair, 0) = ifnull(v.pair, 0))) ORDER BY part, pair",
         assignment.id, group.id, stage, number);

@@ -1,0 +1,179 @@
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "cli/course_commands.h"
+#include "course/corrections/corrections.h"
+#include "course/review/review_marks.h"
+#include "course/store/hand_ins.h"
+#include "course/store/receipts.h"
+#include "numerics/error.h"
+#include "platform/terminal/terminal_text.h"
+
+namespace dynlab::inline cli {
+namespace {
+
+struct CorrectionArguments {
+    std::string assignment, time, reason, at, mark;
+    HandedInWanted wanted;
+    bool end = false;
+};
+using Correct = int (*)(Course&, const Assignment&, const CorrectionArguments&);
+
+int correct_time(Course& course, const Assignment& a, const CorrectionArguments& words) {
+    const auto versions = correct_arrival(course, a, words.wanted, course.clock().parse(words.time, "TIME"),
+                                          words.reason, time_of(course, words.at));
+    for (const std::int64_t version : versions)
+        std::cout << terminal_text(fmt::format("Corrected receipt: {}\n", write_receipt(course, version).string()));
+    return kDone;
+}
+
+int tell_withdrawn(Course& course, const Assignment& a, const CorrectionArguments& words, bool withdrawn) {
+    if (!words.mark.empty()) {
+        take_back_override(course, a, words.wanted.group, words.mark, words.reason, time_of(course, words.at));
+        std::cout << fmt::format("{}: the mark of {} for its {} is that of the scores again.\n", a.name,
+                                 words.wanted.group, words.mark);
+        return kDone;
+    }
+    const auto versions = withdraw(course, a, words.wanted, withdrawn, words.reason, time_of(course, words.at));
+    for (const std::int64_t version : versions) {
+        const Receipt receipt = receipt_of(course, version);
+        std::cout << terminal_text(fmt::format("{}: {} v{} of {} {}.\n", a.name, receipt.part, receipt.version,
+                                               receipt.group, withdrawn ? "is withdrawn" : "stands again"));
+    }
+    return kDone;
+}
+
+int withdraw_files(Course& course, const Assignment& a, const CorrectionArguments& words) {
+    return tell_withdrawn(course, a, words, true);
+}
+int restore_files(Course& course, const Assignment& a, const CorrectionArguments& words) {
+    return tell_withdrawn(course, a, words, false);
+}
+
+int extend_for_one(Course& course, const Assignment& a, const CorrectionArguments& words) {
+    if (words.time.empty() != words.end)
+        throw InvalidArgument("say until when, or --end where the deadline of all holds again");
+    std::optional<Instant> due;
+    if (!words.end) due = course.clock().parse(words.time, "TIME");
+    extend(course, a, words.wanted.group, words.wanted.stage, due, words.reason, time_of(course, words.at));
+    const Group group = group_named(course, words.wanted.group);
+    std::cout << fmt::format("{}: due for {} {}.\n", a.name, group.name,
+                             course.clock().show_exactly(due_for(course, a, group.id, words.wanted.stage)));
+    return kDone;
+}
+
+int hold_back(Course& course, const Assignment& a, const CorrectionArguments& words) {
+    hold(course, a, words.wanted, !words.end, words.reason, time_of(course, words.at));
+    std::cout << fmt::format("{}; dynlab course {} {} does the rest.\n", words.end ? "Free again" : "Held back",
+                             words.wanted.stage == "review" ? "release" : "peer send", a.name);
+    return kDone;
+}
+
+struct CorrectionCommand {
+    CLI::App* app;
+    std::shared_ptr<CorrectionArguments> words;
+};
+
+CorrectionCommand add_correction(CLI::App& course, const char* name, const char* about, CourseArguments& where,
+                                 Action& action, Correct run) {
+    auto words = std::make_shared<CorrectionArguments>();
+    CLI::App* command = course.add_subcommand(name, about);
+    command->add_option("ASSIGNMENT", words->assignment)->required();
+    command->add_option("GROUP", words->wanted.group)->required();
+    command->callback([&where, words, run, &action] {
+        action = [&where, words, run] {
+            Course opened(where.folder);
+            return run(opened, assignment_named(opened, words->assignment), *words);
+        };
+    });
+    return {command, words};
+}
+
+void add_reason(const CorrectionCommand& command) {
+    command.app->add_option("--reason", command.words->reason, "Stands in the history")->required();
+    add_time_option(*command.app, command.words->at);
+}
+
+void add_stage(const CorrectionCommand& command) {
+    command.app->add_option("--stage", command.words->wanted.stage, "Of which version")
+        ->type_name("first|review|final")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"first", "review", "final"}));
+}
+
+void add_file_options(const CorrectionCommand& command) {
+    add_stage(command);
+    command.app->add_option("--of", command.words->wanted.report, "Of a review: which report it reviews")
+        ->type_name("report-NN");
+    command.app
+        ->add_option("--part", command.words->wanted.part, "Only that; the document and what came with it unless given")
+        ->check(CLI::IsMember({"report", "slides", "script", "review", "pack"}));
+    command.app->add_option("--version", command.words->wanted.number, "The newest unless given")->type_name("N");
+}
+
+int show_history(const CourseArguments& where) {
+    Course course(where.folder);
+    for (const JournalLine& line : journal_of(course))
+        std::cout << terminal_text(fmt::format("{}  {}\n", course.clock().show_exactly(line.at), line.what));
+    return kDone;
+}
+
+void add_withdrawals(CLI::App& course, CourseArguments& where, Action& action) {
+    const auto away = add_correction(course, "withdraw", "A file that was handed in, or a mark of yours, does not hold",
+                                     where, action, withdraw_files);
+    add_file_options(away);
+    away.app->add_option("--mark", away.words->mark, "Your own mark instead of a file; that of the scores holds again")
+        ->check(CLI::IsMember({"work", "reviews"}));
+    add_reason(away);
+    away.app->footer(
+        "The version before holds then, or none. The file, its receipt and this entry stay.\n"
+        "Examples:\n"
+        "  dynlab course withdraw crane group-05 --reason \"group-06's file by mistake\"\n"
+        "  dynlab course withdraw crane group-05 --stage review --of report-17 --reason \"empty form\"\n"
+        "  dynlab course withdraw crane group-05 --mark work --reason \"the paper was found\"");
+    const auto back =
+        add_correction(course, "restore", "A file that was withdrawn holds again", where, action, restore_files);
+    add_file_options(back);
+    add_reason(back);
+    back.app->footer("Example:  dynlab course restore crane group-05 --reason \"it was the right one\"");
+}
+
+}  // namespace
+
+void add_correction_commands(CLI::App& course, CourseArguments& where, Action& action) {
+    const auto time = add_correction(course, "time", "Correct when a file was handed in", where, action, correct_time);
+    time.app->add_option("TIME", time.words->time, "\"2026-03-01 17:30\", in the course's zone")->required();
+    add_file_options(time);
+    add_reason(time);
+    time.app->footer(
+        "Lateness follows, and the group gets a further signed receipt. The first one stays.\n"
+        "Example:  dynlab course time crane group-05 \"2026-02-28 12:55\" --reason \"Moodle's log\"");
+    add_withdrawals(course, where, action);
+
+    const auto longer =
+        add_correction(course, "extend", "Another deadline for one group", where, action, extend_for_one);
+    longer.app->add_option("TIME", longer.words->time, "The deadline that holds for it");
+    add_stage(longer);
+    longer.app->add_flag("--end", longer.words->end, "The deadline of all holds again");
+    add_reason(longer);
+    longer.app->footer(
+        "Also for what came already. The grace of the assignment comes on top.\n"
+        "Example:  dynlab course extend crane group-05 \"2026-03-03 13:00\" --reason \"illness\"");
+
+    const auto kept = add_correction(course, "hold", "Keep a report from its reviewers, or a review from the authors",
+                                     where, action, hold_back);
+    add_stage(kept);
+    kept.app->add_option("--of", kept.words->wanted.report, "Of a review: which report it reviews")
+        ->type_name("report-NN");
+    kept.app->add_flag("--end", kept.words->end, "Do not hold it back any more");
+    add_reason(kept);
+    kept.app->footer(
+        "Example:  dynlab course hold crane group-05 --stage review --of report-17 --reason \"insulting\"");
+
+    CLI::App* history = course.add_subcommand("history", "All that was done in the course, with the reasons");
+    history->footer("Example:  dynlab course history");
+    history->callback([&where, &action] { action = [&where] { return show_history(where); }; });
+}
+
+}  // namespace dynlab::inline cli

@@ -1,0 +1,190 @@
+#include "course/corrections/corrections.h"
+
+#include <fmt/format.h>
+
+#include "course/review/review_pairs.h"
+#include "course/store/receipts.h"
+#include "numerics/error.h"
+
+namespace dynlab::inline course {
+namespace {
+
+const char* stage_name(const std::string& stage) {
+    return stage == "first" ? "first version" : stage == "review" ? "review" : "final version";
+}
+
+struct Found {
+    std::int64_t id = 0, number = 0;
+    std::string part;
+};
+
+/// What a correction is about, as it lies in the store.
+class WantedFiles {
+  public:
+    WantedFiles(Course& course, const Assignment& assignment, const HandedInWanted& wanted)
+        : db_(course.database()), assignment_(assignment), wanted_(wanted), group_(group_named(course, wanted.group)) {
+        if (wanted.stage == "review") pair_ = reviewed_pair(review_pairs(course, assignment), group_, wanted.report).id;
+    }
+
+    const Group& group() const { return group_; }
+    std::optional<std::int64_t> pair() const { return pair_; }
+    std::string what() const { return fmt::format("{} of {}", stage_name(wanted_.stage), group_.name); }
+
+    /// Those that are withdrawn, or those that are not.
+    std::vector<Found> all(bool withdrawn) const {
+        const std::string document = wanted_.stage == "review" ? "review"
+                                     : assignment_.is_report() ? "report"
+                                                               : "slides";
+        if (!wanted_.part.empty()) return {one(wanted_.part, withdrawn)};
+        std::vector<Found> found = {has(document, withdrawn) ? one(document, withdrawn) : one("pack", withdrawn)};
+        for (Rows rows = db_.query("SELECT w.id, w.number, w.part FROM arrived w JOIN versions o ON o.id = w.id JOIN "
+                                   "versions v ON v.id = ? WHERE o.assignment = v.assignment AND o.group_id = "
+                                   "v.group_id AND o.stage = v.stage AND ifnull(o.pair, 0) = ifnull(v.pair, 0) AND "
+                                   "o.received_at = v.received_at AND o.part <> v.part AND w.withdrawn = ?",
+                                   found.front().id, std::int64_t{withdrawn});
+             rows.next();)
+            found.push_back({rows.integer(0), rows.integer(1), rows.text(2)});
+        return found;
+    }
+
+  private:
+    Rows rows(const std::string& part, bool withdrawn) const {
+        return db_.query(
+            "SELECT id, number FROM arrived WHERE assignment = ? AND group_id = ? AND stage = ? AND ifnull(pair, 0) = "
+            "? AND part = ? AND withdrawn = ? AND number = ifnull(?, number) ORDER BY number DESC",
+            assignment_.id, group_.id, wanted_.stage, pair_.value_or(0), part, std::int64_t{withdrawn}, wanted_.number);
+    }
+    bool has(const std::string& part, bool withdrawn) const { return rows(part, withdrawn).next(); }
+    Found one(const std::string& part, bool withdrawn) const {
+        Rows found = rows(part, withdrawn);
+        if (!found.next())
+            throw InvalidArgument(fmt::format("there is no {}{} ({}{}) for {}", withdrawn ? "withdrawn " : "", what(),
+                                              part, wanted_.number ? fmt::format(" v{}", *wanted_.number) : "",
+                                              assignment_.name));
+        return {found.integer(0), found.integer(1), part};
+    }
+
+    Database& db_;
+    const Assignment& assignment_;
+    const HandedInWanted& wanted_;
+    Group group_;
+    std::optional<std::int64_t> pair_;
+};
+
+std::vector<std::int64_t> ids_of(const std::vector<Found>& all) {
+    std::vector<std::int64_t> ids;
+    for (const Found& one : all) ids.push_back(one.id);
+    return ids;
+}
+
+}  // namespace
+
+void refuse_without_reason(const std::string& reason) {
+    if (reason.empty()) throw InvalidArgument("say why: --reason \"...\"; it stands in the history");
+}
+
+Instant due_for(Course& course, const Assignment& a, std::int64_t group, const std::string& stage) {
+    const std::optional<Instant> common = stage == "first"    ? std::optional(a.first_due)
+                                          : stage == "review" ? a.review_due
+                                                              : a.final_due;
+    if (!common)
+        throw InvalidArgument(
+            fmt::format("{} is a presentation: it has no {}", a.name, stage == "review" ? "reviews" : "final version"));
+    Rows own = course.database().query(
+        "SELECT due_at FROM extensions WHERE assignment = ? AND group_id = ? AND stage = ? ORDER BY id DESC LIMIT 1",
+        a.id, group, stage);
+    return own.next() ? own.optional_integer(0).value_or(*common) : *common;
+}
+
+std::vector<std::int64_t> correct_arrival(Course& course, const Assignment& a, const HandedInWanted& wanted,
+                                          Instant received, const std::string& reason, Instant now) {
+    refuse_without_reason(reason);
+    Transaction transaction(course.database());
+    const WantedFiles files(course, a, wanted);
+    const Instant due = due_for(course, a, files.group().id, wanted.stage);
+    const std::vector<Found> all = files.all(false);
+    for (const Found& one : all) {
+        Receipt receipt = receipt_of(course, one.id);
+        ++receipt.correction;
+        receipt.received = received, receipt.due = due;
+        receipt.late = received > due + a.grace ? received - due : 0;
+        course.database().run(
+            "INSERT INTO arrivals (version, received_at, due_at, late, reason, made_at, signature) VALUES (?, ?, ?, ?, "
+            "?, ?, ?)",
+            one.id, received, due, receipt.late, reason, now, version_signature(course, receipt));
+    }
+    course.note(fmt::format("{}: {} (v{}) was received at {}; reason: {}", a.name, files.what(), all.front().number,
+                            course.clock().show_exactly(received), reason),
+                now);
+    transaction.commit();
+    return ids_of(all);
+}
+
+std::vector<std::int64_t> withdraw(Course& course, const Assignment& a, const HandedInWanted& wanted, bool withdrawn,
+                                   const std::string& reason, Instant now) {
+    refuse_without_reason(reason);
+    Transaction transaction(course.database());
+    const WantedFiles files(course, a, wanted);
+    const std::vector<Found> all = files.all(!withdrawn);
+    std::string parts;
+    for (const Found& one : all) {
+        parts += fmt::format("{}{} v{}", parts.empty() ? "" : ", ", one.part, one.number);
+        course.database().run("INSERT INTO withdrawals (version, withdrawn, reason, made_at) VALUES (?, ?, ?, ?)",
+                              one.id, std::int64_t{withdrawn}, reason, now);
+    }
+    course.note(fmt::format("{}: {} ({}) {}; reason: {}", a.name, files.what(), parts,
+                            withdrawn ? "withdrawn" : "stands again", reason),
+                now);
+    transaction.commit();
+    return ids_of(all);
+}
+
+void extend(Course& course, const Assignment& a, const std::string& group, const std::string& stage,
+            std::optional<Instant> due, const std::string& reason, Instant now) {
+    refuse_without_reason(reason);
+    Transaction transaction(course.database());
+    const Group whose = group_named(course, group);
+    const Instant before = due_for(course, a, whose.id, stage);
+    course.database().run(
+        "INSERT INTO extensions (assignment, group_id, stage, due_at, reason, made_at) VALUES (?, ?, ?, ?, ?, ?)", a.id,
+        whose.id, stage, due, reason, now);
+    course.note(fmt::format("{}: the {} of {} is due {} instead of {}; reason: {}", a.name, stage_name(stage),
+                            whose.name, course.clock().show_exactly(due_for(course, a, whose.id, stage)),
+                            course.clock().show_exactly(before), reason),
+                now);
+    transaction.commit();
+}
+
+bool is_held(Course& course, const Assignment& a, std::int64_t group, std::optional<std::int64_t> pair) {
+    Rows rows = course.database().query(
+        "SELECT held FROM holds WHERE assignment = ? AND group_id = ? AND ifnull(pair, 0) = ? ORDER BY id DESC LIMIT 1",
+        a.id, group, pair.value_or(0));
+    return rows.next() && rows.integer(0) != 0;
+}
+
+void hold(Course& course, const Assignment& a, const HandedInWanted& wanted, bool held, const std::string& reason,
+          Instant now) {
+    refuse_without_reason(reason);
+    refuse_without_reviews(a);
+    if (wanted.stage == "final") throw InvalidArgument("a final version is sent to nobody: there is nothing to hold");
+    Transaction transaction(course.database());
+    const WantedFiles files(course, a, wanted);
+    if (is_held(course, a, files.group().id, files.pair()) == held)
+        throw InvalidArgument(fmt::format("the {} is {}", files.what(), held ? "held back already" : "not held back"));
+    course.database().run(
+        "INSERT INTO holds (assignment, group_id, pair, held, reason, made_at) VALUES (?, ?, ?, ?, ?, ?)", a.id,
+        files.group().id, files.pair(), std::int64_t{held}, reason, now);
+    course.note(fmt::format("{}: the {} is {}; reason: {}", a.name, files.what(),
+                            held ? "held back" : "not held back any more", reason),
+                now);
+    transaction.commit();
+}
+
+std::vector<JournalLine> journal_of(Course& course) {
+    std::vector<JournalLine> lines;
+    for (Rows rows = course.database().query("SELECT at, what FROM journal ORDER BY id"); rows.next();)
+        lines.push_back({rows.integer(0), rows.text(1)});
+    return lines;
+}
+
+}  // namespace dynlab::inline course

@@ -1,0 +1,53 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "course/store/assignments.h"
+#include "course/store/groups.h"
+
+namespace dynlab::inline course {
+
+// What an instructor corrects later. Every correction is an entry of its own with a reason, the newest of which holds,
+// and a line in the journal; what was received and signed stays as it was. All throw InvalidArgument for a reason that
+// is empty, and where there is nothing to be corrected.
+
+void refuse_without_reason(const std::string& reason);
+
+/// What a correction is about.
+struct HandedInWanted {
+    std::string group, stage = "first";  ///< "first", "review", "final"
+    std::string part;    ///< report, slides, script, review, pack; empty: the document and all that came with it
+    std::string report;  ///< of a review: the pseudonym of the report; may be empty where the group wrote one only
+    std::optional<std::int64_t> number;  ///< of the version; the newest that stands unless given
+};
+
+/// The deadline of a group, extended or not. Throws InvalidArgument for a stage that the assignment does not have.
+Instant due_for(Course& course, const Assignment& assignment, std::int64_t group, const std::string& stage);
+
+/// The files were received at that time; each gets a further signed receipt. Returns their versions' ids.
+std::vector<std::int64_t> correct_arrival(Course& course, const Assignment& assignment, const HandedInWanted& wanted,
+                                          Instant received, const std::string& reason, Instant now);
+
+/// Withdraws versions, as if they had not come, or lets them stand again. Returns their ids.
+std::vector<std::int64_t> withdraw(Course& course, const Assignment& assignment, const HandedInWanted& wanted,
+                                   bool withdrawn, const std::string& reason, Instant now);
+
+/// A deadline of its own for one group; without `due` that of all again.
+void extend(Course& course, const Assignment& assignment, const std::string& group, const std::string& stage,
+            std::optional<Instant> due, const std::string& reason, Instant now);
+
+/// Keeps a group's report (stage "first") from its reviewers, or a review from the authors, or gives it free again.
+void hold(Course& course, const Assignment& assignment, const HandedInWanted& wanted, bool held,
+          const std::string& reason, Instant now);
+/// Whether a group's report, or its review of a pair, is held back.
+bool is_held(Course& course, const Assignment& assignment, std::int64_t group, std::optional<std::int64_t> pair);
+
+struct JournalLine {
+    Instant at = 0;
+    std::string what;
+};
+/// All that was done, the oldest first.
+std::vector<JournalLine> journal_of(Course& course);
+
+}  // namespace dynlab::inline course
