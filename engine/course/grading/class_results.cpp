@@ -96,6 +96,20 @@ TextTable gradebook_of(const ClassResults& results, std::vector<std::string>& re
     return table;
 }
 
+/// What is to be marked by hand and is not yet: a table to be filled in and put into manual.csv.
+TextTable open_marks(const ClassResults& results) {
+    TextTable table;
+    table.names = {"submission", "check", "points", "comment", "of", "about", "rubric"};
+    for (const Entry& entry : results.entries) {
+        if (!entry.grade) continue;
+        for (const CheckGrade& check : entry.grade->checks)
+            if (check.by_hand && !check.graded)
+                table.rows.push_back(
+                    {entry.submission.name, check.id, "", "", points_text(check.points), check.about, check.rubric});
+    }
+    return table;
+}
+
 /// How each check went: passed by how many, mean share.
 RecordedTable success_of(const ClassResults& results) {
     RecordedTable table{{"check", "points", "passed", "mean share (%)"}, {}};
@@ -128,7 +142,13 @@ std::string attention_of(const ClassResults& results, const std::vector<std::str
     for (const Entry& entry : results.entries) {
         if (!entry.grade) continue;
         const std::string& name = entry.submission.name;
-        if (!entry.grade->whole()) add(fmt::format("\"{}\" is not graded completely", name));
+        const auto& checks = entry.grade->checks;
+        const bool waits = std::any_of(checks.begin(), checks.end(),
+                                       [](const CheckGrade& check) { return check.by_hand && !check.graded; });
+        if (waits)
+            add(fmt::format("\"{}\" is to be marked by hand: by_hand.csv", name));
+        else if (!entry.grade->whole())
+            add(fmt::format("\"{}\" is not graded completely", name));
         if (!entry.grade->trouble.empty())
             add(fmt::format("the script of \"{}\" did not run to its end: {}", name, entry.grade->trouble));
         if (entry.grade->penalty > 0)
@@ -181,6 +201,11 @@ RecordedFigure histogram_of(const Vector& points, double possible) {
 void write_class_results(const ClassResults& results) {
     std::vector<std::string> remarks;
     write_file_atomically(results.out / "gradebook.csv", csv_text(gradebook_of(results, remarks)));
+    const TextTable open = open_marks(results);
+    if (open.rows.empty())
+        std::filesystem::remove(results.out / "by_hand.csv");
+    else
+        write_file_atomically(results.out / "by_hand.csv", csv_text(open));
     double possible = 0;
     for (const Entry& entry : results.entries)
         if (entry.grade) possible = std::max(possible, entry.grade->possible());
