@@ -306,7 +306,8 @@ TEST(similarity, both_sides_are_shown_and_nothing_of_them_is_markup) {
 
 TEST(similarity, the_command_compares_a_class_with_a_former_year) {
     GradingBench bench("--   x: number\n", "check{id = 'x', test = function(a) return true end}\n",
-                       "-- BEGIN SOLUTION\n" + Author(9).script() + "-- END SOLUTION\nanswer('x', 1)\n");
+                       "-- BEGIN SOLUTION\n" + Author(9).script().substr(kStarter.find('\n') + 1) +
+                           "-- END SOLUTION\nanswer('x', 1)\n");
     bench.hand_in("a", Author(1).script());
     bench.hand_in("b", renamed(Author(1).script()));
     bench.hand_in("c", Author(2).script());

@@ -178,7 +178,9 @@ class FolderCheck {
         fs::create_directory(folder);
         fs::copy_file(copy() / "analysis.lua", folder / "lesson.lua");
         fs::copy_file(copy() / "checks.lua", folder / "checks.lua");
-        if (fs::is_regular_file(copy() / "report.md")) fs::copy_file(copy() / "report.md", folder / "report.en.md");
+        fs::copy_file(copy() / "report.md", folder / "report.en.md");
+        const bool own_data = fs::symlink_status(copy() / "data").type() == fs::file_type::directory;
+        if (own_data) fs::copy(copy() / "data", folder / "data", fs::copy_options::recursive);
         return Lesson{slug.empty() ? "of the folder" : slug, folder};
     }
 

@@ -96,7 +96,8 @@ std::string comments_on(const fs::path& marks, const MarkedStudent& student) {
     if (student.submission.empty() || !fs::exists(file)) return "";
     std::string text = fmt::format("{} of {} points.", student.points, student.possible);
     try {
-        for (const auto& test : parsed_json(read_file(file)).at("tests")) {
+        const nlohmann::json result = parsed_json(read_file(file));
+        for (const auto& test : result.at("tests")) {
             const double most = test.at("max_score"), earned = test.value("score", most);
             if (earned >= most) continue;
             const std::string name = test.at("name"), said = test.at("output");
