@@ -22,6 +22,10 @@ int list_lessons() {
 
 void add_lessons(CLI::App& app, Action& action) {
     CLI::App* command = app.add_subcommand("lessons", "List the lessons of the course");
+    command->footer(
+        "Lessons of your own: folders NN_name with lesson.lua (and checks.lua, data/NAME or NAME.csv) in a folder "
+        "that\n"
+        "DYNLAB_LESSONS lists, separated by colons; or name the lesson's folder wherever a lesson is wanted.");
     command->callback([&action] { action = list_lessons; });
 }
 

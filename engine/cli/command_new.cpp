@@ -38,7 +38,7 @@ void add_new(CLI::App& app, Action& action) {
     auto words = std::make_shared<NewArguments>();
     CLI::App* command =
         app.add_subcommand("new", "Make your own copy of a lesson, without its solutions, or a folder for a review");
-    command->add_option("LESSON", words->lesson, "The lesson's number or name, or review")->required();
+    command->add_option("LESSON", words->lesson, "The lesson's number or name, its folder, or review")->required();
     command->add_option("DIR", words->folder, "The folder to make")->required();
     command
         ->add_option("--group-seed", words->group_seed,

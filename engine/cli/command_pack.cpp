@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 
 #include <iostream>
+#include <map>
 #include <memory>
 
 #include "cli/commands.h"
 #include "course/grading/hand_in.h"
+#include "course/grading/roster.h"
 #include "numerics/number_text.h"
+#include "platform/error.h"
 #include "platform/terminal/terminal_text.h"
 
 namespace dynlab::inline cli {
@@ -14,7 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct PackArguments {
-    std::string subject, output;
+    std::string subject, output, roster;
+    std::optional<std::uint32_t> group_seed;
 };
 
 int pack(const PackArguments& words) {
@@ -29,10 +33,35 @@ int pack(const PackArguments& words) {
     return kDone;
 }
 
+/// One zip for each group of the roster that has a seed, in the folder that is named.
+int bundle_groups(const Lesson& lesson, const PackArguments& words) {
+    const fs::path folder = words.output.empty() ? fs::path(lesson.slug) : fs::path(words.output);
+    std::map<std::string, std::uint32_t> seeds;
+    const Roster roster(words.roster);
+    for (const Student& student : roster.students()) {
+        const std::string& owner = student.group.empty() ? student.id : student.group;
+        if (!student.seed) continue;
+        const auto [known, added] = seeds.try_emplace(owner, *student.seed);
+        if (!added && known->second != *student.seed)
+            throw EnvironmentError(fmt::format("{}: the members of {} have different seeds", words.roster, owner));
+    }
+    if (seeds.empty()) throw EnvironmentError(words.roster + ": nobody has a seed; fill in the column seed");
+    fs::create_directories(folder);
+    for (const auto& [owner, seed] : seeds) {
+        if (owner.find('/') != std::string::npos) throw EnvironmentError("there is a / in the name of " + owner);
+        const fs::path file = folder / (lesson.slug + "-" + owner + ".zip");
+        bundle_lesson(lesson, file, seed);
+        std::cout << terminal_text(file.string()) << '\n';
+    }
+    return kDone;
+}
+
 int bundle(const PackArguments& words) {
     const Lesson lesson = find_lesson(words.subject);
+    if (!words.roster.empty()) return bundle_groups(lesson, words);
     const fs::path file = words.output.empty() ? fs::path(lesson.slug + ".zip") : fs::path(words.output);
-    for (const std::string& name : bundle_lesson(lesson, file)) std::cout << terminal_text(name) << '\n';
+    for (const std::string& name : bundle_lesson(lesson, file, words.group_seed))
+        std::cout << terminal_text(name) << '\n';
     std::cout << file.string() << '\n';
     return kDone;
 }
@@ -55,10 +84,21 @@ void add_pack(CLI::App& app, Action& action) {
 void add_bundle(CLI::App& app, Action& action) {
     auto words = std::make_shared<PackArguments>();
     CLI::App* command = app.add_subcommand("bundle", "Make the students' zip of a lesson, without solutions");
-    command->add_option("LESSON", words->subject, "The lesson's number or name")->required();
-    command->add_option("-o,--output", words->output, "The zip to make; NN_name.zip here unless given")
-        ->type_name("FILE.zip");
-    command->footer("Example:  dynlab bundle 04 -o lesson-4.zip");
+    command->add_option("LESSON", words->subject, "The lesson's number or name, or its folder")->required();
+    command
+        ->add_option("-o,--output", words->output, "The zip to make, or with --roster the folder; NN_name unless given")
+        ->type_name("FILE.zip|FOLDER");
+    CLI::Option* seed = command
+                            ->add_option("--group-seed", words->group_seed,
+                                         "Records of the group's own: another specimen of each apparatus, other noise")
+                            ->type_name("N")
+                            ->check(CLI::Range(1u, 4294967295u));
+    command->add_option("--roster", words->roster, "A zip for each group, with records by the roster's column seed")
+        ->type_name("CSV")
+        ->check(CLI::ExistingFile)
+        ->excludes(seed);
+    command->footer(
+        "Examples:  dynlab bundle 04 -o lesson-4.zip     dynlab bundle 03_crane --roster roster.csv -o bundles");
     command->callback([words, &action] { action = [words] { return bundle(*words); }; });
 }
 

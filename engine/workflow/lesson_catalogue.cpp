@@ -1,11 +1,17 @@
 #include "workflow/lesson_catalogue.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <sstream>
 
 #include "platform/error.h"
 #include "platform/program_lookup.h"
 
 namespace dynlab::inline workflow {
+
+namespace fs = std::filesystem;
+
 namespace {
 
 std::string joined_slugs(const std::vector<Lesson>& found) {
@@ -16,14 +22,29 @@ std::string joined_slugs(const std::vector<Lesson>& found) {
 
 }  // namespace
 
+std::optional<Lesson> lesson_in(const fs::path& folder) {
+    const fs::path whole = fs::absolute(folder).lexically_normal();
+    Lesson lesson{(whole.has_filename() ? whole : whole.parent_path()).filename().string(), whole};
+    return fs::is_regular_file(lesson.script()) ? std::optional(lesson) : std::nullopt;
+}
+
 std::vector<Lesson> lessons() {
-    std::vector<Lesson> found;
-    for (const auto& entry : std::filesystem::directory_iterator(shared_folder() / "lessons")) {
-        Lesson lesson{entry.path().filename().string(), entry.path()};
-        if (std::filesystem::is_regular_file(lesson.script())) found.push_back(std::move(lesson));
+    std::vector<fs::path> folders;
+    const char* own = std::getenv("DYNLAB_LESSONS");
+    std::istringstream list(own ? own : "");
+    for (std::string folder; std::getline(list, folder, ':');) {
+        if (folder.empty()) continue;
+        if (!fs::is_directory(folder)) throw EnvironmentError("DYNLAB_LESSONS: there is no folder '" + folder + "'");
+        folders.emplace_back(folder);
     }
-    std::sort(found.begin(), found.end(), [](const Lesson& a, const Lesson& b) { return a.slug < b.slug; });
-    return found;
+    folders.push_back(shared_folder() / "lessons");
+    std::map<std::string, Lesson> found;
+    for (const fs::path& folder : folders)
+        for (const auto& entry : fs::directory_iterator(folder))
+            if (auto lesson = lesson_in(entry.path())) found.try_emplace(lesson->slug, *std::move(lesson));
+    std::vector<Lesson> all;
+    for (auto& [slug, lesson] : found) all.push_back(std::move(lesson));
+    return all;
 }
 
 Lesson find_lesson(const std::string& name) {
@@ -38,11 +59,12 @@ Lesson find_lesson(const std::string& name) {
     }
     if (fitting.empty()) fitting = holding;
     if (fitting.size() == 1) return fitting.front();
+    if (const auto own = name.empty() ? std::nullopt : lesson_in(name)) return *own;
     if (fitting.empty()) {
-        throw EnvironmentError("there is no lesson or folder '" + beginning + "'; the lessons are " +
+        throw EnvironmentError("there is no lesson or folder '" + name + "'; the lessons are " +
                                joined_slugs(all));
     }
-    throw EnvironmentError("'" + beginning + "' fits several lessons (" + joined_slugs(fitting) +
+    throw EnvironmentError("'" + name + "' fits several lessons (" + joined_slugs(fitting) +
                            "); give enough of the name to tell them apart");
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,10 +17,15 @@ struct Lesson {
     std::filesystem::path report(const std::string& language) const { return folder / ("report." + language + ".md"); }
 };
 
-std::vector<Lesson> lessons();  ///< all that are installed, sorted by slug
+/// The lesson in a folder of anybody's, called like the folder; nothing where there is no lesson.lua.
+std::optional<Lesson> lesson_in(const std::filesystem::path& folder);
 
-/// The lesson whose slug starts with `name` ("02", "2", "02_least"), or holds it as a word ("crane"). Throws
-/// EnvironmentError that lists the lessons when none or several do.
+/// All lessons, sorted by slug: those in the folders that DYNLAB_LESSONS lists (separated by colons), and the installed
+/// ones; of two of one name the first counts.
+std::vector<Lesson> lessons();
+
+/// The lesson whose slug starts with `name` ("02", "2", "02_least") or holds it as a word ("crane"), or that in a folder
+/// of that path. Throws EnvironmentError that lists the lessons when none or several fit.
 Lesson find_lesson(const std::string& name);
 
 }  // namespace dynlab::inline workflow

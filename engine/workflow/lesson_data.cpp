@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 #include "documents/text_lines.h"
 #include "figures/gnuplot_renderer.h"
 #include "numerics/rigs/catalogue.h"
+#include "platform/atomic_file.h"
 #include "platform/cache.h"
 #include "platform/error.h"
 #include "platform/temporary_folder.h"
@@ -14,6 +16,9 @@
 #include "scripting/runtime/runtime.h"
 
 namespace dynlab::inline workflow {
+
+namespace fs = std::filesystem;
+
 namespace {
 
 /// The run of the worked solution as grading does it: on the course's own data, and nothing is drawn.
@@ -29,6 +34,15 @@ RunRecord run_of_solution(const PercentScript& script) {
     Runtime runtime(options, renderer);
     runtime.set_service(&language);
     return runtime.run(script);
+}
+
+/// Sorted.
+std::vector<fs::path> data_files_beside(const Lesson& lesson) {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(lesson.folder))
+        if (entry.path().extension() == ".csv" || entry.path().extension() == ".mat") files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
 }
 
 std::vector<std::string> words_of(const std::string& text) {
@@ -62,6 +76,25 @@ std::vector<std::string> simulated_data_of(const Lesson& lesson) {
     const std::vector<std::string> names = simulated_data_of(record);
     cache.remember(name, fmt::format("{}\n", fmt::join(names, "\n")));
     return names;
+}
+
+bool has_own_data(const Lesson& lesson) {
+    return fs::is_directory(lesson.folder / "data") || !data_files_beside(lesson).empty();
+}
+
+void copy_own_data(const Lesson& lesson, const fs::path& data_folder) {
+    fs::create_directories(data_folder);
+    if (fs::is_directory(lesson.folder / "data"))
+        fs::copy(lesson.folder / "data", data_folder,
+                 fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+    for (const fs::path& file : data_files_beside(lesson)) {
+        const fs::path data_set = data_folder / file.stem();
+        fs::create_directories(data_set);
+        fs::copy_file(file, data_set / file.filename(), fs::copy_options::overwrite_existing);
+        if (!fs::exists(data_set / "SOURCE.md"))
+            write_file_atomically(data_set / "SOURCE.md", fmt::format("# {}\n\nA record of the lesson {}.\n",
+                                                                      file.stem().string(), lesson.slug));
+    }
 }
 
 }  // namespace dynlab::inline workflow

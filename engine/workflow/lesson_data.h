@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -14,5 +15,13 @@ std::vector<std::string> simulated_data_of(const RunRecord& record);
 /// this, its figures undrawn, and what it read is kept for the same script. Throws EnvironmentError where the solution
 /// stops with an error.
 std::vector<std::string> simulated_data_of(const Lesson& lesson);
+
+/// Whether a lesson brings data along: a folder `data` with data sets (each a folder with SOURCE.md), or files .csv or
+/// .mat beside its script.
+bool has_own_data(const Lesson& lesson);
+
+/// Copies these into a folder of data sets, which is made where there is none; a file NAME.csv becomes the data set
+/// NAME.
+void copy_own_data(const Lesson& lesson, const std::filesystem::path& data_folder);
 
 }  // namespace dynlab::inline workflow

@@ -127,7 +127,9 @@ ReportRequest report_of_script(const PercentScript& script, const fs::path& outp
 }
 
 ReportRequest report_of(const std::string& lesson_or_folder, const fs::path& output, const std::string& language) {
-    if (!fs::is_directory(lesson_or_folder)) return report_of_lesson(find_lesson(lesson_or_folder), output, language);
+    const fs::path folder = lesson_or_folder;
+    if (!fs::is_directory(folder) || (lesson_in(folder) && !fs::exists(folder / "analysis.lua")))
+        return report_of_lesson(find_lesson(lesson_or_folder), output, language);
     if (!language.empty())
         throw EnvironmentError("the language of " + lesson_or_folder + " stands in its report.md, behind \"lang:\"");
     return report_of_folder(lesson_or_folder, output);

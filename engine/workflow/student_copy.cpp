@@ -45,9 +45,10 @@ void fill_lesson(const fs::path& folder, const Lesson& lesson, const std::option
     write_file_atomically(folder / "report.md", report_for(script.header, template_file(form + ".md"), language));
     write_file_atomically(folder / "group.toml", fmt::format(kGroupFile, group_seed.value_or(script.header.seed)));
     const std::vector<std::string> own = group_seed ? simulated_data_of(lesson) : std::vector<std::string>();
+    if (has_own_data(lesson)) copy_own_data(lesson, folder / "data");
     if (!own.empty())
         write_group_data(own, *group_seed, folder / "data");
-    else
+    else if (!has_own_data(lesson))
         fs::create_directory_symlink(shared_folder() / "data", folder / "data");
 }
 

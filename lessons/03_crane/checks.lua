@@ -114,9 +114,11 @@ check { id = "position_model", points = 3, about = "From voltage to position",
 
 check { id = "angle_model", points = 3, about = "From voltage to angle",
     -- Two poles reach 88.8 %, three 91.8 %; single linear models do not get beyond that, because larger swings are slower.
+    -- There are cranes, one in a hundred, on which three poles do not reach 87 %.
     test = function(a)
         if estimated_on_validation(a.G_angle) then return judge("This model was estimated on the validation record.") end
-        return points_between(fit_angle(crane.validation, a.G_angle), 60, 87)
+        local reached = fit_angle(crane.validation, angle_from(crane.estimation))
+        return points_between(fit_angle(crane.validation, a.G_angle), 60, math.min(87, reached - 1))
     end,
     mistakes = {
         in_discrete_time,

@@ -121,8 +121,13 @@ report.value("discard_from", limits.t[first], "%.1f")
 report.value("discard_to", limits.t[last], "%.1f")
 
 local told = advice(iddata(matrix{limits.x, limits.theta}, limits.u, Ts, signals)).discard
-report.value("advised_from", limits.t[told[1][1]], "%.1f")
-report.value("advised_to", limits.t[told[#told][2]], "%.1f")
+if #told > 0 then
+    report.value("advised_from", limits.t[told[1][1]], "%.1f")
+    report.value("advised_to", limits.t[told[#told][2]], "%.1f")
+else  -- on some cranes the stretch is too short to be noticed
+    report.value("advised_from", "–")
+    report.value("advised_to", "–")
+end
 
 local limit_panels = panels(limits)
 for k, panel in ipairs(limit_panels) do

@@ -10,8 +10,8 @@ local function estimated(method, near, far)  -- a model of another record, as ha
     end
 end
 move.record = function(data) record = data; return data end
-move.own_without_noise, move.own = scaled(3e-7, 0.05), scaled(3e-7, 0.05)
-move.G_lssvf = estimated(function(data) return lssvf(data, {2, 1, 0}, 3) end, 3e-7, 0.01)
-move.G_ivsvf = estimated(function(data) return ivsvf(data, {2, 1, 0}, 3) end, 3e-7, 0.01)
+move.own_without_noise, move.own = scaled(4e-4, 0.05), scaled(4e-4, 0.05)
+move.G_lssvf = estimated(function(data) return lssvf(data, {2, 1, 0}, 3) end, 4e-4, 0.01)
+move.G_ivsvf = estimated(function(data) return ivsvf(data, {2, 1, 0}, 3) end, 4e-4, 0.01)
 move.G_final = estimated(function(data) return tfsrivc(data, 2, 0, {TdMax = 0}) end, 0.01, 0.7)
 move.scatter = scaled(0.1, 0.7)

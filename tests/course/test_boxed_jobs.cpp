@@ -31,8 +31,12 @@ ChecksJob sample_checks() {
     job.specimens = {{"hidden", {{"crane", 4'000'000'001u}}}};
     job.time_ms = 10000;
     job.only = 1;
-    job.submission =
-        CheckedSubmission{{{"main", sample_run()}}, {{"pages", Severity::kHint, 7, "", "Too many pages.", "Cut."}}};
+    job.submission = CheckedSubmission{{{"main", sample_run()}},
+                                       {{"pages", Severity::kHint, 7, "", "Too many pages.", "Cut."}},
+                                       "answer('G', 1)",
+                                       AnswerChange{"G", 1.5}};
+    job.further = {*job.submission};
+    job.records = {{"rc", 5, 6}};
     return job;
 }
 
@@ -51,7 +55,9 @@ TEST(boxed_jobs, come_back) {
     expect_to_come_back(UnpackJob{"/box/archive", "/box/to", 200ull << 20, 2000, true});
     expect_to_come_back(Unpacked{{"\"../x\" leads outside of the archive"}, "the archive is damaged"});
     expect_to_come_back(VersionJob{"/box/submission", "/box/made", true});
-    expect_to_come_back(CheckResults{{{{"a", "about", "hint", 2, "seed", true, false}, 0.5, "no", "why"}}, {}});
+    const CheckDescription check{"a", "about", "hint", 2, "seed", true, true, "rubric", false};
+    const TriedCheck tried{check, 0.5, "no", "why"};
+    expect_to_come_back(CheckResults{{tried}, {{tried}, {}}, {"rc"}, {{{"u", {1, 2}}}}, "error"});
     const ChecksJob back = from_cbor<ChecksJob>(cbor_of(sample_checks()));
     EXPECT_EQ(back.hidden_folder, "/box/hidden");
     EXPECT_EQ(back.time_ms, 10000);

@@ -44,7 +44,7 @@ TEST(grading, gives_points_partial_credit_and_messages) {
     EXPECT_EQ(points(bench.result("right")), (std::vector<double>{2, 3}));
     EXPECT_EQ(points(bench.result("near")), (std::vector<double>{1, 3}));
     EXPECT_EQ(points(bench.result("sign")), (std::vector<double>{0, 0}));
-    EXPECT_EQ(message(bench.result("sign"), 0), "The sign is wrong.");
+    EXPECT_EQ(message(bench.result("sign"), 0), "The sign is wrong.\nSix times seven.");
     EXPECT_THAT(message(bench.result("sign"), 1), HasSubstr("25 % away"));
     EXPECT_EQ(points(bench.result("starter")), (std::vector<double>{0, 0}));
     EXPECT_EQ(message(bench.result("starter"), 1), "The answer \"G\" was not handed in.");
@@ -65,7 +65,7 @@ TEST(grading, goes_on_where_it_was_and_keeps_manual_marks) {
     bench.bench().write("out/manual.csv", "submission,check,points,reason\nb,x,1.5,\"good idea, wrong number\"\n");
     EXPECT_THAT(bench.grade().output, HasSubstr("0 graded now, 2 unchanged"));
     EXPECT_EQ(points(bench.result("b")), (std::vector<double>{1.5, 0}));
-    EXPECT_EQ(message(bench.result("b"), 0), "good idea, wrong number");
+    EXPECT_EQ(message(bench.result("b"), 0), "good idea, wrong number\nSix times seven.");
     EXPECT_THAT(bench.grade({"--regrade"}).output, HasSubstr("2 graded now, 0 unchanged"));
     EXPECT_EQ(points(bench.result("b")), (std::vector<double>{1.5, 0}));
     bench.bench().write("out/manual.csv", "submission,check,points,reason\n");

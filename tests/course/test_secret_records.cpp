@@ -117,7 +117,10 @@ class secret_records_box : public ::testing::Test {
 
     /// Lists one check, fails to try it, and of a run returns an error that tells what stands in the box.
     static std::string program() {
-        const CheckResults listed{{{{"x", "x", "", 1, "suspension", false, true}, {}, "", ""}}, {}};
+        CheckResults listed;
+        listed.checks.resize(1);
+        listed.checks[0].check.id = listed.checks[0].check.about = "x";
+        listed.checks[0].check.rerun = "suspension";
         GradedRun run;
         run.error = "";
         const std::string bytes = cbor_of(run);

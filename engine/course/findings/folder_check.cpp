@@ -170,11 +170,28 @@ class FolderCheck {
         }
     }
 
+    /// Where the lesson itself is not on this machine: the checks that came with the folder, and the answers that its
+    /// script declares.
+    std::optional<Lesson> lesson_of_folder(const std::string& slug) {
+        if (!fs::is_regular_file(copy() / "checks.lua")) return {};
+        const fs::path folder = work_.path() / "lesson";
+        fs::create_directory(folder);
+        fs::copy_file(copy() / "analysis.lua", folder / "lesson.lua");
+        fs::copy_file(copy() / "checks.lua", folder / "checks.lua");
+        fs::copy_file(copy() / "report.md", folder / "report.en.md");
+        const bool own_data = fs::symlink_status(copy() / "data").type() == fs::file_type::directory;
+        if (own_data) fs::copy(copy() / "data", folder / "data", fs::copy_options::recursive);
+        return Lesson{slug.empty() ? "of the folder" : slug, folder};
+    }
+
     /// The checks of the lesson that students may read; what falls short is a hint, as marks are given elsewhere.
     void try_lesson_checks(const std::string& slug) {
         const std::vector<Lesson> all = lessons();
-        const auto lesson = std::find_if(all.begin(), all.end(), [&](const Lesson& l) { return l.slug == slug; });
-        if (lesson == all.end() || !fs::exists(lesson->folder / "checks.lua")) return;
+        const auto installed = std::find_if(all.begin(), all.end(), [&](const Lesson& l) { return l.slug == slug; });
+        std::optional<Lesson> lesson;
+        if (installed != all.end()) lesson = *installed;
+        if (!lesson || !fs::exists(lesson->folder / "checks.lua")) lesson = lesson_of_folder(slug);
+        if (!lesson) return;
         GradingSetup setup;
         setup.lesson = *lesson;
         setup.isolation = strongest_isolation();
@@ -183,8 +200,8 @@ class FolderCheck {
         setup.jobs = static_cast<int>(std::thread::hardware_concurrency());
         const GradingRules::GroupSeed own = group_seed_of(copy() / "data");
         const Grade grade = GradingRules(setup).grade(folder_.filename().string(), copy(), own);
-        result_.checked.push_back(fmt::format("checks of lesson {}: {} of {} points", slug, points_text(grade.earned()),
-                                              points_text(grade.possible())));
+        result_.checked.push_back(fmt::format("checks of lesson {}: {} of {} points", lesson->slug,
+                                              points_text(grade.earned()), points_text(grade.possible())));
         for (const CheckGrade& check : grade.checks) {
             if (check.earned >= check.points) continue;
             add("check-failed", Severity::kHint, "",

@@ -127,6 +127,20 @@ TextTable gradebook_of(const ClassResults& results) {
     return table;
 }
 
+/// What is to be marked by hand and is not yet: a table to be filled in and put into manual.csv.
+TextTable open_marks(const ClassResults& results) {
+    TextTable table;
+    table.names = {"submission", "check", "points", "comment", "of", "about", "rubric"};
+    for (const Entry& entry : results.entries) {
+        if (!entry.grade) continue;
+        for (const CheckGrade& check : entry.grade->checks)
+            if (check.by_hand && !check.graded)
+                table.rows.push_back(
+                    {entry.submission.name, check.id, "", "", points_text(check.points), check.about, check.rubric});
+    }
+    return table;
+}
+
 /// How each check went: passed by how many, mean share.
 RecordedTable success_of(const ClassResults& results) {
     RecordedTable table{{"check", "points", "passed", "mean share (%)"}, {}};
@@ -160,6 +174,10 @@ std::string attention_of(const ClassResults& results) {
     for (const Entry& entry : results.entries) {
         if (!entry.grade || entry.grade->without_marks()) continue;
         const std::string& name = entry.submission.name;
+        const auto& checks = entry.grade->checks;
+        if (std::any_of(checks.begin(), checks.end(),
+                        [](const CheckGrade& check) { return check.by_hand && !check.graded; }))
+            add(fmt::format("\"{}\" is to be marked by hand: by_hand.csv", name));
         if (!entry.grade->remark.empty()) add(fmt::format("\"{}\": {}", name, entry.grade->remark));
         if (!entry.grade->trouble.empty())
             add(fmt::format("the script of \"{}\" {}: {}", name,
@@ -256,6 +274,11 @@ NeedsTheEye what_needs_the_eye(const ClassResults& results) {
 
 void write_class_results(const ClassResults& results) {
     write_file_atomically(results.out / "gradebook.csv", csv_text(gradebook_of(results)));
+    const TextTable open = open_marks(results);
+    if (open.rows.empty())
+        std::filesystem::remove(results.out / "by_hand.csv");
+    else
+        write_file_atomically(results.out / "by_hand.csv", csv_text(open));
     double possible = 0;
     for (const Entry& entry : results.entries)
         if (entry.grade) possible = std::max(possible, entry.grade->possible());

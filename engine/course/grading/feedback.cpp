@@ -39,18 +39,6 @@ std::string lateness_of(const Grade& grade) {
     return fmt::format("It was late, which costs {} points: {}.", points_text(grade.penalty), grade.lateness);
 }
 
-/// For readers of the Markdown itself: only what would change its meaning is escaped.
-std::string readable_markdown(const std::string& text) {
-    constexpr std::string_view kMeaningful = "\\`*_{}[]<>#|$~^";
-    std::string result;
-    for (const char c : text) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (kMeaningful.find(c) != std::string_view::npos) result += '\\';
-        result += byte < 0x20 || byte == 0x7F ? ' ' : c;
-    }
-    return result;
-}
-
 std::string markdown_of(const Grade& grade) {
     std::string text =
         fmt::format("# Feedback\n\n**{}**, lesson {}: **{} of {} points.** {}\n\n{}\n\n## Checks\n\n",
@@ -83,6 +71,17 @@ std::string points_text(double points) {
     while (text.ends_with('0')) text.pop_back();
     if (text.ends_with('.')) text.pop_back();
     return text;
+}
+
+std::string readable_markdown(const std::string& text) {
+    constexpr std::string_view kMeaningful = "\\`*_{}[]<>#|$~^";
+    std::string result;
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (kMeaningful.find(c) != std::string_view::npos) result += '\\';
+        result += byte < 0x20 || byte == 0x7F ? ' ' : c;
+    }
+    return result;
 }
 
 std::string escaped_markdown(const std::string& text) {

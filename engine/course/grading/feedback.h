@@ -11,6 +11,8 @@ std::string points_text(double points);  ///< "3", "2.5", "0.33"
 
 /// Text of anybody's as Markdown that means nothing but itself.
 std::string escaped_markdown(const std::string& text);
+/// The same for readers of the Markdown itself: only what would change its meaning is escaped.
+std::string readable_markdown(const std::string& text);
 
 /// Writes what the student gets into `folder`: feedback.md, and with `documents` feedback.pdf, set from
 /// report_templates/feedback.md. Of hidden checks it has points and hint only.

@@ -13,9 +13,10 @@ namespace dynlab::inline course {
 
 template <Is<CheckGrade> T, class V>
 void describe(T& object, V& member) {
-    auto& [id, about, hint, message, points, earned, visible, graded, for_instructor] = object;
+    auto& [id, about, hint, message, points, earned, visible, graded, by_hand, rubric, for_instructor] = object;
     member("id", id), member("about", about), member("hint", hint), member("message", message);
     member("points", points), member("earned", earned), member("visible", visible), member("graded", graded);
+    member("by_hand", by_hand), member("rubric", rubric);
 }
 
 template <Is<Grade> T, class V>
@@ -39,10 +40,12 @@ double rounded(double points) {
 
 json test_of(const CheckGrade& check, std::size_t number) {
     const std::string state = !check.graded ? "ungraded" : check.earned >= check.points ? "passed" : "failed";
+    std::string shown = check.visible ? check.message : "";
+    if (state == "failed" && !check.hint.empty()) shown += (shown.empty() ? "" : "\n") + check.hint;
     json test = {{"number", std::to_string(number)},
                  {"name", check.about},
                  {"max_score", check.points},
-                 {"output", check.visible ? check.message : check.hint},
+                 {"output", shown},
                  {"visibility", "visible"}};
     if (check.graded) {
         test["score"] = rounded(check.earned);
@@ -72,8 +75,11 @@ bool Grade::whole() const {
 std::string to_results_json(const Grade& grade, const Grade& marked) {
     json tests = json::array();
     for (const CheckGrade& check : marked.checks) tests.push_back(test_of(check, tests.size() + 1));
+    Grade kept = grade;  // the file may be handed on to students
+    for (CheckGrade& check : kept.checks)
+        if (!check.visible) check.message.clear();
     JsonWriter writer;
-    write_value(writer, grade);
+    write_value(writer, kept);
     json own = writer.value();
     own["format"] = 1;
     own["whole"] = marked.whole();

@@ -9,8 +9,10 @@ namespace dynlab::inline course {
 struct CheckGrade {
     std::string id, about, hint, message;
     double points = 0, earned = 0;
-    bool visible = true;              ///< the student may see the message
-    bool graded = true;               ///< false: the check itself is broken, or could not be run
+    bool visible = true;   ///< the student may see the message
+    bool graded = true;    ///< false: the check itself is broken, or could not be run
+    bool by_hand = false;  ///< the instructor marks it, in manual.csv, by the rubric
+    std::string rubric = {};
     std::string for_instructor = {};  ///< what the message must not say of secret records; not part of the result
 };
 
@@ -36,7 +38,7 @@ struct Grade {
 };
 
 /// Gradescope's results.json of `marked`, which is `grade` with the instructor's own marks; `grade` itself and what
-/// that format does not know stand in extra_data.
+/// that format does not know stand in extra_data. What hidden checks say stands nowhere.
 std::string to_results_json(const Grade& grade, const Grade& marked);
 /// The `grade` of that text. Throws EnvironmentError for a text that to_results_json did not make.
 Grade from_results_json(const std::string& text);

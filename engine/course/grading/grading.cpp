@@ -175,9 +175,10 @@ class ClassGrader {
 
     /// What the instructor wrote about nobody, most likely by a slip of the pen.
     void tell_strays() {
-        std::set<std::string> names, checks;
+        std::set<std::string> names;
+        std::map<std::string, double> checks;  // and their points
         for (const Submission& submission : submissions_) names.insert(submission.name);
-        for (const CheckDescription& check : rules_.checks()) checks.insert(check.id);
+        for (const CheckDescription& check : rules_.checks()) checks[check.id] = check.points;
         for (std::string& sentence : manual_.strays(names, checks)) outcome_.complaints.push_back(std::move(sentence));
         std::vector<std::string> known;
         for (std::size_t i = 0; roster_ && i < roster_->students().size(); ++i) add_names_of(i, known);

@@ -9,15 +9,14 @@
 #include "course/findings/findings_report.h"
 #include "course/grading/boxed_work.h"
 #include "course/grading/job_descriptions.h"
-#include "data_io/dataset_index.h"
 #include "data_io/values/json_values.h"
+#include "numerics/rigs/catalogue.h"
+#include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/hash.h"
 #include "platform/program_identity.h"
 #include "platform/program_lookup.h"
 #include "platform/text_file.h"
-#include "workflow/lesson_data.h"
-#include "workflow/specimen_record.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -33,6 +32,7 @@ constexpr std::size_t kLongestTrouble = 2000;
 constexpr auto kMargin = std::chrono::milliseconds(300);  // the script's own limit comes first: its answers are kept
 constexpr auto kStartTime = std::chrono::milliseconds(500);
 constexpr std::uint64_t kScriptMemory = 1ull << 30;
+constexpr std::uintmax_t kMostSource = 1u << 20;    // bytes of a script that checks may read
 constexpr std::uint64_t kMostAnswers = 4ull << 20;  // bytes of a run's result
 
 /// What an error says, however long.
@@ -70,7 +70,8 @@ std::string hash_of_parts(const std::vector<std::string>& parts) {
     std::vector<std::string> names;
     for (const Rig& rig : rig_catalogue()) names.push_back(rig.name);
     throw EnvironmentError(
-        fmt::format("the check \"{}\" wants a rerun on \"{}\", but records are made of {}, or the seed changed with "
+        fmt::format("the check \"{}\" wants a rerun on \"{}\", but records are made of {}, by rigs that the checks "
+                    "declare, or taken from rerun/NAME.csv in the folder of the checks; the seed is changed with "
                     "\"seed\"",
                     check, rerun, fmt::join(names, ", ")));
 }
@@ -84,6 +85,7 @@ GradingRules::GradingRules(GradingSetup setup)
     seed_ = lesson.header.seed;
     standard_ = standard_for(setup_.lesson, lesson);
     answers_ = lesson.header.answers;
+    bring_lesson_data();
     read_checks();
     make_records();
 }
@@ -99,6 +101,9 @@ void GradingRules::read_checks() {
             throw EnvironmentError(fmt::format("there is no folder '{}'", setup_.more_checks->string()));
         for (const auto& entry : fs::directory_iterator(*setup_.more_checks))
             if (entry.path().extension() == ".lua") more.push_back(entry.path());
+        if (more.empty())
+            throw EnvironmentError(fmt::format("the folder '{}' holds no checks: there is no file *.lua in it",
+                                               setup_.more_checks->string()));
         std::sort(more.begin(), more.end());
         for (const fs::path& file : more) files_.push_back({file.filename().string(), read_text(file), false});
     }
@@ -106,65 +111,22 @@ void GradingRules::read_checks() {
     if (!listed.output) throw EnvironmentError("the checks cannot be read: " + listed.reason);
     if (listed.output->error) throw EnvironmentError(*listed.output->error);
     for (const TriedCheck& one : listed.output->checks) checks_.push_back(one.check);
+    declared_rigs_ = listed.output->rigs;
     if (checks_.empty()) throw EnvironmentError(fmt::format("lesson {} declares no check", setup_.lesson.slug));
     for (const CheckDescription& check : checks_) {
         const std::string& rerun = check.rerun;
         document_ = document_ || check.document;
+        if (check.document && !fs::exists(setup_.lesson.report("en")))
+            throw EnvironmentError(fmt::format(
+                "the check \"{}\" looks at the document, but lesson {} ends with none: document = true is for lessons "
+                "with a report.en.md beside lesson.lua",
+                check.id, setup_.lesson.slug));
         if (rerun.empty()) continue;
-        if (rerun != kSeedOnly && !find_rig(rerun)) refuse_rerun(check.id, rerun);
+        const bool declared = std::find(declared_rigs_.begin(), declared_rigs_.end(), rerun) != declared_rigs_.end();
+        if (rerun != kSeedOnly && !find_rig(rerun) && !declared && !own_record("rerun", rerun))
+            refuse_rerun(check.id, rerun);
         reruns_.insert(rerun);
     }
-}
-
-std::uint32_t GradingRules::drawn(const std::string& what) const {
-    const std::string hash = sha256_of(setup_.secret + "\n" + setup_.lesson.slug + "\n" + what);
-    return static_cast<std::uint32_t>(std::stoul(hash.substr(0, 8), nullptr, 16)) | 1u;
-}
-
-/// A hidden record of every rig: which ones the checks ask for shows only while they run, and all take a tenth of a
-/// second together.
-void GradingRules::make_records() {
-    fs::create_directories(records_.path() / kHiddenRecords);
-    for (const Rig& rig : rig_catalogue()) make_record(rig.name, kHiddenRecords, records_.path() / kHiddenRecords);
-    const auto own = fs::copy_options::recursive;
-    for (const std::string& rerun : reruns_) {
-        if (rerun == kSeedOnly) continue;
-        const fs::path data = records_.path() / rerun / "data";
-        fs::create_directories(data.parent_path());
-        fs::copy(shared_folder() / "data", data, own);
-        for (const auto& entry : fs::directory_iterator(data / rerun))
-            if (entry.path().extension() == ".csv" || entry.path().extension() == ".mat") fs::remove(entry.path());
-        make_record(rerun, rerun, data / rerun);
-    }
-}
-
-void GradingRules::make_record(const std::string& data_set, const std::string& run, const fs::path& folder) {
-    // Without the run: hidden records are further experiments with the apparatus of the rerun.
-    const RigChoice choice{.specimen = drawn(data_set),
-                           .seed = drawn((run == kHiddenRecords ? "noise:" : "noise:rerun:") + data_set)};
-    specimens_[run][data_set] = choice.specimen;
-    write_specimen_record(data_set, choice, folder);
-}
-
-/// Data sets of the lesson that groups may have for themselves. Needs the lock of `making_`.
-std::vector<std::string> GradingRules::simulated() const {
-    if (!simulated_) simulated_ = simulated_data_of(setup_.lesson);
-    return *simulated_;
-}
-
-/// The official data, a group's own records among them, as groups have them.
-fs::path GradingRules::data_of(const GroupSeed& group_seed) const {
-    if (!group_seed) return shared_folder() / "data";
-    const std::lock_guard lock(*making_);
-    const fs::path data = records_.path() / fmt::format("group-{}", *group_seed) / "data";
-    if (fs::exists(data)) return data;
-    const fs::path growing = data.parent_path() / "growing";
-    fs::create_directories(growing.parent_path());
-    fs::copy(shared_folder() / "data", growing, fs::copy_options::recursive);
-    for (const std::string& name : simulated()) fs::remove_all(growing / name);
-    write_group_data(simulated(), *group_seed, growing);
-    fs::rename(growing, data);
-    return data;
 }
 
 fs::path GradingRules::add_home(Box& box, const std::string& run, const GroupSeed& group_seed) const {
@@ -237,7 +199,8 @@ Findings GradingRules::findings(const fs::path& folder, const GroupSeed& group_s
 
 BoxedResult<CheckResults> GradingRules::checked(std::optional<CheckedSubmission> submission,
                                                 const GroupSeed& group_seed, std::optional<std::size_t> only,
-                                                std::chrono::milliseconds timeout) const {
+                                                std::chrono::milliseconds timeout,
+                                                std::vector<WantedRecord> records) const {
     const TakenCore core(*free_cores_);
     Box box(setup_.isolation);
     box.set_environment("DYNLAB_HOME", add_home(box, kMain, group_seed).string());
@@ -253,7 +216,27 @@ BoxedResult<CheckResults> GradingRules::checked(std::optional<CheckedSubmission>
     job.time_ms = kCheckTime.count();
     job.only = only;
     job.submission = std::move(submission);
+    job.records = std::move(records);
     return run_boxed(box, setup_.program, job, timeout);
+}
+
+std::vector<std::vector<TriedCheck>> GradingRules::tried(const std::vector<CheckedSubmission>& submissions) const {
+    if (submissions.empty()) return {};
+    const TakenCore core(*free_cores_);
+    Box box(setup_.isolation);
+    box.set_environment("DYNLAB_HOME", add_home(box, kMain, {}).string());
+    ChecksJob job;
+    job.files = files_;
+    job.hidden_folder = box.add(records_.path() / kHiddenRecords, "/box/hidden");
+    job.specimens = specimens_;
+    job.time_ms = kCheckTime.count();
+    job.submission = submissions.front();
+    job.further.assign(submissions.begin() + 1, submissions.end());
+    auto result = run_boxed(box, setup_.program, job, kSingleTime * 10);
+    if (!result.output) throw EnvironmentError("the checks come to no end: " + result.reason);
+    std::vector<std::vector<TriedCheck>> all = std::move(result.output->further);
+    all.insert(all.begin(), std::move(result.output->checks));
+    return all;
 }
 
 /// Answers that crash one check, or hold it up, take the others with them; then each is tried in a box of its own, and
@@ -302,7 +285,9 @@ Grade GradingRules::ungraded(const std::string& name) const {
         one.hint = check.hint;
         one.points = check.points;
         one.visible = check.visible;
-        one.graded = !broken_.contains(one.id);
+        one.by_hand = check.by_hand;
+        one.rubric = check.rubric;
+        one.graded = !broken_.contains(one.id) && !check.by_hand;
         grade.checks.push_back(std::move(one));
     }
     return grade;
@@ -312,6 +297,9 @@ CheckedSubmission GradingRules::work_in(const fs::path& folder, const GroupSeed&
     CheckedSubmission work;
     work.runs = runs(folder, group_seed, log);
     if (document_) work.findings = findings(folder, group_seed);
+    const fs::path script = folder / "analysis.lua";
+    std::error_code error;
+    if (fs::file_size(script, error) <= kMostSource && !error) work.source = read_file(script);
     return work;
 }
 
@@ -336,6 +324,7 @@ Grade GradingRules::judged(const std::string& name, const CheckedSubmission& sub
     for (std::size_t k = 0; k < grade.checks.size(); ++k) {
         CheckGrade& check = grade.checks[k];
         const auto& [verdict, reason] = found.at(k);
+        if (check.by_hand) continue;
         check.for_instructor = verdict ? verdict->for_instructor : reason;
         if (!check.for_instructor.empty()) grade.log += fmt::format("check {}: {}\n", check.id, check.for_instructor);
         if (!verdict) {
@@ -345,6 +334,8 @@ Grade GradingRules::judged(const std::string& name, const CheckedSubmission& sub
         }
         check.earned = check.points * verdict->share.value_or(0);
         check.message = verdict->message;
+        if (!check.visible && !check.message.empty() && check.for_instructor.empty())
+            grade.log += fmt::format("check {}: {}\n", check.id, check.message);
     }
     if (!grade.printed.empty()) grade.log += "\nprinted by the script, at its end:\n" + grade.printed;
     return grade;
@@ -360,7 +351,7 @@ std::vector<std::string> GradingRules::try_solution() {
     if (!solution.trouble.empty())
         complaints.push_back("the worked solution did not run to its end: " + solution.trouble);
     for (const CheckGrade& check : solution.checks) {
-        if (check.graded && check.earned == check.points) continue;
+        if (check.by_hand || (check.graded && check.earned == check.points)) continue;
         broken_.insert(check.id);
         const std::string& told = check.for_instructor.empty() ? check.message : check.for_instructor;
         complaints.push_back(
@@ -377,7 +368,7 @@ std::string GradingRules::fingerprint(const std::string& content_hash, const Gro
 
 std::string GradingRules::run_fingerprint(const std::string& content_hash, const GroupSeed& group_seed) const {
     return hash_of_parts({content_hash, program_identity(), setup_.lesson.slug, sha256_of_file(setup_.lesson.script()),
-                          setup_.secret, std::to_string(setup_.timeout.count()), isolation_name(setup_.isolation),
+                          setup_.secret, own_records_, std::to_string(setup_.timeout.count()), isolation_name(setup_.isolation),
                           fmt::format("{}", fmt::join(reruns_, " ")), document_ ? standard_ : "",
                           group_seed ? std::to_string(*group_seed) : ""});
 }

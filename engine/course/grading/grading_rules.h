@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "course/grading/check_run.h"
+#include "course/checks/check_run.h"
 #include "course/grading/grade.h"
 #include "platform/box.h"
 #include "platform/temporary_folder.h"
@@ -23,8 +23,9 @@ struct BoxedResult;
 
 struct GradingSetup {
     Lesson lesson;
-    std::optional<std::filesystem::path> more_checks;  ///< the instructor's own folder of *.lua
-    std::string secret;                                ///< of the course: what the hidden records are drawn from
+    /// The instructor's own folder of *.lua; its folders hidden and rerun may hold records, NAME.csv or NAME.mat.
+    std::optional<std::filesystem::path> more_checks;
+    std::string secret;  ///< of the course: what the hidden records are drawn from
     Isolation isolation = Isolation::kFull;
     std::chrono::milliseconds timeout{60000};  ///< of each run of a student's script
     std::filesystem::path program;             ///< dynlab
@@ -57,6 +58,9 @@ class GradingRules {
     /// a sentence for each.
     std::vector<std::string> try_solution();
 
+    /// What the checks say of each of these, their files read once. Throws EnvironmentError where they come to no end.
+    std::vector<std::vector<TriedCheck>> tried(const std::vector<CheckedSubmission>& submissions) const;
+
     /// Of all that a submission's marks depend on, and of what its runs do, which other checks may leave as it is.
     std::string fingerprint(const std::string& content_hash, const GroupSeed& group_seed) const;
     std::string run_fingerprint(const std::string& content_hash, const GroupSeed& group_seed) const;
@@ -67,6 +71,10 @@ class GradingRules {
     void read_checks();
     void make_records();
     void make_record(const std::string& data_set, const std::string& run, const std::filesystem::path& folder);
+    void make_records_of_declared_rigs();
+    std::optional<std::filesystem::path> own_record(const std::string& folder, const std::string& data_set) const;
+    void bring_lesson_data();
+    std::filesystem::path official_data() const;
     GradedRun run(const std::string& name, const std::filesystem::path& folder, const GroupSeed& group_seed,
                   std::string& log) const;
     std::map<std::string, GradedRun> runs(const std::filesystem::path& folder, const GroupSeed& group_seed,
@@ -74,7 +82,8 @@ class GradingRules {
     Findings findings(const std::filesystem::path& folder, const GroupSeed& group_seed) const;
     BoxedResult<CheckResults> checked(std::optional<CheckedSubmission> submission, const GroupSeed& group_seed,
                                       std::optional<std::size_t> only = {},
-                                      std::chrono::milliseconds timeout = std::chrono::seconds(60)) const;
+                                      std::chrono::milliseconds timeout = std::chrono::seconds(60),
+                                      std::vector<WantedRecord> records = {}) const;
     /// Nothing of a check for which no verdict can be had, and why, instead of one.
     struct Tried {
         std::optional<TriedCheck> result;
@@ -98,6 +107,8 @@ class GradingRules {
     mutable std::optional<std::vector<std::string>> simulated_;  ///< once they were asked for
     std::map<std::string, Specimens> specimens_;                 ///< of hidden records and reruns (CheckSession)
     std::set<std::string> reruns_, broken_;
+    std::vector<std::string> declared_rigs_;
+    std::string own_records_;  ///< hashes of the records in the instructor's folder, and of those of the lesson
     bool document_ = false;
     std::unique_ptr<std::counting_semaphore<>> free_cores_;  ///< for what runs in boxes
     TemporaryFolder records_;

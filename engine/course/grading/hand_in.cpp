@@ -78,17 +78,20 @@ Pack pack_folder(const fs::path& folder, const fs::path& file) {
     return pack;
 }
 
-std::vector<std::string> bundle_lesson(const Lesson& lesson, const fs::path& file) {
+std::vector<std::string> bundle_lesson(const Lesson& lesson, const fs::path& file,
+                                       std::optional<std::uint32_t> group_seed) {
     const TemporaryFolder work;
     const fs::path starter = work.path() / lesson.slug;
-    make_student_copy(lesson, starter);
+    make_student_copy(lesson, starter, group_seed);
     std::map<std::string, std::string> contents;
     for (const auto& [name, content] : contents_of(starter)) contents[lesson.slug + "/" + name] = content;
     if (fs::exists(lesson.folder / "checks.lua"))
         contents[lesson.slug + "/checks.lua"] = read_file(lesson.folder / "checks.lua");
     const std::string script = read_file(lesson.script());
     for (const std::string& data_set : dataset_names()) {
-        if (script.find("load(\"" + data_set + "\")") == std::string::npos) continue;
+        const bool own =
+            fs::is_directory(fs::symlink_status(starter / "data")) && fs::exists(starter / "data" / data_set);
+        if (own || script.find("load(\"" + data_set + "\")") == std::string::npos) continue;
         for (const auto& [name, content] : contents_of(shared_folder() / "data" / data_set))
             contents[lesson.slug + "/data/" + data_set + "/" + name] = content;
     }

@@ -1,5 +1,7 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +21,9 @@ struct Pack {
 Pack pack_folder(const std::filesystem::path& folder, const std::filesystem::path& file);
 
 /// The zip of a lesson that students get: starter, report template, visible checks and the data sets that the lesson
-/// loads; no solution. Returns the names in it.
-std::vector<std::string> bundle_lesson(const Lesson& lesson, const std::filesystem::path& file);
+/// loads, with a group's seed its own records (specimen_record.h) of what is simulated; no solution. Returns the names
+/// in it.
+std::vector<std::string> bundle_lesson(const Lesson& lesson, const std::filesystem::path& file,
+                                       std::optional<std::uint32_t> group_seed = {});
 
 }  // namespace dynlab::inline course

@@ -1,7 +1,7 @@
 #pragma once
+#include "course/checks/check_run.h"
 #include "course/findings/finding_description.h"
 #include "course/grading/boxed_document.h"
-#include "course/grading/check_run.h"
 #include "course/grading/graded_run.h"
 #include "course/grading/unpack.h"
 #include "course/review/version_reading.h"
@@ -14,11 +14,13 @@ namespace dynlab::inline course {
 DYNLAB_DESCRIBE(GradedRun, answers, figures, values, printed, error, seconds, lesson, began)
 DYNLAB_DESCRIBE(RunJob, script, seed, answers, time_ms, memory_bytes)
 DYNLAB_DESCRIBE(CheckFile, name, source, visible)
-DYNLAB_DESCRIBE(CheckedSubmission, runs, findings)
-DYNLAB_DESCRIBE(CheckDescription, id, about, hint, points, rerun, document, visible)
-DYNLAB_DESCRIBE(TriedCheck, check, share, message, for_instructor)
-DYNLAB_DESCRIBE(CheckResults, checks, error)
-DYNLAB_DESCRIBE(ChecksJob, files, hidden_folder, specimens, time_ms, only, submission)
+DYNLAB_DESCRIBE(AnswerChange, name, factor)
+DYNLAB_DESCRIBE(CheckedSubmission, runs, findings, source, change)
+DYNLAB_DESCRIBE(CheckDescription, id, about, hint, points, rerun, document, by_hand, rubric, visible)
+DYNLAB_DESCRIBE(TriedCheck, check, share, message, for_instructor, seconds)
+DYNLAB_DESCRIBE(CheckResults, checks, further, rigs, records, error)
+DYNLAB_DESCRIBE(WantedRecord, rig, specimen, seed)
+DYNLAB_DESCRIBE(ChecksJob, files, hidden_folder, specimens, time_ms, only, submission, further, records)
 DYNLAB_DESCRIBE(Unpacked, left_out, error)
 DYNLAB_DESCRIBE(UnpackJob, archive, to, bytes, files, keep_times)
 

@@ -4,7 +4,9 @@
 
 #include <charconv>
 
+#include "course/grading/feedback.h"
 #include "data_io/text_table.h"
+#include "documents/text_lines.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 
@@ -15,12 +17,14 @@ ManualMarks::ManualMarks(const std::filesystem::path& file) {
         write_file_atomically(file, csv_text({{"submission", "check", "points", "reason"}, {}, {}}));
     const TextTable table = read_text_table(file);
     const auto submission = table.column("submission"), check = table.column("check"), points = table.column("points"),
-               reason = table.column("reason");
+               reason = table.column("reason") ? table.column("reason") : table.column("comment");
     if (!submission || !check || !points)
         throw EnvironmentError(fmt::format("{}: the columns submission, check and points are needed", file.string()));
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         const auto& row = table.rows[i];
-        const std::string& text = row[*points];
+        // A decimal comma, as a spreadsheet writes it in much of Europe.
+        const std::string text = replaced(row[*points], ",", ".");
+        if (text.empty()) continue;  // not marked yet
         Mark mark{0, reason ? row[*reason] : ""};
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), mark.points);
         if (error != std::errc() || end != text.data() + text.size() || !(mark.points >= 0 && mark.points <= 1000))
@@ -44,7 +48,7 @@ Grade ManualMarks::applied(Grade grade) const {
 }
 
 std::vector<std::string> ManualMarks::strays(const std::set<std::string>& submissions,
-                                             const std::set<std::string>& checks) const {
+                                             const std::map<std::string, double>& checks) const {
     std::vector<std::string> sentences;
     for (const auto& [key, mark] : marks_) {
         const auto& [submission, check] = key;
@@ -52,6 +56,10 @@ std::vector<std::string> ManualMarks::strays(const std::set<std::string>& submis
             sentences.push_back(fmt::format("manual.csv: there is no submission \"{}\"", submission));
         else if (!checks.contains(check))
             sentences.push_back(fmt::format("manual.csv: there is no check \"{}\" (for \"{}\")", check, submission));
+        else if (mark.points > checks.at(check))
+            sentences.push_back(fmt::format("manual.csv: \"{}\" gets {} points for the check \"{}\", which has {}",
+                                            submission, points_text(mark.points), check,
+                                            points_text(checks.at(check))));
     }
     return sentences;
 }

@@ -17,11 +17,11 @@ constexpr double kSpace = -180;  ///< thousandths of the font's size: moved on a
 constexpr std::uint32_t kLongestRange = 65536;
 
 /// Reads the tokens of a content stream or a map, whatever they are.
-class Tokens {
+class ContentTokens {
   public:
     using Kind = QPDFTokenizer::token_type_e;
 
-    explicit Tokens(std::string_view text)
+    explicit ContentTokens(std::string_view text)
         : buffer_(reinterpret_cast<unsigned char*>(const_cast<char*>(text.data())), text.size()),
           input_(std::make_shared<BufferInputSource>("text", &buffer_)) {
         tokenizer_.allowEOF();
@@ -97,7 +97,7 @@ std::string decoded(const std::string& bytes, const CodeMap* map) {
 
 CodeMap code_map(const std::string& to_unicode) {
     CodeMap map;
-    Tokens tokens(to_unicode);
+    ContentTokens tokens(to_unicode);
     std::vector<std::string> codes;
     std::size_t list = 0;  // where it begins among the codes
     for (auto kind = tokens.next(); kind != QPDFTokenizer::tt_eof; kind = tokens.next()) {
@@ -129,7 +129,7 @@ std::vector<ShownPiece> shown_pieces(std::string_view stream) {
     std::vector<ShownPiece> pieces;
     const auto move = [&pieces](const char* space) { pieces.push_back({space, false}); };
     static const std::set<std::string> moves = {"Td", "TD", "Tm", "T*", "ET", "BDC"};
-    Tokens tokens(stream);
+    ContentTokens tokens(stream);
     bool in_array = false;
     for (auto kind = tokens.next(); kind != QPDFTokenizer::tt_eof; kind = tokens.next()) {
         const std::string& token = tokens.token();

@@ -11,6 +11,9 @@ struct AnswerValue {
     std::string kind, json;
 };
 
+/// The kind of an answer that a graded script gave wrongly, or twice: {"kind": "refused", "why": a clause}.
+inline constexpr char kRefusedAnswer[] = "refused";
+
 /// The value at stack index `index`. Throws InvalidArgument, in words for the script's writer, for values of other
 /// kinds (functions, figures), tables that contain themselves or are nested deeper than 8, and more than 500,000
 /// numbers.

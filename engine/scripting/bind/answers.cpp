@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <nlohmann/json.hpp>
 
 #include "platform/spelling.h"
 #include "scripting/answers/answer_value.h"
@@ -27,16 +28,34 @@ void check_declared(const std::vector<ExpectedAnswer>& expected, const std::stri
         near ? fmt::format("did you mean \"{}\"?", *near) : fmt::format("it declares {}", fmt::join(names, ", "))));
 }
 
-int answer(Call& call) {
-    call.at_most(2);
-    Recorder& recorder = call.context().recorder;
-    const std::string name = call.text(1, "name");
+AnswerValue checked_answer(const Call& call, const std::string& name) {
     if (!call.given(2)) wrong_argument(call.state(), 2, "value", "the answer's value");
+    const Recorder& recorder = call.context().recorder;
     AnswerValue value = answer_value(call.state(), 2);
     check_declared(recorder.expected_answers(), name, value.kind);
-    RecordedAnswer& answer = recorder.record().answers[name];
-    if (!answer.json.empty()) throw InvalidArgument(fmt::format("the answer \"{}\" was given already", name));
-    answer = {std::move(value.kind), std::move(value.json)};
+    return value;
+}
+
+AnswerValue refused_answer(const std::string& why) {
+    using nlohmann::json;
+    const json refused = {{"kind", kRefusedAnswer}, {"why", why}};
+    return {kRefusedAnswer, refused.dump(-1, ' ', false, json::error_handler_t::replace)};
+}
+
+/// Where the script is graded, an answer that cannot be taken costs that answer and not those behind it.
+int answer(Call& call) {
+    call.at_most(2);
+    const std::string name = call.text(1, "name");
+    std::map<std::string, RecordedAnswer>& answers = call.context().recorder.record().answers;
+    AnswerValue value;
+    try {
+        value = checked_answer(call, name);
+        if (answers.contains(name)) throw InvalidArgument(fmt::format("the answer \"{}\" was given already", name));
+    } catch (const InvalidArgument& error) {
+        if (!call.context().options.graded) throw;
+        value = refused_answer(error.what());
+    }
+    answers[name] = {std::move(value.kind), std::move(value.json)};
     return 0;
 }
 

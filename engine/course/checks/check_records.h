@@ -7,4 +7,7 @@ namespace dynlab::inline course {
 /// hidden, truth. Their state is the service CheckSession.
 FunctionEntries check_record_functions();
 
+/// For the engine: _record(name, specimen, seed) leaves what a declared rig makes in the session.
+FunctionEntries record_function();
+
 }  // namespace dynlab::inline course

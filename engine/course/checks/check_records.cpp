@@ -1,8 +1,8 @@
-#include "course/grading/check_records.h"
+#include "course/checks/check_records.h"
 
 #include <array>
 
-#include "course/grading/check_session.h"
+#include "course/checks/check_session.h"
 #include "scripting/arguments/arguments.h"
 #include "scripting/arguments/table_fields.h"
 #include "scripting/runtime/context.h"
@@ -20,6 +20,38 @@ void call_library(const Call& call, const char* name, int arguments) {
     lua_call(L, arguments, 1);
 }
 
+/// Pushes what a function of a declared rig returns.
+void call_of_rig(const Call& call, int function, std::uint32_t specimen, std::uint32_t seed) {
+    lua_State* L = call.state();
+    lua_rawgeti(L, LUA_REGISTRYINDEX, function);
+    lua_createtable(L, 0, 2);
+    set_field(call, "specimen", specimen);
+    set_field(call, "seed", seed);
+    lua_call(L, 1, 1);
+}
+
+/// _record(name, specimen, seed): a table of vectors, into the session.
+int record(Call& call) {
+    CheckSession& session = service<CheckSession>(call.state());
+    const std::string name = call.text(1, "name");
+    const auto whole = [&](int index) { return static_cast<std::uint32_t>(call.size(index, "number")); };
+    session.record.clear();
+    lua_State* L = call.state();
+    call_of_rig(call, session.rigs.at(name).record, whole(2), whole(3));
+    const int table = lua_gettop(L);
+    if (lua_type(L, table) != LUA_TTABLE)
+        throw InvalidArgument(fmt::format("the record of the rig \"{}\" must be a table of vectors", name));
+    for (lua_pushnil(L); lua_next(L, table) != 0; lua_settop(L, table + 1)) {
+        if (lua_type(L, table + 1) != LUA_TSTRING)
+            throw InvalidArgument(fmt::format("the signals of the rig \"{}\" need names", name));
+        const Call values(L);
+        const VectorMap signal = values.vector(table + 2, lua_tostring(L, table + 1));
+        session.record[lua_tostring(L, table + 1)] = {signal.begin(), signal.end()};
+    }
+    if (session.record.empty()) throw InvalidArgument(fmt::format("the record of the rig \"{}\" is empty", name));
+    return 0;
+}
+
 /// A test asks for what is secret itself, so that it is known which messages must give nothing away.
 void note_hidden(CheckSession& session) {
     if (!session.current) throw InvalidArgument("what is secret is asked for inside the test that looks at it");
@@ -31,11 +63,17 @@ int hidden(Call& call) {
     const std::string name = call.text(1, "name");
     CheckSession& session = service<CheckSession>(call.state());
     note_hidden(session);
-    if (!session.specimens[kHiddenRecords].contains(name))
-        throw InvalidArgument(fmt::format("there is no hidden record \"{}\": name a simulated experiment", name));
-    call.give((session.hidden_folder / (name + ".mat")).string());
-    call_library(call, "load", 1);
-    return 1;
+    for (const char* ending : {".mat", ".csv"}) {
+        const std::filesystem::path file = session.hidden_folder / (name + ending);
+        if (name.find('/') != std::string::npos || !std::filesystem::exists(file)) continue;
+        call.give(file.string());
+        call_library(call, "load", 1);
+        return 1;
+    }
+    throw InvalidArgument(
+        fmt::format("there is no hidden record \"{}\": name a simulated experiment, a rig that the "
+                    "checks declare, or a file in the folder hidden of the checks",
+                    name));
 }
 
 /// The run that a table of answers came from.
@@ -55,7 +93,8 @@ std::pair<std::string, std::uint32_t> specimen_meant(const Call& call, CheckSess
         const std::string name = call.text(1, "name");
         const Specimens& hidden = session.specimens[kHiddenRecords];
         const auto found = hidden.find(name);
-        if (found == hidden.end()) throw InvalidArgument(fmt::format("there is no hidden record \"{}\"", name));
+        if (found == hidden.end())
+            throw InvalidArgument(fmt::format("there is no hidden record \"{}\" of which theory says something", name));
         return *found;
     }
     call.at_most(2);
@@ -71,7 +110,13 @@ std::pair<std::string, std::uint32_t> specimen_meant(const Call& call, CheckSess
 /// truth(name): of the hidden record; truth(b): of the record of the rerun; truth(a, name): of the record that the
 /// script read.
 int truth(Call& call) {
-    const auto [name, specimen] = specimen_meant(call, service<CheckSession>(call.state()));
+    CheckSession& session = service<CheckSession>(call.state());
+    const auto [name, specimen] = specimen_meant(call, session);
+    if (const auto own = session.rigs.find(name); own != session.rigs.end()) {
+        if (own->second.truth == 0) throw InvalidArgument(fmt::format("the rig \"{}\" declares no truth", name));
+        call_of_rig(call, own->second.truth, specimen, specimen);
+        return 1;
+    }
     call.give(name);
     lua_createtable(call.state(), 0, 1);
     set_field(call, "specimen", specimen);
@@ -86,7 +131,15 @@ constexpr std::array kRecordFunctions = {
                   guarded<truth>},
 };
 
+constexpr std::array kRecordOfRig = {
+    FunctionEntry{"_record", "checks", "", "", guarded<record>},
+};
+
 }  // namespace
+
+FunctionEntries record_function() {
+    return kRecordOfRig;
+}
 
 FunctionEntries check_record_functions() {
     return kRecordFunctions;

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "course/findings/finding.h"
@@ -17,12 +18,14 @@ struct CheckDescription {
     double points = 1;
     std::string rerun;      ///< a data set's name, "seed", or empty
     bool document = false;  ///< it asks for findings of the document
+    bool by_hand = false;   ///< the instructor marks it
+    std::string rubric;     ///< what is marked by hand, for the instructor
     bool visible = true;    ///< students may read the file it stands in
 };
 
 /// A check as its file declares it.
 struct DeclaredCheck : CheckDescription {
-    int test = 0;      ///< index of the function in Lua's registry
+    int test = 0;      ///< index of the function in Lua's registry, 0 where it is marked by hand
     int mistakes = 0;  ///< index of the list of typical mistakes, 0 for none
 };
 
@@ -33,6 +36,11 @@ struct Verdict {
     std::string for_instructor = {};  ///< what it said before where that may quote a secret record
 };
 
+/// An apparatus that a file of checks declares; functions of {specimen =, seed =}, as indices in Lua's registry.
+struct DeclaredRig {
+    int record = 0, truth = 0;  ///< truth: 0 where the file does not tell
+};
+
 /// Specimens of the apparatus by data set.
 using Specimens = std::map<std::string, std::uint32_t>;
 inline constexpr char kHiddenRecords[] = "hidden";  ///< stands for a run where specimens are named
@@ -41,16 +49,20 @@ inline constexpr char kRunOfAnswers[] = "run";      ///< field of a metatable: f
 /// What the functions of checks.lua share while a submission is checked.
 struct CheckSession {
     std::vector<DeclaredCheck> checks;
+    std::map<std::string, DeclaredRig> rigs;     ///< by data set
     std::map<std::string, GradedRun> runs;       ///< "main", and one for each rerun
+    std::string source;                          ///< the student's script
     Findings findings;                           ///< of the document
     std::map<std::string, Specimens> specimens;  ///< whose records each run read, "hidden" those of hidden(); the data
                                                  ///< sets that are not named are those of all, specimen 0
-    std::filesystem::path hidden_folder;         ///< holds NAME.mat
+    std::filesystem::path hidden_folder;         ///< holds NAME.mat or NAME.csv
     bool visible_file = true;                    ///< of the file that is being read
     const DeclaredCheck* current = nullptr;
     bool took_hidden = false;    ///< the current check asked for a hidden record or what theory says of one
     std::string answer_trouble;  ///< why an answer that the current check asked for cannot be had; quotes no record
     std::optional<Verdict> verdict;
+    std::optional<std::pair<std::string, double>> change;  ///< an answer that is seen multiplied
+    std::map<std::string, std::vector<double>> record;     ///< what `_record` made last
 };
 
 }  // namespace dynlab::inline course

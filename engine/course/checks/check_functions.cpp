@@ -1,4 +1,4 @@
-#include "course/grading/check_functions.h"
+#include "course/checks/check_functions.h"
 
 #include <algorithm>
 #include <array>
@@ -6,9 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "course/grading/check_session.h"
+#include "course/checks/check_session.h"
 #include "data_io/values/json_values.h"
 #include "numerics/number_text.h"
+#include "platform/spelling.h"
 #include "scripting/answers/answer_value.h"
 #include "scripting/arguments/arguments.h"
 #include "scripting/arguments/table_fields.h"
@@ -32,46 +33,6 @@ int give_judgement(const Call& call, double share, const std::string& message) {
 
 std::string percent_of_share(double share) {
     return number_text(100 * share, 3) + " %";
-}
-
-// ---------------------------------------------------------------------------------------------------------------------
-// check{...}
-
-bool plain_id(const std::string& id) {
-    return !id.empty() &&
-           std::all_of(id.begin(), id.end(), [](unsigned char c) { return std::isalnum(c) || c == '_'; });
-}
-
-int check(Call& call) {
-    call.at_most(1);
-    CheckSession& session = session_of(call);
-    const Options options(call, 1, {"id", "points", "about", "test", "hint", "rerun", "document", "mistakes"});
-    DeclaredCheck check;
-    check.id = options.text("id", "");
-    if (!plain_id(check.id)) throw InvalidArgument("a check needs an id of letters, digits and _");
-    for (const DeclaredCheck& other : session.checks)
-        if (other.id == check.id) throw InvalidArgument(fmt::format("there are two checks \"{}\"", check.id));
-    check.points = options.number("points", 1);
-    if (!(check.points > 0) || check.points > 1000)
-        throw InvalidArgument(fmt::format("the points of \"{}\" must be a number above 0, at most 1000", check.id));
-    check.about = options.text("about", check.id);
-    check.hint = options.text("hint", "");
-    check.rerun = options.text("rerun", "");
-    check.document = options.flag("document", false);
-    check.visible = session.visible_file;
-    lua_State* L = call.state();
-    const auto kept = [&](const char* name, int type, const char* wanted, bool needed) {
-        const int index = options.push(name);
-        if (lua_isnil(L, index) && !needed) return 0;
-        if (lua_type(L, index) != type)
-            throw InvalidArgument(fmt::format("\"{}\" of the check \"{}\" must be {}", name, check.id, wanted));
-        lua_pushvalue(L, index);
-        return luaL_ref(L, LUA_REGISTRYINDEX);
-    };
-    check.test = kept("test", LUA_TFUNCTION, "a function", true);
-    check.mistakes = kept("mistakes", LUA_TTABLE, "a list of {when = function, say = text}", false);
-    session.checks.push_back(std::move(check));
-    return 0;
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -149,7 +110,9 @@ Verdict verdict_at(const Call& call, int index) {
             break;
         case LUA_TNUMBER: {
             const double share = lua_tonumber(L, index);
-            verdict.share = std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 0;
+            if (share < 0 || share > 1)
+                throw InvalidArgument(fmt::format("a test returned {}; a share is from 0 to 1", number_text(share, 4)));
+            verdict.share = std::isfinite(share) ? share : 0;
             break;
         }
         case LUA_TTABLE:
@@ -232,8 +195,6 @@ int no_finding(Call& call) {
 
 constexpr const char* kArea = "checks";
 constexpr std::array kFunctions = {
-    FunctionEntry{"check", kArea, "check{id =, points =, about =, test =, hint =, rerun =, document =, mistakes =}",
-                  "declares a check", guarded<check>},
     FunctionEntry{"near", kArea, "near(x, wanted, {rel = | abs =, half =})", "judges a number or vector",
                   guarded<near>},
     FunctionEntry{"points_between", kArea, "points_between(x, low, high)", "a share that grows from low to high",
@@ -256,6 +217,50 @@ bool holds_no_numbers(const nlohmann::json& answer) {
     return answer.is_structured() && std::any_of(answer.begin(), answer.end(), holds_no_numbers);
 }
 
+/// Multiplies the number, vector, matrix or model on top, or those in the table there; true becomes false.
+void multiply_on_top(lua_State* L, double factor) {
+    const int top = lua_gettop(L);
+    switch (lua_type(L, top)) {
+        case LUA_TBOOLEAN:
+            lua_pushboolean(L, !lua_toboolean(L, top));
+            return lua_replace(L, top);
+        case LUA_TTABLE:
+            for (lua_pushnil(L); lua_next(L, top) != 0; lua_settop(L, top + 1)) {
+                multiply_on_top(L, factor);
+                lua_pushvalue(L, top + 1);
+                lua_insert(L, -2);
+                lua_rawset(L, top);
+            }
+            return;
+        case LUA_TNUMBER:
+        case LUA_TUSERDATA:
+            lua_pushnumber(L, factor);
+            return lua_arith(L, LUA_OPMUL);
+        default:
+            return;
+    }
+}
+
+/// Why an answer cannot be had, in words for the student. Of other runs than that on the student's own records nothing
+/// is told that the script chose itself.
+std::string answer_trouble(const std::string& name, const std::string& run,
+                           const std::map<std::string, RecordedAnswer>& answers) {
+    const auto given = answers.find(name);
+    if (run != "main" && given != answers.end())
+        return fmt::format("The answer \"{}\" was not handed in as it was asked for.", name);
+    if (given != answers.end()) {
+        std::string why = parsed_json(given->second.json).value("why", "");
+        if (!why.empty()) why.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(why.front())));
+        return why + ".";
+    }
+    std::vector<std::string> unknown;
+    for (const auto& [other, answer] : answers)
+        if (run == "main" && answer.kind == kRefusedAnswer) unknown.push_back(other);
+    const auto near = nearest_word(name, unknown);
+    return fmt::format("The answer \"{}\" was not handed in{}.", name,
+                       near ? fmt::format("; \"{}\" was, which the lesson does not ask for", *near) : "");
+}
+
 /// Reads an answer when it is first asked for; upvalue 2 is the name of the run. One that is not there fails the check,
 /// in words for the student.
 int answer_of(Call& call) {
@@ -265,11 +270,12 @@ int answer_of(Call& call) {
     const auto refuse = [&session](const std::string& why) { throw InvalidArgument(session.answer_trouble = why); };
     const auto& answers = session.runs[run].answers;
     const auto answer = answers.find(name);
-    if (answer == answers.end()) refuse(fmt::format("The answer \"{}\" was not handed in.", name));
+    if (answer == answers.end() || answer->second.kind == kRefusedAnswer) refuse(answer_trouble(name, run, answers));
     const auto& [kind, text] = answer->second;
     if (kind != "data" && kind != "text" && holds_no_numbers(parsed_json(text)))
         refuse(fmt::format("The answer \"{}\" holds NaN or infinite numbers.", name));
     push_answer_value(L, text);
+    if (session.change && session.change->first == name) multiply_on_top(L, session.change->second);
     lua_pushvalue(L, 2);
     lua_pushvalue(L, -2);
     lua_rawset(L, 1);
@@ -316,7 +322,7 @@ std::optional<std::string> mistake_made(const Call& call, const DeclaredCheck& c
 void keep_secret(const CheckSession& session, bool ended, Verdict& verdict) {
     const bool has_number = verdict.message.find_first_of("0123456789") != std::string::npos;
     if (ended ? !has_number : verdict.message == session.answer_trouble) return;
-    verdict.for_instructor = std::move(verdict.message);
+    if (verdict.for_instructor.empty()) verdict.for_instructor = std::move(verdict.message);
     verdict.message = ended ? "On a record that you have not seen, it falls short of full points."
                             : "On a record that you have not seen, the check ended with an error: what it looked at is "
                               "not of the kind or size that was asked for.";
@@ -342,8 +348,10 @@ int verdict(Call& call) {
         if (lua_type(L, answers + 3) == LUA_TSTRING && found.share < 1) found.message = lua_tostring(L, answers + 3);
     } else {
         pass_stop_on(L);
+        const std::string error = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "The check failed.";
         // Where in the checks it happened is nothing to the student.
-        found.message = lua_type(L, -1) == LUA_TSTRING ? take_apart(lua_tostring(L, -1)).text : "The check failed.";
+        found.message = take_apart(error).text;
+        if (found.message != session.answer_trouble) found.for_instructor = error;
     }
     if (found.share < 1 && on_secret_record(call)) keep_secret(session, ended, found);
     if (found.share < 1)

@@ -1,0 +1,61 @@
+#include <iostream>
+#include <memory>
+#include <thread>
+
+#include "cli/commands.h"
+#include "course/checks/check_trial.h"
+#include "platform/atomic_file.h"
+#include "platform/error.h"
+#include "platform/terminal/terminal_text.h"
+
+namespace dynlab::inline cli {
+namespace {
+
+struct ChecksArguments {
+    std::string folder, lesson, secret;
+    int timeout = 60;
+};
+
+int try_them(const ChecksArguments& words) {
+    GradingSetup setup;
+    setup.lesson = find_lesson(words.lesson);
+    if (!words.folder.empty()) setup.more_checks = words.folder;
+    setup.isolation = strongest_isolation();
+    setup.timeout = std::chrono::seconds(words.timeout);
+    setup.program = std::filesystem::read_symlink("/proc/self/exe");
+    setup.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    if (!words.secret.empty()) setup.secret = read_file(words.secret);
+    const CheckTrial trial = try_checks_of(setup);
+    std::cout << terminal_text(trial_in_words(trial));
+    return trial.sound() ? kDone : kFailed;
+}
+
+}  // namespace
+
+void add_checks(CLI::App& app, Action& action) {
+    CLI::App* group = app.add_subcommand("checks", "Try checks before a class meets them");
+    group->require_subcommand(1);
+    auto words = std::make_shared<ChecksArguments>();
+    CLI::App* command =
+        group->add_subcommand("try", "Run the checks of a lesson, and your own, on what is known to be right or wrong");
+    command->add_option("FOLDER", words->folder, "Your own checks (*.lua); the lesson's alone unless given")
+        ->type_name("FOLDER");
+    command->add_option("--lesson", words->lesson, "The lesson")->type_name("NN")->required();
+    command->add_option("--secret", words->secret, "File whose content the hidden records are drawn from")
+        ->type_name("FILE")
+        ->check(CLI::ExistingFile);
+    command->add_option("--timeout", words->timeout, "Seconds for each run of a script")
+        ->type_name("S")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 3600));
+    command->footer(
+        "Tried are the worked solution, the untouched starter, the lesson's wrong_*.lua and right_*.lua, your own\n"
+        "scripts FOLDER/try/*.lua, and the worked solution with one answer 1.5 times as large, of the other sign, or\n"
+        "left out. For each the points and what is said of those that are missing; at the end the checks that the\n"
+        "worked solution fails, and those that nothing fails.\n"
+        "Example:  dynlab checks try my-checks --lesson 04\n"
+        "Exit codes: 0 the worked solution passes all checks, 1 it does not, 2 wrong usage.");
+    command->callback([words, &action] { action = [words] { return try_them(*words); }; });
+}
+
+}  // namespace dynlab::inline cli

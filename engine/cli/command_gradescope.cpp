@@ -1,0 +1,59 @@
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+
+#include "cli/commands.h"
+#include "course/returns/gradescope.h"
+#include "platform/atomic_file.h"
+
+namespace dynlab::inline cli {
+namespace {
+
+struct GradescopeArguments {
+    std::string lesson, output, checks, secret;
+    int timeout = 60;
+};
+
+int make_autograder(const GradescopeArguments& words) {
+    AutograderRequest request;
+    request.lesson = find_lesson(words.lesson);
+    if (!words.checks.empty()) request.more_checks = words.checks;
+    request.secret = read_file(words.secret);
+    request.timeout_seconds = words.timeout;
+    request.program = std::filesystem::read_symlink("/proc/self/exe");
+    const std::filesystem::path zip = words.output.empty() ? request.lesson.slug + "-autograder.zip" : words.output;
+    const std::uintmax_t bytes = write_autograder(request, zip);
+    std::cout << fmt::format("{}: {:.1f} MB\n", zip.string(), static_cast<double>(bytes) / 1e6);
+    return kDone;
+}
+
+}  // namespace
+
+void add_gradescope(CLI::App& app, Action& action) {
+    auto words = std::make_shared<GradescopeArguments>();
+    CLI::App* command = app.add_subcommand("gradescope", "Make the autograder of a lesson for Gradescope, as one zip");
+    command->add_option("LESSON", words->lesson, "The lesson's number or name, or its folder")->required();
+    command->add_option("--secret", words->secret, "File whose content the hidden records are drawn from")
+        ->type_name("FILE")
+        ->required()
+        ->check(CLI::ExistingFile);
+    command->add_option("-o,--output", words->output, "The zip to make; NN_name-autograder.zip here unless given")
+        ->type_name("FILE.zip");
+    command->add_option("--checks", words->checks, "Folder with your own checks (*.lua), which students never see")
+        ->type_name("FOLDER")
+        ->check(CLI::ExistingDirectory);
+    command->add_option("--timeout", words->timeout, "Seconds for each run of a script")
+        ->type_name("S")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 3600));
+    command->footer(
+        "The zip holds setup.sh, run_autograder and all they need; upload it, and choose a base image that is at "
+        "least\n"
+        "as new as this machine (x86-64). Students hand in analysis.lua, or the zip of dynlab pack, and see points,\n"
+        "messages and hints as dynlab grade gives them; of your own checks points and hints only.\n"
+        "Example:  dynlab gradescope 04 --secret secret.txt --checks my-checks");
+    command->callback([words, &action] { action = [words] { return make_autograder(*words); }; });
+}
+
+}  // namespace dynlab::inline cli

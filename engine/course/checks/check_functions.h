@@ -1,0 +1,15 @@
+#pragma once
+#include "scripting/runtime/function_entry.h"
+
+namespace dynlab::inline course {
+
+/// What checks.lua may call besides everything that lessons may, and besides check_record_functions. Their state is the
+/// service CheckSession.
+FunctionEntries check_declarations();      ///< check, change_check, drop_check, declare_rig
+FunctionEntries check_functions();         ///< near, points_between, all_of, any_of, differs, has_figure, ...
+FunctionEntries check_source_functions();  ///< source, calls
+
+/// One more, for the engine: _verdict(k) tries the k-th declared check and leaves its verdict in the session.
+FunctionEntries verdict_function();
+
+}  // namespace dynlab::inline course

@@ -1,0 +1,39 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "course/grading/grading_rules.h"
+
+namespace dynlab::inline course {
+
+/// What one script, or one change of the worked solution's answers, gets from the checks.
+struct TriedScript {
+    std::string name;
+    std::string trouble;             ///< why it did not run to its end
+    std::vector<TriedCheck> checks;  ///< in the order of CheckTrial::checks
+};
+
+/// Checks that are tried on scripts of which one knows what they are worth.
+struct CheckTrial {
+    std::vector<CheckDescription> checks;
+    TriedScript solution;
+    std::vector<TriedScript> scripts;  ///< the starter, wrong_*.lua, right_*.lua, and those of the folder's own
+    std::vector<TriedScript> mutants;  ///< the solution with one answer scaled, of the other sign, or left out
+
+    /// Of every check by its place: whether something tried here fails it, and whether the solution passes it.
+    bool fails_sometimes(std::size_t check) const;
+    bool solution_passes(std::size_t check) const;
+    /// The worked solution passes all, and no check stops with an error of its own on it.
+    bool sound() const;
+};
+
+/// Tries the checks of `setup` on the lesson's worked solution, its starter, its wrong_*.lua and right_*.lua, the
+/// scripts in the folder `try` of the instructor's checks, and on mutants of the solution's answers: each number of an
+/// answer 1.5 times as large, of the other sign, the answer left out. Scripts are run, mutants are not. Throws
+/// EnvironmentError as GradingRules does.
+CheckTrial try_checks_of(const GradingSetup& setup);
+
+/// It in words, a line for each script and what no script shows.
+std::string trial_in_words(const CheckTrial& trial);
+
+}  // namespace dynlab::inline course

@@ -1,0 +1,143 @@
+// The records of GradingRules: hidden ones, those of reruns, those of groups.
+#include <fmt/format.h>
+
+#include "course/grading/boxed_work.h"
+#include "course/grading/grading_rules.h"
+#include "data_io/mat_file.h"
+#include "platform/atomic_file.h"
+#include "platform/error.h"
+#include "platform/hash.h"
+#include "platform/program_lookup.h"
+#include "workflow/lesson_data.h"
+#include "workflow/specimen_record.h"
+
+namespace dynlab::inline course {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr char kSameRecords[] = "seed";  // the rerun that changes no record
+
+}  // namespace
+
+std::uint32_t GradingRules::drawn(const std::string& what) const {
+    const std::string hash = sha256_of(setup_.secret + "\n" + setup_.lesson.slug + "\n" + what);
+    return static_cast<std::uint32_t>(std::stoul(hash.substr(0, 8), nullptr, 16)) | 1u;
+}
+
+/// A hidden record of every rig: which ones the checks ask for shows only while they run, and all take a tenth of a
+/// second together.
+void GradingRules::make_records() {
+    fs::create_directories(records_.path() / kHiddenRecords);
+    for (const Rig& rig : rig_catalogue()) make_record(rig.name, kHiddenRecords, records_.path() / kHiddenRecords);
+    for (const std::string& rerun : reruns_) {
+        if (rerun == kSameRecords) continue;
+        const fs::path data = records_.path() / rerun / "data";
+        fs::create_directories(data.parent_path());
+        fs::copy(official_data(), data, fs::copy_options::recursive);
+        fs::create_directories(data / rerun);
+        for (const auto& entry : fs::directory_iterator(data / rerun))
+            if (entry.path().extension() == ".csv" || entry.path().extension() == ".mat") fs::remove(entry.path());
+        if (!fs::exists(data / rerun / "SOURCE.md")) write_file_atomically(data / rerun / "SOURCE.md", "A record.\n");
+        if (const auto file = own_record("rerun", rerun)) {
+            fs::copy_file(*file, data / rerun / file->filename());
+            own_records_ += sha256_of_file(*file);
+        } else if (find_rig(rerun)) {
+            make_record(rerun, rerun, data / rerun);
+        }
+    }
+    if (setup_.more_checks && fs::is_directory(*setup_.more_checks / kHiddenRecords))
+        for (const auto& entry : fs::directory_iterator(*setup_.more_checks / kHiddenRecords)) {
+            const std::string name = entry.path().stem().string();
+            if (!own_record(kHiddenRecords, name)) continue;
+            fs::remove(records_.path() / kHiddenRecords / (name + ".mat"));
+            fs::copy_file(entry.path(), records_.path() / kHiddenRecords / entry.path().filename());
+            specimens_[kHiddenRecords].erase(name);  // the instructor's file stands for the simulated one
+            own_records_ += sha256_of_file(entry.path());
+        }
+    make_records_of_declared_rigs();
+}
+
+/// A record from the instructor's folder of checks.
+std::optional<fs::path> GradingRules::own_record(const std::string& folder, const std::string& data_set) const {
+    if (!setup_.more_checks) return {};
+    for (const char* ending : {".csv", ".mat"}) {
+        const fs::path file = *setup_.more_checks / folder / (data_set + ending);
+        if (fs::is_regular_file(file)) return file;
+    }
+    return {};
+}
+
+/// Hidden ones, and those of reruns, of all rigs that the files declare.
+void GradingRules::make_records_of_declared_rigs() {
+    if (declared_rigs_.empty()) return;
+    std::vector<WantedRecord> wanted;
+    std::vector<fs::path> files;
+    for (const std::string& rig : declared_rigs_)
+        for (const std::string& run : {std::string(kHiddenRecords), rig}) {
+            const bool hidden = run == kHiddenRecords;
+            if (!hidden && !reruns_.contains(rig)) continue;
+            const std::uint32_t specimen = drawn(rig);
+            wanted.push_back({rig, specimen, drawn((hidden ? "noise:" : "noise:rerun:") + rig)});
+            files.push_back((hidden ? records_.path() / kHiddenRecords : records_.path() / rig / "data" / rig) /
+                            (rig + ".mat"));
+            specimens_[run][rig] = specimen;
+        }
+    const BoxedResult<CheckResults> made = checked({}, {}, {}, std::chrono::seconds(60), wanted);
+    if (!made.output) throw EnvironmentError("the rigs that the checks declare cannot be run: " + made.reason);
+    if (made.output->error) throw EnvironmentError(*made.output->error);
+    for (std::size_t k = 0; k < files.size(); ++k) {
+        VariableTable variables;
+        for (const auto& [name, values] : made.output->records.at(k))
+            variables[name] = {Vector(Eigen::Map<const Vector>(values.data(), static_cast<Index>(values.size())))};
+        write_mat_file(files[k], variables);
+    }
+}
+
+void GradingRules::make_record(const std::string& data_set, const std::string& run, const fs::path& folder) {
+    // Without the run: hidden records are further experiments with the apparatus of the rerun.
+    const RigChoice choice{.specimen = drawn(data_set),
+                           .seed = drawn((run == kHiddenRecords ? "noise:" : "noise:rerun:") + data_set)};
+    specimens_[run][data_set] = choice.specimen;
+    write_specimen_record(data_set, choice, folder);
+}
+
+void GradingRules::bring_lesson_data() {
+    if (!has_own_data(setup_.lesson)) return;
+    const fs::path data = records_.path() / "official" / "data";
+    fs::create_directories(data.parent_path());
+    fs::copy(shared_folder() / "data", data, fs::copy_options::recursive);
+    copy_own_data(setup_.lesson, data);
+    for (const auto& entry : fs::recursive_directory_iterator(data))
+        if (entry.is_regular_file()) own_records_ += sha256_of_file(entry.path());
+}
+
+/// The installed data sets, and those that the lesson brings along.
+fs::path GradingRules::official_data() const {
+    const fs::path data = records_.path() / "official" / "data";
+    return fs::exists(data) ? data : shared_folder() / "data";
+}
+
+/// Data sets of the lesson that groups may have for themselves. Needs the lock of `making_`.
+std::vector<std::string> GradingRules::simulated() const {
+    if (!simulated_) simulated_ = simulated_data_of(setup_.lesson);
+    return *simulated_;
+}
+
+/// The official data, a group's own records among them, as groups have them.
+fs::path GradingRules::data_of(const GroupSeed& group_seed) const {
+    if (!group_seed) return official_data();
+    const std::lock_guard lock(*making_);
+    const fs::path data = records_.path() / fmt::format("group-{}", *group_seed) / "data";
+    if (fs::exists(data)) return data;
+    const fs::path growing = data.parent_path() / "growing";
+    fs::create_directories(growing.parent_path());
+    fs::copy(official_data(), growing, fs::copy_options::recursive);
+    for (const std::string& name : simulated()) fs::remove_all(growing / name);
+    write_group_data(simulated(), *group_seed, growing);
+    fs::rename(growing, data);
+    return data;
+}
+
+}  // namespace dynlab::inline course

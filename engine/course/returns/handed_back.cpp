@@ -1,0 +1,216 @@
+#include "course/returns/handed_back.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "course/grading/feedback.h"
+#include "course/grading/grade.h"
+#include "course/grading/roster.h"
+#include "course/grading/zip_file.h"
+#include "data_io/text_table.h"
+#include "data_io/values/json_values.h"
+#include "platform/atomic_file.h"
+#include "platform/error.h"
+#include "platform/hash.h"
+
+namespace dynlab::inline course {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One row of the gradebook, with what the platforms want to know besides.
+struct MarkedStudent {
+    std::string id, name, submission, points, possible;
+    std::string mail, moodle, canvas;
+    fs::path feedback;  ///< empty where there is none
+};
+
+std::size_t needed_column(const TextTable& table, const char* name, const fs::path& file) {
+    if (const auto column = table.column(name)) return *column;
+    throw EnvironmentError(fmt::format("{} has no column {}; it is not what dynlab grade writes", file.string(), name));
+}
+
+/// The participant's number and name in "Anna Müller_900000_assignsubmission_file_".
+std::optional<std::pair<std::string, std::string>> moodle_participant(const std::string& submission) {
+    static const std::regex form(R"(^(.+?)_(\d+)_assignsubmission_file_?.*$)");
+    std::smatch parts;
+    if (!std::regex_match(submission, parts, form)) return {};
+    return std::pair(parts[2].str(), parts[1].str());
+}
+
+std::optional<std::string> canvas_number(const std::string& submission) {
+    static const std::regex form(R"(^[^_]+(?:_LATE)?_(\d+)_\d+_.*$)");
+    std::smatch parts;
+    if (!std::regex_match(submission, parts, form)) return {};
+    return parts[1].str();
+}
+
+fs::path feedback_of(const fs::path& marks, const std::string& submission) {
+    for (const char* name : {"feedback.pdf", "feedback.md"}) {
+        const fs::path file = marks / "results" / submission / name;
+        if (!submission.empty() && fs::exists(file)) return file;
+    }
+    return {};
+}
+
+std::vector<MarkedStudent> marked_students(const HandBackRequest& request) {
+    const fs::path file = request.marks / "gradebook.csv";
+    if (!fs::exists(file))
+        throw EnvironmentError(fmt::format("{} holds no gradebook.csv; name the folder that dynlab grade --out wrote",
+                                           request.marks.string()));
+    const TextTable table = read_text_table(file);
+    const auto column = [&](const char* name) { return needed_column(table, name, file); };
+    std::map<std::string, Student> known;
+    if (request.roster)
+        for (const Roster roster(*request.roster); const Student& student : roster.students())
+            known[student.id] = student;
+    std::map<std::string, int> senders;  // of each submission; one that several have tells nobody's number
+    for (const auto& row : table.rows) ++senders[row[column("submission")]];
+    std::vector<MarkedStudent> all;
+    for (const auto& row : table.rows) {
+        MarkedStudent one;
+        one.id = row[column("id")], one.name = row[column("name")], one.submission = row[column("submission")];
+        one.points = row[column("points")], one.possible = row[column("possible")];
+        if (one.name.empty() && one.id.empty()) one.name = one.submission;
+        if (const auto found = known.find(one.id); found != known.end())
+            one.mail = found->second.mail, one.moodle = found->second.moodle, one.canvas = found->second.canvas;
+        if (const auto participant = moodle_participant(one.submission);
+            participant && one.moodle.empty() && (senders[one.submission] == 1 || participant->second == one.name))
+            one.moodle = participant->first;
+        if (const auto number = canvas_number(one.submission);
+            number && one.canvas.empty() && senders[one.submission] == 1)
+            one.canvas = *number;
+        one.feedback = feedback_of(request.marks, one.submission);
+        all.push_back(std::move(one));
+    }
+    return all;
+}
+
+/// What Moodle shows beside the grade: a line for each check that lacks points.
+std::string comments_on(const fs::path& marks, const MarkedStudent& student) {
+    const fs::path file = marks / "results" / student.submission / "results.json";
+    if (student.submission.empty() || !fs::exists(file)) return "";
+    std::string text = fmt::format("{} of {} points.", student.points, student.possible);
+    try {
+        const nlohmann::json result = parsed_json(read_file(file));
+        for (const auto& test : result.at("tests")) {
+            const double most = test.at("max_score"), earned = test.value("score", most);
+            if (earned >= most) continue;
+            const std::string name = test.at("name"), said = test.at("output");
+            text += fmt::format("\n{}: {} of {}.{}{}", name, points_text(earned), points_text(most),
+                                said.empty() ? "" : " ", said);
+        }
+    } catch (const nlohmann::json::exception&) {
+        throw EnvironmentError(fmt::format("{} is not a result that dynlab grade wrote", file.string()));
+    }
+    return text;
+}
+
+/// What is written, into the folder handed_back.
+class Outbox {
+  public:
+    explicit Outbox(const HandBackRequest& request)
+        : request_(request), folder_(request.marks / "handed_back"), students_(marked_students(request)) {
+        fs::create_directories(folder_);
+    }
+
+    HandedBack fill() {
+        moodle();
+        canvas();
+        mail();
+        return std::move(result_);
+    }
+
+  private:
+    void write(const std::string& name, const TextTable& table) {
+        write_file_atomically(folder_ / name, csv_text(table));
+        result_.files.push_back(folder_ / name);
+    }
+
+    void moodle() {
+        TextTable table;
+        table.names = {"Identifier",       "Full name", "Grade", "Maximum Grade", "Last modified (grade)",
+                       "Feedback comments"};
+        std::map<std::string, std::string> contents;
+        for (const MarkedStudent& student : students_) {
+            if (student.moodle.empty() || student.points.empty()) continue;
+            table.rows.push_back({"Participant " + student.moodle, student.name, student.points, student.possible, "",
+                                  comments_on(request_.marks, student)});
+            if (student.feedback.empty()) continue;
+            // Moodle reads the number between the first two underlines.
+            std::string name = student.name.empty() ? student.id : student.name;
+            std::replace_if(
+                name.begin(), name.end(), [](char c) { return c == '_' || c == '/' || c == '\\'; }, ' ');
+            contents[fmt::format("{}_{}_assignfeedback_file/{}", name, student.moodle,
+                                 student.feedback.filename().string())] = read_file(student.feedback);
+        }
+        if (table.rows.empty()) return;
+        write("moodle-grades.csv", table);
+        if (!contents.empty()) {
+            write_zip(folder_ / "moodle-feedback.zip", contents);
+            result_.files.push_back(folder_ / "moodle-feedback.zip");
+        }
+        for (const MarkedStudent& student : students_)
+            if (student.moodle.empty() && !student.points.empty())
+                result_.complaints.push_back(
+                    fmt::format("{} is missing in moodle-grades.csv: the participant's number is not known; write it "
+                                "into the roster's column moodle",
+                                student.name.empty() ? student.id : student.name));
+    }
+
+    void canvas() {
+        TextTable table;
+        table.names = {"Student", "ID", "SIS User ID", "SIS Login ID", "Section", request_.assignment};
+        std::string possible;
+        for (const MarkedStudent& student : students_) {
+            if (student.canvas.empty() || student.points.empty()) continue;
+            table.rows.push_back({student.name, student.canvas, student.id, student.mail, "", student.points});
+            possible = student.possible;
+        }
+        if (table.rows.empty()) return;
+        table.rows.insert(table.rows.begin(), {"    Points Possible", "", "", "", "", possible});
+        write("canvas-grades.csv", table);
+    }
+
+    /// Whose feedback is new since the last time, with the address: for whoever sends by mail.
+    void mail() {
+        const fs::path file = folder_ / "mail.csv";
+        std::map<std::string, std::string> sent;
+        if (fs::exists(file)) {
+            const TextTable before = read_text_table(file);
+            const auto id = needed_column(before, "id", file), name = needed_column(before, "feedback", file),
+                       hash = needed_column(before, "sha256", file);
+            for (const auto& row : before.rows) sent[row[id] + "\n" + row[name]] = row[hash];
+        }
+        TextTable table;
+        table.names = {"id", "name", "mail", "points", "possible", "feedback", "new", "sha256"};
+        for (const MarkedStudent& student : students_) {
+            if (student.feedback.empty()) continue;
+            const std::string hash = sha256_of_file(student.feedback),
+                              name = fs::relative(student.feedback, request_.marks).string();
+            const auto before = sent.find(student.id + "\n" + name);
+            const bool is_new = before == sent.end() || before->second != hash;
+            table.rows.push_back({student.id, student.name, student.mail, student.points, student.possible,
+                                  name, is_new ? "yes" : "no",
+                                  hash});
+        }
+        write("mail.csv", table);
+    }
+
+    const HandBackRequest& request_;
+    fs::path folder_;
+    std::vector<MarkedStudent> students_;
+    HandedBack result_;
+};
+
+}  // namespace
+
+HandedBack hand_back(const HandBackRequest& request) {
+    return Outbox(request).fill();
+}
+
+}  // namespace dynlab::inline course

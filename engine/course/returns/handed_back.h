@@ -1,0 +1,35 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dynlab::inline course {
+
+/// What goes back to students and platforms from a folder of marks.
+struct HandBackRequest {
+    std::filesystem::path marks;                  ///< the OUT of dynlab grade
+    std::string assignment;                       ///< its column in Canvas's gradebook, such as "Lab 4 (1234)"
+    std::optional<std::filesystem::path> roster;  ///< for addresses and the platforms' numbers
+};
+
+struct HandedBack {
+    std::vector<std::filesystem::path> files;
+    std::vector<std::string> complaints;  ///< whole sentences
+};
+
+/// Writes into `marks`/handed_back, from gradebook.csv and the feedback in `marks`:
+///
+/// * moodle-grades.csv, a grading worksheet with what Moodle's import wants (Identifier, Grade, Last modified (grade)),
+///   the names, the maximum and comments; moodle-feedback.zip, for each participant a folder
+///   NAME_NUMBER_assignfeedback_file, as Moodle's upload of feedback files wants it. The number is the one in the name
+///   of the submission's folder, or the roster's.
+/// * canvas-grades.csv: Student, ID, SIS User ID (the roster's id), SIS Login ID (its mail), Section, the assignment.
+/// * mail.csv: a row for each student with the address, the file of feedback, and whether it is new since the last
+///   time.
+///
+/// Who has no marks is left out, and so is a platform that nobody has a number of. Throws EnvironmentError where there
+/// is no gradebook.csv, or one of another kind.
+HandedBack hand_back(const HandBackRequest& request);
+
+}  // namespace dynlab::inline course

@@ -1,0 +1,80 @@
+#include "course/similarity/class_similarity.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "course/grading/submission.h"
+#include "course/similarity/similarity.h"
+#include "data_io/text_table.h"
+#include "documents/solutions.h"
+#include "platform/atomic_file.h"
+#include "platform/temporary_folder.h"
+#include "platform/text_file.h"
+
+namespace dynlab::inline course {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kMostComparedBytes = 1u << 20;  // of a script that is compared
+
+/// Everything that can be compared below a folder of submissions, or of Lua files alone.
+void add_scripts(const fs::path& folder, const std::string& prefix, bool of_class, const SimilarityRequest& request,
+                 std::vector<ComparedScript>& scripts, std::vector<std::string>& complaints) {
+    std::vector<fs::path> plain;
+    for (const auto& entry : fs::directory_iterator(folder))
+        if (entry.is_regular_file() && entry.path().extension() == ".lua") plain.push_back(entry.path());
+    std::sort(plain.begin(), plain.end());
+    const auto add = [&](const std::string& name, const fs::path& file) {
+        if (fs::file_size(file) > kMostComparedBytes)
+            complaints.push_back(fmt::format("\"{}\" is too large to be compared", name));
+        else
+            scripts.push_back({prefix + name, read_file(file), of_class});
+    };
+    if (!of_class && !plain.empty()) {
+        for (const fs::path& file : plain) add(file.filename().string(), file);
+        return;
+    }
+    std::vector<std::string> left_out;
+    for (const Submission& submission : submissions_in(folder, left_out)) {
+        const TemporaryFolder work;
+        try {
+            const fs::path staged = stage_submission(submission, work.path(), request.isolation, request.program);
+            add(submission.name, staged / "analysis.lua");
+        } catch (const SubmissionError& error) {
+            complaints.push_back(fmt::format("\"{}\": {}", prefix + submission.name, error.what()));
+        }
+    }
+    for (const std::string& clause : left_out) complaints.push_back(clause + "; it is left out");
+}
+
+TextTable table_of(const std::vector<ComparedScript>& scripts, const std::vector<SimilarPair>& pairs) {
+    TextTable table;
+    table.names = {"first", "second", "code_percent", "same_lines_percent"};
+    for (const SimilarPair& pair : pairs)
+        table.rows.push_back({scripts[pair.a].name, scripts[pair.b].name, fmt::format("{:.0f}", 100 * pair.share),
+                              fmt::format("{:.0f}", 100 * pair.same_lines)});
+    return table;
+}
+
+}  // namespace
+
+SimilarityOutcome compare_class(const SimilarityRequest& request) {
+    SimilarityOutcome outcome;
+    const std::string solution = read_text(request.lesson.script());
+    std::vector<ComparedScript> scripts;
+    add_scripts(request.submissions, "", true, request, scripts, outcome.complaints);
+    outcome.scripts = scripts.size();
+    scripts.push_back({"the worked solution", solution, false});
+    for (const fs::path& folder : request.others)
+        add_scripts(folder, folder.filename().string() + "/", false, request, scripts, outcome.complaints);
+    const auto pairs = similar_pairs(scripts, without_solutions(solution, request.lesson.script()), request.line);
+    outcome.pairs = pairs.size();
+    fs::create_directories(request.out);
+    write_file_atomically(request.out / "similarity.md", similarity_in_markdown(scripts, pairs, request.line));
+    write_file_atomically(request.out / "similarity.csv", csv_text(table_of(scripts, pairs)));
+    return outcome;
+}
+
+}  // namespace dynlab::inline course

@@ -1,0 +1,29 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "platform/box.h"
+#include "workflow/lesson_catalogue.h"
+
+namespace dynlab::inline course {
+
+struct SimilarityRequest {
+    Lesson lesson;  ///< its starter counts for nothing, its worked solution is compared
+    std::filesystem::path submissions, out;
+    std::vector<std::filesystem::path> others;  ///< folders of former years' submissions, or of scripts
+    double line = 0.6;                          ///< least share of a pair that is told
+    Isolation isolation = Isolation::kFull;
+    std::filesystem::path program;  ///< dynlab
+};
+
+struct SimilarityOutcome {
+    std::size_t scripts = 0, pairs = 0;
+    std::vector<std::string> complaints;  ///< whole sentences: what could not be compared
+};
+
+/// Compares the scripts of a class with one another, the worked solution and others, and writes similarity.md and
+/// similarity.csv into `out`. Throws EnvironmentError where there are no submissions.
+SimilarityOutcome compare_class(const SimilarityRequest& request);
+
+}  // namespace dynlab::inline course

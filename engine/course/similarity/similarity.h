@@ -1,0 +1,42 @@
+#pragma once
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace dynlab::inline course {
+
+/// A script that is compared: one of the class, or what the class is held against (the worked solution, former years).
+struct ComparedScript {
+    std::string name, source;
+    bool of_class = true;
+};
+
+/// Where two scripts have the same code but for names and layout: lines of either, both ends included.
+struct CommonPassage {
+    int first_a = 0, last_a = 0, first_b = 0, last_b = 0;
+    std::size_t fingerprints = 0;
+};
+
+/// Two scripts that look alike. `share`: of the shorter one's own fingerprints, rare ones counting more, that the other
+/// has, 0 to 1; `same_lines`: of its own lines that the other has letter by letter.
+struct SimilarPair {
+    std::size_t a = 0, b = 0;  ///< places in the list; b is the one outside of the class, where one is
+    double share = 0, same_lines = 0;
+    std::vector<CommonPassage> passages;  ///< the longest first, at most three; of the first kMostShownPairs pairs only
+};
+
+inline constexpr std::size_t kMostShownPairs = 100;
+
+/// Every pair whose share is `line` or more, the largest first. What stands in `starter`, which all were given, counts
+/// for nothing; what many have counts little: a fingerprint weighs one over the number of different scripts with it.
+/// Pairs with less in common than chance explains (a handful of fingerprints, or none but common ones) are left out.
+/// Pairs of two scripts outside of the class are not looked for.
+std::vector<SimilarPair> similar_pairs(const std::vector<ComparedScript>& scripts, const std::string& starter,
+                                       double line);
+
+/// The pairs for the instructor's eye, as Markdown: names, shares, and of each passage both sides. It says nothing of
+/// who did what. At most kMostShownPairs are shown.
+std::string similarity_in_markdown(const std::vector<ComparedScript>& scripts, const std::vector<SimilarPair>& pairs,
+                                   double line);
+
+}  // namespace dynlab::inline course

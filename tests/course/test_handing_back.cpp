@@ -1,0 +1,90 @@
+#include <gmock/gmock.h>
+
+#include "course/grading_bench.h"
+
+namespace dynlab::test {
+namespace test_handing_back {
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr const char* kAnswers = "--   x: number\n";
+constexpr const char* kSolution = "answer('x', 42)\n";
+constexpr const char* kChecks =
+    "check{id = 'x', points = 2, about = 'The number', hint = 'Six times seven.',\n"
+    "  test = function(a) return near(a.x, 42) end}\n";
+
+// oracle: the columns and names that Moodle's importers ask for (mod/assign/feedback/offline and /file), and Canvas's
+// import of gradebooks
+TEST(handing_back, gives_platforms_what_they_import) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    Workbench& work = bench.bench();
+    bench.hand_in("Anna Lovelace_900001_assignsubmission_file_", kSolution);
+    bench.hand_in("Zoë_K_900002_assignsubmission_file_", "answer('x', 1)\n");
+    bench.hand_in("kalmanrudolf_LATE_31_77_work", kSolution);
+    work.write("roster.csv",
+               "id,name,email,moodle,canvas\n1,Anna Lovelace,anna@u.example,,\n2,Zoë K,,900002,\n"
+               "3,Rudolf Kalman,rk@u.example,,31\n4,Nobody Here,,,\n");
+    bench.grade({"--roster", "roster.csv"});
+    const ChildResult back =
+        work.dynlab({"hand-back", "out", "--roster", "roster.csv", "--assignment", "Lab 4 (1234)"});
+    EXPECT_EQ(back.output,
+              "out/handed_back/moodle-grades.csv\nout/handed_back/moodle-feedback.zip\n"
+              "out/handed_back/canvas-grades.csv\nout/handed_back/mail.csv\n");
+    EXPECT_EQ(back.exit_code, 1);
+    EXPECT_THAT(back.error_output, HasSubstr("Rudolf Kalman is missing in moodle-grades.csv"));
+    EXPECT_THAT(back.error_output, Not(HasSubstr("Nobody")));
+    const std::string moodle = work.read("out/handed_back/moodle-grades.csv");
+    EXPECT_THAT(moodle,
+                HasSubstr("Identifier,Full name,Grade,Maximum Grade,Last modified (grade),Feedback comments\r\n"));
+    EXPECT_THAT(moodle, HasSubstr("Participant 900001,Anna Lovelace,2,2,,2 of 2 points.\r\n"));
+    EXPECT_THAT(moodle, HasSubstr("Participant 900002,Zoë K,0,2,,\"0 of 2 points.\nThe number: 0 of 2."));
+    EXPECT_EQ(work.shell("python3 -c \"import zipfile; print('\\n'.join(zipfile.ZipFile("
+                         "'out/handed_back/moodle-feedback.zip').namelist()))\"")
+                  .output,
+              "Anna Lovelace_900001_assignfeedback_file/feedback.md\nZoë K_900002_assignfeedback_file/feedback.md\n");
+    EXPECT_EQ(work.read("out/handed_back/canvas-grades.csv"),
+              "Student,ID,SIS User ID,SIS Login ID,Section,Lab 4 (1234)\r\n    Points Possible,,,,,2\r\n"
+              "Rudolf Kalman,31,3,rk@u.example,,2\r\n");
+    const std::string mail = work.read("out/handed_back/mail.csv");
+    EXPECT_THAT(mail,
+                HasSubstr("1,Anna Lovelace,anna@u.example,2,2,results/Anna Lovelace_900001_assignsubmission_file_/"
+                          "feedback.md,yes,"));
+    // A second time only what changed is new.
+    work.write("out/manual.csv", "submission,check,points,reason\nZoë_K_900002_assignsubmission_file_,x,1,half\n");
+    bench.grade({"--roster", "roster.csv"});
+    work.dynlab({"hand-back", "out", "--roster", "roster.csv"});
+    const std::string again = work.read("out/handed_back/mail.csv");
+    EXPECT_THAT(again, HasSubstr("file_/feedback.md,no,"));
+    EXPECT_THAT(again, HasSubstr("1,2,results/Zoë_K_900002_assignsubmission_file_/feedback.md,yes,"));
+    EXPECT_EQ(work.dynlab({"hand-back", "in"}).exit_code, 1);
+}
+
+// oracle: the results of dynlab grade; Gradescope's form of results.json
+TEST(handing_back, an_autograder_for_gradescope_grades_alone) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    Workbench& work = bench.bench();
+    work.write("secret", "chosen by a test");
+    work.write("own/more.lua",
+               "check{id = 'hidden', points = 3, hint = 'Think again.', test = function(a)\n"
+               "  return a.x > 41, 'the word that must not be seen' end}\n");
+    ASSERT_EQ(work.dynlab({"gradescope", "99", "--secret", "secret", "--checks", "own", "-o", "a.zip"}).exit_code, 0);
+    ASSERT_EQ(work.shell("mkdir -p g/source g/submission && cd g/source && unzip -q ../../a.zip").exit_code, 0);
+    const std::string environment = "unset DYNLAB_HOME; export PREFIX=$PWD/prefix AUTOGRADER=$PWD/g; ";
+    const ChildResult setup = work.shell(environment + "bash g/source/setup.sh");
+    ASSERT_EQ(setup.exit_code, 0) << setup.error_output;
+    work.write("g/submission/analysis.lua", GradingBench::header(kAnswers) + "answer('x', 1)\n");
+    const ChildResult run = work.shell(environment + "bash g/source/run_autograder");
+    EXPECT_EQ(run.exit_code, 0) << run.error_output;
+    const std::string text = work.read("g/results/results.json");
+    const auto result = nlohmann::json::parse(text);
+    EXPECT_EQ(result.at("score"), 0);
+    EXPECT_EQ(result.at("tests").at(0).at("status"), "failed");
+    EXPECT_EQ(result.at("tests").at(1).at("output"), "Think again.");
+    EXPECT_THAT(text, Not(HasSubstr("must not be seen")));
+    work.write("g/submission/analysis.lua", GradingBench::header(kAnswers) + kSolution);
+    work.shell(environment + "bash g/source/run_autograder");
+    EXPECT_EQ(nlohmann::json::parse(work.read("g/results/results.json")).at("score"), 5);
+}
+
+}  // namespace test_handing_back
+}  // namespace dynlab::test
