@@ -61,8 +61,7 @@ Lesson find_lesson(const std::string& name) {
     if (fitting.size() == 1) return fitting.front();
     if (const auto own = name.empty() ? std::nullopt : lesson_in(name)) return *own;
     if (fitting.empty()) {
-        throw EnvironmentError("there is no lesson or folder '" + name + "'; the lessons are " +
-                               joined_slugs(all));
+        throw EnvironmentError("there is no lesson or folder '" + name + "'; the lessons are " + joined_slugs(all));
     }
     throw EnvironmentError("'" + name + "' fits several lessons (" + joined_slugs(fitting) +
                            "); give enough of the name to tell them apart");
