@@ -44,7 +44,9 @@ int run_action(const Action& action) {
     try {
         return action();
     } catch (const Interrupted& error) {
-        return complain(error, kInterrupted);
+        const int code = complain(error, kInterrupted);
+        pass_on_termination();
+        return code;
     } catch (const MissingProgram& error) {
         return complain(error, kMissingProgram);
     } catch (const std::exception& error) {
