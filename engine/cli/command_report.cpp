@@ -7,7 +7,7 @@ namespace {
 
 struct ReportArguments {
     std::string subject, output, record, language;
-    bool timings = false;
+    bool timings = false, stay_in_folder = false;
     SeedOption seed;
 };
 
@@ -15,6 +15,7 @@ int report(const ReportArguments& words) {
     ReportRequest request = report_of(words.subject, words.output, words.language);
     request.seed = words.seed.value().value_or(request.seed);
     request.record = words.record;
+    request.stay_in_folder = words.stay_in_folder;
     return make_document(std::move(request), words.timings);
 }
 
@@ -32,6 +33,7 @@ void add_report(CLI::App& app, Action& action) {
     command->add_option("--lang", words->language, "Language of a lesson's report, where it has several")
         ->check(CLI::IsMember({"en", "fr"}));
     command->add_flag("--timings", words->timings, "Say how long each step took");
+    command->add_flag("--stay-in-folder", words->stay_in_folder, "")->group("");  // what check wants
     words->seed.add_to(*command);
     command->footer("Examples:  dynlab report 02     dynlab report my-work -o my-work.html");
     command->callback([words, &action] { action = [words] { return report(*words); }; });

@@ -44,7 +44,9 @@ int run_action(const Action& action) {
     try {
         return action();
     } catch (const Interrupted& error) {
-        return complain(error, kInterrupted);
+        const int code = complain(error, kInterrupted);
+        pass_on_termination();
+        return code;
     } catch (const MissingProgram& error) {
         return complain(error, kMissingProgram);
     } catch (const std::exception& error) {
@@ -74,5 +76,5 @@ int main(int argc, char** argv) {
         app.exit(error);
         return asked_for_text ? kDone : kUsage;
     }
-    return run_action(action ? action : open_prompt);
+    return run_action(action ? action : [] { return open_prompt(); });
 }

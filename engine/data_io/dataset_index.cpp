@@ -175,9 +175,9 @@ Source find_graded_source(const std::string& name_or_path, const fs::path& scrip
     if (const auto source = installed_source(name_or_path)) return *source;
     Source source = find_source(name_or_path, script_folder);
     if (!lies_in(script_folder, source.file))
-        throw EnvironmentError(fmt::format(
-            "{} leads outside the folder; where scripts are graded, files of {} itself and installed data are read",
-            source.file.string(), fs::absolute(script_folder).string()));
+        throw EnvironmentError(
+            fmt::format("{} {}; where scripts are graded, files of {} itself and installed data are read",
+                        source.file.string(), kLeadsOutside, fs::absolute(script_folder).string()));
     return source;
 }
 

@@ -85,16 +85,16 @@ void describe(T& object, V& member) {
     member("variables", variables), member("left_out", left_out);
 }
 
-/// `alone`: this process is a guarded copy, which may give up opening files (a box sees no others anyway). libmatio has
+/// A guarded copy gives up opening files (a box sees no others anyway). libmatio has
 /// opened the one it reads, and HDF5 would follow links of a v7.3 file to others.
-MatContent read_variables(const fs::path& file, bool alone) {
+MatContent read_variables(const fs::path& file) {
     const MatLayout layout = check_mat_layout(file);
     MatioComplaints complaints;
     const MatFile mat(Mat_Open(file.c_str(), MAT_ACC_RDONLY));
     if (!mat) fail_damaged(file, "it cannot be opened as a MATLAB file");
     const bool is_hdf5 = layout.version == MatVersion::k73;
     const std::size_t most_values = is_hdf5 ? 0 : kLargestDeflateRatio * fs::file_size(file);
-    if (alone && is_hdf5 && !is_confined()) confine_to_memory();
+    if (is_hdf5 && is_guarded_copy()) confine_to_memory();
     MatContent content;
     std::size_t count = 0;
     std::string last_name;
@@ -130,7 +130,7 @@ MatContent read_guarded(const fs::path& file) {
     const GuardLimits limits;
     const auto read = [&file] {
         try {
-            return cbor_of(read_variables(file, true));
+            return cbor_of(read_variables(file));
         } catch (const std::bad_alloc&) {
             fail_damaged(file, "reading it takes more than 2 GiB of memory");
         }
@@ -161,7 +161,7 @@ std::size_t number_count(const Variable& variable) {
 }  // namespace
 
 VariableTable read_mat_file(const fs::path& file, bool guarded, std::vector<std::string>* left_out) {
-    MatContent content = guarded ? read_guarded(file) : read_variables(file, false);
+    MatContent content = guarded ? read_guarded(file) : read_variables(file);
     if (left_out != nullptr) *left_out = std::move(content.left_out);
     return std::move(content.variables);
 }

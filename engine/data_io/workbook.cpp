@@ -252,7 +252,7 @@ SheetText read_sheet(const std::filesystem::path& file, const std::string& sheet
     const std::string name = file.string();
     const auto read = [&file, &sheet, &name] {
         const std::string bytes = read_file(file);
-        if (!is_confined()) confine_to_memory();
+        if (is_guarded_copy()) confine_to_memory();
         try {
             return cbor_of(sheet_of(bytes, sheet));
         } catch (const EnvironmentError& error) {

@@ -97,6 +97,10 @@ void confine_process(const ProcessLimits& limits) {
 #ifndef __SANITIZE_ADDRESS__  // the address sanitizer reserves more addresses than any limit leaves
     limit(RLIMIT_AS, limits.memory_bytes);
 #endif
+    refuse_harmful_calls();
+}
+
+void refuse_harmful_calls() {
     if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0)
         throw EnvironmentError("cannot give up privileges: " + system_reason(errno));
     filter_system_calls();

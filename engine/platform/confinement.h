@@ -17,6 +17,9 @@ struct ProcessLimits {
 /// that are needed are running. Throws EnvironmentError where the kernel refuses.
 void confine_process(const ProcessLimits& limits);
 
+/// The part of it that is no limit: only the system calls are given up. The process counts as confined.
+void refuse_harmful_calls();
+
 /// Gives up everything but memory, time and the files that are open, for good: for code that reads what is not trusted
 /// and answers on a pipe. What such code needs of files must have been read; Utf8Locale works. Throws EnvironmentError
 /// where the kernel refuses.

@@ -12,6 +12,8 @@
 namespace dynlab::inline platform {
 namespace {
 
+bool guarded_copy = false;
+
 /// Bytes of address space this process has mapped (Linux: first number of /proc/self/statm, in pages).
 std::uint64_t mapped_bytes() {
     const FileDescriptor statm(::open("/proc/self/statm", O_RDONLY | O_CLOEXEC));
@@ -33,7 +35,9 @@ bool keep_only(int output, int error_output) {
 
 [[noreturn]] void do_guarded_work(const std::function<std::string()>& work, std::uint64_t memory_bytes) {
     limit_memory(memory_bytes);
+    guarded_copy = true;
     try {
+        refuse_harmful_calls();
         const std::string result = work();
         ::_exit(write_all(3, result.data(), result.size()) ? 0 : 2);
     } catch (const std::exception& error) {
@@ -76,6 +80,10 @@ ChildResult run_guarded(const std::function<std::string()>& work, const GuardLim
     return ProcessGroup(child, std::move(output.read_end), std::move(error_output.read_end),
                         ProcessGroup::Limits{limits.timeout, limits.output_bytes})
         .wait();
+}
+
+bool is_guarded_copy() {
+    return guarded_copy;
 }
 
 }  // namespace dynlab::inline platform

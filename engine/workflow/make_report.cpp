@@ -167,6 +167,7 @@ ReportResult make_report(const ReportRequest& request) {
                        .out_folder = workplace.path(),
                        .print = request.print,
                        .enter_cell = request.enter_cell,
+                       .stay_in_folder = request.stay_in_folder,
                        .call_cache = &calls};
         record = run_script(run, renderer);
         result.cells = cells_in_order(request.script, record.timings);

@@ -69,6 +69,7 @@ RunRecord run_script(const RunRequest& request, GnuplotRenderer& renderer) {
     const std::filesystem::path folder = request.script.file.parent_path();
     options.script_folder = folder.empty() ? "." : folder;
     options.out_folder = request.out_folder;
+    options.stay_in_folder = request.stay_in_folder;
     options.print = request.print;
     options.call_cache = request.call_cache;
     if (request.enter_cell) {

@@ -22,6 +22,7 @@ struct RunRequest {
     std::function<void(const std::string&)> print;  ///< live output; none when empty
     std::function<void(const std::string&)>
         enter_cell;                   ///< called with each cell that begins: "cell 4 of 12, validation"
+    bool stay_in_folder = false;      ///< files are read from the script's folder and the installed data only
     CallCache* call_cache = nullptr;  ///< where results of long calls are kept
 };
 

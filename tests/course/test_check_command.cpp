@@ -60,6 +60,36 @@ TEST(check_command, what_needs_more_than_the_folder_fails_from_a_clean_copy) {
     EXPECT_THAT(result.output, Not(HasSubstr("/folder/")));
 }
 
+// oracle: the same load that grade refuses, and what stands in the file
+TEST(check_command, a_file_outside_the_folder_is_told_with_its_line) {
+    const Workbench bench;
+    bench.write("roster.csv", "name\n424242\n");
+    const std::string absolute = bench.path("roster.csv").string();
+    for (const std::string& name : {std::string("../roster.csv"), absolute}) {
+        make_folder(bench, std::string(kAnalysis) + "local x = load('" + name + "')\nerror(tostring(x.name[1]))\n");
+        const ChildResult result = bench.dynlab({"check", "mine"});
+        EXPECT_EQ(result.exit_code, 1);
+        EXPECT_THAT(result.output, HasSubstr("file-outside\n    analysis.lua:2: "));
+        EXPECT_THAT(result.output, HasSubstr("leads outside the folder; where scripts are graded, only the course's"));
+        EXPECT_THAT(result.output, HasSubstr("Copy the file into the folder and load it by its name there."));
+        EXPECT_THAT(result.output, Not(HasSubstr("424242")));
+        EXPECT_THAT(result.output, Not(HasSubstr("analysis-fails")));
+    }
+    EXPECT_EQ(bench.dynlab({"report", "mine", "-o", "own.pdf"}).exit_code, 1) << "error(...) was reached";
+    EXPECT_THAT(bench.dynlab({"report", "mine", "-o", "own.pdf"}).error_output, HasSubstr("424242"));
+}
+
+// oracle: the folder for temporary files after the signal
+TEST(check_command, leaves_nothing_behind_when_it_is_terminated) {
+    const Workbench bench;
+    make_folder(bench, "while true do end\n");
+    const ChildResult ended = bench.shell(
+        "mkdir tmp && export TMPDIR=$PWD/tmp && { $DYNLAB check mine & } && "
+        "until ls tmp/dynlab-*/made > /dev/null 2>&1; do sleep 0.05; done; ls tmp | wc -l; "
+        "kill -TERM $!; wait $!; echo \"status $?\"; ls tmp | wc -l");
+    EXPECT_THAT(ended.output, testing::MatchesRegex("[1-9][0-9]*\nstatus 143\n0\n"));
+}
+
 TEST(check_command, an_analysis_that_fails_or_never_ends_its_report_is_quoted) {
     const Workbench bench;
     make_folder(bench, "local x = nothing + 1\n");

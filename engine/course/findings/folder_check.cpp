@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <csignal>
 #include <optional>
 #include <thread>
 
@@ -10,13 +11,15 @@
 #include "course/grading/feedback.h"
 #include "course/grading/folder_copy.h"
 #include "course/grading/grading_rules.h"
+#include "data_io/dataset_index.h"
 #include "documents/error.h"
 #include "documents/percent_script.h"
 #include "documents/template_file.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
-#include "platform/child_process.h"
+#include "platform/box.h"
 #include "platform/error.h"
+#include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
 #include "workflow/specimen_record.h"
 
@@ -26,7 +29,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kMissingProgramCode = 3;  ///< dynlab's exit code when pandoc or the like is not installed
-constexpr std::uint64_t kMostCheckOutput = 16u << 20;
+constexpr std::uint64_t kMostCheckOutput = 16u << 20, kLargestMade = 200u << 20;
+constexpr char kInBox[] = "/box/submission";
 
 /// One folder's check: a clean copy, what runs in it, and what is found.
 class FolderCheck {
@@ -45,7 +49,7 @@ class FolderCheck {
         if (script) {
             check_blanks(*script);
             if (made) check_answers(*script);
-            if (wishes.lesson_checks) try_lesson_checks(script->header.lesson);
+            if (wishes.lesson_checks && !stopped_by_file()) try_lesson_checks(script->header.lesson);
         }
         if (!wishes.standard) wishes.standard = own_standard(script);
         add_members(wishes);
@@ -102,47 +106,72 @@ class FolderCheck {
         }
     }
 
-    ChildResult run(std::vector<std::string> words) const {
-        ChildOptions child;
-        words.insert(words.begin(), program_.string());
-        child.command = std::move(words);
-        child.folder = out();
-        child.environment = {{"XDG_CACHE_HOME", (work_.path() / "cache").string()},
-                             {"XDG_STATE_HOME", (work_.path() / "state").string()}};
-        child.timeout = limits_.time;
-        child.output_bytes = kMostCheckOutput;
-        return run_child(child, "dynlab");
+    /// The report and the record of its run, made in a box as grading does: the analysis may be anybody's.
+    ChildResult run_report() const {
+        Box box(isolation_);
+        box.add_document_programs();
+        const fs::path home = box.add(shared_folder() / "data", "/box/home/data").parent_path();
+        box.add(shared_folder() / "report_templates", "/box/home/report_templates");
+        box.set_environment("DYNLAB_HOME", home.string());
+        const fs::path inside = box.add(copy(), kInBox), made = box.add_writable(out(), "/box/made");
+        const fs::path program = box.add(program_, "/box/dynlab");
+        Box::Limits most;
+        most.timeout = limits_.time;
+        most.output_bytes = kMostCheckOutput;
+        most.file_bytes = kLargestMade;
+        return box.run({program.string(), "report", inside.string(), "-o", (made / "report.pdf").string(), "--record",
+                        (made / "record.json").string(), "--stay-in-folder"},
+                       made, "", most);
     }
 
     /// The message as if the student's own folder had been used.
     std::string in_folder(std::string message) const {
-        message = replaced(message, copy().string() + "/", "");
-        message = replaced(message, "../folder/", "");
+        for (const std::string& place : {copy().string() + "/", std::string(kInBox) + "/", std::string("../folder/"),
+                                         std::string("../submission/")})
+            message = replaced(message, place, "");
         const std::string prefix = "dynlab: ";
         return replaced(trimmed(message.starts_with(prefix) ? message.substr(prefix.size()) : message), "\n", " ");
     }
 
     void add_failure(const std::string& message) {
-        add("analysis-fails", Severity::kRule, "",
-            "From a clean copy of the folder no report comes out: " + in_folder(message),
+        const std::string told = in_folder(message);
+        if (told.find(kLeadsOutside) != std::string::npos) {
+            const std::string line = told.substr(0, told.find(' '));  // "analysis.lua:3:"
+            const bool located = line.starts_with("analysis.lua:") && line.ends_with(':');
+            add("file-outside", Severity::kRule, located ? line.substr(0, line.size() - 1) : "",
+                "The analysis reads a file that is not handed in, and stops there: " +
+                    (located ? trimmed(told.substr(line.size())) : told) + ".",
+                "Copy the file into the folder and load it by its name there.");
+            return;
+        }
+        add("analysis-fails", Severity::kRule, "", "From a clean copy of the folder no report comes out: " + told,
             "Mend it and try \"dynlab report FOLDER\"; every file the analysis reads must lie in the folder or in "
             "data.");
     }
 
     bool makes_report() {
-        const ChildResult made =
-            run({"report", copy().string(), "-o", report().string(), "--record", record().string()});
+        for (const auto& [name, package] : {std::pair("pandoc", "pandoc"), std::pair("pdflatex", "texlive-latex-base")})
+            if (!find_program(name)) throw MissingProgram(name, package);
+        const ChildResult made = run_report();
         if (made.exit_code == 0) return true;
         if (made.exit_code == kMissingProgramCode) throw MissingProgram(in_folder(made.error_output));
         if (made.timed_out)
             add_failure(fmt::format("it takes more than {} s.", limits_.time.count()));
         else if (made.output_exceeded)
             add_failure("it prints more than 16 MB.");
+        else if (made.exit_code == 128 + SIGXFSZ)
+            add_failure(fmt::format("it writes a file of more than {} MB.", kLargestMade >> 20));
         else if (made.error_output.empty())
             add_failure(fmt::format("it ends with code {} and without a message.", made.exit_code));
         else
             add_failure(made.error_output);
         return false;
+    }
+
+    /// What the checks say of a run that stopped there speaks of answers that are given further down.
+    bool stopped_by_file() const {
+        return std::any_of(result_.findings.begin(), result_.findings.end(),
+                           [](const Finding& finding) { return finding.id == "file-outside"; });
     }
 
     void check_blanks(const PercentScript& script) {
@@ -194,7 +223,7 @@ class FolderCheck {
         if (!lesson) return;
         GradingSetup setup;
         setup.lesson = *lesson;
-        setup.isolation = strongest_isolation();
+        setup.isolation = isolation_;
         setup.timeout = limits_.time;
         setup.program = program_;
         setup.jobs = static_cast<int>(std::thread::hardware_concurrency());
@@ -279,6 +308,7 @@ class FolderCheck {
 
     fs::path folder_, program_;
     FolderLimits limits_;
+    Isolation isolation_ = strongest_isolation();
     TemporaryFolder work_;
     CheckResult result_;
 };

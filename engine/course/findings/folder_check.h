@@ -16,12 +16,14 @@ struct FolderLimits {
 };
 
 /// Checks a folder made by `dynlab new`: copies it, without links that lead elsewhere, runs its analysis and makes its
-/// report there with `program` (dynlab), in a process with a time limit and without caches; then checks that report.
+/// report there with `program` (dynlab), in a box as grading does (the strongest isolation of this machine), with a
+/// time limit, without caches and without any file but the folder's and the installed data; then checks that report.
 /// Nothing is written into the folder. Findings besides those of check_pdf: analysis-missing, folder-too-large,
-/// analysis-fails, answer-open, answer-missing (rules), pdf-outdated, pdf-differs, link-left-out, and check-failed, by
-/// the lesson's own checks (hints), which are tried on the group's own records where the folder has such. The standard
-/// is the template that the header of analysis.lua names, or report.md's own header when that demands nothing. Throws
-/// MissingProgram when something is missing on this machine rather than in the folder.
+/// file-outside (the analysis loads what is not in the folder), analysis-fails, answer-open, answer-missing (rules),
+/// pdf-outdated, pdf-differs, link-left-out, and check-failed, by the lesson's own checks (hints), which are tried on
+/// the group's own records where the folder has such. The standard is the template that the header of analysis.lua
+/// names, or report.md's own header when that demands nothing. Throws MissingProgram when something is missing on this
+/// machine rather than in the folder.
 CheckResult check_folder(const std::filesystem::path& folder, const std::filesystem::path& program,
                          const CheckOptions& wishes = {}, const FolderLimits& limits = {});
 

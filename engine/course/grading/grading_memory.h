@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "course/grading/check_run.h"
+#include "course/checks/check_run.h"
 
 namespace dynlab::inline course {
 

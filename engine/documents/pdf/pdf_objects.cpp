@@ -52,7 +52,7 @@ void read_pdf(QPDF& pdf, const std::string& bytes) {
 std::string work_on_pdf_objects(const std::filesystem::path& file, const PdfObjectLimits& limits, const PdfWork& work) {
     const auto guarded = [&] {
         const std::string bytes = read_work_file(file);
-        if (!is_confined()) confine_to_memory();
+        if (is_guarded_copy()) confine_to_memory();
         try {
             QPDF pdf;
             read_pdf(pdf, bytes);

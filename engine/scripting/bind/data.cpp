@@ -52,14 +52,13 @@ void push_variable(const Call& call, const Variable& variable, const std::string
     std::visit(Pusher{call, path}, variable.value);
 }
 
-/// Where a script is graded it reads the course's data and what lies in its own folder, and nothing else.
+/// Where a script is graded or checked it reads the course's data and what lies in its own folder, and nothing else.
 void check_stays_inside(const std::filesystem::path& path) {
     const bool leads_out = std::find(path.begin(), path.end(), "..") != path.end();
     if (path.is_absolute() || leads_out)
         throw InvalidArgument(fmt::format(
-            "\"{}\" leads outside the folder; where scripts are graded, only the course's data and files of the "
-            "folder itself can be loaded",
-            path.string()));
+            "\"{}\" {}; where scripts are graded, only the course's data and files of the folder itself can be loaded",
+            path.string(), kLeadsOutside));
 }
 
 std::map<std::string, std::string> units_by_name(const Options& options) {
@@ -119,9 +118,9 @@ int load(Call& call) {
     call.at_most(2);
     const Options options(call, 2, {"skip", "names", "delimiter", "units", "time", "sheet"});
     const std::string name = call.text(1, "name or path");
-    if (call.context().options.graded) check_stays_inside(name);
-    const LoadedData loaded =
-        load_data(name, call.context().options.script_folder, call.context().options.graded, import_options(options));
+    const RunOptions& run = call.context().options;
+    if (run.graded || run.stay_in_folder) check_stays_inside(name);
+    const LoadedData loaded = load_data(name, run.script_folder, run.graded, import_options(options));
     call.context().recorder.note_file_read(loaded.file);
     for (const std::string& note : loaded.notes)
         call.print(fmt::format("{}: {}\n", loaded.file.filename().string(), note));

@@ -40,6 +40,7 @@ class Prompt {
           editor_(history_, [this](const auto& line) { return session_.complete_end(pending_ + line); }) {}
 
     void run(const std::string& first) {
+        end_when_terminated();
         if (!first.empty()) run(read_statement(first));
         while (take_line(editor_.read(pending_.empty() ? kPrompt : kContinuation))) {
         }

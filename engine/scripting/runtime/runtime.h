@@ -32,6 +32,7 @@ struct RunOptions {
     std::size_t memory_limit_bytes = std::size_t{2} << 30;
     std::size_t output_limit_bytes = std::size_t{16} << 20;  ///< of printed text
     std::optional<std::chrono::milliseconds> time_limit = {};
+    bool stay_in_folder = false;  ///< load() refuses paths that lead out of the script's folder, as where `graded`
     bool graded = false;  ///< the course's data win over files of the same name, and saved figures are not drawn
 };
 

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -63,6 +64,19 @@ TEST(guarded_call, sees_no_open_file_of_the_caller) {
     std::fclose(kept_open);
     // The number may have become one of the copy's own two pipes; the file must be untouched in any case.
     EXPECT_EQ(read_file(folder.path() / "f"), "") << result;
+}
+
+// oracle: the kernel's answers
+TEST(guarded_call, starts_no_process_and_reaches_no_network) {
+    EXPECT_FALSE(is_guarded_copy());
+    const auto tried = [] {
+        const bool reached = ::socket(AF_UNIX, SOCK_STREAM, 0) >= 0 || ::fork() >= 0 || ::kill(::getppid(), 0) == 0 ||
+                             ::symlink("/etc", "/tmp/never") == 0;
+        return std::string(!is_guarded_copy() ? "no copy" : reached ? "reached" : "refused");
+    };
+    EXPECT_EQ(run_guarded(tried, {}).output, "refused");
+    EXPECT_FALSE(is_guarded_copy());
+    EXPECT_GE(::kill(::getpid(), 0), 0) << "the caller keeps what the copy gave up";
 }
 
 TEST(guarded_call, prints_nowhere) {

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <functional>
 
 #include "platform/error.h"
 
@@ -75,6 +76,50 @@ TEST(interrupt, after_the_scope_the_program_ends_as_usual) {
     const int status = status_after_interrupts(1, false);
     ASSERT_TRUE(WIFSIGNALED(status));
     EXPECT_EQ(WTERMSIG(status), SIGINT);
+}
+
+// oracle: POSIX, of a process that raises a signal whose handler was taken away
+TEST(interrupt, termination_is_held_back_until_all_is_undone) {
+    const auto status_of = [](const std::function<void()>& work) {
+        const pid_t child = fork();
+        if (child == 0) {
+            work();
+            _exit(5);
+        }
+        int status = 0;
+        waitpid(child, &status, 0);
+        return status;
+    };
+    for (const int number : {SIGTERM, SIGHUP}) {
+        const int undone = status_of([number] {
+            const InterruptScope scope;
+            std::raise(number);
+            _exit(interrupted() ? 6 : 7);
+        });
+        ASSERT_TRUE(WIFEXITED(undone));
+        EXPECT_EQ(WEXITSTATUS(undone), 6);
+        const int passed_on = status_of([number] {
+            const InterruptScope scope;
+            std::raise(number);
+            pass_on_termination();
+        });
+        ASSERT_TRUE(WIFSIGNALED(passed_on));
+        EXPECT_EQ(WTERMSIG(passed_on), number);
+        const int at_once = status_of([number] {
+            const InterruptScope scope;
+            end_when_terminated();
+            std::raise(number);
+        });
+        ASSERT_TRUE(WIFSIGNALED(at_once));
+        EXPECT_EQ(WTERMSIG(at_once), number);
+    }
+    const int nothing = status_of([] {
+        const InterruptScope scope;
+        std::raise(SIGINT);
+        pass_on_termination();
+    });
+    ASSERT_TRUE(WIFEXITED(nothing));
+    EXPECT_EQ(WEXITSTATUS(nothing), 5);
 }
 
 }  // namespace test_interrupt
