@@ -12,7 +12,7 @@ local heat, heat_data = record("heat_exchanger")
 local _, suspension_data = record("suspension")
 local heat_Ts, suspension_Ts = heat_data.Ts, suspension_data.Ts
 
-local exchanger = procsrivc(heat_data, "P1", {InitialState = "estimate", Offset = "estimate"})
+local exchanger = procsrivc(heat_data, "P1", {InitialState = "steady", Offset = "estimate"})
 local K, T = exchanger.Kp, exchanger.Tp1
 local suspension = procsrivc(suspension_data, "P2U")
 local K2, z2, w2 = suspension.Kp, suspension.Zeta, 1/suspension.Tw
@@ -105,7 +105,7 @@ check { id = "exchanger_model", points = 2, about = "Heat exchanger: the estimat
         {when = function(G) return near(first_order(G)[2], T/heat_Ts, {rel = 0.05}) end,
          say = "The time constant is counted in samples: give the data their sampling time."},
     }),
-    hint = "procsrivc(data, \"P1\", {InitialState = \"estimate\", Offset = \"estimate\"})" }
+    hint = "procsrivc(data, \"P1\", {InitialState = \"steady\", Offset = \"estimate\"})" }
 
 check { id = "overshoot", points = 1, about = "Suspension: the first overshoot",
     test = function(a) return near(a.overshoot, overshoot, {rel = 0.06, half = 0.12}) end,

@@ -17,11 +17,12 @@
 -- ---
 
 -- %% [markdown]
--- Least squares is the workhorse of this course: every estimator of the later lessons solves a least-squares problem, or a
--- sequence of them. This lesson uses it twice. First on a *static* model, a straight line through the men's 100 m winning
+-- Least squares is the workhorse of this course: the estimators of the later lessons either minimise a sum of squares or start from the
+-- least-squares solution and correct it. This lesson uses it twice. First on a *static* model, a straight line through the men's 100 m winning
 -- times of the Olympic Games, where we also ask how far such a line may be trusted. Then on a *dynamic* model, the step
 -- response of a first-order system known at four instants only, where we meet the reason why the rest of the course exists:
--- noise in the regressors makes plain least squares systematically wrong.
+-- noise in the regressors makes plain least squares systematically wrong. The winning times are real; the step response is simulated,
+-- so that its true parameters are known.
 --
 -- # The winning times of the men's 100 m
 --
@@ -35,16 +36,18 @@
 local games = load("winning_times")
 local year, time = games.year, games.time
 print(string.format("%d Games, from %d to %d", #year, year[1], year[#year]))
-plot(year, time, {style = "points", xlabel = "year", ylabel = "winning time (s)",
-     title = "Men's 100 m: winning times at the Olympic Games", height = 6})
+report.figure("times", plot(year, time, {style = "points", height = 6,
+              xlabel = "year", ylabel = "winning time (s)"}), "The winning times")
 
 -- %% [markdown]
+-- ![Winning times of the men's 100 m at the Olympic Games. Each point is one race; the gaps are the Games that were not held.](figure:times){#fig:times}
+--
 -- **Question 1.** Describe what you see. Where does a straight line look reasonable, and where not?
 --
 -- BEGIN SOLUTION
--- The times fall, fast at first and then slowly. The first value, 12.0 s in 1896, stands far above all others: one race, a
+-- The times fall (@fig:times), fast at first and then slowly. The first value, 12.0 s in 1896, stands far above all others: one race, a
 -- handful of runners, a stopwatch. From 1900 on the fall is close to even, about a tenth of a second in nine years. It cannot go
--- on like this for ever, because a line reaches zero some day; within the range of the data it is a fair description and a usable
+-- on like this for ever, because a line eventually reaches zero; within the range of the data it is a fair description and a usable
 -- short-term forecast, no more.
 -- END SOLUTION
 --
@@ -61,8 +64,8 @@ plot(year, time, {style = "points", xlabel = "year", ylabel = "winning time (s)"
 --    \Phi = \begin{pmatrix} x_1 & 1 \\ \vdots & \vdots \\ x_N & 1 \end{pmatrix}, \qquad
 --    \theta = \begin{pmatrix} a \\ b \end{pmatrix}. $$ {#eq:regression}
 --
--- Years near 2000 make the two columns of $\Phi$ almost parallel. Measuring the year from the mean year, $x_i = \text{year}_i -
--- \overline{\text{year}}$, leaves $a$ as it is, turns $b$ into the time at the mean year, and makes the columns orthogonal.
+-- Years near 2000 make the two columns of $\Phi$ almost parallel. Measuring the year from the mean year $m$, $x_i = \text{year}_i - m$,
+-- leaves $a$ as it is, turns $b$ into the time at the mean year, and makes the columns orthogonal.
 
 -- %% id=regression
 local N = #year - 1                       -- 2024 is kept for the test
@@ -73,11 +76,11 @@ local x = years - centre
 local Phi = matrix{x, ones(N)}
 local Phi_raw = matrix{years, ones(N)}
 print(string.format("N = %d Games, mean year %.2f", N, centre))
-print(string.format("condition number: %.3g with the raw years, %.3g with centred ones",
+print(string.format("condition number: %.3g raw, %.3g centred",
       lsq(Phi_raw, y).condition_number, lsq(Phi, y).condition_number))
 
 -- %% [markdown]
--- ## Three roads to one answer
+-- ## Three methods, one answer
 --
 -- **Question 2.** The least-squares estimate minimises $J(\theta) = \lVert y - \Phi\theta \rVert^2$. Compute it in three ways: by the
 -- normal equations $\Phi^T\Phi\,\theta = \Phi^T y$, by an orthogonal (QR) factorisation of $\Phi$, and by gradient descent. Do they
@@ -97,11 +100,22 @@ local theta_scaled = vector{scaled.theta[1]/spread, scaled.theta[2]}
 
 -- %% id=three_roads_report echo=false
 -- BEGIN SOLUTION
+-- STARTER: -- This cell runs, but its code is not printed (echo=false). Hand over here what your text shows; in a text cell
+-- STARTER: --   report.value("gain", K, "%.2f")          is shown by  `gain`{.value}
+-- STARTER: --   report.figure("name", fig, "caption")    by  ![caption](figure:name){#fig:name}  on a line of its own, and @fig:name refers to it
+-- STARTER: --   report.table("name", {{"head"}, {"cell"}})  by  ::: {.table name=name #tbl:name}  then a line with the caption, then  :::
+-- "2·10⁻¹²" as a formula
+local function power_of_ten(x)
+    if x == 0 then return "0" end
+    local exponent = math.floor(math.log(x, 10))
+    return string.format("$%.0f\\cdot10^{%d}$", x/10^exponent, exponent)
+end
 local function road(name, theta, steps)
-    return {name, string.format("%.9f", theta[1]), string.format("%.9f", theta[2]), string.format("%d", steps)}
+    return {name, (string.format("%.5f", theta[1]):gsub("-", "−")), string.format("%.3f", theta[2]),
+            power_of_ten((max(abs(theta/fit.theta - 1)))), string.format("%d", steps)}
 end
 report.table("roads", {
-    {"method", "a (s/year)", "b (s)", "steps"},
+    {"method", "$a$ (s/year)", "$b$ (s)", "difference from QR", "steps"},
     road("normal equations", theta_normal, 1),
     road("QR factorisation", fit.theta, 1),
     road("gradient descent", descent.theta, descent.iterations),
@@ -120,13 +134,14 @@ report.value("steps_scaled", scaled.iterations, "%d")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=roads #tbl:roads}
--- The same line by three methods.
+-- The same line by three methods; last but one, the largest relative difference of $a$ or $b$ from the values that QR gives.
 -- :::
 --
--- All roads of @tbl:roads lead to the same line. The normal equations and QR get there in one step. Gradient descent starts from zero
+-- All methods of @tbl:roads give the same line. The normal equations and QR get there in one step. Gradient descent starts from zero
 -- and walks downhill: with the years as they are it needs `steps`{.value} steps, because the valley is `condition`{.value} times
 -- steeper across than along; with $x$ in units of its own spread the valley is round, and `steps_scaled`{.value} steps are enough. For two
--- parameters it is the slow road; for models with millions of parameters it is the only one, and scaling matters just as much. The
+-- parameters it is the slow way. For models with millions of parameters, where no matrix $\Phi^T\Phi$ can be stored, only methods that use
+-- gradients remain (stochastic gradient descent, conjugate gradients, L-BFGS), and scaling matters just as much. The
 -- line falls by `a_decade`{.value} s per decade: $\hat a =$ `a`{.value} s/year with a standard error of `a_std`{.value} s/year, and
 -- $\hat b =$ `b`{.value} s in the mean year `centre`{.value}.
 -- END SOLUTION
@@ -144,11 +159,13 @@ report.value("steps_scaled", scaled.iterations, "%d")
 local residuals = y - Phi*fit.theta
 local rmse = sqrt(mean(residuals^2))
 report.figure("residuals", plot(years, residuals, {style = "stems", height = 5,
-              xlabel = "year", ylabel = "residual (s)"}), "What the straight line leaves unexplained")
+              y_range = {-0.4, 1.1}, xlabel = "year", ylabel = "residual (s)"}),
+              "What the straight line leaves unexplained")
 -- END SOLUTION
 
 -- %% id=residuals_report echo=false
 -- BEGIN SOLUTION
+-- STARTER: -- Not printed: report.value, report.figure and report.table for the text below.
 report.value("rmse", rmse, "%.3f")
 report.value("first_residual", residuals[1], "%.2f")
 report.value("rmse_later", sqrt(mean(residuals:range(2, N)^2)), "%.3f")
@@ -156,18 +173,22 @@ report.value("rmse_later", sqrt(mean(residuals:range(2, N)^2)), "%.3f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![What the straight line leaves unexplained](figure:residuals){#fig:residuals}
+-- ![Residuals of the straight line: measured minus fitted time. Neighbours tend to have the same sign, and 1896 stands alone.](figure:residuals){#fig:residuals}
 --
--- The RMSE is `rmse`{.value} s. @fig:residuals shows that this one number hides a story. The Games of 1896 alone leave
+-- The RMSE is `rmse`{.value} s. @fig:residuals shows that this one number conceals two different effects. The Games of 1896 alone leave
 -- `first_residual`{.value} s; without them the RMSE over the others is `rmse_later`{.value} s. And the signs are not random: residuals
--- below zero stand together in the 1930s and 1960s, and the last two are above zero, the line falls faster than the times do now. A good
+-- below zero cluster in the 1930s and 1960s, and the last two are above zero because the line now falls faster than the times do. A good
 -- model would leave residuals without any pattern, so a straight line is a first approximation and not the truth.
 -- END SOLUTION
 --
 -- ## A forecast for Paris 2024
 --
--- **Question 4.** Use the line to forecast the winning time of 2024 and give a 95 % prediction interval. Compare it with what
--- happened.
+-- **Question 4.** Use the line to forecast the winning time of 2024, $x_0$ years after the mean year, and give a 95 % prediction interval,
+--
+-- $$ \hat a x_0 + \hat b \;\pm\; t_{0.975,\,N-2}\; s\,\sqrt{1 + \frac{1}{N} + \frac{x_0^2}{\sum_i x_i^2}} \; , \qquad
+--    s^2 = \frac{1}{N-2}\sum_{i=1}^{N} \varepsilon_i^2 , $$ {#eq:interval}
+--
+-- where $t_{0.975,\,N-2}$ is the quantile of Student's distribution. Compare it with what happened.
 
 -- %% id=forecast
 -- BEGIN SOLUTION
@@ -175,12 +196,16 @@ local line = polyfit_report(years, y, 1)
 local paris = forecast(line, 2024, 0.95)
 local actual = time[#time]
 local picture = regression_plot(years, y, line, {forecast = 2024, level = 0.95,
-                xlabel = "year", ylabel = "winning time (s)", text = string.format("%.2f s", paris.value)})
-report.figure("forecast", picture, "Straight line, 95 % bands and the forecast for 2024")
+                xlabel = "year", ylabel = "winning time (s)",
+                text = string.format("line: %.2f s", paris.value)})
+picture:mark(2024, actual, string.format("run: %.2f s", actual))
+picture:set{x_range = {1890, 2050}}
+report.figure("forecast", picture, "Line, 95 % bands and the forecast for 2024")
 -- END SOLUTION
 
 -- %% id=forecast_report echo=false
 -- BEGIN SOLUTION
+-- STARTER: -- Not printed: report.value, report.figure and report.table for the text below.
 report.value("N_games", N, "%d")
 report.value("paris", paris.value, "%.2f")
 report.value("paris_low", paris.low, "%.2f")
@@ -191,11 +216,11 @@ report.value("miss", actual - paris.value, "%.2f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![Straight line, 95 % bands and the forecast for 2024](figure:forecast){#fig:forecast}
+-- ![The fitted line with its 95 % confidence band (inner) and 95 % prediction band (outer), the forecast for 2024 and the time that was run. The prediction band is wide enough for single races, the confidence band holds for the line only.](figure:forecast){#fig:forecast}
 --
 -- The forecast from the `N_games`{.value} Games to 2020 is `paris`{.value} s, with a 95 % prediction interval from `paris_low`{.value} to
--- `paris_high`{.value} s (@fig:forecast). Noah Lyles won in `actual`{.value} s, `miss`{.value} s slower than the forecast and well inside
--- the interval. The interval is wide because it must allow for one new race, not only for the uncertainty of the line, and because the
+-- `paris_high`{.value} s (@fig:forecast). Noah Lyles won in `actual`{.value} s, `miss`{.value} s slower than the forecast but well inside
+-- the interval. The interval is wide because it must allow for one new race (the 1 in @eq:interval), not only for the uncertainty of the line, and because the
 -- early, scattered Games inflate the estimated noise. It also rests on assumptions that the residuals have already put in doubt.
 -- END SOLUTION
 
@@ -204,16 +229,22 @@ report.value("miss", actual - paris.value, "%.2f")
 --
 -- ## The data
 --
--- The second record is the response of a first-order system at rest to a unit step, at four instants, together with its time derivative. Both
--- are given twice: exact, and with measurement noise.
+-- The second record is the simulated response of a first-order system at rest to a unit step, at four instants, together with its time derivative. Both
+-- are given twice: exact, and with white noise of standard deviation 0.05.
 
 -- %% id=step
 local record = load("step_response")
 local t, u = record.t, record.u
-plot(t, record.y, "output y", t, u, "input u", {style = "line_points", height = 5.5,
-     xlabel = "time (s)", ylabel = "signals", title = "Four samples of a step response"})
+local four = plot(t, record.y, "output", t, record.y_noisy, "noisy output",
+                  t, u, "input", {style = {"points", "points", "stairs"},
+                  height = 5.5,
+                  x_range = {-0.1, 1.6}, y_range = {-0.2, 1.8},
+                  xlabel = "time (s)", ylabel = "output, input"})
+report.figure("samples", four, "Four samples of a step response")
 
 -- %% [markdown]
+-- ![The four samples of the output, exact and noisy, and the input. Nothing is known between the samples.](figure:samples){#fig:samples}
+--
 -- ## A continuous-time model
 --
 -- **Question 5.** We postulate $G(s) = b/(s + a)$, that is
@@ -229,12 +260,15 @@ local ct = lsq(matrix{-record.y, u}, record.ydot)
 local Gc = tf({ct.theta[2]}, {1, ct.theta[1]})
 print(Gc)
 local fine = linspace(0, 2, 201)
-report.figure("ct_fit", plot(fine, step(Gc, fine), "model", t, record.y, "samples", {style = {"line", "points"},
-              height = 5.5, xlabel = "time (s)", ylabel = "output"}), "Step response of the continuous-time model")
+report.figure("ct_fit", plot(fine, step(Gc, fine), "model", t, record.y, "samples",
+              {style = {"line", "points"}, height = 5.5,
+               xlabel = "time (s)", ylabel = "output"}),
+              "Step response of the continuous-time model")
 -- END SOLUTION
 
 -- %% id=continuous_report echo=false
 -- BEGIN SOLUTION
+-- STARTER: -- Not printed: report.value, report.figure and report.table for the text below.
 report.value("a_ct", ct.theta[1], "%.4f")
 report.value("b_ct", ct.theta[2], "%.4f")
 report.value("ct_miss", max(abs(step(Gc, t) - record.y)), "%.0e")
@@ -242,11 +276,11 @@ report.value("ct_miss", max(abs(step(Gc, t) - record.y)), "%.0e")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![Step response of the continuous-time model and the four samples](figure:ct_fit){#fig:ct}
+-- ![Step response of the continuous-time model (line) and the four samples (points), through which it passes](figure:ct_fit){#fig:ct}
 --
 -- With $\Phi$ made of the columns $-y$ and $u$, and $\dot y$ on the left, least squares gives $\hat a =$ `a_ct`{.value} and
 -- $\hat b =$ `b_ct`{.value}. The model's step response passes through the four samples (@fig:ct): the largest distance is
--- `ct_miss`{.value}, the rounding of the stored data.
+-- `ct_miss`{.value}, which is the rounding of the stored data.
 -- END SOLUTION
 --
 -- ## A discrete-time model
@@ -255,7 +289,7 @@ report.value("ct_miss", max(abs(step(Gc, t) - record.y)), "%.0e")
 --
 -- $$ G(z) = \frac{b_1 z^{-1}}{1 + a_1 z^{-1}}, \qquad \text{that is} \qquad y(k) = -a_1\,y(k-1) + b_1\,u(k-1) , $$ {#eq:dt}
 --
--- estimate $a_1$ and $b_1$, and compare again. How do the two models hang together?
+-- estimate $a_1$ and $b_1$, and compare again. How are the two models related?
 
 -- %% id=discrete
 -- BEGIN SOLUTION
@@ -267,22 +301,36 @@ end
 local dt = regress(record.y, u)
 local Gd = tf({dt[2]}, {1, dt[1]}, {Ts = Ts})
 print(Gd)
+local simulated = lsim(Gd, u, Ts)
+report.figure("dt_fit", plot(fine, step(Gc, fine), "continuous time",
+              t, simulated, "discrete time", t, record.y, "samples",
+              {style = {"line", "stairs", "points"}, dash = {1, 0, 0}, height = 5.5,
+               xlabel = "time (s)", ylabel = "output"}),
+              "The discrete-time model")
 -- END SOLUTION
 
 -- %% id=discrete_report echo=false
 -- BEGIN SOLUTION
+-- STARTER: -- Not printed: report.value, report.figure and report.table for the text below.
 report.value("a1_dt", dt[1], "%.4f")
 report.value("b1_dt", dt[2], "%.4f")
 report.value("a1_from_ct", -math.exp(-ct.theta[1]*Ts), "%.4f")
-report.value("dt_miss", max(abs(lsim(Gd, u, Ts) - record.y)), "%.0e")
+report.value("b1_from_ct", ct.theta[2]/ct.theta[1]*(1 - math.exp(-ct.theta[1]*Ts)), "%.4f")
+report.value("dt_miss", max(abs(simulated - record.y)), "%.0e")
 -- END SOLUTION
 
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- Three equations are left for two unknowns, because each needs the sample before. The estimates $\hat a_1 =$ `a1_dt`{.value} and
--- $\hat b_1 =$ `b1_dt`{.value} again reproduce the samples when the model is simulated (largest distance `dt_miss`{.value}). For an input
--- that is constant between the samples both models describe the same system: $a_1 = -e^{-aT_s}$, which is `a1_from_ct`{.value} for the
--- continuous-time estimate. The continuous-time parameters are easier to read: $1/a$ is the time constant, whatever the sampling.
+-- $\hat b_1 =$ `b1_dt`{.value} again reproduce the samples when the model is simulated (@fig:dt, largest distance `dt_miss`{.value}). For an input
+-- that is constant between the samples both models describe the same system,
+--
+-- $$ a_1 = -e^{-aT_s} , \qquad b_1 = \frac{b}{a}\left(1 - e^{-aT_s}\right) , $$ {#eq:sampled}
+--
+-- which is `a1_from_ct`{.value} and `b1_from_ct`{.value} for the
+-- continuous-time estimates. The continuous-time parameters are easier to interpret: $1/a$ is the time constant, whatever the sampling.
+--
+-- ![The simulated output of the discrete-time model, drawn as held between the samples, the samples, and the response of the continuous-time model. Both models agree at the samples; only the second knows what happens between them.](figure:dt_fit){#fig:dt}
 -- END SOLUTION
 --
 -- ## The same with noise
@@ -297,15 +345,16 @@ local noisy_dt = regress(record.y_noisy, u)
 
 -- %% id=noisy_report echo=false
 -- BEGIN SOLUTION
+-- STARTER: -- Not printed: report.value, report.figure and report.table for the text below.
 local function both(name, exact, noisy)
     return {name, string.format("%.4f", exact), string.format("%.4f", noisy)}
 end
 report.table("noisy", {
     {"parameter", "exact signals", "noisy signals"},
-    both("a", ct.theta[1], noisy_ct[1]),
-    both("b", ct.theta[2], noisy_ct[2]),
-    both("a₁", dt[1], noisy_dt[1]),
-    both("b₁", dt[2], noisy_dt[2]),
+    both("$a$", ct.theta[1], noisy_ct[1]),
+    both("$b$", ct.theta[2], noisy_ct[2]),
+    both("$a_1$", dt[1], noisy_dt[1]),
+    both("$b_1$", dt[2], noisy_dt[2]),
 })
 -- END SOLUTION
 
@@ -315,53 +364,125 @@ report.table("noisy", {
 -- Estimates from the exact and from the noisy samples.
 -- :::
 --
--- Noise on four samples moves every parameter (@tbl:noisy), the discrete-time ones by several percent. Is this bad luck of one record,
--- or does least squares miss on average?
+-- Noise on four samples changes every parameter (@tbl:noisy), the discrete-time ones by several percent. Is this bad luck of one record,
+-- or is least squares wrong on average?
 -- END SOLUTION
 --
--- **Question 8.** One noisy record cannot tell bad luck from a method that is wrong on average. Make many: simulate a longer record
--- of the same system, 400 samples with the input `prbs(7, 4)`, add white noise of standard deviation 0.3 to the output, and repeat the
--- discrete-time fit a thousand times. Where is the mean of the estimates of $a_1$, compared with the truth and with the scatter of the single estimates?
+-- **Question 8.** One noisy record cannot distinguish bad luck from a method that is wrong on average. Make many: first the same four samples, five thousand times with
+-- fresh noise; then a longer record of the same system, 400 samples with the input `prbs(7, 4)` and white noise of standard deviation 0.3 on the output,
+-- and repeat the discrete-time fit a thousand times. Where is the mean of the estimates of $a_1$, compared with the truth and with the
+-- scatter of the single estimates? How do both depend on the noise $\sigma$ and on the number of samples $N$?
 
 -- %% id=monte_carlo
 -- BEGIN SOLUTION
-local runs, samples, sigma = 1000, 400, 0.3
-local u_long = prbs(7, 4):range(1, samples)
-local x_long = lsim(Gd, u_long, Ts)
-local estimates = zeros(runs)
-for run = 1, runs do
-    estimates[run] = regress(x_long + sigma*randn(samples), u_long)[1]
+-- the four samples again, with fresh noise
+local few_runs, few_ct, few_dt = 5000, {}, {}
+for run = 1, few_runs do
+    local yn, dn = record.y + 0.05*randn(4), record.ydot + 0.05*randn(4)
+    few_ct[run] = lsq(matrix{-yn, u}, dn).theta[1]
+    few_dt[run] = regress(yn, u)[1]
 end
-report.figure("monte_carlo", histogram(estimates, {truth = dt[1], xlabel = "estimate of a_{1}"}),
-              "A thousand least-squares estimates from noisy records, and the true value")
+few_ct, few_dt = vector(few_ct), vector(few_dt)
+
+-- estimates of a1 from longer records, and the value to which they tend
+local function study(runs, samples, sigma)
+    local u_long = prbs(11, 4):range(1, samples)
+    if samples == 400 then u_long = prbs(7, 4):range(1, samples) end
+    local x_long = lsim(Gd, u_long, Ts)
+    local found = zeros(runs)
+    for run = 1, runs do
+        found[run] = regress(x_long + sigma*randn(samples), u_long)[1]
+    end
+    local n = samples - 1
+    local clean = matrix{-x_long:range(1, n), u_long:range(1, n)}
+    local R = clean:t()*clean/n
+    local limit = solve(R + matrix{{sigma^2, 0}, {0, 0}}, R*dt)[1]
+    return found, limit
+end
+local runs, samples, sigma = 1000, 400, 0.3
+local estimates, limit = study(runs, samples, sigma)
+local bars = histogram(estimates, {truth = dt[1], xlabel = "estimate of a_{1}"})
+bars:vline(mean(estimates), "mean")
+bars:set{x_range = {dt[1] - 0.015, (max(estimates)) + 0.01}, height = 6.5}
+report.figure("monte_carlo", bars, "A thousand estimates and the true value")
 -- END SOLUTION
 
 -- %% id=monte_carlo_report echo=false
 -- BEGIN SOLUTION
+-- STARTER: -- Not printed: report.value, report.figure and report.table for the text below.
 report.value("mc_truth", dt[1], "%.3f")
 report.value("mc_mean", mean(estimates), "%.3f")
 report.value("mc_std", std(estimates), "%.3f")
 report.value("mc_ratio", abs(mean(estimates) - dt[1])/std(estimates), "%.1f")
+report.value("mc_limit", limit, "%.3f")
 report.value("runs", runs, "%d")
 report.value("samples", samples, "%d")
+report.value("few_runs", few_runs, "%d")
+for name, found in pairs{few_ct = few_ct, few_dt = few_dt} do
+    report.value(name, mean(found), "%.3f")
+    report.value(name .. "_std", std(found), "%.3f")
+    report.value(name .. "_error", std(found)/math.sqrt(few_runs), "%.3f")
+end
+report.value("few_dt_share", 100*abs(mean(few_dt) - dt[1])/std(few_dt), "%.0f")
+report.value("few_dt_luck", abs(noisy_dt[1] - dt[1])/std(few_dt), "%.1f")
+local law = {{"noise $\\sigma$", "samples $N$", "mean of $\\hat a_1$", "bias", "bias expected", "scatter"}}
+for _, case in ipairs{{0.1, 400}, {0.3, 400}, {0.1, 1600}, {0.3, 1600}, {0.3, 6400}} do
+    local found, value = study(300, case[2], case[1])
+    table.insert(law, {string.format("%.1f", case[1]), string.format("%d", case[2]),
+                 (string.format("%.4f", mean(found)):gsub("-", "−")), string.format("%.4f", mean(found) - dt[1]),
+                 string.format("%.4f", value - dt[1]), string.format("%.4f", std(found))})
+end
+report.table("law", law)
 -- END SOLUTION
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![A thousand least-squares estimates from noisy records, and the true value](figure:monte_carlo){#fig:mc}
+-- *Four samples:* over `few_runs`{.value} repetitions the discrete-time estimates of $a_1$ have the mean `few_dt`{.value}\ ±\ `few_dt_error`{.value} (± its standard
+-- error) and scatter by `few_dt_std`{.value}; the truth is `mc_truth`{.value}. For $a$ in continuous time the mean is `few_ct`{.value}\ ±\ `few_ct_error`{.value} and the scatter
+-- `few_ct_std`{.value}. There is hardly any bias here (for $a_1$, `few_dt_share`{.value} % of the scatter), so the errors in @tbl:noisy are bad luck, and not even much of
+-- it: that of $\hat a_1$ is `few_dt_luck`{.value} times the scatter.
 --
--- The mean of `runs`{.value} estimates, each from `samples`{.value} samples, is `mc_mean`{.value} while the truth is `mc_truth`{.value}
+-- ![A thousand least-squares estimates of $a_1$, each from 400 samples with $\sigma = 0.3$; dashed: the true value, and the mean of the estimates. Hardly a single estimate reaches the truth.](figure:monte_carlo){#fig:mc}
+--
+-- *Long records with more noise:* the mean of `runs`{.value} estimates, each from `samples`{.value} samples, is `mc_mean`{.value} while the truth is `mc_truth`{.value}
 -- (@fig:mc). The single estimates scatter by `mc_std`{.value} only, so the mean misses the truth by `mc_ratio`{.value} times their
--- scatter. That is no bad luck: the estimate is *biased*, and longer records would only make the wrong answer more certain. The reason
--- stands in the regression itself: the noisy output appears in $\Phi$ as well, so $\Phi$ and the equation error are correlated.
+-- scatter. That is not bad luck: the estimate is *biased*. The reason
+-- lies in the regression itself: the noisy output appears in $\Phi$ as well, so $\Phi$ and the equation error are correlated. With white noise on
+-- the output, $\Phi^T\Phi/N$ is larger than that of the exact signals, $R$, by $\sigma^2$ in the place of $y^2$, and the estimates tend to
+--
+-- $$ \hat\theta \;\to\; (R + \sigma^2 E)^{-1} R\,\theta , \qquad E = \begin{pmatrix} 1 & 0 \\ 0 & 0 \end{pmatrix} , $$ {#eq:limit}
+--
+-- which is `mc_limit`{.value} for $a_1$ here.
+--
+-- ::: {.table name=law #tbl:law}
+-- Mean, bias and scatter of $\hat a_1$ over 300 records each, and the bias that @eq:limit expects.
+-- :::
+--
+-- @tbl:law shows how both depend on the experiment. The scatter is proportional to $\sigma/\sqrt N$ as long as the noise is small; the bias grows with $\sigma^2$ and does not depend on $N$.
+-- With little noise and four samples the scatter hides the bias; with much noise and long records only the bias is left, and more data make the wrong answer merely more certain.
+-- END SOLUTION
+
+-- %% [markdown]
+-- # What was learnt
+--
+-- BEGIN SOLUTION
+-- * A model that is linear in its parameters is fitted by solving one linear system; the normal equations, QR and gradient descent
+--   lead to the same point. Centred and scaled regressors keep the problem well conditioned.
+-- * A forecast without an interval says little. The interval is right only as far as the model and its assumptions are, and the residuals show that.
+-- * A dynamic model is fitted by the same formula once its signals form the columns of $\Phi$; in continuous time the time derivative is needed,
+--   in discrete time the past output.
+-- * Noise on the regressors biases simple least squares, in proportion to $\sigma^2$. The scatter falls with $1/\sqrt N$, the bias does not: more data do not help;
+--   instrumental variables and output-error methods, the subject of lesson 4, do. Whether a miss is bias or luck, repetitions tell.
 -- END SOLUTION
 --
 -- # What you hand in
 --
+-- ::: {.note}
 -- Where this lesson is graded, hand in with `answer(name, value)`: `line`, the slope and the time at the mean year; `rmse` of its residuals; `paris`,
 -- the forecast for 2024 and the lower and upper end of its 95 % prediction interval; `ct` ($a$, $b$) and `dt` ($a_1$, $b_1$) from the exact samples,
 -- `ct_noisy` and `dt_noisy` from the noisy ones; `monte_carlo`, mean and standard deviation of your thousand estimates of $a_1$. Your script will
 -- be run on four samples of another system, too. The figures that are looked for are `residuals`, `forecast` and `monte_carlo`.
+-- :::
 
 -- %% id=hand_in
 -- BEGIN SOLUTION
@@ -373,17 +494,4 @@ answer("dt", dt)
 answer("ct_noisy", noisy_ct)
 answer("dt_noisy", noisy_dt)
 answer("monte_carlo", vector{mean(estimates), std(estimates)})
--- END SOLUTION
-
--- %% [markdown]
--- # What was learnt
---
--- BEGIN SOLUTION
--- * A model that is linear in its parameters is fitted by solving one linear system; the normal equations, QR and gradient descent
---   lead to the same point. Centred and scaled regressors keep the problem well conditioned.
--- * A forecast without an interval says little. The interval holds only as far as the model and its assumptions do, and the residuals tell.
--- * A dynamic model is fitted by the same formula once its signals stand in $\Phi$; in continuous time the time derivative is needed,
---   in discrete time the past output.
--- * Noise on the regressors biases simple least squares. More data do not help; instrumental variables and output-error methods, the
---   subject of lesson 4, do.
 -- END SOLUTION

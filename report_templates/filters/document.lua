@@ -7,7 +7,7 @@ local folder = PANDOC_SCRIPT_FILE:match("^(.*)/") or "."
 local safety = dofile(folder .. "/safety.lua")
 local mathematics = dofile(folder .. "/mathematics.lua")
 local slots = dofile("slots.lua")
-local layout = dofile(folder .. "/layout.lua").new(slots.format, slots.language, slots.slides)
+local layout = dofile(folder .. "/layout.lua").new(slots.format, slots.language, slots.slides, mathematics)
 
 local failed = false
 local function clean(text) return (tostring(text):gsub("[%c]", " ")) end

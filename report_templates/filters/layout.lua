@@ -13,9 +13,10 @@ local html_escapes = { ["&"] = "&amp;", ["<"] = "&lt;", [">"] = "&gt;", ['"'] = 
 local zero_width_space = "\u{200B}"
 local no_break_space = "\u{A0}"
 
--- slides: whether LaTeX sets the document as slides
-function layout.new(format, language, slides)
-  return setmetatable({ format = format, words = words[language], slides = slides }, { __index = layout })
+-- slides: whether LaTeX sets the document as slides; mathematics: what formulas may hold
+function layout.new(format, language, slides, mathematics)
+  return setmetatable({ format = format, words = words[language], slides = slides, mathematics = mathematics },
+    { __index = layout })
 end
 
 local function html(text) return (text:gsub('[&<>"]', html_escapes)) end
@@ -243,6 +244,32 @@ local function is_number(cell)
     cell:match("^[+-]?[%d.]+e?[+-]?%d*%s*±%s*[%d.]+e?[+-]?%d*$") ~= nil
 end
 
+-- A cell's text, with formulas between dollar signs as Pandoc's Markdown knows them. A formula that the document's own
+-- text might not hold stays text.
+function layout:cell_inlines(text)
+  local function allowed(formula)
+    return ("{" .. formula .. "}"):find("^%b{}$") and #self.mathematics.refused_in(formula) == 0
+  end
+  local inlines, from = pandoc.List {}, 1
+  for before, formula, after in text:gmatch("()%$([^%s$][^$]*)%$()") do
+    if before >= from and not formula:find("%s$") and not text:find("^%d", after) and
+      allowed(formula) then
+      if before > from then inlines:insert(pandoc.Str(text:sub(from, before - 1))) end
+      inlines:insert(pandoc.Math("InlineMath", formula))
+      from = after
+    end
+  end
+  if from <= #text then inlines:insert(pandoc.Str(text:sub(from))) end
+  return inlines
+end
+
+-- The text as it is seen, for measuring: a symbol for each command, no signs of mathematics.
+local function seen(text)
+  return (text:gsub("%$([^%s$][^$]*)%$", function(formula)
+    return (formula:gsub("\\hat%s*", ""):gsub("\\%a+%s*", "x"):gsub("\\.", ""):gsub("[_^{}]", ""))
+  end))
+end
+
 -- Lines that a table takes whose columns have these relative widths (0: as wide as their text).
 local function table_lines(rows, widths, characters)
   local total = 1
@@ -304,12 +331,14 @@ function layout:table(data, caption)
   local columns = #data.header
   local numeric, natural, least, alignments = {}, {}, {}, {}
   for c = 1, columns do
-    numeric[c], natural[c] = #data.rows > 0, utf8.len(data.header[c]) or #data.header[c]
-    least[c] = longest_word(data.header[c])
+    local title = seen(data.header[c])
+    numeric[c], natural[c] = #data.rows > 0, utf8.len(title) or #title
+    least[c] = longest_word(title)
     for _, row in ipairs(data.rows) do
+      local text = seen(row[c])
       numeric[c] = numeric[c] and is_number(row[c])
-      natural[c] = math.max(natural[c], utf8.len(row[c]) or #row[c])
-      least[c] = math.max(least[c], longest_word(row[c]))
+      natural[c] = math.max(natural[c], utf8.len(text) or #text)
+      least[c] = math.max(least[c], longest_word(text))
     end
     if numeric[c] then least[c] = natural[c] end
     alignments[c] = numeric[c] and pandoc.AlignRight or pandoc.AlignLeft
@@ -328,7 +357,7 @@ function layout:table(data, caption)
     if self.format == "html" and not is_numeric and is_number_like(text) then
       return { pandoc.Plain { pandoc.Span({ pandoc.Str(text) }, { class = "number" }) } }
     end
-    return { pandoc.Plain { pandoc.Str(text) } }
+    return { pandoc.Plain(self:cell_inlines(text)) }
   end
   local header, rows = {}, {}
   for c = 1, columns do header[c] = cell(data.header[c]) end
