@@ -18,14 +18,23 @@ namespace {
 namespace fs = std::filesystem;
 
 struct GradeArguments {
-    std::string submissions, lesson, out, checks, secret, roster, deadlines, isolation = "full";
+    std::string submissions, lesson, out, checks, secret, roster, owners, deadlines, timezone, keep = "best",
+                                                                                               isolation = "full";
     std::vector<std::string> only;
     int jobs = 0, timeout = 60;
-    bool regrade = false, no_pdf = false;
+    bool regrade = false, again = false, no_pdf = false;
 };
 
 std::optional<fs::path> given(const std::string& path) {
     return path.empty() ? std::nullopt : std::optional<fs::path>(path);
+}
+
+std::string eye_text(const GradingOutcome& outcome) {
+    if (outcome.eye.empty()) return "";
+    std::string text =
+        fmt::format("{} your eye:\n", outcome.eye.size() == 1 ? "1 needs" : fmt::format("{} need", outcome.eye.size()));
+    for (const std::string& sentence : outcome.eye) text += "  " + terminal_text(sentence) + "\n";
+    return text;
 }
 
 int grade(const GradeArguments& words) {
@@ -37,12 +46,21 @@ int grade(const GradeArguments& words) {
     request.setup.isolation = words.isolation == "full" ? Isolation::kFull : Isolation::kProcess;
     request.setup.timeout = std::chrono::seconds(words.timeout);
     request.setup.program = fs::read_symlink("/proc/self/exe");
-    if (!words.secret.empty()) request.setup.secret = read_file(words.secret);
+    if (!words.secret.empty()) {
+        request.setup.secret = read_file(words.secret);
+        if (request.setup.secret.empty())
+            throw EnvironmentError(
+                fmt::format("{} is empty: hidden records drawn from it would be no secret", words.secret));
+    }
     request.roster = given(words.roster);
+    request.owners = given(words.owners);
     request.deadlines = given(words.deadlines);
+    request.newest_counts = words.keep == "newest";
     request.only = words.only;
     request.setup.jobs =
         words.jobs > 0 ? words.jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    request.timezone = words.timezone;
+    request.again = words.again;
     request.regrade = words.regrade;
     request.pdf = !words.no_pdf;
     if (words.secret.empty())
@@ -53,9 +71,10 @@ int grade(const GradeArguments& words) {
                              counted(outcome.submissions, "submission"), outcome.made, outcome.kept,
                              outcome.not_whole > 0 ? fmt::format(", {} with ungraded checks", outcome.not_whole) : "",
                              isolation_name(request.setup.isolation))
-              << (request.out / "gradebook.csv").string() << '\n'
+              << eye_text(outcome) << (request.out / "gradebook.csv").string() << '\n'
               << (request.out / (request.pdf ? "summary.pdf" : "summary.md")).string() << '\n';
-    return outcome.not_whole == 0 && outcome.complaints.empty() ? kDone : kFailed;
+    const bool all_is_graded = outcome.not_whole + outcome.unreadable + outcome.unowned == 0;
+    return all_is_graded && outcome.complaints.empty() ? kDone : kFailed;
 }
 
 }  // namespace
@@ -78,10 +97,26 @@ void add_grade(CLI::App& app, Action& action) {
         ->type_name("CSV")
         ->check(CLI::ExistingFile);
     command
-        ->add_option("--deadlines", words->deadlines, "CSV with the columns submission (or *), deadline, received, ...")
+        ->add_option("--owners", words->owners,
+                     "CSV with the columns submission and group (or id): whose those are that no name tells")
         ->type_name("CSV")
         ->check(CLI::ExistingFile);
-    command->add_option("--only", words->only, "Grade this submission only; may be repeated")->type_name("NAME");
+    command->add_option("--keep", words->keep, "Which counts where somebody handed in several times")
+        ->type_name("best|newest")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"best", "newest"}));
+    command
+        ->add_option("--deadlines", words->deadlines,
+                     "CSV with the columns submission (a group, an id, or *), deadline, extra, grace, ...")
+        ->type_name("CSV")
+        ->check(CLI::ExistingFile);
+    command->add_option("--timezone", words->timezone, "Of the times in deadlines, this machine's unless given")
+        ->type_name("ZONE");
+    command
+        ->add_option("--only", words->only,
+                     "Grade this submission only, by its name, group, id or student; may be repeated")
+        ->type_name("NAME");
+    command->add_flag("--again", words->again, "Grade all with these inputs where OUT was made with others");
     command->add_flag("--regrade", words->regrade, "Grade those again that have a result; your own marks stay");
     command->add_option("--jobs", words->jobs, "So many at once; as many as there are cores unless given")
         ->type_name("N")
@@ -102,7 +137,14 @@ void add_grade(CLI::App& app, Action& action) {
         "In OUT: gradebook.csv, summary.pdf, and for each submission results/NAME/results.json (Gradescope),\n"
         "feedback.md and feedback.pdf.\n"
         "Example:  dynlab grade handed-in --lesson 04 --out marks --secret secret.txt --roster roster.csv\n"
-        "Exit codes: 0 all is graded, 1 something is left ungraded or failed, 2 wrong usage.");
+        "OUT remembers the lesson, checks, secret, roster and deadlines it was made with and refuses others; what the\n"
+        "scripts did is kept, so that --again with other checks takes seconds.\n"
+        "Deadlines: submission, deadline, and where wanted extra (\"2 d\" beyond the deadline of *), received, grace\n"
+        "(\"15 min\"), percent_per_day, most_percent; what a row leaves empty is as in the row of *.\n"
+        "What cannot be read (a PDF alone, a .rar, another lesson's script) is \"unreadable\": it has no marks until "
+        "you\n"
+        "give some in manual.csv. It is listed under \"need your eye\", as is what belongs to nobody in the roster.\n"
+        "Exit codes: 0 all is graded, 1 something is left ungraded, unreadable or nobody's, 2 wrong usage.");
     command->callback([words, &action] { action = [words] { return grade(*words); }; });
 }
 

@@ -8,6 +8,7 @@
 
 #include "data_io/tables/number_cell.h"
 #include "platform/error.h"
+#include "platform/foreign_text.h"
 #include "platform/text_file.h"
 
 namespace dynlab::inline data_io {
@@ -151,10 +152,20 @@ std::optional<std::size_t> TextTable::column(std::string_view name) const {
 }
 
 TextTable read_text_table(const std::filesystem::path& file) {
-    const std::string text = read_text(file);
+    std::string text = read_text(file);
     if (text.find('\0') != std::string::npos)
         throw EnvironmentError(fmt::format("{}: this is not UTF-8 text; save it as CSV in UTF-8", file.string()));
-    return Reader(file, text).read();
+    const bool converted = !is_utf8(text);
+    if (converted) text = utf8_of_windows_1252(text);
+    TextTable table = Reader(file, text).read();
+    table.converted = converted;
+    return table;
+}
+
+std::optional<double> number_in_cell(const std::string& cell) {
+    double number = 0;
+    if (parse_number(cell, true, number) != NumberStatus::kNumber) return {};
+    return number;
 }
 
 std::string csv_text(const TextTable& table) {

@@ -12,14 +12,19 @@ struct TextTable {
     std::vector<std::string> names;              ///< of the columns, lower case, as the first line has them
     std::vector<std::vector<std::string>> rows;  ///< as long as `names` each
     std::vector<int> lines;                      ///< of the file, on which each row begins
+    bool converted = false;                      ///< the file was not UTF-8 and was read as Windows-1252 (Latin-1)
 
     std::optional<std::size_t> column(std::string_view name) const;
 };
 
-/// Reads comma, semicolon or tab separated text (RFC 4180 quoting, UTF-8 with or without byte order mark, CR LF).
-/// Blanks around cells are taken off; short rows are filled with empty cells. Throws EnvironmentError with file and
-/// line: no header, a column name twice, a row that is too long, quotes that do not close, no UTF-8.
+/// Reads comma, semicolon or tab separated text (RFC 4180 quoting, CR LF; UTF-8 with or without byte order mark, else
+/// Windows-1252, as spreadsheets save it). Blanks around cells are taken off; short rows are filled with empty cells.
+/// Throws EnvironmentError with file and line: no header, a column name twice, a row that is too long, quotes that do
+/// not close, UTF-16.
 TextTable read_text_table(const std::filesystem::path& file);
+
+/// The number in a whole cell, with a point or a comma before its decimals; nothing for anything else.
+std::optional<double> number_in_cell(const std::string& cell);
 
 /// RFC 4180 text with commas and CR LF. A cell that a spreadsheet would take for a formula (= + - @, tab or CR first)
 /// gets an apostrophe in front, plain numbers excepted.

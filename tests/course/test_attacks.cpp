@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include <chrono>
+#include <set>
 
 #include "course/grading_bench.h"
 
@@ -161,7 +162,7 @@ TEST(attacks, none_leaves_its_box_stops_the_batch_or_changes_a_mark) {
     const auto start = std::chrono::steady_clock::now();
     const ChildResult graded = bench.grade({"--timeout", std::to_string(kTimeout)});
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-    ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
+    ASSERT_EQ(graded.exit_code, 1) << graded.error_output;  // some cannot be read
     EXPECT_EQ(
         work.shell("find home in secret.csv -exec ls -ld --time-style=full-iso {} + | sort; ls -A | grep -v '^out$'")
             .output,
@@ -180,11 +181,13 @@ TEST(attacks, none_leaves_its_box_stops_the_batch_or_changes_a_mark) {
         EXPECT_EQ(GradingBench::score(bench.result(name)), 1) << name << bench.result(name).dump(1);
     for (const auto& [name, told] :
          {std::pair("two of them", "several folders"), std::pair("no script", "no analysis.lua"),
-          std::pair("bytecode", ""), std::pair("damaged", "cannot be unpacked"), std::pair("empty", ""),
-          std::pair("script is a folder", "no analysis.lua"), std::pair("linked", "secret"),
-          std::pair("linked_script", "no analysis.lua"), std::pair("bomb", "too large"),
+          std::pair("bytecode", ""), std::pair("damaged", "cannot be unpacked"),
+          std::pair("empty", "cannot be unpacked"), std::pair("script is a folder", "no analysis.lua"),
+          std::pair("linked", "secret"), std::pair("linked_script", "no analysis.lua"), std::pair("bomb", "too large"),
           std::pair("many_files", "too many files")}) {
-        EXPECT_EQ(GradingBench::score(bench.result(name)), 0) << name << bench.result(name).dump(1);
+        EXPECT_EQ(GradingBench::score(bench.result(name)),
+                  std::set<std::string>({"bytecode", "linked"}).contains(name) ? 0 : -1)
+            << name << bench.result(name).dump(1);
         EXPECT_THAT(GradingBench::trouble(bench.result(name)), HasSubstr(told)) << name;
     }
     EXPECT_LT(taken.count(), (kTimeout + 1.0) * (std::size(kAttacks) + 24));

@@ -189,7 +189,7 @@ TEST(grading, a_row_for_each_student_lateness_and_neutral_formulas) {
     const ChildResult graded = bench.grade({"--roster", "roster.csv", "--deadlines", "deadlines.csv"});
     ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
     const std::string book = bench.bench().read("out/gradebook.csv");
-    EXPECT_THAT(book, HasSubstr("001,A. Kalman,group-1,graded,5,5,0,0,2,3\r\n002,R. Kalman,group-1,graded,5,"));
+    EXPECT_THAT(book, HasSubstr("001,A. Kalman,group-1,graded,5,5,0,0,2,3,\r\n002,R. Kalman,group-1,graded,5,"));
     EXPECT_THAT(book, HasSubstr("003,Ada Lovelace,Ada Lovelace_77_assignsubmission_file_,graded,5,"));
     EXPECT_THAT(book, HasSubstr("99,Grace Hopper,hoppergrace_LATE_99_1234_work,graded,4,5,1,25,"));
     EXPECT_THAT(book, HasSubstr("005,Nobody,,nothing handed in,"));

@@ -78,11 +78,8 @@ open('cp850.zip', 'wb').write(data)
             EXPECT_EQ(all.files, given);
             EXPECT_THAT(all.left_out, IsEmpty());
         }
-        const std::map<std::string, std::string> bytes = {
-            {"donn\x82"
-             "es.csv",
-             "table"}};
-        EXPECT_EQ(files_out_of(bench, "cp850.zip", level).files, bytes);
+        const std::map<std::string, std::string> old = {{"données.csv", "table"}};
+        EXPECT_EQ(files_out_of(bench, "cp850.zip", level).files, old);
     }
 }
 

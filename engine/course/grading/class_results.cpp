@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "course/grading/feedback.h"
+#include "course/returns/class_statistics.h"
 #include "data_io/text_table.h"
 #include "figures/gnuplot_renderer.h"
 #include "figures/histogram.h"
@@ -22,6 +24,7 @@ using Entry = ClassResults::Entry;
 
 std::string state_of(const Entry& entry) {
     if (!entry.grade) return "not graded yet";
+    if (entry.grade->without_marks()) return "unreadable";
     return entry.grade->whole() ? "graded" : "partly ungraded";
 }
 
@@ -60,40 +63,74 @@ std::vector<std::string> row_of(const std::string& id, const std::string& name, 
     return row;
 }
 
-/// Of several submissions of one student, the better one.
-const Entry* better(const Entry* a, const Entry* b) {
-    const auto points = [](const Entry* entry) { return entry->grade ? entry->grade->earned() : -1; };
-    return a == nullptr || points(b) > points(a) ? b : a;
+/// Of several submissions of one student, the one that counts: one without marks never before one with.
+const Entry* counting(const Entry* a, const Entry* b, bool newest_counts) {
+    const auto points = [](const Entry* entry) {
+        return entry->grade && !entry->grade->without_marks() ? entry->grade->earned() : -1;
+    };
+    if (a == nullptr) return b;
+    if (newest_counts && points(a) >= 0 && points(b) >= 0) return b->received > a->received ? b : a;
+    return points(b) > points(a) ? b : a;
 }
 
-TextTable gradebook_of(const ClassResults& results, std::vector<std::string>& remarks) {
+/// For each student.
+std::vector<const Entry*> work_that_counts(const ClassResults& results) {
+    std::vector<const Entry*> work(results.roster->students().size(), nullptr);
+    for (const Entry& entry : results.entries)
+        for (const std::size_t owner : entry.owner.students)
+            work[owner] = counting(work[owner], &entry, results.newest_counts);
+    return work;
+}
+
+/// A sentence for each owner with several submissions.
+std::vector<std::string> several_of_one(const ClassResults& results) {
+    if (!results.roster) return {};
+    std::map<std::string, std::vector<const Entry*>> by_owner;
+    for (const Entry& entry : results.entries)
+        if (!entry.owner.students.empty())
+            by_owner[entry.owner.group.empty() ? results.roster->students()[entry.owner.students.front()].id
+                                               : entry.owner.group]
+                .push_back(&entry);
+    std::vector<std::string> sentences;
+    for (const auto& [owner, entries] : by_owner) {
+        if (entries.size() < 2) continue;
+        const Entry* counts = nullptr;
+        std::vector<std::string> names;
+        for (const Entry* entry : entries) {
+            counts = counting(counts, entry, results.newest_counts);
+            names.push_back(fmt::format("\"{}\"", entry->submission.name));
+        }
+        sentences.push_back(fmt::format("{} has several submissions, of which the {} one counts, \"{}\": {}", owner,
+                                        results.newest_counts ? "newest" : "better", counts->submission.name,
+                                        fmt::join(names, ", ")));
+    }
+    return sentences;
+}
+
+TextTable gradebook_of(const ClassResults& results) {
     const std::vector<std::string> ids = check_ids(results);
     TextTable table;
     table.names = {"id", "name", "submission", "state", "points", "possible", "penalty", "late_hours"};
     table.names.insert(table.names.end(), ids.begin(), ids.end());
+    if (results.deadlines) table.names.push_back("lateness");
+    const auto row_for = [&](const std::string& id, const std::string& name, const Entry* entry) {
+        std::vector<std::string> row = row_of(id, name, entry, ids);
+        if (results.deadlines) row.push_back(entry && entry->grade ? entry->grade->lateness : "");
+        table.rows.push_back(std::move(row));
+    };
     if (!results.roster) {
-        for (const Entry& entry : results.entries)
-            table.rows.push_back(row_of(entry.submission.lms_id, entry.submission.person, &entry, ids));
+        for (const Entry& entry : results.entries) row_for(entry.submission.lms_id, entry.submission.person, &entry);
         return table;
     }
     const auto& students = results.roster->students();
-    std::vector<const Entry*> work(students.size(), nullptr);
-    for (const Entry& entry : results.entries) {
-        const auto owners = results.roster->owners(entry.submission);
-        if (owners.empty())
-            remarks.push_back(
-                fmt::format("the submission \"{}\" belongs to nobody in the roster", entry.submission.name));
-        for (const std::size_t owner : owners) {
-            if (work[owner] != nullptr)
-                remarks.push_back(
-                    fmt::format("{} has several submissions, of which the better one counts: \"{}\", \"{}\"",
-                                students[owner].id, work[owner]->submission.name, entry.submission.name));
-            work[owner] = better(work[owner], &entry);
-        }
-    }
-    for (std::size_t i = 0; i < students.size(); ++i)
-        table.rows.push_back(row_of(students[i].id, students[i].name, work[i], ids));
+    const std::vector<const Entry*> work = work_that_counts(results);
+    for (std::size_t i = 0; i < students.size(); ++i) row_for(students[i].id, students[i].name, work[i]);
     return table;
+}
+
+bool waits_for_a_hand(const Grade& grade) {
+    return std::any_of(grade.checks.begin(), grade.checks.end(),
+                       [](const CheckGrade& check) { return check.by_hand && !check.graded; });
 }
 
 /// What is to be marked by hand and is not yet: a table to be filled in and put into manual.csv.
@@ -101,7 +138,7 @@ TextTable open_marks(const ClassResults& results) {
     TextTable table;
     table.names = {"submission", "check", "points", "comment", "of", "about", "rubric"};
     for (const Entry& entry : results.entries) {
-        if (!entry.grade) continue;
+        if (!entry.grade || entry.grade->without_marks()) continue;
         for (const CheckGrade& check : entry.grade->checks)
             if (check.by_hand && !check.graded)
                 table.rows.push_back(
@@ -110,50 +147,52 @@ TextTable open_marks(const ClassResults& results) {
     return table;
 }
 
-/// How each check went: passed by how many, mean share.
-RecordedTable success_of(const ClassResults& results) {
-    RecordedTable table{{"check", "points", "passed", "mean share (%)"}, {}};
-    const std::vector<std::string> ids = check_ids(results);
-    for (std::size_t k = 0; k < ids.size(); ++k) {
-        int graded = 0, passed = 0;
-        double shares = 0, points = 0;
-        std::string about;
-        for (const Entry& entry : results.entries) {
-            if (!entry.grade || k >= entry.grade->checks.size()) continue;
-            const CheckGrade& check = entry.grade->checks[k];
-            points = check.points;
-            about = check.about;
-            if (!check.graded) continue;
-            ++graded;
-            passed += check.earned >= check.points;
-            shares += check.earned / check.points;
-        }
-        table.rows.push_back({about, points_text(points), fmt::format("{} of {}", passed, graded),
-                              graded > 0 ? fmt::format("{:.0f}", 100 * shares / graded) : "ungraded"});
-    }
+std::vector<Grade> grades_of(const ClassResults& results) {
+    std::vector<Grade> grades;
+    for (const Entry& entry : results.entries)
+        if (entry.grade && !entry.grade->without_marks()) grades.push_back(*entry.grade);
+    return grades;
+}
+
+/// How each check went: passed by how many, mean share, and whether those who are good pass it.
+RecordedTable success_of(const std::vector<CheckStatistics>& checks) {
+    RecordedTable table{{"check", "points", "passed", "mean share (%)", "discrimination"}, {}};
+    for (const CheckStatistics& check : checks)
+        table.rows.push_back({check.about, points_text(check.points),
+                              fmt::format("{} of {}", check.passed, check.graded),
+                              check.graded > 0 ? fmt::format("{:.0f}", 100 * check.mean_share) : "ungraded",
+                              std::isfinite(check.discrimination) ? fmt::format("{:.2f}", check.discrimination) : "–"});
     return table;
 }
 
-std::string attention_of(const ClassResults& results, const std::vector<std::string>& remarks) {
+/// What was said more than once where points are missing.
+std::string mistakes_of(const std::vector<CheckStatistics>& checks) {
+    std::string list;
+    for (const CheckStatistics& check : checks)
+        for (const auto& [said, count] : check.mistakes)
+            if (count > 1)
+                list +=
+                    fmt::format("- {}: {} ({} times)\n", escaped_markdown(check.about), escaped_markdown(said), count);
+    return list.empty() ? "None that was made twice.\n" : list;
+}
+
+std::string attention_of(const ClassResults& results) {
     std::string attention;
     const auto add = [&](const std::string& sentence) { attention += "- " + escaped_markdown(sentence) + "\n"; };
     for (const std::string& complaint : results.complaints) add(complaint);
-    for (const std::string& remark : remarks) add(remark);
+    for (const std::string& sentence : what_needs_the_eye(results).sentences) add(sentence);
+    for (const std::string& sentence : several_of_one(results)) add(sentence);
     for (const Entry& entry : results.entries) {
-        if (!entry.grade) continue;
+        if (!entry.grade || entry.grade->without_marks()) continue;
         const std::string& name = entry.submission.name;
-        const auto& checks = entry.grade->checks;
-        const bool waits = std::any_of(checks.begin(), checks.end(),
-                                       [](const CheckGrade& check) { return check.by_hand && !check.graded; });
-        if (waits)
-            add(fmt::format("\"{}\" is to be marked by hand: by_hand.csv", name));
-        else if (!entry.grade->whole())
-            add(fmt::format("\"{}\" is not graded completely", name));
+        if (!entry.grade->remark.empty()) add(fmt::format("\"{}\": {}", name, entry.grade->remark));
         if (!entry.grade->trouble.empty())
-            add(fmt::format("the script of \"{}\" did not run to its end: {}", name, entry.grade->trouble));
+            add(fmt::format("the script of \"{}\" {}: {}", name,
+                            entry.grade->began ? "did not run to its end" : "could not be begun",
+                            entry.grade->trouble));
         if (entry.grade->penalty > 0)
-            add(fmt::format("\"{}\" was {:.1f} hours late, which costs {} points", name, entry.grade->late_hours,
-                            points_text(entry.grade->penalty)));
+            add(fmt::format("\"{}\" was late, which costs {} points: {}", name, points_text(entry.grade->penalty),
+                            entry.grade->lateness));
     }
     return attention.empty() ? "Nothing.\n" : attention;
 }
@@ -169,14 +208,19 @@ Vector points_of(const ClassResults& results) {
 
 void add_numbers(const ClassResults& results, const Vector& points, double possible, RunRecord& record) {
     const auto value = [&record](const char* name, const std::string& text) { record.values[name] = {{}, text}; };
-    const auto not_whole = std::count_if(results.entries.begin(), results.entries.end(),
-                                         [](const Entry& entry) { return entry.grade && !entry.grade->whole(); });
+    const auto not_whole = std::count_if(results.entries.begin(), results.entries.end(), [](const Entry& entry) {
+        return entry.grade && !entry.grade->whole() && !entry.grade->unreadable;
+    });
+    const auto unreadable = std::count_if(results.entries.begin(), results.entries.end(), [](const Entry& entry) {
+        return entry.grade && entry.grade->without_marks();
+    });
     const Index n = points.size();
     value("lesson", results.setup->lesson.slug);
     value("isolation", isolation_name(results.setup->isolation));
     value("submissions", counted(results.entries.size(), "submission"));
     value("graded", std::to_string(n));
     value("not_whole", std::to_string(not_whole));
+    value("unreadable", std::to_string(unreadable));
     value("possible", points_text(possible));
     value("mean", n == 0 ? "–" : points_text(points.mean()));
     value("median", n == 0 ? "–" : points_text(median(points)));
@@ -198,9 +242,47 @@ RecordedFigure histogram_of(const Vector& points, double possible) {
 
 }  // namespace
 
+NeedsTheEye what_needs_the_eye(const ClassResults& results) {
+    NeedsTheEye eye;
+    // A broken check is complained of once; it is not the fault of any submission.
+    const auto whole = [](const Entry& entry) {
+        return !entry.grade || entry.grade->unreadable || entry.grade->whole();
+    };
+    const bool some_whole = std::any_of(results.entries.begin(), results.entries.end(),
+                                        [&](const Entry& entry) { return entry.grade && whole(entry); });
+    std::map<std::string, const Entry*> by_content;
+    for (const Entry& entry : results.entries) {
+        const std::string& name = entry.submission.name;
+        const auto add = [&](const std::string& what) {
+            eye.sentences.push_back(fmt::format("\"{}\" {}", name, what));
+        };
+        if (results.roster && !entry.owner.anybody()) {
+            add(fmt::format("belongs to nobody in the roster: {}; write it into a list for --owners",
+                            entry.owner.trouble));
+            ++eye.unowned;
+        }
+        if (!entry.grade) continue;
+        if (entry.grade->without_marks()) {
+            add("cannot be read: " + entry.grade->trouble);
+            ++eye.unreadable;
+        } else if (waits_for_a_hand(*entry.grade)) {
+            add("is to be marked by hand: by_hand.csv");
+        } else if (!whole(entry) && some_whole) {
+            add("is not graded completely");
+        } else if (entry.grade->silent && entry.grade->trouble.empty()) {
+            add("ran to its end but gave no answer");
+        }
+        if (entry.content.empty()) continue;
+        const auto [same, fresh] = by_content.emplace(entry.content, &entry);
+        const bool others = !fresh && results.roster && same->second->owner.students != entry.owner.students;
+        if (others)
+            add(fmt::format("is the same, byte for byte, as \"{}\" of somebody else", same->second->submission.name));
+    }
+    return eye;
+}
+
 void write_class_results(const ClassResults& results) {
-    std::vector<std::string> remarks;
-    write_file_atomically(results.out / "gradebook.csv", csv_text(gradebook_of(results, remarks)));
+    write_file_atomically(results.out / "gradebook.csv", csv_text(gradebook_of(results)));
     const TextTable open = open_marks(results);
     if (open.rows.empty())
         std::filesystem::remove(results.out / "by_hand.csv");
@@ -212,8 +294,12 @@ void write_class_results(const ClassResults& results) {
     const Vector points = points_of(results);
     RunRecord record;
     add_numbers(results, points, possible, record);
-    record.tables["success"] = success_of(results);
-    record.texts["attention"] = {attention_of(results, remarks)};
+    const std::vector<Grade> grades = grades_of(results);
+    const std::vector<CheckStatistics> checks = statistics_of_checks(grades);
+    write_file_atomically(results.out / "summary.json", class_statistics_json(results.setup->lesson.slug, grades));
+    record.tables["success"] = success_of(checks);
+    record.texts["mistakes"] = {mistakes_of(checks)};
+    record.texts["attention"] = {attention_of(results)};
     record.figures["points"] = histogram_of(points, possible);
     GnuplotRenderer renderer;
     const TemporaryFolder drawn;

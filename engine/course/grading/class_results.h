@@ -6,6 +6,7 @@
 
 #include "course/grading/boxed_document.h"
 #include "course/grading/grading_rules.h"
+#include "course/grading/owners.h"
 #include "course/grading/roster.h"
 #include "course/grading/submission.h"
 
@@ -16,6 +17,9 @@ struct ClassResults {
     struct Entry {
         Submission submission;
         std::optional<Grade> grade;  ///< nothing: not graded yet
+        Owners::Found owner;         ///< where there is a roster
+        std::int64_t received = 0;   ///< seconds since 1970
+        std::string content = {};    ///< hash of what was handed in; empty for what was not looked at
     };
     std::vector<Entry> entries;
     const Roster* roster = nullptr;
@@ -24,11 +28,21 @@ struct ClassResults {
     bool pdf = true;
     const BoxedDocuments* documents = nullptr;
     std::vector<std::string> complaints;
+    bool deadlines = false;      ///< there are some: the gradebook tells the reason of each penalty
+    bool newest_counts = false;  ///< of several hand-ins of one student; else the better one
 };
+
+/// What the instructor must look at.
+struct NeedsTheEye {
+    std::vector<std::string> sentences;       ///< one a submission: ""group-5" cannot be read: It is empty."
+    std::size_t unowned = 0, unreadable = 0;  ///< of those
+};
+NeedsTheEye what_needs_the_eye(const ClassResults& results);
 
 /// Writes gradebook.csv (a row for each student of the roster, or each submission where there is none) and the summary
 /// (report_templates/class_summary.md, set in a box): numbers, histogram, success of each check, what needs the
-/// instructor's eye. by_hand.csv is the table of what is to be marked by hand yet, where there is any.
+/// instructor's eye. by_hand.csv is the table of what is to be marked by hand yet, where there is any, summary.json the
+/// numbers for programs (returns/class_statistics.h).
 void write_class_results(const ClassResults& results);
 
 }  // namespace dynlab::inline course

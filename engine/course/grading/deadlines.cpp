@@ -3,18 +3,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <set>
 
+#include "course/grading/owners.h"
+#include "course/store/course_clock.h"
 #include "data_io/text_table.h"
+#include "numerics/number_text.h"
 #include "platform/error.h"
 
 namespace dynlab::inline course {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr char kForAll[] = "*";
+constexpr double kSecondsOfADay = 86400;
 
 /// Seconds since 1970 of "2026-03-01 18:00[:00]" in local time.
 std::optional<long> instant(const std::string& text) {
@@ -26,6 +32,15 @@ std::optional<long> instant(const std::string& text) {
         return static_cast<long>(std::mktime(&time));
     }
     return {};
+}
+
+std::string shown_instant(long instant) {
+    const std::time_t seconds = instant;
+    std::tm time{};
+    ::localtime_r(&seconds, &time);
+    char text[64];
+    return {text,
+            std::strftime(text, sizeof text, time.tm_sec == 0 ? "%Y-%m-%d %H:%M %Z" : "%Y-%m-%d %H:%M:%S %Z", &time)};
 }
 
 /// When an archive, or the newest file of a folder, was written.
@@ -45,68 +60,136 @@ long written(const fs::path& path) {
     return newest;
 }
 
+/// Names in the table are compared as names of owners are.
+std::string plain_key(const std::string& name) {
+    return fmt::format("{}", fmt::join(words_of_name(name), " "));
+}
+
+/// Reads the cells of the table.
+class DeadlineTable {
+  public:
+    explicit DeadlineTable(const fs::path& file) : file_(file), table_(read_text_table(file)) {
+        if (!table_.column("submission") || !table_.column("deadline"))
+            throw EnvironmentError(fmt::format("{}: the columns submission and deadline are needed; there are {}",
+                                               file.string(), fmt::join(table_.names, ", ")));
+    }
+
+    std::size_t rows() const { return table_.rows.size(); }
+    std::string cell(std::size_t row, const char* column) const {
+        const auto index = table_.column(column);
+        return index ? table_.rows[row][*index] : "";
+    }
+    double number(std::size_t row, const char* column, double fallback) const {
+        const std::string text = cell(row, column);
+        if (text.empty()) return fallback;
+        const std::optional<double> value = number_in_cell(text);
+        if (!value || !(*value >= 0 && *value <= 100)) fail(row, column, "a number from 0 to 100");
+        return *value;
+    }
+    std::optional<long> time(std::size_t row, const char* column) const {
+        const std::string text = cell(row, column);
+        if (text.empty()) return {};
+        const std::optional<long> value = instant(text);
+        if (!value) fail(row, column, "a time such as 2026-03-01 18:00");
+        return value;
+    }
+    std::optional<long> duration(std::size_t row, const char* column) const {
+        const std::string text = cell(row, column);
+        if (text.empty()) return {};
+        const std::optional<std::int64_t> value = duration_of(text);
+        if (!value) fail(row, column, "a time such as 15 min, 3 h or 2 d");
+        return static_cast<long>(*value);
+    }
+    [[noreturn]] void fail(std::size_t row, const char* column, const char* wanted) const {
+        throw EnvironmentError(fmt::format("{}, line {}: {} must be {}, but \"{}\" was given", file_.string(),
+                                           table_.lines[row], column, wanted, cell(row, column)));
+    }
+    [[noreturn]] void fail(std::size_t row, const std::string& what) const {
+        throw EnvironmentError(fmt::format("{}, line {}: {}", file_.string(), table_.lines[row], what));
+    }
+
+  private:
+    fs::path file_;
+    TextTable table_;
+};
+
 }  // namespace
 
 Deadlines::Deadlines(const fs::path& file) {
-    const TextTable table = read_text_table(file);
-    const auto who = table.column("submission"), deadline = table.column("deadline");
-    if (!who || !deadline)
-        throw EnvironmentError(fmt::format("{}: the columns submission and deadline are needed; there are {}",
-                                           file.string(), fmt::join(table.names, ", ")));
-    for (std::size_t i = 0; i < table.rows.size(); ++i) {
-        const auto& row = table.rows[i];
-        const auto fail = [&](const char* column, const char* wanted) {
-            throw EnvironmentError(fmt::format("{}, line {}: {} must be {}, but \"{}\" was given", file.string(),
-                                               table.lines[i], column, wanted, row[*table.column(column)]));
-        };
-        const auto number = [&](const char* column, double fallback) {
-            const auto index = table.column(column);
-            if (!index || row[*index].empty()) return fallback;
-            double value = 0;
-            const std::string& text = row[*index];
-            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-            if (error != std::errc() || end != text.data() + text.size() || !(value >= 0 && value <= 100))
-                fail(column, "a number from 0 to 100");
-            return value;
-        };
-        Rule rule;
-        const auto time = instant(row[*deadline]);
-        if (!time) fail("deadline", "a time such as 2026-03-01 18:00");
-        rule.deadline = *time;
-        if (const auto received = table.column("received"); received && !row[*received].empty()) {
-            rule.received = instant(row[*received]);
-            if (!rule.received) fail("received", "a time such as 2026-03-01 18:00");
-        }
-        rule.percent_per_day = number("percent_per_day", 10);
-        rule.most_percent = number("most_percent", 100);
-        if (!rules_.emplace(row[*who], rule).second)
-            throw EnvironmentError(
-                fmt::format("{}, line {}: \"{}\" has a deadline already", file.string(), table.lines[i], row[*who]));
+    const DeadlineTable table(file);
+    std::vector<std::size_t> order;  // the row for all first: others go by it
+    for (std::size_t row = 0; row < table.rows(); ++row)
+        if (table.cell(row, "submission") == kForAll) order.push_back(row);
+    for (std::size_t row = 0; row < table.rows(); ++row)
+        if (table.cell(row, "submission") != kForAll) order.push_back(row);
+    for (const std::size_t row : order) {
+        const std::string who = table.cell(row, "submission");
+        const auto all = rules_.find(kForAll);
+        Rule rule = all != rules_.end() ? all->second : Rule{};
+        if (who != kForAll) rule.received.reset();
+        const std::optional<long> deadline = table.time(row, "deadline"), extra = table.duration(row, "extra");
+        if (!deadline && (!extra || all == rules_.end()))
+            table.fail(row, "deadline", "a time such as 2026-03-01 18:00");
+        rule.deadline = deadline.value_or(rule.deadline) + extra.value_or(0);
+        if (const auto received = table.time(row, "received")) rule.received = received;
+        rule.grace = table.duration(row, "grace").value_or(rule.grace);
+        rule.percent_per_day = table.number(row, "percent_per_day", rule.percent_per_day);
+        rule.most_percent = table.number(row, "most_percent", rule.most_percent);
+        if (!rules_.emplace(who, rule).second) table.fail(row, fmt::format("\"{}\" has a deadline already", who));
     }
 }
 
-Deadlines::Lateness Deadlines::of(const Submission& submission) const {
-    for (const std::string& key : {submission.name, submission.lms_id, std::string("*")}) {
-        const auto found = rules_.find(key);
-        if (key.empty() || found == rules_.end()) continue;
-        const Rule& rule = found->second;
-        const long late = rule.received.value_or(written(submission.path)) - rule.deadline;
-        if (late <= 0) return {};
-        const double days = std::ceil(static_cast<double>(late) / 86400);
-        return {static_cast<double>(late) / 3600, std::min(rule.most_percent, days * rule.percent_per_day)};
-    }
-    return {};
+const Deadlines::Rule* Deadlines::rule_for(const Submission& submission, const std::vector<std::string>& also) const {
+    for (const std::string& key : {submission.name, submission.lms_id})
+        if (const auto found = rules_.find(key); !key.empty() && found != rules_.end()) return &found->second;
+    std::set<std::string> names = {plain_key(submission.person)};
+    for (const std::string& name : also) names.insert(plain_key(name));
+    names.erase("");
+    const Rule* latest = nullptr;
+    for (const auto& [who, rule] : rules_)
+        if (who != kForAll && names.contains(plain_key(who)) && (latest == nullptr || rule.deadline > latest->deadline))
+            latest = &rule;
+    if (latest != nullptr) return latest;
+    const auto all = rules_.find(kForAll);
+    return all == rules_.end() ? nullptr : &all->second;
 }
 
-std::vector<std::string> Deadlines::strays(const std::vector<Submission>& submissions) const {
-    std::vector<std::string> names;
-    for (const auto& [name, rule] : rules_) {
-        const bool known = name == "*" || std::any_of(submissions.begin(), submissions.end(), [&](const Submission& s) {
-                               return s.name == name || s.lms_id == name;
-                           });
-        if (!known) names.push_back(name);
+long Deadlines::received(const Submission& submission, const std::vector<std::string>& also) const {
+    const Rule* const rule = rule_for(submission, also);
+    if (rule != nullptr && rule->received) return *rule->received;
+    if (submission.loose.empty()) return written(submission.path);
+    long newest = 0;
+    for (const LooseFile& file : submission.loose) newest = std::max(newest, written(file.path));
+    return newest;
+}
+
+Deadlines::Lateness Deadlines::of(const Submission& submission, const std::vector<std::string>& also) const {
+    const Rule* const rule = rule_for(submission, also);
+    if (rule == nullptr) return {};
+    const long came = received(submission, also), late = came - rule->deadline;
+    if (late <= rule->grace) return {};
+    const double days = std::ceil(static_cast<double>(late) / kSecondsOfADay);
+    Lateness lateness{static_cast<double>(late) / 3600, std::min(rule->most_percent, days * rule->percent_per_day)};
+    lateness.reason = fmt::format(
+        "received {}, {} after the deadline of {}; each begun day costs {} % of the points{}", shown_instant(came),
+        duration_text(late), shown_instant(rule->deadline), number_text(rule->percent_per_day, 4),
+        rule->most_percent < 100 ? fmt::format(", at most {} %", number_text(rule->most_percent, 4)) : "");
+    return lateness;
+}
+
+std::vector<std::string> Deadlines::strays(const std::vector<Submission>& submissions,
+                                           const std::vector<std::string>& known) const {
+    std::set<std::string> names;
+    for (const std::string& name : known) names.insert(plain_key(name));
+    for (const Submission& submission : submissions) names.insert(plain_key(submission.person));
+    std::vector<std::string> strays;
+    for (const auto& [who, rule] : rules_) {
+        const bool named = std::any_of(submissions.begin(), submissions.end(), [&, &name = who](const Submission& s) {
+            return s.name == name || s.lms_id == name;
+        });
+        if (who != kForAll && !named && !names.contains(plain_key(who))) strays.push_back(who);
     }
-    return names;
+    return strays;
 }
 
 }  // namespace dynlab::inline course

@@ -27,14 +27,16 @@ std::string item_of(const CheckGrade& check, std::string (*escape)(const std::st
 }
 
 std::string trouble_of(const Grade& grade, std::string (*escape)(const std::string&)) {
-    if (grade.trouble.empty()) return "Your script ran to its end.";
+    if (grade.trouble.empty())
+        return grade.silent ? "Your script ran to its end but gave no answer." : "Your script ran to its end.";
+    if (grade.unreadable) return "**Your work could not be read, so it has no marks yet:** " + escape(grade.trouble);
+    if (!grade.began) return "**Your script could not be begun:** " + escape(grade.trouble);
     return "**Your script did not run to its end:** " + escape(grade.trouble);
 }
 
 std::string lateness_of(const Grade& grade) {
     if (!(grade.penalty > 0)) return "";
-    return fmt::format("It was {:.1f} hours late, which costs {} points.", grade.late_hours,
-                       points_text(grade.penalty));
+    return fmt::format("It was late, which costs {} points: {}.", points_text(grade.penalty), grade.lateness);
 }
 
 std::string markdown_of(const Grade& grade) {

@@ -43,6 +43,7 @@ class FolderCopier {
         if (result_.too_large) return;
         bytes_left_ -= size;
         fs::copy_file(entry.path(), to);
+        fs::last_write_time(to, entry.last_write_time());
     }
 
     std::uint64_t bytes_left_;

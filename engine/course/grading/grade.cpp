@@ -1,5 +1,7 @@
 #include "course/grading/grade.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -19,10 +21,13 @@ void describe(T& object, V& member) {
 
 template <Is<Grade> T, class V>
 void describe(T& object, V& member) {
-    auto& [submission, lesson, isolation, fingerprint, trouble, printed, checks, late_hours, penalty, log] = object;
+    auto& [submission, lesson, isolation, fingerprint, trouble, unreadable, began, silent, remark, printed, checks,
+           late_hours, penalty, lateness, log] = object;
     member("submission", submission), member("lesson", lesson), member("isolation", isolation);
-    member("fingerprint", fingerprint), member("trouble", trouble), member("printed", printed);
+    member("fingerprint", fingerprint), member("trouble", trouble), member("unreadable", unreadable);
+    member("began", began), member("silent", silent), member("remark", remark), member("printed", printed);
     member("checks", checks), member("late_hours", late_hours), member("penalty", penalty);
+    member("lateness", lateness);
 }
 
 namespace {
@@ -78,7 +83,10 @@ std::string to_results_json(const Grade& grade, const Grade& marked) {
     json own = writer.value();
     own["format"] = 1;
     own["whole"] = marked.whole();
-    json j = {{"output", grade.trouble},
+    const bool costs = marked.penalty > 0;
+    const std::string late =
+        costs ? fmt::format("Late, which costs {:.2f} points: {}.", marked.penalty, grade.lateness) : "";
+    json j = {{"output", grade.trouble + (costs && !grade.trouble.empty() ? "\n" : "") + late},
               {"stdout_visibility", "hidden"},
               {"tests", std::move(tests)},
               {"extra_data", {{"dynlab", std::move(own)}}}};

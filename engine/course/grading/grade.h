@@ -20,15 +20,21 @@ struct CheckGrade {
 struct Grade {
     std::string submission, lesson, isolation;
     std::string fingerprint;  ///< of all that it depends on: an equal one need not be made again
-    std::string trouble;      ///< why the whole submission could not be run, in a sentence for the student
+    std::string trouble;      ///< why the script did not run to its end, in a sentence for the student
+    bool unreadable = false;  ///< nothing could be run, as `trouble` says: no marks, which is not the mark 0
+    bool began = true;        ///< false where the script could not even be begun
+    bool silent = false;      ///< the script gave no answer at all
+    std::string remark;       ///< for the instructor: which version was taken
     std::string printed;      ///< end of what the script printed
     std::vector<CheckGrade> checks;
     double late_hours = 0, penalty = 0;  ///< penalty in points
+    std::string lateness;                ///< why there is a penalty, as Deadlines tells it
     std::string log;                     ///< what was run and how long it took; not part of the result
 
-    double earned() const;    ///< of graded checks, less the penalty, not below 0
-    double possible() const;  ///< of graded checks
-    bool whole() const;       ///< every check is graded
+    double earned() const;                                         ///< of graded checks, less the penalty, not below 0
+    double possible() const;                                       ///< of graded checks
+    bool whole() const;                                            ///< every check is graded
+    bool without_marks() const { return unreadable && !whole(); }  ///< until the instructor gives them by hand
 };
 
 /// Gradescope's results.json of `marked`, which is `grade` with the instructor's own marks; `grade` itself and what

@@ -71,10 +71,12 @@ GradedRun run_for_grading(const RunJob& job) {
         runtime.set_service(&language);
         const auto start = std::chrono::steady_clock::now();
         GradedRun run = graded_run(runtime.run(script), script);
+        run.lesson = script.header.lesson;
         run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         return run;
     } catch (const DocumentError& error) {
         GradedRun unread;
+        unread.began = false;
         unread.error = error.what();
         return unread;
     }

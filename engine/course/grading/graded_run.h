@@ -18,6 +18,8 @@ struct GradedRun {
     std::string printed;                       ///< the end of what it printed
     std::optional<std::string> error;          ///< the message
     double seconds = 0;                        ///< that the script took
+    std::string lesson = {};                   ///< as the script's header names it
+    bool began = true;                         ///< false for a script that cannot be read
 };
 
 /// One run of a student's script for grading.

@@ -60,6 +60,12 @@ class TakenCore {
     std::counting_semaphore<>& free_;
 };
 
+std::string hash_of_parts(const std::vector<std::string>& parts) {
+    Sha256 hash;
+    for (const std::string& part : parts) hash.add(std::to_string(part.size()) + ":").add(part);
+    return hash.hex();
+}
+
 [[noreturn]] void refuse_rerun(const std::string& check, const std::string& rerun) {
     std::vector<std::string> names;
     for (const Rig& rig : rig_catalogue()) names.push_back(rig.name);
@@ -75,6 +81,7 @@ class TakenCore {
 GradingRules::GradingRules(GradingSetup setup)
     : setup_(std::move(setup)), free_cores_(std::make_unique<std::counting_semaphore<>>(std::max(1, setup_.jobs))) {
     const PercentScript lesson = read_percent_script(setup_.lesson.script());
+    lesson_ = lesson.header.lesson;
     seed_ = lesson.header.seed;
     standard_ = standard_for(setup_.lesson, lesson);
     answers_ = lesson.header.answers;
@@ -257,12 +264,20 @@ std::vector<GradingRules::Tried> GradingRules::verdicts(const CheckedSubmission&
     return all;
 }
 
-Grade GradingRules::without_checks(const std::string& name, const std::string& trouble) const {
+Grade GradingRules::unreadable(const std::string& name, const std::string& trouble) const {
+    Grade grade = ungraded(name);
+    grade.trouble = trouble;
+    grade.unreadable = true;
+    for (CheckGrade& check : grade.checks) check.graded = false;
+    return grade;
+}
+
+/// The checks as they are declared.
+Grade GradingRules::ungraded(const std::string& name) const {
     Grade grade;
     grade.submission = name;
     grade.lesson = setup_.lesson.slug;
     grade.isolation = isolation_name(setup_.isolation);
-    grade.trouble = trouble;
     for (const CheckDescription& check : checks_) {
         CheckGrade one;
         one.id = check.id;
@@ -279,19 +294,30 @@ Grade GradingRules::without_checks(const std::string& name, const std::string& t
 }
 
 CheckedSubmission GradingRules::work_in(const fs::path& folder, const GroupSeed& group_seed, std::string& log) const {
-    CheckedSubmission submission;
-    submission.runs = runs(folder, group_seed, log);
-    if (document_) submission.findings = findings(folder, group_seed);
+    CheckedSubmission work;
+    work.runs = runs(folder, group_seed, log);
+    if (document_) work.findings = findings(folder, group_seed);
     const fs::path script = folder / "analysis.lua";
     std::error_code error;
-    if (fs::file_size(script, error) <= kMostSource && !error) submission.source = read_file(script);
-    return submission;
+    if (fs::file_size(script, error) <= kMostSource && !error) work.source = read_file(script);
+    return work;
 }
 
 Grade GradingRules::grade(const std::string& name, const fs::path& folder, const GroupSeed& group_seed) const {
-    Grade grade = without_checks(name, "");
-    const CheckedSubmission submission = work_in(folder, group_seed, grade.log);
+    std::string log;
+    const CheckedSubmission work = work_in(folder, group_seed, log);
+    return judged(name, work, group_seed, log);
+}
+
+Grade GradingRules::judged(const std::string& name, const CheckedSubmission& submission, const GroupSeed& group_seed,
+                           std::string log) const {
+    Grade grade = ungraded(name);
+    grade.log = std::move(log);
     const GradedRun& main = submission.runs.at(kMain);
+    if (!main.lesson.empty() && !lesson_.empty() && main.lesson != lesson_)
+        return unreadable(name, fmt::format("This is the script of lesson {}, not of {}.", main.lesson, lesson_));
+    grade.began = main.began;
+    grade.silent = main.answers.empty();
     if (main.error) grade.trouble = shortened_trouble(*main.error);
     grade.printed = main.printed;
     const std::vector<Tried> found = verdicts(submission, group_seed, grade.log);
@@ -336,13 +362,16 @@ std::vector<std::string> GradingRules::try_solution() {
 }
 
 std::string GradingRules::fingerprint(const std::string& content_hash, const GroupSeed& group_seed) const {
-    Sha256 hash;
-    for (const std::string& part :
-         {content_hash, program_identity(), setup_.lesson.slug, sha256_of_file(setup_.lesson.script()), setup_.secret,
-          json_of(files_), own_records_, std::to_string(setup_.timeout.count()), isolation_name(setup_.isolation),
-          fmt::format("{}", fmt::join(broken_, " ")), group_seed ? std::to_string(*group_seed) : ""})
-        hash.add(std::to_string(part.size()) + ":").add(part);
-    return hash.hex();
+    return hash_of_parts(
+        {run_fingerprint(content_hash, group_seed), json_of(files_), fmt::format("{}", fmt::join(broken_, " "))});
+}
+
+std::string GradingRules::run_fingerprint(const std::string& content_hash, const GroupSeed& group_seed) const {
+    return hash_of_parts({content_hash, program_identity(), setup_.lesson.slug, sha256_of_file(setup_.lesson.script()),
+                          setup_.secret, std::to_string(setup_.timeout.count()), isolation_name(setup_.isolation),
+                          fmt::format("{}", fmt::join(reruns_, " ")), document_ ? standard_ : "", own_records_,
+                          declared_rigs_.empty() ? "" : json_of(files_),  // which make records
+                          group_seed ? std::to_string(*group_seed) : ""});
 }
 
 }  // namespace dynlab::inline course

@@ -43,20 +43,27 @@ class GradingRules {
     /// Of a group that has records of its own (dynlab new --group-seed); nothing for the data of all.
     using GroupSeed = std::optional<std::uint32_t>;
 
+    /// What the checks are tried on: the runs of the script in `folder`, and findings of its document where a check
+    /// asks for them.
+    CheckedSubmission work_in(const std::filesystem::path& folder, const GroupSeed& group_seed, std::string& log) const;
+    /// What the checks say of it.
+    Grade judged(const std::string& name, const CheckedSubmission& work, const GroupSeed& group_seed,
+                 std::string log) const;
     /// Runs and checks the submission whose script stands in `folder`.
     Grade grade(const std::string& name, const std::filesystem::path& folder, const GroupSeed& group_seed = {}) const;
-    Grade without_checks(const std::string& name, const std::string& trouble) const;  ///< no points at all
+    /// Of a submission in which nothing can be run: no check is graded.
+    Grade unreadable(const std::string& name, const std::string& trouble) const;
 
     /// Tries the worked solution. Checks that it does not pass are broken: from now on they are left ungraded. Returns
     /// a sentence for each.
     std::vector<std::string> try_solution();
 
-    /// What the checks are tried on: the runs of the script in `folder`, and of its document where a check asks for it.
-    CheckedSubmission work_in(const std::filesystem::path& folder, const GroupSeed& group_seed, std::string& log) const;
     /// What the checks say of each of these, their files read once. Throws EnvironmentError where they come to no end.
     std::vector<std::vector<TriedCheck>> tried(const std::vector<CheckedSubmission>& submissions) const;
 
+    /// Of all that a submission's marks depend on, and of what its runs do, which other checks may leave as it is.
     std::string fingerprint(const std::string& content_hash, const GroupSeed& group_seed) const;
+    std::string run_fingerprint(const std::string& content_hash, const GroupSeed& group_seed) const;
     const GradingSetup& setup() const { return setup_; }
     const std::vector<CheckDescription>& checks() const { return checks_; }
 
@@ -85,6 +92,7 @@ class GradingRules {
     std::vector<Tried> verdicts(const CheckedSubmission& submission, const GroupSeed& group_seed,
                                 std::string& log) const;
     std::vector<std::string> simulated() const;
+    Grade ungraded(const std::string& name) const;
     std::filesystem::path data_of(const GroupSeed& group_seed) const;
     std::filesystem::path add_home(Box& box, const std::string& run, const GroupSeed& group_seed) const;
     std::uint32_t drawn(const std::string& what) const;
@@ -93,6 +101,7 @@ class GradingRules {
     std::vector<CheckFile> files_;
     std::vector<ExpectedAnswer> answers_;
     std::vector<CheckDescription> checks_;
+    std::string lesson_;  ///< as its header names it
     std::uint32_t seed_ = 1;
     std::string standard_;  ///< the template, or the file of one, whose rules a document must keep
     mutable std::optional<std::vector<std::string>> simulated_;  ///< once they were asked for

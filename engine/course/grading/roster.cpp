@@ -4,32 +4,78 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
 #include <set>
 
+#include "data_io/tables/number_cell.h"
 #include "data_io/text_table.h"
 #include "platform/error.h"
 
 namespace dynlab::inline course {
 namespace {
 
-/// Letters and digits in lower case: Canvas joins names, Moodle does not.
-std::string bare(const std::string& text) {
-    std::string result;
-    for (const unsigned char c : text)
-        if (std::isalnum(c) || c > 127) result += static_cast<char>(std::tolower(c));
-    return result;
+/// What platforms call our columns.
+const std::map<std::string, std::string>& platform_columns() {
+    static const std::map<std::string, std::string> names = {
+        {"id number", "id"},
+        {"idnumber", "id"},
+        {"id-nummer", "id"},
+        {"matrikelnummer", "id"},
+        {"numéro d'identification", "id"},
+        {"numéro d’identification", "id"},
+        {"sis user id", "id"},
+        {"student id", "id"},
+        {"full name", "name"},
+        {"vollständiger name", "name"},
+        {"nom complet", "name"},
+        {"student", "name"},
+        {"first name", "first"},
+        {"vorname", "first"},
+        {"prénom", "first"},
+        {"surname", "last"},
+        {"last name", "last"},
+        {"nachname", "last"},
+        {"nom", "last"},
+        {"nom de famille", "last"},
+        {"groups", "group"},
+        {"gruppe", "group"},
+        {"gruppen", "group"},
+        {"groupe", "group"},
+        {"groupes", "group"},
+        {"group_name", "group"},
+        {"email address", "email"},
+        {"e-mail address", "email"},
+        {"e-mail", "email"},
+        {"e-mail-adresse", "email"},
+        {"adresse de courriel", "email"},
+        {"identifier", "moodle"},
+        {"teilnehmer/in", "moodle"},
+    };
+    return names;
 }
 
-/// "Ada Lovelace" as "lovelaceada", as Canvas writes it.
-std::string last_name_first(const std::string& name) {
-    const auto blank = name.rfind(' ');
-    return blank == std::string::npos ? bare(name) : bare(name.substr(blank + 1) + name.substr(0, blank));
+/// Translates the header's platform names; what is there under our own name stays.
+void translate_columns(TextTable& table) {
+    const bool canvas = table.column("sis user id") && table.column("student");
+    if (const auto id = table.column("id"); canvas && id) table.names[*id] = "canvas";
+    for (std::string& name : table.names) {
+        const auto found = platform_columns().find(name);
+        if (found != platform_columns().end() && !table.column(found->second)) name = found->second;
+    }
+}
+
+/// "Participant 900010" as 900010.
+std::string digits_at_end(const std::string& text) {
+    const std::size_t last = text.find_last_not_of("0123456789");
+    return last == std::string::npos ? text : text.substr(last + 1);
 }
 
 }  // namespace
 
 Roster::Roster(const std::filesystem::path& file) {
-    const TextTable table = read_text_table(file);
+    TextTable table = read_text_table(file);
+    converted_ = table.converted;
+    translate_columns(table);
     const auto id = table.column("id"), seed = table.column("seed");
     if (!id)
         throw EnvironmentError(
@@ -41,15 +87,22 @@ Roster::Roster(const std::filesystem::path& file) {
         const auto fail = [&](const std::string& what) {
             throw EnvironmentError(fmt::format("{}, line {}: {}", file.string(), table.lines[i], what));
         };
-        if (row[*id].empty()) fail("the id is empty");
-        if (!seen.insert(row[*id]).second) fail(fmt::format("the id \"{}\" occurs twice", row[*id]));
         const auto cell = [&](const char* column) {
             const auto index = table.column(column);
             return index ? row[*index] : std::string();
         };
-        Student student{
-            row[*id],       cell("name"),  cell("group"), {}, cell(table.column("email") ? "email" : "mail"),
-            cell("moodle"), cell("canvas")};
+        if (row[*id].empty() && cell("name") == "Points Possible") continue;  // Canvas's second line
+        if (row[*id].empty()) fail("the id is empty");
+        if (!seen.insert(row[*id]).second) fail(fmt::format("the id \"{}\" occurs twice", row[*id]));
+        std::string name = cell("name");
+        if (name.empty()) name = std::string(trimmed_cell(cell("first") + " " + cell("last")));
+        Student student{row[*id],
+                        name,
+                        cell("group"),
+                        {},
+                        cell(table.column("email") ? "email" : "mail"),
+                        digits_at_end(cell("moodle")),
+                        cell("canvas")};
         if (seed && !row[*seed].empty()) {
             const std::string& text = row[*seed];
             std::uint32_t number = 0;
@@ -66,39 +119,17 @@ bool Roster::has(const std::string& column) const {
     const auto there = [this](const char* name) {
         return std::find(columns_.begin(), columns_.end(), name) != columns_.end();
     };
-    return columns_.empty() || there(column.c_str()) || (column == "mail" && there("email"));
+    return columns_.empty() || there(column.c_str()) || (column == "mail" && there("email")) ||
+           (column == "name" && (there("first") || there("last")));
 }
 
 std::vector<std::string> Roster::unknown_columns() const {
-    static const std::set<std::string> known = {"id", "name", "group", "seed", "email", "mail", "moodle", "canvas"};
+    static const std::set<std::string> known = {"id",   "name",  "first", "last",   "group",
+                                                "seed", "email", "mail",  "moodle", "canvas"};
     std::vector<std::string> unknown;
     for (const std::string& column : columns_)
         if (!known.contains(column)) unknown.push_back(column);
     return unknown;
-}
-
-std::vector<std::size_t> Roster::owners(const Submission& submission) const {
-    const auto those = [&](const auto& fits) {
-        std::vector<std::size_t> found;
-        for (std::size_t i = 0; i < students_.size(); ++i)
-            if (fits(students_[i])) found.push_back(i);
-        return found;
-    };
-    const std::string own = submission.person.empty() ? submission.name : submission.person;
-    std::vector<std::size_t> found = those([&](const Student& s) { return !s.group.empty() && s.group == own; });
-    if (found.empty())
-        found = those([&](const Student& s) {
-            const std::string& number = submission.lms_id;
-            return s.id == own || (!number.empty() && (s.id == number || s.moodle == number || s.canvas == number));
-        });
-    if (found.empty() && !bare(own).empty())
-        found =
-            those([&](const Student& s) { return bare(s.name) == bare(own) || last_name_first(s.name) == bare(own); });
-    if (found.empty() || found.size() > 1)  // two students of the same name cannot be told apart
-        return !found.empty() && students_[found.front()].group.empty() ? std::vector<std::size_t>{} : found;
-    // What one member hands in is the group's.
-    const std::string& group = students_[found.front()].group;
-    return group.empty() ? found : those([&](const Student& s) { return s.group == group; });
 }
 
 }  // namespace dynlab::inline course

@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "course/grading/submission.h"
-
 namespace dynlab::inline course {
 
 /// What a student was known by before it was corrected.
@@ -22,7 +20,9 @@ struct Student {
 };
 
 /// The students of a course. The file has a column `id`, and optionally `name`, `group`, `seed`, `email` (or `mail`),
-/// `moodle` and `canvas`; others are not read.
+/// `moodle` and `canvas`; others are not read. The columns that Moodle (list of participants, grading worksheet) and
+/// Canvas (gradebook) export are known by their own names, in English, French and German: first name and surname become
+/// the name, "ID number" and "SIS User ID" the id, "Identifier" the number of Moodle.
 class Roster {
   public:
     /// Throws EnvironmentError with file and line: no column id, an id that is empty or occurs twice,
@@ -33,17 +33,15 @@ class Roster {
 
     const std::vector<Student>& students() const { return students_; }
     bool has(const std::string& column) const;  ///< `mail` also for `email`
-    /// Of the file, as its header has them, in lower case; empty without a file.
+    /// Of the file, in lower case, platforms' names of them translated; empty without a file.
     const std::vector<std::string>& columns() const { return columns_; }
     std::vector<std::string> unknown_columns() const;
-    /// Whose work it is, by the submission's own name (a group's, a student's id or name) or what an LMS wrote into it;
-    /// never by what stands in the submission. What one member hands in is the whole group's. Places in students();
-    /// empty when nobody fits.
-    std::vector<std::size_t> owners(const Submission& submission) const;
+    bool converted() const { return converted_; }  ///< see TextTable
 
   private:
     std::vector<Student> students_;
     std::vector<std::string> columns_;
+    bool converted_ = false;
 };
 
 }  // namespace dynlab::inline course

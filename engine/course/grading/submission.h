@@ -9,21 +9,38 @@
 
 namespace dynlab::inline course {
 
-/// One entry of the folder that is graded.
-struct Submission {
-    std::string name;            ///< the entry's name, without an archive's ending: how marks find it again
-    std::filesystem::path path;  ///< a folder, or an archive
-    bool archive = false;
-    std::string person;  ///< from the name an LMS gave: Moodle's full name, Canvas's joined name; else as a rule empty
-    std::string lms_id;  ///< the number in that name
-    bool late = false;   ///< Canvas wrote LATE into it
+/// Somebody whom a platform's list names as a sender.
+struct Submitter {
+    std::string name, id, mail;
 };
 
-/// What stands in `folder`: folders and archives (.zip, .tar, .tar.gz, .tgz, .tar.xz), sorted by name. Hidden entries
-/// and Moodle's folders of typed text are passed over; links and other files go to `left_out`, each as a clause.
-/// Moodle's "Name_ID_assignsubmission_file_..." and Canvas's "name_LATE_ID_ID_file.zip" are recognised. Throws
+/// One of the loose files that a platform exports of a sender.
+struct LooseFile {
+    std::filesystem::path path;
+    std::string name;  ///< as the sender had it, without what the platform put before
+};
+
+/// One entry of the folder that is graded, or the loose files of one sender.
+struct Submission {
+    std::string name;            ///< the entry's name in UTF-8, without an archive's ending: how marks find it again
+    std::filesystem::path path;  ///< a folder, an archive, or the first of `loose`
+    bool archive = false;
+    std::string
+        person{};  ///< from the name an LMS gave: Moodle's full name, Canvas's joined name; else as a rule empty
+    std::string lms_id{};                 ///< the number in that name
+    bool late = false;                    ///< Canvas wrote LATE into it
+    std::vector<LooseFile> loose{};       ///< files that are no folder and no archive by themselves
+    std::vector<Submitter> submitters{};  ///< of Gradescope's list
+};
+
+/// What stands in `folder`: folders, archives (.zip, .tar, .tar.gz, .tgz, .tar.xz), and files that can be somebody's
+/// work, sorted by name. Hidden entries, what systems add (__MACOSX, Thumbs.db) and Moodle's folders of typed text are
+/// passed over, and so is `results`; links and other files go to `left_out`, each as a clause. Recognised are Moodle's
+/// "Name_ID_assignsubmission_file_...", Canvas's "name_LATE_ID_ID_file.zip", whose loose files of one sender are
+/// joined, and Gradescope's submission_metadata.yml; one folder around all of it is looked through. Throws
 /// EnvironmentError where there is none.
-std::vector<Submission> submissions_in(const std::filesystem::path& folder, std::vector<std::string>& left_out);
+std::vector<Submission> submissions_in(const std::filesystem::path& folder, std::vector<std::string>& left_out,
+                                       const std::filesystem::path& results = {});
 
 /// What a submission may take when it is copied or unpacked.
 struct SubmissionLimits {
@@ -46,14 +63,9 @@ std::vector<std::string> unpack_export(const std::filesystem::path& archive, con
 /// The name without an archive's ending (.zip, .tar, .tar.gz, .tgz, .tar.xz, .tar.bz2); nothing for other files.
 std::optional<std::string> archive_stem(const std::string& name);
 
-/// What Moodle or Canvas wrote into the submission's name: person, lms_id and late are set from it.
-void read_lms_name(Submission& submission);
-
-/// Brings a submission's files into `to`, an empty folder, and returns where analysis.lua stands: `to` itself, or the
-/// only folder below that has one. Archives are unpacked in a box by `program`, one archive inside a folder as well.
-/// Throws SubmissionError with a sentence for the student.
-std::filesystem::path stage_submission(const Submission& submission, const std::filesystem::path& to, Isolation level,
-                                       const std::filesystem::path& program, const SubmissionLimits& limits = {});
+/// What Moodle or Canvas wrote into the submission's name: person, lms_id and late are set from it. Returns what the
+/// sender had called the file; nothing where no platform wrote.
+std::optional<std::string> read_lms_name(Submission& submission);
 
 /// A submission that cannot be graded as it is, through its sender's doing.
 class SubmissionError : public std::runtime_error {

@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "platform/confinement.h"
+#include "platform/foreign_text.h"
 #include "platform/utf8_locale.h"
 
 namespace dynlab::inline course {
@@ -44,7 +45,9 @@ class Unpacker {
   public:
     explicit Unpacker(const UnpackJob& job)
         : to_(job.to),
+          most_bytes_(job.bytes),
           bytes_left_(job.bytes),
+          most_files_(job.files),
           files_left_(job.files),
           keep_times_(job.keep_times),
           archive_(archive_read_new(), archive_read_free) {
@@ -72,16 +75,17 @@ class Unpacker {
     }
 
     void take(archive_entry* entry) {
-        if (--files_left_ < 0) throw std::runtime_error("the archive holds too many files");
+        if (--files_left_ < 0)
+            throw std::runtime_error(fmt::format("the archive holds too many files, more than {}", most_files_));
         const char* const name = archive_entry_pathname(entry);
         if (name == nullptr || *name == '\0') return leave_out(entry, "the name of a file in it cannot be read");
-        std::string text = name;
+        std::string text = utf8_of_name(name);
         std::replace(text.begin(), text.end(), '\\', '/');
         const fs::path path(text);
         const auto type = archive_entry_filetype(entry);
         const bool ordinary = (type == AE_IFREG || type == AE_IFDIR) && archive_entry_hardlink(entry) == nullptr;
         const std::optional<std::string> objection = ordinary ? objection_to(path) : "is a link or not a regular file";
-        if (objection) return leave_out(entry, fmt::format("\"{}\" {}", name, *objection));
+        if (objection) return leave_out(entry, fmt::format("\"{}\" {}", text, *objection));
         if (type == AE_IFDIR) {
             fs::create_directories(to_ / path);
             return;
@@ -101,7 +105,9 @@ class Unpacker {
     }
 
     void use(std::uint64_t bytes) {
-        if (bytes > bytes_left_) throw std::runtime_error("the archive is too large once unpacked");
+        if (bytes > bytes_left_)
+            throw std::runtime_error(
+                fmt::format("the archive is too large once unpacked, more than {} MB", most_bytes_ >> 20));
         bytes_left_ -= bytes;
     }
 
@@ -118,8 +124,8 @@ class Unpacker {
     }
 
     fs::path to_;
-    std::uint64_t bytes_left_;
-    int files_left_;
+    std::uint64_t most_bytes_, bytes_left_;
+    int most_files_, files_left_;
     bool keep_times_;
     Utf8Locale names_;  // libarchive gives names in the character set of the locale
     Archive archive_;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <csignal>
 
-#include "course/grading/submission.h"
+#include "course/grading/staging.h"
 #include "course/names/name_findings.h"
 #include "documents/work_file.h"
 #include "platform/atomic_file.h"
@@ -86,7 +86,7 @@ class CopyingAnonymously {
         fs::create_directories(staged);
         std::optional<fs::path> source;
         try {
-            source = stage_submission(submission, staged, setup_.isolation, setup_.program);
+            source = stage_submission(submission, staged, setup_.isolation, setup_.program).folder;
         } catch (const SubmissionError& error) {
             result_.trouble = error.what();
         }

@@ -7,6 +7,7 @@
 #include "course/findings/finding.h"
 #include "course/names/sought_names.h"
 #include "documents/pdf/pdf_objects.h"
+#include "platform/box.h"
 
 namespace dynlab::inline course {
 

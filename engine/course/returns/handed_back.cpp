@@ -194,9 +194,8 @@ class Outbox {
                               name = fs::relative(student.feedback, request_.marks).string();
             const auto before = sent.find(student.id + "\n" + name);
             const bool is_new = before == sent.end() || before->second != hash;
-            table.rows.push_back({student.id, student.name, student.mail, student.points, student.possible,
-                                  name, is_new ? "yes" : "no",
-                                  hash});
+            table.rows.push_back({student.id, student.name, student.mail, student.points, student.possible, name,
+                                  is_new ? "yes" : "no", hash});
         }
         write("mail.csv", table);
     }

@@ -4,7 +4,7 @@
 
 #include "course/grading/boxed_work.h"
 #include "course/grading/job_descriptions.h"
-#include "course/grading/submission.h"
+#include "course/grading/staging.h"
 #include "documents/text_lines.h"
 #include "documents/work_file.h"
 #include "figures/gnuplot_renderer.h"
@@ -58,7 +58,7 @@ class VersionReader {
         fs::create_directories(staged);
         fs::create_directories(made);
         try {
-            const fs::path folder = stage_submission(submission, staged, level_, program_);
+            const fs::path folder = stage_submission(submission, staged, level_, program_).folder;
             make(folder, made);
             read_made(folder, made);
         } catch (const SubmissionError& error) {

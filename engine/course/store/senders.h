@@ -3,26 +3,26 @@
 #include <string>
 #include <vector>
 
+#include "course/grading/owners.h"
 #include "course/store/groups.h"
 
 namespace dynlab::inline course {
 
-/// Whose file it is, by its name or its folder's and never by what stands in it.
+/// Whose file it is, by its name or its folder's (grading/owners.h), among the groups of a course.
 class Senders {
   public:
     explicit Senders(Course& course);
 
-    bool knows(const Submission& submission) const { return find(submission).has_value(); }
+    /// Whether the name is, or begins with, that of a group or a student: a zip of that name is theirs, not a class's.
+    bool knows(const Submission& submission) const;
     /// Nothing when no group and no student fits, or several do.
     std::optional<Group> find(const Submission& submission) const;
     std::string complaint(const Submission& submission) const;  ///< why find gave nothing, and what to do
 
   private:
-    std::optional<Group> group_called(const std::string& name) const;
-    std::optional<Group> group_that_begins(const std::string& name) const;
-
     std::vector<Group> groups_;
-    Roster roster_;
+    std::vector<Student> students_;
+    Owners owners_;
 };
 
 }  // namespace dynlab::inline course

@@ -1,0 +1,228 @@
+#include "course/grading/staging.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <regex>
+#include <set>
+
+#include "course/grading/folder_copy.h"
+#include "course/grading/owners.h"
+#include "platform/foreign_text.h"
+
+namespace dynlab::inline course {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kScript[] = "analysis.lua";
+constexpr int kMostArchives = 8, kDeepestNesting = 3;
+constexpr auto kSameTime = std::chrono::seconds(2);  // the step of times in a zip
+
+/// A place where a script was found.
+struct FoundScript {
+    fs::path folder;
+    std::string shown;  ///< "work_v2.zip", "lab4/final"
+    fs::file_time_type written;
+};
+
+bool is_of_systems(const fs::path& path) {
+    const std::string name = path.filename().string();
+    return name.starts_with('.') || name == "__MACOSX";
+}
+
+/// All plain files below, but those that systems add, sorted.
+std::vector<fs::path> files_below(const fs::path& folder) {
+    std::vector<fs::path> files;
+    for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::recursive_directory_iterator(); ++entry) {
+        if (is_of_systems(entry->path())) {
+            entry.disable_recursion_pending();
+        } else if (entry->symlink_status().type() == fs::file_type::regular) {
+            files.push_back(entry->path());
+        }
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+std::string shown_place(const fs::path& file, const fs::path& from) {
+    return utf8_of_name(file.lexically_relative(from).string());
+}
+
+std::string lower_case_of(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
+/// A name without its numbers, and the last of these: versions of one work have equal words.
+struct VersionName {
+    std::vector<std::string> words;
+    long number = 0;
+};
+
+VersionName version_of(const std::string& shown) {
+    static const std::set<std::string> kVersion = {"v", "version", "copy", "vers"};
+    VersionName version;
+    for (const std::string& word : words_of_name(archive_stem(shown).value_or(shown))) {
+        const bool number = word.front() >= '0' && word.front() <= '9';
+        if (number && word.size() < 10) version.number = std::stol(word);
+        if (!number && !kVersion.contains(word)) version.words.push_back(word);
+    }
+    return version;
+}
+
+/// The newest, where one is; nothing where that cannot be told.
+std::optional<FoundScript> newest_of(const std::vector<FoundScript>& found) {
+    std::vector<VersionName> versions;
+    for (const FoundScript& script : found) versions.push_back(version_of(script.shown));
+    const bool one_work = std::all_of(versions.begin(), versions.end(),
+                                      [&](const VersionName& v) { return v.words == versions.front().words; });
+    const auto newest_by = [&](const auto& newer) -> std::optional<FoundScript> {
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            bool newest = true;
+            for (std::size_t k = 0; k < found.size(); ++k) newest = newest && (k == i || newer(i, k));
+            if (newest) return found[i];
+        }
+        return {};
+    };
+    const auto by_number = newest_by([&](auto i, auto k) { return versions[i].number > versions[k].number; });
+    if (one_work && by_number) return by_number;
+    return newest_by([&](auto i, auto k) { return found[i].written > found[k].written + kSameTime; });
+}
+
+std::string listed_places(const std::vector<FoundScript>& found) {
+    std::vector<std::string> shown;
+    for (const FoundScript& script : found) shown.push_back(fmt::format("\"{}\"", script.shown));
+    return fmt::format("{}", fmt::join(shown, ", "));
+}
+
+class Stager {
+  public:
+    Stager(const Submission& submission, const fs::path& to, Isolation level, const fs::path& program,
+           const SubmissionLimits& limits)
+        : submission_(submission), to_(to), root_(to / "unpacked"), level_(level), program_(program), limits_(limits) {
+        limits_.keep_times = true;  // they tell which version is the newest
+    }
+
+    StagedWork stage() {
+        fill_root();
+        std::vector<FoundScript> found = scripts_in(root_, "");
+        if (found.empty()) open_archives(root_, "", 1, found);
+        if (found.empty()) throw SubmissionError(obstacle());
+        if (found.size() == 1) return {found.front().folder, ""};
+        const std::optional<FoundScript> newest = newest_of(found);
+        if (!newest)
+            throw SubmissionError(fmt::format(
+                "There are several folders with an analysis.lua, and which is the newest cannot be told: {}. "
+                "Hand in one.",
+                listed_places(found)));
+        return {newest->folder,
+                fmt::format("of {}, \"{}\" was taken as the newest", listed_places(found), newest->shown)};
+    }
+
+  private:
+    void fill_root() {
+        if (submission_.archive) {
+            unpack_submission(submission_.path, root_, level_, program_, limits_);
+            return;
+        }
+        fs::create_directories(root_);
+        if (!submission_.loose.empty()) {
+            for (const LooseFile& file : submission_.loose) copy_loose(file);
+            return;
+        }
+        if (copy_folder(submission_.path, root_, limits_.bytes, limits_.files).too_large) too_large();
+    }
+
+    [[noreturn]] void too_large() const {
+        throw SubmissionError(fmt::format("It is too large: at most {} files and {} MB are looked at.", limits_.files,
+                                          limits_.bytes >> 20));
+    }
+
+    void copy_loose(const LooseFile& file) const {
+        static const std::regex of_platform(R"(^(?:.*_)?analysis(?:-\d+)?\.lua$)");
+        if (fs::file_size(file.path) > limits_.bytes) too_large();
+        fs::path to = root_ / (std::regex_match(file.name, of_platform) ? kScript : file.name);
+        for (int i = 2; fs::exists(to); ++i) to = root_ / fmt::format("{} {}", i, file.name);
+        fs::copy_file(file.path, to);
+        fs::last_write_time(to, fs::last_write_time(file.path));
+    }
+
+    std::vector<FoundScript> scripts_in(const fs::path& folder, const std::string& archive) const {
+        std::vector<FoundScript> found;
+        for (const fs::path& file : files_below(folder)) {
+            if (file.filename() != kScript) continue;
+            const std::string place = file.parent_path() == folder ? "" : shown_place(file.parent_path(), folder);
+            found.push_back({file.parent_path(), archive + (archive.empty() || place.empty() ? "" : "/") + place,
+                             fs::last_write_time(file)});
+        }
+        return found;
+    }
+
+    void open_archives(const fs::path& folder, const std::string& shown, int depth, std::vector<FoundScript>& found) {
+        for (const fs::path& file : files_below(folder)) {
+            if (!archive_stem(file.filename().string()) || ++opened_ > kMostArchives) continue;
+            const fs::path to = to_ / fmt::format("archive-{}", opened_);
+            const std::string name = shown + (shown.empty() ? "" : "/") + shown_place(file, folder);
+            try {
+                unpack_submission(file, to, level_, program_, limits_);
+            } catch (const SubmissionError& error) {
+                damage_ = fmt::format(" \"{}\": {}", name, error.what());
+                continue;
+            }
+            const std::vector<FoundScript> here = scripts_in(to, name);
+            found.insert(found.end(), here.begin(), here.end());
+            if (here.empty() && depth < kDeepestNesting) open_archives(to, name, depth + 1, found);
+        }
+    }
+
+    /// What is there instead of a script.
+    std::string obstacle() const {
+        std::vector<std::string> near, others;
+        for (const auto& entry : fs::directory_iterator(to_))
+            for (const fs::path& file : files_below(entry.path())) {
+                const std::string name = shown_place(file, entry.path()), lower = lower_case_of(name);
+                const bool script = lower.ends_with(".lua") || lower.find(".lua.") != std::string::npos;
+                (script ? near : others).push_back(fmt::format("\"{}\"", name));
+            }
+        std::sort(near.begin(), near.end());
+        std::sort(others.begin(), others.end());
+        if (near.empty() && others.empty()) return "It is empty: there is no analysis.lua in it.";
+        if (!near.empty())
+            return fmt::format("There is no analysis.lua in it, but {}: hand it in under the name analysis.lua.{}",
+                               fmt::join(shortened_list(near), ", "), damage_);
+        return fmt::format("There is no analysis.lua in it, only {}{}; hand in the folder that dynlab new made.{}",
+                           fmt::join(shortened_list(others), ", "), closed_kinds(others), damage_);
+    }
+
+    static std::vector<std::string> shortened_list(std::vector<std::string> names) {
+        constexpr std::size_t kMost = 3;
+        if (names.size() > kMost) names.resize(kMost), names.push_back("...");
+        return names;
+    }
+
+    static std::string closed_kinds(const std::vector<std::string>& names) {
+        for (const std::string kind : {".rar", ".7z"})
+            for (const std::string& name : names)
+                if (lower_case_of(name).ends_with(kind + "\""))
+                    return fmt::format(" ({} archives cannot be opened here; zip and tar can)", kind);
+        return "";
+    }
+
+    const Submission& submission_;
+    const fs::path to_, root_;
+    const Isolation level_;
+    const fs::path& program_;
+    SubmissionLimits limits_;
+    int opened_ = 0;
+    std::string damage_;  ///< of the last archive that could not be opened
+};
+
+}  // namespace
+
+StagedWork stage_submission(const Submission& submission, const fs::path& to, Isolation level, const fs::path& program,
+                            const SubmissionLimits& limits) {
+    return Stager(submission, to, level, program, limits).stage();
+}
+
+}  // namespace dynlab::inline course

@@ -1,0 +1,23 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "course/grading/submission.h"
+
+namespace dynlab::inline course {
+
+struct StagedWork {
+    std::filesystem::path folder;  ///< holds analysis.lua
+    std::string remark;            ///< for the instructor: which of several versions was taken; else empty
+};
+
+/// Brings a submission's files into `to`, an empty folder, and finds analysis.lua: at any depth, in archives within
+/// archives as well where there is none outside of them. Of several the newest is taken: by the numbers in their names
+/// ("work.zip", "work_v2.zip"), else by the scripts' times. A script to whose name a platform added
+/// ("..._analysis.lua", "analysis-1.lua") is taken under its own. Archives are unpacked in a box by `program`. Throws
+/// SubmissionError with a sentence for the student: there is none, with what there is instead; several of one age; too
+/// large.
+StagedWork stage_submission(const Submission& submission, const std::filesystem::path& to, Isolation level,
+                            const std::filesystem::path& program, const SubmissionLimits& limits = {});
+
+}  // namespace dynlab::inline course

@@ -1,0 +1,215 @@
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "course/grading_bench.h"
+#include "platform/file_lock.h"
+
+namespace dynlab::test {
+namespace test_gradebook_memory {
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr const char* kAnswers = "--   x: number\n";
+constexpr const char* kSolution = "answer('x', 42)\n";
+constexpr const char* kChecks =
+    "check{id = 'x', points = 2, test = function(a) return near(a.x, 42, {rel = 0.01}) end}\n";
+constexpr const char* kOwn = "check{id = 'own', points = 3, test = function(a) return a.x > 0 end}\n";
+
+void expect_refused(const ChildResult& graded, const std::string& told) {
+    EXPECT_EQ(graded.exit_code, 1) << graded.output;
+    EXPECT_THAT(graded.error_output, AllOf(HasSubstr("were made with other inputs"), HasSubstr(told)));
+}
+
+// oracle: a gradebook of one kind of marks
+TEST(gradebook_memory, marks_of_two_kinds_never_stand_side_by_side) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    const Workbench& work = bench.bench();
+    for (const char* name : {"a", "b"}) bench.hand_in(name, kSolution);
+    work.write("own/more.lua", kOwn);
+    work.write("secret.txt", "first");
+    work.write("other.txt", "second");
+    work.write("deadlines.csv", "submission,deadline\n*,2096-03-01 18:00\n");
+    const std::vector<std::string> all = {"--checks", "own", "--secret", "secret.txt", "--deadlines", "deadlines.csv"};
+    ASSERT_EQ(bench.grade(all).exit_code, 0);
+    const std::string whole = work.read("out/gradebook.csv");
+    EXPECT_THAT(whole, HasSubstr(",a,graded,5,5,"));
+    expect_refused(bench.grade({"--secret", "other.txt", "--only", "a"}),
+                   "your own checks (own then, none now), the secret");
+    expect_refused(bench.grade({"--checks", "own", "--secret", "secret.txt"}),
+                   "the deadlines (deadlines.csv then, none now)");
+    expect_refused(
+        bench.grade({"--checks", "own", "--secret", "secret.txt", "--deadlines", "deadlines.csv", "--keep", "newest"}),
+        "which hand-in counts (best then, newest now)");
+    EXPECT_EQ(work.read("out/gradebook.csv"), whole);
+    EXPECT_THAT(bench.grade(all).output, HasSubstr("0 graded now, 2 unchanged"));
+    // Deadlines that moved hold for all or are refused.
+    work.write("deadlines.csv", "submission,deadline\n*,2001-03-01 18:00\n");
+    std::vector<std::string> one = all;
+    one.insert(one.end(), {"--only", "a"});
+    expect_refused(bench.grade(one), "the deadlines (deadlines.csv has changed)");
+    ASSERT_EQ(bench.grade(all).exit_code, 0);
+    EXPECT_THAT(work.read("out/gradebook.csv"), AllOf(HasSubstr(",a,graded,0,5,5,"), HasSubstr(",b,graded,0,5,5,")));
+    // Other checks, wanted: all marks anew from the runs of before.
+    work.write("own/more.lua", "check{id = 'own', points = 4, test = function(a) return a.x > 50 end}\n");
+    expect_refused(bench.grade(all), "your own checks (own has changed)");
+    std::vector<std::string> again = all;
+    again.push_back("--again");
+    work.write("own/more.lua", "check{id = 'own', points = 4, test = function(a) return a.x > 0 end}\n");
+    EXPECT_THAT(bench.grade(again).output, HasSubstr("2 graded now, 0 unchanged"));
+    EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr(",b,graded,0,6,6,"));
+    EXPECT_THAT(bench.grade(all).output, HasSubstr("0 graded now, 2 unchanged"));
+    EXPECT_THAT(bench.grade({"--secret", "empty.txt"}).error_output, HasSubstr("empty.txt"));
+    work.write("empty.txt", "");
+    EXPECT_THAT(bench.grade({"--secret", "empty.txt"}).error_output, HasSubstr("empty.txt is empty"));
+}
+
+// oracle: the log, in which every run stands, and the checks' definition
+TEST(gradebook_memory, other_checks_need_no_other_run) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    const Workbench& work = bench.bench();
+    bench.hand_in("loop", "answer('x', 42)\nwhile true do end\n");
+    work.write("own/more.lua", kOwn);
+    ASSERT_EQ(bench.grade({"--timeout", "2", "--checks", "own"}).exit_code, 0);
+    EXPECT_THAT(work.read("out/logs/loop/log.txt"), HasSubstr("run main"));
+    work.write("own/more.lua", "check{id = 'own', points = 5, test = function(a) return a.x == 42 end}\n");
+    bench.grade({"--timeout", "2", "--checks", "own", "--again"});
+    EXPECT_THAT(work.read("out/logs/loop/log.txt"),
+                AllOf(HasSubstr("the runs are those of before"), Not(HasSubstr("run main"))));
+    EXPECT_EQ(GradingBench::score(bench.result("loop")), 7);
+    bench.grade({"--timeout", "2", "--checks", "own", "--regrade"});
+    EXPECT_THAT(work.read("out/logs/loop/log.txt"), HasSubstr("run main"));
+    // What is spoilt is made anew.
+    work.write("out/runs/loop/run.cbor", "spoilt");
+    work.write("own/more.lua", kOwn);
+    bench.grade({"--timeout", "2", "--checks", "own", "--again"});
+    EXPECT_THAT(work.read("out/logs/loop/log.txt"), HasSubstr("run main"));
+}
+
+// oracle: who is meant
+TEST(gradebook_memory, only_takes_a_name_a_group_an_id_or_a_student) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    const Workbench& work = bench.bench();
+    for (const char* name :
+         {"Anna Müller_900001_assignsubmission_file_", "group-2", "Ben Lee_900003_assignsubmission_file_"})
+        bench.hand_in(name, kSolution);
+    work.write("roster.csv", "id;name;group\n1;Anna Müller;group-1\n2;Zoë Ade;group-2\n3;Ben Lee;group-3\n");
+    ASSERT_EQ(bench.grade({"--roster", "roster.csv"}).exit_code, 0);
+    for (const char* word :
+         {"group-1", "Group 1", "anna muller", "1", "900001", "Anna Müller_900001_assignsubmission_file_"})
+        EXPECT_THAT(bench.grade({"--roster", "roster.csv", "--regrade", "--only", word}).output,
+                    HasSubstr("1 graded now, 0 unchanged"))
+            << word;
+    const ChildResult two = bench.grade({"--roster", "roster.csv", "--regrade", "--only", "Zoë Ade", "--only", "3"});
+    EXPECT_THAT(two.output, HasSubstr("2 graded now, 0 unchanged"));
+    EXPECT_THAT(bench.grade({"--roster", "roster.csv", "--only", "group-4"}).error_output,
+                HasSubstr("there is no submission \"group-4\""));
+    // Those that are not graded now but would get other marks are told.
+    bench.hand_in("group-2", "answer('x', 1)\n");
+    EXPECT_THAT(bench.grade({"--roster", "roster.csv", "--only", "3"}).error_output,
+                HasSubstr("the marks of \"group-2\" are from before"));
+}
+
+// oracle: the roster, and who handed in what
+TEST(gradebook_memory, nobodys_work_is_told_and_a_list_gives_it_to_somebody) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    const Workbench& work = bench.bench();
+    bench.hand_in("my work", kSolution);
+    bench.hand_in("group-2", "answer('x', 7)\n");
+    bench.hand_in("Ben Lee", "answer('x', 7)\n");
+    work.write("roster.csv",
+               "Vorname;Nachname;ID-Nummer;E-Mail-Adresse;Gruppe\nJos\xE9;Garc\xED"
+               "a;1;j@x;group-1\nZo\xEB;Ade;2;;group-2\nBen;Lee;3;;group-3\n");
+    const ChildResult graded = bench.grade({"--roster", "roster.csv"});
+    EXPECT_EQ(graded.exit_code, 1);
+    EXPECT_THAT(graded.error_output, HasSubstr("roster.csv is not UTF-8; it was read as Latin-1"));
+    EXPECT_THAT(graded.output,
+                AllOf(HasSubstr("\"my work\" belongs to nobody in the roster: it fits no group"),
+                      HasSubstr("\"group-2\" is the same, byte for byte, as \"Ben Lee\" of somebody else")));
+    EXPECT_THAT(work.read("out/gradebook.csv"),
+                AllOf(HasSubstr("1,José García,,nothing handed in"), HasSubstr("2,Zoë Ade,group-2,graded,0,")));
+    work.write("roster.csv", "id,name,group\n1,José García,group-1\n2,Zoë Ade,group-2\n3,Ben Lee,group-3\n");
+    work.write("owners.csv", "submission;id\nmy work;1\n");
+    ASSERT_EQ(bench.grade({"--roster", "roster.csv", "--owners", "owners.csv"}).exit_code, 0);
+    EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr("1,José García,my work,graded,2,2,"));
+    expect_refused(bench.grade({"--roster", "roster.csv"}), "the list of owners (owners.csv then, none now)");
+}
+
+// oracle: calendar and clock by hand: 20 min late of which 15 min are free costs a day's 10 % of 2 points
+TEST(gradebook_memory, deadlines_know_grace_zones_and_more_time) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    const Workbench& work = bench.bench();
+    for (const char* name : {"group-1", "group-2", "Ben Lee", "Uma Kepler"}) bench.hand_in(name, kSolution);
+    work.shell("touch -d '2026-03-01 17:20 UTC' in/*/analysis.lua; touch -d '2026-03-01 17:14 UTC' in/group-2/*");
+    work.write("roster.csv",
+               "id,name,group\n1,Anna Müller,group-1\n2,Zoë Ade,group-2\n3,Ben Lee,group-3\n4,Uma "
+               "Kepler,group-4\n5,Last One,group-5\n");
+    work.write("deadlines.csv",
+               "submission;deadline;extra;grace;percent_per_day\n*;2026-03-01 18:00;;15 min;10\n3;;2 d;;\nGroup "
+               "4;2026-03-01 18:19:30;;0;12,5\ngroup-5;;1 d;;\n");
+    const ChildResult graded =
+        bench.grade({"--roster", "roster.csv", "--deadlines", "deadlines.csv", "--timezone", "Europe/Paris"});
+    ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
+    const std::string book = work.read("out/gradebook.csv");
+    const std::string reason =
+        "received 2026-03-01 18:20 CET, 20 min after the deadline of 2026-03-01 18:00 CET; each begun day costs 10 % "
+        "of the points";
+    EXPECT_THAT(book, HasSubstr("1,Anna Müller,group-1,graded,1.8,2,0.2,0.33,2,\"" + reason + "\"\r\n"));
+    EXPECT_THAT(book, HasSubstr("2,Zoë Ade,group-2,graded,2,2,0,0,2,\r\n"));
+    EXPECT_THAT(book, HasSubstr("3,Ben Lee,Ben Lee,graded,2,2,0,0,2,\r\n"));
+    EXPECT_THAT(book, HasSubstr("4,Uma Kepler,Uma Kepler,graded,1.75,2,0.25,0.01,2,"));
+    EXPECT_THAT(work.read("out/results/group-1/feedback.md"),
+                HasSubstr("which costs 0.2 points: received 2026-03-01 18:20 CET, 20 min after"));
+    EXPECT_THAT(bench.result("group-1").at("output").get<std::string>(), HasSubstr("costs 0.20 points: " + reason));
+    EXPECT_THAT(bench.grade({"--timezone", "Nowhere/Land", "--again"}).error_output, HasSubstr("Nowhere/Land"));
+    work.write("deadlines.csv", "submission,deadline,extra\ngroup-1,,2 d\n");
+    EXPECT_THAT(bench.grade({"--deadlines", "deadlines.csv", "--again"}).error_output,
+                HasSubstr("line 2: deadline must be a time"));
+}
+
+// oracle: of two hand-ins the better, or the one that came last
+TEST(gradebook_memory, the_better_or_the_newest_hand_in_counts) {
+    for (const auto& [keep, points] : {std::pair("best", "2"), std::pair("newest", "0")}) {
+        GradingBench bench(kAnswers, kChecks, kSolution);
+        const Workbench& work = bench.bench();
+        bench.hand_in("Anna Müller", kSolution);
+        bench.hand_in("Zoë Ade", "answer('x', 1)\n");
+        work.write("in/group-1/report.pdf", "%PDF");
+        work.shell(
+            "touch -d '2026-03-01 10:00' 'in/Anna Müller/analysis.lua'; touch -d '2026-03-01 12:00' 'in/Zoë "
+            "Ade/analysis.lua'");
+        work.write("roster.csv", "id,name,group\n1,Anna Müller,group-1\n2,Zoë Ade,group-1\n");
+        bench.grade({"--roster", "roster.csv", "--keep", keep});
+        const std::string book = work.read("out/gradebook.csv");
+        EXPECT_THAT(book, HasSubstr(fmt::format("1,Anna Müller,{},graded,{},2,",
+                                                points[0] == '2' ? "Anna Müller" : "Zoë Ade", points)));
+        EXPECT_THAT(work.read("out/summary.md"),
+                    HasSubstr(fmt::format("of which the {} one counts", points[0] == '2' ? "better" : "newest")));
+    }
+}
+
+// oracle: two at once would do the same work twice; results are nobody's work
+TEST(gradebook_memory, one_run_at_a_time_and_results_are_no_submissions) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    const Workbench& work = bench.bench();
+    bench.hand_in("a", kSolution);
+    fs::create_directories(work.path("out"));
+    {
+        const FileLock lock(work.path("out/.lock"));
+        ASSERT_TRUE(lock.held());
+        EXPECT_THAT(bench.grade().error_output, HasSubstr("another dynlab grade is at work in out"));
+    }
+    const auto inside = [&](const char* out) {
+        return work.dynlab(
+            {"grade", "in", "--lesson", "99", "--out", out, "--isolation", GradingBench::level(), "--no-pdf"});
+    };
+    EXPECT_EQ(inside("in/marks").exit_code, 0);
+    EXPECT_THAT(inside("in/marks").output, HasSubstr("1 submission: 0 graded now, 1 unchanged"));
+    const ChildResult second = inside("in/marks2");
+    EXPECT_THAT(second.output, HasSubstr("1 submission: 1 graded now"));
+    EXPECT_THAT(second.error_output, HasSubstr("\"marks\" holds the results of dynlab grade; it is left out"));
+}
+
+}  // namespace test_gradebook_memory
+}  // namespace dynlab::test

@@ -1,0 +1,240 @@
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "course/grading/owners.h"
+#include "course/grading_bench.h"
+
+namespace dynlab::test {
+namespace test_hand_in_names {
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+struct Person {
+    std::string given, family;
+};
+
+/// Made-up people: every given name of a script with every family's name of it. More than twelve scripts, and Latin as
+/// half a dozen languages write it.
+std::vector<Person> people() {
+    const std::vector<std::pair<std::vector<const char*>, std::vector<const char*>>> by_script = {
+        {{"Élise", "Zoé", "François", "Ísak", "Örjan"}, {"Lefèvre", "Çelik", "Müller", "de la Cruz"}},
+        {{"Łucja", "Žofie", "Őrs", "Ștefan", "İnci"}, {"Wiśniewski-Kos", "Dvořák", "Đặng", "O'Breen"}},
+        {{"Maïté", "Günther", "Søren", "Åse", "Þóra"}, {"van der Berg", "Weiß", "Ærøsund", "Nuñez Peña"}},
+        {{"Αλέξης", "Δάφνη", "Ιάσων", "Ζωή"}, {"Παπαδάκης", "Ξένου", "Ψαρράς", "Άνθη"}},
+        {{"Мария", "Сергей", "Юлія", "Ђорђе"}, {"Ёлкина", "Щукин", "Їжак", "Йовић"}},
+        {{"דוד", "מרים", "שרה", "יעל"}, {"כהן", "לוינסון", "פרץ", "גולדמן"}},
+        {{"محمد", "فاطمة", "أحمد", "آمنة"}, {"الحسيني", "بن يوسف", "القرشي", "مؤمن"}},
+        {{"अनिल", "प्रिया", "कृष्ण", "ज़ोया"}, {"शर्मा", "वर्मा", "गुप्ता", "मिश्रा"}},
+        {{"অরুণ", "মিতা", "সৌরভ", "রিয়া"}, {"চট্টোপাধ্যায়", "ঘোষ", "দাশ", "সেন"}},
+        {{"கவிதா", "முருகன்", "செல்வி", "அருள்"}, {"சுப்பிரமணியன்", "ராமன்", "கோபால்", "நாதன்"}},
+        {{"สมชาย", "มาลี", "กิตติ", "น้ำฝน"}, {"ศรีสุข", "ทองดี", "แก้วใส", "จันทร์เพ็ญ"}},
+        {{"გიორგი", "ნინო", "თამარ", "ლევან"}, {"ბერიძე", "ჯაფარიძე", "წერეთელი", "ყიფიანი"}},
+        {{"Արամ", "Անի", "Եվա", "Տիգրան"}, {"Սարգսյան", "Հակոբյան", "Գրիգորյան", "Ծատուրյան"}},
+        {{"민수", "지영", "하늘", "서연"}, {"김", "이", "박", "최"}},
+        {{"小明", "麗華", "志强", "雪"}, {"王", "李", "陳", "歐陽"}},
+        {{"さくら", "ゆうが", "ジュン", "はぐみ"}, {"山田", "がじま", "ヴィラ", "ぱく"}},
+        {{"አበበ", "ሰላም", "ደሳለኝ", "ትዕግስት"}, {"ተስፋዬ", "በቀለ", "ኃይሌ", "ገብረ"}},
+    };
+    std::vector<Person> all;
+    for (const auto& [given, families] : by_script)
+        for (const char* family : families)
+            for (const char* name : given) all.push_back({name, family});
+    return all;
+}
+
+constexpr int kFirstId = 200001, kFirstNumber = 900001;
+
+std::vector<Student> class_of(const std::vector<Person>& all, bool with_groups) {
+    std::vector<Student> students;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        Student student;
+        student.id = std::to_string(kFirstId + static_cast<int>(i));
+        student.name = all[i].given + " " + all[i].family;
+        if (with_groups) student.group = fmt::format("group-{:03}", i + 1);
+        students.push_back(student);
+    }
+    return students;
+}
+
+/// Writes exports of a class as platforms and systems do. Who handed in what shows in a file's size: ten bytes and as
+/// many as the student's place.
+constexpr const char* kWriters = R"(
+import io, sys, tarfile, unicodedata, zipfile
+people = [line.rstrip('\n').split('\t') for line in open('people.tsv', encoding='utf-8')]
+def content(i): return b'-' * (10 + i)
+
+class Unflagged(zipfile.ZipInfo):
+    raw = b''
+    def _encodeFilenameFlags(self): return self.raw, self.flag_bits & ~0x800
+
+def write(file, entries):  # entries: name (text: with the flag of UTF-8, as PHP's libzip writes it; bytes: without), content
+    with zipfile.ZipFile(file, 'w') as z:
+        for name, data in entries:
+            if isinstance(name, bytes):
+                entry = Unflagged('x')
+                entry.raw = name
+                z.writestr(entry, data)
+            else: z.writestr(name, data)
+
+def old(name):  # as Windows and 7-Zip: the code page of the system where it has the letters, else Unicode
+    try: return name.encode('cp850')
+    except UnicodeEncodeError: return name
+
+full = [given + ' ' + family for given, family in people]
+moodle = lambda i, name: '%s_%d_assignsubmission_file_' % (name, 900001 + i)
+write('moodle_folders.zip', [(moodle(i, n) + '/analysis.lua', content(i)) for i, n in enumerate(full)])
+write('moodle_files.zip', [(moodle(i, n) + 'analysis.lua', content(i)) for i, n in enumerate(full)])
+write('moodle_blind.zip', [(moodle(i, 'Participant') + '/analysis.lua', content(i)) for i, n in enumerate(full)])
+write('moodle_default.zip', [(moodle(i, 'Default group-' + n) + '/analysis.lua', content(i)) for i, n in enumerate(full)])
+write('moodle_teams.zip', [(moodle(i, 'group-%03d-%s' % (i + 1, n)) + '/analysis.lua', content(i)) for i, n in enumerate(full)])
+canvas = lambda i: ''.join(c for c in (people[i][1] + people[i][0]).lower() if c not in " '-")
+write('canvas.zip', [('%s%s_%d_%d_analysis%s.lua' % (canvas(i), '_LATE' if i % 3 == 0 else '', 900001 + i, 7000 + i,
+                      '-1' if i % 4 == 0 else ''), content(i)) for i in range(len(people))])
+scope = ['---\n']
+for i, n in enumerate(full):
+    scope.append('submission_%d:\n  :submitters:\n  - :name: %s\n    :sid: "%d"\n    :email: s%d@uni.example\n'
+                 '  :created_at: 2026-03-01 17:00:00.0 Z\n  :score: 0.0\n' % (5000 + i, n if i % 2 else '?', 200001 + i, i))
+write('gradescope.zip', [('assignment_77_export/submission_metadata.yml', ''.join(scope))] +
+      [('assignment_77_export/submission_%d/analysis.lua' % (5000 + i), content(i)) for i in range(len(people))])
+write('windows.zip', [(old(n + '/analysis.lua'), content(i)) for i, n in enumerate(full)])
+write('seven_zip.zip', [(old(people[i][1] + ', ' + people[i][0] + '/analysis.lua'), content(i)) for i in range(len(people))])
+mac = []
+for i, n in enumerate(full):
+    name = unicodedata.normalize('NFD', n)
+    mac += [((name + '/analysis.lua').encode(), content(i)), (('__MACOSX/' + name + '/._analysis.lua').encode(), b'mac')]
+write('macos.zip', mac)
+with tarfile.open('class.tar.gz', 'w:gz', format=tarfile.PAX_FORMAT) as t:
+    for i, n in enumerate(full):
+        entry = tarfile.TarInfo(n + ' lab 4/analysis.lua')
+        entry.size = 10 + i
+        t.addfile(entry, io.BytesIO(content(i)))
+spellings = ['Group %d', 'group_%d', 'GROUP-%03d', 'gruppe %d final v2', 'group-%03d-lab4-final', 'Équipe %d', 'team%d', 'lab4_group%02d']
+write('groups.zip', [((spellings[i % 8] % (i + 1)) + '/analysis.lua', content(i)) for i in range(len(people))])
+write('numbers.zip', [('lab4_%d/analysis.lua' % (200001 + i), content(i)) for i in range(len(people))])
+)";
+
+/// By the size of its script; -1 where there is none.
+long place_of(const Submission& submission) {
+    const fs::path script = submission.loose.empty() ? submission.path / "analysis.lua" : submission.loose.front().path;
+    return fs::exists(script) ? static_cast<long>(fs::file_size(script)) - 10 : -1;
+}
+
+struct Export {
+    const char* file;
+    bool groups = false;   ///< in the roster
+    bool numbers = false;  ///< of Moodle or Canvas, in the roster
+};
+
+// oracle: the names that Python's zipfile and tarfile were given
+TEST(hand_in_names, every_owner_is_found_in_what_platforms_and_systems_write) {
+    const std::vector<Person> all = people();
+    ASSERT_GE(all.size(), 200u);
+    const Workbench bench;
+    std::string table;
+    for (const Person& person : all) table += person.given + "\t" + person.family + "\n";
+    bench.write("people.tsv", table);
+    bench.write("write.py", kWriters);
+    const ChildResult written = bench.shell("python3 write.py");
+    ASSERT_EQ(written.exit_code, 0) << written.error_output;
+    for (const Export& made :
+         {Export{"moodle_folders.zip"}, Export{"moodle_files.zip"}, Export{"moodle_blind.zip", false, true},
+          Export{"moodle_default.zip"}, Export{"moodle_teams.zip", true}, Export{"canvas.zip"},
+          Export{"gradescope.zip"}, Export{"windows.zip"}, Export{"seven_zip.zip"}, Export{"macos.zip"},
+          Export{"class.tar.gz"}, Export{"groups.zip", true}, Export{"numbers.zip"}}) {
+        SCOPED_TRACE(made.file);
+        std::vector<Student> students = class_of(all, made.groups);
+        for (std::size_t i = 0; i < students.size() && made.numbers; ++i)
+            students[i].moodle = std::to_string(kFirstNumber + static_cast<int>(i));
+        const Owners owners(students);
+        const TemporaryFolder to;
+        EXPECT_THAT(unpack_export(bench.path(made.file), to.path() / "all", Isolation::kProcess, DYNLAB_PROGRAM),
+                    IsEmpty());
+        std::vector<std::string> left_out;
+        const std::vector<Submission> submissions = submissions_in(to.path() / "all", left_out);
+        EXPECT_THAT(left_out, IsEmpty());
+        EXPECT_THAT(submissions, SizeIs(all.size()));
+        std::size_t right = 0;
+        for (const Submission& submission : submissions) {
+            const Owners::Found found = owners.find(submission);
+            const long place = place_of(submission);
+            const bool theirs =
+                found.anybody() && found.students.size() == 1 && static_cast<long>(found.students[0]) == place;
+            EXPECT_TRUE(theirs) << submission.name << " is place " << place << ": " << found.trouble;
+            right += theirs;
+        }
+        EXPECT_EQ(right, all.size());
+    }
+}
+
+Submission called(const std::string& name) {
+    Submission submission;
+    submission.name = name;
+    read_lms_name(submission);
+    return submission;
+}
+
+std::vector<Student> small_class() {
+    return {{"1001", "Anna Müller", "group-1", {}, "anna.mueller@uni.example", "", ""},
+            {"1002", "Ben Lee", "group-1", {}, "", "", ""},
+            {"1003", "Zoë Ade", "group-12", {}, "", "900003", ""},
+            {"1004", "José García", "group-2", {}, "", "", ""},
+            {"1005", "Jose Garcia", "group-3", {}, "", "", ""},
+            {"1006", "Uma Kepler", "group-4", {}, "", "", ""}};
+}
+
+// oracle: who is meant, as a person would read it
+TEST(hand_in_names, one_meaning_is_taken_and_two_are_told) {
+    const std::vector<Student> students = small_class();
+    const Owners owners(students, {"group-9"});
+    const auto group = [&](const std::string& name) { return owners.find(called(name)).group; };
+    for (const char* name :
+         {"group-1", "Group 1", "group_01_final", "ANNA MULLER", "Mueller Anna", "muelleranna_5_6_x", "lee ben",
+          "Lab 4 - Anna Müller", "1002", "anna.mueller", "Default group-Ben Lee_7_assignsubmission_file_",
+          "group-1-Ben Lee_8_assignsubmission_file_", "group-1_against_group-2"})
+        EXPECT_EQ(group(name), "group-1") << name << ": " << owners.find(called(name)).trouble;
+    EXPECT_EQ(group("group-12_report"), "group-12");
+    EXPECT_EQ(group("Participant_900003_assignsubmission_file_"), "group-12");
+    EXPECT_EQ(group("group-9"), "group-9");
+    EXPECT_EQ(group("José García"), "group-2");  // an accent tells them apart where it is written
+    EXPECT_EQ(group("Jose Garcia"), "group-3");
+    const auto trouble = [&](const std::string& name) { return owners.find(called(name)).trouble; };
+    EXPECT_EQ(trouble("jose GARCIA"), "it fits several: group-2, group-3");
+    EXPECT_EQ(trouble("group-1-Zoë Ade_8_assignsubmission_file_"), "it fits several: group-1, group-12");
+    EXPECT_EQ(trouble("Ben Lee_900003_assignsubmission_file_"),
+              "its number 900003 is that of group-12, its name fits group-1");
+    EXPECT_EQ(trouble("group-7"), "it fits no group and no student");
+    EXPECT_EQ(trouble("SYS26 group export"), "it fits no group and no student");
+    EXPECT_EQ(trouble("Anna"), "it fits no group and no student");
+}
+
+// oracle: the platform's own part of the name, which stands first, and the list that the instructor wrote
+TEST(hand_in_names, the_instructors_list_goes_before_names) {
+    const std::vector<Student> students = small_class();
+    Owners owners(students);
+    const Workbench bench;
+    bench.write("owners.csv",
+                "Submission;Group;ID\nmy work.zip;Group 2;\nEve_77_assignsubmission_file_;;1006\ngone;group-1;\n");
+    owners.read_list(bench.path("owners.csv"));
+    EXPECT_EQ(owners.find(called("my work")).group, "group-2");
+    EXPECT_EQ(owners.find(called("Eve_77_assignsubmission_file_")).group, "group-4");
+    EXPECT_THAT(owners.strays({called("my work"), called("Eve_77_assignsubmission_file_")}), ElementsAre("gone"));
+    for (const auto& [table, told] :
+         {std::pair("name,group\n", "the columns submission and group"),
+          std::pair("submission,group\nx,group-77\n", "line 2: there is no group \"group-77\""),
+          std::pair("submission,id\nx,9\n", "line 2: there is no student with the id \"9\""),
+          std::pair("submission,id\nx,1001\nx.zip,1002\n", "line 3: \"x\" has an owner already")}) {
+        bench.write("bad.csv", table);
+        try {
+            Owners(students).read_list(bench.path("bad.csv"));
+            ADD_FAILURE() << told;
+        } catch (const std::exception& error) {
+            EXPECT_THAT(error.what(), HasSubstr(told));
+        }
+    }
+}
+
+}  // namespace test_hand_in_names
+}  // namespace dynlab::test
