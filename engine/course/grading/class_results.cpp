@@ -7,6 +7,7 @@
 #include <map>
 
 #include "course/grading/feedback.h"
+#include "course/returns/class_statistics.h"
 #include "data_io/text_table.h"
 #include "figures/gnuplot_renderer.h"
 #include "figures/histogram.h"
@@ -127,12 +128,17 @@ TextTable gradebook_of(const ClassResults& results) {
     return table;
 }
 
+bool waits_for_a_hand(const Grade& grade) {
+    return std::any_of(grade.checks.begin(), grade.checks.end(),
+                       [](const CheckGrade& check) { return check.by_hand && !check.graded; });
+}
+
 /// What is to be marked by hand and is not yet: a table to be filled in and put into manual.csv.
 TextTable open_marks(const ClassResults& results) {
     TextTable table;
     table.names = {"submission", "check", "points", "comment", "of", "about", "rubric"};
     for (const Entry& entry : results.entries) {
-        if (!entry.grade) continue;
+        if (!entry.grade || entry.grade->without_marks()) continue;
         for (const CheckGrade& check : entry.grade->checks)
             if (check.by_hand && !check.graded)
                 table.rows.push_back(
@@ -141,28 +147,33 @@ TextTable open_marks(const ClassResults& results) {
     return table;
 }
 
-/// How each check went: passed by how many, mean share.
-RecordedTable success_of(const ClassResults& results) {
-    RecordedTable table{{"check", "points", "passed", "mean share (%)"}, {}};
-    const std::vector<std::string> ids = check_ids(results);
-    for (std::size_t k = 0; k < ids.size(); ++k) {
-        int graded = 0, passed = 0;
-        double shares = 0, points = 0;
-        std::string about;
-        for (const Entry& entry : results.entries) {
-            if (!entry.grade || k >= entry.grade->checks.size()) continue;
-            const CheckGrade& check = entry.grade->checks[k];
-            points = check.points;
-            about = check.about;
-            if (!check.graded) continue;
-            ++graded;
-            passed += check.earned >= check.points;
-            shares += check.earned / check.points;
-        }
-        table.rows.push_back({about, points_text(points), fmt::format("{} of {}", passed, graded),
-                              graded > 0 ? fmt::format("{:.0f}", 100 * shares / graded) : "ungraded"});
-    }
+std::vector<Grade> grades_of(const ClassResults& results) {
+    std::vector<Grade> grades;
+    for (const Entry& entry : results.entries)
+        if (entry.grade && !entry.grade->without_marks()) grades.push_back(*entry.grade);
+    return grades;
+}
+
+/// How each check went: passed by how many, mean share, and whether those who are good pass it.
+RecordedTable success_of(const std::vector<CheckStatistics>& checks) {
+    RecordedTable table{{"check", "points", "passed", "mean share (%)", "discrimination"}, {}};
+    for (const CheckStatistics& check : checks)
+        table.rows.push_back({check.about, points_text(check.points),
+                              fmt::format("{} of {}", check.passed, check.graded),
+                              check.graded > 0 ? fmt::format("{:.0f}", 100 * check.mean_share) : "ungraded",
+                              std::isfinite(check.discrimination) ? fmt::format("{:.2f}", check.discrimination) : "–"});
     return table;
+}
+
+/// What was said more than once where points are missing.
+std::string mistakes_of(const std::vector<CheckStatistics>& checks) {
+    std::string list;
+    for (const CheckStatistics& check : checks)
+        for (const auto& [said, count] : check.mistakes)
+            if (count > 1)
+                list +=
+                    fmt::format("- {}: {} ({} times)\n", escaped_markdown(check.about), escaped_markdown(said), count);
+    return list.empty() ? "None that was made twice.\n" : list;
 }
 
 std::string attention_of(const ClassResults& results) {
@@ -174,10 +185,6 @@ std::string attention_of(const ClassResults& results) {
     for (const Entry& entry : results.entries) {
         if (!entry.grade || entry.grade->without_marks()) continue;
         const std::string& name = entry.submission.name;
-        const auto& checks = entry.grade->checks;
-        if (std::any_of(checks.begin(), checks.end(),
-                        [](const CheckGrade& check) { return check.by_hand && !check.graded; }))
-            add(fmt::format("\"{}\" is to be marked by hand: by_hand.csv", name));
         if (!entry.grade->remark.empty()) add(fmt::format("\"{}\": {}", name, entry.grade->remark));
         if (!entry.grade->trouble.empty())
             add(fmt::format("the script of \"{}\" {}: {}", name,
@@ -258,6 +265,8 @@ NeedsTheEye what_needs_the_eye(const ClassResults& results) {
         if (entry.grade->without_marks()) {
             add("cannot be read: " + entry.grade->trouble);
             ++eye.unreadable;
+        } else if (waits_for_a_hand(*entry.grade)) {
+            add("is to be marked by hand: by_hand.csv");
         } else if (!whole(entry) && some_whole) {
             add("is not graded completely");
         } else if (entry.grade->silent && entry.grade->trouble.empty()) {
@@ -285,7 +294,11 @@ void write_class_results(const ClassResults& results) {
     const Vector points = points_of(results);
     RunRecord record;
     add_numbers(results, points, possible, record);
-    record.tables["success"] = success_of(results);
+    const std::vector<Grade> grades = grades_of(results);
+    const std::vector<CheckStatistics> checks = statistics_of_checks(grades);
+    write_file_atomically(results.out / "summary.json", class_statistics_json(results.setup->lesson.slug, grades));
+    record.tables["success"] = success_of(checks);
+    record.texts["mistakes"] = {mistakes_of(checks)};
     record.texts["attention"] = {attention_of(results)};
     record.figures["points"] = histogram_of(points, possible);
     GnuplotRenderer renderer;

@@ -368,9 +368,10 @@ std::string GradingRules::fingerprint(const std::string& content_hash, const Gro
 
 std::string GradingRules::run_fingerprint(const std::string& content_hash, const GroupSeed& group_seed) const {
     return hash_of_parts({content_hash, program_identity(), setup_.lesson.slug, sha256_of_file(setup_.lesson.script()),
-                          setup_.secret, own_records_, std::to_string(setup_.timeout.count()),
-                          isolation_name(setup_.isolation), fmt::format("{}", fmt::join(reruns_, " ")),
-                          document_ ? standard_ : "", group_seed ? std::to_string(*group_seed) : ""});
+                          setup_.secret, std::to_string(setup_.timeout.count()), isolation_name(setup_.isolation),
+                          fmt::format("{}", fmt::join(reruns_, " ")), document_ ? standard_ : "", own_records_,
+                          declared_rigs_.empty() ? "" : json_of(files_),  // which make records
+                          group_seed ? std::to_string(*group_seed) : ""});
 }
 
 }  // namespace dynlab::inline course

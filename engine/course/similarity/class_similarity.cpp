@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "course/grading/submission.h"
+#include "course/grading/staging.h"
 #include "course/similarity/similarity.h"
 #include "data_io/text_table.h"
 #include "documents/solutions.h"
@@ -37,11 +37,11 @@ void add_scripts(const fs::path& folder, const std::string& prefix, bool of_clas
         return;
     }
     std::vector<std::string> left_out;
-    for (const Submission& submission : submissions_in(folder, left_out)) {
+    for (const Submission& submission : submissions_in(folder, left_out, request.out)) {
         const TemporaryFolder work;
         try {
-            const fs::path staged = stage_submission(submission, work.path(), request.isolation, request.program);
-            add(submission.name, staged / "analysis.lua");
+            const StagedWork staged = stage_submission(submission, work.path(), request.isolation, request.program);
+            add(submission.name, staged.folder / "analysis.lua");
         } catch (const SubmissionError& error) {
             complaints.push_back(fmt::format("\"{}\": {}", prefix + submission.name, error.what()));
         }
