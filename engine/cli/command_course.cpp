@@ -61,6 +61,9 @@ void add_roster(CLI::App& course, CourseArguments& where, Action& action) {
         action = [&where, file, no_groups] {
             Course opened(where.folder);
     const RosterChange change = import_roster(opened, *file, *no_groups);
+    if (change.converted)
+        std::cerr << terminal_text(
+            fmt::format("dynlab: {} is not UTF-8; it was read as Latin-1 (Windows-1252)\n", *file));
     if (!change.unknown_columns.empty())
         std::cerr << terminal_text(fmt::format("dynlab: {}: not read: the unknown columns {}\n", *file,
                                                fmt::join(change.unknown_columns, ", ")));

@@ -9,8 +9,8 @@
 #include <mutex>
 #include <string>
 
-#include "platform/abandoned_folders.h"
 #include "platform/error.h"
+#include "platform/locks/abandoned_folders.h"
 #include "platform/system_call.h"
 
 namespace dynlab::inline platform {

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "course/grading_bench.h"
-#include "platform/file_lock.h"
+#include "platform/locks/file_lock.h"
 
 namespace dynlab::test {
 namespace test_gradebook_memory {

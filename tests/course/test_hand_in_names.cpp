@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "course/grading/owners.h"
 #include "course/grading_bench.h"
+#include "course/hand_ins/owners.h"
 
 namespace dynlab::test {
 namespace test_hand_in_names {

@@ -63,6 +63,12 @@ std::vector<std::string> row_of(const std::string& id, const std::string& name, 
     return row;
 }
 
+/// For sentences: who it is where a platform says so, which is shorter than the platform's own names.
+std::string shown_name(const Submission& submission) {
+    if (submission.person.empty() || submission.lms_id.empty()) return submission.name;
+    return fmt::format("{} ({})", submission.person, submission.lms_id);
+}
+
 /// Of several submissions of one student, the one that counts: one without marks never before one with.
 const Entry* counting(const Entry* a, const Entry* b, bool newest_counts) {
     const auto points = [](const Entry* entry) {
@@ -98,10 +104,10 @@ std::vector<std::string> several_of_one(const ClassResults& results) {
         std::vector<std::string> names;
         for (const Entry* entry : entries) {
             counts = counting(counts, entry, results.newest_counts);
-            names.push_back(fmt::format("\"{}\"", entry->submission.name));
+            names.push_back(fmt::format("\"{}\"", shown_name(entry->submission)));
         }
         sentences.push_back(fmt::format("{} has several submissions, of which the {} one counts, \"{}\": {}", owner,
-                                        results.newest_counts ? "newest" : "better", counts->submission.name,
+                                        results.newest_counts ? "newest" : "better", shown_name(counts->submission),
                                         fmt::join(names, ", ")));
     }
     return sentences;
@@ -184,7 +190,7 @@ std::string attention_of(const ClassResults& results) {
     for (const std::string& sentence : several_of_one(results)) add(sentence);
     for (const Entry& entry : results.entries) {
         if (!entry.grade || entry.grade->without_marks()) continue;
-        const std::string& name = entry.submission.name;
+        const std::string name = shown_name(entry.submission);
         if (!entry.grade->remark.empty()) add(fmt::format("\"{}\": {}", name, entry.grade->remark));
         if (!entry.grade->trouble.empty())
             add(fmt::format("the script of \"{}\" {}: {}", name,
@@ -252,7 +258,7 @@ NeedsTheEye what_needs_the_eye(const ClassResults& results) {
                                         [&](const Entry& entry) { return entry.grade && whole(entry); });
     std::map<std::string, const Entry*> by_content;
     for (const Entry& entry : results.entries) {
-        const std::string& name = entry.submission.name;
+        const std::string name = shown_name(entry.submission);
         const auto add = [&](const std::string& what) {
             eye.sentences.push_back(fmt::format("\"{}\" {}", name, what));
         };
@@ -276,7 +282,8 @@ NeedsTheEye what_needs_the_eye(const ClassResults& results) {
         const auto [same, fresh] = by_content.emplace(entry.content, &entry);
         const bool others = !fresh && results.roster && same->second->owner.students != entry.owner.students;
         if (others)
-            add(fmt::format("is the same, byte for byte, as \"{}\" of somebody else", same->second->submission.name));
+            add(fmt::format("is the same, byte for byte, as \"{}\" of somebody else",
+                            shown_name(same->second->submission)));
     }
     return eye;
 }

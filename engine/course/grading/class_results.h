@@ -6,9 +6,9 @@
 
 #include "course/grading/boxed_document.h"
 #include "course/grading/grading_rules.h"
-#include "course/grading/owners.h"
 #include "course/grading/roster.h"
 #include "course/grading/submission.h"
+#include "course/hand_ins/owners.h"
 
 namespace dynlab::inline course {
 

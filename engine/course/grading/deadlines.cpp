@@ -8,7 +8,7 @@
 #include <ctime>
 #include <set>
 
-#include "course/grading/owners.h"
+#include "course/hand_ins/owners.h"
 #include "course/store/course_clock.h"
 #include "data_io/text_table.h"
 #include "numerics/number_text.h"

@@ -10,7 +10,7 @@
 
 #include "course/grading/boxed_work.h"
 #include "course/grading/job_descriptions.h"
-#include "course/grading/owners.h"
+#include "course/hand_ins/owners.h"
 #include "platform/error.h"
 #include "platform/foreign_text.h"
 #include "platform/text_file.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <csignal>
 
-#include "course/grading/staging.h"
+#include "course/hand_ins/staging.h"
 #include "course/names/name_findings.h"
 #include "documents/work_file.h"
 #include "platform/atomic_file.h"

@@ -4,7 +4,7 @@
 
 #include "course/grading/boxed_work.h"
 #include "course/grading/job_descriptions.h"
-#include "course/grading/staging.h"
+#include "course/hand_ins/staging.h"
 #include "documents/text_lines.h"
 #include "documents/work_file.h"
 #include "figures/gnuplot_renderer.h"

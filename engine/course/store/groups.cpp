@@ -173,6 +173,7 @@ RosterChange import_roster(Course& course, const std::filesystem::path& file, bo
             file.string(), fmt::join(roster.columns(), ", ")));
     RosterChange change = Import(course, roster).run();
     change.unknown_columns = roster.unknown_columns();
+    change.converted = roster.converted();
     return change;
 }
 

@@ -1,4 +1,4 @@
-#include "platform/abandoned_folders.h"
+#include "platform/locks/abandoned_folders.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -1,4 +1,4 @@
-#include "course/grading/staging.h"
+#include "course/hand_ins/staging.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <set>
 
 #include "course/grading/folder_copy.h"
-#include "course/grading/owners.h"
+#include "course/hand_ins/owners.h"
 #include "platform/foreign_text.h"
 
 namespace dynlab::inline course {

@@ -1,4 +1,4 @@
-#include "course/grading/owners.h"
+#include "course/hand_ins/owners.h"
 
 #include <fmt/format.h>
 
