@@ -42,8 +42,8 @@ std::vector<ReviewPair> review_pairs(Course& course, const Assignment& assignmen
         pair.written = rows.integer(9) != 0, pair.released = rows.integer(10) != 0;
         pair.late = pair.written && rows.integer(11) == 0;
         pair.newer_review = pair.released && pair.written && rows.integer(12) != rows.integer(13);
-        pair.newer_report =
-            pair.sent && !pair.written && !rows.isColumnNull(14) && rows.integer(14) != rows.integer(15);
+        pair.newer_report = pair.sent && !pair.written && !pair.released && !rows.isColumnNull(14) &&
+                            rows.integer(14) != rows.integer(15);
         pairs.push_back(std::move(pair));
     }
     return pairs;
