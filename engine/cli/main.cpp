@@ -57,7 +57,6 @@ int run_action(const Action& action) {
 int main(int argc, char** argv) {
     keep_freed_memory();
     CLI::App app{kAbout, "dynlab"};
-    app.footer(kFooter);
     app.set_version_flag("--version", "dynlab " DYNLAB_VERSION);
     app.set_help_flag("-h,--help", "Show this text, or a command's: dynlab run --help");
     app.require_subcommand(0, 1);
@@ -67,6 +66,7 @@ int main(int argc, char** argv) {
          {add_run, add_look, add_identify, add_report, add_weave, add_new, add_check, add_lessons, add_demo, add_help,
           add_doctor, add_pack, add_verify, add_bundle, add_grade, add_course, add_boxed})
         add(app, action);
+    app.footer(kFooter);  // commands made before have no part in it
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -29,14 +29,16 @@ TEST(returns, bring_what_is_new_for_whom) {
     done({"peer", "assign", "--at", "2026-03-02 10:00"});
     done({"peer", "send", "--at", "2026-03-02 11:00"});
     const std::string told = done({"return", "crane", "--out", "monday", "--moodle"});
-    EXPECT_THAT(told, AllOf(HasSubstr("group-01: 00001-group-01-first-report.txt, report-"), HasSubstr("For 3 groups, in monday"),
-                            HasSubstr("no mail address is known of group-02")));
+    EXPECT_THAT(told, AllOf(HasSubstr("group-01: 00001-group-01-first-report.txt, report-"),
+                            HasSubstr("For 3 groups, in monday"), HasSubstr("no mail address is known of group-02")));
     EXPECT_EQ(shell("ls monday/*/report-*.pdf | wc -l"), "3\n");
     EXPECT_EQ(
         shell("for f in monday/*/report-*.pdf; do cmp $f k/outbox/crane/to-review/${f#monday/} || echo differs; done"),
         "");
-    EXPECT_THAT(shell("cat monday/mail.csv"), AllOf(HasSubstr("group,members,mails,files"),
-                                                    HasSubstr("group-01,Ada Müller,ada@course.example,\"group-01/00001-group-01-first-report.txt; group-01/report-")));
+    EXPECT_THAT(shell("cat monday/mail.csv"),
+                AllOf(HasSubstr("group,members,mails,files"),
+                      HasSubstr("group-01,Ada Müller,ada@course.example,\"group-01/00001-group-01-first-report.txt; "
+                                "group-01/report-")));
     EXPECT_THAT(shell("python3 -c \"import zipfile; print(zipfile.ZipFile('monday/moodle.zip').namelist())\""),
                 AllOf(HasSubstr("Ada Müller_900001_assignsubmission_file_/report-"),
                       HasSubstr("Student 3_900003_assignsubmission_file_/00003-group-03-first-report.txt")));
