@@ -15,7 +15,7 @@ namespace dynlab::inline cli {
 namespace {
 
 struct MarkArguments {
-    std::string assignment, file, group, what, reason, at, out, from = ".";
+    std::string assignment, file, group, what, reason, at, out, from = ".", stage = "first";
     double percent = 0;
     bool json = false;
 };
@@ -36,8 +36,9 @@ int scores(const CourseArguments& where, const MarkArguments& words) {
     Course course(where.folder);
     const Assignment a = assignment_named(course, words.assignment);
     const Instant now = time_of(course, words.at);
-    const int fresh = a.is_report() ? import_review_scores(course, a, words.file, now)
-                                    : import_oral_scores(course, a, words.file, now);
+    const int fresh = words.stage == "final" ? import_final_scores(course, a, words.file, now)
+                      : a.is_report()        ? import_review_scores(course, a, words.file, now)
+                                             : import_oral_scores(course, a, words.file, now);
     std::cout << fmt::format("{}: {} new scores.\n", a.name, fresh);
     return kDone;
 }
@@ -51,10 +52,32 @@ std::string percent(const std::optional<double>& mark, bool overridden) {
     return mark ? fmt::format("{:.1f}{}", *mark, overridden ? " (yours)" : "") : "-";
 }
 
+/// What was taken off marks, and criteria that were forgotten: a mark without them is of the others only.
+void tell_costs_and_gaps(Course& course, const Assignment& a, const Marks& all) {
+    for (const Group& group : groups_of(course))
+        for (const GroupMark& mark : all.groups) {
+            if (mark.group != group.id) continue;
+            if (!mark.costs.empty())
+                std::cout << terminal_text(fmt::format("{}: {}.\n", group.name, fmt::join(mark.costs, ", ")));
+            if (mark.final_version)
+                std::cout << terminal_text(
+                    fmt::format("{}: the final version has {:.1f} percent, {:g} percent of the "
+                                "work's mark.\n",
+                                group.name, *mark.final_version, a.final_weight));
+            std::vector<std::string> forgotten;
+            for (std::size_t c = 0; c < a.criteria.size(); ++c)
+                if (!mark.medians[c]) forgotten.push_back(a.criteria[c].name);
+            if (!forgotten.empty() && forgotten.size() < a.criteria.size())
+                std::cout << terminal_text(
+                    fmt::format("{}: no points for {}; its mark is of the other criteria only.\n", group.name,
+                                fmt::join(forgotten, " and ")));
+        }
+}
+
 int marks(const CourseArguments& where, const MarkArguments& words) {
     Course course(where.folder);
     const Assignment a = assignment_named(course, words.assignment);
-    const Marks all = course_marks(course, a);
+    const Marks all = course_marks(course, a, time_of(course, words.at));
     std::vector<std::string> header = {"group"};
     for (const Criterion& c : a.criteria) header.push_back(fmt::format("{} /{}", c.name, c.most));
     header.insert(header.end(), {"work %", "reviews %"});
@@ -69,6 +92,7 @@ int marks(const CourseArguments& where, const MarkArguments& words) {
             rows.push_back(row);
         }
     std::cout << terminal_text(aligned_table(header, rows));
+    tell_costs_and_gaps(course, a, all);
     for (const ReviewPair& pair : review_pairs(course, a))
         for (const ReviewMark& mark : all.reviews)
             if (mark.pair == pair.id && mark.outlier)
@@ -121,10 +145,19 @@ void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action)
     scored.app->add_option("CSV", scored.words->file, "Columns reviewer, report (or group, at the oral), criteria")
         ->required();
     add_time_option(*scored.app, scored.words->at);
+    scored.app
+        ->add_option("--stage", scored.words->stage,
+                     "final: your own scores of final versions; columns group, criteria")
+        ->check(CLI::IsMember({"first", "final"}))
+        ->capture_default_str();
     scored.app->footer(
         "A line a review: reviewer,report,data,... with the reviewing group and the report's\n"
-        "pseudonym, as peer show has them. The latest score counts.\n"
-        "Example:  dynlab course scores crane scores.csv");
+        "pseudonym, as peer show has them; the reviewer \"instructor\" is you. The latest score counts. Scores that "
+        "stand\n"
+        "in a review's pack (dynlab new review) are read when it is received.\n"
+        "Examples:\n"
+        "  dynlab course scores crane scores.csv\n"
+        "  dynlab course scores crane finals.csv --stage final");
 
     CLI::App* oral = course.add_subcommand("oral", "The oral presentation");
     oral->require_subcommand(1);
@@ -136,6 +169,7 @@ void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action)
     const auto shown =
         add_one(course, "marks", "Medians, marks of reports and reviewers, odd reviews", where, action, marks);
     shown.app->add_option("ASSIGNMENT", shown.words->assignment, "Needed when there are several");
+    add_time_option(*shown.app, shown.words->at);
     shown.app->footer(
         "A report's mark: 100 times the sum of the medians over that of the most points. A reviewer's: 100 (1 - 2 d),\n"
         "never below 0, averaged over the reviews; d is the mean of |points - median of the others| / most. Far below\n"

@@ -5,7 +5,9 @@
 #include "cli/course_commands.h"
 #include "course/names/anonymous_copy.h"
 #include "course/review/peer_review.h"
+#include "course/review/returns.h"
 #include "course/store/aligned_table.h"
+#include "numerics/number_text.h"
 #include "platform/terminal/terminal_text.h"
 
 namespace dynlab::inline cli {
@@ -106,6 +108,49 @@ int release(const CourseArguments& where, const PeerArguments& words) {
     return send(where, words, Way::kToAuthors);
 }
 
+struct ReturnArguments {
+    std::string assignment, out, at;
+    bool moodle = false, all = false;
+};
+
+int give_back(const CourseArguments& where, const ReturnArguments& words) {
+    Course course(where.folder);
+    const Assignment assignment = assignment_named(course, words.assignment);
+    const ReturnOutcome done =
+        return_files(course, assignment, {words.out, words.moodle, words.all, time_of(course, words.at)});
+    for (const auto& [group, files] : done.files)
+        std::cout << terminal_text(fmt::format("{}: {}\n", group, fmt::join(files, ", ")));
+    std::cout << (done.files.empty() ? "Nothing is new for anybody.\n"
+                                     : fmt::format("For {}, in {}\n", counted(done.files.size(), "group"), words.out));
+    if (!done.without_mail.empty())
+        std::cerr << terminal_text(
+            fmt::format("dynlab: no mail address is known of {}; the roster's column mail has them\n",
+                        fmt::join(done.without_mail, ", ")));
+    if (!done.without_number.empty())
+        std::cerr << terminal_text(
+            fmt::format("dynlab: not in moodle.zip, because their number there is not known: {}; the roster's column "
+                        "moodle has it\n",
+                        fmt::join(done.without_number, ", ")));
+    return done.without_number.empty() ? kDone : kFailed;
+}
+
+void add_return(CLI::App& course, CourseArguments& where, Action& action) {
+    auto words = std::make_shared<ReturnArguments>();
+    CLI::App* command = course.add_subcommand("return", "What is new for whom: copies to review, reviews, receipts");
+    command->add_option("ASSIGNMENT", words->assignment, "Needed when there are several");
+    command->add_option("-o,--out", words->out, "A new folder: one below it for each group, and mail.csv")
+        ->type_name("DIR")
+        ->required();
+    command->add_flag("--moodle", words->moodle, "Also moodle.zip, which Moodle takes as feedback files");
+    command->add_flag("--all", words->all, "Also what was returned before");
+    add_time_option(*command, words->at);
+    command->footer(
+        "After peer send and release. mail.csv has a row a group: group, members, mails, files. What was returned is\n"
+        "remembered; newer versions are new again.\n"
+        "Example:  dynlab course return crane --out monday --moodle");
+    command->callback([&where, words, &action] { action = [&where, words] { return give_back(where, *words); }; });
+}
+
 CLI::App* add_one(CLI::App& parent, const char* name, const char* about, CourseArguments& where, Action& action,
                   int (*run)(const CourseArguments&, const PeerArguments&)) {
     auto words = std::make_shared<PeerArguments>();
@@ -152,6 +197,7 @@ void add_peer_commands(CLI::App& course, CourseArguments& where, Action& action)
             "Example:  dynlab course peer forbid crane group-02 group-07 --reason \"they share a flat\"");
     add_one(*peer, "free", "Take back what peer set or peer forbid said of two groups", where, action, free_pair)
         ->footer("Example:  dynlab course peer free crane group-02 group-07 --reason \"settled\"");
+    add_return(course, where, action);
     add_one(*peer, "show", "The pairs with their pseudonyms; for your eyes only", where, action, show_pairs)
         ->footer("Example:  dynlab course peer show crane");
 }

@@ -32,6 +32,7 @@ std::string remark(const Received& r) {
     if (r.withdrawn) return "known and withdrawn; dynlab course restore lets it stand again";
     if (r.known) return "known already, nothing changed";
     std::string text = r.twin.empty() ? "" : "the same file as " + r.twin + "'s";
+    if (r.scores > 0) text += (text.empty() ? "" : "; ") + counted(r.scores, "score") + " read";
     if (r.rules_broken > 0)
         text += (text.empty() ? "" : "; ") + counted(r.rules_broken, "rule") + " broken" +
                 (r.names ? ": it names somebody" : "");

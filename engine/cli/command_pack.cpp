@@ -3,6 +3,7 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "cli/commands.h"
 #include "course/grading/hand_in.h"
@@ -21,6 +22,23 @@ struct PackArguments {
     std::optional<std::uint32_t> group_seed;
 };
 
+/// A report that was not made, or not made again after a change, is easily forgotten: people read the PDF.
+void tell_of_report(const fs::path& folder, const std::string& subject) {
+    if (!fs::exists(folder / "report.md")) return;
+    std::optional<fs::file_time_type> made;
+    for (const auto& entry : fs::directory_iterator(folder))
+        if (entry.is_regular_file() && entry.path().extension() == ".pdf")
+            made = std::max(made.value_or(entry.last_write_time()), entry.last_write_time());
+    bool older = false;
+    for (const char* source : {"report.md", "analysis.lua"})
+        older = older || (made && fs::exists(folder / source) && fs::last_write_time(folder / source) > *made);
+    if (!made || older)
+        std::cerr << terminal_text(fmt::format(
+            "dynlab: {}: dynlab report {} -o {}, then pack again\n",
+            made ? "the PDF in it is older than the report's text or script" : "there is no PDF of the report in it",
+            subject, (fs::path(subject) / "report.pdf").string()));
+}
+
 int pack(const PackArguments& words) {
     fs::path folder = fs::absolute(words.subject).lexically_normal();
     if (!folder.has_filename()) folder = folder.parent_path();
@@ -30,6 +48,7 @@ int pack(const PackArguments& words) {
     for (const std::string& name : pack.left_out)
         std::cerr << "dynlab: left out, because it is not a regular file: " << terminal_text(name) << '\n';
     std::cout << fmt::format("{}: {}, SHA-256 {}\n", file.string(), counted(pack.files.size(), "file"), pack.hash);
+    tell_of_report(folder, words.subject);
     return kDone;
 }
 

@@ -59,7 +59,6 @@ int run_action(const Action& action) {
 int main(int argc, char** argv) {
     keep_freed_memory();
     CLI::App app{kAbout, "dynlab"};
-    app.footer(kFooter);
     app.set_version_flag("--version", "dynlab " DYNLAB_VERSION);
     app.set_help_flag("-h,--help", "Show this text, or a command's: dynlab run --help");
     app.require_subcommand(0, 1);
@@ -69,6 +68,7 @@ int main(int argc, char** argv) {
                            add_lessons, add_demo,  add_help,       add_doctor,    add_pack,    add_verify, add_bundle,
                            add_checks,  add_grade, add_gradescope, add_hand_back, add_similar, add_course, add_boxed})
         add(app, action);
+    app.footer(kFooter);  // commands made before have no part in it
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "course/course_bench.h"
+#include "course/review/pack_scores.h"
 
 namespace dynlab::test {
 namespace test_course_marks {
@@ -145,6 +146,89 @@ TEST(course_marks, of_a_presentation_come_from_the_sheet_of_the_oral) {
     bench.bench().write("oral.csv", "group,content\ngroup-01,11\n");
     EXPECT_THAT(bench.course({"scores", "talk", "oral.csv"}).error_output,
                 HasSubstr("content must be a number from 0 to 10, but \"11\" was given"));
+}
+
+// oracle: medians of four, distances to the instructor's 4, and means by hand: group 1 gave report 2 what the others
+// gave (100 percent), report 3 a fifth more than their median of 1 (60), report 4 a fifth more than the instructor (60)
+TEST(course_marks, the_instructor_is_a_reviewer_whom_others_are_held_against) {
+    ScoredCourse course({"- 3 2 5", "4 - 2 5", "4 3 - 1", "5 3 0 -"});
+    CourseBench& bench = course.bench();
+    course.read();
+    bench.bench().write("mine.csv",
+                        "reviewer,report,data,steps,conclusions,strength,suggestions\n"
+                        "instructor,group-04,4,4,4,4,4\n");
+    EXPECT_THAT(bench.course({"scores", "crane", "mine.csv"}).output, HasSubstr("5 new scores"));
+    EXPECT_THAT(bench.course({"scores", "crane", "mine.csv"}).output, HasSubstr("0 new scores"));
+    EXPECT_THAT(course.marks(),
+                AllOf(ContainsRegex("group-04 +4\\.5 .* 90\\.0 "), ContainsRegex("group-01 .* 73\\.3")));
+    bench.bench().write("final.csv", "group,data,steps,conclusions,strength,suggestions\ngroup-04,5,5,5,5,5\n");
+    CourseBench::expect_done(bench.course({"scores", "crane", "final.csv", "--stage", "final"}));
+    EXPECT_THAT(course.marks(), AllOf(ContainsRegex("group-04 +4\\.5 .* 95\\.0 "),
+                                      HasSubstr("group-04: the final version has 100.0 percent, 50 percent of")));
+    CourseBench::expect_done(
+        bench.course({"assignment", "change", "crane", "--final-weight", "20", "--reason", "as announced"}));
+    EXPECT_THAT(course.marks(), ContainsRegex("group-04 +4\\.5 .* 92\\.0 "));
+}
+
+// oracle: 25 h late are two days begun, 5 points each; three reviews not written, 10 points each; no final version, 15;
+// group 2 gave 4 where the others' median is 4.5 (80 percent) and twice what they gave: 93.3 for its reviews
+TEST(course_marks, what_is_late_or_missing_costs_what_the_course_says) {
+    ScoredCourse course({"- 3 2 5", "4 - 2 5", "4 3 - 5", "5 3 2 -"});
+    CourseBench& bench = course.bench();
+    course.read();
+    CourseBench::expect_done(bench.course({"time", "crane", "group-01", "2026-03-02 13:00", "--reason", "log"}));
+    EXPECT_THAT(bench.course({"assignment", "change", "crane", "--costs", "late:5", "--reason", "x"}).error_output,
+                HasSubstr("costs are late-day, missing-final, late-review and missing-review"));
+    CourseBench::expect_done(bench.course({"assignment", "change", "crane", "--costs",
+                                           "late-day:5,missing-final:15,missing-review:10", "--reason", "rules"}));
+    const auto marks = [&](const std::string& at) { return bench.course({"marks", "crane", "--at", at}).output; };
+    EXPECT_THAT(marks("2026-03-07 12:00"), AllOf(ContainsRegex("group-01 .* 70\\.0 "), Not(HasSubstr("missing"))));
+    const std::string reviewed = marks("2026-03-10 12:00"), all = marks("2026-03-20 12:00");
+    EXPECT_THAT(reviewed,
+                AllOf(ContainsRegex("group-02 .* 60\\.0 +63\\.3"), HasSubstr("30 off for 3 missing reviews")));
+    EXPECT_THAT(all,
+                AllOf(ContainsRegex("group-01 .* 55\\.0 "), ContainsRegex("group-02 .* 45\\.0 "),
+                      HasSubstr("10 off for a first version late by 1 d 1 h, 15 off for a missing final version")));
+    EXPECT_THAT(bench.course({"export", "crane"}).output, HasSubstr("15 off for a missing final version"));
+}
+
+// oracle: the sheet
+TEST(course_marks, a_forgotten_cell_is_told) {
+    CourseBench bench(2);
+    CourseBench::expect_done(
+        bench.course({"assignment", "add", "talk", "--kind", "presentation", "--first", "2026-04-01 12:00"}));
+    bench.bench().write("oral.csv", "group,content,slides,delivery,answers\ngroup-01,4,3,,5\ngroup-02,4,4,4,4\n");
+    CourseBench::expect_done(bench.course({"scores", "talk", "oral.csv"}));
+    EXPECT_THAT(bench.course({"marks", "talk"}).output,
+                AllOf(HasSubstr("group-01: no points for delivery; its mark is of the other criteria only."),
+                      Not(HasSubstr("group-02:"))));
+}
+
+// oracle: the template's own table, filled in
+TEST(course_marks, scores_come_with_the_reviews_packs) {
+    std::string script = read_file(DYNLAB_SOURCE_DIR "/report_templates/peer_review.lua");
+    EXPECT_TRUE(scores_in_script(script).empty());  // nothing is given there
+    for (const auto& [name, points] : {std::pair("data", "4"), {"steps", "2"}, {"suggestions", "5"}}) {
+        const std::string empty = std::string(name) + " = nil";
+        script.replace(script.find(empty), empty.size(), std::string(name) + " = " + points);
+    }
+    const std::map<std::string, double> given = {{"data", 4}, {"steps", 2}, {"suggestions", 5}};
+    EXPECT_EQ(scores_in_script(script), given);
+    EXPECT_TRUE(scores_in_script("-- scores = {data = 4}\nscores = load('x')").empty());
+    EXPECT_EQ(scores_in_script("scores={data=3,steps=os.exit(),conclusions = 1e3}").size(), 1u);
+    CourseBench bench(2, 1);
+    for (const char* group : {"group-01", "group-02"})
+        bench.hand_in(std::string(group) + ".pdf", small_pdf(group), "2026-03-01 10:00", {"--no-checks"});
+    CourseBench::expect_done(bench.course({"peer", "assign", "--at", "2026-03-02 10:00"}));
+    bench.bench().write("r/analysis.lua", script);
+    bench.bench().write("r/review.pdf", small_pdf("a review"));
+    bench.bench().shell("tar czf r.tar.gz -C r .");
+    EXPECT_THAT(bench
+                    .course({"review", "receive", "r.tar.gz", "--from", "group-01", "--at", "2026-03-08 10:00",
+                             "--no-checks", "--isolation", CourseBench::level()})
+                    .output,
+                HasSubstr("3 scores read"));
+    EXPECT_THAT(bench.course({"marks", "crane"}).output, ContainsRegex("group-02 +4 +2 +- +- +5 +73\\.3"));
 }
 
 }  // namespace test_course_marks

@@ -134,7 +134,7 @@ TEST(packed_hand_ins, a_first_version_after_the_reviews_is_asked_about) {
         "v.hash, 0 FROM pairs p JOIN versions v ON v.group_id = p.author WHERE v.number = 1\"");
     CourseBench::expect_done(bench.hand_in("group-02.pdf", small_pdf("again"), "2026-03-07 10:00"));  // while they read
     EXPECT_THAT(bench.course({"status", "crane", "--at", "2026-03-07 12:00"}).output,
-                HasSubstr("Next: wait for reviews, dynlab course review receive FILE... --assignment crane"));
+                HasSubstr("Next: dynlab course peer send crane"));  // the newer one of group-02
     const std::string before = bench.dump();
     const ChildResult late = bench.hand_in("group-02.pdf", small_pdf("last"), "2026-03-09 10:00");
     EXPECT_EQ(late.exit_code, 1);

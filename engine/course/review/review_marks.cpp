@@ -42,7 +42,7 @@ class ReviewMarker {
         if (most > 0) mark.work = 100 * sum / most;
         std::vector<double> earned;
         for (const ScoredReview& r : reviews_) {
-            if (r.reviewer != id) continue;
+            if (r.reviewer != id || id == 0) continue;
             if (const auto d = review(r).distance) earned.push_back(100 * std::max(0.0, 1 - kZeroDistance * *d));
         }
         mark.reviews = mean(earned);
@@ -54,7 +54,8 @@ class ReviewMarker {
         mark.pair = r.pair;
         std::vector<double> distances, below;
         for (std::size_t c = 0; c < criteria_.size(); ++c) {
-            const auto others = median(scores(r.author, c, &r));
+            const auto own = instructor_s(r.author, c);
+            const auto others = own ? own : median(scores(r.author, c, &r));
             if (!others || !r.points[c]) continue;
             distances.push_back(std::abs(*r.points[c] - *others) / criteria_[c].most);
             below.push_back((*others - *r.points[c]) / criteria_[c].most);
@@ -72,6 +73,12 @@ class ReviewMarker {
         for (const ScoredReview& r : reviews_)
             if (r.author == author && &r != but && r.points[criterion]) values.push_back(*r.points[criterion]);
         return values;
+    }
+
+    std::optional<double> instructor_s(std::int64_t author, std::size_t criterion) const {
+        for (const ScoredReview& r : reviews_)
+            if (r.author == author && r.reviewer == 0 && r.pair == 0) return r.points[criterion];
+        return {};
     }
 
     /// Whether `author` gave the report of `reviewer` few points.

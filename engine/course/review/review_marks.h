@@ -8,7 +8,8 @@
 
 namespace dynlab::inline course {
 
-/// The scores that one review gave, a number a criterion; missing ones are not there.
+/// The scores that one review gave, a number a criterion; missing ones are not there. The instructor's own are of
+/// reviewer 0.
 struct ScoredReview {
     std::int64_t pair = 0, reviewer = 0, author = 0;
     std::vector<std::optional<double>> points;
@@ -24,7 +25,9 @@ struct ReviewMark {
 struct GroupMark {
     std::int64_t group = 0;
     std::vector<std::optional<double>> medians;  ///< a criterion, over the reviews of its report
-    std::optional<double> work, reviews;         ///< percent, from scores
+    std::optional<double> work, reviews;         ///< percent, from scores, costs taken off
+    std::optional<double> final_version;         ///< percent, from the instructor's scores of it; within `work`
+    std::vector<std::string> costs;              ///< what was taken off, in words
     std::optional<double> work_override, reviews_override;
     std::string work_reason, reviews_reason;
     std::optional<double> work_mark() const { return work_override ? work_override : work; }
@@ -37,18 +40,24 @@ struct Marks {
 };
 
 /// Marks from scores. A report's mark is 100 sum of medians / sum of most. A reviewer's is the mean over the reviews of
-/// 100 max(0, 1 - 2 d), d the distance to the median of the others' scores; one whose scores nobody else's can be held
-/// against (a report with a single scored review) is not marked. `authors`: groups to be marked.
+/// 100 max(0, 1 - 2 d), d the distance to the instructor's scores, and where there are none to the median of the
+/// others'; one whose scores nobody else's can be held against (a report with a single scored review) is not marked.
+/// The instructor counts as one reviewer among the others in medians. `groups`: to be marked.
 Marks marks_of(const std::vector<Criterion>& criteria, const std::vector<ScoredReview>& reviews,
                const std::vector<std::int64_t>& groups);
 
-/// The same from the store: the newest scores and overrides. Oral scores mark a presentation's work.
-Marks course_marks(Course& course, const Assignment& assignment);
+/// The same from the store: the newest scores and overrides, final versions with their weight, costs of what is late or
+/// missing at `now`. Oral scores mark a presentation's work.
+Marks course_marks(Course& course, const Assignment& assignment, Instant now = CourseClock::now());
 
 /// Reads scores, whole or not at all. Columns: reviewer (a group), report (report-NN; may miss where the group has one)
-/// and the criteria; for the oral: group and the criteria. Empty cells are no scores. Returns how many are new. Throws
-/// EnvironmentError with file, line and column.
+/// and the criteria; the reviewer "instructor" is the instructor, whose report is a pseudonym or a group. For the oral,
+/// and of final versions by the instructor: group and the criteria. Empty cells are no scores. Returns how many are
+/// new. Throws EnvironmentError with file, line and column.
 int import_review_scores(Course& course, const Assignment& assignment, const std::filesystem::path& file, Instant now);
+/// Within a transaction: the points of one criterion (counted from 0) of one review.
+void add_review_score(Course& course, std::int64_t pair, std::int64_t criterion, double points, Instant now);
+int import_final_scores(Course& course, const Assignment& assignment, const std::filesystem::path& file, Instant now);
 int import_oral_scores(Course& course, const Assignment& assignment, const std::filesystem::path& file, Instant now);
 /// The sheet for the oral: a row a group, a column a criterion with what was given so far, as CSV.
 std::string oral_sheet(Course& course, const Assignment& assignment);

@@ -3,10 +3,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <regex>
 
 #include "platform/error.h"
 
 namespace dynlab::inline course {
+namespace {
+
+/// The numbers behind "report" or "review" in a file's name, however they are joined: "review-report-07.pdf",
+/// "Review 68.pdf", "report_07.PDF", "Report47".
+std::vector<std::int64_t> report_numbers(const std::string& name) {
+    static const std::regex form("(?:report|review)[ _.#-]*([0-9]{1,6})(?![0-9])", std::regex::icase);
+    std::vector<std::int64_t> numbers;
+    for (std::sregex_iterator at(name.begin(), name.end(), form), end; at != end; ++at)
+        numbers.push_back(std::stoll((*at)[1]));
+    return numbers;
+}
+
+}  // namespace
 
 std::string ReviewPair::report_pseudonym() const {
     return fmt::format("report-{:02}", report_number);
@@ -42,8 +56,8 @@ std::vector<ReviewPair> review_pairs(Course& course, const Assignment& assignmen
         pair.written = rows.integer(9) != 0, pair.released = rows.integer(10) != 0;
         pair.late = pair.written && rows.integer(11) == 0;
         pair.newer_review = pair.released && pair.written && rows.integer(12) != rows.integer(13);
-        pair.newer_report =
-            pair.sent && !pair.written && !rows.isColumnNull(14) && rows.integer(14) != rows.integer(15);
+        pair.newer_report = pair.sent && !pair.written && !pair.released && !rows.isColumnNull(14) &&
+                            rows.integer(14) != rows.integer(15);
         pairs.push_back(std::move(pair));
     }
     return pairs;
@@ -60,14 +74,13 @@ ReviewPair reviewed_pair(const std::vector<ReviewPair>& pairs, const Group& revi
     if (given.empty())
         throw EnvironmentError(
             fmt::format("{} was given no report to review; see dynlab course peer assign", reviewer.name));
-    for (const ReviewPair* pair : given) {
-        const std::string pseudonym = pair->report_pseudonym();
-        const std::size_t at = name.find(pseudonym), end = at + pseudonym.size();
-        const bool whole =
-            at != std::string::npos && (end >= name.size() || !std::isdigit(static_cast<unsigned char>(name[end])));
-        if (whole) return *pair;
-    }
-    if (given.size() == 1 && name.find("report-") == std::string::npos) return *given.front();
+    const std::vector<std::int64_t> named = report_numbers(name);
+    for (const ReviewPair* pair : given)
+        if (std::find(named.begin(), named.end(), pair->report_number) != named.end()) return *pair;
+    if (given.size() == 1 && named.empty()) return *given.front();
+    if (!named.empty())
+        throw EnvironmentError(fmt::format("it is of report-{:02}, which {} was not given; it was given {}",
+                                           named.front(), reviewer.name, fmt::join(reports, " and ")));
     throw EnvironmentError(fmt::format(
         "it does not tell which report it reviews; {} was given {}: name the file review-{}.pdf or say --of {}",
         reviewer.name, fmt::join(reports, " and "), reports.front(), reports.front()));

@@ -216,6 +216,9 @@ std::string marks_csv(Course& course, const Assignment& a) {
             std::string remark = group->second.dropped_out ? "dropped out" : "";
             if (const auto own = remarks.find(id); own != remarks.end())
                 remark += (remark.empty() ? "" : "; ") + own->second;
+            for (const GroupMark& mark : marks.groups)
+                if (mark.group == id)
+                    for (const std::string& cost : mark.costs) remark += (remark.empty() ? "" : "; ") + cost;
             row.push_back(remark);
         }
         row.resize(table.names.size());

@@ -8,6 +8,8 @@
 #include <set>
 
 #include "course/corrections/corrections.h"
+#include "course/review/pack_scores.h"
+#include "course/review/review_marks.h"
 #include "course/review/review_pairs.h"
 #include "course/review/side_by_side.h"
 #include "course/store/file_kind.h"
@@ -45,6 +47,7 @@ struct Candidate {
     bool from_pack = false;    ///< a PDF that was taken out of the group's pack
     bool no_document = false;  ///< a pack without the PDF that is wanted
     Inspection inspection;
+    std::map<std::string, double> scores;  ///< of a review's pack, by criterion
 };
 
 class HandInReceiver {
@@ -208,6 +211,7 @@ class HandInReceiver {
                 found[i] = document_in_pack(pack.file->file, part, opened_.path() / std::to_string(i), request_.level,
                                             request_.program);
                 pack.no_document = !found[i];
+                if (request_.stage == "review") pack.scores = scores_in_pack(opened_.path() / std::to_string(i));
             } catch (const SubmissionError&) {
                 pack.inspection.trouble = "damaged";
             }
@@ -327,6 +331,12 @@ class HandInReceiver {
             a.id, c.group.id, request_.stage, pair, c.part, received.version, c.hash, c.file->name, c.at, due,
             received.late, c.inspection.json, version_signature(course_, receipt));
         received.id = db.getLastInsertRowid();
+        for (std::size_t i = 0; i < a.criteria.size(); ++i) {
+            const auto points = c.scores.find(a.criteria[i].name);
+            if (points == c.scores.end() || points->second > a.criteria[i].most) continue;
+            add_review_score(course_, *pair, static_cast<std::int64_t>(i), points->second, c.at);
+            ++received.scores;
+        }
         return received;
     }
 

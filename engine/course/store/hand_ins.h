@@ -33,6 +33,7 @@ struct Received {
     bool withdrawn = false;    ///< known, and withdrawn by the instructor
     std::string twin;          ///< another group that handed in the same bytes
     bool no_document = false;  ///< a pack without the PDF that is wanted
+    int scores = 0;            ///< that the pack of a review brought
     int rules_broken = 0;
     bool names = false;   ///< of a review: it names somebody of the course
     std::string trouble;  ///< when the file cannot be read: "damaged"

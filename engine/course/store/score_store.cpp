@@ -8,14 +8,18 @@
 #include "course/corrections/corrections.h"
 #include "course/review/review_marks.h"
 #include "course/store/groups.h"
+#include "course/store/newest_versions.h"
 #include "data_io/text_table.h"
 #include "numerics/error.h"
+#include "numerics/number_text.h"
 #include "platform/error.h"
 
 namespace dynlab::inline course {
 namespace {
 
 constexpr double kMostPercent = 200;
+constexpr std::int64_t kDay = 86400;
+constexpr char kInstructor[] = "instructor";
 
 using Points = std::vector<std::optional<double>>;
 
@@ -36,6 +40,14 @@ std::map<std::int64_t, Points> review_points(Course& course, const Assignment& a
                                 "WHERE p.assignment = ? ORDER BY s.given_at",
                                 a.id),
         a.criteria.size());
+}
+
+/// By group.
+std::map<std::int64_t, Points> instructor_points(Course& course, const Assignment& a, const char* stage) {
+    return newest_points(course.database().query("SELECT group_id, criterion, points FROM instructor_scores WHERE "
+                                                 "assignment = ? AND stage = ? ORDER BY given_at",
+                                                 a.id, stage),
+                         a.criteria.size());
 }
 
 std::map<std::int64_t, Points> oral_points(Course& course, const Assignment& a) {
@@ -135,21 +147,118 @@ int import_scores(Course& course, const Assignment& a, const ScoreSheet& sheet, 
     return fresh;
 }
 
+/// The group whose report is called so, by its pseudonym or its own name.
+std::int64_t author_called(Course& course, const std::vector<ReviewPair>& pairs, const std::string& report) {
+    for (const ReviewPair& pair : pairs)
+        if (pair.report_pseudonym() == report) return pair.author;
+    return group_named(course, report).id;
+}
+
+void add_instructor_score(Course& course, const Assignment& a, std::int64_t group, const char* stage,
+                          std::int64_t criterion, double points, Instant now) {
+    course.database().run(
+        "INSERT INTO instructor_scores VALUES (?, ?, ?, ?, ?, ?) ON CONFLICT DO UPDATE SET points = excluded.points",
+        a.id, group, stage, criterion, now, points);
+}
+
+/// 100 sum of points / sum of most, over what was scored.
+std::optional<double> percent_of(const std::vector<Criterion>& criteria, const Points& points) {
+    double sum = 0, most = 0;
+    for (std::size_t c = 0; c < criteria.size(); ++c)
+        if (points[c]) sum += *points[c], most += criteria[c].most;
+    if (most == 0) return {};
+    return 100 * sum / most;
+}
+
+/// Takes what is late or missing off the marks of groups.
+class CostTaker {
+  public:
+    CostTaker(Course& course, const Assignment& a, Instant now)
+        : course_(course), a_(a), now_(now), versions_(newest_versions(course, a)), pairs_(review_pairs(course, a)) {}
+
+    void apply(GroupMark& mark) {
+        take_off_work(mark);
+        if (a_.is_report()) take_off_reviews(mark);
+    }
+
+  private:
+    bool over(const GroupMark& mark, const char* stage) const {
+        return now_ > due_for(course_, a_, mark.group, stage) + a_.grace;
+    }
+
+    void take(GroupMark& mark, std::optional<double>& from, double points, const std::string& why) const {
+        if (!from || points <= 0) return;
+        from = std::max(0.0, *from - points);
+        mark.costs.push_back(fmt::format("{:g} off for {}", points, why));
+    }
+
+    void take_off_work(GroupMark& mark) {
+        const char* const part = a_.is_report() ? "report" : "slides";
+        for (const char* stage : {"first", "final"}) {
+            const HandedInParts& parts = versions_[mark.group][stage];
+            const auto found = parts.find(part);
+            if (found == parts.end() || !found->second.is_late()) continue;
+            const std::int64_t days = (found->second.late + kDay - 1) / kDay;
+            take(mark, mark.work, a_.costs.late_day * static_cast<double>(days),
+                 fmt::format("a {} version late by {}", stage, duration_text(found->second.late)));
+        }
+        if (a_.is_report() && versions_[mark.group]["final"].empty() && over(mark, "final"))
+            take(mark, mark.work, a_.costs.missing_final, "a missing final version");
+    }
+
+    void take_off_reviews(GroupMark& mark) {
+        int missing = 0, late = 0, written = 0;
+        for (const ReviewPair& pair : pairs_) {
+            if (pair.reviewer != mark.group || pair.ended) continue;
+            written += pair.written, late += pair.late, missing += !pair.written && over(mark, "review");
+        }
+        if (missing > 0 && written == 0 && a_.costs.missing_review > 0 && !mark.reviews) mark.reviews = 0;
+        take(mark, mark.reviews, a_.costs.missing_review * missing, counted(missing, "missing review"));
+        take(mark, mark.reviews, a_.costs.late_review * late, counted(late, "late review"));
+    }
+
+    Course& course_;
+    const Assignment& a_;
+    Instant now_;
+    std::map<std::int64_t, std::map<std::string, HandedInParts>> versions_;
+    std::vector<ReviewPair> pairs_;
+};
+
 }  // namespace
 
 int import_review_scores(Course& course, const Assignment& a, const std::filesystem::path& file, Instant now) {
     const ScoreSheet sheet(a, file, "reviewer", {"report"});
     const std::vector<ReviewPair> pairs = review_pairs(course, a);
+    // What the instructor scores belongs to the group, with its sign changed; what a group scores to the pair.
+    std::map<std::int64_t, Points> known = review_points(course, a);
+    for (const auto& [group, points] : instructor_points(course, a, "first")) known[-group] = points;
     return import_scores(
-        course, a, sheet, review_points(course, a),
+        course, a, sheet, known,
         [&](std::size_t row) {
+            if (sheet.owner(row) == kInstructor) return -author_called(course, pairs, sheet.cell(row, "report"));
             return reviewed_pair(pairs, group_named(course, sheet.owner(row)), sheet.cell(row, "report")).id;
         },
-        [&](std::int64_t pair, std::int64_t c, double points) {
-            course.database().run(
-                "INSERT INTO scores VALUES (?, ?, ?, ?) ON CONFLICT DO UPDATE SET points = "
-                "excluded.points",
-                pair, c, now, points);
+        [&](std::int64_t owner, std::int64_t c, double points) {
+            if (owner < 0)
+                add_instructor_score(course, a, -owner, "first", c, points, now);
+            else
+                add_review_score(course, owner, c, points, now);
+        });
+}
+
+void add_review_score(Course& course, std::int64_t pair, std::int64_t criterion, double points, Instant now) {
+    course.database().run("INSERT INTO scores VALUES (?, ?, ?, ?) ON CONFLICT DO UPDATE SET points = excluded.points",
+                          pair, criterion, now, points);
+}
+
+int import_final_scores(Course& course, const Assignment& a, const std::filesystem::path& file, Instant now) {
+    refuse_without_reviews(a);
+    const ScoreSheet sheet(a, file, "group");
+    return import_scores(
+        course, a, sheet, instructor_points(course, a, "final"),
+        [&](std::size_t row) { return group_named(course, sheet.owner(row)).id; },
+        [&](std::int64_t group, std::int64_t c, double points) {
+            add_instructor_score(course, a, group, "final", c, points, now);
         });
 }
 
@@ -218,19 +327,31 @@ void take_back_override(Course& course, const Assignment& a, const std::string& 
     transaction.commit();
 }
 
-Marks course_marks(Course& course, const Assignment& a) {
+Marks course_marks(Course& course, const Assignment& a, Instant now) {
     std::vector<ScoredReview> reviews;
     if (a.is_report()) {
         const auto points = review_points(course, a);
         for (const ReviewPair& pair : review_pairs(course, a))
             if (const auto own = points.find(pair.id); own != points.end())
                 reviews.push_back({pair.id, pair.reviewer, pair.author, own->second});
+        for (const auto& [group, own] : instructor_points(course, a, "first")) reviews.push_back({0, 0, group, own});
     } else {
         for (const auto& [group, own] : oral_points(course, a)) reviews.push_back({0, 0, group, own});
     }
     std::vector<std::int64_t> ids;
     for (const Group& group : groups_of(course)) ids.push_back(group.id);
     Marks marks = marks_of(a.criteria, reviews, ids);
+    const auto finals = instructor_points(course, a, "final");
+    CostTaker costs(course, a, now);
+    for (GroupMark& mark : marks.groups) {
+        if (const auto own = finals.find(mark.group); own != finals.end())
+            mark.final_version = percent_of(a.criteria, own->second);
+        if (mark.final_version) {
+            const double share = mark.work ? a.final_weight / 100 : 1;
+            mark.work = (1 - share) * mark.work.value_or(0) + share * *mark.final_version;
+        }
+        costs.apply(mark);
+    }
     for (Rows rows = course.database().query(
              "SELECT group_id, what, percent, reason FROM overrides WHERE assignment = ? ORDER BY id", a.id);
          rows.next();)

@@ -1,0 +1,84 @@
+// What goes back to students. Oracles: the files of the outbox, unpacked by other programs.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "course/course_bench.h"
+#include "course/review/review_pairs.h"
+#include "platform/error.h"
+
+namespace dynlab::test {
+namespace test_returns {
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+TEST(returns, bring_what_is_new_for_whom) {
+    CourseBench course(3, 1);
+    course.bench().write("roster.csv",
+                         "id,name,group,mail,moodle\ns1,Ada Müller,group-01,ada@course.example,900001\n"
+                         "s2,Student 2,group-02,,900002\ns3,Student 3,group-03,c@course.example,900003\n");
+    const auto done = [&](const std::vector<std::string>& words) {
+        const ChildResult result = course.course(words);
+        EXPECT_EQ(result.exit_code, 0) << words[0] << ": " << result.error_output;
+        return result.output + result.error_output;
+    };
+    const auto shell = [&](const std::string& command) { return course.bench().shell(command).output; };
+    done({"roster", "import", "roster.csv"});
+    for (int i = 1; i <= 3; ++i)
+        course.hand_in(CourseBench::group(i) + ".pdf", small_pdf(std::to_string(i)), "2026-03-01 10:00",
+                       {"--no-checks"});
+    done({"peer", "assign", "--at", "2026-03-02 10:00"});
+    done({"peer", "send", "--at", "2026-03-02 11:00"});
+    const std::string told = done({"return", "crane", "--out", "monday", "--moodle"});
+    EXPECT_THAT(told, AllOf(HasSubstr("group-01: 00001-group-01-first-report.txt, report-"),
+                            HasSubstr("For 3 groups, in monday"), HasSubstr("no mail address is known of group-02")));
+    EXPECT_EQ(shell("ls monday/*/report-*.pdf | wc -l"), "3\n");
+    EXPECT_EQ(
+        shell("for f in monday/*/report-*.pdf; do cmp $f k/outbox/crane/to-review/${f#monday/} || echo differs; done"),
+        "");
+    EXPECT_THAT(shell("cat monday/mail.csv"),
+                AllOf(HasSubstr("group,members,mails,files"),
+                      HasSubstr("group-01,Ada Müller,ada@course.example,\"group-01/00001-group-01-first-report.txt; "
+                                "group-01/report-")));
+    EXPECT_THAT(shell("python3 -c \"import zipfile; print(zipfile.ZipFile('monday/moodle.zip').namelist())\""),
+                AllOf(HasSubstr("Ada Müller_900001_assignsubmission_file_/report-"),
+                      HasSubstr("Student 3_900003_assignsubmission_file_/00003-group-03-first-report.txt")));
+    EXPECT_THAT(done({"return", "crane", "--out", "tuesday"}), HasSubstr("Nothing is new for anybody."));
+    EXPECT_EQ(shell("ls -d tuesday 2>/dev/null"), "");
+    // A newer version is new for its reviewer, and its receipt for the group; nothing else.
+    course.hand_in("group-01.pdf", small_pdf("better"), "2026-03-02 12:00", {"--no-checks"});
+    done({"peer", "send", "--at", "2026-03-02 13:00"});
+    done({"return", "crane", "--out", "wednesday"});
+    EXPECT_EQ(shell("find wednesday -name '*.pdf' | wc -l"), "1\n");
+    EXPECT_EQ(shell("find wednesday -name '*.txt' | wc -l"), "1\n");
+    done({"return", "crane", "--out", "all", "--all"});
+    EXPECT_EQ(shell("find all -name '*.pdf' | wc -l"), "3\n");
+    EXPECT_THAT(course.course({"return", "crane", "--out", "all"}).error_output, HasSubstr("exists already"));
+    done({"verify"});
+}
+
+TEST(returns, reviews_are_known_by_the_names_that_people_give) {
+    const Group reviewer{1, "group-01", false, {}};
+    const std::vector<ReviewPair> pairs = [] {
+        ReviewPair one, other;
+        one.id = 10, one.reviewer = 1, one.author = 2, one.report_number = 7;
+        other.id = 20, other.reviewer = 1, other.author = 3, other.report_number = 68;
+        return std::vector<ReviewPair>{one, other};
+    }();
+    for (const char* name : {"Review 68.pdf", "review-report-68.pdf", "Report_68.PDF", "report-68", "REVIEW068.pdf",
+                             "group-01 review of report #68.pdf"})
+        EXPECT_EQ(reviewed_pair(pairs, reviewer, name).id, 20) << name;
+    EXPECT_EQ(reviewed_pair(pairs, reviewer, "report_07.PDF").id, 10);
+    for (const char* name : {"my review.pdf", "report-687.pdf", "Review 6.pdf"})
+        EXPECT_THROW(reviewed_pair(pairs, reviewer, name), EnvironmentError) << name;
+    try {
+        reviewed_pair(pairs, reviewer, "review-report-12.pdf");
+        FAIL();
+    } catch (const EnvironmentError& error) {
+        EXPECT_THAT(error.what(),
+                    HasSubstr("it is of report-12, which group-01 was not given; it was given report-07 and "
+                              "report-68"));
+    }
+}
+
+}  // namespace test_returns
+}  // namespace dynlab::test
