@@ -49,7 +49,7 @@ report.table("workflow", {
 -- %% id=linear_data
 local record = load("linear_system")
 local Ts = record.t[2] - record.t[1]
-local names = {InputName = "input u", OutputName = "output y"}
+local names = {InputName = "u", OutputName = "y"}
 local est = iddata(record.y, record.u, Ts, names)
 local val = iddata(record.y_val, record.u_val, Ts, names)
 report.figure("linear_record", idplot(est):set{height = 6}, "The first record")
@@ -64,7 +64,15 @@ report.figure("linear_record", idplot(est):set{height = 6}, "The first record")
 -- BEGIN SOLUTION
 advice(est)
 local Td, delay_figure, delay = delayest(est)
-report.figure("linear_delay", delay_figure:set{height = 5}, "Error for every delay")
+-- for comparison: models with three poles and a zero, their delay held
+local at, held = {}, {}
+for samples = 0, 12 do
+    local left = est.y - lsim(srivc(est, {2, 3, samples}), est.u, Ts)
+    table.insert(at, samples*Ts)
+    table.insert(held, mean(left^2))
+end
+delay_figure:add(at, held, {label = "srivc, delay held", style = "points"})
+report.figure("linear_delay", delay_figure:set{height = 5.5}, "Error by delay")
 -- END SOLUTION
 
 -- %% id=linear_look_report echo=false
@@ -88,9 +96,10 @@ report.value("linear_td_std", delay.std, "%.3f")
 -- about the same power from its fundamental, `linear_low`{.value} rad/s, to some `linear_high`{.value} rad/s, where its power has fallen to
 -- one half. The output shows swings of about two seconds, well inside this band, so the experiment excites what it is to show.
 -- The delay is estimated at `linear_td`{.value}\ ±\ `linear_td_std`{.value}\ s (@fig:linear_delay): it is not significantly different from zero,
--- and a delay that is not there needs no parameter.
+-- and a delay that is not there needs no parameter. Near the minimum the line and the separate points of @fig:linear_delay agree. Far from it, the error of a model with a wrong delay has several
+-- local minima over the other parameters, and a search that follows one of them need not meet the lowest.
 --
--- ![Mean square error of the best model at each delay: the delay is held, all other parameters are estimated anew. The curve rises smoothly from its minimum near zero; marked: the estimate.](figure:linear_delay){#fig:linear_delay}
+-- ![Mean square error of a model at each delay. Line: `delayest`, which follows a model from delay to delay; separate points: `srivc` with the delay held at whole samples and a start of its own; circle: the estimated delay.](figure:linear_delay){#fig:linear_delay}
 -- END SOLUTION
 --
 -- ## Structure
@@ -726,7 +735,7 @@ report.value("dryer_td_samples", D.samples, "%.2f")
 -- Both signals swing about an operating point (means `dryer_u`{.value} V and `dryer_y`{.value} V) without a rest at the beginning, as `advice` says too, so the
 -- means are what can be subtracted. The slight drift that it finds is far smaller than the effect of the input. The output responds late: by `dryer_td`{.value}\ ±\ `dryer_td_std`{.value}\ s, which is `dryer_td_samples`{.value} samples (@fig:dryer_delay).
 --
--- ![Mean square error of the best model at each delay: the delay is held, all other parameters are estimated anew. The minimum is flat from 0.1 to 0.2 s; marked: the estimate.](figure:dryer_delay){#fig:dryer_delay}
+-- ![Mean square error of a model at each delay, all other parameters estimated anew from those at the neighbouring delay. The minimum is flat from 0.1 to 0.2 s; marked: the estimate.](figure:dryer_delay){#fig:dryer_delay}
 -- END SOLUTION
 --
 -- ## Structure and estimation

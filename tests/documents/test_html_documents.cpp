@@ -77,6 +77,16 @@ TEST_F(html_documents, numbers_in_tables_do_not_break) {
     EXPECT_THAT(text, HasSubstr("td .number"));
 }
 
+TEST_F(html_documents, tables_hold_formulas_that_the_text_may_hold) {
+    record_.tables["t"] = {{"$a_1$", "cost $5 or $6", "$\\omega_0$ (rad/s)"},
+                           {{"$\\input{x}$", "$}$", "$ b $"}, {"1", "2", "3"}}};
+    const std::string text = html("::: {.table name=t}\n:::\n");
+    EXPECT_THAT(text, HasSubstr("<msub><mi>a</mi><mn>1</mn></msub>"));
+    EXPECT_THAT(text, HasSubstr("</math> (rad/s)</th>"));
+    for (const char* verbatim : {"cost $5 or $6", "$\\input{x}$", "$}$", "$ b $"})
+        EXPECT_THAT(text, HasSubstr(std::string(">") + verbatim + "<"));
+}
+
 TEST_F(html_documents, two_runs_give_the_same_bytes) {
     add_figure("raw", "Raw", DocumentFormat::kHtml);
     const std::string text = "# A\n\n![](figure:raw){#fig:raw}\n\n$x$ @fig:raw\n";
