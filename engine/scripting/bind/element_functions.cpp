@@ -32,8 +32,8 @@ int absolute(Call& call) {
 
 /// Td of a model -Td s.
 std::optional<double> delay_of(const Model& model) {
-    if (!model.single_channel() || model.channels.size() != 1) return std::nullopt;
-    const TransferFunction& G = model.channels.front();
+    const TransferFunction& G = model.G;
+    if (!model.single_channel()) return std::nullopt;
     if (!G.continuous() || G.den().size() != 1 || G.num().size() != 2 || G.num()[1] != 0 || G.delay() != 0)
         return std::nullopt;
     return -G.num()[0] / G.den()[0];
