@@ -26,10 +26,12 @@ struct CopyRequest {
     std::filesystem::path copy;   ///< where the clean copy is to be written
     std::string pseudonym;        ///< "report-17", "reviewer-05"
     std::vector<Student> people;  ///< all of the course, with group, name, id and mail address
+    std::string group = {};       ///< whose it is
 };
 struct CopyOutcome {
     bool made = false;
-    std::vector<std::string> hits;  ///< why there is no copy: sentences with page and remedy
+    std::vector<std::string> hits;   ///< why there is no copy: sentences with page and remedy
+    std::vector<std::string> hints;  ///< where somebody may be meant; they stop nothing
 };
 /// Makes a clean copy and searches it for names; never gives one in which it found any.
 using AnonymousCopier = std::function<CopyOutcome(const CopyRequest&)>;
@@ -42,6 +44,7 @@ enum class Way {
 struct SendOutcome {
     int sent = 0, before = 0, stopped = 0, waiting = 0;  ///< copies: now; earlier; with hits; of what has not come
     std::vector<std::string> hits;                       ///< a line for each document that was stopped
+    std::vector<std::string> hints;                      ///< a line for each that was sent and may name somebody
     std::filesystem::path folder;                        ///< FOR/NAME.pdf for each receiver
 };
 /// Makes the copies that have not been made yet and puts them into outbox/ASSIGNMENT/WAY/GROUP/. A hit stops that copy
