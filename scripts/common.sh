@@ -39,6 +39,7 @@ purpose_text() {
     build) echo "to build dynlab" ;;
     run) echo "to draw figures, make documents and keep strangers' scripts apart" ;;
     test) echo "to test it" ;;
+    fuzz) echo "to feed it mutated inputs" ;;
     *) echo "for its $1" ;;
   esac
 }

@@ -56,13 +56,13 @@ std::string in_words(const Finding& finding) {
 AnonymousCopier anonymous_copier() {
     return [](const CopyRequest& request) {
         AnonymousCopySetup setup;
-        setup.names = SoughtNames(Roster(request.people));
+        for (const Student& student : request.people) setup.names.add(student, student.group == request.group);
         setup.program = std::filesystem::read_symlink("/proc/self/exe");
         const AnonymousCopy copy =
             anonymous_copy(request.pack.empty() ? request.pdf : request.pack, request.copy, setup);
-        CopyOutcome outcome{copy.made, {}};
+        CopyOutcome outcome{copy.made, {}, {}};
         for (const Finding& finding : copy.findings)
-            if (finding.severity == Severity::kRule) outcome.hits.push_back(in_words(finding));
+            (finding.severity == Severity::kRule ? outcome.hits : outcome.hints).push_back(in_words(finding));
         if (!copy.made && outcome.hits.empty()) outcome.hits.push_back(copy.trouble);
         return outcome;
     };
@@ -73,7 +73,8 @@ int send(const CourseArguments& where, const PeerArguments& words, Way way) {
     const Assignment assignment = assignment_named(course, words.assignment);
     const SendOutcome done =
         send_copies(course, assignment, way, time_of(course, words.at), anonymous_copier(), words.early);
-    for (const std::string& hit : done.hits) std::cerr << "dynlab: " << terminal_text(hit) << '\n';
+    for (const auto* lines : {&done.hits, &done.hints})
+        for (const std::string& line : *lines) std::cerr << "dynlab: " << terminal_text(line) << '\n';
     std::cout << fmt::format("{}: {} sent now{}, {} before, {} stopped, {} not come yet{}; in {}\n", assignment.name,
                              done.sent, done.again > 0 ? fmt::format(" ({} in a newer version)", done.again) : "",
                              done.before, done.stopped, done.waiting,

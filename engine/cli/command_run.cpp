@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <cstdio>
 #include <iostream>
 
@@ -20,8 +22,11 @@ struct RunArguments {
     SeedOption seed;
 };
 
+/// A terminal would obey what a script prints; a file gets it as it is.
 void print_now(const std::string& text) {
-    std::fwrite(text.data(), 1, text.size(), stdout);
+    static const bool terminal = ::isatty(STDOUT_FILENO) == 1;
+    const std::string shown = terminal ? terminal_text(text) : text;
+    std::fwrite(shown.data(), 1, shown.size(), stdout);
     std::fflush(stdout);
 }
 

@@ -145,10 +145,10 @@ PandocResult run_pandoc(const PandocJob& job, Complaints& complaints) {
     child.folder = job.work_folder;
     child.environment = {{"LC_ALL", "C.UTF-8"}};
     child.input = job.markdown.text;
-    child.timeout = 60s;
+    child.timeout = 20s;
     ChildResult run = run_child(child, "pandoc");
     if (run.timed_out || run.output_exceeded)
-        throw DocumentError(job.template_file.string() + ": Pandoc did not finish this document within a minute");
+        throw DocumentError(job.template_file.string() + ": Pandoc did not finish this document within 20 s");
     Complaints found;
     PandocResult result;
     result.pictures =

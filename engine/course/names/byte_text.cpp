@@ -168,22 +168,6 @@ std::string without_references(const std::string& xml) {
     return text;
 }
 
-std::string metadata_of_jpeg(std::string_view bytes) {
-    std::string metadata;
-    std::size_t at = 2;
-    while (at + 4 <= bytes.size() && byte_at(bytes, at) == 0xFF) {
-        const unsigned char marker = byte_at(bytes, at + 1);
-        if (marker == 0xDA || marker == 0xD9) break;
-        const std::size_t length = static_cast<std::size_t>(byte_at(bytes, at + 2)) << 8 | byte_at(bytes, at + 3);
-        const bool speaks = marker == 0xFE || (marker >= 0xE0 && marker <= 0xEF);
-        if (speaks && length > 2) metadata += text_in(bytes.substr(at + 4, length - 2)) + '\n';
-        at += 2 + std::max<std::size_t>(length, 2);
-    }
-    const std::size_t end = bytes.rfind("\xFF\xD9");
-    if (end != std::string_view::npos) metadata += text_in(bytes.substr(end + 2));
-    return metadata;
-}
-
 std::vector<std::string> texts_of_archive(const std::string& bytes) {
     std::vector<std::string> texts;
     const Utf8Locale names;  // libarchive gives them in the character set of the locale

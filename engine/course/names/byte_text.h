@@ -16,9 +16,6 @@ std::string text_in(std::string_view bytes);
 /// no character's. Other text stays as it is.
 std::string without_references(const std::string& xml);
 
-/// Comments and metadata of a JPEG: all segments before the picture, and what stands behind its end.
-std::string metadata_of_jpeg(std::string_view bytes);
-
 /// Names and contents of an archive's entries (zip, as word processors write them, tar, gzip), one after the other;
 /// empty for bytes that are not an archive.
 std::vector<std::string> texts_of_archive(const std::string& bytes);

@@ -1,6 +1,10 @@
 #include "course/names/content_text.h"
 
+#include <algorithm>
+#include <cctype>
+#include <charconv>
 #include <cstdlib>
+#include <map>
 #include <memory>
 #include <qpdf/BufferInputSource.hh>
 #include <qpdf/QPDFTokenizer.hh>
@@ -15,6 +19,7 @@ namespace {
 
 constexpr double kSpace = -180;  ///< thousandths of the font's size: moved on as far as a space
 constexpr std::uint32_t kLongestRange = 65536;
+constexpr char kApart[] = "\n----\n";  ///< more signs than there are within a name
 
 /// Reads the tokens of a content stream or a map, whatever they are.
 class ContentTokens {
@@ -25,6 +30,7 @@ class ContentTokens {
         : buffer_(reinterpret_cast<unsigned char*>(const_cast<char*>(text.data())), text.size()),
           input_(std::make_shared<BufferInputSource>("text", &buffer_)) {
         tokenizer_.allowEOF();
+        tokenizer_.includeIgnorable();  // comments
     }
 
     Kind next() {
@@ -93,7 +99,74 @@ std::string decoded(const std::string& bytes, const CodeMap* map) {
     return text;
 }
 
+/// Words of a content stream (ISO 32000-1, annex A).
+bool is_operator(const std::string& word) {
+    static const std::set<std::string> operators = {
+        "b",  "B",  "b*", "B*", "BDC", "BI",  "BMC", "BT", "BX", "c",  "cm", "CS", "cs", "d",  "d0",
+        "d1", "Do", "DP", "EI", "EMC", "ET",  "EX",  "f",  "F",  "f*", "G",  "g",  "gs", "h",  "i",
+        "ID", "j",  "J",  "K",  "k",   "l",   "m",   "M",  "MP", "n",  "q",  "Q",  "re", "RG", "rg",
+        "ri", "s",  "S",  "SC", "sc",  "SCN", "scn", "sh", "T*", "Tc", "Td", "TD", "Tf", "Tj", "TJ",
+        "TL", "Tm", "Tr", "Ts", "Tw",  "Tz",  "v",   "w",  "W",  "W*", "y",  "'",  "\""};
+    return operators.contains(word);
+}
+
+/// Signs with names of their own in fonts, and digits.
+std::string sign_of_glyph(const std::string& name) {
+    static const std::map<std::string, std::string> signs = {
+        {"zero", "0"},       {"one", "1"},        {"two", "2"},      {"three", "3"},  {"four", "4"},
+        {"five", "5"},       {"six", "6"},        {"seven", "7"},    {"eight", "8"},  {"nine", "9"},
+        {"space", " "},      {"hyphen", "-"},     {"comma", ","},    {"period", "."}, {"slash", "/"},
+        {"at", "@"},         {"underscore", "_"}, {"ff", "ff"},      {"fi", "fi"},    {"fl", "fl"},
+        {"ffi", "ffi"},      {"ffl", "ffl"},      {"dotlessi", "i"}, {"colon", ":"},  {"semicolon", ";"},
+        {"quoteright", "'"}, {"germandbls", "ss"}};
+    const auto found = signs.find(name);
+    return found == signs.end() ? "" : found->second;
+}
+
+/// "uni00E9", "u1D400".
+std::string character_of_glyph(const std::string& name) {
+    const std::size_t digits = name.starts_with("uni") ? 3 : name.starts_with("u") ? 1 : name.size();
+    std::uint32_t code = 0;
+    const char* const end = name.data() + name.size();
+    const auto read = std::from_chars(name.data() + std::min(digits, name.size()), end, code, 16);
+    const bool whole = read.ec == std::errc() && read.ptr == end && name.size() >= digits + 4;
+    return whole ? utf8_of(char32_t{code}) : "";
+}
+
 }  // namespace
+
+std::string text_of_glyph(const std::string& name) {
+    const std::string bare = name.substr(0, name.find('.'));
+    std::string text;
+    for (std::size_t begin = 0; begin < bare.size();) {
+        const std::size_t end = std::min(bare.find('_', begin), bare.size());
+        const std::string part = bare.substr(begin, end - begin), entity = "&" + part + ";";
+        const std::string letter = without_references(entity);
+        const std::string sign = sign_of_glyph(part), character = character_of_glyph(part);
+        text += part.size() == 1 ? part : !sign.empty() ? sign : letter != entity ? letter : character;
+        begin = end + 1;
+    }
+    return text;
+}
+
+bool is_known_glyph(const std::string& name) {
+    return !text_of_glyph(name).empty();
+}
+
+CodeMap code_map_of_glyphs(const std::vector<std::pair<std::uint32_t, std::string>>& glyphs) {
+    const auto is_plain = [](const auto& glyph) {
+        const bool letter = glyph.second.size() == 1 && std::isalpha(static_cast<unsigned char>(glyph.second[0])) != 0;
+        return !letter || glyph.first == static_cast<unsigned char>(glyph.second[0]);
+    };
+    CodeMap map;
+    if (std::all_of(glyphs.begin(), glyphs.end(), is_plain)) return map;
+    for (std::uint32_t code = ' '; code < 127; ++code) map.text[code] = static_cast<char>(code);
+    for (const auto& [code, name] : glyphs) {
+        const std::string text = text_of_glyph(name);
+        map.text[code] = text.empty() ? " " : text;
+    }
+    return map;
+}
 
 CodeMap code_map(const std::string& to_unicode) {
     CodeMap map;
@@ -120,16 +193,28 @@ CodeMap code_map(const std::string& to_unicode) {
 }
 
 bool shows_text(std::string_view stream) {
-    return (stream.find("Tj") != std::string_view::npos || stream.find("TJ") != std::string_view::npos ||
-            stream.find('\'') != std::string_view::npos || stream.find("BDC") != std::string_view::npos) &&
-           is_text(stream.substr(0, 200));
+    const bool has_operator =
+        stream.find("Tj") != std::string_view::npos || stream.find("TJ") != std::string_view::npos ||
+        stream.find('\'') != std::string_view::npos || stream.find("BDC") != std::string_view::npos;
+    if (!has_operator) return false;
+    while (stream.starts_with('%')) {  // a comment may hold any bytes
+        const std::size_t end = std::min(stream.find_first_of("\r\n"), stream.size());
+        const std::size_t next = stream.find_first_not_of("\r\n \t", end);
+        if (next == std::string_view::npos) break;
+        stream.remove_prefix(next);
+    }
+    return is_text(stream.substr(0, 200));
 }
 
-std::vector<ShownPiece> shown_pieces(std::string_view stream) {
+std::vector<ShownPiece> shown_pieces(std::string_view stream, UnshownText* unshown) {
     std::vector<ShownPiece> pieces;
     const auto move = [&pieces](const char* space) { pieces.push_back({space, false}); };
     static const std::set<std::string> moves = {"Td", "TD", "Tm", "T*", "ET", "BDC"};
     ContentTokens tokens(stream);
+    std::set<std::string> known;
+    const auto note = [&](const std::string& words) {
+        if (unshown != nullptr && known.insert(words).second) unshown->words += text_in(words) + kApart;
+    };
     bool in_array = false;
     for (auto kind = tokens.next(); kind != QPDFTokenizer::tt_eof; kind = tokens.next()) {
         const std::string& token = tokens.token();
@@ -153,6 +238,15 @@ std::vector<ShownPiece> shown_pieces(std::string_view stream) {
                 break;
             case QPDFTokenizer::tt_word:
                 if (moves.contains(token)) move("\n");
+                if (!is_operator(token)) note(token);
+                break;
+            case QPDFTokenizer::tt_name:
+            case QPDFTokenizer::tt_comment:
+            case QPDFTokenizer::tt_bad:
+                note(token);
+                break;
+            case QPDFTokenizer::tt_inline_image:
+                if (unshown != nullptr) unshown->pictures += text_in(token) + '\n';
                 break;
             default:
                 break;

@@ -15,6 +15,16 @@ struct CodeMap {
 
 CodeMap code_map(const std::string& to_unicode);
 
+/// The letter of a glyph's name (Adobe Glyph List: "A", "eacute", "uni00E9", "f_i"); a space for a sign, "" for a name
+/// that says nothing.
+std::string text_of_glyph(const std::string& name);
+/// Whether the name says which letter or sign is shown.
+bool is_known_glyph(const std::string& name);
+
+/// The map of a font whose Differences name these glyphs, by code; empty where each letter has the code of ASCII, as
+/// such text is read without one.
+CodeMap code_map_of_glyphs(const std::vector<std::pair<std::uint32_t, std::string>>& glyphs);
+
 /// Whether a stream is a page's content, or a part of one: it shows text.
 bool shows_text(std::string_view stream);
 
@@ -24,8 +34,14 @@ struct ShownPiece {
     bool coded = true;
 };
 
+/// What stands in a content stream and is not shown: comments, names, tags, words that are no operators, well apart;
+/// and what can be read in the bytes of its inline images.
+struct UnshownText {
+    std::string words, pictures;
+};
+
 /// What a content stream shows, visible or not, and the strings of the dictionaries in it, in its own order.
-std::vector<ShownPiece> shown_pieces(std::string_view stream);
+std::vector<ShownPiece> shown_pieces(std::string_view stream, UnshownText* unshown = nullptr);
 
 /// The pieces as UTF-8: codes are read with the map, or as Latin letters without one.
 std::string shown_text(const std::vector<ShownPiece>& pieces, const CodeMap* map = nullptr);

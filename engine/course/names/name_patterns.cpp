@@ -8,6 +8,7 @@ namespace dynlab::inline course {
 namespace {
 
 constexpr std::size_t kShortestName = 4;    ///< letters of a surname or given name alone
+constexpr std::size_t kShortestGiven = 3;   ///< of the document's own authors
 constexpr std::size_t kShortestNumber = 6;  ///< digits
 constexpr std::size_t kShortestMixed = 5;   ///< letters and digits
 
@@ -103,7 +104,45 @@ bool may_stand_alone(const Part& part) {
     return part.letters.size() >= kShortestName && !is_ordinary_word(part.letters);
 }
 
+/// The parts of a double name, "Mueller-Luedenscheid", that can stand for it.
+std::vector<Part> halves_of(const Part& surname) {
+    std::vector<Part> halves;
+    std::size_t begin = 0;
+    for (std::size_t k = 0; k <= surname.breaks.size() && !surname.breaks.empty(); ++k) {
+        const std::size_t end = k < surname.breaks.size() ? surname.breaks[k] : surname.letters.size();
+        Part half;
+        half.letters = surname.letters.substr(begin, end - begin);
+        if (half.letters.size() >= kShortestName) halves.push_back(std::move(half));
+        begin = end;
+    }
+    return halves;
+}
+
+Part initial_of(const Part& part) {
+    Part initial;
+    initial.letters = part.letters.substr(0, 1);
+    return initial;
+}
+
+/// Names that are too short or too usual to stand alone, with an initial: of the document's own authors.
+void add_initialled(const std::string& who, const FullName& name, std::vector<NamePattern>& patterns) {
+    const auto add = [&](const Part& first, const Part& second, bool reversed) {
+        NamePattern pattern = whole_name(who, {first, second}, reversed);
+        pattern.whole = false;
+        pattern.capital = pattern.initialled = true;
+        for (const Part& part : name.given) pattern.initials += part.letters.front();
+        patterns.push_back(std::move(pattern));
+    };
+    for (const Part& given : name.given) {
+        if (given.letters.size() > 1) add(given, initial_of(name.surname), false);
+        if (may_stand_alone(name.surname)) continue;
+        add(initial_of(given), name.surname, false);
+        add(name.surname, initial_of(given), true);
+    }
+}
+
 void add_names(const std::string& who, const FullName& name, bool own, std::vector<NamePattern>& patterns) {
+    const std::size_t first = patterns.size();
     if (!name.given.empty() && !name.surname.letters.empty()) {
         std::vector<Part> forward = name.given, backward = {name.surname};
         forward.push_back(name.surname);
@@ -113,6 +152,10 @@ void add_names(const std::string& who, const FullName& name, bool own, std::vect
         if (name.given.size() > 1) {
             patterns.push_back(whole_name(who, {name.given.front(), name.surname}));
             patterns.push_back(whole_name(who, {name.surname, name.given.front()}, true));
+        }
+        for (const Part& half : halves_of(name.surname)) {
+            patterns.push_back(whole_name(who, {name.given.front(), half}));
+            patterns.push_back(whole_name(who, {half, name.given.front()}, true));
         }
     }
     NamePattern alone;
@@ -125,8 +168,9 @@ void add_names(const std::string& who, const FullName& name, bool own, std::vect
         patterns.push_back(alone);
     }
     if (!own) return;
+    if (!name.given.empty() && !name.surname.letters.empty()) add_initialled(who, name, patterns);
     for (const Part& part : name.given) {
-        if (!may_stand_alone(part)) continue;
+        if (part.letters.size() < kShortestGiven || is_ordinary_word(part.letters)) continue;
         NamePattern given = alone;
         given.letters.clear();
         given.breaks.clear();
@@ -135,6 +179,7 @@ void add_names(const std::string& who, const FullName& name, bool own, std::vect
         append(given, part);
         patterns.push_back(given);
     }
+    for (std::size_t i = first; i < patterns.size(); ++i) patterns[i].own = true;
 }
 
 /// "Müller" may be written "Mueller".
@@ -186,7 +231,53 @@ void add_number(NameKind kind, const std::string& who, const std::string& text, 
     patterns.push_back(pattern);
 }
 
+/// "group-01" is also "Team 01", "group1" or "Group 1", in all words for a group; of the authors' own, "G01" too.
+void add_group(const std::string& group, bool own, std::vector<NamePattern>& patterns) {
+    const std::size_t first = patterns.size();
+    add_number(NameKind::kGroup, group, group, patterns);
+    const std::vector<NameToken> tokens = name_tokens(group);
+    if (tokens.size() == 2 && !tokens[0].digits && tokens[1].digits) {
+        std::vector<std::string> words = {"group", "groupe", "gruppe", "grp", "team", "equipe"};
+        const std::string& given = tokens[1].letters;
+        const std::string number = given.substr(std::min(given.find_first_not_of('0'), given.size() - 1));
+        if (std::find(words.begin(), words.end(), tokens[0].letters) == words.end()) words = {tokens[0].letters};
+        const auto add = [&](const std::string& word, const std::string& digits) {
+            NamePattern pattern;
+            pattern.kind = NameKind::kGroup;
+            pattern.who = group;
+            pattern.letters = word + digits;
+            pattern.breaks = {word.size()};
+            pattern.bare = digits.front() != '0';
+            patterns.push_back(std::move(pattern));
+        };
+        for (const std::string& word : words) {
+            add(word, number);
+            add(word, number.size() == 1 ? "0" + number : given);
+        }
+        if (own && given.front() == '0') add("g", given), patterns.back().breaks.clear();
+    }
+    for (std::size_t i = first; i < patterns.size(); ++i) patterns[i].own = own;
+}
+
 }  // namespace
+
+std::vector<NamePattern> patterns_of_pair(const Student& one, const Student& other) {
+    const FullName a = full_name(one.name), b = full_name(other.name);
+    std::vector<NamePattern> patterns;
+    const auto add = [&](const Part& first, const Part& second) {
+        if (first.letters.empty() || second.letters.empty()) return;
+        NamePattern pattern = whole_name(one.name, {first, second});
+        pattern.whole = false;
+        pattern.capital = pattern.connected = pattern.own = true;
+        patterns.push_back(std::move(pattern));
+    };
+    add(a.surname, b.surname);
+    add(b.surname, a.surname);
+    if (a.given.empty() || b.given.empty()) return patterns;
+    add(a.given.front(), b.given.front());
+    add(b.given.front(), a.given.front());
+    return patterns;
+}
 
 std::vector<NamePattern> patterns_of(const Student& student, bool own) {
     const std::string& who = student.name.empty() ? student.id : student.name;
@@ -195,8 +286,8 @@ std::vector<NamePattern> patterns_of(const Student& student, bool own) {
     const std::string written_out = umlauts_written_out(student.name);
     if (written_out != student.name) add_names(who, full_name(written_out), own, patterns);
     add_number(NameKind::kNumber, who, student.id, patterns);
-    if (!student.group.empty()) add_number(NameKind::kGroup, student.group, student.group, patterns);
-    for (const std::string& group : student.other_groups) add_number(NameKind::kGroup, group, group, patterns);
+    if (!student.group.empty()) add_group(student.group, own, patterns);
+    for (const std::string& group : student.other_groups) add_group(group, own, patterns);
     const std::string account = student.mail.substr(0, student.mail.find('@'));
     if (account != student.id) add_number(NameKind::kMail, who, account, patterns);
     Part letters = part_of(account);

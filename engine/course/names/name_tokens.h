@@ -22,6 +22,16 @@ struct NameToken {
     Gap gap = Gap::kWide;
 };
 
-std::vector<NameToken> name_tokens(std::string_view utf8);
+/// How letters are taken.
+enum class Reading {
+    kPlain,
+    kCamel,      ///< a capital within a word begins another: "LovelaceHopper"
+    kLookAlike,  ///< letters of other scripts and signs as the Latin ones they look like (platform/look_alikes.h)
+};
+
+std::vector<NameToken> name_tokens(std::string_view utf8, Reading reading = Reading::kPlain);
+
+/// Whether the tokens are others than those of the plain reading.
+bool reads_otherwise(std::string_view utf8, Reading reading);
 
 }  // namespace dynlab::inline course

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "course/names/anonymous_copy.h"
+#include "course/names/jpeg_parts.h"
 #include "course/names/plain_words.h"
 
 namespace dynlab::inline course {
@@ -135,27 +136,6 @@ class PdfCleaner {
                name_at(value, "/Type") == "/Action";
     }
 
-    static void clean_jpeg(std::string& bytes) {
-        std::string result = bytes.substr(0, 2);
-        std::size_t at = 2;
-        const auto byte = [&bytes](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
-        while (at + 4 <= bytes.size() && byte(at) == 0xFF && byte(at + 1) != 0xDA) {
-            const unsigned char marker = byte(at + 1);
-            const std::size_t length = 2 + (static_cast<std::size_t>(byte(at + 2)) << 8 | byte(at + 3));
-            const std::string segment = bytes.substr(at, length);
-            // APP0 (JFIF), APP2 (colour profile) and APP14 (colour transform) say how the picture is shown.
-            const bool speaks =
-                marker == 0xFE || (marker >= 0xE1 && marker <= 0xEF && marker != 0xEE &&
-                                   !(marker == 0xE2 && segment.find("ICC_PROFILE") != std::string::npos));
-            if (!speaks) result += segment;
-            at += length;
-        }
-        if (at >= bytes.size()) return;
-        const std::size_t end = bytes.rfind("\xFF\xD9");
-        result += bytes.substr(at, end == std::string::npos || end < at ? std::string::npos : end + 2 - at);
-        bytes = std::move(result);
-    }
-
     void clean_stream(Object stream) {
         Object entries = stream.getDict();
         // Viewers would fetch them from elsewhere.
@@ -167,10 +147,10 @@ class PdfCleaner {
         }
         clean(entries);
         if (!entries.isDictionaryOfType("", "/Image")) return;
-        std::string bytes = stored_bytes(stream);
+        const std::string bytes = stored_bytes(stream);
         if (!bytes.starts_with("\xFF\xD8")) return;
-        clean_jpeg(bytes);
-        stream.replaceStreamData(bytes, entries.getKey("/Filter"), entries.getKey("/DecodeParms"));
+        stream.replaceStreamData(parts_of_jpeg(bytes).picture, entries.getKey("/Filter"),
+                                 entries.getKey("/DecodeParms"));
     }
 
     QPDF& pdf_;

@@ -10,6 +10,7 @@
 
 #include "course/names/byte_text.h"
 #include "course/names/content_text.h"
+#include "course/names/jpeg_parts.h"
 #include "documents/pdf/inflate.h"
 #include "documents/pdf/pdf_objects.h"
 #include "platform/utf8.h"
@@ -151,19 +152,53 @@ class Places {
             for (const Object& entry : value.getArrayAsVector()) note_kinds(entry, depth + 1);
         value = dictionary_in(value);
         if (!value.isDictionary()) return;
+        if (text_of(value, "/Type") == "Font") note_font(value);
         for (auto& [key, entry] : value.getDictAsMap()) {
             if (key.starts_with("/FontFile")) fonts_.insert(entry.getObjGen());
             if (key == "/EF" && entry.isDictionary())
                 for (const auto& [name, file] : entry.getDictAsMap()) attachments_.insert(file.getObjGen());
-            if (key == "/ToUnicode" && entry.isStream()) note_map(entry);
+            if (key == "/ToUnicode" && entry.isStream() && known_maps_.insert(entry.getObjGen()).second)
+                note_map(code_map(content_of(entry)));
+            if (key == "/Differences" && entry.isArray()) note_differences(entry);
             note_kinds(entry, depth + 1);
         }
     }
 
+    /// Codes of letters that are not those of ASCII, as programs number the letters of a subset.
+    void note_differences(Object differences) {
+        std::vector<std::pair<std::uint32_t, std::string>> glyphs;
+        std::uint32_t code = 0;
+        for (const Object& entry : differences.getArrayAsVector()) {
+            if (Object(entry).isInteger()) code = static_cast<std::uint32_t>(Object(entry).getIntValueAsInt());
+            if (Object(entry).isName()) glyphs.emplace_back(code++, Object(entry).getName().substr(1));
+        }
+        if (const CodeMap map = code_map_of_glyphs(glyphs); !map.text.empty()) note_map(map);
+    }
+
+    /// A font whose codes no table explains shows what nobody can read but on paper.
+    void note_font(Object font) {
+        const std::string kind = text_of(font, "/Subtype");
+        if (font.hasKey("/ToUnicode") || (kind != "Type0" && kind != "Type3")) return;
+        bool readable = false;
+        if (kind == "Type0") {
+            const Object inner = font.getKey("/DescendantFonts");
+            const bool has_one = Object(inner).isArray() && Object(inner).getArrayNItems() > 0;
+            const Object first = has_one ? Object(inner).getArrayItem(0) : inner;
+            const Object system = Object(first).isDictionary() ? Object(first).getKey("/CIDSystemInfo") : first;
+            const std::string script = Object(system).isDictionary() ? text_of(system, "/Ordering") : "";
+            readable = !text_of(font, "/Encoding").starts_with("Identity") || (!script.empty() && script != "Identity");
+        } else {
+            const Object encoding = font.getKey("/Encoding");
+            const Object names = Object(encoding).isDictionary() ? Object(encoding).getKey("/Differences") : encoding;
+            readable = !Object(names).isArray();
+            for (int i = 0; !readable && i < Object(names).getArrayNItems(); ++i)
+                readable = is_known_glyph(unicode_of(Object(names).getArrayItem(i)));
+        }
+        if (!readable) trouble_ = "It has text in a font that does not tell which letters it shows.";
+    }
+
     /// Each map once: figures that were made alike bring the same one.
-    void note_map(const Object& stream) {
-        if (!known_maps_.insert(stream.getObjGen()).second) return;
-        CodeMap map = code_map(content_of(stream));
+    void note_map(CodeMap map) {
         if (std::find(maps_.begin(), maps_.end(), map) != maps_.end()) return;
         if (maps_.size() < kMostMaps)
             maps_.push_back(std::move(map));
@@ -219,14 +254,17 @@ class Places {
             return say(PdfPlace::kInside, "font", text_in(data), TextManner::kBytes);
         if (type == "ObjStm") return say(PdfPlace::kRemains, "", text_in(data));
         if (shows_text(data)) return visit_content(data);
-        say(PdfPlace::kInside, "", text_in(data), TextManner::kBytes);
+        say(PdfPlace::kInside, "", text_in(data), is_text(data) ? TextManner::kData : TextManner::kBytes);
     }
 
     void visit_image(Object entries, const std::string& data) {
-        if (data.starts_with("\xFF\xD8"))
-            say(PdfPlace::kImage, "", without_references(metadata_of_jpeg(data)));
-        else if (entries.getKey("/Filter").unparseResolved().find("JPX") != std::string::npos)
+        if (data.starts_with("\xFF\xD8")) {
+            const JpegParts parts = parts_of_jpeg(data);
+            say(PdfPlace::kImage, "", without_references(parts.words));
+            say(PdfPlace::kImage, "", parts.tables, TextManner::kBytes);
+        } else if (entries.getKey("/Filter").unparseResolved().find("JPX") != std::string::npos) {
             say(PdfPlace::kImage, "", text_in(data), TextManner::kBytes);
+        }
     }
 
     void visit_attachment(const std::string& data) {
@@ -241,7 +279,10 @@ class Places {
     /// What poppler may not have been shown, or not as words: it reads a line of text in four directions only.
     void visit_content(const std::string& data) {
         const PdfPlace place = page_ > 0 ? PdfPlace::kHidden : PdfPlace::kRemains;
-        const std::vector<ShownPiece> pieces = shown_pieces(data);
+        UnshownText unshown;
+        const std::vector<ShownPiece> pieces = shown_pieces(data, &unshown);
+        say(place, "", unshown.words);
+        say(place, "", unshown.pictures, TextManner::kBytes);
         say(place, "", shown_text(pieces), TextManner::kProse);
         for (const CodeMap& map : maps_) say(place, "", shown_text(pieces, &map), TextManner::kProse);
     }

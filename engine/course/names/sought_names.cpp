@@ -16,6 +16,9 @@ namespace fs = std::filesystem;
 constexpr std::size_t kShortestJoined = 7;  ///< letters of a whole name written as one word
 constexpr std::size_t kSureInBytes = 8;     ///< letters that bytes do not spell by chance
 constexpr std::size_t kShortestAddress = 6;
+constexpr std::size_t kShortestGrouped = 7;  ///< digits of a number that is written in groups
+constexpr std::size_t kLongestPrefix = 3;    ///< letters before an account's number
+constexpr std::size_t kShortestPlural = 5, kShortestInSmall = 6, kShortestInBytes = 5;  ///< letters of a surname
 
 using Tokens = std::vector<NameToken>;
 
@@ -23,16 +26,28 @@ bool is_one_of(const std::string& word, std::initializer_list<const char*> words
     return std::any_of(words.begin(), words.end(), [&word](const char* one) { return word == one; });
 }
 
+bool is_label(const NameToken& token) {
+    return is_one_of(token.letters, {"student", "students", "id", "number", "nr", "no", "etudiant", "etudiants",
+                                     "etudiante", "numero", "matricule", "author", "author", "group", "groupe"});
+}
+
 /// One try to read a pattern at a token.
 class PatternMatcher {
   public:
-    PatternMatcher(const NamePattern& pattern, const Tokens& tokens, std::size_t first, TextManner manner)
-        : pattern_(pattern), tokens_(tokens), first_(first), next_(first), prose_(manner == TextManner::kProse) {}
+    PatternMatcher(const NamePattern& pattern, const Tokens& tokens, std::size_t first, std::string_view text,
+                   TextManner manner)
+        : pattern_(pattern),
+          tokens_(tokens),
+          first_(first),
+          next_(first),
+          text_(text),
+          strict_(pattern.initialled || pattern.connected ||
+                  (manner == TextManner::kProse && pattern.capital && pattern.whole)) {}
 
     bool succeeds() {
         while (read_ < pattern_.letters.size()) {
             if (next_ == tokens_.size()) return false;
-            if (skips_initial()) ++next_;
+            if (skips_initial() || skips_connection()) ++next_;
             if (next_ == tokens_.size() || !takes(tokens_[next_])) return false;
         }
         return pattern_.kind == NameKind::kName || stands_apart();
@@ -50,44 +65,71 @@ class PatternMatcher {
                pattern_.letters[read_] != token.letters.front();
     }
 
+    /// "Wu and Li".
+    bool skips_connection() const {
+        if (!pattern_.connected || read_ == 0 || !at_break()) return false;
+        const NameToken& token = tokens_[next_];
+        return token.gap == Gap::kSpace && is_one_of(token.letters, {"and", "et", "und", "with", "y", "e"});
+    }
+
+    /// "2021 4711", "2021-4711", "2021/4711".
+    bool is_grouped(const NameToken& token) const {
+        const NameToken& before = tokens_[next_ - 1];
+        if (pattern_.kind != NameKind::kNumber || !token.digits || !before.digits) return false;
+        if (token.letters.size() < 2 || before.letters.size() < 2 || pattern_.letters.size() < kShortestGrouped)
+            return false;
+        const std::string_view between = text_.substr(before.end, token.begin - before.end);
+        return between == "-" || between == "/" ||
+               (token.gap == Gap::kSpace && between.size() <= 3 && between.find('\n') == std::string_view::npos);
+    }
+
     bool gap_fits(const NameToken& token) const {
         if (next_ == first_) return true;
         if (at_break()) return token.gap != Gap::kWide && (pattern_.spaced || token.gap != Gap::kSpace);
-        if (token.gap == Gap::kNone || token.gap == Gap::kBreak) return true;
-        // Letters set apart: "L O V E L A C E".
-        return token.gap == Gap::kSpace && token.letters.size() == 1 && tokens_[next_ - 1].letters.size() == 1 &&
+        if (token.gap == Gap::kNone || token.gap == Gap::kBreak || is_grouped(token)) return true;
+        // Letters set apart, alone or in pairs: "L O V E L A C E".
+        return token.gap == Gap::kSpace && token.letters.size() <= 2 && tokens_[next_ - 1].letters.size() <= 2 &&
                pattern_.letters.size() >= kShortestJoined;
     }
 
+    /// "Lovelaces", "Lovelace's" without its apostrophe.
+    bool is_plural(const NameToken& token) const {
+        const std::string_view rest = std::string_view(pattern_.letters).substr(read_);
+        return pattern_.kind == NameKind::kName && !pattern_.given_only && rest.size() >= kShortestPlural &&
+               token.letters.size() == rest.size() + 1 && token.letters.ends_with('s') &&
+               token.letters.starts_with(rest);
+    }
+
     bool takes(const NameToken& token) {
-        if (pattern_.letters.compare(read_, token.letters.size(), token.letters) != 0 || !gap_fits(token)) return false;
+        const bool plural = is_plural(token);
+        if (!plural && pattern_.letters.compare(read_, token.letters.size(), token.letters) != 0) return false;
+        if (!gap_fits(token)) return false;
         const bool begins_part = read_ == 0 || at_break();
-        if (prose_ && pattern_.capital && begins_part && !token.capital && !token.digits) return false;
+        if (strict_ && begins_part && !token.capital && !token.digits) return false;
         const auto inside = pattern_.breaks.upper_bound(read_);
         const bool joined = inside != pattern_.breaks.end() && *inside < read_ + token.letters.size();
         if (joined && pattern_.letters.size() < kShortestJoined) return false;
-        read_ += token.letters.size();
+        read_ += token.letters.size() - (plural ? 1 : 0);
         ++next_;
         return true;
     }
 
-    /// A number is not part of a longer one and has no decimals.
+    /// A number is not part of a longer one and has no decimals. Accounts have letters before it: "s20214711".
     bool stands_apart() const {
-        const bool joined_before = first_ > 0 && tokens_[first_].gap == Gap::kNone;
-        const bool joined_behind = next_ < tokens_.size() && tokens_[next_].gap == Gap::kNone;
-        return !joined_before && !joined_behind;
+        if (next_ < tokens_.size() && tokens_[next_].gap == Gap::kNone) return false;
+        if (first_ == 0 || tokens_[first_].gap != Gap::kNone) return true;
+        const NameToken& before = tokens_[first_ - 1];
+        const bool is_account = pattern_.kind == NameKind::kNumber && tokens_[first_].digits && !before.digits &&
+                                (first_ == 1 || before.gap != Gap::kNone);
+        return is_account && (before.letters.size() <= kLongestPrefix || is_label(before));
     }
 
     const NamePattern& pattern_;
     const Tokens& tokens_;
     std::size_t first_, next_, read_ = 0;
-    bool prose_;
+    std::string_view text_;
+    bool strict_;  ///< every part begins with a capital
 };
-
-bool is_label(const NameToken& token) {
-    return is_one_of(token.letters, {"student", "students", "id", "number", "nr", "no", "etudiant", "etudiants",
-                                     "etudiante", "numero", "matricule", "author", "author", "group", "groupe"});
-}
 
 bool is_labelled(const Tokens& tokens, std::size_t first) {
     for (std::size_t back = 1; back <= 2 && back <= first; ++back)
@@ -119,17 +161,66 @@ bool is_year(const NameToken& token) {
 }
 
 /// A surname alone that a citation gives: "Lovelace et al.", "Lovelace (2008)", "P. Lovelace", "Lovelace, P.".
-bool looks_cited(const NamePattern& pattern, const Tokens& tokens, std::size_t first, std::size_t end) {
+bool looks_cited(const NamePattern& pattern, const Tokens& tokens, std::size_t first, std::size_t end,
+                 std::string_view text) {
     const auto is_foreign_initial = [&](const NameToken& token) {
         return token.letters.size() == 1 && !token.digits && token.capital &&
                pattern.initials.find(token.letters) == std::string::npos;
     };
+    const std::string_view before = text.substr(0, tokens[first].begin);
+    for (const std::string_view sign : {"\u00A9", "\u00A9 ", "(c)", "(c) ", "(C)", "(C) "})
+        if (before.ends_with(sign)) return false;  // the year of what is theirs
     if (end < tokens.size() && tokens[end].gap != Gap::kWide) {
         const NameToken& behind = tokens[end];
         if (behind.letters == "et" && end + 1 < tokens.size() && tokens[end + 1].letters == "al") return true;
         if (is_year(behind) || is_foreign_initial(behind)) return true;
     }
-    return first > 0 && tokens[first].gap != Gap::kWide && is_foreign_initial(tokens[first - 1]);
+    // "G. M. Hopper": a second initial that the roster does not know.
+    bool foreign = false;
+    for (std::size_t i = first; i > 0 && tokens[i].gap != Gap::kWide; --i) {
+        const NameToken& initial = tokens[i - 1];
+        if (initial.letters.size() != 1 || initial.digits || !initial.capital) break;
+        if (!is_foreign_initial(initial)) return false;
+        foreign = true;
+    }
+    return foreign;
+}
+
+/// Whether what is written is a part of an identifier, a path or an address rather than a word in a sentence.
+bool is_in_identifier(std::string_view text, std::size_t begin, std::size_t end) {
+    const auto is_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
+    if (begin > 0) {
+        const char before = text[begin - 1];
+        const bool pointed = before == '.' && begin > 1 && is_word(text[begin - 2]);
+        if (pointed || std::isdigit(static_cast<unsigned char>(before)) != 0 ||
+            std::string_view("_/\\~@").find(before) != std::string_view::npos)
+            return true;
+    }
+    if (end >= text.size()) return false;
+    const char behind = text[end];
+    const bool pointed = behind == '.' && end + 1 < text.size() && is_word(text[end + 1]);
+    return pointed || std::isdigit(static_cast<unsigned char>(behind)) != 0 ||
+           std::string_view("_/\\@$").find(behind) != std::string_view::npos;
+}
+
+/// Of "B. Li", "Wu, M." or "Ada L.": not "Ada L" or "B Li".
+bool has_point(const NamePattern& pattern, std::string_view text, std::size_t begin, std::size_t end) {
+    const std::string_view written = text.substr(begin, end + 1 - begin);
+    return written.find(pattern.reversed ? ',' : '.') != std::string_view::npos;
+}
+
+/// Whether bytes spell it on purpose: long enough, or with capitals and apart.
+bool stands_out(const NamePattern& pattern, const Tokens& tokens, std::size_t first, std::size_t end) {
+    if (pattern.whole && pattern.letters.size() >= kSureInBytes) return true;
+    const bool capitals = std::all_of(tokens.begin() + static_cast<std::ptrdiff_t>(first),
+                                      tokens.begin() + static_cast<std::ptrdiff_t>(end),
+                                      [](const NameToken& token) { return token.capital; });
+    return pattern.kind == NameKind::kName && capitals && (!pattern.whole || end > first + 1);
+}
+
+/// A group's number without its zeros: "Group 1", "group1", "group_1"; "group 1" counts something.
+bool is_counted(const NamePattern& pattern, const Tokens& tokens, std::size_t first, std::size_t end) {
+    return pattern.bare && end > first + 1 && tokens[end - 1].gap == Gap::kSpace && !tokens[first].capital;
 }
 
 /// Lower case, without white space, accents kept.
@@ -153,8 +244,9 @@ bool is_in_address(std::string_view text, std::size_t at) {
 
 /// Folders that are nobody's, and names that stand in instructions.
 bool is_nobodys(const std::string& user) {
-    return user.size() < 2 || is_one_of(user, {"user", "users", "username", "name", "you", "your", "me", "student",
-                                               "students", "shared", "public", "default", "guest", "runner", "home"});
+    return user.size() < 2 ||
+           is_one_of(user, {"user", "users", "username", "name", "you", "your", "me", "student", "students", "shared",
+                            "public", "default", "guest", "runner", "home", "root"});
 }
 
 }  // namespace
@@ -166,6 +258,11 @@ SoughtNames::SoughtNames(const Roster& roster) {
 void SoughtNames::add(const Student& student, bool own) {
     ++people_;
     add_writings(student, own);
+    if (own) {
+        for (const Student& other : authors_)
+            for (NamePattern& pattern : patterns_of_pair(student, other)) index(std::move(pattern));
+        authors_.push_back(student);
+    }
     for (const FormerName& former : student.former) {
         Student before = student;
         if (!former.name.empty()) before.name = former.name;
@@ -190,7 +287,9 @@ void SoughtNames::add_account(const fs::path& home) {
 void SoughtNames::index(NamePattern pattern) {
     std::vector<NamePattern>& row = patterns_[static_cast<unsigned char>(pattern.letters.front())];
     const auto same = [&pattern](const NamePattern& other) {
-        return other.who == pattern.who && other.letters == pattern.letters && other.kind == pattern.kind;
+        return other.who == pattern.who && other.letters == pattern.letters && other.kind == pattern.kind &&
+               other.own == pattern.own && other.whole == pattern.whole && other.connected == pattern.connected &&
+               other.bare == pattern.bare;
     };
     if (std::none_of(row.begin(), row.end(), same)) row.push_back(std::move(pattern));
 }
@@ -199,17 +298,29 @@ void SoughtNames::find_patterns(const Tokens& tokens, std::string_view text, Tex
                                 std::vector<NameHit>& hits) const {
     for (std::size_t i = 0; i < tokens.size(); ++i) {
         for (const NamePattern& pattern : patterns_[static_cast<unsigned char>(tokens[i].letters.front())]) {
-            if (manner == TextManner::kBytes && (!pattern.whole || pattern.letters.size() < kSureInBytes)) continue;
-            PatternMatcher reading(pattern, tokens, i, manner);
+            if (manner == TextManner::kBytes && !pattern.whole && pattern.letters.size() < kShortestInBytes) continue;
+            PatternMatcher reading(pattern, tokens, i, text, manner);
             if (!reading.succeeds()) continue;
-            const bool whole_text = manner == TextManner::kData && i == 0 && reading.end() == tokens.size();
+            const std::size_t end = reading.end();
+            const bool whole_text = manner == TextManner::kData && i == 0 && end == tokens.size();
             if (pattern.labelled && !whole_text && !is_labelled(tokens, i)) continue;
-            const NameToken& last = tokens[reading.end() - 1];
-            if (pattern.kind == NameKind::kNumber && has_decimals(tokens, reading.end(), text)) continue;
+            const NameToken& last = tokens[end - 1];
+            if (pattern.kind == NameKind::kNumber && has_decimals(tokens, end, text)) continue;
             const std::string_view written = text.substr(tokens[i].begin, last.end - tokens[i].begin);
-            if (!whole_text && may_be_words(pattern, tokens, i, reading.end(), written)) continue;
-            const bool certain =
-                !pattern.given_only && (pattern.whole || !looks_cited(pattern, tokens, i, reading.end()));
+            if (!whole_text && may_be_words(pattern, tokens, i, end, written)) continue;
+            if (!whole_text && is_counted(pattern, tokens, i, end)) continue;
+            if (pattern.initialled && !has_point(pattern, text, tokens[i].begin, last.end)) continue;
+            const bool identifier = is_in_identifier(text, tokens[i].begin, last.end);
+            const bool alone = pattern.kind == NameKind::kName && !pattern.whole;
+            const bool in_small = manner == TextManner::kProse && alone && !tokens[i].capital;
+            if (in_small && !identifier && (pattern.given_only || pattern.letters.size() < kShortestInSmall)) continue;
+            if (manner == TextManner::kBytes && !stands_out(pattern, tokens, i, end)) continue;
+            bool certain = pattern.given_only ? identifier && pattern.own
+                           : pattern.whole    ? true
+                                              : !looks_cited(pattern, tokens, i, end, text);
+            if (in_small && !identifier && !pattern.own) certain = false;
+            if (pattern.bare && !pattern.own) certain = false;
+            if (manner == TextManner::kBytes && !pattern.whole) certain = false;  // whoever designed the font
             hits.push_back({pattern.who, pattern.kind, certain, tokens[i].begin, last.end});
         }
     }
@@ -226,8 +337,25 @@ void SoughtNames::find_addresses(std::string_view text, std::vector<NameHit>& hi
     }
 }
 
+/// What a terminal shows before a command: ada@laptop:~$
+void SoughtNames::find_prompts(std::string_view text, std::vector<NameHit>& hits) const {
+    const auto is_of_name = [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.';
+    };
+    for (std::size_t at = text.find(":~"); at != std::string_view::npos; at = text.find(":~", at + 1)) {
+        std::size_t host = at;
+        while (host > 0 && is_of_name(text[host - 1])) --host;
+        if (host == at || host == 0 || text[host - 1] != '@') continue;
+        std::size_t begin = host - 1;
+        while (begin > 0 && is_of_name(text[begin - 1])) --begin;
+        if (!is_nobodys(squeezed(text.substr(begin, host - 1 - begin), nullptr)))
+            hits.push_back({std::string(text.substr(begin, at - begin)), NameKind::kHome, true, begin, at});
+    }
+}
+
 void SoughtNames::find_paths(std::string_view text, std::vector<NameHit>& hits) const {
-    constexpr std::string_view kRoots[] = {"/home/", "/Users/", "\\Users\\", "\\users\\"};
+    constexpr std::string_view kRoots[] = {"/home/",  "/home1/", "/home2/",   "/home3/",   "/homes/",
+                                           "/users/", "/Users/", "\\Users\\", "\\users\\", "\\home\\"};
     for (const std::string_view root : kRoots) {
         for (std::size_t at = text.find(root); at != std::string_view::npos; at = text.find(root, at + 1)) {
             const std::size_t begin = at + root.size();
@@ -241,6 +369,7 @@ void SoughtNames::find_paths(std::string_view text, std::vector<NameHit>& hits) 
                 hits.push_back({std::string(text.substr(at, end - at)), NameKind::kHome, true, at, end});
         }
     }
+    find_prompts(text, hits);
     for (const std::string& home : homes_) {
         const std::size_t at = text.find(home);
         if (at != std::string_view::npos) hits.push_back({home, NameKind::kHome, true, at, at + home.size()});
@@ -250,6 +379,9 @@ void SoughtNames::find_paths(std::string_view text, std::vector<NameHit>& hits) 
 std::vector<NameHit> SoughtNames::find(std::string_view text, TextManner manner) const {
     std::vector<NameHit> hits;
     if (people_ > 0) find_patterns(name_tokens(text), text, manner, hits);
+    for (const Reading reading : {Reading::kCamel, Reading::kLookAlike})
+        if (people_ > 0 && reads_otherwise(text, reading))
+            find_patterns(name_tokens(text, reading), text, manner, hits);
     find_addresses(text, hits);
     find_paths(text, hits);
     std::stable_sort(hits.begin(), hits.end(), [](const NameHit& a, const NameHit& b) {

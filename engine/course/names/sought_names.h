@@ -29,10 +29,14 @@ struct NameHit {
 /// A full name is found in any order and case, with or without accents and umlauts written out, hyphenated, spaced or
 /// joined, with an initial between. A surname alone counts when it has four letters and is neither an ordinary word nor
 /// a name of the field ("Park", "Young", "Laplace" count together with the given name only); with other initials before
-/// it, "et al." or a year behind it, it is that of a cited author and uncertain. Initials never count. A given name
-/// alone counts, as uncertain, for the document's own authors. A number counts from six digits on, or from five letters
-/// and digits; a shorter one when a word such as "student" or "ID" stands before it. Home folders (/home/NAME,
-/// C:\Users\NAME) count whoever's they are.
+/// it, "et al." or a year behind it, it is that of a cited author and uncertain; so it is in small letters, but not
+/// within an identifier or a path (fig_lovelace.pdf). Initials alone never count. Of the document's own authors more is
+/// looked for: given names alone (uncertain, but in an identifier or a path), two of them together ("Wu & Li", "Ada and
+/// Grace"), short names with an initial ("B. Li", "Ada L."). A number counts from six digits on, also in groups ("2021
+/// 4711") or behind the letters of an account ("s20214711"), or from five letters and digits; a shorter one when a word
+/// such as "student" or "ID" stands before it. A group's name counts with other words for a group, and without its
+/// zeros ("Group 1") as uncertain where it is not the authors' own. Home folders (/home/NAME, C:\Users\NAME, the
+/// prompt NAME@HOST:~) count whoever's they are. Letters that look like others are read as those.
 class SoughtNames {
   public:
     SoughtNames() = default;
@@ -55,11 +59,13 @@ class SoughtNames {
                        std::vector<NameHit>& hits) const;
     void find_addresses(std::string_view text, std::vector<NameHit>& hits) const;
     void find_paths(std::string_view text, std::vector<NameHit>& hits) const;
+    void find_prompts(std::string_view text, std::vector<NameHit>& hits) const;
 
     std::size_t people_ = 0;
     std::array<std::vector<NamePattern>, 256> patterns_;          ///< by the first byte of their letters
     std::vector<std::pair<std::string, std::string>> addresses_;  ///< folded, whose
     std::vector<std::string> homes_;
+    std::vector<Student> authors_;  ///< own ones
 };
 
 /// Those whom the group.toml of a student's folder names as `members`; nobody where there is none or it cannot be read.

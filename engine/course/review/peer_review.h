@@ -38,10 +38,12 @@ struct CopyRequest {
     std::filesystem::path copy;   ///< where the clean copy is to be written
     std::string pseudonym;        ///< "report-17", "reviewer-05"
     std::vector<Student> people;  ///< all of the course, with group, name, id and mail address
+    std::string group = {};       ///< whose it is
 };
 struct CopyOutcome {
     bool made = false;
-    std::vector<std::string> hits;  ///< why there is no copy: sentences with page and remedy
+    std::vector<std::string> hits;   ///< why there is no copy: sentences with page and remedy
+    std::vector<std::string> hints;  ///< where somebody may be meant; they stop nothing
 };
 /// Makes a clean copy and searches it for names; never gives one in which it found any.
 using AnonymousCopier = std::function<CopyOutcome(const CopyRequest&)>;
@@ -57,6 +59,7 @@ struct SendOutcome {
     int held = 0;                                        ///< that the instructor holds back
     std::vector<std::string> removed;  ///< files of the outbox that nobody is to get any more: taken back, withdrawn
     std::vector<std::string> hits;     ///< a line for each document that was stopped
+    std::vector<std::string> hints;    ///< a line for each that was sent and may name somebody
     std::filesystem::path folder;      ///< FOR/NAME.pdf for each receiver
 };
 /// Makes the copies that have not been made yet, or of which a newer version stands (of a report as long as its review

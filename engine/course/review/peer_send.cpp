@@ -119,6 +119,7 @@ class CopySender {
             ++outcome_.stopped;
             return;
         }
+        const std::string& author = to_reviewers() ? pair.author_name : pair.reviewer_name;
         const TemporaryFolder scratch;
         const auto under_its_name = [&](const Version& v) {  // the store's own names tell no kind
             const fs::path file = scratch.path() / fs::path(v.name).filename();
@@ -129,7 +130,8 @@ class CopySender {
                             {},
                             scratch.path() / ".copy" / "copy.pdf",
                             to_reviewers() ? pair.report_pseudonym() : pair.reviewer_pseudonym(),
-                            people_};
+                            people_,
+                            author};
         if (const auto pack = newest(course_, assignment_, group, stage, to_reviewers() ? 0 : pair.id, "pack"))
             request.pack = under_its_name(*pack);
         fs::create_directories(request.copy.parent_path());
@@ -137,11 +139,12 @@ class CopySender {
         if (!copy.made) {
             stopped_.insert(version->id);
             ++outcome_.stopped;
-            outcome_.hits.push_back(fmt::format("{} of {} was not sent: {}", part,
-                                                to_reviewers() ? pair.author_name : pair.reviewer_name,
-                                                fmt::join(copy.hits, " ")));
+            outcome_.hits.push_back(fmt::format("{} of {} was not sent: {}", part, author, fmt::join(copy.hits, " ")));
             return;
         }
+        if (!copy.hints.empty() && doubted_.insert(version->id).second)
+            outcome_.hints.push_back(
+                fmt::format("{} of {} was sent, but look at it: {}", part, author, fmt::join(copy.hints, " ")));
         record(pair, *version, read_file(request.copy));
     }
 
@@ -164,8 +167,8 @@ class CopySender {
     Instant now_;
     const AnonymousCopier& copier_;
     std::vector<Student> people_;
-    std::set<std::int64_t> stopped_;  ///< versions
-    std::set<fs::path> kept_;         ///< what is to lie in the outbox
+    std::set<std::int64_t> stopped_, doubted_;  ///< versions
+    std::set<fs::path> kept_;                   ///< what is to lie in the outbox
     SendOutcome outcome_;
 };
 

@@ -1,6 +1,7 @@
 #include "scripting/prompt/console.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -9,6 +10,7 @@
 
 #include "platform/error.h"
 #include "platform/interrupt.h"
+#include "platform/terminal/terminal_text.h"
 #include "platform/text_file.h"
 #include "scripting/prompt/line_editor.h"
 #include "scripting/prompt/prompt_session.h"
@@ -28,6 +30,12 @@ void print_now(const std::string& text) {
     std::fflush(stdout);
 }
 
+/// What a statement prints may come from a file of others; a terminal would obey it.
+void print_shown(const std::string& text) {
+    static const bool terminal = ::isatty(STDOUT_FILENO) == 1;
+    print_now(terminal ? terminal_text(text) : text);
+}
+
 void show_figures(const StatementResult& result) {
     for (const auto& file : result.figures) print_now("figure: " + file.string() + '\n');
 }
@@ -35,7 +43,7 @@ void show_figures(const StatementResult& result) {
 class Prompt {
   public:
     explicit Prompt(const std::filesystem::path& figure_folder)
-        : session_(figure_folder, print_now),
+        : session_(figure_folder, print_shown),
           history_(history_file()),
           editor_(history_, [this](const auto& line) { return session_.complete_end(pending_ + line); }) {}
 
@@ -98,7 +106,8 @@ class Prompt {
     }
 
     void show_error(const std::string& message) const {
-        print_now(in_colour_ ? "\033[31m" + message + "\033[0m\n" : message + '\n');
+        const std::string shown = terminal_text(message);
+        print_now(in_colour_ ? "\033[31m" + shown + "\033[0m\n" : shown + '\n');
     }
 
     static bool takes_colour() {

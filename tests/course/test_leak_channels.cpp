@@ -1,0 +1,150 @@
+// Names in places of a PDF that no reader of its text meets. Oracle: what was put where (ISO 32000-1; ITU-T T.81).
+#include <gmock/gmock.h>
+
+#include "course/names/anonymous_copy.h"
+#include "course/names/jpeg_parts.h"
+#include "leak_corpus.h"
+
+namespace dynlab {
+namespace test_leak_channels {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+class leak_channels : public LeakCorpus {
+  protected:
+    static constexpr const char* kHello = "BT /F1 12 Tf 72 700 Td (The gain is known) Tj ET\n";
+    static constexpr const char* kPlainFont = "<</Type/Font/Subtype/Type1/BaseFont/Helvetica>>";
+
+    /// One page of this content, with a font F1 and a form that is not shown.
+    std::vector<std::string> found_in(const std::string& content, const std::string& font = kPlainFont,
+                                      const std::string& form = "0 0 m 9 9 l S") {
+        write("own.pdf",
+              pdf_of({"<</Type/Catalog/Pages 2 0 R>>", "<</Type/Pages/Kids[3 0 R]/Count 1>>",
+                      "<</Type/Page/Parent 2 0 R/MediaBox[0 0 595 842]/Contents 4 0 R/Resources<</Font<</F1 "
+                      "5 0 R>>/XObject<</X0 6 0 R>>>>>>",
+                      stream_of(content), font, stream_of(form, "/Type/XObject/Subtype/Form/BBox[0 0 9 9]")}));
+        return found(file("own.pdf"));
+    }
+};
+
+TEST_F(leak_channels, an_honest_page_raises_no_alarm) {
+    EXPECT_THAT(found_in(kHello), IsEmpty());
+    EXPECT_THAT(found_in(kHello, kPlainFont, "/CS0 cs 1 scn % of Park and Young\n0 0 m 9 9 l S"), IsEmpty());
+    EXPECT_THAT(found_in(std::string("% made by cairo 1.16\n/Span BMC ") + kHello + "EMC /Artifact MP"), IsEmpty());
+}
+
+TEST_F(leak_channels, comments_names_and_strange_words_in_content) {
+    for (const char* said : {"% by Zoe Brandtner\n", "% brandtner\n", "% /home/somebody/crane.pdf\n",
+                             "/Zoe_Brandtner BMC EMC\n", "/Author /ZoeBrandtner DP\n", "/Brandtner MP\n",
+                             "BX Brandtner_Z EX\n", "BI /W 4 /H 4 /BPC 8 /CS /G ID Zoe BrandtnerXX EI\n"}) {
+        EXPECT_THAT(found_in(kHello + std::string(said)), ElementsAre("name-hidden 1")) << said;
+        EXPECT_THAT(found_in(std::string(said) + kHello), ElementsAre("name-hidden 1")) << said;
+    }
+}
+
+TEST_F(leak_channels, forms_that_are_not_shown) {
+    const std::string text = "BT /F1 9 Tf (by Zoe Brandtner) Tj ET";
+    EXPECT_THAT(found_in(kHello, kPlainFont, text), ElementsAre("name-hidden 1"));
+    EXPECT_THAT(found_in(kHello, kPlainFont, "%\xE2\xE3\xCF\xD3\x01\x02\x03\x04\x80\x81\n" + text),
+                ElementsAre("name-hidden 1"));
+    EXPECT_THAT(found_in(kHello, kPlainFont, "0 0 m % Zoe Brandtner\n9 9 l S"), ElementsAre("name-inside 1"));
+    EXPECT_THAT(found_in(kHello, kPlainFont, "0 0 m % Li Wu\n9 9 l S"), ElementsAre("name-inside 1"));
+    EXPECT_THAT(found_in(kHello, kPlainFont, "0 0 m % Brandtner\n9 9 l S"), ElementsAre("name-inside 1"));
+}
+
+TEST_F(leak_channels, slanted_text_in_codes_of_a_subset) {
+    const std::string font =
+        "<</Type/Font/Subtype/Type1/BaseFont/ABCDEF+Helvetica/FirstChar 1/LastChar 8/Encoding<</Type/Encoding"
+        "/Differences[1/B/r/a/n/d/t/e/space]>>>>";
+    const std::string slanted = "BT /F1 12 Tf 0.94 0.34 -0.34 0.94 200 400 Tm <010203040506040702> Tj ET";
+    EXPECT_THAT(found_in(slanted, font), Contains("name-hidden 1"));
+    EXPECT_THAT(found_in("BT /F1 12 Tf 0.94 0.34 -0.34 0.94 200 400 Tm <0102030405> Tj ET", font), IsEmpty());
+}
+
+TEST_F(leak_channels, fonts_that_tell_no_letters_are_told) {
+    const std::string inner =
+        "/DescendantFonts[<</Type/Font/Subtype/CIDFontType2/BaseFont/Own/CIDSystemInfo<</Registry(Adobe)"
+        "/Ordering(Identity)/Supplement 0>>>>]";
+    EXPECT_THAT(found_in("BT /F1 12 Tf 72 700 Td <00240025> Tj ET",
+                         "<</Type/Font/Subtype/Type0/BaseFont/Own/Encoding/Identity-H" + inner + ">>"),
+                ElementsAre("not-searched 0"));
+    const auto drawn = [](const std::string& names) {
+        return "<</Type/Font/Subtype/Type3/FontBBox[0 0 9 9]/FontMatrix[.1 0 0 .1 0 0]/FirstChar 1/LastChar 2"
+               "/Widths[9 9]/CharProcs<<>>/Encoding<</Type/Encoding/Differences[1" +
+               names + "]>>>>";
+    };
+    EXPECT_THAT(found_in("BT /F1 12 Tf 72 700 Td <0102> Tj ET", drawn("/g31/g32")), ElementsAre("not-searched 0"));
+    EXPECT_THAT(found_in("BT /F1 12 Tf 72 700 Td <0102> Tj ET", drawn("/A/eacute")), IsEmpty());
+}
+
+TEST_F(leak_channels, names_of_fonts_and_soft_hyphens) {
+    EXPECT_THAT(found_in(kHello, "<</Type/Font/Subtype/Type1/BaseFont/ZoeBrandtnerHand>>"), Contains("name-inside 1"));
+    const std::string latin =
+        "<</Type/Font/Subtype/Type1/BaseFont/Helvetica/Encoding<</Type/Encoding/BaseEncoding/WinAnsiEncoding"
+        "/Differences[173/uni00AD]>>>>";
+    EXPECT_THAT(found_in("BT /F1 12 Tf 14 TL 72 700 Td (as by Brandt\\255) Tj T* (ner in the text) Tj ET", latin),
+                ElementsAre("name-in-text 1"));
+}
+
+std::string segment(unsigned char kind, const std::string& content) {
+    const std::size_t length = content.size() + 2;
+    return std::string("\xFF") + static_cast<char>(kind) + static_cast<char>(length >> 8) +
+           static_cast<char>(length & 0xFF) + content;
+}
+
+TEST_F(leak_channels, of_a_jpeg_only_the_first_picture_stays) {
+    run({"gnuplot", "-e", "set terminal jpeg size 80,60; set output 'plain.jpg'; plot x"});
+    const std::string plain = read(file("plain.jpg"));
+    const std::string picture = parts_of_jpeg(plain).picture, name = "by Zoe Brandtner";
+    ASSERT_TRUE(picture.starts_with("\xFF\xD8") && picture.ends_with("\xFF\xD9"));
+    EXPECT_EQ(parts_of_jpeg(picture).picture, picture);
+    const std::string body = plain.substr(2), end = "\xFF\xD9";
+    const std::string open = plain.substr(0, plain.size() - 2);
+    ASSERT_TRUE(plain.ends_with(end));
+    const std::map<std::string, std::string> cases = {
+        {"behind the scan", open + segment(0xFE, name) + end},
+        {"behind fill bytes", "\xFF\xD8\xFF\xFF\xFF" + segment(0xFE, name) + body},
+        {"fill bytes behind the scan", open + "\xFF\xFF" + segment(0xE1, name) + end},
+        {"a second picture", plain + "\xFF\xD8" + segment(0xFE, name) + body},
+        {"behind the end, and another end", plain + name + end},
+        {"a reserved segment", "\xFF\xD8" + segment(0xF0, name) + body},
+        {"between segments", "\xFF\xD8" + name + body},
+        {"behind the tables",
+         "\xFF\xD8" + segment(0xDB, std::string(1, '\x01') + std::string(64, '\x01') + name) + body}};
+    for (const auto& [where, bytes] : cases) {
+        const JpegParts parts = parts_of_jpeg(bytes);
+        EXPECT_THAT(parts.picture, Not(HasSubstr("Brandtner"))) << where;
+        EXPECT_THAT(parts.words + parts.tables, HasSubstr(name)) << where;
+        if (where != "behind the tables") {
+            EXPECT_EQ(parts.picture, picture) << where;
+        }
+    }
+    const std::string table =
+        "\xFF\xD8" + segment(0xDB, '\x03' + std::string("Zoe Brandtner ") + std::string(50, ' ')) + body;
+    EXPECT_THAT(parts_of_jpeg(table).tables, HasSubstr("Zoe Brandtner")) << "as a table that is not used";
+    for (const std::string bad :
+         {"\xFF\xD8", "\xFF\xD8\xFF", "\xFF\xD8\xFF\xDA", "\xFF\xD8\xFF\xFE\xFF\xFF", "\xFF\xD8xx"})
+        EXPECT_EQ(parts_of_jpeg(bad).picture.substr(0, 2), "\xFF\xD8");
+}
+
+// Oracle: the page as pdftoppm draws it, before and after.
+TEST_F(leak_channels, a_cleaned_photograph_looks_as_before) {
+    run({"gnuplot", "-e", "set terminal jpeg size 80,60; set output 'plain.jpg'; plot x"});
+    const std::string plain = read(file("plain.jpg"));
+    write("plain.jpg", plain.substr(0, plain.size() - 2) + segment(0xFE, "by Zoe Brandtner") + "\xFF\xD9");
+    const auto own = latex("\\usepackage{graphicx}\n", std::string(kProse) + "\\includegraphics{plain.jpg}");
+    EXPECT_THAT(found(own), ElementsAre("name-in-image 1"));
+    AnonymousCopySetup setup;
+    setup.names = *names_;
+    const AnonymousCopy copy = anonymous_copy(own, file("copy.pdf"), setup);
+    ASSERT_TRUE(copy.made) << copy.trouble;
+    for (const char* name : {"own", "copy"}) run({"pdftoppm", "-r", "50", std::string(name) + ".pdf", name});
+    EXPECT_EQ(read(file("own-1.ppm")), read(file("copy-1.ppm")));
+}
+
+}  // namespace test_leak_channels
+}  // namespace dynlab

@@ -1,0 +1,152 @@
+// How people write names, numbers, groups and folders, and what only looks like them. Oracle: who is meant.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "course/names/sought_names.h"
+
+namespace dynlab {
+namespace test_name_forms {
+
+Student known(const char* id, const char* name, const char* group, const char* mail = "") {
+    Student student;
+    student.id = id;
+    student.name = name;
+    student.group = group;
+    student.mail = mail;
+    return student;
+}
+
+/// The authors Lovelace, Li and Wu of group-01, and others of their course.
+SoughtNames course() {
+    SoughtNames names;
+    names.add(known("20214711", "Ada Lovelace", "group-01", "ada.l@uni.example"), true);
+    names.add(known("20214712", "Bo Li", "group-01"), true);
+    names.add(known("20214713", "Meiling Wu", "group-01"), true);
+    names.add(known("20215000", "Grace Brewster Hopper", "group-02"));
+    names.add(known("20215001", "Renée Müller-Lüdenscheid", "group-11"));
+    names.add(known("20215002", "Mark Young", "group-12"));
+    names.add(known("20215003", "Сергей Новиков", "group-12"));
+    return names;
+}
+
+std::string found(const SoughtNames& names, const std::string& text, TextManner manner = TextManner::kProse) {
+    std::string result;
+    for (const NameHit& hit : names.find(text, manner))
+        result += (result.empty() ? "" : ", ") + hit.who + (hit.certain ? "" : "?");
+    return result;
+}
+
+void expect_certain(const std::vector<std::string>& texts, TextManner manner = TextManner::kProse) {
+    const SoughtNames names = course();
+    for (const std::string& text : texts) {
+        const auto hits = names.find(text, manner);
+        EXPECT_TRUE(std::any_of(hits.begin(), hits.end(), [](const NameHit& hit) { return hit.certain; }))
+            << text << ": " << found(names, text, manner);
+    }
+}
+
+void expect_hint(const std::vector<std::string>& texts) {
+    const SoughtNames names = course();
+    for (const std::string& text : texts) {
+        const auto hits = names.find(text, TextManner::kProse);
+        EXPECT_FALSE(hits.empty()) << text;
+        for (const NameHit& hit : hits) EXPECT_FALSE(hit.certain) << text << ": " << hit.who;
+    }
+}
+
+TEST(name_forms, numbers_of_accounts_and_in_groups) {
+    expect_certain({"see s20214711 for it", "SN20214711", "st20214711@uni.example", "u20214711.github.io",
+                    "student20214711", "2021 4711", "2021-4711", "2021/4711", "number 20 214 711", "(s20214711)"});
+}
+
+TEST(name_forms, groups_in_other_words) {
+    expect_certain({"by Group 1 of the course", "group1.pdf", "Group #1", "by team 01", "Team 1", "G01", "groupe 01",
+                    "Gruppe 1", "GROUP-1", "group_1"});
+    expect_hint({"as Group 2 did", "group2.csv", "Team 12"});
+}
+
+TEST(name_forms, surnames_in_small_letters_and_identifiers) {
+    expect_certain({"fig_lovelace.pdf", "lovelace_hopper", "crane_lovelace2", "a.lovelace", "LovelaceHopper",
+                    "author = lovelace", "plotHopper(x)", "/work/hopper/crane", "hopper@laptop", "data_hopper = 3"});
+    expect_hint({"the hopper of the mill"});
+}
+
+TEST(name_forms, short_names_with_initials_and_together) {
+    expect_certain({"B. Li made the figures", "Wu, M.", "by Wu & Li", "Li and Wu", "Ada and Bo", "Ada L. and Bo",
+                    "Bo et Meiling", "Lovelace & Wu", "Ada L. wrote it"});
+}
+
+TEST(name_forms, halves_plurals_and_second_initials) {
+    expect_certain({"Renee Mueller", "Renée Müller", "Luedenscheid, Renee", "the Lovelaces' work", "Hoppers report",
+                    "Dr. G. M. Hopper", "G. M. Hopper", "\u00A9 Lovelace 2026", "(c) Hopper 2026"});
+    expect_hint({"P. M. Hopper", "Hopper (2008)", "Lovelace, P.", "Hopper et al.", "R. Lovelace, 1999"});
+}
+
+TEST(name_forms, folders_and_prompts) {
+    expect_certain({"D:\\ada\\work", "\\\\server\\ada$", "~ada/crane", "ada@laptop:~$ dynlab", "/export/home2/ada",
+                    "someone@pc-17:~/x$", "\\\\server\\home\\someone\\x"});
+    expect_certain({"/home2/someone"}, TextManner::kData);
+}
+
+TEST(name_forms, letters_that_look_like_others) {
+    expect_certain({"by L\u043Evel\u0430ce",                             // Cyrillic o and a
+                    "\u041D\u043Epper",                                  // Cyrillic capital En, o
+                    "L\u03BFvelace",                                     // Greek omicron
+                    "\u029F\u1D0F\u1D20\u1D07\u029F\u1D00\u1D04\u1D07",  // small capitals
+                    "\u1D38\u1D52\u1D5B\u1D49\u02E1\u1D43\u1D9C\u1D49",  // raised letters
+                    "L\uFE0Fove\u2061lace", "Love\u180Elace", "Lo\u202Cvelace", "\u24C1ovelace"});
+    expect_certain({"НОВИКОВ", "Новиков", "новиков Сергей"});
+}
+
+TEST(name_forms, broken_and_spaced) {
+    expect_certain({"Love\u00AD\nlace", "Love-\nlace", "Lo ve la ce", "L O V E L A C E", "Love\u00ADlace"});
+}
+
+TEST(name_forms, in_bytes) {
+    expect_certain({"xx Bo Li yy", "AdaLovelaceHand", "by Ada Lovelace"}, TextManner::kBytes);
+    const SoughtNames names = course();
+    EXPECT_EQ(found(names, "ABCDEF+Hopper-Bold", TextManner::kBytes), "Grace Brewster Hopper?");
+    EXPECT_EQ(found(names, "boli bo li hopper", TextManner::kBytes), "");
+}
+
+// Oracle: nobody of the course is meant.
+TEST(name_forms, what_only_looks_like_them) {
+    const SoughtNames names = course();
+    for (const char* text : {"0x20214711",
+                             "120214711",
+                             "20214711.5",
+                             "the year 2021 and 4711 samples",
+                             "2021, 4711",
+                             "2021.4711",
+                             "2021\n4711",
+                             "see group 1 of the gains",
+
+                             "G11 and G12 of the plant",
+                             "G02 = tf(s)",
+                             "The vector u and Li are variables",
+                             "adapted",
+                             "the Adam method",
+                             "Adagio",
+                             "wu = 3",
+                             "ada-ptive",
+                             "boli",
+                             "In bold, limits",
+                             "an ion, a cation",
+                             "mark, young crane",
+                             "Young's filter",
+                             "a hop per step",
+
+                             "the Love of lace",
+                             "\u03B1 and \u03C9 of the \u03BBovel",
+                             "f:~x",
+                             "at 3:~ 5",
+                             "Meilings",
+                             "W. U. and L. I. are initials",
+                             "x = lo * ve",
+                             "Wu and other Li-like signs",
+                             "move la ce lo"})
+        EXPECT_EQ(found(names, text), "") << text;
+}
+
+}  // namespace test_name_forms
+}  // namespace dynlab

@@ -1,0 +1,34 @@
+// Archives that are handed in, in a guarded copy as unpacking confines its process: nothing comes to lie beside the
+// folder they are unpacked to, and no more than is allowed in it.
+#include "course/grading/unpack.h"
+#include "fuzz/fuzz_input.h"
+#include "platform/guarded_call.h"
+
+using namespace dynlab;
+
+namespace fs = std::filesystem;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    constexpr std::uint64_t kMostBytes = 1u << 20;
+    constexpr int kMostFiles = 50;
+    const fs::path place = fuzz::work_folder() / "place", to = place / "to";
+    fs::remove_all(place);
+    fs::create_directories(to);
+    UnpackJob job;
+    job.archive = fuzz::file_of(fuzz::text_of(data, size), "input.zip");
+    job.to = to;
+    job.bytes = kMostBytes;
+    job.files = kMostFiles;
+    const ChildResult child = run_guarded([&job] { return unpack_archive(job), std::string("done"); }, {});
+    fuzz::demand(child.exit_code == 0 || child.exit_code == 1 || child.timed_out);
+    fuzz::demand(std::distance(fs::directory_iterator(place), fs::directory_iterator()) == 1);
+    std::uint64_t bytes = 0;
+    int files = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(to)) {
+        fuzz::demand(!entry.is_symlink() && (entry.is_directory() || entry.is_regular_file()));
+        files += entry.is_regular_file();
+        bytes += entry.is_regular_file() ? entry.file_size() : 0;
+    }
+    fuzz::demand(files <= kMostFiles && bytes <= 2 * kMostBytes);
+    return 0;
+}
