@@ -302,10 +302,11 @@ end
 local function printed_value(text)
   local mantissa, exponent = text:match("^(%-?%d+%.?%d*)[eE]([%+%-]?%d+)$")
   if mantissa then
-    return pandoc.Math("InlineMath", ("%s \\cdot 10^{%d}"):format(mantissa, math.tointeger(tonumber(exponent))))
+    return pandoc.Math("InlineMath", ("%s \\cdot 10^{%d}"):format(layout:mathematical_number(mantissa),
+                                                                  math.tointeger(tonumber(exponent))))
   end
-  if text:match("^%-%d+%.?%d*$") then return pandoc.Math("InlineMath", text) end
-  return pandoc.Str(text)
+  if text:match("^%-%d+%.?%d*$") then return pandoc.Math("InlineMath", layout:mathematical_number(text)) end
+  return pandoc.Str(layout:number(text))
 end
 
 local function code(element)
@@ -413,7 +414,34 @@ local function expand(element)
   if element.classes[1] == "text" and #element.classes == 1 then return text_slot(element) end
 end
 
-local function finished(document) return document:walk(check):walk(fill):walk { Cite = references } end
+local units = {}
+for unit in ("m cm mm µm km s ms µs min h Hz kHz V mV A mA N mN kN kg g rad mrad rad/s m/s mm/s cm/s m/s² rad/s² ° °C K W J Ω dB % " ..
+             "V/m N/m N/A N·m 1/s W/K bar Pa kPa"):gmatch("%S+") do units[unit] = true end
+
+local function ends_in_number(element)
+  return (element.t == "Str" or element.t == "Math" and element.mathtype == "InlineMath") and element.text:match("%d$") ~= nil
+end
+
+local function begins_with_unit(element)
+  return element.t == "Str" and units[element.text:gsub("[.,;:!?)]+$", "") .. ""] ~= nil
+end
+
+-- Between a number and its unit stands a thin space at which no line ends.
+local function keep_units(inlines)
+  for i = 2, #inlines - 1 do
+    local between = inlines[i].t
+    if (between == "Space" or between == "SoftBreak") and ends_in_number(inlines[i - 1]) and begins_with_unit(inlines[i + 1]) then
+      inlines[i] = pandoc.Str("\u{202F}")
+    end
+  end
+  return inlines
+end
+
+local function finished(document)
+  local filled = document:walk(check):walk(fill)
+  if slots.format ~= "markdown" then filled = filled:walk { Inlines = keep_units } end
+  return filled:walk { Cite = references }
+end
 
 function Pandoc(document)
   for key, markdown in pairs(slots.metadata) do

@@ -27,6 +27,17 @@ function layout:name_with_number(kind, number)
   return self.words[kind] .. no_break_space .. number
 end
 
+-- French writes decimals behind a comma: in texts that are numbers, with or without an error, a unit or a percent sign.
+function layout:number(text)
+  if self.words ~= words.fr or not text:find("^[%s±−+%-(]*%d[%d.eE+%-±−%s%%()]*%a*/?%a*$") then return text end
+  return (text:gsub("(%d)%.(%d)", "%1,%2"))
+end
+
+-- In a formula a comma between braces is no punctuation.
+function layout:mathematical_number(text)
+  return self.words == words.fr and text:gsub("%.", "{,}") or text
+end
+
 -- "Figure 1." before the caption, the same in every format: LaTeX's own counters are not used.
 function layout:numbered_caption(kind, number, caption)
   local start = { pandoc.Strong { pandoc.Str(self:name_with_number(kind, number) .. (#caption > 0 and "." or "")) } }
@@ -354,6 +365,7 @@ function layout:table(data, caption)
   local function cell(text, is_numeric)
     if text == "" then return {} end
     if is_numeric and self.format ~= "markdown" then text = text:gsub("^%-(%d)", "\u{2212}%1") end
+    text = self:number(text)
     if self.format == "html" and not is_numeric and is_number_like(text) then
       return { pandoc.Plain { pandoc.Span({ pandoc.Str(text) }, { class = "number" }) } }
     end

@@ -16,8 +16,31 @@ using testing::Not;
 TEST_F(slots, a_value_is_plain_text_never_markdown) {
     record_.values["fit"] = {93.2, "93.2"};
     record_.values["odd"] = {std::nullopt, "a*b* $x$ <b> `c` [d](e) \"]]\\n"};
-    EXPECT_THAT(html("The fit is `fit`{.value} %.\n"), HasSubstr("The fit is 93.2 %."));
+    EXPECT_THAT(html("The fit is `fit`{.value} %.\n"), HasSubstr("The fit is 93.2\u202F%."));
     EXPECT_THAT(html("`odd`{.value}\n"), HasSubstr("a*b* $x$ &lt;b&gt; `c` [d](e) \"]]\\n"));
+}
+
+TEST_F(slots, a_number_and_its_unit_stay_on_one_line) {
+    record_.values["gain"] = {60.5, "60.5"};
+    EXPECT_THAT(html("Of `gain`{.value} mm/s, 5\nms; in 2 steps.\n"),
+                HasSubstr("Of 60.5\u202Fmm/s, 5\u202Fms; in 2 steps."));
+}
+
+TEST_F(slots, french_numbers_have_a_comma_and_names_keep_their_point) {
+    record_.values["fit"] = {93.2, "93.2"};
+    record_.values["low"] = {-0.5, "-0.5"};
+    record_.values["name"] = {std::nullopt, "version 1.2 of it"};
+    record_.tables["models"] = {{"Modèle", "Fit"}, {{"P1.5 x", "17.5 ± 0.4"}, {"P2", "-7.25"}}};
+    const std::string body =
+        "---\nContre `fit`{.value}, `low`{.value}, `name`{.value}.\n\n::: {.table name=models}\n:::\n";
+    const std::string text = html("---\nlang: fr\n" + body);
+    EXPECT_THAT(text, HasSubstr("Contre 93,2, "));
+    EXPECT_THAT(text, HasSubstr("-0{,}5")) << "a decimal comma of TeX";
+    EXPECT_THAT(text, HasSubstr("version 1.2 of it"));
+    EXPECT_THAT(text, HasSubstr(">P1.5 x<"));
+    EXPECT_THAT(text, HasSubstr(">17,5 ± 0,4<"));
+    EXPECT_THAT(text, HasSubstr(">−7,25<"));
+    EXPECT_THAT(html("---\nlang: en\n" + body), HasSubstr(">17.5 ± 0.4<"));
 }
 
 TEST_F(slots, a_table_has_its_caption_and_numbers_to_the_right) {
