@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "course/course_bench.h"
 #include "course/grading_bench.h"
 #include "course/hand_ins/owners.h"
 
@@ -234,6 +235,22 @@ TEST(hand_in_names, the_instructors_list_goes_before_names) {
             EXPECT_THAT(error.what(), HasSubstr(told));
         }
     }
+}
+
+// oracle: the groups that are meant
+TEST(hand_in_names, a_course_takes_files_by_the_same_names) {
+    CourseBench bench(4);
+    const Workbench& work = bench.bench();
+    const std::vector<std::string> places = {"Group 1/report.pdf",
+                                             "Default group-STUDENT 2_77_assignsubmission_file_/r.pdf",
+                                             "3student_LATE_78_901_report.pdf", "team_04-lab report.pdf"};
+    for (std::size_t i = 0; i < places.size(); ++i) work.write("in/" + places[i], small_pdf(std::to_string(i)));
+    work.write("in/group-77/report.pdf", small_pdf("of nobody"));
+    const ChildResult taken =
+        bench.course({"receive", "in", "--at", "2026-03-01 10:00", "--isolation", CourseBench::level()});
+    EXPECT_THAT(taken.output, HasSubstr("4 files taken, 0 late"));
+    for (int i = 1; i <= 4; ++i) EXPECT_THAT(taken.output, HasSubstr(CourseBench::group(i)));
+    EXPECT_THAT(taken.error_output, HasSubstr("no group and no student of the course is called \"group-77\""));
 }
 
 }  // namespace test_hand_in_names
