@@ -25,6 +25,11 @@ TEST(handing_back, gives_platforms_what_they_import) {
                "id,name,email,moodle,canvas\n1,Anna Lovelace,anna@u.example,,\n2,Zoë K,,900002,\n"
                "3,Rudolf Kalman,rk@u.example,,31\n4,Nobody Here,,,\n");
     bench.grade({"--roster", "roster.csv"});
+    const auto summary = nlohmann::json::parse(work.read("out/summary.json"));
+    EXPECT_EQ(summary.at("works"), 3);
+    EXPECT_EQ(summary.at("checks").at(0).at("passed"), 2);
+    EXPECT_EQ(summary.at("checks").at(0).at("mistakes").at(0).at("count"), 1);
+    EXPECT_THAT(work.read("out/summary.md"), HasSubstr("None that was made twice."));
     const ChildResult back =
         work.dynlab({"hand-back", "out", "--roster", "roster.csv", "--assignment", "Lab 4 (1234)"});
     EXPECT_EQ(back.output,

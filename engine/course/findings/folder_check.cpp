@@ -232,7 +232,7 @@ class FolderCheck {
         result_.checked.push_back(fmt::format("checks of lesson {}: {} of {} points", lesson->slug,
                                               points_text(grade.earned()), points_text(grade.possible())));
         for (const CheckGrade& check : grade.checks) {
-            if (check.earned >= check.points) continue;
+            if (check.by_hand || check.earned >= check.points) continue;
             add("check-failed", Severity::kHint, "",
                 fmt::format("{}: {} of {} points. {}", check.about, points_text(check.earned),
                             points_text(check.points), check.message),
