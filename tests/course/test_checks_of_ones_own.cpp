@@ -9,7 +9,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 constexpr const char* kAnswers = "--   x: number\n--   v: vector\n";
-constexpr const char* kSolution = "answer('x', 42)\nanswer('v', {1, 2})\n";
+constexpr const char* kSolution = "answer('x', 42)\nanswer('v', vector{1, 2})\n";
 constexpr const char* kChecks =
     "check{id = 'x', points = 2, test = function(a) return near(a.x, 42) end}\n"
     "check{id = 'v', points = 3, test = function(a) return near(a.v, {1, 2}) end}\n";
@@ -24,10 +24,10 @@ std::string said(const nlohmann::json& result, std::size_t check) {
 // oracle: the points of the answers that are right
 TEST(checks_of_ones_own, an_answer_that_cannot_be_taken_costs_no_other) {
     GradingBench bench(kAnswers, kChecks, kSolution);
-    bench.hand_in("kind", "answer('x', {42})\nanswer('v', {1, 2})\n");
-    bench.hand_in("twice", "answer('x', 42)\nanswer('x', 42)\nanswer('v', {1, 2})\n");
-    bench.hand_in("name", "answer('xx', 42)\nanswer('v', {1, 2})\n");
-    bench.hand_in("function", "answer('x', print)\nanswer('v', {1, 2})\n");
+    bench.hand_in("kind", "answer('x', {42})\nanswer('v', vector{1, 2})\n");
+    bench.hand_in("twice", "answer('x', 42)\nanswer('x', 42)\nanswer('v', vector{1, 2})\n");
+    bench.hand_in("name", "answer('xx', 42)\nanswer('v', vector{1, 2})\n");
+    bench.hand_in("function", "answer('x', print)\nanswer('v', vector{1, 2})\n");
     ASSERT_EQ(bench.grade().exit_code, 0);
     for (const char* name : {"kind", "twice", "name", "function"}) {
         const auto result = bench.result(name);
@@ -37,8 +37,7 @@ TEST(checks_of_ones_own, an_answer_that_cannot_be_taken_costs_no_other) {
     }
     EXPECT_EQ(said(bench.result("kind"), 0), "The answer \"x\" must be of the kind number, but a table was given.");
     EXPECT_EQ(said(bench.result("twice"), 0), "The answer \"x\" was given already.");
-    EXPECT_EQ(said(bench.result("name"), 0),
-              "The answer \"x\" was not handed in; \"xx\" was, which the lesson does not ask for.");
+    EXPECT_EQ(said(bench.result("name"), 0), "The answer \"x\" was not handed in.");
     // Outside of grading the script's writer is told at once.
     bench.bench().write("own.lua", GradingBench::header(kAnswers) + "answer('x', {42})\n");
     EXPECT_EQ(bench.bench().dynlab({"run", "own.lua"}).exit_code, 1);
@@ -145,7 +144,7 @@ TEST(checks_of_ones_own, rerun_on_records_in_files) {
     EXPECT_EQ(bench.result("types").at("score"), 2);
     // Another record is another class: nothing that was made with the old one is kept.
     bench.bench().write("own/rerun/rc.csv", "u,y\n1,5\n2,10\n3,15\n");
-    EXPECT_THAT(bench.grade({"--checks", "own"}).output, HasSubstr("2 graded now"));
+    EXPECT_THAT(bench.grade({"--checks", "own", "--again"}).output, HasSubstr("2 graded now"));
 }
 
 // oracle: the law by which the rig in the file makes its records
@@ -176,7 +175,7 @@ TEST(checks_of_ones_own, mistakes_in_them_are_told_with_file_and_line) {
     bench.hand_in("a", kSolution);
     const auto complaint = [&](const std::string& check) {
         bench.bench().write("own/mine.lua", check);
-        return bench.grade({"--checks", "own"}).error_output;
+        return bench.grade({"--checks", "own", "--again"}).error_output;
     };
     EXPECT_THAT(complaint("\n\ncheck{id = 'y', test = function(a)\n  return nothing.at.all end}\n"),
                 HasSubstr("mine.lua:4"));
@@ -187,7 +186,7 @@ TEST(checks_of_ones_own, mistakes_in_them_are_told_with_file_and_line) {
     EXPECT_THAT(complaint("check{id = 'y', by_hand = true, test = function() end}\n"), HasSubstr("is marked by hand"));
     EXPECT_THAT(complaint("check{id = 'y', rubric = 'x', test = function() end}\n"), HasSubstr("by_hand = true"));
     std::filesystem::remove(bench.bench().path("own/mine.lua"));
-    EXPECT_THAT(bench.grade({"--checks", "own"}).error_output, HasSubstr("there is no file *.lua in it"));
+    EXPECT_THAT(bench.grade({"--checks", "own", "--again"}).error_output, HasSubstr("there is no file *.lua in it"));
 }
 
 // oracle: the checks' definition: 'x' bears no change of x, 'always' none at all, 'loose' every one
@@ -198,8 +197,8 @@ TEST(checks_of_ones_own, are_tried_on_what_is_known_to_be_right_or_wrong) {
     work.write("own/mine.lua",
                "check{id = 'loose', test = function(a) return true end}\n"
                "check{id = 'essay', by_hand = true}\n");
-    work.write("own/try/half_right.lua", "answer('x', 42)\nanswer('v', {2, 4})\n");
-    work.write("home/lessons/99_small/wrong_sign.lua", "answer('x', -42)\nanswer('v', {1, 2})\n");
+    work.write("own/try/half_right.lua", "answer('x', 42)\nanswer('v', vector{2, 4})\n");
+    work.write("home/lessons/99_small/wrong_sign.lua", "answer('x', -42)\nanswer('v', vector{1, 2})\n");
     const ChildResult tried = work.dynlab({"checks", "try", "own", "--lesson", "99"});
     EXPECT_EQ(tried.exit_code, 0) << tried.error_output;
     for (const char* line :
