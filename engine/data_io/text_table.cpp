@@ -8,7 +8,7 @@
 
 #include "data_io/tables/number_cell.h"
 #include "platform/error.h"
-#include "platform/foreign_text.h"
+#include "platform/text/foreign_text.h"
 #include "platform/text_file.h"
 
 namespace dynlab::inline data_io {

@@ -171,7 +171,9 @@ TEST(peer_review, tells_a_whole_course) {
         bench.shell("DYNLAB=$DYNLAB " + std::string(DYNLAB_SOURCE_DIR) + "/scripts/course_demo story");
     EXPECT_EQ(told.exit_code, 0) << told.output << told.error_output;
     EXPECT_THAT(told.output, HasSubstr("12 groups: 11 handed in, 1 late, 1 missing."));
-    EXPECT_THAT(told.output, HasSubstr("12 groups: 11 handed in; 0 reviews to come; 8 final versions."));  // both late ones corrected
+    EXPECT_THAT(
+        told.output,
+        HasSubstr("12 groups: 11 handed in; 0 reviews to come; 8 final versions."));  // both late ones corrected
     EXPECT_THAT(told.output, HasSubstr("report of group-08 was not sent: page 1: The mail address"));
     EXPECT_THAT(told.output, HasSubstr("20 sent now, 0 before, 2 stopped, 0 not come yet"));
     EXPECT_THAT(told.output, HasSubstr("2 sent now, 20 before, 0 stopped, 0 not come yet"));

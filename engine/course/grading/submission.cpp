@@ -12,7 +12,7 @@
 #include "course/grading/job_descriptions.h"
 #include "course/hand_ins/owners.h"
 #include "platform/error.h"
-#include "platform/foreign_text.h"
+#include "platform/text/foreign_text.h"
 #include "platform/text_file.h"
 
 namespace dynlab::inline course {

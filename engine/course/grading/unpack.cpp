@@ -11,7 +11,7 @@
 #include <memory>
 
 #include "platform/confinement.h"
-#include "platform/foreign_text.h"
+#include "platform/text/foreign_text.h"
 #include "platform/utf8_locale.h"
 
 namespace dynlab::inline course {

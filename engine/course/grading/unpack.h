@@ -24,7 +24,7 @@ struct UnpackJob {
 };
 
 /// Unpacks it in this process, which should be in a box and is confined here. Only files and folders come out, below
-/// `to`; rights are not kept. Names become UTF-8, read as platform/foreign_text.h tells where they are not.
+/// `to`; rights are not kept. Names become UTF-8, read as platform/text/foreign_text.h tells where they are not.
 Unpacked unpack_archive(const UnpackJob& job);
 
 }  // namespace dynlab::inline course

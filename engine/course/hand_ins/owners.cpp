@@ -7,7 +7,7 @@
 
 #include "data_io/text_table.h"
 #include "platform/error.h"
-#include "platform/foreign_text.h"
+#include "platform/text/foreign_text.h"
 #include "platform/utf8.h"
 
 namespace dynlab::inline course {

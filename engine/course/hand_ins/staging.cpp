@@ -8,7 +8,7 @@
 
 #include "course/grading/folder_copy.h"
 #include "course/hand_ins/owners.h"
-#include "platform/foreign_text.h"
+#include "platform/text/foreign_text.h"
 
 namespace dynlab::inline course {
 namespace {

@@ -1,6 +1,6 @@
 #include "course/names/name_tokens.h"
 
-#include "platform/look_alikes.h"
+#include "platform/text/look_alikes.h"
 #include "platform/utf8.h"
 
 namespace dynlab::inline course {

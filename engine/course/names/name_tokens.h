@@ -26,7 +26,7 @@ struct NameToken {
 enum class Reading {
     kPlain,
     kCamel,      ///< a capital within a word begins another: "LovelaceHopper"
-    kLookAlike,  ///< letters of other scripts and signs as the Latin ones they look like (platform/look_alikes.h)
+    kLookAlike,  ///< letters of other scripts and signs as the Latin ones they look like (platform/text/look_alikes.h)
 };
 
 std::vector<NameToken> name_tokens(std::string_view utf8, Reading reading = Reading::kPlain);

@@ -1,4 +1,4 @@
-#include "platform/foreign_text.h"
+#include "platform/text/foreign_text.h"
 
 #include <gtest/gtest.h>
 

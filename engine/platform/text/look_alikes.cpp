@@ -1,4 +1,4 @@
-#include "platform/look_alikes.h"
+#include "platform/text/look_alikes.h"
 
 #include <unicode/uchar.h>
 #include <unicode/uscript.h>

@@ -1,4 +1,4 @@
-#include "platform/foreign_text.h"
+#include "platform/text/foreign_text.h"
 
 #include <unicode/ucnv.h>
 #include <unicode/udata.h>
