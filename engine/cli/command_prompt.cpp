@@ -25,10 +25,10 @@ int open_prompt(const std::string& script) {
         run_prompt(kFigureFolder, kGreeting, first);
         return kDone;
     }
+    if (first.empty()) return run_statements_of(std::cin, kFigureFolder) ? kDone : kFailed;
     std::stringstream input;
-    if (!first.empty()) input << first << '\n';
-    input << std::cin.rdbuf();
-    return run_statements_of(first.empty() ? std::cin : input, kFigureFolder) ? kDone : kFailed;
+    input << first << '\n' << std::cin.rdbuf();
+    return run_statements_of(input, kFigureFolder) ? kDone : kFailed;
 }
 
 }  // namespace dynlab::inline cli

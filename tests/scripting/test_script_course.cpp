@@ -105,7 +105,8 @@ TEST(script_course, takes_short_curve_names_but_no_line_specifications) {
             << look;
     }
     EXPECT_EQ(error_of("plot({1, 2}, {3, 4}, {colour = 1.7})"),
-              "lesson.lua:1: plot: option 'colour' must be a whole number from 0 on, but 1.7 was given");
+              "lesson.lua:1: plot: option 'colour' must be a whole number from 0 on, or a name such as \"red\", but "
+              "1.7 was given");
 }
 
 TEST(script_course, counts_samples_and_channels_in_whole_numbers) {

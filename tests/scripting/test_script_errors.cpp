@@ -146,7 +146,7 @@ TEST(script_errors, hint_at_lua_where_a_line_is_matlab) {
          "lesson.lua:1: '?' cannot stand here; write if ... then ... else ... end instead of ?"},
         {"print(1) end", "lesson.lua:1: this 'end' closes nothing: there is one too many"},
         {"print(2 + 1i)",
-         "lesson.lua:1: malformed number near '1i'; there are no complex numbers to calculate with; those that "
+         "lesson.lua:1: '1i' cannot stand here; there are no complex numbers to calculate with; those that "
          "functions "
          "give have the fields re, im, abs, arg"},
         {"if a != b then end", "lesson.lua:1: 'then' is missing before '!'; 'not equal' is ~= in Lua"},

@@ -16,7 +16,7 @@ namespace {
 
 constexpr Instant kYear2000 = 946684800;
 
-std::string folded(std::string text) {
+std::string in_small_letters(std::string text) {
     for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     return text;
 }
@@ -24,7 +24,7 @@ std::string folded(std::string text) {
 /// "Participant 900010" is the number in the names of Moodle's folders.
 std::string without_word(const std::string& identifier) {
     const std::string word = "participant ";
-    return folded(identifier).starts_with(word) ? identifier.substr(word.size()) : identifier;
+    return in_small_letters(identifier).starts_with(word) ? identifier.substr(word.size()) : identifier;
 }
 
 /// Also as Moodle writes times in English: "Friday, 27 February 2026, 5:30 PM".
@@ -64,7 +64,7 @@ ArrivalTimes::ArrivalTimes(const std::filesystem::path& csv, const CourseClock& 
             const Instant time = time_in(text, clock);
             for (const std::size_t column : whose)
                 if (const std::string& key = table.rows[r][column]; !key.empty())
-                    times_[folded(without_word(key))] = time;
+                    times_[in_small_letters(without_word(key))] = time;
         } catch (const InvalidArgument& error) {
             throw EnvironmentError(fmt::format("{}, line {}: {}", csv.string(), table.lines[r], error.what()));
         }
@@ -73,7 +73,8 @@ ArrivalTimes::ArrivalTimes(const std::filesystem::path& csv, const CourseClock& 
 
 std::optional<Instant> ArrivalTimes::of(const IncomingFile& file) const {
     for (const std::string& key : {file.sender.lms_id, file.sender.person, file.sender.name})
-        if (const auto found = times_.find(folded(key)); !key.empty() && found != times_.end()) return found->second;
+        if (const auto found = times_.find(in_small_letters(key)); !key.empty() && found != times_.end())
+            return found->second;
     return {};
 }
 

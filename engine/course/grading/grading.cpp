@@ -122,6 +122,7 @@ class ClassGrader {
         GradingMemory now;
         now.lesson = request_.setup.lesson.slug;
         now.lesson_checks = remembered_file(request_.setup.lesson.folder / "checks.lua");
+        now.lesson_checks.name = request_.setup.lesson.slug + "/checks.lua";  // wherever it is installed
         now.checks = remembered_folder(request_.setup.more_checks);
         now.secret = remembered_text("--secret", request_.setup.secret);
         now.roster = remembered_file(request_.roster);

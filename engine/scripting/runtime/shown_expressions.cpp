@@ -94,6 +94,7 @@ std::optional<std::string> rewritten(LuaReader& reader, const std::string& code,
     for (std::size_t first = std::min(stop, tokens.size() - 1) + 1; first-- > 0 && lines <= kMostLines;) {
         if (!begins_line(code, tokens, first)) continue;
         ++lines;
+        if (first > 0 && tokens[first - 1].is("...")) return std::nullopt;  // a line that MATLAB would go on with
         if (first == stop && stop > 0 && !may_begin_expression(tokens, first)) continue;
         if (!may_begin_expression(tokens, first)) return std::nullopt;
         for (std::size_t last = first; last < tokens.size() && last <= stop + 200; ++last) {
