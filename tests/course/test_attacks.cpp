@@ -85,7 +85,7 @@ const Attack kAttacks[] = {
      0, "at most"},
     {"functions", "answer('x', print)", 0, "cannot be an answer"},
     {"twice", "answer('x', 42)\nanswer('x', 41)", 0, "given already"},
-    {"undeclared", "answer('y', 42)", 0, "declares no answer"},
+    {"undeclared", "answer('y', 42)", 0, "was not handed in"},
     {"long_name", "answer(string.rep('x', 1e6), 42)", 0, ""},
     {"other_header", "-- ---\n-- title: Mine\n-- answers:\n--   x: text\n-- ---\nanswer('x', 'forty-two')\n", 0,
      "number"},

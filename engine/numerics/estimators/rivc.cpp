@@ -65,8 +65,8 @@ class WhitenedOutput : public OutputErrorModel {
         }
         places.push_back(-1);
         for (std::size_t e = 0; e < output_.experiment_count(); ++e) {
-            const Matrix all = prediction_error_products(columns, {errors, 0, 1, 0}, output_.row(e, 0), output_.rows(e),
-                                                         noise_.C, noise_.D);
+            const Matrix all = prediction_error_products(columns, {errors, 0, 1, 0}, first_counted(e),
+                                                         output_.counted_rows(e), noise_.C, noise_.D);
             const auto count = static_cast<Index>(places.size());
             add_to(sums, all.topLeftCorner(count, count), places);
         }
@@ -74,14 +74,17 @@ class WhitenedOutput : public OutputErrorModel {
     }
     Vector target() const { return filtered(y_); }
     Matrix filtered(const MatrixView& rows) const {
-        Matrix result(rows.rows(), rows.cols());
+        Matrix result = Matrix::Zero(rows.rows(), rows.cols());
         for (std::size_t e = 0; e < output_.experiment_count(); ++e)
-            result.middleRows(output_.row(e, 0), output_.rows(e)) =
-                whitened(noise_, rows.middleRows(output_.row(e, 0), output_.rows(e)));
+            result.middleRows(first_counted(e), output_.counted_rows(e)) =
+                whitened(noise_, rows.middleRows(first_counted(e), output_.counted_rows(e)));
         return result;
     }
 
   private:
+    /// Noise begins with the first sample that counts.
+    Index first_counted(std::size_t e) const { return output_.row(e, 0) + output_.rows(e) - output_.counted_rows(e); }
+
     const TransferOutput& output_;
     const ArmaNoise& noise_;
     const Vector& y_;
