@@ -82,6 +82,7 @@ ReportRequest report_of_lesson(const Lesson& lesson, const fs::path& output, con
     PercentScript script = read_percent_script(lesson.script());
     if (!language.empty()) script.header.language = language;
     ReportRequest request = report_of_script(script, output.empty() ? fs::path(lesson.slug + ".pdf") : output);
+    request.of_lesson = true;
     const fs::path report = lesson.report(script.header.language);
     if (fs::is_regular_file(report)) {
         request.template_file = report;
@@ -185,7 +186,8 @@ ReportResult make_report(const ReportRequest& request) {
     source.metadata = request.metadata;
     source.record = &record;
     source.cells = weave_cells(request.script, record);
-    if (!record.error) result.unplaced = unplaced_entries(record, read_text(request.template_file) + source.cells.text);
+    if (!record.error && !request.of_lesson)
+        result.unplaced = unplaced_entries(record, read_text(request.template_file) + source.cells.text);
     try {
         DocumentMaker({.use_cache = true, .timings = &result.timings}).make(source, request.output, format, [&] {
             renderer.finish();

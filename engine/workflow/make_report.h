@@ -23,8 +23,9 @@ struct ReportRequest {
     std::filesystem::path record;  ///< where what the run gave is written, too, as JSON (documents/run_record.h); such
                                    ///< a report is always made anew
     std::uint32_t seed = 1;
-    bool stay_in_folder = false;                   ///< the script reads files of its folder and the installed data only
-    std::function<void(const std::string&)> step;  ///< called with each step as it begins; may be empty
+    bool of_lesson = false;       ///< its text is not the user's to mend: nothing is told of what has no place in it
+    bool stay_in_folder = false;  ///< the script reads files of its folder and the installed data only
+    std::function<void(const std::string&)> step;        ///< called with each step as it begins; may be empty
     std::function<void(const std::string&)> enter_cell;  ///< called with each cell of the script as it begins
     std::function<void(const std::string&)> print;  ///< sees what the script prints; such a report is always made anew,
                                                     ///< and not at all where the script fails
