@@ -15,17 +15,13 @@
 #include "scripting/arguments/option_words.h"
 #include "scripting/objects/boxed.h"
 #include "scripting/objects/numeric_tables.h"
+#include "scripting/runtime/errors.h"
 #include "scripting/runtime/sandbox.h"
 
 namespace dynlab::inline scripting {
 namespace {
 
 constexpr double kLargestExactWhole = 9007199254740992.0;  // 2^53
-
-std::string article(const std::string& noun) {
-    const bool vowel = !noun.empty() && std::string_view("aeiou").find(noun.front()) != std::string_view::npos;
-    return (vowel ? "an " : "a ") + noun;
-}
 
 [[noreturn]] void wrong_value(lua_State* L, int index, const std::string& label, const std::string& wanted) {
     throw InvalidArgument(fmt::format("{} must be {}, but {} was given", label, wanted, given_text(L, index)));

@@ -36,12 +36,11 @@ std::string subject(const std::string& text) {
 }
 
 std::string with_article(const std::string& type) {
-    const bool vowel = !type.empty() && std::string_view("aeiou").find(type.front()) != std::string_view::npos;
     if (type == "nil") return "nil (it has no value)";
     if (type == "boolean") return "true or false";
     if (type == "string") return "a text";
     if (type == "userdata") return "an object";
-    return (vowel ? "an " : "a ") + type;
+    return article(type);
 }
 
 std::string call_sentence(const std::string& text, const std::string& type) {
@@ -158,6 +157,11 @@ std::string syntax_sentence(const std::string& text, const std::string& near) {
 }
 
 }  // namespace
+
+std::string article(const std::string& noun) {
+    const bool vowel = !noun.empty() && std::string_view("aeiou").find(noun.front()) != std::string_view::npos;
+    return (vowel ? "an " : "a ") + noun;
+}
 
 std::string line_of(const std::string& source, int line) {
     std::size_t start = 0;

@@ -6,6 +6,8 @@ namespace dynlab::inline scripting {
 
 struct RuntimeContext;
 
+/// "a model", "an iddata".
+std::string article(const std::string& noun);
 /// A line of a text, counted from 1; empty where it has none.
 std::string line_of(const std::string& source, int line);
 
