@@ -2,10 +2,12 @@
 
 #include <fcntl.h>
 #include <sys/mman.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <stdexcept>
+#include <tuple>
 
 #include "platform/error.h"
 #include "platform/process_group.h"
@@ -21,6 +23,7 @@ struct Launch {
     std::vector<char*> argument_pointers, environment_pointers;
     std::optional<std::uint64_t> memory_bytes, file_bytes;
     FileDescriptor input;
+    FileDescriptor given_later;  ///< our end of an input that is given later
 };
 
 std::string program_file(const std::string& name, const std::string& package) {
@@ -58,6 +61,14 @@ FileDescriptor input_file(const std::string& input) {
     return file;
 }
 
+/// A socket instead of a pipe: writing to a child that has ended raises no signal.
+std::pair<FileDescriptor, FileDescriptor> input_socket() {
+    int ends[2];
+    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+        throw EnvironmentError("cannot hand input to a child process: " + system_reason(errno));
+    return {FileDescriptor(ends[0]), FileDescriptor(ends[1])};
+}
+
 Launch prepare_launch(const ChildOptions& options, const std::string& package) {
     if (options.command.empty()) throw std::invalid_argument("a child process needs a command");
     Launch launch;
@@ -69,7 +80,10 @@ Launch prepare_launch(const ChildOptions& options, const std::string& package) {
     launch.environment_pointers = pointers_to(launch.environment);
     launch.memory_bytes = options.memory_bytes;
     launch.file_bytes = options.file_bytes;
-    launch.input = input_file(options.input);
+    if (options.input_later)
+        std::tie(launch.input, launch.given_later) = input_socket();
+    else
+        launch.input = input_file(options.input);
     return launch;
 }
 
@@ -89,8 +103,10 @@ Launch prepare_launch(const ChildOptions& options, const std::string& package) {
     ::_exit(127);
 }
 
-std::unique_ptr<ProcessGroup> start(const ChildOptions& options, const std::string& package) {
-    const Launch launch = prepare_launch(options, package);
+/// `given_later` gets our end of an input that is given later.
+std::unique_ptr<ProcessGroup> start(const ChildOptions& options, const std::string& package,
+                                    FileDescriptor* given_later = nullptr) {
+    Launch launch = prepare_launch(options, package);
     Pipe output, error_output, failure;
     const pid_t parent = ::getpid();
     const pid_t child = ::fork();
@@ -106,6 +122,7 @@ std::unique_ptr<ProcessGroup> start(const ChildOptions& options, const std::stri
         throw EnvironmentError("cannot start " + launch.program + ": " + system_reason(reason) +
                                (launch.folder.empty() ? "" : " (in " + launch.folder + ")"));
     }
+    if (given_later != nullptr) *given_later = std::move(launch.given_later);
     return group;
 }
 
@@ -117,13 +134,27 @@ ChildResult run_child(const ChildOptions& options, const std::string& package) {
 
 struct ChildProcess::State {
     std::unique_ptr<ProcessGroup> group;
+    FileDescriptor input;
 };
 
-ChildProcess::ChildProcess(const ChildOptions& options, const std::string& package)
-    : state_(new State{start(options, package)}) {}
+ChildProcess::ChildProcess(const ChildOptions& options, const std::string& package) : state_(new State) {
+    state_->group = start(options, package, &state_->input);
+}
 ChildProcess::~ChildProcess() = default;
 ChildProcess::ChildProcess(ChildProcess&&) noexcept = default;
 ChildProcess& ChildProcess::operator=(ChildProcess&&) noexcept = default;
+
+void ChildProcess::give_input(const std::string& input) {
+    if (!state_->input) throw std::logic_error("this child process has its input already");
+    for (std::size_t given = 0; given < input.size();) {
+        const ssize_t part = retry_interrupted(
+            [&] { return ::send(state_->input.get(), input.data() + given, input.size() - given, MSG_NOSIGNAL); });
+        if (part <= 0) break;
+        given += static_cast<std::size_t>(part);
+    }
+    state_->input.close();
+    if (state_->group) state_->group->start_clock();
+}
 
 ChildResult ChildProcess::wait() {
     if (!state_->group) throw std::logic_error("a child process can be waited for only once");

@@ -15,10 +15,12 @@ struct ChildOptions {
     std::filesystem::path folder;      ///< working folder; the current one when empty
     std::vector<std::pair<std::string, std::string>> environment;  ///< added to (replacing in) the inherited one
     std::string input;                                             ///< given on standard input, then closed
-    std::optional<std::chrono::milliseconds> timeout;  ///< wall clock; the whole process group is killed after it
-    std::optional<std::uint64_t> memory_bytes;         ///< address-space limit of the child
-    std::optional<std::uint64_t> file_bytes;           ///< of the largest file the child may write; SIGXFSZ ends it
-    std::uint64_t output_bytes = 64u << 20;            ///< more output than this ends the child
+    bool input_later = false;                                      ///< give_input() gives it, once it is known
+    /// Wall clock, from the start or the input given later; the whole process group is killed after it.
+    std::optional<std::chrono::milliseconds> timeout;
+    std::optional<std::uint64_t> memory_bytes;  ///< address-space limit of the child
+    std::optional<std::uint64_t> file_bytes;    ///< of the largest file the child may write; SIGXFSZ ends it
+    std::uint64_t output_bytes = 64u << 20;     ///< more output than this ends the child
 };
 
 struct ChildResult {
@@ -41,6 +43,9 @@ class ChildProcess {
     ~ChildProcess();  ///< kills the group when not waited for
     ChildProcess(ChildProcess&&) noexcept;
     ChildProcess& operator=(ChildProcess&&) noexcept;
+    /// The standard input of a child that was started with `input_later`, whole; the child must read it before it
+    /// writes more than a pipe holds. A child that has ended takes nothing; wait() tells.
+    void give_input(const std::string& input);
     ChildResult wait();
 
   private:

@@ -68,9 +68,10 @@ ProcessGroup::ProcessGroup(pid_t leader, FileDescriptor output, FileDescriptor e
       output_(std::move(output)),
       error_output_(std::move(error_output)),
       leader_exit_(open_process(leader)),
+      timeout_(limits.timeout),
       output_bytes_(limits.output_bytes) {
     ::setpgid(leader, leader);  // by parent and child, so that the group exists whoever runs first
-    if (limits.timeout) deadline_ = Clock::now() + *limits.timeout;
+    start_clock();
     for (const FileDescriptor* stream : {&output_, &error_output_}) {
         ::fcntl(stream->get(), F_SETFL, O_NONBLOCK);
         ::fcntl(stream->get(), F_SETPIPE_SZ, kPipeBytes);
@@ -79,6 +80,10 @@ ProcessGroup::ProcessGroup(pid_t leader, FileDescriptor output, FileDescriptor e
 
 ProcessGroup::~ProcessGroup() {
     if (leader_ > 0) kill_and_reap();
+}
+
+void ProcessGroup::start_clock() {
+    if (timeout_) deadline_ = Clock::now() + *timeout_;
 }
 
 ChildResult ProcessGroup::wait() {

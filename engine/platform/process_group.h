@@ -27,7 +27,7 @@ void limit_files(std::uint64_t bytes);   ///< the largest file it writes from no
 class ProcessGroup {
   public:
     struct Limits {
-        std::optional<std::chrono::milliseconds> timeout;  ///< from construction
+        std::optional<std::chrono::milliseconds> timeout;  ///< from construction, or the last start_clock
         std::uint64_t output_bytes;
     };
     ProcessGroup(pid_t leader, FileDescriptor output, FileDescriptor error_output, const Limits& limits);
@@ -35,6 +35,7 @@ class ProcessGroup {
     ProcessGroup(const ProcessGroup&) = delete;
     ProcessGroup& operator=(const ProcessGroup&) = delete;
 
+    void start_clock();  ///< the timeout counts from now on
     /// Collects output until the leader ends, by itself or killed at a limit. Throws Interrupted.
     ChildResult wait();
 
@@ -47,6 +48,7 @@ class ProcessGroup {
 
     pid_t leader_;
     FileDescriptor output_, error_output_, leader_exit_;
+    std::optional<std::chrono::milliseconds> timeout_;
     std::optional<std::chrono::steady_clock::time_point> deadline_;
     std::uint64_t output_bytes_;
     ChildResult result_;
