@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "scripting/runtime/lua_tokens.h"
+#include "scripting/runtime/shown_expressions.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -109,7 +110,27 @@ bool is_leave(const Tokens& tokens) {
     return std::all_of(tokens.begin() + 1, tokens.end(), bracket);
 }
 
+/// `source` is right as a chunk.
+void keep_locals(PromptStatement& statement, const std::string& source, const Tokens& tokens) {
+    const LocalsToAssignments rewritten(source, tokens);
+    statement.code = rewritten.code();
+    statement.variables = rewritten.names();
+}
+
 }  // namespace
+
+PromptStatement read_script_part(const std::string& source) {
+    PromptStatement statement;
+    statement.source = source;
+    statement.code = with_shown_expressions(source);
+    statement.silent = true;
+    statement.kind = PromptStatement::Kind::kReady;
+    const Syntax syntax = syntax_of(statement.code);
+    const std::string code = statement.code;
+    if (syntax == Syntax::kRight) keep_locals(statement, code, lua_tokens(code));
+    if (syntax == Syntax::kIncomplete) statement.kind = PromptStatement::Kind::kIncomplete;
+    return statement;
+}
 
 PromptStatement read_statement(const std::string& source) {
     PromptStatement statement;
@@ -130,9 +151,7 @@ PromptStatement read_statement(const std::string& source) {
     }
     const Syntax as_chunk = syntax_of(source);
     if (as_chunk == Syntax::kRight) {
-        const LocalsToAssignments rewritten(source, tokens);
-        statement.code = rewritten.code();
-        statement.variables = rewritten.names();
+        keep_locals(statement, source, tokens);
     } else if (as_chunk == Syntax::kIncomplete || as_expression == Syntax::kIncomplete) {
         statement.kind = PromptStatement::Kind::kIncomplete;
     }

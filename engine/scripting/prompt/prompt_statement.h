@@ -23,5 +23,7 @@ struct PromptStatement {
 
 /// Takes `= x`, `help NAME`, `help`, `quit` and `exit` (with or without brackets) as the habits they are.
 PromptStatement read_statement(const std::string& source);
+/// A piece of a script instead: its values are shown where with_shown_expressions says so, and no word is a habit.
+PromptStatement read_script_part(const std::string& source);
 
 }  // namespace dynlab::inline scripting

@@ -9,15 +9,25 @@ void Recorder::start(const PercentScript& script, std::uint32_t seed, LineSource
     *this = Recorder();
     record_.script = script.file.filename().string();
     record_.seed = seed;
-    expected_ = script.header.answers;
     current_line_ = std::move(current_line);
     enter_cell_ = std::move(enter_cell);
-    for (const Cell& cell : script.cells)
-        if (cell.kind == Cell::Kind::kCode) cells_.emplace_back(cell.first_line, cell.id);
-    if (cells_.empty()) cells_.emplace_back(1, "cell-1");
+    follow(script);
     timed_cell_ = cells_.front().second;
     timed_since_ = std::chrono::steady_clock::now();
     tell_of_cell();
+}
+
+void Recorder::follow(const PercentScript& script) {
+    expected_ = script.header.answers;
+    cells_.clear();
+    for (const Cell& cell : script.cells)
+        if (cell.kind == Cell::Kind::kCode) cells_.emplace_back(cell.first_line, cell.id);
+    if (cells_.empty()) cells_.emplace_back(1, "cell-1");
+    timed_since_ = std::chrono::steady_clock::now();
+}
+
+RunRecord Recorder::so_far() const {
+    return Recorder(*this).finish();
 }
 
 void Recorder::tell_of_cell() const {

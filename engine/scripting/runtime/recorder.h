@@ -31,6 +31,10 @@ class Recorder {
 
     /// `enter_cell`, unless empty, is called with each cell as the script enters it.
     void start(const PercentScript& script, std::uint32_t seed, LineSource current_line, CellListener enter_cell);
+    /// Goes on with another text of the script: the lines of its cells, and the answers it promises.
+    void follow(const PercentScript& script);
+    /// What the run has produced up to here, as finish() would give it; the run goes on.
+    RunRecord so_far() const;
     /// Ends the run: names the figures that were made and dropped, and hands the record over.
     RunRecord finish();
 

@@ -165,30 +165,58 @@ RunRecord Runtime::run_code(const std::string& code, const std::string& name) {
 }
 
 RunRecord Runtime::run_statement(const PromptStatement& statement, const std::string& name) {
-    return run_recorded(single_cell(statement.source, name), [&] {
-        call_protected(context_->main, prepare_variables, &statement.variables);
-        run_source(statement.code, &statement);
-        call_protected(context_->main, tidy_variables, &statement.variables);
-    });
+    return run_recorded(single_cell(statement.source, name), [&] { run_with_variables(statement); });
 }
 
-RunRecord Runtime::run_recorded(const PercentScript& script, const std::function<void()>& work) {
+void Runtime::begin_parts(const PercentScript& script) {
+    prepare(script);
+    begin_recording(script);
+}
+
+RunRecord Runtime::run_part(const PercentScript& script, const ScriptPart& part) {
+    prepare(script);
+    context_->recorder.follow(script);
+    run_with_variables(read_script_part(std::string(static_cast<std::size_t>(part.first_line) - 1, '\n') + part.code));
+    RunRecord record = context_->recorder.so_far();
+    throw_if_stopped();
+    return record;
+}
+
+void Runtime::run_with_variables(const PromptStatement& statement) {
+    call_protected(context_->main, prepare_variables, &statement.variables);
+    run_source(statement.code, &statement);
+    call_protected(context_->main, tidy_variables, &statement.variables);
+}
+
+void Runtime::prepare(const PercentScript& script) {
     RuntimeContext& context = *context_;
-    lua_State* L = context.main;
-    call_protected(L, seal_once);
-    lua_settop(L, 0);
+    call_protected(context.main, seal_once);
+    lua_settop(context.main, 0);
     context.script_name = script.file.filename().string();
     context.source = script.source;
-    context.began = std::chrono::steady_clock::now();
-    context.recorder.start(
-        script, context.options.seed, [&context] { return main_chunk_line(context); }, context.options.enter_cell);
     context.refusal_line = 0;
     context.main_chunk_known = false;
     if (context.options.time_limit) context.deadline = std::chrono::steady_clock::now() + *context.options.time_limit;
+}
+
+void Runtime::begin_recording(const PercentScript& script) {
+    RuntimeContext& context = *context_;
+    context.began = std::chrono::steady_clock::now();
+    context.recorder.start(
+        script, context.options.seed, [&context] { return main_chunk_line(context); }, context.options.enter_cell);
+}
+
+void Runtime::throw_if_stopped() {
+    lua_settop(context_->main, 0);
+    if (std::exchange(context_->stop, StopReason::kNone) == StopReason::kInterrupted) throw Interrupted();
+}
+
+RunRecord Runtime::run_recorded(const PercentScript& script, const std::function<void()>& work) {
+    prepare(script);
+    begin_recording(script);
     work();
-    RunRecord record = context.recorder.finish();
-    lua_settop(L, 0);
-    if (std::exchange(context.stop, StopReason::kNone) == StopReason::kInterrupted) throw Interrupted();
+    RunRecord record = context_->recorder.finish();
+    throw_if_stopped();
     return record;
 }
 

@@ -12,6 +12,7 @@
 #include "documents/run_record.h"
 #include "scripting/prompt/prompt_statement.h"
 #include "scripting/runtime/function_entry.h"
+#include "scripting/runtime/script_parts.h"
 
 namespace dynlab::inline figures {
 class GnuplotRenderer;
@@ -59,6 +60,11 @@ class Runtime {
     RunRecord run(const PercentScript& script);
     /// The same for plain Lua text as a single cell "cell-1"; `name` stands for the file in messages.
     RunRecord run_code(const std::string& code, const std::string& name);
+    /// The same in parts, for a document that follows its script: begin, then every part of `script` in turn, which is
+    /// a chunk of its own with the variables that a prompt's statements share. Parts that have run stay as they are
+    /// when the next one is taken from a later text of the script. Gives what has been recorded so far, all told.
+    void begin_parts(const PercentScript& script);
+    RunRecord run_part(const PercentScript& script, const ScriptPart& part);
     /// A statement of the prompt as a single cell: its values are printed (unless it is silent; a figure is shown
     /// instead), and what it declares local at its outermost level stays visible to later statements.
     RunRecord run_statement(const PromptStatement& statement, const std::string& name);
@@ -69,6 +75,10 @@ class Runtime {
 
   private:
     void set_service_pointer(std::size_t key, void* service);
+    void prepare(const PercentScript& script);
+    void begin_recording(const PercentScript& script);
+    void run_with_variables(const PromptStatement& statement);
+    void throw_if_stopped();
     RunRecord run_recorded(const PercentScript& script, const std::function<void()>& work);
     void run_source(const std::string& source, const PromptStatement* statement);
     void record_error(int status, const std::string& source);
