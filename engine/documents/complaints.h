@@ -12,6 +12,7 @@ class Complaints {
     void add(const SourceLine& where, const std::string& sentence);
     void add_all(const Complaints& others);
     bool empty() const { return sentences_.empty(); }
+    const std::vector<std::string>& sentences() const { return sentences_; }
     void throw_if_any() const;  ///< DocumentError with the first ten, one a line
 
   private:

@@ -166,6 +166,25 @@ std::string formula_in(const std::string& line) {
     return trimmed(line.substr(start + before.size(), end - start - before.size()));
 }
 
+Counts counts_in(const std::vector<std::string>& fields) {
+    Counts counts{};
+    for (std::size_t i = 0; i < counts.size() && i + 2 < fields.size(); ++i) counts[i] = std::stoi(fields[i + 2]);
+    return counts;
+}
+
+/// Whether the line tells of a chunk.
+bool read_chunk_message(const std::vector<std::string>& fields, ChunkMessages& chunks) {
+    if (fields[0] == "dynlab:chunk" && fields.size() > 1)
+        chunks.begin[std::stoi(fields[1])] = counts_in(fields);
+    else if (fields[0] == "dynlab:chunk-end" && fields.size() > 1)
+        chunks.end[std::stoi(fields[1])] = counts_in(fields);
+    else if (fields[0] == "dynlab:label" && fields.size() == 4)
+        chunks.labels[std::stoi(fields[1])][fields[2]] = fields[3];
+    else
+        return false;
+    return true;
+}
+
 }  // namespace
 
 FilterMessages read_filter_messages(const std::string& error_output, const MarkdownText& markdown,
@@ -177,6 +196,8 @@ FilterMessages read_filter_messages(const std::string& error_output, const Markd
         const std::vector<std::string> fields = split_at(line, '\t');
         if (fields[0] == "dynlab:use" && fields.size() == 4) {
             messages.pictures.push_back({std::stoi(fields[1]), fields[2] == "figure", fields[3]});
+        } else if (read_chunk_message(fields, messages.chunks)) {
+            continue;
         } else if (fields[0] == "dynlab:error" && fields.size() >= 3) {
             const int occurrence = fields[1] == "duplicate-label" ? 2 : 1;
             complaints.add(find_in(markdown, fields[2], template_file, occurrence), sentences.of(fields));

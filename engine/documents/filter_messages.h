@@ -1,5 +1,7 @@
 #pragma once
+#include <array>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -15,9 +17,19 @@ struct UsedPicture {
     std::string name;        ///< of the figure, or the path as written
 };
 
+/// How many figures, tables, equations and sections of each level have been counted at one place of a document.
+using Counts = std::array<int, 9>;
+
+/// What is told of the pieces of a document that is set in chunks, by their numbers.
+struct ChunkMessages {
+    std::map<int, Counts> begin, end;
+    std::map<int, std::map<std::string, std::string>> labels;  ///< defined there: label -> what references show
+};
+
 /// What our Pandoc filter and Pandoc itself wrote on standard error.
 struct FilterMessages {
     std::vector<UsedPicture> pictures;
+    ChunkMessages chunks;
 };
 
 /// Adds a sentence with its line in the source for every error of the filter and every warning of Pandoc.

@@ -88,6 +88,16 @@ bool sets_slides(const PandocJob& job) {
     return job.rules.slides && job.format == DocumentFormat::kPdf;
 }
 
+std::string lua_counts(const Counts& counts) {
+    return fmt::format("{{{}}}", fmt::join(counts, ","));
+}
+
+std::string chunks_entry(const ChunkSurroundings& chunks) {
+    std::map<std::string, Counts> counts;
+    for (const auto& [number, count] : chunks.counts) counts[std::to_string(number)] = count;
+    return "{counts=" + lua_map(counts, lua_counts) + ",labels=" + lua_map(chunks.labels, lua_string) + "}";
+}
+
 std::string slots_file(const PandocJob& job) {
     std::map<std::string, std::string> shown, switches;
     for (const auto& [key, value] : job.metadata)
@@ -100,7 +110,8 @@ std::string slots_file(const PandocJob& job) {
     const RunRecord& record = *job.record;
     return "return {\nformat=" + lua_string(format_name(job.format)) + ",language=" + lua_string(job.language) +
            ",reader=" + lua_string(kReader) + ",numbersections=" + (numbered ? "true" : "false") +
-           ",stopped=" + (record.error ? "true" : "false") + ",\npicture_prefix=" + lua_string(job.picture_prefix) +
+           ",stopped=" + (record.error || job.unfinished ? "true" : "false") +
+           ",\npicture_prefix=" + lua_string(job.picture_prefix) +
            ",figure_extension=" + lua_string(figure_extension(job.format)) +
            ",slides=" + (sets_slides(job) ? "true" : "false") + ",\nvariables=" + variables +
            "},\nmetadata=" + lua_map(shown, as_string) +
@@ -108,7 +119,8 @@ std::string slots_file(const PandocJob& job) {
            ",\nvalue=" + lua_map(record.values, [](const RecordedValue& v) { return lua_string(one_line(v.text)); }) +
            ",\ntable=" + lua_map(record.tables, lua_table_entry) + ",\nfigure=" +
            lua_map(record.figures, [](const RecordedFigure& f) { return "{caption=" + lua_string(f.caption) + "}"; }) +
-           ",\ntext=" + lua_map(record.texts, [](const RecordedText& t) { return lua_string(t.markdown); }) + "}\n";
+           ",\ntext=" + lua_map(record.texts, [](const RecordedText& t) { return lua_string(t.markdown); }) +
+           (job.chunks ? ",\nchunks=" + chunks_entry(*job.chunks) : "") + "}\n";
 }
 
 std::vector<std::string> command_line(const PandocJob& job) {
@@ -132,30 +144,52 @@ std::vector<std::string> command_line(const PandocJob& job) {
     return command;
 }
 
+ChildOptions pandoc_child(const PandocJob& job) {
+    ChildOptions child;
+    child.command = command_line(job);
+    child.folder = job.work_folder;
+    child.environment = {{"LC_ALL", "C.UTF-8"}};
+    child.timeout = 20s;
+    return child;
+}
+
+/// The job's Pandoc at its end, whether it was started before or is now.
+ChildResult finished_pandoc(const PandocJob& job) {
+    if (job.started != nullptr) {
+        job.started->give_input(job.markdown.text);
+        return job.started->wait();
+    }
+    ChildOptions child = pandoc_child(job);
+    child.input = job.markdown.text;
+    return run_child(child, "pandoc");
+}
+
 }  // namespace
 
 std::string figure_extension(DocumentFormat format) {
     return format == DocumentFormat::kPdf ? "pdf" : "svg";
 }
 
+ChildProcess start_pandoc(const PandocJob& job) {
+    ChildOptions child = pandoc_child(job);
+    child.input_later = true;
+    return ChildProcess(child, "pandoc");
+}
+
 PandocResult run_pandoc(const PandocJob& job, Complaints& complaints) {
     write_work_file(job.work_folder / "slots.lua", slots_file(job));
-    ChildOptions child;
-    child.command = command_line(job);
-    child.folder = job.work_folder;
-    child.environment = {{"LC_ALL", "C.UTF-8"}};
-    child.input = job.markdown.text;
-    child.timeout = 20s;
-    ChildResult run = run_child(child, "pandoc");
+    ChildResult run = finished_pandoc(job);
     if (run.timed_out || run.output_exceeded)
         throw DocumentError(job.template_file.string() + ": Pandoc did not finish this document within 20 s");
     Complaints found;
     PandocResult result;
-    result.pictures =
-        read_filter_messages(run.error_output, job.markdown, job.template_file, *job.record, found).pictures;
+    FilterMessages messages =
+        read_filter_messages(run.error_output, job.markdown, job.template_file, *job.record, found);
+    result.pictures = std::move(messages.pictures);
+    result.chunks = std::move(messages.chunks);
     if (run.exit_code != 0 && found.empty())
         found.add({job.template_file, 0}, "Pandoc stopped with exit code " + std::to_string(run.exit_code));
-    if (found.empty()) result.text = std::move(run.output);
+    if (found.empty() || (job.chunks && run.exit_code == 0)) result.text = std::move(run.output);
     complaints.add_all(found);
     return result;
 }

@@ -60,13 +60,19 @@ local checked_inlines  -- Markdown to inlines, safely; defined below, with the c
 -- Numbers and labels ---------------------------------------------------------------------------------------------
 
 local counters = { fig = 0, tbl = 0, eq = 0 }
+local section_numbers = { 0, 0, 0, 0, 0, 0 }
 local labels = {}  -- label -> what a reference to it shows
+local chunk        -- the number of the chunk that is being set, of a document that is set in chunks
+if slots.chunks then
+  for label, shown in pairs(slots.chunks.labels) do labels[label] = shown end
+end
 
 local function define(label, shown)
   if labels[label] then
     report("duplicate-label", "#" .. label, label)
   else
     labels[label] = shown
+    if chunk then io.stderr:write(table.concat({ "dynlab:label", chunk, label, clean(shown) }, "\t"), "\n") end
   end
 end
 
@@ -219,8 +225,6 @@ local function equations(inlines)
   return changed
 end
 
-local section_numbers = { 0, 0, 0, 0, 0, 0 }
-
 local function header(element)
   local bad = safety.unknown_attribute(element.attributes, {})
   if bad then report("attribute", bad, bad, "a heading") end
@@ -270,8 +274,29 @@ local function columns(element)
   return layout:columns(list)
 end
 
+-- Chunks: pieces of a document that a page replaces one by one. What is counted when one begins is told, so that it can
+-- be set alone another time with the same numbers.
+local function tell_count(what, number)
+  local fields = { "dynlab:" .. what, number, counters.fig, counters.tbl, counters.eq }
+  for _, section in ipairs(section_numbers) do fields[#fields + 1] = section end
+  io.stderr:write(table.concat(fields, "\t"), "\n")
+end
+
+local function begin_chunk(element)
+  if chunk then tell_count("chunk-end", chunk) end
+  chunk = element.attributes.number
+  local count = slots.chunks.counts[chunk]
+  if count then
+    counters.fig, counters.tbl, counters.eq = count[1], count[2], count[3]
+    section_numbers = { table.unpack(count, 4) }
+  end
+  tell_count("chunk", chunk)
+  return pandoc.Div(element.content, pandoc.Attr("chunk-" .. chunk))
+end
+
 local function division(element)
   local class = element.classes[1]
+  if slots.chunks and class == "chunk" then return begin_chunk(element) end
   local bad = safety.unknown_division_class(element.classes)
   if bad or not class then
     report("division-class", bad or element.identifier, bad or "")
@@ -454,7 +479,8 @@ function Pandoc(document)
   end
   for key, text in pairs(slots.variables) do document.meta[key] = text end
   if document.meta.title then document.meta.pagetitle = pandoc.utils.stringify(document.meta.title) end
-  if failed then os.exit(64) end
+  if chunk then tell_count("chunk-end", chunk) end
+  if failed and not slots.chunks then os.exit(64) end
   document.blocks = layout:mark_slides_with_code(document.blocks)
   return document
 end

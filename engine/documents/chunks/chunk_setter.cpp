@@ -1,0 +1,316 @@
+#include "documents/chunks/chunk_setter.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <optional>
+#include <regex>
+
+#include "documents/characters.h"
+#include "documents/error.h"
+#include "documents/pandoc.h"
+#include "documents/pictures.h"
+#include "documents/text_lines.h"
+#include "platform/hash.h"
+#include "platform/program_lookup.h"
+#include "platform/temporary_folder.h"
+
+namespace dynlab::inline documents {
+namespace {
+
+const std::string kPicturePrefix = "dynlab-picture-";
+using Labels = std::map<std::string, std::string>;
+
+/// What of the record a chunk shows: the entries whose names occur in it.
+void add_entries(const RunRecord& record, const std::string& markdown, DigestStream& digest) {
+    const auto shows = [&](const std::string& name) { return markdown.find(name) != std::string::npos; };
+    for (const auto& [name, value] : record.values)
+        if (shows(name)) digest.add_part(name).add_part(value.text);
+    for (const auto& [name, text] : record.texts)
+        if (shows(name)) digest.add_part(name).add_part(text.markdown);
+    for (const auto& [name, figure] : record.figures)
+        if (shows(name)) digest.add_part(name).add_part(figure.caption);
+    for (const auto& [name, table] : record.tables) {
+        if (!shows(name)) continue;
+        digest.add_part(name);
+        for (const std::string& cell : table.header) digest.add_part(cell);
+        for (const auto& row : table.rows)
+            for (const std::string& cell : row) digest.add_part(cell);
+    }
+}
+
+/// Whether the chunk has a slot that the record does not fill.
+bool lacks_entry(const RunRecord& record, const std::string& markdown) {
+    static const std::regex kSlot(R"(`([^`]+)`\{\.value\}|\(figure:([^)]+)\)|\{\.(?:table|text) [^}]*name=([^ }]+))");
+    for (std::sregex_iterator slot(markdown.begin(), markdown.end(), kSlot), end; slot != end; ++slot) {
+        const std::string name = (*slot)[1].str() + (*slot)[2].str() + (*slot)[3].str();
+        if (!record.values.contains(name) && !record.figures.contains(name) && !record.tables.contains(name) &&
+            !record.texts.contains(name))
+            return true;
+    }
+    return false;
+}
+
+bool has_notes(const std::string& markdown) {
+    return markdown.find("[^") != std::string::npos || markdown.find("^[") != std::string::npos;
+}
+
+/// Between two marks; nothing when either is missing.
+std::optional<std::string> between(const std::string& text, const std::string& begin, const std::string& end) {
+    const std::size_t first = text.find(begin);
+    const std::size_t last = text.rfind(end);
+    if (first == std::string::npos || last == std::string::npos || last < first + begin.size()) return {};
+    return text.substr(first + begin.size(), last - first - begin.size());
+}
+
+/// A chunk that was set, and the counts it began and ended with.
+struct KnownChunk {
+    std::string key, html;
+    std::vector<SetPicture> pictures;
+    Counts begin{}, end{};
+    Labels labels;
+};
+
+}  // namespace
+
+/// What the last call left, and the Pandoc that waits for the next.
+struct ChunkSetter::Memory {
+    TemporaryFolder folder;
+    std::optional<ChildProcess> warm;
+    std::string whole;  ///< what all chunks depend on: metadata, rules, whether the record is whole
+    std::vector<KnownChunk> chunks;
+    std::string head, notes;
+    bool complained = false;
+};
+
+namespace {
+
+/// One document to be set, next to what is known of the one before.
+class ChunkJob {
+  public:
+    ChunkJob(const TemplateFile& source, const MarkdownText& markdown, const RunRecord& record, bool unfinished,
+             ChunkSetter::Memory& memory)
+        : source_(source), markdown_(markdown), record_(record), unfinished_(unfinished), memory_(memory) {
+        for (Chunk& chunk : chunks_of(markdown)) {
+            DigestStream digest;
+            digest.add_part(chunk.markdown);
+            add_entries(record, chunk.markdown, digest);
+            if (lacks_entry(record, chunk.markdown)) digest.add_part(unfinished ? "not yet" : "missing");
+            set_.push_back({digest.digest().hex(), {}, {}, {}, {}, {}});
+            chunks_.push_back(std::move(chunk));
+        }
+        DigestStream whole;
+        for (const auto& [key, value] : source.metadata) whole.add_part(key).add_part(value);
+        whole.add_part(source.file.string());
+        whole_ = whole.digest().hex();
+    }
+
+    SetDocument set(std::size_t& count) {
+        std::vector<bool> wanted = changed();
+        if (!set_wanted(wanted) || !agrees_with_known()) {
+            wanted.assign(chunks_.size(), true);
+            whole_document_ = true;
+            set_wanted(wanted);
+        }
+        count = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), true));
+        return result();
+    }
+
+    /// A Pandoc for the next time: it begins while nobody waits.
+    void warm_up() const { memory_.warm.emplace(start_pandoc(job({}))); }
+
+  private:
+    /// Which chunks are not as they were; those that are get what is known of them.
+    std::vector<bool> changed() {
+        const bool known = !memory_.chunks.empty() && !memory_.complained && memory_.whole == whole_;
+        whole_document_ = !known;
+        std::vector<bool> wanted(chunks_.size(), true);
+        if (!known) return wanted;
+        std::multimap<std::string, const KnownChunk*> before;
+        for (const KnownChunk& chunk : memory_.chunks) before.emplace(chunk.key, &chunk);
+        for (std::size_t i = 0; i < set_.size(); ++i) {
+            const auto same = before.find(set_[i].key);
+            if (same == before.end()) {
+                if (has_notes(chunks_[i].markdown)) whole_document_ = true;
+                continue;
+            }
+            set_[i] = *same->second;
+            before.erase(same);
+            wanted[i] = false;
+        }
+        if (whole_document_) wanted.assign(chunks_.size(), true);
+        return wanted;
+    }
+
+    /// Sets the wanted chunks; false where the numbers of the others are no longer right.
+    bool set_wanted(const std::vector<bool>& wanted) {
+        MarkdownText text;
+        ChunkSurroundings around;
+        bool any = false;
+        for (std::size_t i = 0; i < chunks_.size(); ++i) {
+            if (!wanted[i]) {
+                around.labels.insert(set_[i].labels.begin(), set_[i].labels.end());
+                continue;
+            }
+            any = true;
+            if (i > 0 && !wanted[i - 1]) around.counts[static_cast<int>(i)] = set_[i - 1].end;
+            append(chunks_[i], i, text);
+        }
+        if (!any) return true;
+        run(text, around, wanted);
+        for (std::size_t i = 1; i < chunks_.size(); ++i)
+            if (!wanted[i] && set_[i].begin != set_[i - 1].end) return false;
+        return true;
+    }
+
+    void append(const Chunk& chunk, std::size_t number, MarkdownText& text) const {
+        const std::string fence(longest_colons(chunk.markdown) + 1, ':');
+        text.append(fmt::format("{} {{.chunk number={}}}\n", fence, number), chunk.origin.file, chunk.origin.line);
+        int line = chunk.first_line;
+        for (const std::string& content : lines_of(chunk.markdown)) {
+            const SourceLine origin = markdown_.origin_of(line++);
+            text.append(content + "\n", origin.file, origin.line);
+        }
+        text.append("\n" + fence + "\n\n", chunk.origin.file, chunk.origin.line);
+    }
+
+    static std::size_t longest_colons(const std::string& text) {
+        std::size_t longest = 2, run = 0;
+        for (char c : text) {
+            run = c == ':' ? run + 1 : 0;
+            longest = std::max(longest, run);
+        }
+        return longest;
+    }
+
+    PandocJob job(const MarkdownText& text) const {
+        const auto language = source_.metadata.find("lang");
+        PandocJob job{.markdown = text,
+                      .metadata = source_.metadata,
+                      .rules = document_rules(source_),
+                      .record = &record_,
+                      .format = DocumentFormat::kHtml,
+                      .template_file = source_.file,
+                      .shared_templates = shared_folder() / "report_templates",
+                      .picture_prefix = kPicturePrefix,
+                      .work_folder = memory_.folder.path()};
+        if (language != source_.metadata.end() && !language->second.empty()) job.language = language->second;
+        job.unfinished = unfinished_ || record_.error;
+        job.chunks.emplace();
+        return job;
+    }
+
+    void run(const MarkdownText& text, const ChunkSurroundings& around, const std::vector<bool>& wanted) {
+        PandocJob next = job(text);
+        next.chunks = around;
+        if (memory_.warm) next.started = &*memory_.warm;
+        Complaints complaints;
+        check_characters(text, complaints);
+        const PandocResult page = run_pandoc(next, complaints);
+        memory_.warm.reset();
+        if (page.text.empty()) complaints.throw_if_any();
+        const auto files =
+            find_picture_files(page.pictures, text, source_.file, DocumentFormat::kHtml, kPicturePrefix, complaints);
+        complaints_ = complaints.sentences();
+        take_apart(page, files, wanted);
+    }
+
+    void check_characters(const MarkdownText& text, Complaints& complaints) const {
+        const PrintableCharacters printable = PrintableCharacters::of_html();
+        int number = 0;
+        for (const std::string& line : lines_of(text.text)) {
+            ++number;
+            if (const auto sentence = printable.complaint(line)) complaints.add(text.origin_of(number), *sentence);
+        }
+    }
+
+    /// Cuts the page where chunks begin: `<div id="chunk-` is nothing that a document can contain.
+    void take_apart(const PandocResult& page, const std::vector<PlacedPicture>& files,
+                    const std::vector<bool>& wanted) {
+        std::string body = between(page.text, "<main>\n", "</main>").value_or("");
+        if (whole_document_) {
+            memory_.head = between(page.text, "<body>\n", "<main>").value_or("");
+            const std::size_t notes = body.find("<section class=\"footnotes");
+            memory_.notes = notes == std::string::npos ? "" : body.substr(notes);
+            if (notes != std::string::npos) body.resize(notes);
+        }
+        std::size_t begin = body.find("<div id=\"chunk-");
+        for (std::size_t i = 0; i < chunks_.size() && begin != std::string::npos; ++i) {
+            if (!wanted[i]) continue;
+            const std::size_t end = body.find("<div id=\"chunk-", begin + 1);
+            fill(i, body.substr(begin, end == std::string::npos ? end : end - begin), page, files);
+            begin = end;
+        }
+    }
+
+    void fill(std::size_t i, const std::string& division, const PandocResult& page,
+              const std::vector<PlacedPicture>& files) {
+        KnownChunk& chunk = set_[i];
+        const std::size_t begin = division.find('>') + 1, end = division.rfind("</div>");
+        chunk.html = end == std::string::npos || end < begin ? "" : trimmed(division.substr(begin, end - begin));
+        chunk.pictures.clear();
+        for (const UsedPicture& used : page.pictures) {
+            const std::string written = fmt::format("{}{}.", kPicturePrefix, used.number);
+            const std::size_t at = chunk.html.find(written);
+            if (at == std::string::npos) continue;
+            SetPicture picture{chunk.html.substr(at, chunk.html.find('"', at) - at), used.is_figure, used.name, {}};
+            for (const PlacedPicture& placed : files)
+                if (placed.written_name == picture.written_name) picture.file = placed.file;
+            chunk.pictures.push_back(std::move(picture));
+        }
+        const int number = static_cast<int>(i);
+        const auto counts = [&](const std::map<int, Counts>& known) {
+            const auto found = known.find(number);
+            return found == known.end() ? Counts{} : found->second;
+        };
+        chunk.begin = counts(page.chunks.begin);
+        chunk.end = counts(page.chunks.end);
+        const auto labels = page.chunks.labels.find(number);
+        chunk.labels = labels == page.chunks.labels.end() ? Labels{} : labels->second;
+    }
+
+    static Labels all_labels(const std::vector<KnownChunk>& chunks) {
+        Labels labels;
+        for (const KnownChunk& chunk : chunks) labels.insert(chunk.labels.begin(), chunk.labels.end());
+        return labels;
+    }
+
+    /// References of chunks that were not set now show what they showed.
+    bool agrees_with_known() const { return whole_document_ || all_labels(set_) == all_labels(memory_.chunks); }
+
+    SetDocument result() {
+        SetDocument document{memory_.head, {}, memory_.notes, complaints_};
+        for (std::size_t i = 0; i < chunks_.size(); ++i)
+            document.chunks.push_back({std::move(chunks_[i]), set_[i].html, set_[i].pictures});
+        memory_.chunks = std::move(set_);
+        memory_.whole = whole_;
+        memory_.complained = !complaints_.empty();
+        return document;
+    }
+
+    const TemplateFile& source_;
+    const MarkdownText& markdown_;
+    const RunRecord& record_;
+    const bool unfinished_;
+    ChunkSetter::Memory& memory_;
+    std::string whole_;
+    bool whole_document_ = false;
+    std::vector<Chunk> chunks_;
+    std::vector<KnownChunk> set_;  ///< beside chunks_
+    std::vector<std::string> complaints_;
+};
+
+}  // namespace
+
+ChunkSetter::ChunkSetter() : memory_(std::make_unique<Memory>()) {}
+ChunkSetter::~ChunkSetter() = default;
+
+SetDocument ChunkSetter::set(const TemplateFile& source, const MarkdownText& markdown, const RunRecord& record,
+                             bool unfinished) {
+    ChunkJob job(source, markdown, record, unfinished, *memory_);
+    SetDocument document = job.set(chunks_set_);
+    job.warm_up();
+    return document;
+}
+
+}  // namespace dynlab::inline documents

@@ -1,0 +1,55 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "documents/chunks/chunks.h"
+#include "documents/filter_messages.h"
+#include "documents/template_file.h"
+
+namespace dynlab::inline documents {
+
+/// A picture on a page: what stands for it in the HTML, and the figure of the run or the file that it is.
+struct SetPicture {
+    std::string written_name;
+    bool is_figure = false;
+    std::string name;            ///< of the figure
+    std::filesystem::path file;  ///< of any other picture
+};
+
+/// What one chunk looks like on a page.
+struct SetChunk {
+    Chunk chunk;
+    std::string html;
+    std::vector<SetPicture> pictures;
+};
+
+/// A document for a page that follows its source.
+struct SetDocument {
+    std::string head;  ///< title and what belongs to it, HTML
+    std::vector<SetChunk> chunks;
+    std::string notes;                    ///< footnotes, HTML
+    std::vector<std::string> complaints;  ///< what is wrong with it, "file:line: sentence"
+};
+
+/// Sets documents as HTML, again and again: chunks that have not changed since the last time are not set anew, and
+/// Pandoc is started ahead of the next time. Numbers and references are those of the whole document: where a change
+/// moves them, all of it is set. What is wrong is told; the rest is set all the same.
+class ChunkSetter {
+  public:
+    ChunkSetter();
+    ~ChunkSetter();
+    /// Of a template, its metadata with it, and its text with cells in place. Slots that the record does not fill say
+    /// so where the record is `unfinished`. Throws DocumentError where Pandoc gives nothing, MissingProgram for pandoc.
+    SetDocument set(const TemplateFile& source, const MarkdownText& markdown, const RunRecord& record, bool unfinished);
+    std::size_t chunks_set() const { return chunks_set_; }  ///< by the last call
+
+    struct Memory;
+
+  private:
+    std::unique_ptr<Memory> memory_;
+    std::size_t chunks_set_ = 0;
+};
+
+}  // namespace dynlab::inline documents
