@@ -16,6 +16,7 @@ void add_look(CLI::App& app, Action& action);
 void add_identify(CLI::App& app, Action& action);
 void add_report(CLI::App& app, Action& action);
 void add_weave(CLI::App& app, Action& action);
+void add_preview(CLI::App& app, Action& action);
 void add_new(CLI::App& app, Action& action);
 void add_check(CLI::App& app, Action& action);
 void add_demo(CLI::App& app, Action& action);

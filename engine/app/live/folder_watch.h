@@ -1,0 +1,26 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "platform/system_call.h"
+
+namespace dynlab::inline app {
+
+/// Tells when files of folders change (inotify on the folders, so that files which editors replace, and files that come
+/// back, are seen). Not for one that a folder lies in, nor for what lies below it.
+class FolderWatch {
+  public:
+    FolderWatch();  ///< throws EnvironmentError
+    /// Throws EnvironmentError for a folder that cannot be watched. A folder again is no harm.
+    void add(const std::filesystem::path& folder);
+    int descriptor() const { return events_.get(); }  ///< readable when something has changed
+    /// The files that have changed, as folder/name with the folders as they were given; does not wait.
+    std::set<std::filesystem::path> changes();
+
+  private:
+    FileDescriptor events_;
+    std::map<int, std::filesystem::path> folders_;
+};
+
+}  // namespace dynlab::inline app

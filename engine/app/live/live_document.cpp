@@ -1,0 +1,234 @@
+#include "app/live/live_document.h"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include "documents/error.h"
+#include "documents/template_file.h"
+#include "documents/text_lines.h"
+#include "platform/error.h"
+#include "platform/interrupt.h"
+
+namespace dynlab::inline app {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+/// A file is looked at when it has been left alone for so long: editors write in several steps.
+constexpr auto kQuiet = 30ms;
+/// How often Ctrl-C is looked for while nothing happens.
+constexpr int kLookForInterrupt = 1000;
+
+fs::path place_of(const fs::path& file) {
+    std::error_code failure;
+    const fs::path found = fs::weakly_canonical(fs::absolute(file), failure);
+    return failure ? file : found;
+}
+
+/// Entries of the run before stay until this one gives its own.
+template <class Map>
+void add_older(Map& entries, const Map& older) {
+    entries.insert(older.begin(), older.end());
+}
+
+TemplateFile template_of(const ReportRequest& request) {
+    TemplateFile source = read_template(request.template_file);
+    for (const auto& [key, value] : request.metadata) source.metadata[key] = value;
+    return source;
+}
+
+}  // namespace
+
+LiveDocument::LiveDocument(std::function<ReportRequest()> read, ScriptRunner& runner, LivePage& page)
+    : read_(std::move(read)), runner_(runner), page_(page), wake_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
+
+void LiveDocument::wake() {
+    const std::uint64_t one = 1;
+    write_all(wake_.get(), reinterpret_cast<const char*>(&one), sizeof one);
+}
+
+void LiveDocument::allow_runs() {
+    const std::lock_guard lock(orders_mutex_);
+    may_run_ = true;
+    wake();
+}
+
+void LiveDocument::stop_run() {
+    const std::lock_guard lock(orders_mutex_);
+    stop_ = true;
+    wake();
+}
+
+void LiveDocument::run_anew() {
+    const std::lock_guard lock(orders_mutex_);
+    anew_ = true;
+    wake();
+}
+
+void LiveDocument::end() {
+    end_ = true;
+    wake();
+}
+
+void LiveDocument::work() {
+    read_again({});
+    while (!end_) {
+        if (page_is_old_) set_page();
+        wait_for_something();
+        throw_if_interrupted();
+        take_orders();
+        for (const fs::path& file : watch_.changes()) {
+            if (!is_ours(file)) continue;
+            changed_.insert(file);
+            last_change_ = Clock::now();
+        }
+        if (!changed_.empty() && Clock::now() - last_change_ >= kQuiet) read_again(std::exchange(changed_, {}));
+        take_news();
+    }
+}
+
+void LiveDocument::wait_for_something() {
+    pollfd waiting[3] = {{watch_.descriptor(), POLLIN, 0}, {wake_.get(), POLLIN, 0}, {runner_.descriptor(), POLLIN, 0}};
+    int longest = kLookForInterrupt;
+    if (!changed_.empty()) {
+        const auto left = kQuiet - std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - last_change_);
+        longest = std::max<int>(0, static_cast<int>(left.count()));
+    }
+    ::poll(waiting, 3, longest);
+}
+
+void LiveDocument::take_orders() {
+    std::uint64_t count = 0;
+    if (::read(wake_.get(), &count, sizeof count) <= 0) return;
+    bool stop = false, anew = false;
+    {
+        const std::lock_guard lock(orders_mutex_);
+        stop = std::exchange(stop_, false);
+        anew = std::exchange(anew_, false);
+    }
+    if (stop && runner_.running()) {
+        runner_.stop();
+        for (auto& [cell, state] : states_)
+            if (state.state != "done") state = {"waiting", 0};
+        show_states();
+    }
+    if (anew) runner_.forget();
+    if (!stop) read_again({});
+}
+
+bool LiveDocument::is_ours(const fs::path& changed) const {
+    return inputs_.contains(changed);
+}
+
+/// Reads script and template again and runs what has changed.
+void LiveDocument::read_again(const std::set<fs::path>& changed) {
+    try {
+        request_ = read_();
+        std::set<fs::path> data;
+        for (const fs::path& file : changed)
+            if (const auto read = as_read_.find(file); read != as_read_.end()) data.insert(read->second);
+        watch_inputs();
+        page_is_old_ = true;
+        bool may_run = false;
+        {
+            const std::lock_guard lock(orders_mutex_);
+            may_run = may_run_;
+        }
+        page_.ask_whether_to_run(!may_run);
+        if (!may_run) return;
+        const std::size_t first = runner_.run(request_->script, request_->seed, figures_.path(), data);
+        for (std::size_t i = first; runner_.running() && i < runner_.parts().size(); ++i)
+            for (const std::string& cell : runner_.parts()[i].cells) states_[cell] = {"waiting", 0};
+        show_states();
+    } catch (const DocumentError& error) {
+        page_.complain(lines_of(error.what()));
+        tell_();
+    } catch (const EnvironmentError& error) {
+        page_.complain({error.what()});
+        tell_();
+    }
+}
+
+void LiveDocument::take_news() {
+    while (runner_.running()) {
+        pollfd waiting{runner_.descriptor(), POLLIN, 0};
+        if (::poll(&waiting, 1, 0) <= 0) return;
+        take(runner_.next());
+    }
+}
+
+void LiveDocument::take(RunnerNews news) {
+    const std::vector<ScriptPart>& parts = runner_.parts();
+    const auto set_state = [&](std::size_t part, const CellState& state) {
+        if (part >= parts.size()) return;
+        for (const std::string& cell : parts[part].cells) states_[cell] = state;
+    };
+    if (news.kind == "begun") {
+        set_state(news.part, {"running", 0});
+    } else if (news.kind == "done" || (news.kind == "ended" && news.record.error)) {
+        const bool failed = news.record.error.has_value();
+        set_state(news.part, {failed ? "failed" : "done", news.seconds});
+        if (news.kind == "ended") {  // the process died: nothing but that is known
+            shown_.error = news.record.error;
+        } else {
+            RunRecord before = std::exchange(shown_, std::move(news.record));
+            for (std::size_t i = 0; i <= news.part && i < parts.size(); ++i)
+                for (const std::string& cell : parts[i].cells) before.outputs.erase(cell);
+            if (failed || news.part + 1 < parts.size()) {
+                add_older(shown_.values, before.values);
+                add_older(shown_.tables, before.tables);
+                add_older(shown_.texts, before.texts);
+                add_older(shown_.figures, before.figures);
+                add_older(shown_.outputs, before.outputs);
+            }
+        }
+        page_is_old_ = true;
+    }
+    show_states();
+}
+
+void LiveDocument::show_states() {
+    std::map<std::string, CellState> known;
+    for (const ScriptPart& part : runner_.parts())
+        for (const std::string& cell : part.cells)
+            if (const auto state = states_.find(cell); state != states_.end()) known.insert(*state);
+    states_ = known;
+    page_.set_states(std::move(known), runner_.running());
+    tell_();
+}
+
+/// What the document is made of is watched; what is not there yet may come.
+void LiveDocument::watch_inputs() {
+    std::set<fs::path> inputs = {place_of(request_->script.file), place_of(request_->template_file)};
+    as_read_.clear();
+    for (const fs::path& file : shown_.files_read) {
+        as_read_[place_of(file)] = file;
+        inputs.insert(place_of(file));
+    }
+    for (const fs::path& file : inputs)
+        if (!inputs_.contains(file) && fs::is_directory(file.parent_path())) watch_.add(file.parent_path());
+    inputs_ = std::move(inputs);
+}
+
+void LiveDocument::set_page() {
+    page_is_old_ = false;
+    if (!request_) return;
+    try {
+        watch_inputs();
+        const TemplateFile source = template_of(*request_);
+        MarkdownText text = with_cells(source, weave_cells(request_->script, shown_));
+        const bool unfinished = runner_.running() || shown_.error.has_value() || runner_.parts().empty();
+        SetDocument document = setter_.set(source, text, shown_, unfinished);
+        if (shown_.error && !shows_cells(source))
+            document.complaints.insert(document.complaints.begin(), shown_.error->message);
+        page_.show(document, request_->script, shown_);
+    } catch (const DocumentError& error) {
+        page_.complain(lines_of(error.what()));
+    }
+    tell_();
+}
+
+}  // namespace dynlab::inline app

@@ -1,0 +1,72 @@
+#pragma once
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <set>
+#include <string>
+
+#include "app/live/folder_watch.h"
+#include "app/live/live_page.h"
+#include "app/live/script_runner.h"
+#include "documents/chunks/chunk_setter.h"
+#include "platform/temporary_folder.h"
+#include "workflow/make_report.h"
+
+namespace dynlab::inline app {
+
+/// A document that follows its script, its template, the data it reads and the pictures it shows. One thread works
+/// (`work`); orders come from others.
+class LiveDocument {
+  public:
+    /// `read` gives the document as it is now, and may throw; `runner` was made before the program had threads.
+    LiveDocument(std::function<ReportRequest()> read, ScriptRunner& runner, LivePage& page);
+
+    /// Called after each change of the page, in the thread that works.
+    void on_change(std::function<void()> tell) { tell_ = std::move(tell); }
+    /// Works until `end` or Ctrl-C. Nothing is run before `allow_runs`.
+    void work();
+
+    void allow_runs();
+    void stop_run();
+    void run_anew();  ///< from the first cell
+    void end();
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    void wait_for_something();
+    void take_orders();
+    bool is_ours(const std::filesystem::path& changed) const;
+    void read_again(const std::set<std::filesystem::path>& changed);
+    void take_news();
+    void take(RunnerNews news);
+    void set_page();
+    void show_states();
+    void watch_inputs();
+    void wake();
+
+    std::function<ReportRequest()> read_;
+    ScriptRunner& runner_;
+    LivePage& page_;
+    std::function<void()> tell_ = [] {};
+    TemporaryFolder figures_;
+    FolderWatch watch_;
+    ChunkSetter setter_;
+    std::optional<ReportRequest> request_;
+    RunRecord shown_;                          ///< what the page shows: of this run, below it of the one before
+    std::map<std::string, CellState> states_;  ///< by cell
+    std::set<std::filesystem::path> inputs_;   ///< canonical files that the document is made of
+    std::map<std::filesystem::path, std::filesystem::path> as_read_;  ///< canonical data file -> as the script read it
+    std::set<std::filesystem::path> changed_;                         ///< of them, and not yet looked at
+    Clock::time_point last_change_;
+    bool page_is_old_ = false;
+
+    FileDescriptor wake_;
+    std::mutex orders_mutex_;
+    bool may_run_ = false, stop_ = false, anew_ = false;  ///< orders
+    std::atomic<bool> end_ = false;
+};
+
+}  // namespace dynlab::inline app

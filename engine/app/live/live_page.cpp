@@ -1,0 +1,149 @@
+#include "app/live/live_page.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "data_io/values/json_values.h"
+#include "documents/text_lines.h"
+#include "platform/hash.h"
+#include "platform/text_file.h"
+
+namespace dynlab::inline app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+/// Pictures that no version since so many has shown are forgotten: tabs may still ask for those of the one before.
+constexpr std::uint64_t kVersionsKept = 3;
+
+std::string type_of(const fs::path& file) {
+    const std::string extension = file.extension().string();
+    if (extension == ".svg") return "image/svg+xml";
+    if (extension == ".png") return "image/png";
+    return "image/jpeg";
+}
+
+}  // namespace
+
+std::string LivePage::keep_picture(const fs::path& file) {
+    std::string bytes;
+    try {
+        bytes = read_text(file);
+    } catch (const std::exception&) {
+        return "missing";  // it is being written anew; the version after this has it
+    }
+    const std::string name = digest_of(bytes).hex() + file.extension().string();
+    Picture& picture = pictures_[name];
+    picture = {type_of(file), std::move(bytes), version_};
+    return name;
+}
+
+std::string LivePage::with_pictures(const SetChunk& chunk, const RunRecord& record) {
+    std::string html = chunk.html;
+    for (const SetPicture& picture : chunk.pictures) {
+        fs::path file = picture.file;
+        if (picture.is_figure) {
+            const auto figure = record.figures.find(picture.name);
+            file = figure == record.figures.end() ? fs::path() : figure->second.file;
+        }
+        html = replaced(html, "\"" + picture.written_name + "\"", "\"/picture/" + keep_picture(file) + "\"");
+    }
+    return html;
+}
+
+void LivePage::show(const SetDocument& document, const PercentScript& script, const RunRecord& record) {
+    const std::lock_guard lock(mutex_);
+    ++version_;
+    changed_ = text_changed_ = true;
+    name_ = script.file.filename().string();
+    head_ = document.head;
+    notes_ = document.notes;
+    complaints_ = document.complaints;
+    pieces_.clear();
+    fresh_.clear();
+    std::map<std::string, std::string> html;
+    std::map<std::string, int> copies;
+    for (const SetChunk& chunk : document.chunks) {
+        std::string content = with_pictures(chunk, record);
+        if (content.empty()) continue;
+        const std::string digest = digest_of(content).hex();
+        const std::string id = fmt::format("p{}-{}", digest.substr(0, 16), copies[digest]++);
+        const bool in_script = chunk.chunk.origin.file == script.file;
+        const Cell* const cell = in_script ? script.cell_at_line(chunk.chunk.origin.line) : nullptr;
+        const bool is_code = cell && cell->kind == Cell::Kind::kCode;
+        pieces_.push_back(
+            {id, is_code ? cell->id : "", chunk.chunk.origin.file.filename().string(), chunk.chunk.origin.line});
+        if (!html_.contains(id)) fresh_.push_back(id);
+        html[id] = std::move(content);
+    }
+    html_ = std::move(html);
+    std::erase_if(pictures_, [&](const auto& entry) { return entry.second.version + kVersionsKept < version_; });
+}
+
+void LivePage::complain(const std::vector<std::string>& sentences) {
+    const std::lock_guard lock(mutex_);
+    if (complaints_ == sentences) return;
+    complaints_ = sentences;
+    changed_ = true;
+}
+
+void LivePage::set_states(std::map<std::string, CellState> states, bool running) {
+    const std::lock_guard lock(mutex_);
+    states_ = std::move(states);
+    running_ = running;
+    changed_ = true;
+}
+
+void LivePage::ask_whether_to_run(bool asking) {
+    const std::lock_guard lock(mutex_);
+    asking_ = asking;
+    changed_ = true;
+}
+
+std::string LivePage::json(bool all) const {
+    ::nlohmann::json page = {{"version", version_},
+                             {"all", all},
+                             {"running", running_},
+                             {"asking", asking_},
+                             {"name", name_},
+                             {"complaints", complaints_},
+                             {"states", ::nlohmann::json::object()}};
+    for (const auto& [cell, state] : states_)
+        page["states"][cell] = {{"state", state.state}, {"seconds", state.seconds}};
+    if (all || text_changed_) {
+        ::nlohmann::json& pieces = page["pieces"] = ::nlohmann::json::array();
+        for (const Piece& piece : pieces_) pieces.push_back({piece.id, piece.cell, piece.file, piece.line});
+        page["head"] = head_;
+        page["notes"] = notes_;
+        ::nlohmann::json& html = page["html"] = ::nlohmann::json::object();
+        for (const auto& [id, content] : html_)
+            if (all || std::find(fresh_.begin(), fresh_.end(), id) != fresh_.end()) html[id] = content;
+    }
+    return page.dump(-1, ' ', false, ::nlohmann::json::error_handler_t::replace);
+}
+
+std::string LivePage::whole() const {
+    const std::lock_guard lock(mutex_);
+    return json(true);
+}
+
+std::optional<std::string> LivePage::changes() {
+    const std::lock_guard lock(mutex_);
+    if (!changed_) return {};
+    std::string text = json(false);
+    changed_ = text_changed_ = false;
+    fresh_.clear();
+    return text;
+}
+
+std::optional<std::pair<std::string, std::string>> LivePage::picture(const std::string& name) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = pictures_.find(name);
+    if (found == pictures_.end()) return {};
+    return std::pair{found->second.type, found->second.bytes};
+}
+
+}  // namespace dynlab::inline app

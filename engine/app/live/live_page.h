@@ -1,0 +1,64 @@
+#pragma once
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "documents/chunks/chunk_setter.h"
+#include "documents/percent_script.h"
+#include "documents/run_record.h"
+
+namespace dynlab::inline app {
+
+/// How a cell of the script stands.
+struct CellState {
+    std::string state;  ///< "waiting", "running", "done", "failed"
+    double seconds = 0;
+};
+
+/// What a page shows, as it goes to tabs: the whole to one that comes, else what has changed since the version before.
+/// For any thread.
+class LivePage {
+  public:
+    /// Makes the next version of a document that was set. Figures are read from their files now.
+    void show(const SetDocument& document, const PercentScript& script, const RunRecord& record);
+    /// Text above the page: what is wrong. The document stays as it is.
+    void complain(const std::vector<std::string>& sentences);
+    void set_states(std::map<std::string, CellState> states, bool running);
+    void ask_whether_to_run(bool asking);
+
+    /// Everything, JSON.
+    std::string whole() const;
+    /// What has changed since the last call; nothing when nothing has.
+    std::optional<std::string> changes();
+    /// A picture that the page shows: type and bytes.
+    std::optional<std::pair<std::string, std::string>> picture(const std::string& name) const;
+
+  private:
+    struct Piece {
+        std::string id, cell, file;
+        int line = 0;
+    };
+    struct Picture {
+        std::string type, bytes;
+        std::uint64_t version;  ///< in which it was shown last
+    };
+    std::string with_pictures(const SetChunk& chunk, const RunRecord& record);
+    std::string keep_picture(const std::filesystem::path& file);
+    std::string json(bool all) const;
+
+    mutable std::mutex mutex_;
+    std::string name_, head_, notes_;
+    std::vector<Piece> pieces_;
+    std::map<std::string, std::string> html_;  ///< of the pieces shown, by id
+    std::vector<std::string> fresh_;           ///< ids that the last version did not have
+    std::vector<std::string> complaints_;
+    std::map<std::string, CellState> states_;
+    std::map<std::string, Picture> pictures_;
+    bool running_ = false, asking_ = false, changed_ = false, text_changed_ = false;
+    std::uint64_t version_ = 0;
+};
+
+}  // namespace dynlab::inline app

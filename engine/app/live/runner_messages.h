@@ -1,0 +1,33 @@
+#pragma once
+#include <cstdint>
+#include <string>
+
+#include "documents/record_description.h"
+
+namespace dynlab::inline app {
+
+/// What a page's runner is asked to do: the parts of a script from one on; what came before has run in the process that
+/// gets the order.
+struct RunOrder {
+    std::string file;      ///< of the script
+    std::string source;    ///< its text
+    std::size_t from = 0;  ///< the first part to run
+    std::uint32_t seed = 1;
+    std::string figure_folder;
+};
+
+/// What it tells.
+struct RunnerNews {
+    /// "split": a process goes on from here, its line comes with the message; "begun": a part begins; "done": it is
+    /// over, `record` has everything up to here; "ended": all parts are over, or one failed.
+    std::string kind;
+    std::size_t part = 0;
+    std::int64_t process = 0;  ///< number of the process that goes on
+    double seconds = 0;        ///< the part took
+    RunRecord record = {};
+};
+
+DYNLAB_DESCRIBE(RunOrder, file, source, from, seed, figure_folder)
+DYNLAB_DESCRIBE(RunnerNews, kind, part, process, seconds, record)
+
+}  // namespace dynlab::inline app

@@ -1,0 +1,160 @@
+#include "app/live/runner_process.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <tbb/global_control.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <memory>
+#include <set>
+
+#include "app/live/runner_messages.h"
+#include "data_io/values/cbor_values.h"
+#include "figures/gnuplot_renderer.h"
+#include "platform/cache.h"
+#include "scripting/memoized_calls/call_cache.h"
+#include "scripting/runtime/report_language.h"
+#include "scripting/runtime/runtime.h"
+#include "workflow/run_script.h"
+
+namespace dynlab::inline app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A state is kept where it took at least this long to come there from the one before.
+constexpr double kWorthKeeping = 0.003;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// The script's world, as far as it has run.
+struct World {
+    Cache cache;
+    CallCache calls{cache};
+    GnuplotRenderer renderer{&cache};
+    ReportLanguage language;
+    Runtime runtime;
+    std::set<std::string> drawn;  ///< names of figures
+
+    explicit World(const RunOptions& options, const std::string& report_language)
+        : language{report_language}, runtime(options, renderer) {
+        runtime.set_service(&language);
+    }
+};
+
+class RunnerProcess {
+  public:
+    explicit RunnerProcess(Channel orders) : line_(std::move(orders)) {}
+
+    [[noreturn]] void serve() {
+        while (const auto message = line_.receive()) {
+            const RunOrder order = from_cbor<RunOrder>(message->bytes);
+            if (split() == Side::kGoesOn) run(order);
+        }
+        ::_exit(0);
+    }
+
+  private:
+    enum class Side { kStays, kGoesOn };
+
+    Side split() {
+        tbb::task_scheduler_handle threads{tbb::attach{}};
+        tbb::finalize(threads, std::nothrow);
+        while (::waitpid(-1, nullptr, WNOHANG) > 0) {
+        }
+        auto [here, there] = Channel::pair();
+        const pid_t self = ::getpid();
+        const pid_t next = ::fork();
+        if (next < 0) ::_exit(1);
+        if (next == 0) {
+            ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+            if (::getppid() != self) ::_exit(0);
+            line_ = std::move(there);
+            kept_at_ = Clock::now();
+            return Side::kGoesOn;
+        }
+        RunnerNews news{.kind = "split", .process = next};
+        if (!line_.send(cbor_of(news), here.descriptor())) ::_exit(0);
+        return Side::kStays;
+    }
+
+    void tell(const RunnerNews& news) {
+        if (!line_.send(cbor_of(news))) ::_exit(0);
+    }
+
+    void run(const RunOrder& order) {
+        const PercentScript script = parse_percent_script(order.source, order.file);
+        const std::vector<ScriptPart> parts = script_parts(script);
+        if (!world_) begin(order, script);
+        std::size_t last = order.from;
+        for (std::size_t i = order.from; i < parts.size(); ++i) {
+            last = i;
+            tell({.kind = "begun", .part = i});
+            const Clock::time_point start = Clock::now();
+            RunRecord record = world_->runtime.run_part(script, parts[i]);
+            const double seconds = seconds_since(start);
+            draw(record, order.figure_folder, i + 1 == parts.size());
+            const bool failed = record.error.has_value();
+            tell({.kind = "done", .part = i, .seconds = seconds, .record = std::move(record)});
+            if (failed) {
+                tell({.kind = "ended", .part = i});
+                ::_exit(0);
+            }
+            const bool keep = i + 1 < parts.size() && seconds_since(kept_at_) >= kWorthKeeping;
+            if (keep && split() == Side::kStays) return;
+        }
+        tell({.kind = "ended", .part = last});
+    }
+
+    void begin(const RunOrder& order, const PercentScript& script) {
+        RunOptions options;
+        options.seed = order.seed;
+        const std::filesystem::path folder = script.file.parent_path();
+        options.script_folder = folder.empty() ? "." : folder;
+        options.out_folder = order.figure_folder;
+        world_ = std::make_unique<World>(options, script.header.language);
+        world_->runtime.begin_parts(script);
+    }
+
+    /// Figures that are new; at the end all, since a script may have changed one that it reported before.
+    void draw(RunRecord& record, const std::filesystem::path& folder, bool all) {
+        world_->renderer.finish();
+        GnuplotRenderer renderer(&world_->cache);
+        for (auto& [name, figure] : record.figures) {
+            figure.file = folder / (digest_of(name).hex() + ".svg");
+            if (all || !world_->drawn.contains(name)) renderer.draw(figure.figure, figure.file, FigureFormat::kSvg);
+            world_->drawn.insert(name);
+        }
+        renderer.finish();
+    }
+
+    Channel line_;
+    std::unique_ptr<World> world_;
+    Clock::time_point kept_at_ = Clock::now();
+};
+
+/// What the terminal sends to the program ends the program, and with it this; nothing is written there from here.
+void leave_terminal() {
+    ::signal(SIGINT, SIG_IGN);
+    const FileDescriptor nowhere(::open("/dev/null", O_RDWR | O_CLOEXEC));
+    ::dup2(nowhere.get(), STDIN_FILENO);
+    ::dup2(nowhere.get(), STDOUT_FILENO);
+}
+
+}  // namespace
+
+void serve_runs(Channel orders) {
+    leave_terminal();
+    try {
+        RunnerProcess(std::move(orders)).serve();
+    } catch (...) {
+        ::_exit(1);
+    }
+}
+
+}  // namespace dynlab::inline app

@@ -1,0 +1,130 @@
+#include "app/live/script_runner.h"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "app/live/runner_process.h"
+#include "data_io/values/cbor_values.h"
+#include "documents/text_lines.h"
+#include "platform/error.h"
+
+namespace dynlab::inline app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a change of which makes every part run anew: the file's place, the seed, the header.
+std::string settings_of(const PercentScript& script, std::uint32_t seed) {
+    return fmt::format("{}\n{}\n{}", script.file.string(), seed, script.header.language);
+}
+
+bool is_same(const ScriptPart& a, const ScriptPart& b) {
+    return a.code == b.code && a.cells == b.cells;
+}
+
+}  // namespace
+
+ScriptRunner::ScriptRunner() {
+    auto [here, there] = Channel::pair();
+    const pid_t self = ::getpid();
+    const pid_t first = ::fork();
+    if (first < 0) throw EnvironmentError("cannot start a process for the script: " + system_reason(errno));
+    if (first == 0) {
+        ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+        if (::getppid() != self) ::_exit(0);
+        here.release();
+        serve_runs(std::move(there));
+    }
+    kept_.push_back({0, std::move(here), first});
+}
+
+ScriptRunner::~ScriptRunner() {
+    go_back_to(0);
+    const pid_t first = kept_.front().process;
+    ::kill(first, SIGKILL);
+    retry_interrupted([&] { return ::waitpid(first, nullptr, 0); });
+}
+
+/// Each process is the child of the one before, and dies with it.
+void ScriptRunner::end_last() {
+    ::kill(kept_.back().process, SIGKILL);
+    kept_.pop_back();
+}
+
+void ScriptRunner::go_back_to(std::size_t parts) {
+    while (running_ && !split_)
+        next();  // the process with the order keeps its state; it is the one behind it that runs
+    if (running_) end_last();
+    running_ = false;
+    while (kept_.back().parts > parts) end_last();
+}
+
+bool ScriptRunner::is_as_it_ran(std::size_t part, const std::vector<ScriptPart>& parts,
+                                const std::set<fs::path>& changed) const {
+    if (part >= parts_.size() || part >= parts.size() || !is_same(parts[part], parts_[part])) return false;
+    return part >= done_ || std::none_of(read_[part].begin(), read_[part].end(),
+                                         [&](const fs::path& file) { return changed.contains(file); });
+}
+
+std::size_t ScriptRunner::run(const PercentScript& script, std::uint32_t seed, const fs::path& figure_folder,
+                              const std::set<fs::path>& changed) {
+    std::vector<ScriptPart> parts = script_parts(script);
+    const std::string settings = settings_of(script, seed);
+    std::size_t same = 0;
+    while (settings == settings_ && is_as_it_ran(same, parts, changed)) ++same;
+    const bool all_same = same == parts.size() && same == parts_.size();
+    if (all_same && (running_ || done_ == same)) return under_way_;
+    go_back_to(std::min(same, done_));
+    settings_ = settings;
+    parts_ = std::move(parts);
+    read_.resize(parts_.size());
+    under_way_ = done_ = kept_.back().parts;
+    const RunOrder order{script.file.string(), script.source, done_, seed, figure_folder.string()};
+    split_ = false;
+    running_ = kept_.back().line.send(cbor_of(order));
+    if (!running_) throw EnvironmentError("the process that runs the script has ended");
+    return under_way_;
+}
+
+void ScriptRunner::stop() {
+    if (running_) go_back_to(done_);
+    done_ = kept_.back().parts;
+}
+
+int ScriptRunner::descriptor() const {
+    return running_ ? kept_.back().line.descriptor() : -1;
+}
+
+RunnerNews ScriptRunner::next() {
+    std::optional<Channel::Message> message = kept_.back().line.receive();
+    if (!message) {
+        RunnerNews died{.kind = "ended", .part = under_way_};
+        died.record.error = RecordedError{"the process that ran the script has ended", 0};
+        split_ = true;
+        stop();
+        return died;
+    }
+    RunnerNews news = from_cbor<RunnerNews>(message->bytes);
+    if (news.kind == "split") {
+        split_ = true;
+        kept_.back().parts = done_;
+        kept_.push_back({done_, Channel(std::move(message->file)), static_cast<pid_t>(news.process)});
+    } else if (news.kind == "begun") {
+        under_way_ = news.part;
+    } else if (news.kind == "done" && !news.record.error) {
+        done_ = news.part + 1;
+        read_[news.part] = {news.record.files_read.begin(), news.record.files_read.end()};
+    } else if (news.kind == "ended") {
+        running_ = false;
+        kept_.back().parts = done_;
+        if (done_ < parts_.size()) end_last();  // a part failed: nothing goes on from there
+    }
+    return news;
+}
+
+}  // namespace dynlab::inline app

@@ -1,0 +1,63 @@
+#pragma once
+#include <sys/types.h>
+
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "app/live/channel.h"
+#include "app/live/runner_messages.h"
+#include "scripting/runtime/script_parts.h"
+
+namespace dynlab::inline app {
+
+/// Runs a script again and again while it is being written: parts before the first that has changed are not run anew.
+/// The script runs in processes of its own (app/live/runner_process.h), so that a run can always be stopped and takes
+/// nothing with it when it fails. For one thread.
+class ScriptRunner {
+  public:
+    /// Starts the first process. To be made before the program has threads.
+    ScriptRunner();
+    ~ScriptRunner();  ///< ends all of them
+    ScriptRunner(const ScriptRunner&) = delete;
+    ScriptRunner& operator=(const ScriptRunner&) = delete;
+
+    /// Runs `script` from the first part that differs from what ran before, or reads a file that is named in `changed`;
+    /// a run that is under way is given up, but not for a change of text alone. Returns the part with which it begins.
+    std::size_t run(const PercentScript& script, std::uint32_t seed, const std::filesystem::path& figure_folder,
+                    const std::set<std::filesystem::path>& changed);
+    void stop();                          ///< gives the run up; the next begins behind the last part that was kept
+    void forget() { settings_.clear(); }  ///< the next run begins with the first part
+    bool running() const { return running_; }
+
+    /// To be polled for reading; -1 when nothing runs.
+    int descriptor() const;
+    /// What the run tells next; waits for it. A process that died is told as a failure of its part.
+    RunnerNews next();
+
+    const std::vector<ScriptPart>& parts() const { return parts_; }
+
+  private:
+    /// A process that waits with the state behind so many parts.
+    struct Kept {
+        std::size_t parts;
+        Channel line;
+        pid_t process;
+    };
+    bool is_as_it_ran(std::size_t part, const std::vector<ScriptPart>& parts,
+                      const std::set<std::filesystem::path>& changed) const;
+    void go_back_to(std::size_t parts);
+    void end_last();
+
+    std::vector<Kept> kept_;  ///< by the number of parts; the last one is the process that runs, where one does
+    std::vector<ScriptPart> parts_;
+    std::vector<std::set<std::filesystem::path>> read_;  ///< by each part: the files that had been read behind it
+    std::string settings_;                               ///< file, seed and header of the run
+    std::size_t done_ = 0;                               ///< parts that are over
+    std::size_t under_way_ = 0;
+    bool running_ = false, split_ = false;  ///< split: the process that got the order has made the one that runs
+};
+
+}  // namespace dynlab::inline app

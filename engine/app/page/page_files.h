@@ -1,0 +1,14 @@
+#pragma once
+#include <span>
+#include <string_view>
+
+namespace dynlab::inline app {
+
+/// A file of our pages as it lies in engine/app/page, part of the program.
+struct PageFile {
+    std::string_view name, text;
+};
+
+std::span<const PageFile> page_files();
+
+}  // namespace dynlab::inline app

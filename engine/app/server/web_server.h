@@ -1,0 +1,63 @@
+#pragma once
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+
+namespace dynlab::inline app {
+
+/// What a page of ours asks.
+struct PageRequest {
+    std::string path;
+    std::map<std::string, std::string> parameters;  ///< behind the question mark
+    std::string body;                               ///< of a POST
+};
+
+struct PageReply {
+    std::string body;
+    std::string type = "text/html; charset=utf-8";
+    int status = 200;
+};
+
+/// Serves pages to this machine's browser: HTTP on 127.0.0.1, requests and one stream of events a tab.
+///
+/// Who may ask: the address that is told holds a random token, which a first visit exchanges for a cookie of this
+/// session (SameSite=Strict, HttpOnly); without it nothing is given. Host must name this machine and this port, so that
+/// no other name leads here, and a foreign Origin is refused; no other site may read (no CORS) or frame what is served,
+/// and pages get scripts, styles and pictures from here only.
+class WebServer {
+  public:
+    struct Options {
+        int port = 0;  ///< any free one
+        std::size_t largest_body = std::size_t{8} << 20;
+        int most_streams = 24;
+    };
+    using Handler = std::function<PageReply(const PageRequest&)>;
+
+    /// Throws EnvironmentError when the port is taken.
+    explicit WebServer(Options options);
+    ~WebServer();  ///< ends all streams
+    WebServer(const WebServer&) = delete;
+    WebServer& operator=(const WebServer&) = delete;
+
+    /// Handlers run in threads of the server; what they throw becomes a reply with status 500 and its sentence. A path
+    /// that ends in * is all that begin so. Call before start().
+    void on_get(const std::string& path, Handler handler);
+    void on_post(const std::string& path, Handler handler);
+    /// The data of the event "page" with which a stream begins.
+    void on_stream(std::function<std::string()> first);
+    void start();
+
+    int port() const;
+    std::string address() const;  ///< "http://127.0.0.1:PORT/?token=..."
+    /// An event for all streams; a tab that does not keep up with 64 MB of them is dropped and comes again.
+    void send(const std::string& event, const std::string& data);
+    int streams() const;
+
+  private:
+    class Work;
+    std::unique_ptr<Work> work_;
+};
+
+}  // namespace dynlab::inline app

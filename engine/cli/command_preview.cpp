@@ -1,0 +1,63 @@
+#include <iostream>
+
+#include "app/live/preview.h"
+#include "cli/commands.h"
+#include "platform/child_process.h"
+#include "platform/error.h"
+#include "platform/program_lookup.h"
+
+namespace dynlab::inline cli {
+namespace {
+
+struct PreviewWords {
+    PreviewOptions options;
+    bool no_browser = false;
+};
+
+/// The address in the browser of the desktop, where there is one.
+void open_browser(const std::string& address) {
+    if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
+    if (!find_program("xdg-open")) return;
+    ChildOptions xdg_open;
+    xdg_open.command = {"xdg-open", address};
+    xdg_open.timeout = std::chrono::seconds(10);
+    try {
+        run_child(xdg_open, "xdg-utils");
+    } catch (const std::exception&) {
+        return;  // the address stands on the terminal
+    }
+}
+
+int show_preview(PreviewWords words) {
+    words.options.opened = [no_browser = words.no_browser](const std::string& address) {
+        std::cout << address << "\n(Ctrl-C ends it)" << std::endl;
+        if (!no_browser) open_browser(address);
+    };
+    try {
+        preview(words.options);
+    } catch (const Interrupted&) {
+        std::cout << std::endl;
+    }
+    return kDone;
+}
+
+}  // namespace
+
+void add_preview(CLI::App& app, Action& action) {
+    auto words = std::make_shared<PreviewWords>();
+    CLI::App* command =
+        app.add_subcommand("preview", "Show a document in the browser; the page follows every change of its files");
+    command
+        ->add_option("DOCUMENT", words->options.document,
+                     "A script, a folder with analysis.lua and report.md, or a lesson")
+        ->required();
+    command->add_option("--port", words->options.port, "The port of the page's address (default: any free one)")
+        ->check(CLI::Range(1, 65535));
+    command->add_flag("--no-browser", words->no_browser, "Only print the address");
+    command->add_flag("--run", words->options.run_at_once,
+                      "Run the scripts of this folder without being asked on the page, now and later");
+    command->footer("Example:  dynlab preview my-work");
+    command->callback([words, &action] { action = [words] { return show_preview(*words); }; });
+}
+
+}  // namespace dynlab::inline cli

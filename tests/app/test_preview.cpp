@@ -1,0 +1,304 @@
+// `dynlab preview` in a real browser. Oracle: what the files say that the test writes, and what a reader sees: the
+// page's own text, places and states.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <thread>
+
+#include "platform/atomic_file.h"
+#include "platform/temporary_folder.h"
+#include "support/browser.h"
+
+namespace test_preview {
+using namespace dynlab;
+using test::Browser;
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+const std::string kHead = "-- ---\n-- title: A document\n-- ---\n\n";
+const std::string kFirst =
+    "-- %% [markdown]\n-- # First\n--\n-- Words at the beginning.\n\n-- %% id=one\nlocal x = 20\nprint(\"x is \" .. "
+    "x)\n\n";
+const std::string kPlot =
+    "-- %% id=drawn\nplot({1, 2, 3}, {1, 4, 9}, {title = \"Squares\"})\n\n-- %% [markdown]\n-- Words at the end.\n";
+
+/// The program that serves a document, as a user starts it.
+class Preview {
+  public:
+    explicit Preview(const fs::path& document, bool run = true) {
+        const fs::path address = out.path() / "address";
+        process_ = ::fork();
+        if (process_ == 0) {
+            ::setenv("XDG_CACHE_HOME", out.path().c_str(), 1);
+            ::setenv("DYNLAB_HOME", DYNLAB_SOURCE_DIR, 1);
+            if (!std::freopen(address.c_str(), "w", stdout)) ::_exit(1);
+            ::execl(DYNLAB_PROGRAM, "dynlab", "preview", document.c_str(), "--no-browser", run ? "--run" : nullptr,
+                    nullptr);
+            ::_exit(1);
+        }
+        for (int i = 0; i < 1000 && address_.empty(); ++i) {
+            std::ifstream file(address);
+            std::getline(file, address_);
+            std::this_thread::sleep_for(10ms);
+        }
+    }
+    ~Preview() { end(); }
+    void end() {
+        if (process_ <= 0) return;
+        ::kill(process_, SIGINT);
+        ::waitpid(process_, nullptr, 0);
+        process_ = 0;
+    }
+    const std::string& address() const { return address_; }
+    TemporaryFolder out;
+
+  private:
+    pid_t process_ = 0;
+    std::string address_;
+};
+
+class preview_page : public testing::Test {
+  protected:
+    fs::path file(const std::string& name = "analysis.lua") const { return folder.path() / name; }
+    void write(const std::string& text, const std::string& name = "analysis.lua") const {
+        std::ofstream(file(name)) << text;
+    }
+    bool shows(Browser& browser, const std::string& text) const {
+        return browser.comes("document.getElementById('document').innerText.includes('" + text + "')");
+    }
+    static bool state_is(Browser& browser, const std::string& cell, const std::string& state) {
+        return browser.comes("document.querySelector('[data-cell=" + cell + "]')?.dataset.state === '" + state + "'");
+    }
+    TemporaryFolder folder;
+};
+
+TEST_F(preview_page, shows_text_code_output_and_figures_and_follows_the_file) {
+    write(kHead + kFirst + kPlot);
+    const Preview preview(file());
+    Browser browser;
+    browser.open(preview.address());
+    EXPECT_TRUE(shows(browser, "Words at the beginning."));
+    EXPECT_TRUE(shows(browser, "x is 20"));
+    EXPECT_TRUE(browser.comes("document.querySelector('figure img')?.naturalWidth > 100"));
+    EXPECT_TRUE(browser.comes("document.getElementById('head').innerText.includes('A document')"));
+    EXPECT_EQ(browser.evaluate("return location.search"), "\"\"");  // no token in the address
+
+    std::string changed = kHead + kFirst + kPlot;
+    changed.replace(changed.find("the beginning"), 13, "the start");
+    write(changed);
+    EXPECT_TRUE(shows(browser, "Words at the start."));
+    changed.replace(changed.find("x = 20"), 6, "x = 21");
+    write(changed);
+    EXPECT_TRUE(shows(browser, "x is 21"));
+    EXPECT_TRUE(browser.comes("!document.getElementById('document').innerText.includes('x is 20')"));
+}
+
+TEST_F(preview_page, changes_only_what_has_changed) {
+    write(kHead + kFirst + kPlot);
+    const Preview preview(file());
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(browser.comes("document.querySelector('figure img')"));
+    ASSERT_TRUE(browser.comes(
+        "document.getElementById('stop').hidden && document.querySelectorAll('[data-state=done]').length > 0"));
+    browser.evaluate("for (const node of document.querySelectorAll('.piece')) node.seen = true");
+    std::string changed = kHead + kFirst + kPlot;
+    changed.replace(changed.find("at the end"), 10, "at an end");
+    write(changed);
+    ASSERT_TRUE(shows(browser, "Words at an end."));
+    EXPECT_EQ(
+        browser.evaluate("return [...document.querySelectorAll('.piece')].filter(n => !n.seen).map(n => n.innerText)"),
+        "[\"Words at an end.\"]");
+}
+
+/// What stands at the top of the window stays there, whatever grows above or below it.
+TEST_F(preview_page, does_not_jump) {
+    std::string many;
+    for (int i = 0; i < 60; ++i)
+        many += "-- Paragraph " + std::to_string(i) + " has words that fill a line or two of it.\n--\n";
+    const std::string text = "-- %% [markdown]\n" + many + "\n";
+    write(kHead + kFirst + text + kPlot);
+    const Preview preview(file());
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(
+        browser.comes("document.querySelector('figure img')?.complete && document.getElementById('stop').hidden"));
+    browser.evaluate(
+        "window.held = [...document.querySelectorAll('.piece')].find(n => n.innerText.startsWith('Paragraph 30'));"
+        "held.scrollIntoView(); window.before = held.getBoundingClientRect().top");
+    std::string longer = kHead + kFirst + text + kPlot;
+    longer.replace(longer.find("Words at the beginning."), 23,
+                   "Words at the beginning,\n--\n-- and more,\n--\n-- and still more.");
+    write(longer);
+    ASSERT_TRUE(shows(browser, "and still more."));
+    EXPECT_EQ(browser.evaluate("return Math.abs(held.getBoundingClientRect().top - before) < 1"), "true");
+    longer.replace(longer.find("Words at the end."), 17, "Other words.");
+    write(longer);
+    ASSERT_TRUE(shows(browser, "Other words."));
+    EXPECT_EQ(browser.evaluate("return Math.abs(held.getBoundingClientRect().top - before) < 1"), "true");
+}
+
+TEST_F(preview_page, a_failing_cell_says_why_and_keeps_what_was_below) {
+    write(kHead + kFirst + kPlot);
+    const Preview preview(file());
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(browser.comes("document.querySelector('figure img') && document.getElementById('stop').hidden"));
+    std::string wrong = kHead + kFirst + kPlot;
+    wrong.replace(wrong.find("print("), 6, "pritn(");
+    write(wrong);
+    EXPECT_TRUE(shows(browser, "did you mean"));
+    EXPECT_TRUE(state_is(browser, "one", "failed"));
+    EXPECT_TRUE(browser.comes("document.querySelector('figure img')"));
+    EXPECT_TRUE(
+        browser.comes("document.querySelector('.older figure') && getComputedStyle(document.querySelector('.older "
+                      "figure')).opacity < 0.6"));
+    write(kHead + kFirst + kPlot);
+    EXPECT_TRUE(state_is(browser, "one", "done"));
+    EXPECT_TRUE(browser.comes("!document.querySelector('.older')"));
+}
+
+TEST_F(preview_page, tells_what_is_wrong_with_the_text) {
+    write(kHead + kFirst + kPlot);
+    const Preview preview(file());
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(shows(browser, "x is 20"));
+    std::string wrong = kHead + kFirst + kPlot;
+    wrong.replace(wrong.find("Words at the end"), 5, "See @fig:none. Words");
+    write(wrong);
+    EXPECT_TRUE(
+        browser.comes("document.getElementById('complaints').innerText.includes('@fig:none points to nothing')"));
+    EXPECT_TRUE(shows(browser, "Words at the end"));
+    write("-- ---\n-- titel: x\n-- ---\n" + kFirst);
+    EXPECT_TRUE(browser.comes("document.getElementById('complaints').innerText.includes('titel')"));
+    EXPECT_TRUE(shows(browser, "x is 20"));  // the last good page stays
+    write(kHead + kFirst);
+    EXPECT_TRUE(browser.comes("document.getElementById('complaints').hidden"));
+}
+
+TEST_F(preview_page, an_endless_loop_can_be_stopped_and_mended) {
+    write(kHead + kFirst + kPlot);
+    const Preview preview(file());
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(shows(browser, "x is 20"));
+    write(kHead + kFirst + "-- %% id=loop\nwhile true do end\n");
+    ASSERT_TRUE(state_is(browser, "loop", "running"));
+    browser.click("#stop");
+    EXPECT_TRUE(browser.comes("document.getElementById('stop').hidden"));
+    EXPECT_TRUE(state_is(browser, "loop", "waiting"));
+    write(kHead + kFirst + "-- %% id=loop\nprint(\"over\")\n");
+    EXPECT_TRUE(shows(browser, "over"));
+}
+
+/// Markup in what is printed, reported or written is text.
+TEST_F(preview_page, nothing_in_a_document_runs_in_the_page) {
+    write(kHead +
+          "-- %% [markdown]\n-- A `<script>window.bad = 1</script>` and \\<img src=x onerror=\"window.bad = 2\"\\>.\n\n"
+          "-- %% id=evil\nprint(\"<img src=x onerror='window.bad = 3'><script>window.bad = 4</script>\")\n"
+          "plot({1, 2}, {1, 2}, {title = \"<script>window.bad=5</script>\"})\n");
+    const Preview preview(file());
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(state_is(browser, "evil", "done"));
+    EXPECT_TRUE(shows(browser, "<script>window.bad = 4</script>"));
+    EXPECT_EQ(browser.evaluate("return [window.bad === undefined, document.querySelectorAll('#document script, "
+                               "#document img[onerror]').length]"),
+              "[true,0]");
+}
+
+TEST_F(preview_page, a_stranger_s_document_is_shown_and_runs_only_when_told) {
+    write(kHead + kFirst + "-- %% id=mark\nsave_csv(\"mark.csv\", {a = {1}})\n");
+    Preview preview(file(), false);
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(shows(browser, "Words at the beginning."));
+    EXPECT_TRUE(browser.comes("!document.getElementById('question').hidden"));
+    std::this_thread::sleep_for(300ms);
+    EXPECT_EQ(browser.evaluate("return document.getElementById('document').innerText.includes('x is 20')"), "false");
+    browser.click("#allow");
+    EXPECT_TRUE(shows(browser, "x is 20"));
+    EXPECT_TRUE(browser.comes("document.getElementById('question').hidden"));
+}
+
+TEST_F(preview_page, follows_files_that_editors_replace_and_that_come_back) {
+    write(kHead + kFirst);
+    const Preview preview(file());
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(shows(browser, "x is 20"));
+    std::string changed = kHead + kFirst;
+    changed.replace(changed.find("x = 20"), 6, "x = 33");
+    write(changed, ".analysis.lua.new");
+    fs::rename(file(".analysis.lua.new"), file());
+    EXPECT_TRUE(shows(browser, "x is 33"));
+    fs::remove(file());
+    EXPECT_TRUE(browser.comes("!document.getElementById('complaints').hidden"));
+    EXPECT_TRUE(shows(browser, "x is 33"));
+    write(kHead + kFirst);
+    EXPECT_TRUE(shows(browser, "x is 20"));
+    EXPECT_TRUE(browser.comes("document.getElementById('complaints').hidden"));
+}
+
+TEST_F(preview_page, follows_data_and_template_of_a_report) {
+    write("t,u,y\n0,1,5\n1,1,6\n", "d.csv");
+    write(kHead + "-- %% id=data\nlocal d = load(\"d.csv\")\nreport.value(\"first\", d.y[1], \"%g\")\n");
+    write("---\ntitle: My report\n---\n\nIt begins at `first`{.value}.\n", "report.md");
+    const Preview preview(folder.path());
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(shows(browser, "It begins at 5."));
+    write("t,u,y\n0,1,7\n1,1,6\n", "d.csv");
+    EXPECT_TRUE(shows(browser, "It begins at 7."));
+    write("---\ntitle: My report\n---\n\nThe first is `first`{.value}.\n", "report.md");
+    EXPECT_TRUE(shows(browser, "The first is 7."));
+}
+
+TEST_F(preview_page, the_last_of_many_saves_is_shown) {
+    write(kHead + kFirst);
+    const Preview preview(file());
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(shows(browser, "x is 20"));
+    for (int i = 0; i < 1000; ++i) {
+        write(kHead + "-- %% [markdown]\n-- Save number " + std::to_string(i) +
+              ".\n\n-- %% id=one\nlocal x = " + std::to_string(i) + "\nprint(\"x is \" .. x)\n");
+        if (i % 10 == 0) std::this_thread::sleep_for(5ms);
+    }
+    EXPECT_TRUE(shows(browser, "Save number 999."));
+    EXPECT_TRUE(shows(browser, "x is 999"));
+}
+
+TEST_F(preview_page, tabs_come_and_go_and_the_end_is_told) {
+    write(kHead + kFirst);
+    Preview preview(file());
+    Browser browser;
+    for (int i = 0; i < 10; ++i) {
+        if (i > 0) browser.new_tab();
+        browser.open(preview.address());
+        ASSERT_TRUE(shows(browser, "x is 20")) << "tab " << i;
+    }
+    preview.end();
+    EXPECT_TRUE(browser.comes("/ended|no answer/.test(document.getElementById('state').innerText)"));
+    EXPECT_TRUE(shows(browser, "x is 20"));
+}
+
+TEST_F(preview_page, gives_the_pdf) {
+    write(kHead + kFirst);
+    const Preview preview(file());
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(shows(browser, "x is 20"));
+    browser.evaluate(
+        "fetch('/document.pdf').then(r => r.arrayBuffer()).then(b => { window.pdf = new "
+        "TextDecoder('latin1').decode(b.slice(0, 5)) })");
+    EXPECT_TRUE(browser.comes("window.pdf === '%PDF-'", 60));
+}
+
+}  // namespace test_preview

@@ -1,0 +1,148 @@
+// A script that is run again and again while it is written. Oracle: what cells count in a file each time they run, and
+// the record that a run of the whole gives.
+#include "app/live/script_runner.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <signal.h>
+
+#include <fstream>
+
+#include "platform/temporary_folder.h"
+
+namespace test_script_runner {
+using namespace dynlab;
+using testing::ElementsAre;
+namespace fs = std::filesystem;
+
+class script_runner : public testing::Test {
+  protected:
+    PercentScript script(const std::string& source) const {
+        return parse_percent_script(source, folder.path() / "analysis.lua");
+    }
+
+    /// Runs to the end; the parts that ran.
+    std::vector<std::size_t> run(const std::string& source, const std::set<fs::path>& changed = {}) {
+        std::vector<std::size_t> ran;
+        runner.run(script(source), 1, folder.path(), changed);
+        while (runner.running()) {
+            RunnerNews news = runner.next();
+            if (news.kind == "begun") ran.push_back(news.part);
+            if (news.kind == "done" || news.record.error) record = std::move(news.record);
+        }
+        return ran;
+    }
+
+    std::string printed(const std::string& cell) const {
+        const auto outputs = record.outputs.find(cell);
+        return outputs == record.outputs.end() ? "" : outputs->second.front().printed;
+    }
+
+    TemporaryFolder folder;
+    ScriptRunner runner;
+    RunRecord record;
+};
+
+/// Cells that take longer than it is worth to keep what was before.
+const std::string kWork = "local function work() local s = 0 for i = 1, 1e6 do s = s + i end return s end\n";
+const std::string kA = "-- %% id=a\n" + kWork + "local x = 1\nwork()\n",
+                  kB = "-- %% id=b\nx = x + 1\nwork()\nprint(x)\n", kC = "-- %% id=c\nwork()\nprint(x * 10)\n";
+
+TEST_F(script_runner, runs_only_from_the_first_change_on) {
+    EXPECT_THAT(run(kA + kB + kC), ElementsAre(0, 1, 2));
+    EXPECT_EQ(printed("c"), "20\n");
+    EXPECT_THAT(run(kA + kB + "-- %% id=c\nprint(x * 100)\n"), ElementsAre(2));
+    EXPECT_EQ(printed("c"), "200\n");
+    EXPECT_EQ(printed("b"), "2\n");
+    EXPECT_THAT(run(kA + "-- %% id=b\nx = x + 2\nprint(x)\n" + kC), ElementsAre(1, 2));
+    EXPECT_EQ(printed("c"), "30\n");
+}
+
+TEST_F(script_runner, text_alone_runs_nothing) {
+    run(kA + kB);
+    EXPECT_THAT(run("-- %% [markdown]\n-- Text.\n\n" + kA + kB), ElementsAre());
+    EXPECT_THAT(run(kA + kB + kC), ElementsAre(2));
+}
+
+TEST_F(script_runner, goes_on_behind_a_failure) {
+    EXPECT_THAT(run(kA + kB + "-- %% id=c\nerror(\"no\")\n"), ElementsAre(0, 1, 2));
+    ASSERT_TRUE(record.error);
+    EXPECT_THAT(record.error->message, testing::HasSubstr("no"));
+    EXPECT_EQ(printed("b"), "2\n");
+    EXPECT_THAT(run(kA + kB + kC), ElementsAre(2));
+    EXPECT_FALSE(record.error);
+    EXPECT_EQ(printed("c"), "20\n");
+}
+
+TEST_F(script_runner, a_file_that_has_changed_is_read_again) {
+    std::ofstream(folder.path() / "d.csv") << "t,u,y\n0,1,1\n1,1,2\n";
+    const std::string source = kA + "-- %% id=b\nlocal d = load(\"d.csv\")\nprint(d.y[2])\n" + kC;
+    run(source);
+    EXPECT_EQ(printed("b"), "2\n");
+    std::ofstream(folder.path() / "d.csv") << "t,u,y\n0,1,1\n1,1,3\n";
+    ASSERT_FALSE(record.files_read.empty());
+    EXPECT_THAT(run(source, {record.files_read.front()}), ElementsAre(1, 2));
+    EXPECT_EQ(printed("b"), "3\n");
+}
+
+TEST_F(script_runner, another_seed_or_a_shorter_script_are_changes) {
+    run(kA + kB + kC);
+    EXPECT_THAT(run(kA + kB), ElementsAre());
+    runner.run(script(kA + kB), 2, folder.path(), {});
+    EXPECT_TRUE(runner.running());
+    EXPECT_EQ(runner.next().kind, "split");
+    EXPECT_EQ(runner.next().part, 0u);
+}
+
+TEST_F(script_runner, an_endless_loop_is_stopped_and_the_next_run_goes_on_before_it) {
+    run(kA + kB + kC);
+    const std::string endless = kA + kB + "-- %% id=c\nwhile true do end\n";
+    runner.run(script(endless), 1, folder.path(), {});
+    while (runner.next().kind != "begun") {
+    }
+    pollfd waiting{runner.descriptor(), POLLIN, 0};
+    EXPECT_EQ(::poll(&waiting, 1, 100), 0);  // it runs
+    runner.stop();
+    EXPECT_FALSE(runner.running());
+    EXPECT_EQ(runner.descriptor(), -1);
+    const std::vector<std::size_t> ran = run(kA + kB + kC);
+    EXPECT_EQ(ran.back(), 2u);
+    EXPECT_EQ(printed("c"), "20\n");
+    runner.run(script(endless), 1, folder.path(), {});
+    EXPECT_THAT(run(kA + kB + "-- %% id=c\nprint(\"new\")\n"), ElementsAre(2));  // a new text stops it, too
+    EXPECT_EQ(printed("c"), "new\n");
+}
+
+/// Out of memory for good, or killed: the run is over and the next one runs.
+TEST_F(script_runner, survives_the_death_of_its_processes) {
+    runner.run(script(kA + kB + "-- %% id=c\nwhile true do end\n"), 1, folder.path(), {});
+    pid_t process = 0;
+    for (std::size_t begun = 0; begun < 3;) {
+        const RunnerNews news = runner.next();
+        if (news.kind == "split") process = static_cast<pid_t>(news.process);
+        if (news.kind == "begun") begun = news.part + 1;
+    }
+    ::kill(process, SIGKILL);
+    const RunnerNews news = runner.next();
+    EXPECT_EQ(news.kind, "ended");
+    ASSERT_TRUE(news.record.error);
+    EXPECT_THAT(news.record.error->message, testing::HasSubstr("has ended"));
+    run(kA + kB + kC);
+    EXPECT_EQ(printed("c"), "20\n");
+}
+
+TEST_F(script_runner, keeps_random_numbers_and_parallel_work_as_they_are) {
+    const std::string study =
+        " = montecarlo{system = 2/(tf(\"s\")^2 + 4*tf(\"s\") + 3), input = prbs(4, 20), Ts = 0.01, sigma = 0.2, runs = "
+        "20,\n"
+        "estimators = {lssvf = {{2, 1, 0}, 3}}}\n";
+    const std::string start = "-- %% id=a\n" + kWork + "local m" + study + "work()\n";
+    const std::string end = "-- %% id=b\nprint(randn(1))\nlocal n" + study + "print(n.lssvf.mean)\n";
+    EXPECT_THAT(run(start + end), ElementsAre(0, 1));
+    const std::string once = printed("b");
+    EXPECT_THAT(run(start + end + "-- told of\n"), ElementsAre(0, 1)) << "a comment behind a cell is its own";
+    EXPECT_EQ(printed("b"), once);
+}
+
+}  // namespace test_script_runner

@@ -1,0 +1,219 @@
+// The server of pages, asked as its own page asks and as others would. Oracle: the rules of web_server.h, and those of
+// browsers (Fetch, RFC 6265bis) that attacks rely on.
+#include "app/server/web_server.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <httplib.h>
+
+#include <atomic>
+#include <thread>
+
+#include "platform/error.h"
+
+namespace test_web_server {
+using namespace dynlab;
+using testing::HasSubstr;
+using testing::Not;
+
+class web_server : public testing::Test {
+  protected:
+    web_server() : server({.port = 0, .largest_body = 1000, .most_streams = 3}) {
+        server.on_get("/", [](const PageRequest&) { return PageReply{"the page"}; });
+        server.on_get("/picture/*", [](const PageRequest& asked) { return PageReply{asked.path}; });
+        server.on_get("/fails", [](const PageRequest&) -> PageReply { throw EnvironmentError("the disk is full"); });
+        server.on_post("/order", [this](const PageRequest& asked) {
+            ++orders;
+            return PageReply{"got " + asked.body};
+        });
+        server.on_stream([] { return std::string("{\"first\":1}"); });
+        server.start();
+        const std::string address = server.address();
+        token = address.substr(address.find('=') + 1);
+    }
+
+    httplib::Client client() const {
+        httplib::Client made("127.0.0.1", server.port());
+        made.set_read_timeout(5, 0);
+        return made;
+    }
+    std::string host() const { return "127.0.0.1:" + std::to_string(server.port()); }
+    std::string cookie() const { return "dynlab-" + std::to_string(server.port()) + "=" + token; }
+    httplib::Headers ours() const { return {{"Cookie", cookie()}}; }
+    int status(const std::string& path, const httplib::Headers& headers) const {
+        auto asking = client();
+        const auto reply = asking.Get(path, headers);
+        return reply ? reply->status : -1;
+    }
+
+    WebServer server;
+    std::string token;
+    std::atomic<int> orders = 0;
+};
+
+TEST_F(web_server, lets_in_who_has_the_address) {
+    auto browser = client();
+    const auto first = browser.Get("/?token=" + token);
+    ASSERT_TRUE(first);
+    EXPECT_EQ(first->status, 303);
+    EXPECT_EQ(first->get_header_value("Location"), "/");  // the token does not stay in the address
+    const std::string set = first->get_header_value("Set-Cookie");
+    EXPECT_THAT(set, HasSubstr("SameSite=Strict"));
+    EXPECT_THAT(set, HasSubstr("HttpOnly"));
+    const auto page = browser.Get("/", {{"Cookie", "other=1; " + set.substr(0, set.find(';'))}});
+    ASSERT_TRUE(page);
+    EXPECT_EQ(page->status, 200);
+    EXPECT_EQ(page->body, "the page");
+}
+
+TEST_F(web_server, gives_nothing_to_others) {
+    EXPECT_EQ(status("/", {}), 403);
+    EXPECT_EQ(status("/events", {}), 403);
+    EXPECT_EQ(status("/picture/a", {}), 403);
+    EXPECT_EQ(status("/?token=0123456789abcdef0123456789abcdef", {}), 403);
+    EXPECT_EQ(status("/?token=", {}), 403);
+    EXPECT_EQ(status("/picture/a?token=" + token, {}), 403);  // only the page itself exchanges it
+    EXPECT_EQ(status("/", {{"Cookie", cookie().substr(0, cookie().size() - 1)}}), 403);
+    EXPECT_EQ(status("/", {{"Cookie", "x" + cookie()}}), 403);
+    auto other = client();
+    const auto order = other.Post("/order", "x", "text/plain");
+    ASSERT_TRUE(order);
+    EXPECT_EQ(order->status, 403);
+    EXPECT_EQ(orders, 0);
+}
+
+/// A name of an attacker's that is made to lead to this machine (DNS rebinding).
+TEST_F(web_server, answers_to_its_own_names_only) {
+    for (const std::string& name : {std::string("evil.example"), std::string("127.0.0.1"), std::string("127.0.0.1:1"),
+                                    "evil.example:" + std::to_string(server.port()), std::string()}) {
+        EXPECT_EQ(status("/", {{"Host", name}, {"Cookie", cookie()}}), 403) << name;
+        EXPECT_EQ(status("/?token=" + token, {{"Host", name}}), 403) << name;
+    }
+    EXPECT_EQ(status("/", {{"Host", "localhost:" + std::to_string(server.port())}, {"Cookie", cookie()}}), 200);
+}
+
+TEST_F(web_server, other_sites_may_not_ask) {
+    for (const std::string& origin :
+         {std::string("http://evil.example"), std::string("null"), std::string("http://127.0.0.1"), "https://" + host(),
+          "http://" + host() + ".evil.example"}) {
+        httplib::Headers headers = ours();
+        headers.emplace("Origin", origin);
+        auto other = client();
+        const auto reply = other.Post("/order", headers, "x", "text/plain");
+        ASSERT_TRUE(reply);
+        EXPECT_EQ(reply->status, 403) << origin;
+        EXPECT_FALSE(reply->has_header("Access-Control-Allow-Origin"));
+    }
+    EXPECT_EQ(orders, 0);
+    httplib::Headers own = ours();
+    own.emplace("Origin", "http://" + host());
+    auto page = client();
+    const auto reply = page.Post("/order", own, "x", "text/plain");
+    ASSERT_TRUE(reply);
+    EXPECT_EQ(reply->body, "got x");
+    EXPECT_EQ(orders, 1);
+}
+
+TEST_F(web_server, tells_browsers_to_take_nothing_from_elsewhere) {
+    auto browser = client();
+    const auto page = browser.Get("/", ours());
+    ASSERT_TRUE(page);
+    EXPECT_THAT(page->get_header_value("Content-Security-Policy"), HasSubstr("default-src 'self'"));
+    EXPECT_THAT(page->get_header_value("Content-Security-Policy"), Not(HasSubstr("script-src")));
+    EXPECT_EQ(page->get_header_value("X-Content-Type-Options"), "nosniff");
+    EXPECT_EQ(page->get_header_value("Referrer-Policy"), "no-referrer");
+}
+
+TEST_F(web_server, keeps_to_its_paths) {
+    EXPECT_EQ(status("/picture/abc.svg", ours()), 200);
+    EXPECT_EQ(status("/picture/../../etc/passwd", ours()), 404);
+    EXPECT_EQ(status("/picture/a/b", ours()), 404);
+    EXPECT_EQ(status("/nothing", ours()), 404);
+}
+
+TEST_F(web_server, refuses_bodies_that_are_too_large) {
+    auto browser = client();
+    const auto reply = browser.Post("/order", ours(), std::string(2000, 'x'), "text/plain");
+    EXPECT_TRUE(!reply || reply->status == 413);
+    EXPECT_EQ(orders, 0);
+}
+
+TEST_F(web_server, says_why_something_failed) {
+    auto browser = client();
+    const auto reply = browser.Get("/fails", ours());
+    ASSERT_TRUE(reply);
+    EXPECT_EQ(reply->status, 500);
+    EXPECT_EQ(reply->body, "the disk is full");
+}
+
+TEST_F(web_server, a_port_that_is_taken_is_told) {
+    try {
+        const WebServer second({.port = server.port()});
+        ADD_FAILURE() << "two servers share a port";
+    } catch (const EnvironmentError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("the port " + std::to_string(server.port()) + " cannot be used"));
+    }
+}
+
+/// Reads a stream in a thread of its own until it has seen `wanted`.
+class Listener {
+  public:
+    Listener(int port, httplib::Headers headers, std::string wanted)
+        : thread_([this, port, headers = std::move(headers), wanted = std::move(wanted)] {
+              httplib::Client asking("127.0.0.1", port);
+              asking.set_read_timeout(10, 0);
+              const auto reply = asking.Get("/events", headers, [&](const char* data, std::size_t length) {
+                  text_.append(data, length);
+                  open = true;
+                  return text_.find(wanted) == std::string::npos;
+              });
+              if (reply) status = reply->status;
+              over = true;
+          }) {}
+    ~Listener() { thread_.join(); }
+    const std::string& text() {
+        while (!over) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        return text_;
+    }
+    std::atomic<bool> open = false, over = false;
+    std::atomic<int> status = 0;
+
+  private:
+    std::string text_;
+    std::thread thread_;
+};
+
+void wait_until_open(const Listener& listener) {
+    for (int i = 0; i < 2000 && !listener.open && !listener.over; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+}
+
+TEST_F(web_server, streams_give_everything_first_and_then_what_is_new) {
+    Listener one(server.port(), ours(), "\"next\""), two(server.port(), ours(), "\"next\"");
+    wait_until_open(one);
+    wait_until_open(two);
+    EXPECT_EQ(server.streams(), 2);
+    server.send("page", "{\"next\":2}");
+    for (Listener* listener : {&one, &two})
+        EXPECT_EQ(listener->text(), "event: page\ndata: {\"first\":1}\n\nevent: page\ndata: {\"next\":2}\n\n");
+}
+
+TEST_F(web_server, has_a_limit_of_streams_and_forgets_those_that_are_gone) {
+    {
+        std::vector<std::unique_ptr<Listener>> listeners;
+        for (int i = 0; i < 3; ++i) {
+            listeners.push_back(std::make_unique<Listener>(server.port(), ours(), "\"end\""));
+            wait_until_open(*listeners.back());
+        }
+        EXPECT_EQ(status("/events", ours()), 503);
+        EXPECT_EQ(status("/", ours()), 200);  // pages are still served
+        server.send("page", "{\"end\":1}");
+    }
+    for (int i = 0; i < 500 && server.streams() > 0; ++i) {
+        server.send("page", "{}");  // finds out
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    EXPECT_EQ(server.streams(), 0);
+}
+
+}  // namespace test_web_server

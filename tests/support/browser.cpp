@@ -1,0 +1,109 @@
+#include "support/browser.h"
+
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <httplib.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "platform/child_process.h"
+#include "platform/error.h"
+#include "platform/system_call.h"
+#include "platform/temporary_folder.h"
+
+namespace dynlab::test {
+namespace {
+
+using nlohmann::json;
+using namespace std::chrono_literals;
+
+int free_port() {
+    const FileDescriptor probe(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    if (::bind(probe.get(), reinterpret_cast<sockaddr*>(&address), size) != 0 ||
+        ::getsockname(probe.get(), reinterpret_cast<sockaddr*>(&address), &size) != 0)
+        throw EnvironmentError("there is no free port");
+    return ntohs(address.sin_port);
+}
+
+ChildOptions driver(int port) {
+    ChildOptions options;
+    options.command = {"chromedriver", "--port=" + std::to_string(port)};
+    return options;
+}
+
+}  // namespace
+
+class Browser::Work {
+  public:
+    Work(int width, int height)
+        : port_(free_port()), driver_(driver(port_), "chromium-driver"), client_("127.0.0.1", port_) {
+        client_.set_read_timeout(60, 0);
+        json arguments = {"--headless=new", "--disable-gpu", "--hide-scrollbars",
+                          "--user-data-dir=" + profile_.path().string(),
+                          fmt::format("--window-size={},{}", width, height)};
+        if (::geteuid() == 0) arguments.push_back("--no-sandbox");
+        const json wanted = {{"capabilities", {{"alwaysMatch", {{"goog:chromeOptions", {{"args", arguments}}}}}}}};
+        for (int i = 0; i < 100 && !client_.Get("/status"); ++i) std::this_thread::sleep_for(100ms);
+        session_ = "/session/" + post("/session", wanted)["sessionId"].get<std::string>();
+    }
+    ~Work() { client_.Delete(session_); }
+
+    json post(const std::string& path, const json& body) {
+        return value(client_.Post(path, body.dump(), "application/json"));
+    }
+    json command(const std::string& path, const json& body) { return post(session_ + path, body); }
+    json get(const std::string& path) { return value(client_.Get(session_ + path)); }
+
+  private:
+    static json value(const httplib::Result& reply) {
+        if (!reply) throw EnvironmentError("chromedriver does not answer");
+        json value = json::parse(reply->body)["value"];
+        if (value.is_object() && value.contains("error")) throw EnvironmentError(value["message"].get<std::string>());
+        return value;
+    }
+
+    TemporaryFolder profile_;
+    int port_;
+    ChildProcess driver_;
+    httplib::Client client_;
+    std::string session_;
+};
+
+Browser::Browser(int width, int height) : work_(std::make_unique<Work>(width, height)) {}
+Browser::~Browser() = default;
+
+void Browser::open(const std::string& address) {
+    work_->command("/url", {{"url", address}});
+}
+
+std::string Browser::evaluate(const std::string& script) {
+    return work_->command("/execute/sync", {{"script", script}, {"args", json::array()}}).dump();
+}
+
+bool Browser::comes(const std::string& expression, double seconds) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    do {
+        if (evaluate("return Boolean(" + expression + ")") == "true") return true;
+        std::this_thread::sleep_for(10ms);
+    } while (std::chrono::steady_clock::now() < end);
+    return false;
+}
+
+void Browser::click(const std::string& selector) {
+    evaluate("document.querySelector(" + json(selector).dump() + ").click()");
+}
+
+void Browser::new_tab() {
+    const json tab = work_->command("/window/new", {{"type", "tab"}});
+    work_->command("/window", {{"handle", tab["handle"]}});
+}
+
+}  // namespace dynlab::test

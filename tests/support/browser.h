@@ -1,0 +1,25 @@
+#pragma once
+#include <memory>
+#include <string>
+
+namespace dynlab::test {
+
+/// A Chromium without a window, driven by chromedriver over HTTP (W3C WebDriver).
+class Browser {
+  public:
+    Browser(int width = 1280, int height = 900);  ///< throws EnvironmentError
+    ~Browser();
+    void open(const std::string& address);
+    /// The JSON of what a script returns ("return ..."); throws EnvironmentError with its exception.
+    std::string evaluate(const std::string& script);
+    /// Whether the expression becomes true within so many seconds.
+    bool comes(const std::string& expression, double seconds = 10);
+    void click(const std::string& selector);
+    void new_tab();
+
+  private:
+    class Work;
+    std::unique_ptr<Work> work_;
+};
+
+}  // namespace dynlab::test
