@@ -146,6 +146,7 @@ std::optional<DelaySearch> search_model(const IdData& data, const std::function<
     options.estimation.initial_state = constant ? InitialState::kAuto : InitialState::kEstimate;
     options.estimation.offset = constant ? Offset::kAuto : Offset::kEstimate;
     options.estimation.tolerance = kSearchTolerance;
+    options.profile = false;
     options.cancel = cancel;
     try {
         DelaySearch search = search_delay(block > 1 ? block_averages(data, block) : data, options);
