@@ -96,10 +96,10 @@ report.value("linear_td_std", delay.std, "%.3f")
 -- about the same power from its fundamental, `linear_low`{.value} rad/s, to some `linear_high`{.value} rad/s, where its power has fallen to
 -- one half. The output shows swings of about two seconds, well inside this band, so the experiment excites what it is to show.
 -- The delay is estimated at `linear_td`{.value}\ ±\ `linear_td_std`{.value}\ s (@fig:linear_delay): it is not significantly different from zero,
--- and a delay that is not there needs no parameter. Near the minimum the line and the separate points of @fig:linear_delay agree. Far from it, the error of a model with a wrong delay has several
--- local minima over the other parameters, and a search that follows one of them need not meet the lowest.
+-- and a delay that is not there needs no parameter. The line and the separate points of @fig:linear_delay agree. Far from the minimum, the error of a model with a wrong delay has several
+-- local minima over the other parameters; `delayest` follows the solutions of neighbouring delays from both sides until none gets lower.
 --
--- ![Mean square error of a model at each delay. Line: `delayest`, which follows a model from delay to delay; separate points: `srivc` with the delay held at whole samples and a start of its own; circle: the estimated delay.](figure:linear_delay){#fig:linear_delay}
+-- ![Mean square error of a model at each delay. Line: `delayest`; separate points, for comparison: `srivc` with the delay held at whole samples; circle: the estimated delay.](figure:linear_delay){#fig:linear_delay}
 -- END SOLUTION
 --
 -- ## Structure
@@ -735,7 +735,7 @@ report.value("dryer_td_samples", D.samples, "%.2f")
 -- Both signals swing about an operating point (means `dryer_u`{.value} V and `dryer_y`{.value} V) without a rest at the beginning, as `advice` says too, so the
 -- means are what can be subtracted. The slight drift that it finds is far smaller than the effect of the input. The output responds late: by `dryer_td`{.value}\ ±\ `dryer_td_std`{.value}\ s, which is `dryer_td_samples`{.value} samples (@fig:dryer_delay).
 --
--- ![Mean square error of a model at each delay, all other parameters estimated anew from those at the neighbouring delay. The minimum is flat from 0.1 to 0.2 s; marked: the estimate.](figure:dryer_delay){#fig:dryer_delay}
+-- ![Mean square error of a model at each delay, all other parameters estimated anew. The minimum is flat from 0.1 to 0.2 s; marked: the estimate.](figure:dryer_delay){#fig:dryer_delay}
 -- END SOLUTION
 --
 -- ## Structure and estimation
