@@ -288,6 +288,20 @@ NeedsTheEye what_needs_the_eye(const ClassResults& results) {
     return eye;
 }
 
+std::vector<std::string> counted_instead(const ClassResults& results) {
+    std::vector<std::string> names(results.entries.size());
+    if (!results.roster) return names;
+    const std::vector<const Entry*> work = work_that_counts(results);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const Entry& entry = results.entries[i];
+        const auto& owners = entry.owner.students;
+        if (std::any_of(owners.begin(), owners.end(), [&](std::size_t owner) { return work[owner] == &entry; }))
+            continue;
+        if (!owners.empty()) names[i] = shown_name(work[owners.front()]->submission);
+    }
+    return names;
+}
+
 void write_class_results(const ClassResults& results) {
     write_file_atomically(results.out / "gradebook.csv", csv_text(gradebook_of(results)));
     const TextTable open = open_marks(results);
