@@ -4,6 +4,8 @@
 
 namespace dynlab::test {
 namespace test_handing_back {
+using ::testing::AllOf;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -30,6 +32,8 @@ TEST(handing_back, gives_platforms_what_they_import) {
     EXPECT_EQ(summary.at("checks").at(0).at("passed"), 2);
     EXPECT_EQ(summary.at("checks").at(0).at("mistakes").at(0).at("count"), 1);
     EXPECT_THAT(work.read("out/summary.md"), HasSubstr("None that was made twice."));
+    EXPECT_THAT(work.read("out/summary.md"), AllOf(ContainsRegex("Anna Lovelace +[^\n]*graded[^\n]* 2 "),
+                                                   ContainsRegex("Nobody Here +[^\n]*nothing handed in")));
     const ChildResult back =
         work.dynlab({"hand-back", "out", "--roster", "roster.csv", "--assignment", "Lab 4 (1234)"});
     EXPECT_EQ(back.output,
