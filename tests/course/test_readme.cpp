@@ -130,10 +130,10 @@ class MadeUpCourse {
     /// What the instructor has beside the course when this line is typed.
     void prepare(const std::string& line) const {
         if (line.find("course roster import") != std::string::npos) {
-            std::string roster = "id,name,group,email,moodle\n", worksheet = "id,time\n";
+            std::string roster = "id,name,group,email,moodle\n", worksheet = "full name,time\n";
             for (int i = 1; i <= kGroups; ++i) {
                 roster += fmt::format("s{0},Student {0},{1},s{0}@course.example,90000{0}\n", i, CourseBench::group(i));
-                worksheet += fmt::format("s{},2026-02-28 12:0{}\n", i, i);
+                worksheet += fmt::format("Student {},2026-02-28 12:0{}\n", i, i);
             }
             work_.write("signals/roster.csv", roster);
             work_.write("signals/worksheet.csv", worksheet);
@@ -211,8 +211,6 @@ TEST(readme, a_course_with_reviews_and_its_corrections_run_as_printed) {
     EXPECT_THAT(in_shell(work, "signals", "ls monday changes").output,
                 AllOf(HasSubstr("mail.csv"), HasSubstr("moodle.zip"), HasSubstr("group-01")));
 
-    run("dynlab course assignment add carne --first '2026-02-28 13:00' --review '2026-03-04 13:00' --final "
-        "'2026-03-07 14:00'");
     int corrections = 0;
     for (std::string command : commands_in_text(course)) {
         for (const auto& [placeholder, word] :
@@ -222,6 +220,9 @@ TEST(readme, a_course_with_reviews_and_its_corrections_run_as_printed) {
                                                 {"DIR", "review-form"}})
             if (const auto at = command.find(placeholder); at != std::string::npos)
                 command.replace(at, placeholder.size(), word);
+        if (command.find(" remove carne") != std::string::npos)
+            run("dynlab course assignment add carne --first '2026-02-28 13:00' --review '2026-03-04 13:00' --final "
+                "'2026-03-07 14:00'");
         run(command);
         corrections += command.find("--reason") != std::string::npos;
     }
