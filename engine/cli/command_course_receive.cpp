@@ -31,6 +31,8 @@ std::string remark(const Received& r) {
     if (!r.trouble.empty()) return fmt::format("{}: ask for a readable file", r.trouble);
     if (!r.missing.empty()) return r.missing + ": ask for one";
     if (r.withdrawn) return "known and withdrawn; dynlab course restore lets it stand again";
+    if (!r.other_time.empty())
+        return fmt::format("known already; by --times it came {}: dynlab course time corrects that", r.other_time);
     if (r.known) return "known already, nothing changed";
     std::vector<std::string> clauses;
     if (!r.twin.empty()) clauses.push_back("the same file as " + r.twin);

@@ -89,6 +89,24 @@ TEST(odd_hand_ins, a_version_that_was_there_before_and_a_review_as_a_report_are_
                 HasSubstr("the same file as a review by group-02"));
 }
 
+TEST(odd_hand_ins, another_time_of_a_known_file_is_told) {
+    CourseBench bench(2, 1);
+    for (int i = 1; i <= 2; ++i)
+        bench.bench().write("in/" + CourseBench::group(i) + ".pdf", small_pdf(std::to_string(i)));
+    bench.bench().write("times.csv", "group,time\ngroup-01,2026-03-01 11:30\n");
+    const auto receive = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"receive", "in", "--at", "2026-03-01 19:00", "--no-checks"});
+        return told(bench.course(more));
+    };
+    EXPECT_THAT(receive({}), ContainsRegex("group-01 +report +v1 +late by 7 h"));
+    EXPECT_THAT(receive({"--times", "times.csv"}),
+                AllOf(ContainsRegex("group-01 .*known already; by --times it came Sun 2026-03-01 11:30: dynlab course "
+                                    "time corrects that"),
+                      ContainsRegex("group-02 .*known already, nothing changed")));
+    told(bench.course({"time", "crane", "group-01", "2026-03-01 11:30", "--reason", "the platform's list"}));
+    EXPECT_THAT(receive({"--times", "times.csv"}), ContainsRegex("group-01 .*in time +known already, nothing changed"));
+}
+
 TEST(odd_hand_ins, the_findings_of_a_report_tell_that_its_copy_did_not_go_out) {
     CourseBench bench(2, 1);
     told(bench.hand_in("group-01.pdf", small_pdf("A report by Student 1 of this course"), kInTime));

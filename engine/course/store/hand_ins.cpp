@@ -42,7 +42,8 @@ struct Candidate {
     Group group;
     std::string part, hash;
     std::int64_t bytes = 0;
-    Instant at = 0;  ///< when it was handed in
+    Instant at = 0;      ///< when it was handed in
+    bool timed = false;  ///< as `time_of` tells
     std::optional<ReviewPair> pair;
     bool from_pack = false, made = false;  ///< a PDF that was taken out of the group's pack; made of it
     bool unreadable = false;               ///< no PDF, but the document all the same: kept, and told
@@ -123,7 +124,8 @@ class HandInReceiver {
         const std::optional<Group> group = from_ ? from_ : senders_.find(file.sender);
         if (!group) throw EnvironmentError(senders_.complaint(file.sender));
         candidate.group = *group;
-        candidate.at = request_.time_of ? request_.time_of(file).value_or(request_.at) : request_.at;
+        const std::optional<Instant> time = request_.time_of ? request_.time_of(file) : std::nullopt;
+        candidate.at = time.value_or(request_.at), candidate.timed = time.has_value();
         candidate.bytes = static_cast<std::int64_t>(fs::file_size(file.file));
         if (candidate.bytes == 0) throw EnvironmentError("the file is empty");
         if (static_cast<std::uintmax_t>(candidate.bytes) > kMostBytes)
@@ -247,7 +249,7 @@ class HandInReceiver {
                            whole.sender, whole.folder});
         Candidate candidate;
         candidate.file = &packed_.back(), candidate.group = pack.group, candidate.pair = pack.pair;
-        candidate.at = pack.at;
+        candidate.at = pack.at, candidate.timed = pack.timed;
         candidate.part = part, candidate.from_pack = true, candidate.made = document.made;
         candidates_.push_back(std::move(candidate));
     }
@@ -349,6 +351,9 @@ class HandInReceiver {
         if (any && before.text(2) == c.hash) {
             received.known = true, received.id = before.integer(0), received.version = before.integer(1);
             received.late = before.integer(3), received.withdrawn = before.integer(4) != 0;
+            Rows arrived = db.query("SELECT received_at FROM arrived WHERE id = ?", received.id);
+            if (c.timed && arrived.next() && arrived.integer(0) != c.at)
+                received.other_time = course_.clock().show(c.at);
             return received;
         }
         received.version = any ? before.integer(1) + 1 : 1;
