@@ -37,7 +37,7 @@ class DocumentMaker {
     struct Options {
         bool use_cache = true;  ///< preamble format and .aux; never while grading
         std::filesystem::path latex_format =
-            {};  ///< the folder of a preamble format that stands ready (English, no slides)
+            {};  ///< the folder of a preamble format that stands ready, in the document's language (no slides)
         std::vector<std::pair<std::string, double>>* timings = nullptr;  ///< seconds of each step, appended
     };
     explicit DocumentMaker(Options options) : options_(options) {}
