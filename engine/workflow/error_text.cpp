@@ -26,7 +26,7 @@ std::string source_of(const std::string& file, const PercentScript& script) {
     return read_text(path);
 }
 
-std::string place(const std::string& file, int line, const PercentScript& script) {
+std::string place_text(const std::string& file, int line, const PercentScript& script) {
     return fmt::format("{}:{}: ", (script.file.parent_path() / file).string(), line);
 }
 
@@ -40,10 +40,10 @@ std::string source_line(const std::string& file, int line, const PercentScript& 
 std::string error_text(const RecordedError& error, const PercentScript& script) {
     const LocatedMessage message = take_apart(error.message);
     if (message.line == 0) return error.message;
-    std::string text = place(message.file, message.line, script) + message.text;
+    std::string text = place_text(message.file, message.line, script) + message.text;
     text += source_line(message.file, message.line, script);
     for (const RecordedCall& call : error.calls)
-        text += "\n  " + place(call.file, call.line, script) + call.what + source_line(call.file, call.line, script);
+        text += "\n  " + place_text(call.file, call.line, script) + call.what + source_line(call.file, call.line, script);
     return text;
 }
 

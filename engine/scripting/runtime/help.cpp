@@ -15,18 +15,18 @@
 namespace dynlab::inline scripting {
 namespace {
 
-using Functions = std::vector<const FunctionEntry*>;
+using FunctionList = std::vector<const FunctionEntry*>;
 
 constexpr std::size_t kSummaryColumn = 21, kMostFound = 20;
 
-std::vector<std::string> help_names(const Functions& functions) {
+std::vector<std::string> help_names(const FunctionList& functions) {
     std::vector<std::string> names;
     for (const FunctionEntry* entry : functions) names.emplace_back(entry->name);
     for (const HelpPage& page : help_pages()) names.emplace_back(page.name);
     return names;
 }
 
-const FunctionEntry* entry_of(std::string_view name, const Functions& functions) {
+const FunctionEntry* entry_of(std::string_view name, const FunctionList& functions) {
     const auto found = std::find_if(functions.begin(), functions.end(), [&](const auto* e) { return e->name == name; });
     return found == functions.end() ? nullptr : *found;
 }
@@ -39,7 +39,7 @@ std::string subject_of(const HelpPage& page) {
     return colon == std::string::npos ? line : line.substr(colon + 2);
 }
 
-std::string row(const std::string& name, const std::string& summary, std::size_t width) {
+std::string help_row(const std::string& name, const std::string& summary, std::size_t width) {
     return fmt::format("  {:<18} {}\n", name, filled(summary, width, kSummaryColumn));
 }
 
@@ -62,7 +62,7 @@ struct Found {
     std::string name, summary;
 };
 
-std::vector<Found> pages_about(const std::string& asked, const Functions& functions) {
+std::vector<Found> pages_about(const std::string& asked, const FunctionList& functions) {
     std::vector<Found> found;
     const std::string word = in_lower_case(asked);
     const auto look = [&](const std::string& name, const std::string& summary, std::string_view text) {
@@ -85,13 +85,13 @@ std::vector<Found> pages_about(const std::string& asked, const Functions& functi
 std::string list_of(const std::vector<Found>& found, std::size_t width) {
     std::string text;
     for (std::size_t i = 0; i < std::min(found.size(), kMostFound); ++i)
-        text += row(found[i].name, found[i].summary, width);
+        text += help_row(found[i].name, found[i].summary, width);
     if (found.size() > kMostFound) text += fmt::format("  and {} more\n", found.size() - kMostFound);
     return text + "\nhelp NAME shows a page.\n";
 }
 
 /// What is written here for a function of MATLAB, and the pages of what it calls.
-std::string matlab_answer(const std::string& name, const char* hint, const Functions& functions, std::size_t width) {
+std::string matlab_answer(const std::string& name, const char* hint, const FunctionList& functions, std::size_t width) {
     std::string text = filled(fmt::format("{} is a word of MATLAB; here: {}.", name, hint), width) + '\n';
     static const std::regex kCall("([a-z][a-z_0-9.]*)[({]");
     const std::string words = hint;
@@ -99,7 +99,7 @@ std::string matlab_answer(const std::string& name, const char* hint, const Funct
     for (std::sregex_iterator i(words.begin(), words.end(), kCall), end; i != end; ++i) {
         const FunctionEntry* entry = entry_of((*i)[1].str(), functions);
         if (entry == nullptr || std::find(shown.begin(), shown.end(), entry->name) != shown.end()) continue;
-        text += (shown.empty() ? "\n" : "") + row(entry->name, entry->summary, width);
+        text += (shown.empty() ? "\n" : "") + help_row(entry->name, entry->summary, width);
         shown.emplace_back(entry->name);
     }
     return text + "\nhelp matlab is a phrase book.\n";
@@ -158,7 +158,7 @@ std::optional<std::string> lua_answer(const std::string& word, std::size_t width
     return laid_out(fmt::format("`{}` belongs to Lua itself; help lua tells the most important of it.\n", word), width);
 }
 
-[[noreturn]] void refuse(const std::string& name, const Functions& functions) {
+[[noreturn]] void refuse_topic(const std::string& name, const FunctionList& functions) {
     const auto near = nearest_word(name, help_names(functions));
     throw InvalidArgument(fmt::format("there is no help about '{}'{}", name,
                                       near ? fmt::format("; did you mean '{}'?", *near) : "; help() lists everything"));
@@ -172,7 +172,7 @@ std::optional<HelpPage> find_help_page(std::string_view name) {
     return std::nullopt;
 }
 
-std::string help_overview(const Functions& functions, std::size_t width) {
+std::string help_overview(const FunctionList& functions, std::size_t width) {
     std::vector<std::string_view> areas;
     for (const FunctionEntry* entry : functions)
         if (std::find(areas.begin(), areas.end(), entry->area) == areas.end()) areas.emplace_back(entry->area);
@@ -180,19 +180,19 @@ std::string help_overview(const Functions& functions, std::size_t width) {
     for (std::string_view area : areas) {
         text += fmt::format("{}\n", area);
         for (const FunctionEntry* entry : functions)
-            if (entry->area == area) text += row(entry->name, entry->summary, width);
+            if (entry->area == area) text += help_row(entry->name, entry->summary, width);
         text += '\n';
     }
     text += "guides\n";
     for (const HelpPage& page : help_pages())
-        if (entry_of(page.name, functions) == nullptr) text += row(std::string(page.name), subject_of(page), width);
+        if (entry_of(page.name, functions) == nullptr) text += help_row(std::string(page.name), subject_of(page), width);
     return text +
            "\nhelp(\"lsim\") explains a function, help(\"lua\") is Lua in ten minutes, help(\"matlab\") a phrase book "
            "for\n"
            "those who come from MATLAB; help(\"delay\") lists what speaks of a word\n";
 }
 
-std::string help_text(const std::string& name, const Functions& functions, std::size_t width) {
+std::string help_text(const std::string& name, const FunctionList& functions, std::size_t width) {
     if (const auto page = find_help_page(name)) return laid_out(page->text, width);
     if (const FunctionEntry* entry = entry_of(name, functions))
         return fmt::format("{}\n  {}\n", entry->signature, entry->summary);
@@ -200,13 +200,13 @@ std::string help_text(const std::string& name, const Functions& functions, std::
     if (const char* hint = matlab_name_hint(name)) return matlab_answer(name, hint, functions, width);
     if (const auto words = lua_answer(name, width)) return *words;
     const std::vector<Found> found = pages_about(name, functions);
-    if (name.empty() || found.empty()) refuse(name, functions);
+    if (name.empty() || found.empty()) refuse_topic(name, functions);
     return fmt::format("No page is called '{}'; these speak of it:\n\n", name) + list_of(found, width);
 }
 
-std::string help_search(const std::string& word, const Functions& functions, std::size_t width) {
+std::string help_search(const std::string& word, const FunctionList& functions, std::size_t width) {
     const std::vector<Found> found = pages_about(word, functions);
-    if (word.empty() || found.empty()) refuse(word, functions);
+    if (word.empty() || found.empty()) refuse_topic(word, functions);
     return list_of(found, width);
 }
 

@@ -110,7 +110,7 @@ std::vector<std::size_t> column_widths(const std::vector<Cells>& rows, std::size
     return widths;
 }
 
-std::string table_text(const std::vector<Cells>& rows, std::size_t width) {
+std::string filled_table(const std::vector<Cells>& rows, std::size_t width) {
     const std::vector<std::size_t> widths = column_widths(rows, width);
     std::string text;
     bool head = true;
@@ -141,9 +141,9 @@ std::string table_text(const std::vector<Cells>& rows, std::size_t width) {
 }
 
 /// Reads a page block by block.
-class Page {
+class PageReader {
   public:
-    explicit Page(std::size_t width) : width_(width) {}
+    explicit PageReader(std::size_t width) : width_(width) {}
 
     std::string read(std::string_view markdown) {
         bool code = false;
@@ -180,7 +180,7 @@ class Page {
 
     void end_block() {
         if (!block_.empty()) text_ += filled(without_marks(block_), width_, indent_) + '\n';
-        if (!rows_.empty()) text_ += table_text(rows_, width_);
+        if (!rows_.empty()) text_ += filled_table(rows_, width_);
         block_.clear();
         rows_.clear();
         indent_ = 0;
@@ -202,7 +202,7 @@ std::string filled(std::string_view text, std::size_t width, std::size_t indent)
 }
 
 std::string laid_out(std::string_view markdown, std::size_t width) {
-    return Page(width).read(markdown);
+    return PageReader(width).read(markdown);
 }
 
 }  // namespace dynlab::inline scripting
