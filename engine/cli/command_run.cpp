@@ -32,9 +32,9 @@ void print_now(const std::string& text) {
 
 /// Draws what the script made: a figure without a file of its own goes to `folder`, which is made for it. Waits for the
 /// files that the script saved by itself, too.
-void save_figures(RunRecord& record, GnuplotRenderer& renderer, const fs::path& folder) {
+void save_figures(RunRecord& record, GnuplotRenderer& renderer, const fs::path& folder, const std::string& language) {
     if (!record.figures.empty()) fs::create_directories(folder);
-    draw_figures(record, renderer, folder, FigureFormat::kPdf);
+    draw_figures(record, renderer, folder, FigureFormat::kPdf, language);
     renderer.finish();
     for (const std::string& name : figures_in_order(record))
         std::cout << "figure " << terminal_text(name) << ": " << record.figures.at(name).file.string() << '\n';
@@ -63,7 +63,7 @@ int run(const RunArguments& words) {
     GnuplotRenderer renderer(&cache);
     request.call_cache = &calls;
     RunRecord record = run_showing_activity(request, renderer);
-    save_figures(record, renderer, out);
+    save_figures(record, renderer, out, request.script.header.language);
     if (!words.out.empty()) write_file_atomically(out / "record.json", to_json(record));
     std::cout.flush();
     if (const std::string missing = missing_answers(request.script, record); !missing.empty())

@@ -17,7 +17,7 @@
 -- %% [markdown]
 -- A trolley runs along a rail, pulled by a motor; a pendulum hangs from it. One voltage moves both, so one model has two outputs:
 -- where the trolley is and how far the load swings. You are given five records, among them one in which the crane was driven
--- where no linear model follows. Find a model, say what it is worth, and write it down so that somebody who was not there can
+-- where no linear model follows. The crane is *simulated*: a program solves its equations, with noise. Find a model, say what it is worth, and write it down so that somebody who was not there can
 -- do the same again.
 --
 -- Work in this script, cell by cell; your text goes to `report.md`, which has the sections that a report must have and notes on what
@@ -37,7 +37,8 @@
 -- %% id=records
 local crane = load("crane")
 local Ts = 0.02
-local signals = {InputName = "voltage", InputUnit = "V",
+local function say(english, french) return report.language() == "fr" and french or english end
+local signals = {InputName = say("voltage", "tension"), InputUnit = "V",
                  OutputName = {"position", "angle"}, OutputUnit = {"m", "rad"}}
 local estimation = iddata(matrix{crane.estimation.x, crane.estimation.theta}, crane.estimation.u, Ts, signals)
 print(estimation)
@@ -48,7 +49,6 @@ idplot(estimation)
 
 -- %% id=raw
 -- BEGIN SOLUTION
-local function say(english, french) return report.language() == "fr" and french or english end
 local seconds = say("time (s)", "temps (s)")
 local volts, metres = say("voltage (V)", "tension (V)"), "position (m)"
 local radians = "angle (rad)"

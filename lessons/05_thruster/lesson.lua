@@ -35,7 +35,9 @@
 -- %% id=records
 local thruster = load("thruster")
 local Ts = 0.002
-local signals = {InputName = "pulse width", InputUnit = "µs", OutputName = "thrust", OutputUnit = "N"}
+local function say(english, french) return report.language() == "fr" and french or english end
+local signals = {InputName = say("pulse width", "largeur d'impulsion"), InputUnit = "µs",
+                 OutputName = say("thrust", "poussée"), OutputUnit = "N"}
 local function raw(name)
     local record = thruster[name]
     return iddata(record.force, record.pwm, Ts, signals)
@@ -52,7 +54,6 @@ idplot(raw("sine_300")):set{height = 6}
 
 -- %% id=raw
 -- BEGIN SOLUTION
-local function say(english, french) return report.language() == "fr" and french or english end
 local seconds = say("time (s)", "temps (s)")
 local width_axis, thrust_axis = say("width (µs)", "largeur (µs)"), say("thrust (N)", "poussée (N)")
 local neutral, rest = 1500, 250  -- µs; samples before the thruster moves
