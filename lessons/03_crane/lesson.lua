@@ -80,7 +80,7 @@ for k, row in ipairs(purposes) do
 end
 report.table("experiments", experiments)
 
-report.figure("raw", figure{rows = 3, height = say(6.4, 5.9), panels = panels(crane.estimation)},
+report.figure("raw", figure{rows = 3, height = 6.4, panels = panels(crane.estimation)},
               say("The estimation record as measured: the position wanders, as the integral of the voltage does; the load answers with swings of its own frequency.",
                   "L'enregistrement d'estimation tel que mesuré : la position erre comme l'intégrale de la tension ; la charge balance à sa fréquence propre."))
 -- END SOLUTION
@@ -136,7 +136,7 @@ for k, panel in ipairs(limit_panels) do
 end
 limit_panels[2].references[3] = {y = 0.5}
 limit_panels[2].references[4] = {y = -0.5}
-report.figure("limits", figure{rows = 3, height = say(6.4, 5.9), panels = limit_panels},
+report.figure("limits", figure{rows = 3, height = 6.4, panels = limit_panels},
               say("The record limits. Between the vertical lines more than ±10 V are commanded and the trolley meets the buffers at ±0.5 m (horizontal lines).",
                   "L'enregistrement limits. Entre les traits verticaux, on commande plus de ±10 V et le chariot rencontre les butées à ±0,5 m (traits horizontaux)."))
 -- END SOLUTION
@@ -334,7 +334,7 @@ local function against_model(record, height, with_differences)
     panels[#panels].xlabel = seconds
     return figure{rows = #panels, height = height, panels = panels}, x_error, theta_error
 end
-local validation_figure, x_error, theta_error = against_model(against, say(8.8, 8.4), true)
+local validation_figure, x_error, theta_error = against_model(against, 8.8, true)
 report.figure("validation", validation_figure,
               say("The validation record, which was not used for estimation: measured and simulated from the voltage alone, and the difference. The angle is worst where it swings widest.",
                   "L'enregistrement de validation, qui n'a pas servi à l'estimation : mesuré, simulé à partir de la seule tension, et l'écart. L'angle est le moins juste là où il est grand."))
@@ -353,7 +353,7 @@ end
 -- %% id=friction
 -- BEGIN SOLUTION
 local steps = crane.steps
-local steps_figure, steps_x_error, steps_theta_error = against_model(steps, say(4.7, 4.3))
+local steps_figure, steps_x_error, steps_theta_error = against_model(steps, 4.7)
 report.figure("steps", steps_figure,
               say("The record steps: after pushes of ±2 V and ±4 V the trolley stands still, held by friction; the simulated one is set in motion by its load.",
                   "L'enregistrement steps : après des poussées de ±2 V et ±4 V, le frottement tient le chariot ; le chariot simulé, lui, est entraîné par sa charge."))
