@@ -57,7 +57,7 @@ int show(const Demonstration& demonstration) {
     request.call_cache = &calls;
     RunRecord record = run_script(request, renderer);
     if (!record.figures.empty()) fs::create_directories(folder);
-    draw_figures(record, renderer, folder, FigureFormat::kPdf);
+    draw_figures(record, renderer, folder, FigureFormat::kPdf, request.script.header.language);
     renderer.finish();
 
     const std::vector<std::string> pages = pages_of(request.script, record);

@@ -54,9 +54,9 @@ void remove_old_figures(const fs::path& folder) {
 
 /// Draws what the script made: a figure without a file of its own goes to `folder`, which is made for it. Waits for
 /// the files that the script saved by itself, too.
-void save_figures(RunRecord& record, GnuplotRenderer& renderer, const fs::path& folder) {
+void save_figures(RunRecord& record, GnuplotRenderer& renderer, const fs::path& folder, const std::string& language) {
     if (!record.figures.empty()) fs::create_directories(folder);
-    draw_figures(record, renderer, folder, FigureFormat::kPdf);
+    draw_figures(record, renderer, folder, FigureFormat::kPdf, language);
     renderer.finish();
     for (const std::string& name : figures_in_order(record))
         std::cout << "figure " << terminal_text(name) << ": " << record.figures.at(name).file.string() << '\n';
@@ -100,7 +100,7 @@ int run(const RunArguments& words) {
     request.call_cache = &calls;
     RunRecord record = run_showing_activity(request, renderer);
     if (words.out.empty()) remove_old_figures(out);  // a folder that was named is somebody's
-    save_figures(record, renderer, out);
+    save_figures(record, renderer, out, request.script.header.language);
     if (!words.out.empty()) write_file_atomically(out / "record.json", to_json(record));
     show_reported(request.script, record);
     if (!record.error) {

@@ -196,7 +196,7 @@ ReportResult make_report(const ReportRequest& request) {
         result.long_calls = calls.use();
         if (record.error) result.error = error_text(*record.error, request.script);
         if (record.error && request.print) throw DocumentError(*result.error);
-        draw_figures(record, renderer, workplace.path(), figure_format_for(format));
+        draw_figures(record, renderer, workplace.path(), figure_format_for(format), request.script.header.language);
         if (!request.record.empty()) write_file_atomically(request.record, to_json(record));
         watch.lap(kRunStep);
     }

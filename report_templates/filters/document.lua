@@ -72,7 +72,7 @@ end
 
 local function number(kind, label)
   counters[kind] = counters[kind] + 1
-  if label then define(label, layout:name_with_number(kind, counters[kind])) end
+  if label then define(label, layout:reference(kind, counters[kind])) end
   return tostring(counters[kind])
 end
 
@@ -232,7 +232,7 @@ local function header(element)
     for level = element.level + 1, 6 do section_numbers[level] = 0 end
     local section = table.concat(section_numbers, ".", 1, element.level)
     element.content:insert(1, pandoc.Str(section .. "\u{2002}"))
-    shown = layout:name_with_number("sec", section)
+    shown = layout:reference("sec", section)
   end
   if element.identifier:find("^sec:") then
     define(element.identifier, shown)

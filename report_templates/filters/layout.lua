@@ -27,6 +27,13 @@ function layout:name_with_number(kind, number)
   return self.words[kind] .. no_break_space .. number
 end
 
+-- As a reference shows it. French writes it small, for an article stands before it: "de l'équation 1", "la figure 2".
+local french_references = { fig = "figure", tbl = "tableau", eq = "équation", sec = "section" }
+function layout:reference(kind, number)
+  if self.words ~= words.fr then return self:name_with_number(kind, number) end
+  return french_references[kind] .. no_break_space .. number
+end
+
 -- French writes decimals behind a comma: in texts that are numbers, with or without an error, a unit or a percent sign.
 function layout:number(text)
   if self.words ~= words.fr or not text:find("^[%s±−+%-(]*%d[%d.eE+%-±−%s%%()]*%a*/?%a*$") then return text end

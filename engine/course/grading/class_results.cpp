@@ -355,7 +355,7 @@ void write_class_results(const ClassResults& results) {
     record.figures["points"] = histogram_of(points, possible);
     GnuplotRenderer renderer;
     const TemporaryFolder drawn;
-    draw_figures(record, renderer, drawn.path(), results.pdf ? FigureFormat::kPdf : FigureFormat::kSvg);
+    draw_figures(record, renderer, drawn.path(), results.pdf ? FigureFormat::kPdf : FigureFormat::kSvg, "en");
     renderer.finish();
     results.documents->make("class_summary.md", record, results.out / (results.pdf ? "summary.pdf" : "summary.md"));
     std::filesystem::remove(results.out / (results.pdf ? "summary.md" : "summary.pdf"));  // of an earlier run

@@ -109,7 +109,7 @@ class VersionReader {
 void make_document(const ReportRequest& request, RunRecord record, const fs::path& output, FigureFormat figures) {
     GnuplotRenderer renderer;
     const TemporaryFolder drawn;
-    draw_figures(record, renderer, drawn.path(), figures);
+    draw_figures(record, renderer, drawn.path(), figures, request.script.header.language);
     DocumentSource source;
     source.template_file = request.template_file;
     source.record = &record;
