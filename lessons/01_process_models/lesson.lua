@@ -455,3 +455,10 @@ answer("overshoot", math.exp(-math.pi*reading2.z/math.sqrt(1 - reading2.z^2)))
 answer("suspension_reading", vector{reading2.K, reading2.z, reading2.w0})
 answer("G_suspension", G2)
 -- END SOLUTION
+
+-- %% [markdown]
+-- # Appendix: measures
+--
+-- ::: measures
+-- fit
+-- :::
