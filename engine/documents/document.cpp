@@ -4,10 +4,12 @@
 #include <chrono>
 #include <regex>
 
+#include "documents/bibliography.h"
 #include "documents/characters.h"
 #include "documents/complaints.h"
 #include "documents/error.h"
 #include "documents/latex.h"
+#include "documents/latex_remains.h"
 #include "documents/pandoc.h"
 #include "documents/pictures.h"
 #include "documents/template_file.h"
@@ -92,7 +94,9 @@ class DocumentBuilder {
         Stopwatch watch(options_.timings);
         Complaints complaints;
         check_characters(complaints);
-        const PandocResult written = run_pandoc(pandoc_job(), complaints);
+        find_latex_brackets(markdown_, complaints);
+        const std::string bibliography = placed_bibliography(complaints);
+        const PandocResult written = run_pandoc(pandoc_job(bibliography), complaints);
         std::vector<PlacedPicture> pictures =
             find_picture_files(written.pictures, markdown_, source_.template_file, format_, prefix(), complaints);
         complaints.throw_if_any();
@@ -121,10 +125,26 @@ class DocumentBuilder {
         markdown_ = std::move(begun);
     }
 
-    PandocJob pandoc_job() const {
-        return {markdown_, metadata_,   document_rules(template_), language_,
-                record_,   format_,     source_.template_file,     shared_templates_,
-                prefix(),  work_.path()};
+    std::string placed_bibliography(Complaints& complaints) const {
+        const auto own = metadata_.find("bibliography");
+        const bool has_own = own != metadata_.end() && !own->second.empty();
+        const fs::path file = has_own ? source_.template_file.parent_path() / own->second : source_.bibliography;
+        return file.empty() ? "" : place_bibliography(file, work_.path(), complaints);
+    }
+
+    PandocJob pandoc_job(const std::string& bibliography) const {
+        return {markdown_,
+                metadata_,
+                document_rules(template_),
+                language_,
+                record_,
+                format_,
+                source_.template_file,
+                shared_templates_,
+                prefix(),
+                work_.path(),
+                bibliography,
+                source_.measures};
     }
 
     void check_characters(Complaints& complaints) const {

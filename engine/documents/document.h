@@ -22,7 +22,9 @@ struct DocumentSource {
     std::filesystem::path template_file;
     std::map<std::string, std::string> metadata;  ///< title, subtitle, lang, date...: override the template's own
     const RunRecord* record = nullptr;
-    MarkdownText cells;  ///< put in place of `::: {.cells}` ... `:::`
+    std::filesystem::path bibliography = {};           ///< of the script; that of the template, beside it, goes before
+    std::map<std::string, std::string> measures = {};  ///< Markdown of each, for `::: measures` blocks that name it
+    MarkdownText cells;                                ///< put in place of `::: {.cells}` ... `:::`
 };
 
 /// Makes documents: template -> Markdown -> Pandoc with our filter -> HTML, or LaTeX -> pdflatex with a

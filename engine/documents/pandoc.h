@@ -19,10 +19,12 @@ struct PandocJob {
     std::string language = "en";
     const RunRecord* record = nullptr;
     DocumentFormat format = DocumentFormat::kPdf;
-    std::filesystem::path template_file;     ///< for messages
-    std::filesystem::path shared_templates;  ///< the folder report_templates
-    std::string picture_prefix;              ///< what the writer puts before a picture's number
-    std::filesystem::path work_folder;       ///< private; slots.lua is written there
+    std::filesystem::path template_file;          ///< for messages
+    std::filesystem::path shared_templates;       ///< the folder report_templates
+    std::string picture_prefix;                   ///< what the writer puts before a picture's number
+    std::filesystem::path work_folder;            ///< private; slots.lua is written there
+    std::string bibliography;                     ///< a file of the work folder, or empty
+    std::map<std::string, std::string> measures;  ///< Markdown of each
 };
 
 struct PandocResult {

@@ -16,6 +16,7 @@
 #include "scripting/memoized_calls/call_cache.h"
 #include "workflow/error_text.h"
 #include "workflow/lesson_catalogue.h"
+#include "workflow/measures.h"
 #include "workflow/report_cache.h"
 #include "workflow/run_cache.h"
 #include "workflow/run_script.h"
@@ -206,6 +207,8 @@ ReportResult make_report(const ReportRequest& request) {
     source.template_file = request.template_file;
     source.metadata = request.metadata;
     source.record = &record;
+    source.bibliography = bibliography_of(request.script);
+    source.measures = measures_for_documents();
     source.cells = weave_cells(request.script, record);
     if (!record.error && !request.of_lesson)
         result.unplaced = unplaced_entries(record, text_of_document(request.template_file, source.cells));

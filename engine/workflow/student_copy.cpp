@@ -78,6 +78,8 @@ void fill_lesson(const fs::path& folder, const Lesson& lesson, const std::option
     write_file_atomically(folder / "analysis.lua", without_solutions(script.source, script.file));
     const std::string form = script.header.template_name == "lesson" ? "exercise_sheet" : script.header.template_name;
     write_file_atomically(folder / "report.md", report_for(script.header, template_file(form, language), language));
+    if (const fs::path literature = bibliography_of(script); !literature.empty())
+        write_file_atomically(folder / literature.filename(), read_text(literature));
     write_file_atomically(folder / "group.toml", fmt::format(kGroupFile, group_seed.value_or(script.header.seed)));
     const std::vector<std::string> own = group_seed ? simulated_data_of(lesson) : std::vector<std::string>();
     if (has_own_data(lesson)) copy_own_data(lesson, folder / "data");

@@ -15,6 +15,8 @@
 #include "documents/text_lines.h"
 #include "numerics/rigs/crane.h"
 #include "numerics/rigs/thruster.h"
+#include "page_ends.h"
+#include "platform/atomic_file.h"
 #include "support/program.h"
 #include "workflow/lesson_catalogue.h"
 
@@ -53,6 +55,8 @@ TEST_P(lessons, report_is_whole) {
     const bool slides = has_own_report && document_rules(read_template(own_report)).slides;
     EXPECT_TRUE(slides || text.find("Figure 1") != std::string::npos);
     EXPECT_THAT(text, HasSubstr(has_own_report ? "Conclusion" : "What was learnt"));
+    const std::string source = has_own_report ? own_report : DYNLAB_SOURCE_DIR "/lessons/" + GetParam() + "/lesson.lua";
+    if (!slides) expect_full_pages(bench, GetParam() + ".pdf", section_titles(read_file(source)));
 }
 
 TEST_P(lessons, starter_runs_and_shows_no_solution) {
@@ -267,6 +271,7 @@ TEST_P(lesson_03_crane_report, keeps_to_six_pages_and_one_of_appendix) {
     const DocumentRules rules = document_rules(report_of("03_crane", language));
     ASSERT_EQ(static_cast<int>(pages.size()), *rules.pages + *rules.appendix_pages);
     EXPECT_THAT(pages.back(), HasSubstr(replaced(rules.sections.back().title(language), "'", "’")));
+    expect_full_pages(bench, "03_crane.pdf", section_titles(report_of("03_crane", language).body.text));
 }
 
 TEST_P(lesson_03_crane_report, types_no_result_in) {
