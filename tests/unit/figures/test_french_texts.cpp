@@ -15,8 +15,14 @@ Figure picture(const std::string& x_label, const std::string& curve) {
     panel.x_label = x_label;
     panel.y_label = "angle (rad)";
     panel.x_range = {0, 1};
-    panel.curves.push_back({.x = Vector{{0, 0.5, 1}}, .y = Vector{{0, 0.25, 0.5}}, .label = curve});
-    panel.references.push_back({.at = 0.5, .label = "best"});
+    Curve line;
+    line.x = Vector{{0, 0.5, 1}};
+    line.y = Vector{{0, 0.25, 0.5}};
+    line.label = curve;
+    panel.curves.push_back(line);
+    panel.references.emplace_back();
+    panel.references.back().at = 0.5;
+    panel.references.back().label = "best";
     return Figure(panel);
 }
 
