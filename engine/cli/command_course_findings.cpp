@@ -5,6 +5,7 @@
 #include "cli/course_commands.h"
 #include "cli/terminal_colour.h"
 #include "course/findings/findings_report.h"
+#include "course/review/review_pairs.h"
 #include "course/store/stored_findings.h"
 #include "numerics/error.h"
 
@@ -18,6 +19,23 @@ struct FindingsArguments {
 
 std::string stage_in_words(const std::string& stage) {
     return stage == "first" ? "first version" : stage == "review" ? "reviews" : "final version";
+}
+
+/// Names of authors are looked for when copies for others are made, so that the findings do not tell them.
+void tell_of_copies(Course& course, const Assignment& assignment, const Group& group, const FindingsArguments& words) {
+    if (!assignment.is_report() || words.stage == "final" || words.version) return;
+    const bool reviews = words.stage == "review";
+    bool others = false, missing = false;
+    for (const ReviewPair& pair : review_pairs(course, assignment)) {
+        if (pair.ended) continue;
+        const bool out = reviews ? pair.released && !pair.newer_review : pair.sent && !pair.newer_report;
+        const bool own = (reviews ? pair.reviewer : pair.author) == group.id && (!reviews || pair.written);
+        others = others || (out && !own);
+        missing = missing || (own && !out);
+    }
+    if (others && missing)
+        std::cout << fmt::format("No copy of {} has gone to others yet: dynlab course {} {} tells why\n",
+                                 reviews ? "a review" : "it", reviews ? "release" : "peer send", assignment.name);
 }
 
 int show_findings(const CourseArguments& where, const FindingsArguments& words) {
@@ -37,6 +55,7 @@ int show_findings(const CourseArguments& where, const FindingsArguments& words) 
         std::cout << (one.result ? findings_in_words(*one.result, in_colour()) : "not looked at\n") << '\n';
         passed = passed && (!one.result || one.result->passed());
     }
+    tell_of_copies(course, assignment, group, words);
     return passed ? kDone : kFailed;
 }
 

@@ -4,8 +4,8 @@
 
 #include "cli/course_commands.h"
 #include "course/names/anonymous_copy.h"
+#include "course/returns/returned_files.h"
 #include "course/review/peer_review.h"
-#include "course/review/returns.h"
 #include "course/store/aligned_table.h"
 #include "numerics/number_text.h"
 #include "platform/terminal/terminal_text.h"
@@ -146,8 +146,8 @@ void add_return(CLI::App& course, CourseArguments& where, Action& action) {
     command->add_flag("--all", words->all, "Also what was returned before");
     add_time_option(*command, words->at);
     command->footer(
-        "After peer send and release. mail.csv has a row a group: group, members, mails, files. What was returned is\n"
-        "remembered; newer versions are new again.\n"
+        "After peer send and release. mail.csv has a row a student: id, name, group, mail, files, new. What was\n"
+        "returned is remembered; newer versions are new again.\n"
         "Example:  dynlab course return crane --out monday --moodle");
     command->callback([&where, words, &action] { action = [&where, words] { return give_back(where, *words); }; });
 }

@@ -21,22 +21,28 @@ namespace fs = std::filesystem;
 
 struct ReceiveArguments {
     std::vector<std::string> files;
-    std::string assignment, from, of, at, times, isolation = "full";
+    std::vector<std::string> of;
+    std::string assignment, from, at, times, isolation = "full";
     bool no_checks = false, first = false;
 };
 
 std::string remark(const Received& r) {
     if (!r.trouble.empty() && r.part == "pack") return r.trouble + ": ask for a pack that opens";
     if (!r.trouble.empty()) return fmt::format("{}: ask for a readable file", r.trouble);
-    if (r.no_document) return "no PDF in the pack: ask for one";
+    if (!r.missing.empty()) return r.missing + ": ask for one";
     if (r.withdrawn) return "known and withdrawn; dynlab course restore lets it stand again";
+    if (!r.other_time.empty())
+        return fmt::format("known already; by --times it came {}: dynlab course time corrects that", r.other_time);
     if (r.known) return "known already, nothing changed";
-    std::string text = r.twin.empty() ? "" : "the same file as " + r.twin + "'s";
-    if (r.scores > 0) text += (text.empty() ? "" : "; ") + counted(r.scores, "score") + " read";
+    std::vector<std::string> clauses;
+    if (!r.twin.empty()) clauses.push_back("the same file as " + r.twin);
+    if (!r.earlier.empty()) clauses.push_back("the same file as " + r.earlier);
+    if (r.marked_late) clauses.push_back("the platform calls it late: see --times");
+    if (r.made) clauses.push_back("made here, as the pack has no PDF");
+    if (r.scores > 0) clauses.push_back(counted(r.scores, "score") + " read");
     if (r.rules_broken > 0)
-        text += (text.empty() ? "" : "; ") + counted(r.rules_broken, "rule") + " broken" +
-                (r.names ? ": it names somebody" : "");
-    return text;
+        clauses.push_back(counted(r.rules_broken, "rule") + " broken" + (r.names ? ": it names somebody" : ""));
+    return fmt::format("{}", fmt::join(clauses, "; "));
 }
 
 std::string what(const Received& r) {
@@ -105,8 +111,11 @@ void add_receive(CLI::App& parent, const char* name, const char* about, const st
     if (stage == "first")
         command->add_flag("--first", words->first, "A first version, even of a report whose reviews are out");
     if (stage == "review")
-        command->add_option("--of", words->of, "Which report it reviews; by the file's name unless given")
-            ->type_name("report-NN");
+        command
+            ->add_option("--of", words->of,
+                         "Which report it reviews; by the file's name unless given. Of several files one --of each")
+            ->type_name("report-NN")
+            ->allow_extra_args(false);
     add_time_option(*command, words->at);
     command
         ->add_option(
@@ -123,7 +132,8 @@ void add_receive(CLI::App& parent, const char* name, const char* about, const st
         "The sender of a file is known by its name or its folder's: a group, a student's name or id, or what the "
         "platform\n"
         "wrote; never by its content. A pack's report.pdf (slides.pdf, review.pdf), or its only PDF, counts as\n"
-        "if it had been handed in alone. Every version is kept and gets a signed receipt; a file that cannot be read "
+        "if it had been handed in alone; of a pack without any PDF it is made. Every version is kept and gets a signed "
+        "receipt; a file that cannot be read "
         "is kept\n"
         "and flagged. Example:\n  " +
         example);

@@ -11,6 +11,7 @@
 #include "platform/interrupt.h"
 #include "scripting/memoized_calls/call_cache.h"
 #include "workflow/demonstration.h"
+#include "workflow/error_text.h"
 #include "workflow/run_script.h"
 
 namespace dynlab::inline cli {
@@ -56,7 +57,7 @@ int show(const Demonstration& demonstration) {
     request.call_cache = &calls;
     RunRecord record = run_script(request, renderer);
     if (!record.figures.empty()) fs::create_directories(folder);
-    draw_figures(record, renderer, folder, FigureFormat::kPdf);
+    draw_figures(record, renderer, folder, FigureFormat::kPdf, request.script.header.language);
     renderer.finish();
 
     const std::vector<std::string> pages = pages_of(request.script, record);
@@ -68,7 +69,7 @@ int show(const Demonstration& demonstration) {
         std::cout << '\n';
     }
     if (!record.error) return kDone;
-    std::cerr << "dynlab: " << record.error->message << '\n';
+    std::cerr << "dynlab: " << error_text(*record.error, request.script) << '\n';
     return kFailed;
 }
 

@@ -93,7 +93,9 @@ void add_grade(CLI::App& app, Action& action) {
     command->add_option("--secret", words->secret, "File whose content the hidden records are drawn from")
         ->type_name("FILE")
         ->check(CLI::ExistingFile);
-    command->add_option("--roster", words->roster, "CSV with the columns id, name, group: one row of marks a student")
+    command
+        ->add_option("--roster", words->roster,
+                     "CSV with the columns id, name, group (also language: en or fr): a row of marks a student")
         ->type_name("CSV")
         ->check(CLI::ExistingFile);
     command

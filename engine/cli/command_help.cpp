@@ -1,22 +1,46 @@
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <iostream>
 
 #include "cli/commands.h"
 #include "scripting/runtime/help.h"
 
 namespace dynlab::inline cli {
+namespace {
+
+constexpr std::size_t kWidest = 100;  // longer lines are hard to read
+
+/// Columns to fill: the terminal's, or the usual ones in a pipe.
+std::size_t help_width() {
+    winsize size{};
+    if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kHelpWidth;
+    return std::min<std::size_t>(size.ws_col, kWidest);
+}
+
+}  // namespace
 
 void add_help(CLI::App& app, Action& action) {
     auto name = std::make_shared<std::string>();
+    auto word = std::make_shared<std::string>();
     CLI::App* command = app.add_subcommand("help", "What a function of the scripts does, with an example");
-    command->add_option(
+    CLI::Option* page = command->add_option(
         "NAME", *name,
-        "A function (tf, lsim, ...) or a subject: matlab, checks, names, review_marks; without it the list of all");
-    command->footer("Examples:  dynlab help     dynlab help procsrivc     dynlab help matlab");
-    command->callback([name, &action] {
-        action = [name]() -> int {
+        "A function (tf, lsim, ...), a method (iddata.split), a word of MATLAB or Lua, or a "
+        "subject: lua, matlab, guide-report, checks, names, review_marks; without it the list of all");
+    command->add_option("--search", *word, "List the pages that speak of it")->type_name("WORD")->excludes(page);
+    command->footer(
+        "Examples:  dynlab help     dynlab help procsrivc     dynlab help lua     dynlab help --search delay");
+    command->callback([name, word, &action] {
+        action = [name, word]() -> int {
             std::vector<const FunctionEntry*> functions;
             for (const FunctionEntry& entry : catalogue_of_functions()) functions.push_back(&entry);
-            std::cout << (name->empty() ? help_overview(functions) : help_text(*name, functions));
+            const std::size_t width = help_width();
+            if (!word->empty())
+                std::cout << help_search(*word, functions, width);
+            else
+                std::cout << (name->empty() ? help_overview(functions, width) : help_text(*name, functions, width));
             return kDone;
         };
     });

@@ -27,8 +27,7 @@ int make_new(const NewArguments& words) {
         make_student_copy(lesson, words.folder, words.group_seed, words.language);
     }
     std::cout << words.folder << ": analysis.lua is yours to edit, report.md is your report's text.\n"
-              << "Try:  dynlab run " << words.folder << "/analysis.lua    then    dynlab report " << words.folder
-              << '\n';
+              << "Try:  dynlab run " << words.folder << "    then    dynlab report " << words.folder << '\n';
     return kDone;
 }
 

@@ -34,9 +34,9 @@ void tell_of_report(const fs::path& folder, const std::string& subject) {
         older = older || (made && fs::exists(folder / source) && fs::last_write_time(folder / source) > *made);
     if (!made || older)
         std::cerr << terminal_text(fmt::format(
-            "dynlab: {}: dynlab report {} -o {}, then pack again\n",
+            "dynlab: {}: dynlab report {}, then pack again\n",
             made ? "the PDF in it is older than the report's text or script" : "there is no PDF of the report in it",
-            subject, (fs::path(subject) / "report.pdf").string()));
+            subject));
 }
 
 int pack(const PackArguments& words) {
@@ -96,7 +96,8 @@ void add_pack(CLI::App& app, Action& action) {
     command->add_option("-o,--output", words->output, "The zip to make; DIR.zip here unless given")
         ->type_name("FILE.zip");
     command->footer(
-        "The data link is left out. Equal folders give equal files, byte by byte.\nExample:  dynlab pack my-work");
+        "The data link and the figures that dynlab run saved (analysis_out) are left out. Equal folders give equal "
+        "files, byte by byte.\nExample:  dynlab pack my-work");
     command->callback([words, &action] { action = [words] { return pack(*words); }; });
 }
 

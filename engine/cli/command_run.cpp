@@ -1,14 +1,19 @@
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <iostream>
+#include <regex>
 
 #include "cli/commands.h"
 #include "cli/seed_option.h"
+#include "course/store/aligned_table.h"
 #include "platform/atomic_file.h"
 #include "platform/terminal/activity_line.h"
 #include "platform/terminal/terminal_text.h"
 #include "scripting/memoized_calls/call_cache.h"
+#include "workflow/error_text.h"
+#include "workflow/make_report.h"
 #include "workflow/run_script.h"
 
 namespace dynlab::inline cli {
@@ -30,14 +35,44 @@ void print_now(const std::string& text) {
     std::fflush(stdout);
 }
 
-/// Draws what the script made: a figure without a file of its own goes to `folder`, which is made for it. Waits for the
-/// files that the script saved by itself, too.
-void save_figures(RunRecord& record, GnuplotRenderer& renderer, const fs::path& folder) {
+/// Where a script's files go: beside it, or where nothing may be written there (an installed lesson), here.
+fs::path folder_of(const fs::path& script) {
+    const fs::path folder = script.parent_path();
+    return folder.empty() || ::access(folder.c_str(), W_OK) != 0 ? fs::path(".") : folder;
+}
+
+/// Figures of an earlier run, by the names that draw_figures gives: "03-step-figure-1.pdf".
+void remove_old_figures(const fs::path& folder) {
+    static const std::regex kDrawn("[0-9][0-9]+-.+\\.pdf");
+    std::error_code none;
+    std::vector<fs::path> old;
+    for (const auto& entry : fs::directory_iterator(folder, none))
+        if (entry.is_regular_file() && std::regex_match(entry.path().filename().string(), kDrawn))
+            old.push_back(entry.path());
+    for (const fs::path& file : old) fs::remove(file, none);
+}
+
+/// Draws what the script made: a figure without a file of its own goes to `folder`, which is made for it. Waits for
+/// the files that the script saved by itself, too.
+void save_figures(RunRecord& record, GnuplotRenderer& renderer, const fs::path& folder, const std::string& language) {
     if (!record.figures.empty()) fs::create_directories(folder);
-    draw_figures(record, renderer, folder, FigureFormat::kPdf);
+    draw_figures(record, renderer, folder, FigureFormat::kPdf, language);
     renderer.finish();
     for (const std::string& name : figures_in_order(record))
         std::cout << "figure " << terminal_text(name) << ": " << record.figures.at(name).file.string() << '\n';
+}
+
+/// What the script gave to the report, and what of it the report would not show.
+void show_reported(const PercentScript& script, const RunRecord& record) {
+    for (const auto& [name, value] : record.values)
+        std::cout << terminal_text(fmt::format("value {}: {}\n", name, value.text));
+    for (const auto& [name, table] : record.tables)
+        std::cout << terminal_text(fmt::format("table {}:\n{}", name, aligned_table(table.header, table.rows)));
+    for (const auto& [name, text] : record.texts)
+        std::cout << terminal_text(fmt::format("text {}: {}\n", name, text.markdown));
+    std::cout.flush();
+    for (const std::string& sentence : entries_without_place(script, record))
+        std::cerr << "dynlab: note: " << terminal_text(sentence) << '\n';
 }
 
 RunRecord run_showing_activity(RunRequest& request, GnuplotRenderer& renderer) {
@@ -54,8 +89,9 @@ int run(const RunArguments& words) {
     request.script = from_file ? read_percent_script(file) : parse_percent_script(words.code, "command line");
     request.seed = words.seed.value();
     const std::string stem = from_file ? file.stem().string() : "dynlab";
-    const fs::path out = words.out.empty() ? fs::path(stem + "_out") : fs::path(words.out);
-    request.out_folder = words.out.empty() ? fs::path(".") : out;
+    const fs::path beside = from_file ? folder_of(file) : fs::path(".");
+    const fs::path out = words.out.empty() ? (beside / (stem + "_out")).lexically_normal() : fs::path(words.out);
+    request.out_folder = words.out.empty() ? beside : out;
     if (!words.out.empty()) fs::create_directories(out);
 
     const Cache cache;
@@ -63,13 +99,16 @@ int run(const RunArguments& words) {
     GnuplotRenderer renderer(&cache);
     request.call_cache = &calls;
     RunRecord record = run_showing_activity(request, renderer);
-    save_figures(record, renderer, out);
+    if (words.out.empty()) remove_old_figures(out);  // a folder that was named is somebody's
+    save_figures(record, renderer, out, request.script.header.language);
     if (!words.out.empty()) write_file_atomically(out / "record.json", to_json(record));
-    std::cout.flush();
-    if (const std::string missing = missing_answers(request.script, record); !missing.empty())
-        std::cerr << "dynlab: answers that are not given yet: " << terminal_text(missing) << '\n';
-    if (!record.error) return kDone;
-    std::cerr << "dynlab: " << terminal_text(record.error->message) << '\n';
+    show_reported(request.script, record);
+    if (!record.error) {
+        if (const std::string missing = missing_answers(request.script, record); !missing.empty())
+            std::cerr << "dynlab: answers that are not given yet: " << terminal_text(missing) << '\n';
+        return kDone;
+    }
+    std::cerr << "dynlab: " << terminal_text(error_text(*record.error, request.script)) << '\n';
     return kFailed;
 }
 
@@ -87,7 +126,11 @@ void add_run(CLI::App& app, Action& action) {
         ->type_name("DIR");
     words->seed.add_to(*command);
     command->footer(
-        "Figures that the script makes are saved as PDF and their paths printed.\n"
+        "Figures that the script makes are saved as PDF in NAME_out beside the script and their paths printed; those "
+        "of\n"
+        "an earlier run are removed. What it saves by itself goes beside it, too. Values and tables that it reports "
+        "are\n"
+        "printed, and what the report's text has no place for is told.\n"
         "Example:  dynlab run -e 's = tf(\"s\") step(2/(s^2 + s + 1))'");
     command->callback([words, command, &action] {
         if (words->file.empty() && words->code.empty()) {

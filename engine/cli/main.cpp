@@ -28,7 +28,7 @@ constexpr const char* kFooter =
     "  dynlab course init signals-2026                         hand-ins, peer review and marks of a course\n"
     "  dynlab identify d.csv --input u --output y --poles 2    a model and a report from a file\n"
     "  dynlab run -e 'print(1 + 1)'   a line of Lua\n"
-    "  dynlab help tf                 what a function does, with an example\n"
+    "  dynlab help tf                 what a function does, with an example; dynlab help lua: Lua in ten minutes\n"
     "\n"
     "Exit codes: 0 done, 1 the script or document failed, 2 wrong usage, 3 a needed program is missing,\n"
     "130 interrupted.";

@@ -4,10 +4,12 @@
 #include <chrono>
 #include <regex>
 
+#include "documents/bibliography.h"
 #include "documents/characters.h"
 #include "documents/complaints.h"
 #include "documents/error.h"
 #include "documents/latex.h"
+#include "documents/latex_remains.h"
 #include "documents/pandoc.h"
 #include "documents/pictures.h"
 #include "documents/template_file.h"
@@ -66,6 +68,15 @@ std::string section_of(const std::string& body, int line) {
     return heading.empty() ? "" : " in section \"" + heading + "\"";
 }
 
+void begin_with_error(const std::string& message, const fs::path& file, MarkdownText& text) {
+    MarkdownText begun;
+    begun.append(error_block(message), file, 0);
+    begun.text += text.text;
+    begun.origin.insert(begun.origin.end(), text.origin.begin(), text.origin.end());
+    for (SourceLine& line : begun.origin) line.line = std::max(line.line, 1);
+    text = std::move(begun);
+}
+
 /// One document on its way: each member function is one step.
 class DocumentBuilder {
   public:
@@ -76,30 +87,23 @@ class DocumentBuilder {
           format_(format),
           options_(options),
           shared_templates_(shared_folder() / "report_templates"),
-          template_(read_template(source.template_file)),
-          markdown_(with_cells(template_, source.cells)),
-          metadata_(template_.metadata) {
-        for (const auto& [key, value] : source.metadata) {
-            check_metadata(key, value, source.template_file.string() + ": ");
-            metadata_[key] = value;
-        }
-        if (metadata_.count("lang") && !metadata_.at("lang").empty()) language_ = metadata_.at("lang");
-        record_ = source.record ? source.record : &nothing_reported_;
-        if (record_->error && !shows_cells(template_)) begin_with_error();
-    }
+          text_(document_text(source)),
+          record_(source.record ? source.record : &nothing_reported_) {}
 
     void make(const std::function<void()>& wait_for_figures) {
         Stopwatch watch(options_.timings);
         Complaints complaints;
         check_characters(complaints);
-        const PandocResult written = run_pandoc(pandoc_job(), complaints);
+        find_latex_brackets(text_.markdown, complaints);
+        const std::string bibliography = placed_bibliography(source_, text_, work_.path(), complaints);
+        const PandocResult written = run_pandoc(pandoc_job(bibliography), complaints);
         std::vector<PlacedPicture> pictures =
-            find_picture_files(written.pictures, markdown_, source_.template_file, format_, prefix(), complaints);
+            find_picture_files(written.pictures, text_.markdown, source_.template_file, format_, prefix(), complaints);
         complaints.throw_if_any();
         watch.note("pandoc");
         if (wait_for_figures) wait_for_figures();
         const auto figures =
-            find_figures(written.pictures, markdown_, source_.template_file, *record_, format_, prefix(), complaints);
+            find_figures(written.pictures, text_.markdown, source_.template_file, *record_, format_, prefix(), complaints);
         complaints.throw_if_any();
         pictures.insert(pictures.end(), figures.begin(), figures.end());
         watch.note("figures");
@@ -112,19 +116,21 @@ class DocumentBuilder {
         return "dynlab-picture-";
     }
 
-    void begin_with_error() {
-        MarkdownText begun;
-        begun.append(error_block(record_->error->message), source_.template_file, 0);
-        begun.text += markdown_.text;
-        begun.origin.insert(begun.origin.end(), markdown_.origin.begin(), markdown_.origin.end());
-        for (SourceLine& line : begun.origin) line.line = std::max(line.line, 1);
-        markdown_ = std::move(begun);
-    }
-
-    PandocJob pandoc_job() const {
-        return {markdown_, metadata_,   document_rules(template_), language_,
-                record_,   format_,     source_.template_file,     shared_templates_,
-                prefix(),  work_.path()};
+    PandocJob pandoc_job(const std::string& bibliography) const {
+        PandocJob job;
+        job.markdown = text_.markdown;
+        job.metadata = text_.metadata;
+        job.rules = text_.rules;
+        job.language = text_.language;
+        job.record = record_;
+        job.format = format_;
+        job.template_file = source_.template_file;
+        job.shared_templates = shared_templates_;
+        job.picture_prefix = prefix();
+        job.work_folder = work_.path();
+        job.bibliography = bibliography;
+        job.measures = source_.measures;
+        return job;
     }
 
     void check_characters(Complaints& complaints) const {
@@ -133,11 +139,11 @@ class DocumentBuilder {
                 ? PrintableCharacters::of_latex(read_file(shared_templates_ / "latex/characters.tex"))
                 : PrintableCharacters::of_html();
         int number = 0;
-        for (const std::string& line : lines_of(markdown_.text)) {
+        for (const std::string& line : lines_of(text_.markdown.text)) {
             ++number;
-            if (const auto sentence = printable.complaint(line)) complaints.add(markdown_.origin_of(number), *sentence);
+            if (const auto sentence = printable.complaint(line)) complaints.add(text_.markdown.origin_of(number), *sentence);
         }
-        for (const auto& [key, value] : metadata_)
+        for (const auto& [key, value] : text_.metadata)
             if (const auto sentence = printable.complaint(value))
                 complaints.add({source_.template_file, 0}, "in " + key + ": " + *sentence);
         check_record(printable, complaints);
@@ -146,7 +152,7 @@ class DocumentBuilder {
     /// Only what a slot shows: other entries never reach the document.
     void check_record(const PrintableCharacters& printable, Complaints& complaints) const {
         const auto check = [&](const std::string& slot, const std::string& what, const std::string& text) {
-            const SourceLine where = find_in(markdown_, slot, source_.template_file);
+            const SourceLine where = find_in(text_.markdown, slot, source_.template_file);
             const auto sentence = where.line > 0 ? printable.complaint(text) : std::nullopt;
             if (sentence) complaints.add(where, "in the " + what + " the script reported: " + *sentence);
         };
@@ -189,11 +195,11 @@ class DocumentBuilder {
         const std::string identity = fs::absolute(output_).lexically_normal().string() + "\n" +
                                      fs::absolute(source_.template_file).lexically_normal().string();
         try {
-            const LatexLayout layout{shared_templates_, language_, document_rules(template_).slides};
+            const LatexLayout layout{shared_templates_, text_.language, text_.rules.slides};
             return run_latex(
                 {body, layout, work_.path(), identity, options_.use_cache, options_.latex_format, options_.timings});
         } catch (const LatexRefusal& refusal) {
-            const SourceLine where = origin_of_refusal(refusal, markdown_, source_.template_file);
+            const SourceLine where = origin_of_refusal(refusal, text_.markdown, source_.template_file);
             const std::string line = where.line > 0 ? ":" + std::to_string(where.line) : "";
             std::string message = where.file.string() + line + ": LaTeX cannot set this document" +
                                   section_of(body, refusal.line) + ": " + refusal.what();
@@ -210,16 +216,34 @@ class DocumentBuilder {
     DocumentFormat format_;
     const DocumentMaker::Options& options_;
     fs::path shared_templates_;
-    TemplateFile template_;
-    MarkdownText markdown_;
-    std::map<std::string, std::string> metadata_;
-    std::string language_ = "en";
     RunRecord nothing_reported_;
+    DocumentText text_;
     const RunRecord* record_ = nullptr;
     TemporaryFolder work_;
 };
 
 }  // namespace
+
+DocumentText document_text(const DocumentSource& source) {
+    const TemplateFile file = read_template(source.template_file);
+    DocumentText text{with_cells(file, source.cells), file.metadata, document_rules(file), "en"};
+    for (const auto& [key, value] : source.metadata) {
+        check_metadata(key, value, source.template_file.string() + ": ");
+        text.metadata[key] = value;
+    }
+    if (text.metadata.count("lang") && !text.metadata.at("lang").empty()) text.language = text.metadata.at("lang");
+    if (source.record && source.record->error && !shows_cells(file))
+        begin_with_error(source.record->error->message, source.template_file, text.markdown);
+    return text;
+}
+
+std::string placed_bibliography(const DocumentSource& source, const DocumentText& text, const fs::path& work_folder,
+                                Complaints& complaints) {
+    const auto own = text.metadata.find("bibliography");
+    const bool has_own = own != text.metadata.end() && !own->second.empty();
+    const fs::path file = has_own ? source.template_file.parent_path() / own->second : source.bibliography;
+    return file.empty() ? "" : place_bibliography(file, work_folder, complaints);
+}
 
 DocumentFormat document_format(const fs::path& file) {
     const std::string extension = file.extension().string();

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "documents/complaints.h"
+#include "documents/document_rules.h"
 #include "documents/run_record.h"
 #include "documents/weave.h"
 
@@ -22,8 +24,23 @@ struct DocumentSource {
     std::filesystem::path template_file;
     std::map<std::string, std::string> metadata;  ///< title, subtitle, lang, date...: override the template's own
     const RunRecord* record = nullptr;
-    MarkdownText cells;  ///< put in place of `::: {.cells}` ... `:::`
+    std::filesystem::path bibliography = {};           ///< of the script; that of the template, beside it, goes before
+    std::map<std::string, std::string> measures = {};  ///< Markdown of each, for `::: measures` blocks that name it
+    MarkdownText cells;                                ///< put in place of `::: {.cells}` ... `:::`
 };
+
+/// The text of a document with everything in its place but the slots.
+struct DocumentText {
+    MarkdownText markdown;  ///< an error of a run that shows no cells stands at its beginning
+    std::map<std::string, std::string> metadata;
+    DocumentRules rules;
+    std::string language = "en";
+};
+/// Throws DocumentError for what read_template, check_metadata and with_cells refuse.
+DocumentText document_text(const DocumentSource& source);
+/// The document's literature, copied into the folder in which Pandoc works: its name there, empty where there is none.
+std::string placed_bibliography(const DocumentSource& source, const DocumentText& text,
+                                const std::filesystem::path& work_folder, Complaints& complaints);
 
 /// Makes documents: template -> Markdown -> Pandoc with our filter -> HTML, or LaTeX -> pdflatex with a
 /// precompiled preamble and only the passes that references need. The figures named by the record must have
@@ -37,7 +54,7 @@ class DocumentMaker {
     struct Options {
         bool use_cache = true;  ///< preamble format and .aux; never while grading
         std::filesystem::path latex_format =
-            {};  ///< the folder of a preamble format that stands ready (English, no slides)
+            {};  ///< the folder of a preamble format that stands ready, in the document's language (no slides)
         std::vector<std::pair<std::string, double>>* timings = nullptr;  ///< seconds of each step, appended
     };
     explicit DocumentMaker(Options options) : options_(options) {}

@@ -64,6 +64,23 @@ class Sentences {
                    ":name}";
         if (code == "reference-kind")
             return "the cross reference @" + first + " must start with @fig:, @tbl:, @eq: or @sec:";
+        if (code == "no-bibliography")
+            return "@" + first +
+                   " cites literature, but there is no \"bibliography: references.bib\" in the header; name one, or "
+                   "write "
+                   "\\@" +
+                   first + " for the text itself";
+        if (code == "unknown-citation")
+            return "the bibliography has no entry " + quoted(first) + suggestion(first, split_at(second, ' '));
+        if (code == "diagram") return "in this block diagram " + quoted(fields[2]) + ": " + first;
+        if (code == "unknown-measure")
+            return "there is no measure " + quoted(first) + suggestion(first, split_at(second, ' ')) +
+                   "; dynlab help measures lists them";
+        if (code == "bibliography") return "the bibliography cannot be read: " + first;
+        if (code == "latex")
+            return "the LaTeX command " + first +
+                   " would be printed as it stands; formulas stand between dollar signs, text is written in Markdown "
+                   "(::: pagebreak, {#fig:name} and @fig:name, *italic*, **bold**)";
         if (code == "figure-not-alone")
             return "the figure " + quoted(first) + " must stand alone, with an empty line before and after it";
         if (code == "table-content")
@@ -133,11 +150,13 @@ class Sentences {
     static std::string unknown_class(const std::string& code, const std::string& name, const std::string& text) {
         if (code == "division-class") {
             if (name.empty())
-                return "a ::: block needs a class: table, text, note, warning, exercise, columns, column or pagebreak";
+                return "a ::: block needs a class: table, text, note, warning, exercise, columns, column, "
+                       "block-diagram, references, measures or pagebreak";
             return "the block class " + quoted(name) + " is not known" +
-                   suggestion(name, {"table", "text", "note", "warning", "exercise", "columns", "column", "pagebreak",
-                                     "cells"}) +
-                   "; known are table, text, cells, note, warning, exercise, columns, column, pagebreak";
+                   suggestion(name, {"table", "text", "note", "warning", "exercise", "columns", "column",
+                                     "block-diagram", "references", "measures", "pagebreak", "cells"}) +
+                   "; known are table, text, cells, note, warning, exercise, columns, column, block-diagram, "
+                   "references, measures, pagebreak";
         }
         if (code == "code-class")
             return "the slot `" + text + "`{." + name + "} has an unknown class; values are written `" + text +

@@ -101,7 +101,8 @@ std::string chunks_entry(const ChunkSurroundings& chunks) {
 std::string slots_file(const PandocJob& job) {
     std::map<std::string, std::string> shown, switches;
     for (const auto& [key, value] : job.metadata)
-        if (key != "lang" && !is_document_rule(key) && !value.empty()) (is_switch(key) ? switches : shown)[key] = value;
+        if (key != "lang" && key != "bibliography" && !is_document_rule(key) && !value.empty())
+            (is_switch(key) ? switches : shown)[key] = value;
     const auto as_string = [](const std::string& text) { return lua_string(text); };
     const bool numbered = switches.count("numbersections") && switches.at("numbersections") == "true";
     std::string variables =
@@ -113,8 +114,9 @@ std::string slots_file(const PandocJob& job) {
            ",stopped=" + (record.error || job.unfinished ? "true" : "false") +
            ",\npicture_prefix=" + lua_string(job.picture_prefix) +
            ",figure_extension=" + lua_string(figure_extension(job.format)) +
-           ",slides=" + (sets_slides(job) ? "true" : "false") + ",\nvariables=" + variables +
-           "},\nmetadata=" + lua_map(shown, as_string) +
+           ",bibliography=" + lua_string(job.bibliography) + ",slides=" + (sets_slides(job) ? "true" : "false") +
+           ",\nvariables=" + variables + "},\nmetadata=" + lua_map(shown, as_string) +
+           ",\nmeasures=" + lua_map(job.measures, as_string) +
            ",\nsection_titles=" + lua_map(section_titles(job), as_string) +
            ",\nvalue=" + lua_map(record.values, [](const RecordedValue& v) { return lua_string(one_line(v.text)); }) +
            ",\ntable=" + lua_map(record.tables, lua_table_entry) + ",\nfigure=" +
@@ -141,6 +143,8 @@ std::vector<std::string> command_line(const PandocJob& job) {
                                                                      : "markdown/document.md";
     command.insert(command.end(), {"--template", (shared / layout).string(), "--lua-filter",
                                    (shared / "filters/document.lua").string(), "--data-dir", job.work_folder.string()});
+    if (!job.bibliography.empty())
+        command.insert(command.end(), {"--citeproc", "--lua-filter", (shared / "filters/references.lua").string()});
     return command;
 }
 

@@ -128,6 +128,11 @@ PercentScript parse_percent_script(const std::string& source, const std::filesys
     return script;
 }
 
+std::filesystem::path bibliography_of(const PercentScript& script) {
+    const std::string& name = script.header.bibliography;
+    return name.empty() ? std::filesystem::path() : script.file.parent_path() / name;
+}
+
 PercentScript read_percent_script(const std::filesystem::path& file) {
     return parse_percent_script(read_text(file), file);
 }

@@ -22,6 +22,7 @@ struct ScriptHeader {
     std::string language = "en";  ///< "en" or "fr"
     std::uint32_t seed = 1;
     std::vector<ExpectedAnswer> answers;
+    std::string bibliography;  ///< name of a file beside the script, or empty
 };
 
 struct Cell {
@@ -51,6 +52,8 @@ struct PercentScript {
 /// not closed, unknown cell option, a text cell line that is not a comment, duplicate cell id, solution
 /// markers that do not pair up.
 PercentScript read_percent_script(const std::filesystem::path& file);
+/// The file that the header names, beside the script; empty where it names none.
+std::filesystem::path bibliography_of(const PercentScript& script);
 PercentScript parse_percent_script(const std::string& source, const std::filesystem::path& name);
 
 }  // namespace dynlab::inline documents

@@ -23,7 +23,13 @@ void describe(T& object, V& member) {
     member.unless_empty("printed", printed), member("figure", figure);
 }
 
-DYNLAB_DESCRIBE(RecordedError, message, line)
+DYNLAB_DESCRIBE(RecordedCall, what, file, line)
+
+template <Is<RecordedError> T, class V>
+void describe(T& object, V& member) {
+    auto& [message, line, calls] = object;
+    member("message", message), member("line", line), member.unless_empty("calls", calls);
+}
 
 template <Is<RunRecord> T, class V>
 void describe(T& object, V& member) {

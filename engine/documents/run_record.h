@@ -44,9 +44,17 @@ struct CellOutput {
     std::optional<std::string> figure;  ///< name of a captured figure
 };
 
+/// A call on the way to an error.
+struct RecordedCall {
+    std::string what;  ///< "called gain(x = 2)"
+    std::string file;  ///< where that stands, without folders
+    int line = 0;
+};
+
 struct RecordedError {
-    std::string message;  ///< the whole readable sentence, with file and line
-    int line = 0;         ///< of the script; 0 when unknown
+    std::string message;                   ///< the whole readable sentence, with file and line
+    int line = 0;                          ///< of the script; 0 when unknown
+    std::vector<RecordedCall> calls = {};  ///< of the script's own functions, the innermost first
 };
 
 /// `answer`: what a script hands in under a name.

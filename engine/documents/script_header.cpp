@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "documents/bibliography.h"
 #include "documents/error.h"
 #include "documents/text_lines.h"
 #include "platform/spelling.h"
@@ -12,7 +13,8 @@
 namespace dynlab::inline documents {
 namespace {
 
-const std::vector<std::string> kHeaderKeys = {"title", "subtitle", "lesson", "template", "language", "seed", "answers"};
+const std::vector<std::string> kHeaderKeys = {"title",    "subtitle", "lesson",  "template",
+                                              "language", "seed",     "answers", "bibliography"};
 
 /// Lines of the header, their comment signs taken off, read into a ScriptHeader: scalars and one level of names.
 class HeaderReader {
@@ -73,6 +75,8 @@ class HeaderReader {
             *text = value;
         if (key == "language" && value != "en" && value != "fr")
             fail("language \"" + value + "\" is not known; write en or fr");
+        if (key == "bibliography")
+            check_bibliography_name(value, file_.string() + ":" + std::to_string(number_) + ": script header: ");
         if (key == "template" && !is_name(value))
             fail("template \"" + value + "\" must be the name of a template, such as lesson, without folder or .md");
     }
@@ -83,6 +87,7 @@ class HeaderReader {
         if (key == "lesson") return &header_.lesson;
         if (key == "template") return &header_.template_name;
         if (key == "language") return &header_.language;
+        if (key == "bibliography") return &header_.bibliography;
         return nullptr;
     }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <regex>
 
+#include "documents/bibliography.h"
 #include "documents/document_rules.h"
 #include "documents/error.h"
 #include "documents/text_lines.h"
@@ -13,9 +14,9 @@
 namespace dynlab::inline documents {
 namespace {
 
-const std::vector<std::string> kAllowedKeys = {"title",       "subtitle",       "date",     "lang",  "abstract",
-                                               "toc",         "numbersections", "sections", "pages", "appendix_pages",
-                                               "least_pages", "layout"};
+const std::vector<std::string> kAllowedKeys = {
+    "title",    "subtitle", "date",           "lang",        "abstract", "toc",         "numbersections",
+    "sections", "pages",    "appendix_pages", "least_pages", "layout",   "bibliography"};
 
 std::string location_of_line(const std::filesystem::path& file, std::size_t index) {
     return file.string() + ":" + std::to_string(index + 1) + ": ";
@@ -69,24 +70,6 @@ std::size_t end_of_metadata(const std::vector<std::string>& lines, const std::fi
     throw DocumentError(location_of_line(file, 0) + "the header is not closed: a line \"---\" is missing after it");
 }
 
-/// Which lines of Markdown are inside fenced code.
-class FenceState {
-  public:
-    bool inside(const std::string& line) {
-        const std::string text = trimmed(line);
-        const std::size_t length = std::min(text.find_first_not_of('`'), text.size());
-        if (open_ == 0) {
-            if (length >= 3) open_ = length;
-            return length >= 3;
-        }
-        if (length >= open_ && length == text.size()) open_ = 0;
-        return true;
-    }
-
-  private:
-    std::size_t open_ = 0;
-};
-
 bool opens_cells(const std::string& line) {
     static const std::regex opening(R"(:::+\s*(\{\s*\.cells\s*\}|cells)\s*:*\s*)");
     return std::regex_match(line, opening);
@@ -104,12 +87,13 @@ void check_metadata(const std::string& key, const std::string& value, const std:
             throw DocumentError(message + "did you mean \"" + *near + "\"?");
         throw DocumentError(message +
                             "allowed are title, subtitle, date, lang, abstract, toc, numbersections, sections, "
-                            "pages, appendix_pages, least_pages, layout");
+                            "pages, appendix_pages, least_pages, layout, bibliography");
     }
     if (key == "lang" && value != "en" && value != "fr")
         throw DocumentError(where + "lang \"" + value + "\" is not known; write en or fr");
     if ((key == "toc" || key == "numbersections") && value != "true" && value != "false")
         throw DocumentError(where + key + " is true or false, not \"" + value + "\"");
+    if (key == "bibliography") check_bibliography_name(value, where);
     DocumentRules rules;
     read_document_rule(key, value, where, rules);
 }
@@ -130,16 +114,16 @@ TemplateFile read_template(const std::filesystem::path& file) {
 }
 
 bool shows_cells(const TemplateFile& source) {
-    FenceState fence;
+    FencedCode fence;
     const std::vector<std::string> lines = lines_of(source.body.text);
     return std::any_of(lines.begin(), lines.end(),
-                       [&](const std::string& line) { return !fence.inside(line) && opens_cells(line); });
+                       [&](const std::string& line) { return !fence.holds(line) && opens_cells(line); });
 }
 
 MarkdownText with_cells(const TemplateFile& source, const MarkdownText& cells) {
     const std::vector<std::string> lines = lines_of(source.body.text);
     MarkdownText result;
-    FenceState fence;
+    FencedCode fence;
     bool placed = false;
     const auto fail = [&](std::size_t i, const std::string& what) {
         throw DocumentError(location_of_line(source.file, static_cast<std::size_t>(source.body.origin[i].line) - 1) +
@@ -147,7 +131,7 @@ MarkdownText with_cells(const TemplateFile& source, const MarkdownText& cells) {
     };
     for (std::size_t i = 0; i < lines.size(); ++i) {
         const SourceLine from = source.body.origin[i];
-        if (fence.inside(lines[i]) || !opens_cells(lines[i])) {
+        if (fence.holds(lines[i]) || !opens_cells(lines[i])) {
             result.append(lines[i] + "\n", from.file, from.line);
             continue;
         }

@@ -49,4 +49,15 @@ std::string replaced(std::string text, std::string_view from, std::string_view t
     return text;
 }
 
+bool FencedCode::holds(const std::string& line) {
+    const std::string text = trimmed(line);
+    const std::size_t length = std::min(text.find_first_not_of('`'), text.size());
+    if (open_ == 0) {
+        if (length >= 3) open_ = length;
+        return length >= 3;
+    }
+    if (length >= open_ && length == text.size()) open_ = 0;
+    return true;
+}
+
 }  // namespace dynlab::inline documents

@@ -15,4 +15,13 @@ bool is_blank(std::string_view text);
 bool is_name(std::string_view text);  ///< a letter or underscore, then letters, digits, underscores, hyphens
 std::string replaced(std::string text, std::string_view from, std::string_view to);  ///< every occurrence
 
+/// Which lines of Markdown belong to fenced code: asked of every line in turn.
+class FencedCode {
+  public:
+    bool holds(const std::string& line);
+
+  private:
+    std::size_t open_ = 0;  ///< the fence's backticks
+};
+
 }  // namespace dynlab::inline documents

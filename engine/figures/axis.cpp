@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include "figures/figure_text.h"
 
@@ -32,6 +34,18 @@ int common_exponent(double largest, double step) {
     return magnitude >= 5 || (magnitude < 0 && finest <= -4) ? magnitude : 0;
 }
 
+/// Decimals with which multiples of a step such as 0.25 are written out.
+int decimals_of(double step) {
+    constexpr int kMost = 12;
+    int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, kMost);
+    const auto left_over = [step](int digits) {
+        const double scaled = step * std::pow(10.0, digits);
+        return std::abs(scaled - std::round(scaled)) / scaled;
+    };
+    if (left_over(decimals) > 1e-6 && decimals < kMost && left_over(decimals + 1) < 1e-6) ++decimals;
+    return decimals;
+}
+
 void add_linear_ticks(Axis& axis, double count, std::optional<double> wanted_step) {
     const double span = axis.high - axis.low;
     double step = wanted_step.value_or(round_step(span / std::max(count, 1.0)));
@@ -39,7 +53,7 @@ void add_linear_ticks(Axis& axis, double count, std::optional<double> wanted_ste
     const double largest = std::max(std::abs(axis.low), std::abs(axis.high));
     axis.exponent = common_exponent(largest, step);
     const double unit = std::pow(10.0, axis.exponent);
-    const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step / unit) - 1e-9)), 0, 12);
+    const int decimals = decimals_of(step / unit);
     const double slack = 1e-9 * span;
     for (double k = std::ceil((axis.low - slack) / step); k * step <= axis.high + slack; ++k) {
         axis.ticks.push_back(
@@ -48,17 +62,38 @@ void add_linear_ticks(Axis& axis, double count, std::optional<double> wanted_ste
     }
 }
 
+/// The digits 1 to 9 that are numbered in every decade, from few to many.
+constexpr std::array<std::string_view, 4> kNumberedDigits = {"1", "13", "125", "12357"};
+
+bool numbers_digit(std::string_view digits, int digit) {
+    return digits.find(static_cast<char>('0' + digit)) != std::string_view::npos;
+}
+
+int count_of_digits(const Axis& axis, std::string_view digits) {
+    int count = 0;
+    for (int k = static_cast<int>(std::floor(std::log10(axis.low))); k <= std::log10(axis.high) + 1e-9; ++k)
+        for (const char digit : digits) {
+            const double value = (digit - '0') * std::pow(10.0, k);
+            count += value >= axis.low * (1 - 1e-9) && value <= axis.high * (1 + 1e-9);
+        }
+    return count;
+}
+
 void add_log_ticks(Axis& axis, double count) {
+    constexpr int kFewest = 4;
     const double first = std::log10(axis.low), last = std::log10(axis.high);
     const double decades = last - first;
     if (decades < 0.35) return add_linear_ticks(axis, count, {});
-    const int stride = std::max(1, static_cast<int>(std::ceil(decades / std::max(count, 2.0))));
+    std::string_view digits = kNumberedDigits.front();
+    for (const std::string_view more : kNumberedDigits)
+        if (count_of_digits(axis, digits) < std::min<double>(kFewest, count)) digits = more;
+    const int stride = digits.size() > 1 ? 1 : std::max(1, static_cast<int>(std::ceil(decades / std::max(count, 2.0))));
     const bool plain = first > -3.01 && last < 4.01 && decades < 2.1;
     for (int k = static_cast<int>(std::floor(first)); k <= static_cast<int>(std::ceil(last)); ++k) {
         for (int digit = 1; digit <= 9; ++digit) {
             const double value = digit * std::pow(10.0, k);
             if (value < axis.low * (1 - 1e-9) || value > axis.high * (1 + 1e-9)) continue;
-            const bool numbered = digit == 1 ? k % stride == 0 : decades < 2 && (digit == 2 || digit == 5);
+            const bool numbered = numbers_digit(digits, digit) && k % stride == 0;
             if (!numbered && (stride == 1 || digit == 1)) axis.minor.push_back(value);
             if (!numbered) continue;
             const std::string power = with_minus_sign(std::to_string(k));

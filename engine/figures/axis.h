@@ -41,7 +41,8 @@ class Extent {
 };
 
 /// Chooses about `count` ticks at round numbers (1, 2 or 5 times a power of ten, or multiples of `step`). Large and
-/// small magnitudes share a power of ten; logarithmic axes number decades, or 1, 2, 5 when they span less than two.
+/// small magnitudes share a power of ten; logarithmic axes number decades, and digits between where these are fewer
+/// than four.
 Axis make_axis(std::pair<double, double> range, bool log, double count, std::optional<double> step = {});
 
 }  // namespace dynlab::inline figures

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "figures/axis.h"
 #include "figures/style.h"
 
 namespace dynlab::inline figures {
@@ -52,12 +53,23 @@ void fix_colours(Panel& panel) {
         if (!panel.curves[i].colour) panel.curves[i].colour = static_cast<int>(i) % style::kGreyColour;
 }
 
-double phase_tick_step(const Panel& phase) {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const Curve& curve : phase.curves)
-        for (const double value : curve.y)
-            if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
-    return high - low <= 200 ? 45 : high - low <= 450 ? 90 : 180 * std::ceil((high - low) / 900);
+void choose_phase_axis(Panel& phase) {
+    constexpr double kLeast = 60;  // degrees shown
+    constexpr int kFewestNumbers = 4;
+    Extent extent(false);
+    for (const Curve& curve : phase.curves) {
+        extent.include(curve.y);
+        extent.include(curve.y_upper);
+    }
+    auto [low, high] = phase.y_range.value_or(extent.padded(0.06));
+    if (const double lacking = kLeast - (high - low); lacking > 0)
+        phase.y_range = {low -= 0.5 * lacking, high += 0.5 * lacking};
+    phase.y_tick_step = 15;
+    double step = 30;
+    while (std::floor(high / step) - std::ceil(low / step) + 1 >= kFewestNumbers) {
+        phase.y_tick_step = step;
+        step = step == 30 ? 45 : 2 * step;
+    }
 }
 
 }  // namespace dynlab::inline figures

@@ -18,8 +18,8 @@ void add_confidence_band(Panel& panel, std::size_t line, const Vector& half_widt
 /// readable: half their height, and at least `least_room`, beyond them.
 void limit_to_readable(Panel& panel, std::size_t lines, double least_room);
 
-/// Distance of the numbers on a phase axis: 45 degrees, or a larger divisor of the turn for long ranges.
-double phase_tick_step(const Panel& phase);
+/// Numbers on a phase axis every 15, 30, 45, 90 ... degrees, at least four of them, over at least 60 degrees.
+void choose_phase_axis(Panel& phase);
 
 /// Gives every curve of the panel the colour of its index, which bands added later must not move.
 void fix_colours(Panel& panel);

@@ -82,8 +82,8 @@ class GnuplotRenderer::Work {
     explicit Work(const Cache* cache) : cache_(cache && cache->lasting() ? cache : nullptr) {}
     ~Work() { give_up(); }
 
-    void draw(const Figure& figure, const fs::path& target, FigureFormat format) {
-        const std::string script = gnuplot_script(figure, format);
+    void draw(const Figure& figure, const fs::path& target, FigureFormat format, bool decimal_comma) {
+        const std::string script = gnuplot_script(figure, format, decimal_comma);
         Pending next{0, format, make_temporary_beside(target), target, {}};
         if (cache_) next.name = name_of_drawing(format, script);
         pending_.push_back(next);
@@ -210,13 +210,13 @@ class GnuplotRenderer::Work {
 GnuplotRenderer::GnuplotRenderer(const Cache* cache) : work_(std::make_unique<Work>(cache)) {}
 GnuplotRenderer::~GnuplotRenderer() = default;
 
-void GnuplotRenderer::draw(const Figure& figure, const fs::path& file, FigureFormat format) {
+void GnuplotRenderer::draw(const Figure& figure, const fs::path& file, FigureFormat format, bool decimal_comma) {
     figure.validate();
     const fs::path target = fs::absolute(file);
     for (const char c : target.native())
         if (static_cast<unsigned char>(c) < 0x20)
             throw InvalidArgument("the name of a figure's file must not contain line breaks or control characters");
-    work_->draw(figure, target, format);
+    work_->draw(figure, target, format, decimal_comma);
 }
 
 void GnuplotRenderer::finish() {

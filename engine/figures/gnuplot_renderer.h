@@ -24,7 +24,8 @@ class GnuplotRenderer {
     ~GnuplotRenderer();  ///< ends the process; files not finished are removed
 
     /// Queues `figure` for `file`; returns at once. Throws MissingProgram when gnuplot is not installed.
-    void draw(const Figure& figure, const std::filesystem::path& file, FigureFormat format);
+    /// With `decimal_comma` the numbers beside the axes are written as French writes them.
+    void draw(const Figure& figure, const std::filesystem::path& file, FigureFormat format, bool decimal_comma = false);
     /// Waits until all queued files are whole. Throws FigureError with gnuplot's first complaint.
     void finish();
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "figures/french_texts.h"
 #include "figures/label_placement.h"
 #include "figures/style.h"
 
@@ -19,8 +20,9 @@ constexpr double kMarkerSize = 0.4;
 /// Writes one panel. Coordinates are cm from the frame's lower left corner, gnuplot's "first" system here.
 class PanelScript {
   public:
-    PanelScript(const Panel& panel, const PanelLayout& layout, const FigureLayout& page, std::string& out)
-        : panel_(panel), layout_(layout), page_(page), out_(out) {}
+    PanelScript(const Panel& panel, const PanelLayout& layout, const FigureLayout& page, bool decimal_comma,
+                std::string& out)
+        : panel_(panel), layout_(layout), page_(page), decimal_comma_(decimal_comma), out_(out) {}
 
     void write(bool with_page_title) {
         write_frame();
@@ -77,13 +79,15 @@ class PanelScript {
             align, upright ? "rotate by 90" : "norotate", size, colour);
     }
 
+    std::string number(const Tick& tick) const { return decimal_comma_ ? with_decimal_commas(tick.label) : tick.label; }
+
     void write_numbers() {
         const double below = -kTickLength - 0.5 * kTickLine, left = -kTickLength - 0.08;
         if (layout_.x_numbers)
             for (const Tick& tick : layout_.x.ticks)
-                text(tick.label, layout_.x.position(tick.value) * width(), below, "center", kTickSize, kFrameColour);
+                text(number(tick), layout_.x.position(tick.value) * width(), below, "center", kTickSize, kFrameColour);
         for (const Tick& tick : layout_.y.ticks)
-            text(tick.label, left, layout_.y.position(tick.value) * height(), "right", kTickSize, kFrameColour);
+            text(number(tick), left, layout_.y.position(tick.value) * height(), "right", kTickSize, kFrameColour);
         const auto power = [](int exponent) {
             return fmt::format("×10^{{{}{}}}", exponent < 0 ? "−" : "", std::abs(exponent));
         };
@@ -249,6 +253,7 @@ class PanelScript {
     const Panel& panel_;
     const PanelLayout& layout_;
     const FigureLayout& page_;
+    bool decimal_comma_;
     std::string& out_;
     std::vector<CurveTraces> traces_;
     std::string elements_;
@@ -274,14 +279,14 @@ std::string terminal(FigureFormat format, double width_cm, double height_cm) {
 
 }  // namespace
 
-std::string gnuplot_script(const Figure& figure, FigureFormat format) {
+std::string gnuplot_script(const Figure& figure, FigureFormat format, bool decimal_comma) {
     const FigureLayout page = lay_out(figure);
     std::string out = "reset\nset encoding utf8\n";
     out += "set terminal " + terminal(format, page.width, page.height) + "\n";
     out += "set output output_file\n";
     out += "set multiplot\nunset key\nset clip two\n";
     for (std::size_t i = 0; i < figure.panels.size(); ++i)
-        PanelScript(figure.panels[i], page.panels[i], page, out).write(i == 0);
+        PanelScript(figure.panels[i], page.panels[i], page, decimal_comma, out).write(i == 0);
     out += "unset multiplot\nset output\n";
     return out;
 }

@@ -9,6 +9,7 @@ namespace dynlab::inline figures {
 /// The gnuplot commands, data included, that draw a valid figure into the file that gnuplot's variable `output_file`
 /// names; equal commands give equal files. Everything is placed in cm; gnuplot chooses nothing. Data are sent as
 /// numbers in text, so that even a command gnuplot refuses leaves nothing behind that could be read as another command.
-std::string gnuplot_script(const Figure& figure, FigureFormat format);
+/// With `decimal_comma` the numbers beside the axes are written as French writes them.
+std::string gnuplot_script(const Figure& figure, FigureFormat format, bool decimal_comma = false);
 
 }  // namespace dynlab::inline figures

@@ -7,9 +7,11 @@ namespace {
 
 constexpr std::array kPalette = {"#0072B2", "#E69F00", "#202020", "#009E73", "#882255",
                                  "#56B4E9", "#D55E00", "#CC79A7", "#8C8C8C"};
-constexpr std::array kDashOfColour = {0, 1, 3, 2, 0, 1, 3, 2, 0};
+constexpr std::array kDashOfColour = {0, 1, 3, 2, 4, 5, 6, 7, 0};
 /// Filled circle, square, triangle, diamond, the same four open, cross, plus.
 constexpr std::array kPointTypes = {7, 5, 9, 13, 6, 4, 8, 12, 2, 1};
+/// The markers of curves: filled and open ones in turn.
+constexpr std::array kMarkerOfColour = {0, 5, 2, 7, 4, 1, 6, 3, 0};
 
 template <class List>
 auto pick(const List& list, int index) {
@@ -20,14 +22,16 @@ auto pick(const List& list, int index) {
 }  // namespace
 
 std::string dash_pattern(int dash) {
-    static constexpr std::array kPatterns = {"solid", "(9,4)", "(2,3)", "(9,3,2,3)"};
+    static constexpr std::array kPatterns = {"solid",  "(9,4)",         "(2,3)", "(9,3,2,3)",
+                                             "(16,9)", "(9,3,2,3,2,3)", "(4,5)", "(18,3,2,3)"};
     return pick(kPatterns, dash);
 }
 
 CurveLook look_of(const Curve& curve, int index) {
     const int colour = curve.colour.value_or(index % kGreyColour);
-    return {pick(kPalette, colour), dash_pattern(curve.dash.value_or(pick(kDashOfColour, colour))),
-            pick(kPointTypes, curve.marker.value_or(colour))};
+    const int round = curve.colour ? 0 : index / kGreyColour;  // the ninth curve has the first one's colour alone
+    return {pick(kPalette, colour), dash_pattern(curve.dash.value_or(pick(kDashOfColour, colour) + round)),
+            pick(kPointTypes, curve.marker.value_or(pick(kMarkerOfColour, colour + round)))};
 }
 
 }  // namespace dynlab::inline figures::style

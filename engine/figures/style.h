@@ -37,7 +37,7 @@ struct CurveLook {
 };
 
 /// Colours after Okabe and Ito (2008), ordered so that neighbours differ in luminance and stay apart for colour-blind
-/// readers and in grey print; the dash pattern changes with the colour.
+/// readers and in grey print; dash pattern and marker change with the colour, and again where the colours repeat.
 CurveLook look_of(const Curve& curve, int index);
 std::string dash_pattern(int dash);
 

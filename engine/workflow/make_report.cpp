@@ -1,6 +1,7 @@
 #include "workflow/make_report.h"
 
 #include <toml++/toml.h>
+#include <algorithm>
 #include <chrono>
 
 #include "documents/error.h"
@@ -13,7 +14,9 @@
 #include "platform/temporary_folder.h"
 #include "platform/text_file.h"
 #include "scripting/memoized_calls/call_cache.h"
+#include "workflow/error_text.h"
 #include "workflow/lesson_catalogue.h"
+#include "workflow/measures.h"
 #include "workflow/report_cache.h"
 #include "workflow/run_cache.h"
 #include "workflow/run_script.h"
@@ -69,7 +72,7 @@ ReportRequest report_of_folder(const fs::path& folder, const fs::path& output) {
     ReportRequest request;
     request.script = read_percent_script(folder / "analysis.lua");
     request.template_file = folder / "report.md";
-    request.output = output.empty() ? fs::path("report.pdf") : output;
+    request.output = output.empty() ? folder / "report.pdf" : output;
     request.seed = seed_of_group(folder, request.script.header.seed);
     const auto metadata = read_template(request.template_file).metadata;
     if (const auto language = metadata.find("lang"); language != metadata.end() && !language->second.empty())
@@ -94,6 +97,11 @@ ReportRequest report_of_lesson(const Lesson& lesson, const fs::path& output, con
     return request;
 }
 
+/// All text of a document: the template's, and the cells' where it shows them.
+std::string text_of_document(const fs::path& template_file, const MarkdownText& cells) {
+    return read_text(template_file) + (shows_cells(read_template(template_file)) ? cells.text : "");
+}
+
 std::vector<std::pair<std::string, double>> cells_in_order(const PercentScript& script,
                                                            const std::map<std::string, double>& seconds) {
     std::vector<std::pair<std::string, double>> cells;
@@ -106,7 +114,21 @@ FigureFormat figure_format_for(DocumentFormat format) {
     return format == DocumentFormat::kPdf ? FigureFormat::kPdf : FigureFormat::kSvg;
 }
 
+bool has_text(const PercentScript& script) {
+    return std::any_of(script.cells.begin(), script.cells.end(),
+                       [](const Cell& cell) { return cell.kind == Cell::Kind::kText; });
+}
+
 }  // namespace
+
+std::vector<std::string> entries_without_place(const PercentScript& script, const RunRecord& record) {
+    const fs::path report = script.file.parent_path() / "report.md";
+    if (record.error || script.file.filename() == "lesson.lua") return {};
+    const MarkdownText cells = weave_cells(script, record);
+    if (script.file.filename() == "analysis.lua" && fs::is_regular_file(report))
+        return unplaced_entries(record, text_of_document(report, cells));
+    return has_text(script) ? unplaced_entries(record, cells.text) : std::vector<std::string>();
+}
 
 ReportRequest report_of_script(const PercentScript& script, const fs::path& output) {
     ReportRequest request;
@@ -134,6 +156,17 @@ ReportRequest report_of(const std::string& lesson_or_folder, const fs::path& out
     if (!language.empty())
         throw EnvironmentError("the language of " + lesson_or_folder + " stands in its report.md, behind \"lang:\"");
     return report_of_folder(lesson_or_folder, output);
+}
+
+DocumentSource document_source(const ReportRequest& request, const RunRecord& record) {
+    DocumentSource source;
+    source.template_file = request.template_file;
+    source.metadata = request.metadata;
+    source.record = &record;
+    source.bibliography = bibliography_of(request.script);
+    source.measures = measures_for_documents();
+    source.cells = weave_cells(request.script, record);
+    return source;
 }
 
 ReportResult make_report(const ReportRequest& request) {
@@ -173,21 +206,17 @@ ReportResult make_report(const ReportRequest& request) {
         record = run_script(run, renderer);
         result.cells = cells_in_order(request.script, record.timings);
         result.long_calls = calls.use();
-        if (record.error && request.print) throw DocumentError(record.error->message);
-        if (record.error) result.error = record.error->message;
-        draw_figures(record, renderer, workplace.path(), figure_format_for(format));
+        if (record.error) result.error = error_text(*record.error, request.script);
+        if (record.error && request.print) throw DocumentError(*result.error);
+        draw_figures(record, renderer, workplace.path(), figure_format_for(format), request.script.header.language);
         if (!request.record.empty()) write_file_atomically(request.record, to_json(record));
         watch.lap(kRunStep);
     }
 
     begin("making the document");
-    DocumentSource source;
-    source.template_file = request.template_file;
-    source.metadata = request.metadata;
-    source.record = &record;
-    source.cells = weave_cells(request.script, record);
+    const DocumentSource source = document_source(request, record);
     if (!record.error && !request.of_lesson)
-        result.unplaced = unplaced_entries(record, read_text(request.template_file) + source.cells.text);
+        result.unplaced = unplaced_entries(record, text_of_document(request.template_file, source.cells));
     try {
         DocumentMaker({.use_cache = true, .timings = &result.timings}).make(source, request.output, format, [&] {
             renderer.finish();

@@ -31,6 +31,9 @@ struct ReportRequest {
                                                     ///< and not at all where the script fails
 };
 
+/// The document of a request whose script gave `record`, which must outlive it.
+DocumentSource document_source(const ReportRequest& request, const RunRecord& record);
+
 /// The step of the timings that the cells' own are part of.
 inline constexpr const char* kRunStep = "run the script";
 
@@ -45,13 +48,18 @@ struct ReportResult {
 
 /// The report of a lesson (`name`, any unique beginning: its worked solution) or of a student's folder (analysis.lua
 /// and report.md; the group's seed from group.toml). A lesson is woven, or fills the report.LANGUAGE.md beside it.
-/// Without `output` it goes to the current folder: 02_least_squares.pdf or report.pdf. `language` is the script's
-/// unless given; a folder's stands in its report.md. Throws EnvironmentError for a folder without these files, a lesson
-/// without a report in the language asked for, a language asked of a folder.
+/// Without `output` a lesson's goes to the current folder (02_least_squares.pdf), a folder's into it (report.pdf).
+/// `language` is the script's unless given; a folder's stands in its report.md. Throws EnvironmentError for a folder
+/// without these files, a lesson without a report in the language asked for, a language asked of a folder.
 ReportRequest report_of(const std::string& lesson_or_folder, const std::filesystem::path& output = {},
                         const std::string& language = {});
 /// The report of any script, with the template its header names, or that of lessons when it has no place for cells.
 ReportRequest report_of_script(const PercentScript& script, const std::filesystem::path& output);
+
+/// What the run of a script reported and its report would not show, a sentence each with the line to write: the text is
+/// report.md beside analysis.lua, that of the cells for any other script with text. Nothing of a run that failed and
+/// of a lesson's master.
+std::vector<std::string> entries_without_place(const PercentScript& script, const RunRecord& record);
 
 /// Runs the script and makes the document; `output` appears whole or stays as it was. With unchanged inputs (script,
 /// template, data, seed, program) and an untouched output nothing is done; with unchanged code and data the script is

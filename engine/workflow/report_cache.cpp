@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "data_io/values/cbor_values.h"
+#include "documents/template_file.h"
 #include "platform/hash.h"
 #include "platform/program_lookup.h"
 #include "workflow/inputs_read.h"
@@ -29,6 +30,15 @@ std::string digest_or_nothing(const fs::path& file) {
     return fs::is_regular_file(file) ? digest_of_file(file).hex() : std::string();
 }
 
+/// What the script's and the template's headers name; that of the template may be any file beside it.
+std::vector<fs::path> bibliographies(const ReportRequest& request) {
+    std::vector<fs::path> files = {bibliography_of(request.script)};
+    const auto metadata = read_template(request.template_file).metadata;
+    if (const auto own = metadata.find("bibliography"); own != metadata.end())
+        files.push_back(request.template_file.parent_path() / own->second);
+    return files;
+}
+
 std::string entry_of_report(const ReportRequest& request) {
     EntryName name("reports");
     name.add(fs::absolute(request.script.file).string());
@@ -36,6 +46,7 @@ std::string entry_of_report(const ReportRequest& request) {
     name.add(fs::absolute(request.template_file).string());
     name.add(digest_of_file(request.template_file).hex());
     for (const auto& [key, value] : request.metadata) name.add(key).add(value);
+    for (const fs::path& file : bibliographies(request)) name.add(digest_or_nothing(file));
     name.add(std::to_string(request.seed));
     name.add(fs::absolute(request.output).string());
     for (const fs::path& file : template_files()) name.add(digest_of_file(file).hex());

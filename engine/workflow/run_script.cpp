@@ -7,6 +7,7 @@
 #include <map>
 
 #include "documents/text_lines.h"
+#include "figures/french_texts.h"
 #include "scripting/runtime/report_language.h"
 #include "scripting/runtime/runtime.h"
 
@@ -101,12 +102,13 @@ std::vector<std::string> figures_in_order(const RunRecord& record) {
 }
 
 void draw_figures(RunRecord& record, GnuplotRenderer& renderer, const std::filesystem::path& folder,
-                  FigureFormat format) {
+                  FigureFormat format, const std::string& language) {
+    const bool french = language == "fr";
     std::size_t number = 0;
     for (const std::string& name : figures_in_order(record)) {
         RecordedFigure& figure = record.figures.at(name);
         figure.file = folder / (figure_file_stem(name, ++number) + extension(format));
-        renderer.draw(figure.figure, figure.file, format);
+        renderer.draw(french ? in_french(figure.figure) : figure.figure, figure.file, format, french);
     }
 }
 

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "documents/error.h"
 #include "documents/solutions.h"
+#include "documents/text_lines.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
@@ -25,24 +27,59 @@ void put(std::string& text, const std::string& slot, const std::string& value) {
     if (at != std::string::npos) text.replace(at, slot.size(), value);
 }
 
-fs::path template_file(const std::string& name) {
-    return shared_folder() / "report_templates" / name;
+/// report_templates/slides.md, or slides.fr.md where the language has one of its own.
+fs::path template_file(const std::string& name, const std::string& language = "en") {
+    const fs::path folder = shared_folder() / "report_templates", own = folder / (name + "." + language + ".md");
+    return fs::is_regular_file(own) ? own : folder / (name + ".md");
+}
+
+/// The lesson's script with the header's title, subtitle and language and the text cells of tasks.LANGUAGE.lua, where
+/// the lesson has it: cell by cell in their order.
+PercentScript script_in(const Lesson& lesson, const std::string& language) {
+    const PercentScript script = read_percent_script(lesson.script());
+    const fs::path file = lesson.folder / ("tasks." + language + ".lua");
+    if (language == script.header.language || !fs::is_regular_file(file)) return script;
+    const PercentScript tasks = read_percent_script(file);
+    std::string source = script.source;
+    put(source, "-- title: " + script.header.title, "-- title: " + tasks.header.title);
+    put(source, "-- subtitle: " + script.header.subtitle, "-- subtitle: " + tasks.header.subtitle);
+    put(source, "-- language: " + script.header.language, "-- language: " + tasks.header.language);
+    std::vector<std::string> lines = lines_of(source);
+    std::vector<const Cell*> texts;
+    for (const Cell& cell : script.cells)
+        if (cell.kind == Cell::Kind::kText) texts.push_back(&cell);
+    if (texts.size() != tasks.cells.size())
+        throw DocumentError(file.string() + " has " + std::to_string(tasks.cells.size()) +
+                            " cells, but the lesson has " + std::to_string(texts.size()) + " cells of text");
+    for (std::size_t i = texts.size(); i-- > 0;) {
+        const auto first = lines.begin() + texts[i]->first_line - 1;
+        const auto after = lines.erase(first, lines.begin() + texts[i]->last_line());
+        std::vector<std::string> text = lines_of(tasks.cells[i].content);
+        for (std::string& line : text) line.insert(0, line.empty() ? "--" : "-- ");
+        lines.insert(after, text.begin(), text.end());
+    }
+    source.clear();
+    for (const std::string& line : lines) source += line + "\n";
+    return parse_percent_script(source, script.file);
 }
 
 /// The template's text with the lesson's title and language in its header.
 std::string report_for(const ScriptHeader& header, const fs::path& file, const std::string& language) {
     std::string text = read_text(file);
     put(text, "title: My work", "title: \"" + header.title + "\"");
+    put(text, "title: Notre travail", "title: \"" + header.title + "\"");
     put(text, "lang: en", "lang: " + (language.empty() ? header.language : language));
     return text;
 }
 
 void fill_lesson(const fs::path& folder, const Lesson& lesson, const std::optional<std::uint32_t>& group_seed,
                  const std::string& language) {
-    const PercentScript script = read_percent_script(lesson.script());
+    const PercentScript script = script_in(lesson, language);
     write_file_atomically(folder / "analysis.lua", without_solutions(script.source, script.file));
     const std::string form = script.header.template_name == "lesson" ? "exercise_sheet" : script.header.template_name;
-    write_file_atomically(folder / "report.md", report_for(script.header, template_file(form + ".md"), language));
+    write_file_atomically(folder / "report.md", report_for(script.header, template_file(form, language), language));
+    if (const fs::path literature = bibliography_of(script); !literature.empty())
+        write_file_atomically(folder / literature.filename(), read_text(literature));
     write_file_atomically(folder / "group.toml", fmt::format(kGroupFile, group_seed.value_or(script.header.seed)));
     const std::vector<std::string> own = group_seed ? simulated_data_of(lesson) : std::vector<std::string>();
     if (has_own_data(lesson)) copy_own_data(lesson, folder / "data");
@@ -53,13 +90,13 @@ void fill_lesson(const fs::path& folder, const Lesson& lesson, const std::option
 }
 
 void fill_review(const fs::path& folder, const std::string& language) {
-    std::string text = read_text(template_file("peer_review.md"));
+    std::string text = read_text(template_file("peer_review"));
     if (language == "fr") {
         put(text, "title: Review of a report", "title: Relecture d'un rapport");
         put(text, "lang: en", "lang: fr");
     }
     write_file_atomically(folder / "report.md", text);
-    write_file_atomically(folder / "analysis.lua", read_text(template_file("peer_review.lua")));
+    write_file_atomically(folder / "analysis.lua", read_text(shared_folder() / "report_templates" / "peer_review.lua"));
     write_file_atomically(folder / "group.toml", fmt::format(kGroupFile, 1));
 }
 

@@ -39,6 +39,32 @@ local data = iddata(exchanger.y, exchanger.u, Ts,
 print(data)
 report.figure("exchanger_record", idplot(data), "The heat exchanger's record")
 
+-- %% id=exchanger_paper echo=false
+-- one curve of parallel lines, with gaps between them
+local function ruled(from, to, step, low, high, upright)
+    local along, across = {}, {}
+    for at = from, to + step/2, step do
+        for _, place in ipairs{low, high, 0/0} do
+            table.insert(along, at)
+            table.insert(across, place)
+        end
+    end
+    if upright then return vector(along), vector(across) end
+    return vector(across), vector(along)
+end
+
+local paper = plot(exchanger.t, exchanger.y,
+                   {style = "points", colour = 2, line_width = 0.7, height = 13,
+                    x_range = {0, 600}, y_range = {30, 42},
+                    xlabel = "time (s)", ylabel = "outlet temperature (°C)"})
+for step, width in pairs{[1] = 0.15, [5] = 0.45} do
+    local x, y = ruled(0, 600, 10*step, 30, 42, true)
+    paper:add(x, y, {colour = "grey", dash = 0, line_width = width})
+    x, y = ruled(30, 42, 0.2*step, 0, 600, false)
+    paper:add(x, y, {colour = "grey", dash = 0, line_width = width})
+end
+report.figure("exchanger_paper", paper, "The response on graph paper")
+
 -- %% [markdown]
 -- ![The record of the heat exchanger: outlet temperature (above) and opening of the valve (below). Neither begins at zero.](figure:exchanger_record){#fig:exchanger_record}
 --
@@ -58,13 +84,15 @@ report.figure("exchanger_record", idplot(data), "The heat exchanger's record")
 --
 -- ## The graphical method
 --
--- **Question 2.** Determine the parameters from the figure. The gain is the ratio of the two changes,
+-- **Question 2.** Determine the parameters with ruler and pencil on @fig:exchanger_paper. The gain is the ratio of the two changes,
 --
 -- $$ K = \frac{y(\infty) - y(0)}{u(\infty) - u(0)} , $$ {#eq:gain}
 --
 -- and the 5 % settling time $T_r$, the time *from the step* until the response stays within 5 % of its total change around the final
 -- value, gives $T = T_r/3$, because $e^{-3} \approx 0.05$. Noise makes single samples leave the 5 % band again long after the response has settled, so
 -- draw a smooth curve through the noise first, as the eye does with a pencil. `step_first_order` reads in the same way, from a moving average.
+--
+-- ![The response of the heat exchanger, sample by sample, on graph paper: small squares are 10 s wide and 0.2 °C high, large ones 50 s and 1 °C. The valve moves at 60 s.](figure:exchanger_paper){#fig:exchanger_paper}
 
 -- %% id=exchanger_reading
 -- BEGIN SOLUTION
@@ -455,3 +483,10 @@ answer("overshoot", math.exp(-math.pi*reading2.z/math.sqrt(1 - reading2.z^2)))
 answer("suspension_reading", vector{reading2.K, reading2.z, reading2.w0})
 answer("G_suspension", G2)
 -- END SOLUTION
+
+-- %% [markdown]
+-- # Appendix: measures
+--
+-- ::: measures
+-- fit
+-- :::

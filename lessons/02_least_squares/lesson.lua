@@ -495,3 +495,10 @@ answer("ct_noisy", noisy_ct)
 answer("dt_noisy", noisy_dt)
 answer("monte_carlo", vector{mean(estimates), std(estimates)})
 -- END SOLUTION
+
+-- %% [markdown]
+-- # Appendix: measures
+--
+-- ::: measures
+-- prediction-interval
+-- :::

@@ -17,7 +17,7 @@
 -- %% [markdown]
 -- A trolley runs along a rail, pulled by a motor; a pendulum hangs from it. One voltage moves both, so one model has two outputs:
 -- where the trolley is and how far the load swings. You are given five records, among them one in which the crane was driven
--- where no linear model follows. Find a model, say what it is worth, and write it down so that somebody who was not there can
+-- where no linear model follows. The crane is *simulated*: a program solves its equations, with noise. Find a model, say what it is worth, and write it down so that somebody who was not there can
 -- do the same again.
 --
 -- Work in this script, cell by cell; your text goes to `report.md`, which has the sections that a report must have and notes on what
@@ -37,7 +37,8 @@
 -- %% id=records
 local crane = load("crane")
 local Ts = 0.02
-local signals = {InputName = "voltage", InputUnit = "V",
+local function say(english, french) return report.language() == "fr" and french or english end
+local signals = {InputName = say("voltage", "tension"), InputUnit = "V",
                  OutputName = {"position", "angle"}, OutputUnit = {"m", "rad"}}
 local estimation = iddata(matrix{crane.estimation.x, crane.estimation.theta}, crane.estimation.u, Ts, signals)
 print(estimation)
@@ -48,7 +49,6 @@ idplot(estimation)
 
 -- %% id=raw
 -- BEGIN SOLUTION
-local function say(english, french) return report.language() == "fr" and french or english end
 local seconds = say("time (s)", "temps (s)")
 local volts, metres = say("voltage (V)", "tension (V)"), "position (m)"
 local radians = "angle (rad)"
@@ -80,7 +80,7 @@ for k, row in ipairs(purposes) do
 end
 report.table("experiments", experiments)
 
-report.figure("raw", figure{rows = 3, height = say(6.4, 5.9), panels = panels(crane.estimation)},
+report.figure("raw", figure{rows = 3, height = 6.4, panels = panels(crane.estimation)},
               say("The estimation record as measured: the position wanders, as the integral of the voltage does; the load answers with swings of its own frequency.",
                   "L'enregistrement d'estimation tel que mesuré : la position erre comme l'intégrale de la tension ; la charge balance à sa fréquence propre."))
 -- END SOLUTION
@@ -136,7 +136,7 @@ for k, panel in ipairs(limit_panels) do
 end
 limit_panels[2].references[3] = {y = 0.5}
 limit_panels[2].references[4] = {y = -0.5}
-report.figure("limits", figure{rows = 3, height = say(6.4, 5.9), panels = limit_panels},
+report.figure("limits", figure{rows = 3, height = 6.4, panels = limit_panels},
               say("The record limits. Between the vertical lines more than ±10 V are commanded and the trolley meets the buffers at ±0.5 m (horizontal lines).",
                   "L'enregistrement limits. Entre les traits verticaux, on commande plus de ±10 V et le chariot rencontre les butées à ±0,5 m (traits horizontaux)."))
 -- END SOLUTION
@@ -334,7 +334,7 @@ local function against_model(record, height, with_differences)
     panels[#panels].xlabel = seconds
     return figure{rows = #panels, height = height, panels = panels}, x_error, theta_error
 end
-local validation_figure, x_error, theta_error = against_model(against, say(8.8, 8.4), true)
+local validation_figure, x_error, theta_error = against_model(against, 8.8, true)
 report.figure("validation", validation_figure,
               say("The validation record, which was not used for estimation: measured and simulated from the voltage alone, and the difference. The angle is worst where it swings widest.",
                   "L'enregistrement de validation, qui n'a pas servi à l'estimation : mesuré, simulé à partir de la seule tension, et l'écart. L'angle est le moins juste là où il est grand."))
@@ -353,7 +353,7 @@ end
 -- %% id=friction
 -- BEGIN SOLUTION
 local steps = crane.steps
-local steps_figure, steps_x_error, steps_theta_error = against_model(steps, say(4.7, 4.3))
+local steps_figure, steps_x_error, steps_theta_error = against_model(steps, 4.7)
 report.figure("steps", steps_figure,
               say("The record steps: after pushes of ±2 V and ±4 V the trolley stands still, held by friction; the simulated one is set in motion by its load.",
                   "L'enregistrement steps : après des poussées de ±2 V et ±4 V, le frottement tient le chariot ; le chariot simulé, lui, est entraîné par sa charge."))

@@ -5,6 +5,7 @@
 -- template: lesson
 -- language: en
 -- seed: 1
+-- bibliography: references.bib
 -- answers:
 --   linear_orders: vector
 --   G_linear: model
@@ -17,11 +18,33 @@
 -- %% [markdown]
 -- Estimating parameters is the short part of identification: one line of code. The long part is everything around it – which
 -- experiment, which part of the record, which structure – and above all the question whether the result may be believed. When it
--- may not, one goes back and changes something, and that is not a failure of the work but the work itself.
+-- may not, one goes back and changes something, and that is not a failure of the work but the work itself [@ljung1999, chapter 17].
 --
--- This lesson goes round the loop of @tbl:workflow three times: with a simulated linear system; with a simulated heat-transfer rig, on which the obvious
+-- This lesson goes round the loop of @fig:workflow three times (@tbl:workflow tells what each step asks): with a simulated linear system; with a simulated heat-transfer rig, on which the obvious
 -- model fails twice; and with the record of a real hair dryer. The truth of the two simulated processes can be looked up at the end; that of the dryer
 -- is known to nobody.
+--
+-- ::: block-diagram
+-- - experiment = block 1 1: experiment
+-- - data = block 2 1: data
+-- - preparation = block 3 1: preparation
+-- - structure = block 4 1: structure
+-- - estimation = block 5 1: estimation
+-- - validation = block 6 1: validation
+-- - b1 = branch 1 2
+-- - b2 = branch 2 2
+-- - b3 = branch 3 2
+-- - b4 = branch 4 2
+-- - experiment -> data -> preparation -> structure -> estimation -> validation
+-- - validation |- b4: not believed
+-- - b4 -> b3 -> b2 -> b1
+-- - b4 -> structure
+-- - b3 -> preparation
+-- - b2 -> data
+-- - b1 -> experiment
+--
+-- The loop of identification: a model that is not believed sends one back to the step that is to blame. {#fig:workflow}
+-- :::
 
 -- %% id=workflow echo=false
 report.table("workflow", {
@@ -96,10 +119,10 @@ report.value("linear_td_std", delay.std, "%.3f")
 -- about the same power from its fundamental, `linear_low`{.value} rad/s, to some `linear_high`{.value} rad/s, where its power has fallen to
 -- one half. The output shows swings of about two seconds, well inside this band, so the experiment excites what it is to show.
 -- The delay is estimated at `linear_td`{.value}\ ±\ `linear_td_std`{.value}\ s (@fig:linear_delay): it is not significantly different from zero,
--- and a delay that is not there needs no parameter. Near the minimum the line and the separate points of @fig:linear_delay agree. Far from it, the error of a model with a wrong delay has several
--- local minima over the other parameters, and a search that follows one of them need not meet the lowest.
+-- and a delay that is not there needs no parameter. The line and the separate points of @fig:linear_delay agree. Far from the minimum, the error of a model with a wrong delay has several
+-- local minima over the other parameters; `delayest` follows the solutions of neighbouring delays from both sides until none gets lower.
 --
--- ![Mean square error of a model at each delay. Line: `delayest`, which follows a model from delay to delay; separate points: `srivc` with the delay held at whole samples and a start of its own; circle: the estimated delay.](figure:linear_delay){#fig:linear_delay}
+-- ![Mean square error of a model at each delay. Line: `delayest`; separate points, for comparison: `srivc` with the delay held at whole samples; circle: the estimated delay.](figure:linear_delay){#fig:linear_delay}
 -- END SOLUTION
 --
 -- ## Structure
@@ -171,7 +194,7 @@ report.value("linear_yic_fit", choice(V, "yic", -1).validation_fit, "%.1f")
 --
 -- The measures: the *fit* is $100\,(1 - \lVert y - \hat y\rVert/\lVert y - \bar y\rVert)$ % for the simulated output $\hat y$; $R_T^2 = 1 - \sigma_\varepsilon^2/\sigma_y^2$ is the
 -- explained share of the variance; BIC is $\ln \sigma_\varepsilon^2 + n \ln(N)/N$ for $n$ parameters and $N$ samples, AIC the same with 2 in the place of $\ln N$; YIC (Young's
--- information criterion) is $\ln(\sigma_\varepsilon^2/\sigma_y^2) + \ln\bigl(\tfrac1n\sum_i \hat\sigma_i^2/\hat\theta_i^2\bigr)$: it grows with the relative variance of the parameters.
+-- information criterion [@young2011]) is $\ln(\sigma_\varepsilon^2/\sigma_y^2) + \ln\bigl(\tfrac1n\sum_i \hat\sigma_i^2/\hat\theta_i^2\bigr)$: it grows with the relative variance of the parameters.
 --
 -- Read @tbl:linear_orders from simple to complicated and ask what each step gains. From one pole to two, and on to three poles and a zero,
 -- each new parameter adds points of fit on the record that the models have not seen. From there on nothing is gained: the best
@@ -735,7 +758,7 @@ report.value("dryer_td_samples", D.samples, "%.2f")
 -- Both signals swing about an operating point (means `dryer_u`{.value} V and `dryer_y`{.value} V) without a rest at the beginning, as `advice` says too, so the
 -- means are what can be subtracted. The slight drift that it finds is far smaller than the effect of the input. The output responds late: by `dryer_td`{.value}\ ±\ `dryer_td_std`{.value}\ s, which is `dryer_td_samples`{.value} samples (@fig:dryer_delay).
 --
--- ![Mean square error of a model at each delay, all other parameters estimated anew from those at the neighbouring delay. The minimum is flat from 0.1 to 0.2 s; marked: the estimate.](figure:dryer_delay){#fig:dryer_delay}
+-- ![Mean square error of a model at each delay, all other parameters estimated anew. The minimum is flat from 0.1 to 0.2 s; marked: the estimate.](figure:dryer_delay){#fig:dryer_delay}
 -- END SOLUTION
 --
 -- ## Structure and estimation
@@ -952,3 +975,13 @@ answer("G_heat", G3)
 answer("G_dryer", H2)
 answer("dryer_fit", fit(second, H2))
 -- END SOLUTION
+
+-- %% [markdown]
+-- # Appendix: measures and literature
+--
+-- ::: measures
+-- fit, RT2, YIC, AIC, BIC, FPE, Ljung-Box
+-- :::
+--
+-- ::: references
+-- :::

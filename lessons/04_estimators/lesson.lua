@@ -5,6 +5,7 @@
 -- template: lesson
 -- language: en
 -- seed: 1
+-- bibliography: references.bib
 -- answers:
 --   own_without_noise: vector
 --   own: vector
@@ -16,8 +17,8 @@
 -- ---
 
 -- %% [markdown]
--- Three methods estimate a differential equation straight from samples: least squares on filtered signals (LSSVF), the same
--- regression with instruments (IVSVF), and the refined instrumental variables of TFSRIVC. Which of them can be believed? With a
+-- Three methods estimate a differential equation straight from samples [@garnier2008]: least squares on filtered signals (LSSVF), the same
+-- regression with instruments (IVSVF), and the refined instrumental variables of TFSRIVC [@young2011]. Which of them can be believed? With a
 -- real plant nobody knows the answer. All data of this lesson are therefore simulated: the system is given, the noise is drawn by the
 -- computer, and every estimate can be compared with the truth, once and then two hundred times.
 --
@@ -783,7 +784,7 @@ report.table("orders", order_rows)
 -- * TFSRIVC finds the filter itself, in a few iterations. On this record no bias is visible, its scatter is that of the Cramér–Rao bound, and its reported
 --   standard errors are right.
 -- * One record says little about a method. Repeat the experiment in simulation, look at mean *and* scatter, and compare with
---   the Cramér–Rao bound.
+--   the Cramér–Rao bound [@ljung1999, section 7.4].
 -- * `arx` assumes noise that passes through the poles. With noise added to the output it is biased at every sampling time, and the faster one samples the less noise it
 --   takes to spoil it. An output-error model, in discrete or continuous time, does not have this problem, and in continuous time fast sampling only helps.
 -- END SOLUTION
@@ -807,3 +808,13 @@ answer("G_ivsvf", Givsvf)
 answer("G_final", Gtf)
 answer("scatter", low.TFSRIVC.std)
 -- END SOLUTION
+
+-- %% [markdown]
+-- # Appendix: measures and literature
+--
+-- ::: measures
+-- fit, RT2, YIC, BIC, Cramer-Rao
+-- :::
+--
+-- ::: references
+-- :::

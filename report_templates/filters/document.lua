@@ -8,6 +8,8 @@ local safety = dofile(folder .. "/safety.lua")
 local mathematics = dofile(folder .. "/mathematics.lua")
 local slots = dofile("slots.lua")
 local layout = dofile(folder .. "/layout.lua").new(slots.format, slots.language, slots.slides, mathematics)
+local tables = dofile(folder .. "/tables.lua").new(layout)
+local diagram = dofile(folder .. "/diagram.lua")
 
 local failed = false
 local function clean(text) return (tostring(text):gsub("[%c]", " ")) end
@@ -78,7 +80,7 @@ end
 
 local function number(kind, label)
   counters[kind] = counters[kind] + 1
-  if label then define(label, layout:name_with_number(kind, counters[kind])) end
+  if label then define(label, layout:reference(kind, counters[kind])) end
   return tostring(counters[kind])
 end
 
@@ -161,12 +163,12 @@ local function table_slot(division)
   local found = entry("table", name, "name=" .. name)
   if not found then return missing_block(name) end
   if is_numbered(caption, label) then caption = layout:numbered_caption("tbl", number("tbl", label), caption) end
-  local element, size, lines = layout:table(found, caption)
+  local element, size, lines = tables:recorded(found, caption)
   if not element then
     report("table-width", "name=" .. name, name, #found.header)
     return {}
   end
-  return layout:place_table(element, label, size, lines), false
+  return tables:place(element, label, size, lines), false
 end
 
 local function written_table(element)
@@ -180,7 +182,7 @@ local function written_table(element)
     end
     element.caption.long = blocks
   end
-  return layout:place_table(element, label), false
+  return tables:place(element, label), false
 end
 
 -- The content was written by a script; no text slots inside it, or two texts could name each other for ever.
@@ -236,7 +238,7 @@ local function header(element)
     for level = element.level + 1, 6 do section_numbers[level] = 0 end
     local section = table.concat(section_numbers, ".", 1, element.level)
     element.content:insert(1, pandoc.Str(section .. "\u{2002}"))
-    shown = layout:name_with_number("sec", section)
+    shown = layout:reference("sec", section)
   end
   if element.identifier:find("^sec:") then
     define(element.identifier, shown)
@@ -294,6 +296,24 @@ local function begin_chunk(element)
   return pandoc.Div(element.content, pandoc.Attr("chunk-" .. chunk))
 end
 
+-- A list of nodes and arrows, then at most a line with the caption.
+local function block_diagram(division)
+  local list, last = division.content[1], division.content[2]
+  local label = label_of(division.identifier, "fig")
+  local caption = last and last.content or pandoc.List {}
+  if not list or list.t ~= "BulletList" or #division.content > 2 or last and last.t ~= "Para" and last.t ~= "Plain" then
+    report("diagram", "block-diagram", "a block diagram is a list of nodes and arrows, then at most one line with its caption")
+    return {}
+  end
+  label = take_label(caption, "fig") or label
+  local items = pandoc.List {}
+  for _, blocks in ipairs(list.content) do items:insert(pandoc.utils.blocks_to_inlines(blocks)) end
+  local drawing = diagram.read(items, function(needle, sentence) report("diagram", needle, sentence) end)
+  if not drawing then return {} end
+  if is_numbered(caption, label) then caption = layout:numbered_caption("fig", number("fig", label), caption) end
+  return layout:diagram(drawing, diagram, label, caption), false
+end
+
 local function division(element)
   local class = element.classes[1]
   if slots.chunks and class == "chunk" then return begin_chunk(element) end
@@ -306,8 +326,10 @@ local function division(element)
   local attribute = safety.unknown_attribute(element.attributes, allowed)
   if attribute then report("attribute", attribute, attribute, "a block of class " .. class) end
   if class == "table" then return table_slot(element) end
+  if class == "references" then return pandoc.Div({}, { id = "refs" }), false end
   if class == "pagebreak" then return layout:page_break() end
   if class == "columns" then return columns(element) end
+  if class == "block-diagram" then return block_diagram(element) end
   if class == "column" then
     report("not-a-column", "column")
     return {}
@@ -420,8 +442,9 @@ local function reference(citation)
   end
 end
 
+-- Literature is left to Pandoc's citeproc, which runs next.
 local function references(cite)
-  if not cite.citations[1].id:find(":", 1, true) then return cite.content end
+  if not cite.citations[1].id:find(":", 1, true) then return slots.bibliography == "" and cite.content or nil end
   local shown = pandoc.List {}
   for i, citation in ipairs(cite.citations) do
     if i > 1 then shown:extend { pandoc.Str(","), pandoc.Space() } end
@@ -435,7 +458,90 @@ local function references(cite)
   return shown
 end
 
+-- Literature -----------------------------------------------------------------------------------------------------
+
+local cites_literature = false
+
+-- The keys of the bibliography.
+local function known_keys()
+  local keys = {}
+  if slots.bibliography == "" then return keys end
+  local everything = pandoc.Cite({ pandoc.Str("@*") }, { pandoc.Citation("*", pandoc.NormalCitation) })
+  local whole = pandoc.Pandoc({}, pandoc.Meta { bibliography = pandoc.MetaString(slots.bibliography),
+                                                nocite = pandoc.MetaInlines { everything } })
+  local read, entries = pcall(pandoc.utils.references, whole)
+  if not read then
+    report("bibliography", "bibliography:", (tostring(entries):match("%(line %d+, column %d+%).*") or tostring(entries)):gsub('\\n', ", "):gsub('"', ""))
+    return nil
+  end
+  for _, entry in ipairs(entries) do keys[entry.id] = true end
+  return keys
+end
+
+local function check_citations(document)
+  local keys = known_keys()
+  if not keys then return end
+  local names = {}
+  for key in pairs(keys) do names[#names + 1] = key end
+  document:walk {
+    Cite = function(cite)
+      if cite.citations[1].id:find(":", 1, true) then return end
+      for _, citation in ipairs(cite.citations) do
+        local id = citation.id
+        cites_literature = true
+        if slots.bibliography == "" then
+          report("no-bibliography", "@" .. id, id)
+        elseif not keys[id] then
+          report("unknown-citation", "@" .. id, id, table.concat(names, " "))
+        end
+      end
+    end,
+  }
+end
+
+-- A control word of LaTeX in prose; not what stands in a path such as C:\temp or \server\share.
+local function latex_word(text)
+  local before, word, after = text:match("^([^\\]*)(\\%a+)(.*)$")
+  if word and not before:find("[%w:.]$") and not after:find("^\\") then return word end
+end
+
+local function check_no_latex(document)
+  document:walk {
+    Str = function(element)
+      local word = latex_word(element.text)
+      if word then report("latex", word, word) end
+    end,
+  }
+end
+
+-- What citeproc reads: the file, and the heading of the list unless the author gives the list its place.
+local function set_literature(document)
+  if slots.bibliography == "" or not cites_literature then return end
+  local placed = false
+  document:walk { Div = function(element) placed = placed or element.identifier == "refs" end }
+  document.meta.bibliography = pandoc.MetaString(slots.bibliography)
+  document.meta["link-citations"] = true
+  if not placed then document.meta["reference-section-title"] = pandoc.MetaString(layout.words.references) end
+end
+
+-- The measures that a block names, each with its title, formula and meaning.
+local function measures(division)
+  local blocks = pandoc.List {}
+  for name in pandoc.utils.stringify(pandoc.Span(pandoc.utils.blocks_to_inlines(division.content))):gmatch("[^,%s]+") do
+    local markdown = slots.measures[name:lower()]
+    if markdown then
+      blocks:extend(read_blocks(markdown))
+    else
+      local names = {}
+      for known in pairs(slots.measures) do names[#names + 1] = known end
+      report("unknown-measure", name, name, table.concat(names, " "))
+    end
+  end
+  return blocks
+end
+
 local function expand(element)
+  if element.classes[1] == "measures" and #element.classes == 1 then return measures(element) end
   if element.classes[1] == "text" and #element.classes == 1 then return text_slot(element) end
 end
 
@@ -469,6 +575,8 @@ local function finished(document)
 end
 
 function Pandoc(document)
+  check_citations(document)
+  check_no_latex(document)
   for key, markdown in pairs(slots.metadata) do
     document.meta[key] = pandoc.MetaBlocks(finished(pandoc.Pandoc(read_blocks(markdown))).blocks)
   end
@@ -481,6 +589,7 @@ function Pandoc(document)
   if document.meta.title then document.meta.pagetitle = pandoc.utils.stringify(document.meta.title) end
   if chunk then tell_count("chunk-end", chunk) end
   if failed and not slots.chunks then os.exit(64) end
+  set_literature(document)
   document.blocks = layout:mark_slides_with_code(document.blocks)
   return document
 end

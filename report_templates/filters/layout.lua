@@ -3,9 +3,9 @@ local layout = {}
 
 local words = {
   en = { fig = "Figure", tbl = "Table", eq = "Equation", sec = "Section", note = "Note", warning = "Take care",
-         exercise = "Exercise", missing = "is not there: the script stopped before" },
+         exercise = "Exercise", references = "References", missing = "is not there: the script stopped before" },
   fr = { fig = "Figure", tbl = "Tableau", eq = "Équation", sec = "Section", note = "Remarque", warning = "Attention",
-         exercise = "Exercice", missing = "manque : le programme s’est arrêté avant" },
+         exercise = "Exercice", references = "Références", missing = "manque : le programme s’est arrêté avant" },
 }
 
 local latex_escapes = { ["\\"] = "\\textbackslash{}", ["{"] = "\\{", ["}"] = "\\}" }
@@ -25,6 +25,13 @@ local function raw(format, text) return pandoc.RawInline(format, text) end
 
 function layout:name_with_number(kind, number)
   return self.words[kind] .. no_break_space .. number
+end
+
+-- As a reference shows it. French writes it small, for an article stands before it: "de l'équation 1", "la figure 2".
+local french_references = { fig = "figure", tbl = "tableau", eq = "équation", sec = "section" }
+function layout:reference(kind, number)
+  if self.words ~= words.fr then return self:name_with_number(kind, number) end
+  return french_references[kind] .. no_break_space .. number
 end
 
 -- French writes decimals behind a comma: in texts that are numbers, with or without an error, a unit or a percent sign.
@@ -52,38 +59,54 @@ local function latex_size(width)
   return "[width=" .. width .. "]"
 end
 
--- file: what the engine put the picture under; caption: inlines, number included, or empty
-function layout:figure(file, id, caption, alternative, width)
+-- drawn: inlines; caption: inlines, number included, or empty
+function layout:drawn_figure(drawn, id, caption)
+  local target = id and "\\hypertarget{" .. id .. "}{}" or ""
+  local content = pandoc.List {}
   if self.slides then
-    local content = pandoc.List { raw("latex", "\\begin{dynlabpicture}" .. (id and "\\hypertarget{" .. id .. "}{}" or "") ..
-      "\\includegraphics" .. latex_size(width) .. "{" .. file .. "}") }
+    content:insert(raw("latex", "\\begin{dynlabpicture}" .. target))
+    content:extend(drawn)
     content:extend(self:slide_caption(caption))
     content:insert(raw("latex", "\\end{dynlabpicture}"))
-    return { pandoc.Plain(content) }
   elseif self.format == "latex" then
-    local content = pandoc.List { raw("latex", "\\begin{figure}[H]\\centering" ..
-      (id and "\\hypertarget{" .. id .. "}{}" or "") .. "\\includegraphics" .. latex_size(width) .. "{" .. file .. "}") }
+    -- What has a number may stand where the page has room; what has none is spoken of where it stands.
+    content:insert(raw("latex", "\\begin{figure}[" .. (#caption > 0 and "!htp" or "H") .. "]\\centering" .. target))
+    content:extend(drawn)
     if #caption > 0 then
       content:insert(raw("latex", "\\caption{"))
       content:extend(caption)
       content:insert(raw("latex", "}"))
     end
     content:insert(raw("latex", "\\end{figure}"))
-    return { pandoc.Plain(content) }
-  elseif self.format == "html" then
-    local content = pandoc.List { raw("html", "<figure" .. (id and ' id="' .. id .. '"' or "") .. ">" ..
-      self:html_image(file, alternative, width)) }
+  else
+    content:insert(raw("html", "<figure" .. (id and ' id="' .. id .. '"' or "") .. ">"))
+    content:extend(drawn)
     if #caption > 0 then
       content:insert(raw("html", "<figcaption>"))
       content:extend(caption)
       content:insert(raw("html", "</figcaption>"))
     end
     content:insert(raw("html", "</figure>"))
-    return { pandoc.Plain(content) }
+  end
+  return { pandoc.Plain(content) }
+end
+
+-- file: what the engine put the picture under
+function layout:figure(file, id, caption, alternative, width)
+  if self.format == "latex" then
+    return self:drawn_figure({ raw("latex", "\\includegraphics" .. latex_size(width) .. "{" .. file .. "}") }, id, caption)
+  elseif self.format == "html" then
+    return self:drawn_figure({ raw("html", self:html_image(file, alternative, width)) }, id, caption)
   end
   local blocks = { pandoc.Para { pandoc.Image({ pandoc.Str(alternative) }, file) } }
   if #caption > 0 then blocks[2] = pandoc.Para(caption) end
   return blocks
+end
+
+-- drawing: of diagram.lua. Markdown has no drawings: the caption stands alone.
+function layout:diagram(drawing, diagram, id, caption)
+  if self.format == "markdown" then return #caption > 0 and { pandoc.Para(caption) } or {} end
+  return self:drawn_figure(diagram.draw(drawing, self.format), id, caption)
 end
 
 function layout:slide_caption(caption)
@@ -127,11 +150,9 @@ function layout:inline_code(code)
   return code
 end
 
--- Printed blocks of so many lines, a presented model among them, stay on one page.
-local most_kept_together = 20
-
--- Code of so many lines stays on one page; of longer code so many lines at least stand below the text above it.
-local short_code, least_code = 10, 6
+-- Code and printed blocks of so many lines stay on one page; of longer ones so many lines at least stand below the text
+-- above them: more would leave white at the ends of pages.
+local least_lines = 6
 
 local function line_count(text) return select(2, text:gsub("\n", "\n")) + 1 end
 
@@ -143,18 +164,18 @@ function layout:need(lines)
   return pandoc.RawBlock("latex", string.format("\\dynlabneed{%d\\baselineskip}", lines))
 end
 
+function layout:need_for_lines(text) return self:need(math.min(line_count(text), least_lines)) end
+
 function layout:code_block(block)
   if self.format == "latex" then
     block.text = breakable(block.text, 60)
     local class = block.classes[1]
     if class and not verbatim_environments[class] and class ~= "text" then
-      local lines = line_count(block.text)
-      return { self:need(lines <= short_code and lines or least_code), block }
+      return { self:need_for_lines(block.text), block }
     end
     local environment = verbatim_environments[class] or "Highlighting"
-    local options = line_count(block.text) <= most_kept_together and "[samepage=true]" or ""
-    return pandoc.RawBlock("latex", "\\begin{Shaded}\n\\begin{" .. environment .. "}" .. options .. "\n" ..
-      block.text:gsub("[\\{}]", latex_escapes) .. "\n\\end{" .. environment .. "}\n\\end{Shaded}")
+    return { self:need_for_lines(block.text), pandoc.RawBlock("latex", "\\begin{Shaded}\n\\begin{" .. environment ..
+      "}\n" .. block.text:gsub("[\\{}]", latex_escapes) .. "\n\\end{" .. environment .. "}\n\\end{Shaded}") }
   elseif self.format == "html" then
     -- Pandoc would look for a language "output" in all its syntax definitions, which takes 0.3 s.
     local class = block.classes[1]
@@ -190,6 +211,19 @@ function layout:box(division, kind)
   end
   division.content:insert(1, pandoc.Para { pandoc.Strong { pandoc.Str(title) } })
   return pandoc.BlockQuote(division.content)
+end
+
+-- A list of literature, as Pandoc's citeproc leaves it: entries with hanging first lines.
+function layout:literature(list)
+  if self.format ~= "latex" then return list end
+  local blocks = pandoc.List { pandoc.RawBlock("latex", "\\begin{dynlabliterature}") }
+  for _, entry in ipairs(list.content) do
+    local inlines = pandoc.utils.blocks_to_inlines(entry.content)
+    inlines:insert(1, raw("latex", "\\item\\hypertarget{" .. entry.identifier .. "}{}"))
+    blocks:insert(pandoc.Plain(inlines))
+  end
+  blocks:insert(pandoc.RawBlock("latex", "\\end{dynlabliterature}"))
+  return pandoc.Div(blocks)
 end
 
 -- Below the title, HTML and Markdown sections start at the second level.
@@ -246,177 +280,6 @@ function layout:mark_slides_with_code(blocks)
     end
   end
   return blocks
-end
-
--- Tables ---------------------------------------------------------------------------------------------------------
-
-local function is_number(cell)
-  return cell == "" or cell == "-" or tonumber((cell:gsub("%s*%%$", ""))) ~= nil or
-    cell:match("^[+-]?[%d.]+e?[+-]?%d*%s*±%s*[%d.]+e?[+-]?%d*$") ~= nil
-end
-
--- A cell's text, with formulas between dollar signs as Pandoc's Markdown knows them. A formula that the document's own
--- text might not hold stays text.
-function layout:cell_inlines(text)
-  local function allowed(formula)
-    return ("{" .. formula .. "}"):find("^%b{}$") and #self.mathematics.refused_in(formula) == 0
-  end
-  local inlines, from = pandoc.List {}, 1
-  for before, formula, after in text:gmatch("()%$([^%s$][^$]*)%$()") do
-    if before >= from and not formula:find("%s$") and not text:find("^%d", after) and
-      allowed(formula) then
-      if before > from then inlines:insert(pandoc.Str(text:sub(from, before - 1))) end
-      inlines:insert(pandoc.Math("InlineMath", formula))
-      from = after
-    end
-  end
-  if from <= #text then inlines:insert(pandoc.Str(text:sub(from))) end
-  return inlines
-end
-
--- The text as it is seen, for measuring: a symbol for each command, no signs of mathematics.
-local function seen(text)
-  return (text:gsub("%$([^%s$][^$]*)%$", function(formula)
-    return (formula:gsub("\\hat%s*", ""):gsub("\\%a+%s*", "x"):gsub("\\.", ""):gsub("[_^{}]", ""))
-  end))
-end
-
--- Lines that a table takes whose columns have these relative widths (0: as wide as their text).
-local function table_lines(rows, widths, characters)
-  local total = 1
-  for _, row in ipairs(rows) do
-    local lines = 1
-    for c, text in ipairs(row) do
-      if widths[c] > 0 then lines = math.max(lines, math.ceil((utf8.len(text) or #text) / (widths[c] * characters))) end
-    end
-    total = total + lines
-  end
-  return total
-end
-
--- A number with what may stand around it: signs, an error, brackets, a percent sign.
-local function is_number_like(cell)
-  local plain = cell:gsub("±", ""):gsub("×", ""):gsub("−", "")
-  return plain:find("%d") ~= nil and plain:find("^[%d%s.,eE+%-()%%]+$") ~= nil
-end
-
-local function longest_word(text)
-  local longest = 0
-  for word in text:gmatch("%S+") do longest = math.max(longest, utf8.len(word) or #word) end
-  return longest
-end
-
--- Tables of so many lines are kept on one page.
-local most_table_lines = 24
-
--- Type sizes with the width of a character in points; the text is 455 points wide, columns stand 12 points apart.
-local sizes = { { "\\normalsize", 5.5 }, { "\\small", 5.0 }, { "\\footnotesize", 4.6 }, { "\\scriptsize", 4.25 } }
-local text_width, column_gap = 455, 12
-
--- least, natural: characters each column needs at least and would like. Returns relative widths (0: natural), the
--- type size with which the table stays inside the text, and the characters of a line; nothing when it cannot.
-local function fit_columns(least, natural)
-  local room = text_width - column_gap * (#least - 1)
-  local least_sum, natural_sum, widths = 0, 0, {}
-  for c = 1, #least do
-    least_sum, natural_sum, widths[c] = least_sum + least[c], natural_sum + natural[c], 0
-  end
-  for _, size in ipairs(sizes) do
-    local name, character = size[1], size[2]
-    if natural_sum * character <= room then return widths, name, room / character end
-    if least_sum < natural_sum and (least_sum + 8) * character <= room then
-      -- What the longest words leave of the line goes to the columns that have more text.
-      local left = room / character - least_sum
-      for c = 1, #least do
-        local more = left * (natural[c] - least[c]) / (natural_sum - least_sum)
-        widths[c] = (least[c] + more) * character / room
-      end
-      return widths, name, room / character
-    end
-  end
-end
-
--- data: {header = {...}, rows = {{...}, ...}} of plain text; returns Pandoc's table, its type size and its
--- lines, nil when it is too wide for the page
-function layout:table(data, caption)
-  local columns = #data.header
-  local numeric, natural, least, alignments = {}, {}, {}, {}
-  for c = 1, columns do
-    local title = seen(data.header[c])
-    numeric[c], natural[c] = #data.rows > 0, utf8.len(title) or #title
-    least[c] = longest_word(title)
-    for _, row in ipairs(data.rows) do
-      local text = seen(row[c])
-      numeric[c] = numeric[c] and is_number(row[c])
-      natural[c] = math.max(natural[c], utf8.len(text) or #text)
-      least[c] = math.max(least[c], longest_word(text))
-    end
-    if numeric[c] then least[c] = natural[c] end
-    alignments[c] = numeric[c] and pandoc.AlignRight or pandoc.AlignLeft
-  end
-  local widths, size, characters = fit_columns(least, natural)
-  local lines = widths and table_lines(data.rows, widths, characters)
-  if self.format ~= "latex" or self.slides then
-    widths = {}
-    for c = 1, columns do widths[c] = 0 end
-  elseif not widths then
-    return nil
-  end
-  local function cell(text, is_numeric)
-    if text == "" then return {} end
-    if is_numeric and self.format ~= "markdown" then text = text:gsub("^%-(%d)", "\u{2212}%1") end
-    text = self:number(text)
-    if self.format == "html" and not is_numeric and is_number_like(text) then
-      return { pandoc.Plain { pandoc.Span({ pandoc.Str(text) }, { class = "number" }) } }
-    end
-    return { pandoc.Plain(self:cell_inlines(text)) }
-  end
-  local header, rows = {}, {}
-  for c = 1, columns do header[c] = cell(data.header[c]) end
-  for r, row in ipairs(data.rows) do
-    rows[r] = {}
-    for c = 1, columns do rows[r][c] = cell(row[c], numeric[c]) end
-  end
-  local simple = pandoc.SimpleTable(caption, alignments, widths, header, rows)
-  return pandoc.utils.from_simple_table(simple), size, lines
-end
-
-local column_letters = { AlignRight = "r", AlignCenter = "c" }
-
--- Slides have no pages to break, and columns that longtable cannot stand in.
-function layout:slide_table(element, id)
-  local simple = pandoc.utils.to_simple_table(element)
-  local letters = ""
-  for _, alignment in ipairs(simple.aligns) do letters = letters .. (column_letters[tostring(alignment)] or "l") end
-  local content = pandoc.List { raw("latex", (id and "\\hypertarget{" .. id .. "}{}" or "") ..
-    "\\begin{dynlabtable}\\begin{tabular}{@{}" .. letters .. "@{}}\\toprule ") }
-  local function add(row)
-    for c, cell in ipairs(row) do
-      if c > 1 then content:insert(raw("latex", " & ")) end
-      content:extend(pandoc.utils.blocks_to_inlines(cell))
-    end
-    content:insert(raw("latex", " \\\\ "))
-  end
-  add(simple.header)
-  content:insert(raw("latex", "\\midrule "))
-  for _, row in ipairs(simple.rows) do add(row) end
-  content:insert(raw("latex", "\\bottomrule\\end{tabular}\\end{dynlabtable}"))
-  content:extend(self:slide_caption(simple.caption))
-  return { pandoc.Plain(content) }
-end
-
--- A short table does not begin where it would be broken; four lines are for caption and rules.
-function layout:place_table(element, id, size, lines)
-  if self.slides then return self:slide_table(element, id) end
-  if self.format == "latex" then
-    local start = "{" .. (size or "\\normalsize") .. (id and "\\hypertarget{" .. id .. "}{}" or "")
-    local blocks = pandoc.List { pandoc.RawBlock("latex", start), element, pandoc.RawBlock("latex", "}") }
-    if lines and lines <= most_table_lines then blocks:insert(1, self:need(lines + 4)) end
-    return blocks
-  elseif self.format == "html" then
-    return { pandoc.Div({ element }, { id = id or "", class = "table" }) }
-  end
-  return { element }
 end
 
 return layout

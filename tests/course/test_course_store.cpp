@@ -102,8 +102,8 @@ TEST(course_store, refuses_bad_input_and_stays_untouched) {
     refused({"receive", "gruop-02.pdf"},
             "no group and no student of the course is called \"gruop-02\" (the nearest is group-02)");
     refused({"receive", "gruop-02.pdf", "--from", "group-9"}, "there is no group \"group-9\"");
-    bench.bench().write("group-02.docx", "PK\x03\x04 words");
-    refused({"receive", "group-02.docx"}, "this is neither a PDF nor a pack");
+    bench.bench().write("group-02.xlsx", "PK\x03\x04 words");
+    refused({"receive", "group-02.xlsx"}, "this is neither a PDF nor a pack");
     bench.bench().write("group-02.pdf", "not a document");
     refused({"receive", "group-02.pdf"}, "this is neither a PDF nor a pack");
     bench.bench().write("group-03.pdf", "");

@@ -212,6 +212,40 @@ TEST(hand_in_names, one_meaning_is_taken_and_two_are_told) {
 }
 
 // oracle: the platform's own part of the name, which stands first, and the list that the instructor wrote
+// oracle: Python's code pages
+TEST(hand_in_names, names_in_code_pages_of_other_scripts_are_held_against_the_roster) {
+    const Workbench work;
+    work.write("zip.py", R"py(
+import zipfile
+class Unflagged(zipfile.ZipInfo):
+    raw = b''
+    def _encodeFilenameFlags(self): return self.raw, self.flag_bits & ~0x800
+names = [('Мария Щукина', 'cp866'), ('Сергей Їжак', 'cp1251'), ('王小明', 'gbk'), ('陳麗華', 'big5'),
+         ('山田さくら', 'shift_jis'), ('김민수', 'cp949'), ('Пётр Никто', 'cp866')]
+with zipfile.ZipFile('all.zip', 'w') as z:
+    for i, (name, page) in enumerate(names):
+        info = Unflagged('x%d/analysis.lua' % i)
+        info.raw = name.encode(page) + b'/analysis.lua'
+        z.writestr(info, "answer('x', 42)" if i % 2 else "answer('x', 1)")
+)py");
+    GradingBench bench("--   x: number\n",
+                       "check{id = 'x', points = 2, about = 'X', test = function(a) return near(a.x, 42) end}\n",
+                       "answer('x', 42)\n");
+    ASSERT_EQ(work.shell("python3 zip.py && cp all.zip '" + bench.bench().path().string() + "'").exit_code, 0);
+    bench.bench().write(
+        "roster.csv",
+        "id,name\n1,Мария Щукина\n2,Сергей Їжак\n3,王小明\n4,陳麗華\n5,山田さくら\n6,김민수\n7,Élise K\n");
+    const ChildResult graded =
+        bench.bench().dynlab({"grade", "all.zip", "--lesson", "99", "--out", "out", "--isolation", bench.level(),
+                              "--no-pdf", "--roster", "roster.csv"});
+    EXPECT_EQ(graded.exit_code, 1);  // of one nobody knows whose it is
+    EXPECT_THAT(graded.error_output + graded.output, HasSubstr("belongs to nobody in the roster"));
+    std::string told;
+    for (int student = 1; student <= 7; ++student)
+        told += bench.bench().shell(fmt::format("grep '^{},' out/gradebook.csv | cut -d, -f4,5", student)).output;
+    EXPECT_EQ(told, "graded,0\ngraded,2\ngraded,0\ngraded,2\ngraded,0\ngraded,2\nnothing handed in,\n");
+}
+
 TEST(hand_in_names, the_instructors_list_goes_before_names) {
     const std::vector<Student> students = small_class();
     Owners owners(students);

@@ -4,6 +4,8 @@
 
 namespace dynlab::test {
 namespace test_handing_back {
+using ::testing::AllOf;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -30,6 +32,8 @@ TEST(handing_back, gives_platforms_what_they_import) {
     EXPECT_EQ(summary.at("checks").at(0).at("passed"), 2);
     EXPECT_EQ(summary.at("checks").at(0).at("mistakes").at(0).at("count"), 1);
     EXPECT_THAT(work.read("out/summary.md"), HasSubstr("None that was made twice."));
+    EXPECT_THAT(work.read("out/summary.md"), AllOf(ContainsRegex("Anna Lovelace +[^\n]*graded[^\n]* 2 "),
+                                                   ContainsRegex("Nobody Here +[^\n]*nothing handed in")));
     const ChildResult back =
         work.dynlab({"hand-back", "out", "--roster", "roster.csv", "--assignment", "Lab 4 (1234)"});
     EXPECT_EQ(back.output,
@@ -46,21 +50,20 @@ TEST(handing_back, gives_platforms_what_they_import) {
     EXPECT_EQ(work.shell("python3 -c \"import zipfile; print('\\n'.join(zipfile.ZipFile("
                          "'out/handed_back/moodle-feedback.zip').namelist()))\"")
                   .output,
-              "Anna Lovelace_900001_assignfeedback_file/feedback.md\nZoë K_900002_assignfeedback_file/feedback.md\n");
+              "Anna Lovelace_900001_assignfeedback_file_/feedback.md\nZoë K_900002_assignfeedback_file_/feedback.md\n");
     EXPECT_EQ(work.read("out/handed_back/canvas-grades.csv"),
               "Student,ID,SIS User ID,SIS Login ID,Section,Lab 4 (1234)\r\n    Points Possible,,,,,2\r\n"
               "Rudolf Kalman,31,3,rk@u.example,,2\r\n");
     const std::string mail = work.read("out/handed_back/mail.csv");
-    EXPECT_THAT(mail,
-                HasSubstr("1,Anna Lovelace,anna@u.example,2,2,results/Anna Lovelace_900001_assignsubmission_file_/"
-                          "feedback.md,yes,"));
+    EXPECT_THAT(mail, HasSubstr("1,Anna Lovelace,,anna@u.example,results/Anna Lovelace_900001_assignsubmission_file_/"
+                                "feedback.md,yes,2,2,"));
     // A second time only what changed is new.
     work.write("out/manual.csv", "submission,check,points,reason\nZoë_K_900002_assignsubmission_file_,x,1,half\n");
     bench.grade({"--roster", "roster.csv"});
     work.dynlab({"hand-back", "out", "--roster", "roster.csv"});
     const std::string again = work.read("out/handed_back/mail.csv");
     EXPECT_THAT(again, HasSubstr("file_/feedback.md,no,"));
-    EXPECT_THAT(again, HasSubstr("1,2,results/Zoë_K_900002_assignsubmission_file_/feedback.md,yes,"));
+    EXPECT_THAT(again, HasSubstr("results/Zoë_K_900002_assignsubmission_file_/feedback.md,yes,1,2,"));
     EXPECT_EQ(work.dynlab({"hand-back", "in"}).exit_code, 1);
 }
 

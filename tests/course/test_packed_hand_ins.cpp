@@ -14,8 +14,8 @@ constexpr char kInTime[] = "2026-03-01 10:00";
 
 /// NAME.zip as dynlab pack makes it, of a folder with a script, a text and these PDFs.
 void pack(CourseBench& bench, const std::string& name, const std::vector<std::string>& pdfs,
-          const std::string& words = "words") {
-    bench.bench().write("work-" + name + "/analysis.lua", "-- %%\n");
+          const std::string& words = "words", const std::string& script = "-- %%\n") {
+    bench.bench().write("work-" + name + "/analysis.lua", script);
     bench.bench().write("work-" + name + "/report.md", "# Words\n");
     for (const std::string& pdf : pdfs)
         bench.bench().write("work-" + name + "/" + pdf, small_pdf(words + " of " + pdf));
@@ -43,7 +43,7 @@ TEST(packed_hand_ins, the_report_of_a_pack_counts) {
     CourseBench bench(4, 1);
     pack(bench, "group-01", {"report.pdf", "figures/step.pdf"});
     pack(bench, "group-02", {"my work.pdf"});
-    pack(bench, "group-03", {});
+    pack(bench, "group-03", {}, "words", "error('stopped')\n");
     pack(bench, "group-04", {"a.pdf", "b.pdf"});
     const std::vector<std::string> all = {"group-01.zip", "group-02.zip", "group-03.zip", "group-04.zip"};
     const ChildResult taken = receive(bench, all, kInTime);
@@ -51,8 +51,11 @@ TEST(packed_hand_ins, the_report_of_a_pack_counts) {
     EXPECT_THAT(taken.output,
                 AllOf(ContainsRegex("group-01 +pack +v1"), ContainsRegex("group-01 +report \\(from the pack\\) +v1"),
                       ContainsRegex("group-02 +report \\(from the pack\\) +v1 +in time +[1-9][0-9]* rule"),
-                      ContainsRegex("group-03 +pack .*no PDF in the pack: ask for one"),
-                      ContainsRegex("group-04 +pack .*no PDF in the pack: ask for one"), HasSubstr("6 files taken")));
+                      ContainsRegex("group-03 +pack .*no PDF in the pack, and none can be made of it \\(.*stopped.*"
+                                    "\\): ask for one"),
+                      ContainsRegex("group-04 +pack .*2 PDFs in the pack, of which none alone is report.pdf: ask for "
+                                    "one"),
+                      HasSubstr("6 files taken")));
     const std::string packed = bench.bench().shell("sha256sum < work-group-01/report.pdf").output.substr(0, 64);
     EXPECT_EQ(report_hash(bench, "group-01"), packed + "\n");
     const std::string status = bench.course({"status", "crane", "--at", "2026-03-01 13:00"}).output;
@@ -62,6 +65,26 @@ TEST(packed_hand_ins, the_report_of_a_pack_counts) {
     EXPECT_THAT(bench.course({"verify"}).output, HasSubstr("all there and unaltered"));
     const std::string before = bench.dump();
     CourseBench::expect_done(receive(bench, all, kInTime));
+    EXPECT_EQ(bench.dump(), before);
+}
+
+// oracle: the words of the pack's report.md and a value of its script, as poppler reads them
+TEST(packed_hand_ins, of_a_pack_without_a_pdf_the_report_is_made) {
+    CourseBench bench(2, 1);
+    bench.bench().write("work/analysis.lua",
+                        "-- ---\n-- title: T\n-- ---\n\n-- %%\nreport.value('fit', 87.25, '%.2f')\n");
+    bench.bench().write("work/report.md", "---\ntitle: Crane\n---\n\n# Words\n\nThe fit is `fit`{.value} percent.\n");
+    CourseBench::expect_done(bench.bench().dynlab({"pack", "work", "-o", "group-01.zip"}));
+    const ChildResult taken = receive(bench, {"group-01.zip"}, kInTime);
+    CourseBench::expect_done(taken);
+    EXPECT_THAT(taken.output,
+                AllOf(ContainsRegex("group-01 +report \\(from the pack\\) +v1 .*made here, as the pack has no PDF"),
+                      HasSubstr("2 files taken")));
+    const std::string hash = report_hash(bench, "group-01").substr(0, 64);
+    EXPECT_THAT(bench.bench().shell("pdftotext $(find k/files -name '*" + hash.substr(2) + "') -").output,
+                HasSubstr("The fit is 87.25 percent."));
+    const std::string before = bench.dump();
+    CourseBench::expect_done(receive(bench, {"group-01.zip"}, kInTime));
     EXPECT_EQ(bench.dump(), before);
 }
 
@@ -86,7 +109,7 @@ TEST(packed_hand_ins, a_pack_is_a_review_only_with_a_pdf) {
     for (const char* group : {"group-01", "group-02"})
         bench.hand_in(std::string(group) + ".pdf", small_pdf(group), kInTime);
     CourseBench::expect_done(bench.course({"peer", "assign", "--at", "2026-03-01 13:00"}));
-    pack(bench, "group-01", {});
+    pack(bench, "group-01", {}, "words", "error('stopped')\n");
     pack(bench, "group-02", {"remarks.pdf"});
     const ChildResult taken = receive(bench, {"group-01.zip", "group-02.zip"}, "2026-03-09 10:00", {"review"});
     CourseBench::expect_done(taken);

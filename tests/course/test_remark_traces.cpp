@@ -63,6 +63,23 @@ std::string replaced_once(std::string text, const std::string& from, const std::
     return text.replace(at, from.size(), to);
 }
 
+// oracle: the sentence, read aloud; a caption stands behind a whole sentence or in another size
+TEST(remark_traces, a_sentence_goes_on_in_a_line_that_begins_with_a_figure_s_number) {
+    const auto blocks = [](const DocumentText& text) {
+        Texts texts;
+        for (const TextBlock& block : text_blocks(text)) texts.push_back(block.text);
+        return texts;
+    };
+    const std::string first = "It would help the reader much to plot the angle beside the position in",
+                      second = "Figure 1. Then both would be seen.";
+    EXPECT_THAT(blocks(page_of({first, second})), ElementsAre(first + " " + second));
+    EXPECT_THAT(blocks(page_of({"It helps the reader much to see the position of it all.", "Figure 1. Position."})),
+                ElementsAre("It helps the reader much to see the position of it all.", "Figure 1. Position."));
+    DocumentText smaller = page_of({"time (s)", "Figure 1. Position."});
+    smaller.lines[0].size = 8;
+    EXPECT_THAT(blocks(smaller), ElementsAre("time (s)", "Figure 1. Position."));
+}
+
 // oracle: forms of one word, and words that only begin alike
 TEST(remark_traces, knows_forms_of_a_word) {
     for (const auto& [a, b] : std::vector<std::pair<std::string, std::string>>{{"validate", "validation"},

@@ -44,8 +44,11 @@ class chunk_setter : public DocumentTest {
 
     SetDocument set(const std::string& text, bool unfinished = false) {
         write("report.md", text);
-        const TemplateFile source = read_template(file("report.md"));
-        return setter_.set(source, with_cells(source, cells_), record_, unfinished);
+        DocumentSource source;
+        source.template_file = file("report.md");
+        source.record = &record_;
+        source.cells = cells_;
+        return setter_.set(source, unfinished);
     }
 
     std::string at_once(const std::string& text) {
@@ -125,6 +128,17 @@ TEST_F(chunk_setter, footnotes_are_those_of_the_whole_document) {
     set(noted);
     expect_as_at_once(noted);
     expect_as_at_once(changed(noted, "a note", "another note"));
+}
+
+TEST_F(chunk_setter, literature_stands_behind_the_last_chunk) {
+    write("references.bib", "@book{ljung1999, author = {Ljung, Lennart}, title = {System Identification}, year = {1999}}\n");
+    const std::string cited =
+        changed(changed(kText, "title: A report", "title: A report\nbibliography: references.bib"), "A figure again", "A figure [@ljung1999] again");
+    set(cited);
+    expect_as_at_once(cited);
+    expect_as_at_once(changed(cited, "End, with", "The end, with"));
+    EXPECT_EQ(setter_.chunks_set(), 1u);
+    expect_as_at_once(changed(cited, " [@ljung1999]", ""));
 }
 
 TEST_F(chunk_setter, numbered_sections_keep_their_numbers) {

@@ -18,13 +18,14 @@ using testing::Not;
 
 // Oracle of this file: a file with a known secret, which must not turn up, and commands that must be refused by name.
 
-TEST_F(hostile_documents, tex_commands_in_text_are_printed_not_run) {
+TEST_F(hostile_documents, tex_commands_in_text_are_refused_and_printed_where_they_are_quoted) {
     write("secret.tex", "SECRETWORD");
     const std::string path = file("secret.tex").string();
-    const PdfContent pdf = inspect_pdf(make("Text \\input{" + path + "} and \\write18{touch x}.\n", "out.pdf"));
+    const std::string commands = "\\input{" + path + "} and \\write18{touch x}";
+    EXPECT_THAT(refusal("Text " + commands + ".\n", "out.pdf"), HasSubstr("report.md:1: the LaTeX command \\input"));
+    const PdfContent pdf = inspect_pdf(make("Text `" + commands + "`.\n", "out.pdf"));
     ASSERT_EQ(pdf.pages.size(), 1u);
     EXPECT_THAT(pdf.pages[0], HasSubstr("\\input{"));
-    EXPECT_THAT(pdf.pages[0], HasSubstr("\\write18{touch x}"));
     EXPECT_THAT(pdf.pages[0], Not(HasSubstr("SECRETWORD")));
     EXPECT_FALSE(std::filesystem::exists(file("x")));
 }

@@ -154,7 +154,7 @@ TEST_F(latex_documents, pages_say_how_many_there_are) {
 // Oracle: the page on which poppler finds the first and the last line, wherever on the page the block begins.
 TEST_F(latex_documents, short_blocks_stay_on_one_page) {
     std::string output = "```{.output}\nFIRST\n";
-    for (int i = 0; i < 15; ++i) output += "1.23\n";
+    for (int i = 0; i < 4; ++i) output += "1.23\n";
     std::string table = "::: {.table name=short}\nS {#tbl:s}\n:::\n";
     record_.tables["short"] = {{"k", "y"},
                                {{"FIRST", "1"}, {"2", "2"}, {"3", "3"}, {"4", "4"}, {"5", "5"}, {"LAST", "6"}}};
@@ -210,7 +210,55 @@ TEST_F(latex_documents, wide_and_long_tables_stay_inside_the_page) {
                 HasSubstr("report.md:1: the table \"wide\" with its 14 columns is too wide"));
 }
 
-// Oracle: the order in the text poppler reads.
+// Oracle: the page on which poppler finds the rows, wherever on the page the table is written.
+TEST_F(latex_documents, a_table_that_an_author_writes_is_not_broken) {
+    const std::string table = "| a | b |\n|---|---|\n| FIRST | 1 |\n| LAST | 2 |\n\n";
+    for (const std::string& caption : {std::string(), std::string(": Two rows {#tbl:two}\n\n")}) {
+        for (int paragraphs = 24; paragraphs <= 36; ++paragraphs) {
+            std::string text;
+            for (int i = 0; i < paragraphs; ++i) text += "Prose.\n\n";
+            for (const std::string& page : pdf(text + table + caption + "END\n").pages)
+                EXPECT_EQ(page.find("FIRST") == page.npos, page.find("LAST") == page.npos) << paragraphs << caption;
+        }
+    }
+}
+
+// Oracle: the words' bounding boxes; all digits of the font are equally wide.
+TEST_F(latex_documents, numbers_in_a_column_stand_at_their_points) {
+    record_.tables["points"] = {
+        {"plain", "error", "share"},
+        {{"7", "454 ± 3", "7 %"}, {"11.571", "17.57 ± 0.13", "11.5 %"}, {"-28.1", "1.053 ± 0.006", "100 %"}}};
+    const auto path = make("::: {.table name=points}\nP {#tbl:p}\n:::\n", "out.pdf");
+    ChildOptions child;
+    child.command = {"pdftotext", "-bbox", path.string(), "-"};
+    const std::string boxes = run_child(child, "poppler-utils").output;
+    const auto edges = [&boxes](const std::string& word) {
+        const std::regex box("xMin=\"([0-9.]+)\"[^>]*xMax=\"([0-9.]+)\"[^>]*>" + word + "<");
+        std::smatch found;
+        EXPECT_TRUE(std::regex_search(boxes, found, box)) << word << "\n" << boxes;
+        return found.empty() ? std::pair(0.0, 0.0) : std::pair(std::stod(found[1]), std::stod(found[2]));
+    };
+    const double digit = (edges("454").second - edges("454").first) / 3, near = 0.3;
+    EXPECT_NEAR(edges("7").second, edges("11.571").first + 2 * digit, near);
+    EXPECT_NEAR(edges("−28.1").first + digit, edges("11.571").first, 3 * digit) << "a minus sign before the digits";
+    EXPECT_NEAR(edges("−28.1").second + 2 * digit, edges("11.571").second, near);
+    EXPECT_NEAR(edges("454").second, edges("17.57").first + 2 * digit, near);
+    EXPECT_NEAR(edges("1.053").first, edges("17.57").first + digit, near);
+    EXPECT_NEAR(edges("3").first, edges("0.13").first, near) << "the errors' points";
+    EXPECT_NEAR(edges("100").second, edges("11.5").first + 2 * digit, near);
+}
+
+// Oracle: the order in the text poppler reads; the page on which it finds what comes after.
+TEST_F(latex_documents, a_figure_that_finds_no_room_floats_and_text_fills_its_page) {
+    add_figure("raw", "The caption", DocumentFormat::kPdf);
+    std::string text;
+    for (int i = 0; i < 33; ++i) text += "Prose.\n\n";
+    const PdfContent numbered = pdf(text + "![](figure:raw){#fig:raw}\n\nAFTER\n\n" + text);
+    ASSERT_GE(numbered.pages.size(), 2u);
+    EXPECT_THAT(numbered.pages[0], HasSubstr("AFTER"));
+    EXPECT_THAT(numbered.pages[1], HasSubstr("The caption"));
+}
+
 TEST_F(latex_documents, figures_stay_where_they_were_placed) {
     add_figure("raw", "The caption", DocumentFormat::kPdf);
     std::string text = "BEFORE\n\n![](figure:raw){#fig:raw}\n\nAFTER\n";

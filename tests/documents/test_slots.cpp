@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 
+#include <regex>
+
 #include "document_fixture.h"
 #include "support/pdf_inspection.h"
 
@@ -33,14 +35,17 @@ TEST_F(slots, french_numbers_have_a_comma_and_names_keep_their_point) {
     record_.tables["models"] = {{"Modèle", "Fit"}, {{"P1.5 x", "17.5 ± 0.4"}, {"P2", "-7.25"}}};
     const std::string body =
         "---\nContre `fit`{.value}, `low`{.value}, `name`{.value}.\n\n::: {.table name=models}\n:::\n";
-    const std::string text = html("---\nlang: fr\n" + body);
+    const auto seen = [&](const std::string& header) {  // without what only aligns the points of a column
+        return std::regex_replace(html(header + body), std::regex("<span class=\"unseen\">[^<]*</span>"), "");
+    };
+    const std::string text = seen("---\nlang: fr\n");
     EXPECT_THAT(text, HasSubstr("Contre 93,2, "));
     EXPECT_THAT(text, HasSubstr("-0{,}5")) << "a decimal comma of TeX";
     EXPECT_THAT(text, HasSubstr("version 1.2 of it"));
     EXPECT_THAT(text, HasSubstr(">P1.5 x<"));
     EXPECT_THAT(text, HasSubstr(">17,5 ± 0,4<"));
     EXPECT_THAT(text, HasSubstr(">−7,25<"));
-    EXPECT_THAT(html("---\nlang: en\n" + body), HasSubstr(">17.5 ± 0.4<"));
+    EXPECT_THAT(seen("---\nlang: en\n"), HasSubstr(">17.5 ± 0.4<"));
 }
 
 TEST_F(slots, a_table_has_its_caption_and_numbers_to_the_right) {

@@ -1,7 +1,7 @@
 // What goes into boxes and comes out of them, as CBOR, and run records as JSON. What can be read is written and read
 // again with equal bytes.
+#include "course/checks/check_run.h"
 #include "course/grading/boxed_work.h"
-#include "course/grading/check_run.h"
 #include "course/grading/job_descriptions.h"
 #include "data_io/values/json_values.h"
 #include "fuzz/fuzz_input.h"

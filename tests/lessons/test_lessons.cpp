@@ -15,6 +15,8 @@
 #include "documents/text_lines.h"
 #include "numerics/rigs/crane.h"
 #include "numerics/rigs/thruster.h"
+#include "page_ends.h"
+#include "platform/atomic_file.h"
 #include "support/program.h"
 #include "workflow/lesson_catalogue.h"
 
@@ -53,6 +55,8 @@ TEST_P(lessons, report_is_whole) {
     const bool slides = has_own_report && document_rules(read_template(own_report)).slides;
     EXPECT_TRUE(slides || text.find("Figure 1") != std::string::npos);
     EXPECT_THAT(text, HasSubstr(has_own_report ? "Conclusion" : "What was learnt"));
+    const std::string source = has_own_report ? own_report : DYNLAB_SOURCE_DIR "/lessons/" + GetParam() + "/lesson.lua";
+    if (!slides) expect_full_pages(bench, GetParam() + ".pdf", section_titles(read_file(source)));
 }
 
 TEST_P(lessons, starter_runs_and_shows_no_solution) {
@@ -245,6 +249,9 @@ std::vector<std::string> pages_of(const Workbench& bench, const std::string& les
     const std::string all = std::accumulate(pages.begin(), pages.end(), std::string());
     for (const SectionRule& section : document_rules(report_of(lesson, language)).sections)
         EXPECT_THAT(all, HasSubstr(replaced(section.title(language), "'", "’")));
+    std::smatch point;
+    EXPECT_FALSE(language == "fr" && std::regex_search(all, point, std::regex(R"(\d\.\d)")))
+        << "a decimal point in text, table or figure: " << point.str();
     return pages;
 }
 
@@ -264,6 +271,7 @@ TEST_P(lesson_03_crane_report, keeps_to_six_pages_and_one_of_appendix) {
     const DocumentRules rules = document_rules(report_of("03_crane", language));
     ASSERT_EQ(static_cast<int>(pages.size()), *rules.pages + *rules.appendix_pages);
     EXPECT_THAT(pages.back(), HasSubstr(replaced(rules.sections.back().title(language), "'", "’")));
+    expect_full_pages(bench, "03_crane.pdf", section_titles(report_of("03_crane", language).body.text));
 }
 
 TEST_P(lesson_03_crane_report, types_no_result_in) {
@@ -314,17 +322,35 @@ TEST(lesson_05_thruster, finds_curve_and_delay_and_a_better_model_than_a_linear_
     EXPECT_NEAR(number(record, "asymmetry"), -truth.forward_thrust / truth.reverse_thrust, 0.05);
     EXPECT_GT(number(record, "onset"), 1e3 * truth.delay) << "nothing answers before the delay";
     EXPECT_LT(number(record, "onset"), 1e3 * truth.delay + 15);
-    EXPECT_NEAR(number(record, "forward_300"), thruster_thrust(rig, rig.neutral + 300), 3);
-    EXPECT_NEAR(number(record, "reverse_300"), thruster_thrust(rig, rig.neutral - 300), 3);
 
-    EXPECT_NEAR(number(record, "delay"), 1e3 * truth.delay, 5);
     for (const std::string shape : {"sine", "square"}) {
         EXPECT_NEAR(number(record, "delay_hammerstein_" + shape), 1e3 * truth.delay, 5);
-        EXPECT_LT(number(record, "delay_error_" + shape), 5) << "the worst of the repetitions";
         for (const std::string way : {"val_", "raw_"})
             EXPECT_GT(number(record, way + "hammerstein_" + shape), number(record, way + "linear_" + shape) + 5);
         EXPECT_GT(number(record, "gain_" + shape), 5) << "the least of the repetitions";
         EXPECT_GT(number(record, "root_gain_" + shape), 0);
+    }
+}
+
+// Oracle: common English words, and the cells of the lesson.
+TEST(lesson_copies, are_french_throughout_where_french_is_asked_for) {
+    for (const std::string lesson : {"03_crane", "05_thruster"}) {
+        const Workbench bench;
+        ASSERT_EQ(bench.dynlab({"new", lesson, "mine", "--lang", "fr"}).exit_code, 0);
+        ASSERT_EQ(bench.dynlab({"new", lesson, "english"}).exit_code, 0);
+        const std::string script = bench.read("mine/analysis.lua"), report = bench.read("mine/report.md");
+        for (const std::string& text : {script, report})
+            for (const char* word : {" is ", " are ", " your ", " what ", " with ", " which "})
+                EXPECT_THAT(text, Not(HasSubstr(word))) << lesson;
+        EXPECT_THAT(script, HasSubstr("-- language: fr\n"));
+        EXPECT_THAT(report, HasSubstr("title: \"Identification d'un"));
+        EXPECT_THAT(report, HasSubstr("\n# Données brutes"));
+        const auto marks = [](const std::string& text) {
+            const std::regex mark("-- %%|YOUR CODE HERE|[*][*]Question \\d+");
+            return std::distance(std::sregex_iterator(text.begin(), text.end(), mark), std::sregex_iterator());
+        };
+        EXPECT_EQ(marks(script), marks(bench.read("english/analysis.lua"))) << "as many cells and questions";
+        EXPECT_EQ(bench.dynlab({"report", "mine"}).exit_code, 0);
     }
 }
 

@@ -1,4 +1,4 @@
-// What the worked reports of lessons 3.2 and 5 say in words, held to a second route: the simulators' equations and
+// What the worked report of lesson 3.2 says in words, held to a second route: the simulators' equations and
 // parameters, the noise of their sensors, the scatter of repeated experiments.
 #include <gtest/gtest.h>
 
@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "numerics/rigs/crane.h"
-#include "numerics/rigs/thruster.h"
 #include "support/program.h"
 
 namespace dynlab::test {

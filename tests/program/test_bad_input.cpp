@@ -115,7 +115,7 @@ TEST(bad_input, script_that_fails_is_told_even_where_no_report_can_be_made) {
     const Workbench bench;
     write_folder(bench, "error('on purpose')\n", "![A](absent.png)\n");
     const ChildResult result = bench.dynlab({"report", "mine"});
-    expect_failure(result, 1, "on purpose\nThe report up to there cannot be made: ");
+    expect_failure(result, 1, "on purpose\n    error('on purpose')\nThe report up to there cannot be made: ");
     EXPECT_THAT(bench.files(), ElementsAre("mine"));
 }
 

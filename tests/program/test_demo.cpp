@@ -40,7 +40,7 @@ TEST(demo, list_names_each_demonstration_in_order) {
     std::vector<std::string> names;
     for (const std::string& line : lines_of(result.output)) names.push_back(line.substr(0, line.find(' ')));
     EXPECT_THAT(names, testing::ElementsAre("getting_started", "delays", "order_selection", "irregular_sampling",
-                                            "inside_srivc", "monte_carlo"));
+                                            "inside_srivc", "monte_carlo", "robot_arm"));
     EXPECT_EQ(names.size(), scripts().size());
     EXPECT_THAT(result.output, HasSubstr("A dead time that is not a whole number of samples\n"));
     EXPECT_EQ(bench.dynlab({"demo"}).output, result.output);
@@ -108,6 +108,26 @@ TEST(demo, what_their_texts_claim_is_true) {
          "  assert(math.abs(study.srivc.reported_std[k]/study.srivc.std[k] - 1) < 0.1)\n"
          "end\n"
          "assert(study.runs == 200)\n"},
+        // Second routes: the output error of a difference equation, and peaks of a spectrum without any model.
+        {"robot_arm",
+         "assert(A.report.prediction_fit_percent > 97.5 and A.report.prediction_fit_percent < 98.5)\n"
+         "assert(A.report.fit_percent < 25)\n"
+         "local O = oe(first, {6, 6, 1}, {InitialState = 'estimate'})\n"
+         "assert(math.abs(O.report.fit_percent - G.report.fit_percent) < 0.01 and G.report.fit_percent > 97.5)\n"
+         "assert(fit(second, G) > 96.5 and fit(second, G) > fit(second, G0) + 3)\n"
+         "local _, S = etfe(raw:remove_mean(), {smooth = 4})\n"
+         "for k, range in ipairs{{0.25, 0.5}, {0.6, 1}} do\n"
+         "  local best, most = 0, 0\n"
+         "  for j = 1, #S.w do\n"
+         "    if S.w[j] > range[1] and S.w[j] < range[2] and S.magnitude[j] > most then\n"
+         "      best, most = S.w[j], S.magnitude[j]\n"
+         "    end\n"
+         "  end\n"
+         "  assert(math.abs(best - frequency[2*k]) < 0.02)\n"
+         "end\n"
+         "local _, left = resid(second, G, {quiet = true})\n"
+         "assert(not left.white and left.outputs[1].inputs[1].p_value > 0.05)\n"
+         "assert(fit(second, N, {k = 1}) > fit(second, G) + 1.5 and fit(second, N) < fit(second, G))\n"},
     };
     const Workbench bench;
     for (const auto& [name, script] : scripts()) {

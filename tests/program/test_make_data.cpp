@@ -22,8 +22,10 @@ TEST(make_data, repeats_what_is_stored) {
     const fs::path source = DYNLAB_SOURCE_DIR;
     for (const std::string& name : made_sets()) {
         const Workbench bench;
-        const ChildResult result = bench.dynlab({"run", (source / "scripts/make_data" / (name + ".lua")).string()});
+        const ChildResult result =
+            bench.dynlab({"run", (source / "scripts/make_data" / (name + ".lua")).string(), "--out", "."});
         ASSERT_EQ(result.exit_code, 0) << result.error_output;
+        fs::remove(bench.path("record.json"));
         const std::vector<std::string> files = bench.files();
         EXPECT_GE(files.size(), 2u);
         for (const std::string& file : files)

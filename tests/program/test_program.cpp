@@ -96,7 +96,7 @@ TEST(program, report_is_made_again_when_anything_it_is_made_of_changes) {
     bench.write("mine/analysis.lua", "report.value('sum', 2*sum(load('values.csv').y), '%.0f')\n");
     EXPECT_FALSE(up_to_date());
     EXPECT_FALSE(up_to_date({"--seed", "7"}));
-    bench.write("report.pdf", "changed by hand");
+    bench.write("mine/report.pdf", "changed by hand");
     EXPECT_FALSE(up_to_date());
     EXPECT_TRUE(up_to_date());
 }
@@ -147,7 +147,8 @@ TEST(program, students_copy_has_no_solutions_and_its_report_works) {
     EXPECT_EQ(run.exit_code, 0) << run.error_output;
     const ChildResult report = bench.dynlab({"report", "mine"});
     ASSERT_EQ(report.exit_code, 0) << report.error_output;
-    EXPECT_THAT(bench.files(), Contains("report.pdf"));
+    EXPECT_TRUE(std::filesystem::exists(bench.path("mine/report.pdf")));
+    EXPECT_THAT(bench.files(), ElementsAre("mine"));
     const ChildResult again = bench.dynlab({"new", "02", "mine"});
     EXPECT_EQ(again.exit_code, 1);
     EXPECT_THAT(again.error_output, HasSubstr("exists already"));

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include "documents/error.h"
-#include "documents/template_file.h"
 #include "documents/text_lines.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
@@ -32,12 +31,6 @@ fs::path place_of(const fs::path& file) {
 template <class Map>
 void add_older(Map& entries, const Map& older) {
     entries.insert(older.begin(), older.end());
-}
-
-TemplateFile template_of(const ReportRequest& request) {
-    TemplateFile source = read_template(request.template_file);
-    for (const auto& [key, value] : request.metadata) source.metadata[key] = value;
-    return source;
 }
 
 }  // namespace
@@ -218,13 +211,8 @@ void LiveDocument::set_page() {
     if (!request_) return;
     try {
         watch_inputs();
-        const TemplateFile source = template_of(*request_);
-        MarkdownText text = with_cells(source, weave_cells(request_->script, shown_));
         const bool unfinished = runner_.running() || shown_.error.has_value() || runner_.parts().empty();
-        SetDocument document = setter_.set(source, text, shown_, unfinished);
-        if (shown_.error && !shows_cells(source))
-            document.complaints.insert(document.complaints.begin(), shown_.error->message);
-        page_.show(document, request_->script, shown_);
+        page_.show(setter_.set(document_source(*request_, shown_), unfinished), request_->script, shown_);
     } catch (const DocumentError& error) {
         page_.complain(lines_of(error.what()));
     }

@@ -21,6 +21,7 @@
 #include "platform/error.h"
 #include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
+#include "workflow/make_report.h"
 #include "workflow/specimen_record.h"
 
 namespace dynlab::inline course {
@@ -48,7 +49,11 @@ class FolderCheck {
         const bool made = script && makes_report();
         if (script) {
             check_blanks(*script);
-            if (made) check_answers(*script);
+            if (made) {
+                const RunRecord run = record_from_json(read_file(record()));
+                check_answers(*script, run);
+                check_places(*script, run);
+            }
             if (wishes.lesson_checks && !stopped_by_file()) try_lesson_checks(script->header.lesson);
         }
         if (!wishes.standard) wishes.standard = own_standard(script);
@@ -124,13 +129,16 @@ class FolderCheck {
                        made, "", most);
     }
 
-    /// The message as if the student's own folder had been used.
+    /// The message as if the student's own folder had been used, without the lines of the script shown below it.
     std::string in_folder(std::string message) const {
         for (const std::string& place : {copy().string() + "/", std::string(kInBox) + "/", std::string("../folder/"),
                                          std::string("../submission/")})
             message = replaced(message, place, "");
+        std::string told;
+        for (const std::string& line : lines_of(message))
+            if (!line.starts_with("  ")) told += line + " ";
         const std::string prefix = "dynlab: ";
-        return replaced(trimmed(message.starts_with(prefix) ? message.substr(prefix.size()) : message), "\n", " ");
+        return trimmed(told.starts_with(prefix) ? told.substr(prefix.size()) : told);
     }
 
     void add_failure(const std::string& message) {
@@ -188,14 +196,21 @@ class FolderCheck {
     }
 
     /// Every answer that the script's header declares is given; of the right kind it is, or the script stops.
-    void check_answers(const PercentScript& script) {
-        if (script.header.answers.empty()) return;
-        const RunRecord run = record_from_json(read_file(record()));
+    void check_answers(const PercentScript& script, const RunRecord& run) {
         for (const ExpectedAnswer& answer : script.header.answers) {
             if (run.answers.contains(answer.name)) continue;
             add("answer-missing", Severity::kRule, "analysis.lua",
                 fmt::format("The answer \"{}\" ({}) is not given.", answer.name, answer.kind),
                 fmt::format("Give it: answer(\"{}\", ...).", answer.name));
+        }
+    }
+
+    /// What the analysis reports and no reader would see.
+    void check_places(const PercentScript& script, const RunRecord& run) {
+        for (const std::string& sentence : entries_without_place(script, run)) {
+            const std::size_t remedy = sentence.find("; write ");
+            add("not-shown", Severity::kHint, "report.md", "In analysis.lua " + sentence.substr(0, remedy) + ".",
+                "Write " + sentence.substr(remedy + 8) + " there.");
         }
     }
 
@@ -259,9 +274,14 @@ class FolderCheck {
     }
 
     /// The authors themselves are looked for, whoever else is.
-    void add_members(CheckOptions& wishes) const {
+    void add_members(CheckOptions& wishes) {
         SoughtNames names = wishes.names ? *wishes.names : SoughtNames();
-        for (const Student& member : members_of(copy() / "group.toml")) names.add(member, true);
+        const std::vector<Student> members = members_of(copy() / "group.toml");
+        for (const Student& member : members) names.add(member, true);
+        if (members.empty() && fs::exists(copy() / "group.toml"))
+            add("members-missing", Severity::kHint, "group.toml",
+                "No members stand there, so your names were not looked for in the report.",
+                "Write them in: members = [\"Ada Lovelace\", \"Rudolf Kalman\"].");
         wishes.names = std::make_shared<const SoughtNames>(std::move(names));
     }
 
@@ -287,6 +307,10 @@ class FolderCheck {
         return found.size() == 1 ? std::optional(found.front()) : std::nullopt;
     }
 
+    static std::string make_again(const std::string& name) {
+        return "Make it again: dynlab report FOLDER" + (name == "report.pdf" ? "" : " -o FOLDER/" + name);
+    }
+
     void compare_with(const fs::path& handed_in) {
         const std::string name = handed_in.filename().string();
         if (read_file(handed_in) == read_file(report())) {
@@ -298,11 +322,9 @@ class FolderCheck {
                               written < fs::last_write_time(folder_ / "report.md");
         if (outdated) {
             add("pdf-outdated", Severity::kHint, name,
-                "The PDF is older than the analysis or the text it was made from.",
-                fmt::format("Make it again: dynlab report FOLDER -o FOLDER/{}", name));
+                "The PDF is older than the analysis or the text it was made from.", make_again(name));
         } else {
-            add("pdf-differs", Severity::kHint, name, "The PDF is not what the folder gives now.",
-                fmt::format("Make it again: dynlab report FOLDER -o FOLDER/{}", name));
+            add("pdf-differs", Severity::kHint, name, "The PDF is not what the folder gives now.", make_again(name));
         }
     }
 

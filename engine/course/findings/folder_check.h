@@ -20,7 +20,8 @@ struct FolderLimits {
 /// time limit, without caches and without any file but the folder's and the installed data; then checks that report.
 /// Nothing is written into the folder. Findings besides those of check_pdf: analysis-missing, folder-too-large,
 /// file-outside (the analysis loads what is not in the folder), analysis-fails, answer-open, answer-missing (rules),
-/// pdf-outdated, pdf-differs, link-left-out, and check-failed, by the lesson's own checks (hints), which are tried on
+/// not-shown (reported without a place in the text), members-missing (group.toml names nobody), pdf-outdated,
+/// pdf-differs, link-left-out, and check-failed, by the lesson's own checks (hints), which are tried on
 /// the group's own records where the folder has such. The standard is the template that the header of analysis.lua
 /// names, or report.md's own header when that demands nothing. Throws MissingProgram when something is missing on this
 /// machine rather than in the folder.

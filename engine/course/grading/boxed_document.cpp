@@ -46,16 +46,19 @@ void place_all(const fs::path& from, const fs::path& to) {
 
 }  // namespace
 
-const fs::path& BoxedDocuments::latex_format() const {
-    std::call_once(format_made_, [&] {
+const fs::path& BoxedDocuments::latex_format(bool french) const {
+    CompiledLayout& compiled = french ? french_ : english_;
+    std::call_once(compiled.made, [&] {
         LatexLayout layout;
         layout.shared_templates = shared_folder() / "report_templates";
-        make_latex_format(layout, format_.path());
+        if (french) layout.language = "fr";
+        make_latex_format(layout, compiled.folder.path());
     });
-    return format_.path();
+    return compiled.folder.path();
 }
 
-void BoxedDocuments::make(const std::string& template_name, const RunRecord& record, const fs::path& output) const {
+void BoxedDocuments::make(const std::string& template_name, const RunRecord& record, const fs::path& output,
+                          const std::map<std::string, std::string>& metadata) const {
     const TemporaryFolder made;
     Box box(isolation_);
     box.add_document_programs();
@@ -64,6 +67,7 @@ void BoxedDocuments::make(const std::string& template_name, const RunRecord& rec
     box.set_environment("DYNLAB_HOME", templates.parent_path().string());
     DocumentJob job;
     job.template_name = template_name;
+    job.metadata = metadata;
     job.record.values = record.values;
     job.record.texts = record.texts;
     job.record.tables = record.tables;
@@ -71,7 +75,10 @@ void BoxedDocuments::make(const std::string& template_name, const RunRecord& rec
         const fs::path file = box.add(figure.file, "/box/figures/" + figure.file.filename().string());
         job.record.figures[name] = {{}, figure.caption, file, figure.order};
     }
-    if (document_format(output) == DocumentFormat::kPdf) job.latex_format = box.add(latex_format(), "/box/format");
+    if (document_format(output) == DocumentFormat::kPdf) {
+        const auto language = metadata.find("lang");
+        job.latex_format = box.add(latex_format(language != metadata.end() && language->second == "fr"), "/box/format");
+    }
     job.to = box.add_writable(made.path(), "/box/made") / output.filename();
     const auto result = run_boxed(box, program_, job, kTimeOfDocument);
     if (!result.output) throw EnvironmentError(output.filename().string() + " cannot be made: " + result.reason);
@@ -85,6 +92,7 @@ BoxedOutcome make_boxed_document(const DocumentJob& job) {
     const DocumentMaker maker(options);
     DocumentSource source;
     source.template_file = shared_folder() / "report_templates" / job.template_name;
+    source.metadata = job.metadata;
     const auto make = [&](const RunRecord& record) {
         source.record = &record;
         maker.make(source, job.to, document_format(job.to), [] {});
@@ -92,6 +100,7 @@ BoxedOutcome make_boxed_document(const DocumentJob& job) {
     try {
         make(job.record);
     } catch (const DocumentError&) {
+        for (auto& [key, value] : source.metadata) value = in_ascii(value);
         make(in_ascii(job.record));  // letters that LaTeX does not have
     }
     return {};

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -20,16 +21,21 @@ class BoxedDocuments {
 
     /// Sets report_templates/`template_name`, filled from the record's values, texts, tables and figures (drawn
     /// already, see draw_figures), and writes `output` (.pdf or .md, with its pictures beside it). Letters that LaTeX
-    /// does not have become question marks. Throws EnvironmentError when it cannot be made.
-    void make(const std::string& template_name, const RunRecord& record, const std::filesystem::path& output) const;
+    /// does not have become question marks. `metadata`: title and lang ("en", "fr") in place of the template's. Throws
+    /// EnvironmentError when it cannot be made.
+    void make(const std::string& template_name, const RunRecord& record, const std::filesystem::path& output,
+              const std::map<std::string, std::string>& metadata = {}) const;
 
   private:
-    const std::filesystem::path& latex_format() const;
+    struct CompiledLayout {
+        TemporaryFolder folder;
+        std::once_flag made;
+    };
+    const std::filesystem::path& latex_format(bool french) const;
 
     Isolation isolation_;
     std::filesystem::path program_;
-    TemporaryFolder format_;
-    mutable std::once_flag format_made_;
+    mutable CompiledLayout english_, french_;
 };
 
 /// What comes of a job whose result is files.
@@ -43,8 +49,9 @@ struct DocumentJob {
     using Result = BoxedOutcome;
 
     std::string template_name;
+    std::map<std::string, std::string> metadata;
     RunRecord record;
-    std::optional<std::filesystem::path> latex_format;  ///< of PDFs
+    std::optional<std::filesystem::path> latex_format;  ///< of PDFs, in their language
     std::filesystem::path to;                           ///< .pdf or .md
 };
 

@@ -171,6 +171,36 @@ RecordedTable success_of(const std::vector<CheckStatistics>& checks) {
     return table;
 }
 
+/// Long names without a space would run over the margin.
+std::string short_name(const std::string& name) {
+    constexpr int kMost = 42;
+    int letters = 0;
+    for (std::size_t at = 0; at < name.size(); ++at)
+        if ((static_cast<unsigned char>(name[at]) & 0xC0) != 0x80 && ++letters > kMost) return name.substr(0, at) + "…";
+    return name;
+}
+
+/// A row for each student of the roster, or each submission where there is none.
+RecordedTable marks_of(const ClassResults& results) {
+    RecordedTable table{{"name", "group", "state", "points", "penalty"}, {}};
+    const auto add = [&](const std::string& name, const std::string& group, const Entry* entry) {
+        const Grade* grade = entry && entry->grade ? &*entry->grade : nullptr;
+        table.rows.push_back({short_name(name), short_name(group), entry ? state_of(*entry) : "nothing handed in",
+                              grade && grade->whole() ? points_text(grade->earned()) : "–",
+                              grade && grade->penalty > 0 ? points_text(grade->penalty) : "–"});
+    };
+    if (!results.roster) {
+        for (const Entry& entry : results.entries) add(shown_name(entry.submission), "–", &entry);
+        return table;
+    }
+    const auto& students = results.roster->students();
+    const std::vector<const Entry*> work = work_that_counts(results);
+    for (std::size_t i = 0; i < students.size(); ++i)
+        add(students[i].name.empty() ? students[i].id : students[i].name,
+            students[i].group.empty() ? "–" : students[i].group, work[i]);
+    return table;
+}
+
 /// What was said more than once where points are missing.
 std::string mistakes_of(const std::vector<CheckStatistics>& checks) {
     std::string list;
@@ -288,6 +318,20 @@ NeedsTheEye what_needs_the_eye(const ClassResults& results) {
     return eye;
 }
 
+std::vector<std::string> counted_instead(const ClassResults& results) {
+    std::vector<std::string> names(results.entries.size());
+    if (!results.roster) return names;
+    const std::vector<const Entry*> work = work_that_counts(results);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const Entry& entry = results.entries[i];
+        const auto& owners = entry.owner.students;
+        if (std::any_of(owners.begin(), owners.end(), [&](std::size_t owner) { return work[owner] == &entry; }))
+            continue;
+        if (!owners.empty()) names[i] = shown_name(work[owners.front()]->submission);
+    }
+    return names;
+}
+
 void write_class_results(const ClassResults& results) {
     write_file_atomically(results.out / "gradebook.csv", csv_text(gradebook_of(results)));
     const TextTable open = open_marks(results);
@@ -305,12 +349,13 @@ void write_class_results(const ClassResults& results) {
     const std::vector<CheckStatistics> checks = statistics_of_checks(grades);
     write_file_atomically(results.out / "summary.json", class_statistics_json(results.setup->lesson.slug, grades));
     record.tables["success"] = success_of(checks);
+    record.tables["marks"] = marks_of(results);
     record.texts["mistakes"] = {mistakes_of(checks)};
     record.texts["attention"] = {attention_of(results)};
     record.figures["points"] = histogram_of(points, possible);
     GnuplotRenderer renderer;
     const TemporaryFolder drawn;
-    draw_figures(record, renderer, drawn.path(), results.pdf ? FigureFormat::kPdf : FigureFormat::kSvg);
+    draw_figures(record, renderer, drawn.path(), results.pdf ? FigureFormat::kPdf : FigureFormat::kSvg, "en");
     renderer.finish();
     results.documents->make("class_summary.md", record, results.out / (results.pdf ? "summary.pdf" : "summary.md"));
     std::filesystem::remove(results.out / (results.pdf ? "summary.md" : "summary.pdf"));  // of an earlier run

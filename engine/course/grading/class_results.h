@@ -39,6 +39,9 @@ struct NeedsTheEye {
 };
 NeedsTheEye what_needs_the_eye(const ClassResults& results);
 
+/// For each entry the name of the one that counts in place of it, for each of its owners; empty where it counts itself.
+std::vector<std::string> counted_instead(const ClassResults& results);
+
 /// Writes gradebook.csv (a row for each student of the roster, or each submission where there is none) and the summary
 /// (report_templates/class_summary.md, set in a box): numbers, histogram, success of each check, what needs the
 /// instructor's eye. by_hand.csv is the table of what is to be marked by hand yet, where there is any, summary.json the

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <string_view>
 
+#include "course/grading/feedback_words.h"
 #include "documents/run_record.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
@@ -14,53 +16,86 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A list item, its texts made harmless by `escape`.
-std::string item_of(const CheckGrade& check, std::string (*escape)(const std::string&)) {
-    std::string item =
-        fmt::format("- **{}** – {}", escape(check.about),
-                    check.graded ? fmt::format("{} of {}", points_text(check.earned), points_text(check.points))
-                                 : "not graded yet");
-    if (check.visible && !check.message.empty()) item += "\\\n  " + escape(check.message);
-    if (check.earned < check.points && check.graded && !check.hint.empty())
-        item += "\\\n  *" + escape(check.hint) + "*";
-    return item + "\n";
-}
+using Escape = std::string (*)(const std::string&);
 
-std::string trouble_of(const Grade& grade, std::string (*escape)(const std::string&)) {
-    if (grade.trouble.empty())
-        return grade.silent ? "Your script ran to its end but gave no answer." : "Your script ran to its end.";
-    if (grade.unreadable) return "**Your work could not be read, so it has no marks yet:** " + escape(grade.trouble);
-    if (!grade.began) return "**Your script could not be begun:** " + escape(grade.trouble);
-    return "**Your script did not run to its end:** " + escape(grade.trouble);
-}
+/// The feedback of one submission in its language; texts of others are made harmless by `escape`.
+class FeedbackText {
+  public:
+    FeedbackText(const Grade& grade, Escape escape)
+        : grade_(grade), words_(feedback_words(grade.language)), escape_(escape) {}
 
-std::string lateness_of(const Grade& grade) {
-    if (!(grade.penalty > 0)) return "";
-    return fmt::format("It was late, which costs {} points: {}.", points_text(grade.penalty), grade.lateness);
-}
+    std::string heading() const { return filled(words_.title, escape_(title())); }
+    std::string title() const { return grade_.title.empty() ? grade_.submission : grade_.title; }
+    std::string plain_title() const { return filled(words_.title, title()); }
+    const char* checks_heading() const { return words_.checks; }
+
+    std::string result() const {
+        std::string text =
+            filled(words_.result, escape_(grade_.lesson), points(grade_.earned()), points(grade_.possible()));
+        if (grade_.penalty > 0) text += " " + filled(words_.late, points(grade_.penalty), grade_.lateness);
+        if (!grade_.counts_instead.empty())
+            text += "\n\n" + filled(grade_.newest_counts ? words_.newest_counts : words_.better_counts,
+                                    escape_(grade_.counts_instead));
+        return text;
+    }
+
+    std::string trouble() const {
+        if (grade_.trouble.empty()) return grade_.silent ? words_.silent : words_.ran;
+        const char* const what = grade_.unreadable ? words_.unreadable
+                                 : grade_.began    ? words_.not_ended
+                                                   : words_.not_begun;
+        return what + escape_(grade_.trouble);
+    }
+
+    std::string checks() const {
+        std::string items;
+        for (const CheckGrade& check : grade_.checks) items += item_of(check);
+        return items;
+    }
+
+    std::string closing() const { return words_.closing; }
+
+  private:
+    template <class... Parts>
+    static std::string filled(const char* text, const Parts&... parts) {
+        return fmt::format(fmt::runtime(text), parts...);
+    }
+
+    std::string points(double number) const {
+        std::string text = points_text(number);
+        if (grade_.language == "fr") std::replace(text.begin(), text.end(), '.', ',');
+        return text;
+    }
+
+    /// A list item.
+    std::string item_of(const CheckGrade& check) const {
+        std::string item = fmt::format(
+            "- **{}** – {}", escape_(check.about),
+            check.graded ? filled(words_.of, points(check.earned), points(check.points)) : words_.not_graded);
+        if (check.visible && !check.message.empty()) item += "\\\n  " + escape_(check.message);
+        if (check.earned < check.points && check.graded && !check.hint.empty())
+            item += "\\\n  *" + escape_(check.hint) + "*";
+        return item + "\n";
+    }
+
+    const Grade& grade_;
+    const FeedbackWords& words_;
+    Escape escape_;
+};
 
 std::string markdown_of(const Grade& grade) {
-    std::string text =
-        fmt::format("# Feedback\n\n**{}**, lesson {}: **{} of {} points.** {}\n\n{}\n\n## Checks\n\n",
-                    readable_markdown(grade.submission), readable_markdown(grade.lesson), points_text(grade.earned()),
-                    points_text(grade.possible()), lateness_of(grade), trouble_of(grade, readable_markdown));
-    for (const CheckGrade& check : grade.checks) text += item_of(check, readable_markdown);
-    return text;
+    const FeedbackText text(grade, readable_markdown);
+    return fmt::format("# {}\n\n{}\n\n{}\n\n## {}\n\n{}\n{}\n", text.heading(), text.result(), text.trouble(),
+                       text.checks_heading(), text.checks(), text.closing());
 }
 
-RunRecord feedback_record(const Grade& grade) {
+RunRecord feedback_record(const FeedbackText& text) {
     RunRecord record;
     record.script = "feedback";
-    const auto value = [&record](const char* name, const std::string& text) { record.values[name] = {{}, text}; };
-    value("submission", grade.submission);
-    value("lesson", grade.lesson);
-    value("points", points_text(grade.earned()));
-    value("possible", points_text(grade.possible()));
-    value("lateness", lateness_of(grade));
-    std::string items;
-    for (const CheckGrade& check : grade.checks) items += item_of(check, escaped_markdown);
-    record.texts["checks"] = {items};
-    record.texts["trouble"] = {trouble_of(grade, escaped_markdown)};
+    record.texts["result"] = {text.result()};
+    record.texts["checks"] = {text.checks()};
+    record.texts["trouble"] = {text.trouble()};
+    record.texts["closing"] = {text.closing()};
     return record;
 }
 
@@ -105,7 +140,10 @@ std::string escaped_markdown(const std::string& text) {
 
 void write_feedback(const Grade& grade, const fs::path& folder, const BoxedDocuments* documents) {
     write_file_atomically(folder / "feedback.md", markdown_of(grade));
-    if (documents) documents->make("feedback.md", feedback_record(grade), folder / "feedback.pdf");
+    if (!documents) return;
+    const FeedbackText text(grade, escaped_markdown);
+    documents->make("feedback.md", feedback_record(text), folder / "feedback.pdf",
+                    {{"title", text.plain_title()}, {"lang", grade.language == "fr" ? "fr" : "en"}});
 }
 
 }  // namespace dynlab::inline course

@@ -15,7 +15,8 @@ std::string escaped_markdown(const std::string& text);
 std::string readable_markdown(const std::string& text);
 
 /// Writes what the student gets into `folder`: feedback.md, and with `documents` feedback.pdf, set from
-/// report_templates/feedback.md. Of hidden checks it has points and hint only.
+/// report_templates/feedback.md. It is titled after whom it is for and in the language of what was handed in; what
+/// checks say is as their author wrote it. Of hidden checks it has points and hint only.
 void write_feedback(const Grade& grade, const std::filesystem::path& folder, const BoxedDocuments* documents);
 
 }  // namespace dynlab::inline course

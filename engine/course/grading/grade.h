@@ -29,6 +29,10 @@ struct Grade {
     std::vector<CheckGrade> checks;
     double late_hours = 0, penalty = 0;  ///< penalty in points
     std::string lateness;                ///< why there is a penalty, as Deadlines tells it
+    std::string title;                   ///< whom the feedback is for: a group or a person
+    std::string language;                ///< of the feedback: "fr", else English
+    std::string counts_instead;          ///< the hand-in of the same owner that counts; empty where this one does
+    bool newest_counts = false;          ///< ... as it is the newest; else as it is the better one
     std::string log;                     ///< what was run and how long it took; not part of the result
 
     double earned() const;                                         ///< of graded checks, less the penalty, not below 0

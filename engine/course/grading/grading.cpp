@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "course/grading/class_results.h"
+#include "course/grading/content_hash.h"
 #include "course/grading/deadlines.h"
 #include "course/grading/feedback.h"
 #include "course/grading/grading_memory.h"
@@ -20,7 +21,6 @@
 #include "course/store/course_clock.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
-#include "platform/hash.h"
 #include "platform/interrupt.h"
 #include "platform/locks/abandoned_folders.h"
 #include "platform/locks/file_lock.h"
@@ -32,40 +32,6 @@ namespace dynlab::inline course {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Of what is too large to be graded, its size alone: reading it may take for ever.
-std::string hash_of_content(const Submission& submission) {
-    const SubmissionLimits limits;
-    const auto too_large = [](std::uintmax_t bytes) { return fmt::format("too large: {}", bytes); };
-    if (!submission.loose.empty()) {
-        Sha256 hash;
-        for (const LooseFile& file : submission.loose) {
-            const std::uintmax_t bytes = fs::file_size(file.path);
-            if (bytes > limits.bytes) return too_large(bytes);
-            hash.add(fmt::format("{}:{}:{}:", file.name.size(), file.name, bytes)).add_file(file.path);
-        }
-        return hash.hex();
-    }
-    if (submission.archive) {
-        const std::uintmax_t bytes = fs::file_size(submission.path);
-        return bytes > limits.bytes ? too_large(bytes) : sha256_of_file(submission.path);
-    }
-    Sha256 hash;
-    std::vector<fs::path> files;
-    std::uintmax_t bytes = 0;
-    for (const auto& entry : fs::recursive_directory_iterator(submission.path))
-        if (entry.symlink_status().type() == fs::file_type::regular) {
-            files.push_back(entry.path());
-            bytes += entry.file_size();
-        }
-    if (bytes > limits.bytes) return too_large(bytes);
-    std::sort(files.begin(), files.end());
-    for (const fs::path& file : files) {
-        const std::string name = file.lexically_relative(submission.path).string();
-        hash.add(fmt::format("{}:{}:{}:", name.size(), name, fs::file_size(file))).add_file(file);
-    }
-    return hash.hex();
-}
 
 /// The grading of one class, by several threads.
 class ClassGrader {
@@ -98,6 +64,7 @@ class ClassGrader {
         if (failure_) std::rethrow_exception(failure_);
         take_the_others();
         tell_strays();
+        tell_which_counts(results());
         std::sort(outcome_.complaints.begin(), outcome_.complaints.end());  // threads end in any order
         const ClassResults all = results();
         NeedsTheEye eye = what_needs_the_eye(all);
@@ -265,12 +232,41 @@ class ClassGrader {
             grade = graded(submission, contents_[index]);
             grade->fingerprint = fingerprint;
         }
+        address(submission, *grade);
         const Deadlines::Lateness late = deadlines_.of(submission, names_of_owners(submission));
         grade->late_hours = late.hours;
         grade->lateness = late.reason;
         finish(submission, *std::move(grade), late.percent, index);
         const std::lock_guard lock(mutex_);
         ++(keep ? outcome_.kept : outcome_.made);
+    }
+
+    /// Whom the feedback is for, and in which language, as far as the outside and the roster tell.
+    void address(const Submission& submission, Grade& grade) const {
+        grade.title = submission.person;
+        if (!owners_) return;
+        const Owners::Found owner = owners_->find(submission);
+        if (!owner.group.empty()) grade.title = owner.group;
+        for (const std::size_t student : owner.students) {
+            const Student& one = roster_->students()[student];
+            if (owner.group.empty()) grade.title = one.name.empty() ? one.id : one.name;
+            if (!one.language.empty()) grade.language = one.language;
+        }
+    }
+
+    /// Of several hand-ins of one owner, each that does not count says so: known only when all are graded.
+    void tell_which_counts(const ClassResults& all) {
+        const std::vector<std::string> instead = counted_instead(all);
+        for (std::size_t i = 0; i < submissions_.size(); ++i) {
+            std::optional<Grade> grade = grades_[i] ? earlier(folder_of(submissions_[i])) : std::nullopt;
+            const bool known = grade && grade->counts_instead == instead[i] &&
+                               (instead[i].empty() || grade->newest_counts == request_.newest_counts);
+            if (!grade || known) continue;
+            grade->counts_instead = instead[i];
+            grade->newest_counts = request_.newest_counts;
+            const double percent = deadlines_.of(submissions_[i], names_of_owners(submissions_[i])).percent;
+            finish(submissions_[i], *std::move(grade), percent, i);
+        }
     }
 
     /// What the grader itself cannot do costs nobody points and stops nobody else; nothing is written, so that the next
@@ -295,7 +291,7 @@ class ClassGrader {
         const std::string fingerprint = rules_.run_fingerprint(content, seed);
         if (const auto kept = request_.regrade ? std::nullopt : read_kept_runs(kept_file, fingerprint)) {
             Grade grade = rules_.judged(submission.name, kept->work, seed, "the runs are those of before\n");
-            grade.remark = kept->remark;
+            grade.remark = kept->remark, grade.language = kept->language;
             return grade;
         }
         const TemporaryFolder work;
@@ -304,9 +300,9 @@ class ClassGrader {
                 stage_submission(submission, work.path(), request_.setup.isolation, request_.setup.program);
             std::string log;
             const CheckedSubmission checked = rules_.work_in(staged.folder, seed, log);
-            write_kept_runs(kept_file, {fingerprint, checked, staged.remark});
+            write_kept_runs(kept_file, {fingerprint, checked, staged.remark, staged.language});
             Grade grade = rules_.judged(submission.name, checked, seed, log);
-            grade.remark = staged.remark;
+            grade.remark = staged.remark, grade.language = staged.language;
             return grade;
         } catch (const SubmissionError& error) {
             return rules_.unreadable(submission.name, error.what());

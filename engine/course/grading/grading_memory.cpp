@@ -15,7 +15,7 @@ namespace dynlab::inline course {
 
 DYNLAB_DESCRIBE(RememberedInput, name, hash)
 DYNLAB_DESCRIBE(GradingMemory, lesson, lesson_checks, checks, secret, roster, owners, deadlines, keep, timezone)
-DYNLAB_DESCRIBE(KeptRuns, fingerprint, work, remark)
+DYNLAB_DESCRIBE(KeptRuns, fingerprint, work, remark, language)
 
 namespace {
 

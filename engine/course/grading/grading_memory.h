@@ -40,7 +40,7 @@ std::vector<std::string> differences_of(const GradingMemory& then, const Grading
 struct KeptRuns {
     std::string fingerprint;  ///< of the submission and of all that its runs depend on
     CheckedSubmission work;
-    std::string remark;  ///< see StagedWork
+    std::string remark, language;  ///< see StagedWork
 };
 
 std::optional<KeptRuns> read_kept_runs(const std::filesystem::path& file, const std::string& fingerprint);

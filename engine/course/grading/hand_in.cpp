@@ -37,6 +37,7 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kMostPackedBytes = 200ull << 20;
 constexpr int kMostFiles = 2000;
 constexpr char kManifest[] = "MANIFEST.json";
+constexpr char kFiguresOfRuns[] = "analysis_out/";  // dynlab run draws them again
 
 /// All files below, by their path there.
 std::map<std::string, std::string> contents_of(const fs::path& folder) {
@@ -63,8 +64,9 @@ Pack pack_folder(const fs::path& folder, const fs::path& file) {
         throw EnvironmentError(fmt::format("{} is too large: at most {} files and {} MB are handed in", folder.string(),
                                            kMostFiles, kMostPackedBytes >> 20));
     std::map<std::string, std::string> contents = contents_of(copy.path());
-    std::erase_if(contents,
-                  [](const auto& entry) { return entry.first.ends_with(".zip") || entry.first == kManifest; });
+    std::erase_if(contents, [](const auto& entry) {
+        return entry.first.ends_with(".zip") || entry.first == kManifest || entry.first.starts_with(kFiguresOfRuns);
+    });
     Pack pack;
     pack.left_out = copied.left_out;
     Manifest manifest;

@@ -26,8 +26,8 @@ DYNLAB_DESCRIBE(UnpackJob, archive, to, bytes, files, keep_times)
 
 template <Is<DocumentJob> T, class V>
 void describe(T& object, V& member) {
-    auto& [template_name, record, latex_format, to] = object;
-    member("template", template_name), member("record", record);
+    auto& [template_name, metadata, record, latex_format, to] = object;
+    member("template", template_name), member("metadata", metadata), member("record", record);
     member("latex_format", latex_format), member("to", to);
 }
 

@@ -111,6 +111,9 @@ Roster::Roster(const std::filesystem::path& file) {
                 fail(fmt::format("the seed must be a whole number from 1 to 4294967295, but \"{}\" was given", text));
             student.seed = number;
         }
+        student.language = cell("language");
+        if (!student.language.empty() && student.language != "en" && student.language != "fr")
+            fail(fmt::format("the language must be en or fr, but \"{}\" was given", student.language));
         students_.push_back(std::move(student));
     }
 }

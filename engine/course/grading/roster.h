@@ -17,16 +17,17 @@ struct Student {
     std::string mail, moodle, canvas;         ///< address; numbers by which the learning platforms know the student
     std::vector<FormerName> former{};         ///< looked for in documents like what is known now
     std::vector<std::string> other_groups{};  ///< where they are or were besides; looked for like `group`
+    std::string language{};                   ///< "en" or "fr"; empty where the roster does not tell
 };
 
 /// The students of a course. The file has a column `id`, and optionally `name`, `group`, `seed`, `email` (or `mail`),
-/// `moodle` and `canvas`; others are not read. The columns that Moodle (list of participants, grading worksheet) and
-/// Canvas (gradebook) export are known by their own names, in English, French and German: first name and surname become
-/// the name, "ID number" and "SIS User ID" the id, "Identifier" the number of Moodle.
+/// `moodle`, `canvas` and `language` (en or fr); others are not read. The columns that Moodle (list of participants,
+/// grading worksheet) and Canvas (gradebook) export are known by their own names, in English, French and German: first
+/// name and surname become the name, "ID number" and "SIS User ID" the id, "Identifier" the number of Moodle.
 class Roster {
   public:
     /// Throws EnvironmentError with file and line: no column id, an id that is empty or occurs twice,
-    /// a seed that is not a whole number.
+    /// a seed that is not a whole number, a language other than en and fr.
     explicit Roster(const std::filesystem::path& file);
     /// All columns are there.
     explicit Roster(std::vector<Student> students) : students_(std::move(students)) {}
@@ -35,8 +36,8 @@ class Roster {
     bool has(const std::string& column) const;  ///< `mail` also for `email`
     /// Of the file, in lower case, platforms' names of them translated; empty without a file.
     const std::vector<std::string>& columns() const { return columns_; }
-    std::vector<std::string> unknown_columns() const;
-    bool converted() const { return converted_; }  ///< see TextTable
+    std::vector<std::string> unknown_columns() const;  ///< that a course does not keep
+    bool converted() const { return converted_; }      ///< see TextTable
 
   private:
     std::vector<Student> students_;

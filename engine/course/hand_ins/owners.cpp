@@ -309,6 +309,22 @@ Owners::Found Owners::by_list(const std::vector<Submitter>& submitters) const {
 }
 
 Owners::Found Owners::find(const Submission& submission) const {
+    const Found written = as_written(submission);
+    if (written.anybody() || written.doubtful) return written;
+    std::vector<Found> others;
+    for (const std::string& reading : other_readings_of_name(own_name(submission))) {
+        Submission read;
+        read.name = reading;
+        Found other = as_written(read);
+        const bool fresh = std::none_of(others.begin(), others.end(), [&](const Found& before) {
+            return before.students == other.students && before.group == other.group;
+        });
+        if (other.anybody() && other.by_beginning && fresh) others.push_back(std::move(other));
+    }
+    return others.size() == 1 ? others.front() : written;
+}
+
+Owners::Found Owners::as_written(const Submission& submission) const {
     if (const auto owner = listed(submission)) return found({*owner});
     if (!submission.submitters.empty()) return by_list(submission.submitters);
     std::vector<std::size_t> by_platform, by_id;

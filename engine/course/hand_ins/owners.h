@@ -35,6 +35,8 @@ class Owners {
         bool doubtful = false;      ///< nobody, as more than one could be meant
         bool anybody() const { return trouble.empty(); }
     };
+    /// A name that fits nobody and came from an archive without a character set is tried in those of other scripts,
+    /// too: where all that fits is one owner, it is theirs.
     Found find(const Submission& submission) const;
 
     /// All names that could have been meant, for suggestions.
@@ -53,6 +55,7 @@ class Owners {
         std::size_t owner = 0, student = 0;
         bool group = false;
     };
+    Found as_written(const Submission& submission) const;
     std::size_t owner_of_group(const std::string& name);
     void add_person(const Student& student, std::size_t index);
     std::vector<std::size_t> owners_of(const std::vector<std::size_t>& students) const;

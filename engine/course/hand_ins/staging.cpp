@@ -8,6 +8,7 @@
 
 #include "course/grading/folder_copy.h"
 #include "course/hand_ins/owners.h"
+#include "course/hand_ins/work_language.h"
 #include "platform/text/foreign_text.h"
 
 namespace dynlab::inline course {
@@ -222,7 +223,9 @@ class Stager {
 
 StagedWork stage_submission(const Submission& submission, const fs::path& to, Isolation level, const fs::path& program,
                             const SubmissionLimits& limits) {
-    return Stager(submission, to, level, program, limits).stage();
+    StagedWork staged = Stager(submission, to, level, program, limits).stage();
+    staged.language = language_of_work(staged.folder);
+    return staged;
 }
 
 }  // namespace dynlab::inline course

@@ -9,6 +9,7 @@ namespace dynlab::inline course {
 struct StagedWork {
     std::filesystem::path folder;  ///< holds analysis.lua
     std::string remark;            ///< for the instructor: which of several versions was taken; else empty
+    std::string language{};        ///< of the work, see language_of_work
 };
 
 /// Brings a submission's files into `to`, an empty folder, and finds analysis.lua: at any depth, in archives within

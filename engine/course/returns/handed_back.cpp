@@ -10,7 +10,7 @@
 #include "course/grading/feedback.h"
 #include "course/grading/grade.h"
 #include "course/grading/roster.h"
-#include "course/grading/zip_file.h"
+#include "course/returns/mailing.h"
 #include "data_io/text_table.h"
 #include "data_io/values/json_values.h"
 #include "platform/atomic_file.h"
@@ -23,9 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// One row of the gradebook, with what the platforms want to know besides.
-struct MarkedStudent {
-    std::string id, name, submission, points, possible;
-    std::string mail, moodle, canvas;
+struct MarkedStudent : Recipient {
+    std::string submission, points, possible, canvas;
     fs::path feedback;  ///< empty where there is none
 };
 
@@ -77,7 +76,8 @@ std::vector<MarkedStudent> marked_students(const HandBackRequest& request) {
         one.points = row[column("points")], one.possible = row[column("possible")];
         if (one.name.empty() && one.id.empty()) one.name = one.submission;
         if (const auto found = known.find(one.id); found != known.end())
-            one.mail = found->second.mail, one.moodle = found->second.moodle, one.canvas = found->second.canvas;
+            one.group = found->second.group, one.mail = found->second.mail, one.moodle = found->second.moodle,
+            one.canvas = found->second.canvas;
         if (const auto participant = moodle_participant(one.submission);
             participant && one.moodle.empty() && (senders[one.submission] == 1 || participant->second == one.name))
             one.moodle = participant->first;
@@ -135,23 +135,18 @@ class Outbox {
         TextTable table;
         table.names = {"Identifier",       "Full name", "Grade", "Maximum Grade", "Last modified (grade)",
                        "Feedback comments"};
-        std::map<std::string, std::string> contents;
+        MoodleFeedback feedback;
         for (const MarkedStudent& student : students_) {
             if (student.moodle.empty() || student.points.empty()) continue;
             table.rows.push_back({"Participant " + student.moodle, student.name, student.points, student.possible, "",
                                   comments_on(request_.marks, student)});
-            if (student.feedback.empty()) continue;
-            // Moodle reads the number between the first two underlines.
-            std::string name = student.name.empty() ? student.id : student.name;
-            std::replace_if(
-                name.begin(), name.end(), [](char c) { return c == '_' || c == '/' || c == '\\'; }, ' ');
-            contents[fmt::format("{}_{}_assignfeedback_file/{}", name, student.moodle,
-                                 student.feedback.filename().string())] = read_file(student.feedback);
+            if (!student.feedback.empty())
+                feedback.add(student, student.feedback.filename().string(), read_file(student.feedback));
         }
         if (table.rows.empty()) return;
         write("moodle-grades.csv", table);
-        if (!contents.empty()) {
-            write_zip(folder_ / "moodle-feedback.zip", contents);
+        if (!feedback.empty()) {
+            feedback.write(folder_ / "moodle-feedback.zip");
             result_.files.push_back(folder_ / "moodle-feedback.zip");
         }
         for (const MarkedStudent& student : students_)
@@ -159,7 +154,7 @@ class Outbox {
                 result_.complaints.push_back(
                     fmt::format("{} is missing in moodle-grades.csv: the participant's number is not known; write it "
                                 "into the roster's column moodle",
-                                student.name.empty() ? student.id : student.name));
+                                student.shown()));
     }
 
     void canvas() {
@@ -182,21 +177,24 @@ class Outbox {
         std::map<std::string, std::string> sent;
         if (fs::exists(file)) {
             const TextTable before = read_text_table(file);
-            const auto id = needed_column(before, "id", file), name = needed_column(before, "feedback", file),
+            const auto id = needed_column(before, "id", file), name = needed_column(before, "files", file),
                        hash = needed_column(before, "sha256", file);
             for (const auto& row : before.rows) sent[row[id] + "\n" + row[name]] = row[hash];
         }
-        TextTable table;
-        table.names = {"id", "name", "mail", "points", "possible", "feedback", "new", "sha256"};
+        std::vector<Mailing> mailings;
+        std::vector<std::vector<std::string>> more;
         for (const MarkedStudent& student : students_) {
             if (student.feedback.empty()) continue;
             const std::string hash = sha256_of_file(student.feedback),
                               name = fs::relative(student.feedback, request_.marks).string();
             const auto before = sent.find(student.id + "\n" + name);
-            const bool is_new = before == sent.end() || before->second != hash;
-            table.rows.push_back({student.id, student.name, student.mail, student.points, student.possible, name,
-                                  is_new ? "yes" : "no", hash});
+            mailings.push_back({student, {name}, before == sent.end() || before->second != hash});
+            more.push_back({student.points, student.possible, hash});
         }
+        TextTable table = mailing_list(mailings);
+        table.names.insert(table.names.end(), {"points", "possible", "sha256"});
+        for (std::size_t i = 0; i < more.size(); ++i)
+            table.rows[i].insert(table.rows[i].end(), more[i].begin(), more[i].end());
         write("mail.csv", table);
     }
 

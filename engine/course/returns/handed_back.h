@@ -21,12 +21,11 @@ struct HandedBack {
 /// Writes into `marks`/handed_back, from gradebook.csv and the feedback in `marks`:
 ///
 /// * moodle-grades.csv, a grading worksheet with what Moodle's import wants (Identifier, Grade, Last modified (grade)),
-///   the names, the maximum and comments; moodle-feedback.zip, for each participant a folder
-///   NAME_NUMBER_assignfeedback_file, as Moodle's upload of feedback files wants it. The number is the one in the name
-///   of the submission's folder, or the roster's.
+///   the names, the maximum and comments; moodle-feedback.zip, see MoodleFeedback. The number of a participant is the
+///   roster's, or the one in the name of the submission's folder.
 /// * canvas-grades.csv: Student, ID, SIS User ID (the roster's id), SIS Login ID (its mail), Section, the assignment.
-/// * mail.csv: a row for each student with the address, the file of feedback, and whether it is new since the last
-///   time.
+/// * mail.csv, see mailing_list, with points, possible and sha256 (of the feedback) besides; new is what changed since
+///   the last time.
 ///
 /// Who has no marks is left out, and so is a platform that nobody has a number of. Throws EnvironmentError where there
 /// is no gradebook.csv, or one of another kind.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <set>
 
 namespace dynlab::inline course {
@@ -11,6 +12,7 @@ constexpr double kParagraphGap = 0.4;  ///< of the size: more between two lines 
 constexpr double kIndent = 0.8;        ///< of the size
 constexpr double kShortLine = 0.75;    ///< of the text's width: a sentence that ends before it ends a paragraph
 constexpr double kTitleSize = 1.12;    ///< of the prose's
+constexpr double kSameSize = 0.03;     ///< of the size: sizes that differ by less are one
 
 bool is_bullet(const std::string& word) {
     static const std::set<std::string> bullets = {"•", "◦", "▪", "‣", "·", "●", "○", "■", "–", "—", "-", "*", "+", "∙"};
@@ -102,8 +104,8 @@ class BlockMaker {
 
     bool begins_block(const TextLine& line) const {
         if (blocks_.empty() || blocks_.back().heading || line.fixed_width || last_->fixed_width) return true;
-        if (begins_caption(line)) return true;
         const bool whole = ends_sentence(blocks_.back().text);
+        if (begins_caption(line) && !leads_on(line)) return true;
         if (line.page != last_->page) {
             const unsigned char first = static_cast<unsigned char>(line.words.front().front());
             return whole || std::isupper(first);
@@ -113,6 +115,14 @@ class BlockMaker {
         const bool indented = line.left > last_->left + kIndent * line.size && !blocks_.back().item;
         const bool short_before = last_->right < left_ + kShortLine * (right_ - left_);
         return whole && (indented || short_before);
+    }
+
+    /// "... beside the position in / Figure 1.": the line before is a sentence without its end, set as this one.
+    bool leads_on(const TextLine& line) const {
+        const std::string& word = last_->words.back();
+        const bool plain =
+            std::all_of(word.begin(), word.end(), [](unsigned char c) { return std::islower(c) || c >= 0x80; });
+        return plain && last_->is_prose() && std::abs(line.size - last_->size) < kSameSize * line.size;
     }
 
     const DocumentText& text_;

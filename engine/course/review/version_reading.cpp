@@ -59,30 +59,13 @@ class VersionReader {
         fs::create_directories(made);
         try {
             const fs::path folder = stage_submission(submission, staged, level_, program_).folder;
-            make(folder, made);
+            const std::string reason = make_version_in_box(folder, made, !files_.pdf, level_, program_);
+            if (!reason.empty())
+                version_.troubles.push_back(fmt::format("The pack's report could not be made again: {}.", reason));
             read_made(folder, made);
         } catch (const SubmissionError& error) {
             version_.troubles.push_back(std::string("The pack: ") + error.what());
         }
-    }
-
-    void make(const fs::path& folder, const fs::path& made) {
-        Box box(level_);
-        box.add_document_programs();
-        const fs::path home = box.add(shared_folder() / "data", "/box/home/data").parent_path();
-        box.add(shared_folder() / "report_templates", "/box/home/report_templates");
-        box.set_environment("DYNLAB_HOME", home.string());
-        VersionJob job;
-        job.folder = box.add_writable(folder, "/box/submission");
-        job.to = box.add_writable(made, "/box/made");
-        job.pdf = !files_.pdf;
-        const auto result = run_boxed(box, program_, job, kReadingTime);
-        std::string reason = result.reason;
-        if (result.output && result.output->error)
-            reason = replaced(first_line(*result.output->error), job.folder.string() + "/", "");
-        while (reason.ends_with('.')) reason.pop_back();
-        if (!reason.empty())
-            version_.troubles.push_back(fmt::format("The pack's report could not be made again: {}.", reason));
     }
 
     void read_made(const fs::path& folder, const fs::path& made) {
@@ -126,7 +109,7 @@ class VersionReader {
 void make_document(const ReportRequest& request, RunRecord record, const fs::path& output, FigureFormat figures) {
     GnuplotRenderer renderer;
     const TemporaryFolder drawn;
-    draw_figures(record, renderer, drawn.path(), figures);
+    draw_figures(record, renderer, drawn.path(), figures, request.script.header.language);
     DocumentSource source;
     source.template_file = request.template_file;
     source.record = &record;
@@ -156,6 +139,25 @@ BoxedOutcome make_version(const VersionJob& job) {
     } catch (const std::runtime_error& error) {
         return {error.what()};
     }
+}
+
+std::string make_version_in_box(const fs::path& folder, const fs::path& made, bool pdf, Isolation level,
+                                const fs::path& program) {
+    Box box(level);
+    box.add_document_programs();
+    const fs::path home = box.add(shared_folder() / "data", "/box/home/data").parent_path();
+    box.add(shared_folder() / "report_templates", "/box/home/report_templates");
+    box.set_environment("DYNLAB_HOME", home.string());
+    VersionJob job;
+    job.folder = box.add_writable(folder, "/box/submission");
+    job.to = box.add_writable(made, "/box/made");
+    job.pdf = pdf;
+    const auto result = run_boxed(box, program, job, kReadingTime);
+    std::string reason = result.reason;
+    if (result.output && result.output->error)
+        reason = replaced(first_line(*result.output->error), job.folder.string() + "/", "");
+    while (reason.ends_with('.')) reason.pop_back();
+    return reason;
 }
 
 ReadVersion read_version(const VersionFiles& files, Isolation level, const fs::path& program) {

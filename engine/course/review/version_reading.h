@@ -32,6 +32,11 @@ struct ReadVersion {
 /// MissingProgram.
 ReadVersion read_version(const VersionFiles& files, Isolation level, const std::filesystem::path& program);
 
+/// Runs the analysis in `folder` and makes its record.json, report.md and, if wanted, report.pdf in `made`, an empty
+/// folder, in a box by `program`. Returns why that did not go to its end, without a full stop; empty where it did.
+std::string make_version_in_box(const std::filesystem::path& folder, const std::filesystem::path& made, bool pdf,
+                                Isolation level, const std::filesystem::path& program);
+
 /// A version to be made inside a box; all paths are those in the box.
 struct VersionJob {
     static constexpr char kWork[] = "version";

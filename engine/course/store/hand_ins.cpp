@@ -31,7 +31,7 @@ constexpr std::uintmax_t kMostBytes = 200u << 20;
 
 /// Under which name a file is kept: report, slides, script, review or pack.
 std::string part_of(const Assignment& assignment, const std::string& stage, const std::string& kind) {
-    if (kind != "pdf") return kind;
+    if (kind != "pdf" && kind != "text") return kind;
     if (stage == "review") return "review";
     return assignment.is_report() ? "report" : "slides";
 }
@@ -42,10 +42,12 @@ struct Candidate {
     Group group;
     std::string part, hash;
     std::int64_t bytes = 0;
-    Instant at = 0;  ///< when it was handed in
+    Instant at = 0;      ///< when it was handed in
+    bool timed = false;  ///< as `time_of` tells
     std::optional<ReviewPair> pair;
-    bool from_pack = false;    ///< a PDF that was taken out of the group's pack
-    bool no_document = false;  ///< a pack without the PDF that is wanted
+    bool from_pack = false, made = false;  ///< a PDF that was taken out of the group's pack; made of it
+    bool unreadable = false;               ///< no PDF, but the document all the same: kept, and told
+    std::string missing;                   ///< of a pack without the PDF that is wanted
     Inspection inspection;
     std::map<std::string, double> scores;  ///< of a review's pack, by criterion
 };
@@ -56,6 +58,9 @@ class HandInReceiver {
         : course_(course), request_(request), senders_(course), incoming_(way()) {
         outcome_.assignment = assignment_named(course, request.assignment);
         due_for(course, outcome_.assignment, 0, request.stage);  // a presentation has no reviews
+        if (request.of.size() > 1 && request.of.size() != request.files.size())
+            throw InvalidArgument(fmt::format("{} files and {} times --of: say --of once for each file, in their order",
+                                              request.files.size(), request.of.size()));
         if (!request.from.empty()) from_ = group_named(course, request.from);
         if (request.stage != "final") pairs_ = review_pairs(course, outcome_.assignment);
     }
@@ -95,7 +100,8 @@ class HandInReceiver {
         std::set<std::string> fruitful;
         const auto counts = [&](const IncomingFile& file) {
             try {
-                return is_wanted(kind_of_file_at(file.name, file.file));
+                const std::string kind = kind_of_file_at(file.name, file.file);
+                return is_wanted(kind) && kind != "text";
             } catch (const EnvironmentError&) {
                 return true;  // what cannot be read is complained of by its name when its turn comes
             }
@@ -118,7 +124,8 @@ class HandInReceiver {
         const std::optional<Group> group = from_ ? from_ : senders_.find(file.sender);
         if (!group) throw EnvironmentError(senders_.complaint(file.sender));
         candidate.group = *group;
-        candidate.at = request_.time_of ? request_.time_of(file).value_or(request_.at) : request_.at;
+        const std::optional<Instant> time = request_.time_of ? request_.time_of(file) : std::nullopt;
+        candidate.at = time.value_or(request_.at), candidate.timed = time.has_value();
         candidate.bytes = static_cast<std::int64_t>(fs::file_size(file.file));
         if (candidate.bytes == 0) throw EnvironmentError("the file is empty");
         if (static_cast<std::uintmax_t>(candidate.bytes) > kMostBytes)
@@ -130,10 +137,16 @@ class HandInReceiver {
                     ? "this is neither a PDF nor a pack (.zip, .tar.gz); ask for one"
                     : "this is not a PDF, no script (.lua) and no pack (.zip, .tar.gz); ask for one");
         candidate.part = part_of(outcome_.assignment, request_.stage, kind);
+        candidate.unreadable = kind == "text";
         if (request_.stage == "first" && !request_.take_as_first) refuse_after_reviews(candidate);
-        if (request_.stage == "review")
-            candidate.pair = reviewed_pair(pairs_, *group, request_.of.empty() ? file.name : request_.of);
+        if (request_.stage == "review") candidate.pair = reviewed_pair(pairs_, *group, report_of(file));
         candidates_.push_back(std::move(candidate));
+    }
+
+    /// By what is told, which report a review is of.
+    const std::string& report_of(const IncomingFile& file) const {
+        if (request_.of.empty()) return file.name;
+        return request_.of.size() == 1 ? request_.of.front() : request_.of[file.given];
     }
 
     /// A report that is handed in once it was reviewed is the final version, unless the file is known.
@@ -170,6 +183,7 @@ class HandInReceiver {
     /// Two files of a group for the same thing: nobody can say which holds, unless they are the same, as platforms give
     /// a team's file once for each member.
     void refuse_doubles() {
+        drop_unreadable_doubles();
         std::map<std::string, std::vector<const Candidate*>> by_slot;
         for (const Candidate& c : candidates_) by_slot[slot_of(c, c.part)].push_back(&c);
         std::set<std::string> ambiguous;
@@ -194,6 +208,15 @@ class HandInReceiver {
         candidates_ = std::move(single);
     }
 
+    /// A text that came beside the PDF that was made of it, or beside the pack.
+    void drop_unreadable_doubles() {
+        std::set<std::string> readable;
+        for (const Candidate& c : candidates_)
+            if (!c.unreadable) readable.insert(slot_of(c, c.part == "pack" ? document_part() : c.part));
+        std::erase_if(candidates_,
+                      [&](const Candidate& c) { return c.unreadable && readable.contains(slot_of(c, c.part)); });
+    }
+
     std::string document_part() const { return part_of(outcome_.assignment, request_.stage, "pdf"); }
 
     /// A pack's PDF counts as if it had come beside it, unless one did.
@@ -204,20 +227,20 @@ class HandInReceiver {
         std::vector<std::size_t> packs;
         for (std::size_t i = 0; i < candidates_.size(); ++i)
             if (candidates_[i].part == "pack" && !present.contains(slot_of(candidates_[i], part))) packs.push_back(i);
-        std::vector<std::optional<PackedDocument>> found(packs.size());
+        std::vector<OpenedPack> found(packs.size());
         side_by_side(packs.size(), [&](std::size_t i) {
             Candidate& pack = candidates_[packs[i]];
             try {
-                found[i] = document_in_pack(pack.file->file, part, opened_.path() / std::to_string(i), request_.level,
-                                            request_.program);
-                pack.no_document = !found[i];
+                found[i] = open_pack(pack.file->file, part, opened_.path() / std::to_string(i), request_.level,
+                                     request_.program);
+                pack.missing = found[i].missing;
                 if (request_.stage == "review") pack.scores = scores_in_pack(opened_.path() / std::to_string(i));
             } catch (const SubmissionError&) {
                 pack.inspection.trouble = "damaged";
             }
         });
         for (std::size_t i = 0; i < packs.size(); ++i)
-            if (found[i]) add_packed(candidates_[packs[i]], *found[i], part);
+            if (found[i].document) add_packed(candidates_[packs[i]], *found[i].document, part);
     }
 
     void add_packed(const Candidate& pack, const PackedDocument& document, const std::string& part) {
@@ -226,8 +249,8 @@ class HandInReceiver {
                            whole.sender, whole.folder});
         Candidate candidate;
         candidate.file = &packed_.back(), candidate.group = pack.group, candidate.pair = pack.pair;
-        candidate.at = pack.at;
-        candidate.part = part, candidate.from_pack = true;
+        candidate.at = pack.at, candidate.timed = pack.timed;
+        candidate.part = part, candidate.from_pack = true, candidate.made = document.made;
         candidates_.push_back(std::move(candidate));
     }
 
@@ -249,7 +272,9 @@ class HandInReceiver {
         const std::string content = read_file(candidate.file->file);
         candidate.bytes = static_cast<std::int64_t>(content.size());
         candidate.hash = course_.keep(content);
-        if (inspector && inspector->looks_at(candidate.part))
+        if (candidate.unreadable && !inspector)
+            candidate.inspection = Inspector(nullptr).inspect(course_.file(candidate.hash), candidate.part);
+        else if (inspector && inspector->looks_at(candidate.part))
             candidate.inspection = inspector->inspect(course_.file(candidate.hash), candidate.part);
     }
 
@@ -285,15 +310,25 @@ class HandInReceiver {
             .next();
     }
 
-    /// Another group that handed in these very bytes, which is worth a look.
-    std::string group_with_the_same(const Candidate& c) const {
+    /// Whose these very bytes are, too, which is worth a look: another group's, or a review.
+    std::string same_as(const Candidate& c) const {
         if (c.pair) return "";
         Rows rows = course_.database().query(
-            "SELECT g.name FROM versions v JOIN groups g ON g.id = v.group_id WHERE v.assignment = ? AND v.hash = ? "
-            "AND "
-            "v.group_id <> ? AND v.stage <> 'review' AND EXISTS (SELECT 1 FROM standing s WHERE s.id = v.id) LIMIT 1",
+            "SELECT g.name, v.stage = 'review' FROM versions v JOIN groups g ON g.id = v.group_id WHERE v.assignment = "
+            "? AND v.hash = ? AND (v.group_id <> ? OR v.stage = 'review') AND EXISTS (SELECT 1 FROM standing s WHERE "
+            "s.id = v.id) ORDER BY 2 DESC LIMIT 1",
             outcome_.assignment.id, c.hash, c.group.id);
-        return rows.next() ? rows.text(0) : "";
+        if (!rows.next()) return "";
+        return rows.integer(1) != 0 ? "a review by " + rows.text(0) : rows.text(0) + "'s";
+    }
+
+    /// An earlier version of the same content: where another came between, it may be the one that is meant.
+    std::string earlier_with_the_same(const Candidate& c) const {
+        Rows rows = course_.database().query(
+            "SELECT number, received_at FROM versions WHERE assignment = ? AND group_id = ? AND stage = ? AND "
+            "ifnull(pair, 0) = ? AND part = ? AND hash = ? ORDER BY number LIMIT 1",
+            outcome_.assignment.id, c.group.id, request_.stage, c.pair ? c.pair->id : 0, c.part, c.hash);
+        return rows.next() ? fmt::format("v{} of {}", rows.integer(0), course_.clock().show(rows.integer(1))) : "";
     }
 
     Received take(const Candidate& c) {
@@ -304,7 +339,8 @@ class HandInReceiver {
         received.group = c.group.name, received.part = c.part;
         received.rules_broken = c.inspection.rules_broken, received.trouble = c.inspection.trouble;
         received.names = c.inspection.names;
-        received.from_pack = c.from_pack, received.no_document = c.no_document && !has_any(c, document_part());
+        received.from_pack = c.from_pack, received.made = c.made;
+        if (!has_any(c, document_part())) received.missing = c.missing;
         if (c.pair) received.about = c.pair->report_pseudonym();
         Rows before = db.query(
             "SELECT v.id, v.number, v.hash, s.late, s.id IS NULL FROM versions v LEFT JOIN standing s ON s.id = v.id "
@@ -315,6 +351,9 @@ class HandInReceiver {
         if (any && before.text(2) == c.hash) {
             received.known = true, received.id = before.integer(0), received.version = before.integer(1);
             received.late = before.integer(3), received.withdrawn = before.integer(4) != 0;
+            Rows arrived = db.query("SELECT received_at FROM arrived WHERE id = ?", received.id);
+            if (c.timed && arrived.next() && arrived.integer(0) != c.at)
+                received.other_time = course_.clock().show(c.at);
             return received;
         }
         received.version = any ? before.integer(1) + 1 : 1;
@@ -322,7 +361,9 @@ class HandInReceiver {
         const Instant due = due_for(course_, a, c.group.id, request_.stage);
         received.late = c.at > due + a.grace ? c.at - due : 0;
         course_.record_file(c.hash, c.bytes, request_.at);
-        received.twin = group_with_the_same(c);
+        received.twin = same_as(c);
+        received.earlier = earlier_with_the_same(c);
+        received.marked_late = c.file->sender.late && received.late == 0;
         const Receipt receipt{course_.name(), a.name,           c.group.name, request_.stage, c.part, c.file->name,
                               c.hash,         received.version, c.bytes,      received.late,  c.at,   due};
         db.run(

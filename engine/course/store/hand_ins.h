@@ -14,8 +14,8 @@ struct ReceiveRequest {
     std::vector<std::filesystem::path> files;
     std::string assignment, stage = "first";  ///< "first", "review", "final"
     std::string from;                         ///< a group; empty: by the files' names
-    std::string of;                           ///< of a review: the pseudonym of the report; empty: by the file's name
-    Instant at = 0;                           ///< time of receipt, where `time_of` tells none
+    std::vector<std::string> of;  ///< of reviews: the report's pseudonym for each file; empty: by the files' names
+    Instant at = 0;               ///< time of receipt, where `time_of` tells none
     std::function<std::optional<Instant>(const IncomingFile&)> time_of;  ///< may be empty (arrival_times.h)
     Isolation level = Isolation::kFull;
     std::filesystem::path program;
@@ -31,8 +31,12 @@ struct Received {
     bool known = false;        ///< the same content as the version before: nothing was changed
     bool from_pack = false;    ///< a PDF that was taken out of the group's pack
     bool withdrawn = false;    ///< known, and withdrawn by the instructor
-    std::string twin;          ///< another group that handed in the same bytes
-    bool no_document = false;  ///< a pack without the PDF that is wanted
+    std::string twin;          ///< whose the same bytes are: "group-02's", "a review by group-02"
+    bool made = false;         ///< that PDF was made here, as the pack has none
+    std::string missing;       ///< of a pack without the PDF that is wanted, a clause: "no PDF in the pack"
+    std::string earlier;       ///< when an earlier version with the same content came: "v1 of Sat 2026-02-28 12:00"
+    std::string other_time;    ///< of a known file: when it came by `time_of`, where the store says another time
+    bool marked_late = false;  ///< the platform wrote LATE into the name, though the time says nothing of it
     int scores = 0;            ///< that the pack of a review brought
     int rules_broken = 0;
     bool names = false;   ///< of a review: it names somebody of the course

@@ -40,6 +40,7 @@ void IncomingFiles::add(const fs::path& given) {
     const std::string source = given.string();
     if (!fs::exists(given)) throw EnvironmentError(fmt::format("there is no file or folder '{}'", source));
     if (!files_.empty()) batch_ = true;
+    ++given_;
     if (fs::is_directory(given)) {
         if (way_.one_sender)
             throw EnvironmentError(
@@ -62,7 +63,7 @@ void IncomingFiles::add(const fs::path& given) {
 
 void IncomingFiles::add_file(const fs::path& file, const std::string& source) {
     const std::string name = file.filename();
-    files_.push_back({file, name, source, sender_of(name)});
+    files_.push_back({file, name, source, sender_of(name), {}, given_ - 1});
 }
 
 /// A file of a folder: links could lead to files that nobody handed in.

@@ -16,6 +16,7 @@ struct IncomingFile {
     std::string source;          ///< for messages: the file that was given, and the place in it
     Submission sender;           ///< name, person and lms_id as the folder's or the file's name tells them
     std::string folder = {};     ///< source of the sender's own folder; empty for a file alone
+    std::size_t given = 0;       ///< as how manieth it, or what it lay in, was given
 };
 
 /// Everything that was given to receive: files, folders, and what Moodle or Canvas exports as one zip. Archives are
@@ -47,6 +48,7 @@ class IncomingFiles {
     Way way_;
     TemporaryFolder scratch_;
     int unpacked_ = 0;
+    std::size_t given_ = 0;
     bool batch_ = false;
     std::vector<IncomingFile> files_;
     std::vector<std::string> left_out_;

@@ -19,6 +19,9 @@ namespace dynlab::inline documents {
 namespace {
 
 const std::string kPicturePrefix = "dynlab-picture-";
+/// With what the page goes on behind the last chunk: notes, and literature with its title.
+const char* const kBehindChunks[] = {"<section class=\"footnotes", "<h1 class=\"unnumbered\" id=\"bibliography\"",
+                                     "<h2 class=\"unnumbered\" id=\"bibliography\"", "<div id=\"refs\""};
 using Labels = std::map<std::string, std::string>;
 
 /// What of the record a chunk shows: the entries whose names occur in it.
@@ -51,8 +54,11 @@ bool lacks_entry(const RunRecord& record, const std::string& markdown) {
     return false;
 }
 
+/// Whether it says what stands at the end of the page: notes, and literature.
 bool has_notes(const std::string& markdown) {
-    return markdown.find("[^") != std::string::npos || markdown.find("^[") != std::string::npos;
+    static const std::regex kCitation(R"(@(?!fig:|tbl:|eq:|sec:)[A-Za-z_])");
+    return markdown.find("[^") != std::string::npos || markdown.find("^[") != std::string::npos ||
+           std::regex_search(markdown, kCitation);
 }
 
 /// Between two marks; nothing when either is missing.
@@ -77,6 +83,7 @@ struct KnownChunk {
 struct ChunkSetter::Memory {
     TemporaryFolder folder;
     std::optional<ChildProcess> warm;
+    std::string warm_bibliography;
     std::string whole;  ///< what all chunks depend on: metadata, rules, whether the record is whole
     std::vector<KnownChunk> chunks;
     std::string head, notes;
@@ -88,20 +95,21 @@ namespace {
 /// One document to be set, next to what is known of the one before.
 class ChunkJob {
   public:
-    ChunkJob(const TemplateFile& source, const MarkdownText& markdown, const RunRecord& record, bool unfinished,
-             ChunkSetter::Memory& memory)
-        : source_(source), markdown_(markdown), record_(record), unfinished_(unfinished), memory_(memory) {
-        for (Chunk& chunk : chunks_of(markdown)) {
+    ChunkJob(const DocumentSource& source, bool unfinished, ChunkSetter::Memory& memory)
+        : source_(source), text_(document_text(source)), record_(*source.record), unfinished_(unfinished), memory_(memory) {
+        for (Chunk& chunk : chunks_of(text_.markdown)) {
             DigestStream digest;
             digest.add_part(chunk.markdown);
-            add_entries(record, chunk.markdown, digest);
-            if (lacks_entry(record, chunk.markdown)) digest.add_part(unfinished ? "not yet" : "missing");
+            add_entries(record_, chunk.markdown, digest);
+            if (lacks_entry(record_, chunk.markdown)) digest.add_part(unfinished ? "not yet" : "missing");
             set_.push_back({digest.digest().hex(), {}, {}, {}, {}, {}});
             chunks_.push_back(std::move(chunk));
         }
+        bibliography_ = placed_bibliography(source, text_, memory.folder.path(), complaints_);
         DigestStream whole;
-        for (const auto& [key, value] : source.metadata) whole.add_part(key).add_part(value);
-        whole.add_part(source.file.string());
+        for (const auto& [key, value] : text_.metadata) whole.add_part(key).add_part(value);
+        whole.add_part(source.template_file.string()).add_part(bibliography_);
+        if (!bibliography_.empty()) whole.add_file(memory.folder.path() / bibliography_);
         whole_ = whole.digest().hex();
     }
 
@@ -117,7 +125,10 @@ class ChunkJob {
     }
 
     /// A Pandoc for the next time: it begins while nobody waits.
-    void warm_up() const { memory_.warm.emplace(start_pandoc(job({}))); }
+    void warm_up() const {
+        memory_.warm.emplace(start_pandoc(job({})));
+        memory_.warm_bibliography = bibliography_;
+    }
 
   private:
     /// Which chunks are not as they were; those that are get what is known of them.
@@ -168,7 +179,7 @@ class ChunkJob {
         text.append(fmt::format("{} {{.chunk number={}}}\n", fence, number), chunk.origin.file, chunk.origin.line);
         int line = chunk.first_line;
         for (const std::string& content : lines_of(chunk.markdown)) {
-            const SourceLine origin = markdown_.origin_of(line++);
+            const SourceLine origin = text_.markdown.origin_of(line++);
             text.append(content + "\n", origin.file, origin.line);
         }
         text.append("\n" + fence + "\n\n", chunk.origin.file, chunk.origin.line);
@@ -184,17 +195,19 @@ class ChunkJob {
     }
 
     PandocJob job(const MarkdownText& text) const {
-        const auto language = source_.metadata.find("lang");
-        PandocJob job{.markdown = text,
-                      .metadata = source_.metadata,
-                      .rules = document_rules(source_),
-                      .record = &record_,
-                      .format = DocumentFormat::kHtml,
-                      .template_file = source_.file,
-                      .shared_templates = shared_folder() / "report_templates",
-                      .picture_prefix = kPicturePrefix,
-                      .work_folder = memory_.folder.path()};
-        if (language != source_.metadata.end() && !language->second.empty()) job.language = language->second;
+        PandocJob job;
+        job.markdown = text;
+        job.metadata = text_.metadata;
+        job.rules = text_.rules;
+        job.language = text_.language;
+        job.record = &record_;
+        job.format = DocumentFormat::kHtml;
+        job.template_file = source_.template_file;
+        job.shared_templates = shared_folder() / "report_templates";
+        job.picture_prefix = kPicturePrefix;
+        job.work_folder = memory_.folder.path();
+        job.bibliography = bibliography_;
+        job.measures = source_.measures;
         job.unfinished = unfinished_ || record_.error;
         job.chunks.emplace();
         return job;
@@ -203,15 +216,15 @@ class ChunkJob {
     void run(const MarkdownText& text, const ChunkSurroundings& around, const std::vector<bool>& wanted) {
         PandocJob next = job(text);
         next.chunks = around;
-        if (memory_.warm) next.started = &*memory_.warm;
-        Complaints complaints;
+        if (memory_.warm && memory_.warm_bibliography == bibliography_) next.started = &*memory_.warm;
+        Complaints complaints = complaints_;
         check_characters(text, complaints);
         const PandocResult page = run_pandoc(next, complaints);
         memory_.warm.reset();
         if (page.text.empty()) complaints.throw_if_any();
-        const auto files =
-            find_picture_files(page.pictures, text, source_.file, DocumentFormat::kHtml, kPicturePrefix, complaints);
-        complaints_ = complaints.sentences();
+        const auto files = find_picture_files(page.pictures, text, source_.template_file, DocumentFormat::kHtml,
+                                              kPicturePrefix, complaints);
+        told_ = complaints.sentences();
         take_apart(page, files, wanted);
     }
 
@@ -230,7 +243,8 @@ class ChunkJob {
         std::string body = between(page.text, "<main>\n", "</main>").value_or("");
         if (whole_document_) {
             memory_.head = between(page.text, "<body>\n", "<main>").value_or("");
-            const std::size_t notes = body.find("<section class=\"footnotes");
+            std::size_t notes = std::string::npos;
+            for (const char* begin : kBehindChunks) notes = std::min(notes, body.find(begin));
             memory_.notes = notes == std::string::npos ? "" : body.substr(notes);
             if (notes != std::string::npos) body.resize(notes);
         }
@@ -279,17 +293,17 @@ class ChunkJob {
     bool agrees_with_known() const { return whole_document_ || all_labels(set_) == all_labels(memory_.chunks); }
 
     SetDocument result() {
-        SetDocument document{memory_.head, {}, memory_.notes, complaints_};
+        SetDocument document{memory_.head, {}, memory_.notes, told_};
         for (std::size_t i = 0; i < chunks_.size(); ++i)
             document.chunks.push_back({std::move(chunks_[i]), set_[i].html, set_[i].pictures});
         memory_.chunks = std::move(set_);
         memory_.whole = whole_;
-        memory_.complained = !complaints_.empty();
+        memory_.complained = !told_.empty();
         return document;
     }
 
-    const TemplateFile& source_;
-    const MarkdownText& markdown_;
+    const DocumentSource& source_;
+    const DocumentText text_;
     const RunRecord& record_;
     const bool unfinished_;
     ChunkSetter::Memory& memory_;
@@ -297,7 +311,9 @@ class ChunkJob {
     bool whole_document_ = false;
     std::vector<Chunk> chunks_;
     std::vector<KnownChunk> set_;  ///< beside chunks_
-    std::vector<std::string> complaints_;
+    std::string bibliography_;
+    Complaints complaints_;  ///< of the document as a whole
+    std::vector<std::string> told_;
 };
 
 }  // namespace
@@ -305,9 +321,8 @@ class ChunkJob {
 ChunkSetter::ChunkSetter() : memory_(std::make_unique<Memory>()) {}
 ChunkSetter::~ChunkSetter() = default;
 
-SetDocument ChunkSetter::set(const TemplateFile& source, const MarkdownText& markdown, const RunRecord& record,
-                             bool unfinished) {
-    ChunkJob job(source, markdown, record, unfinished, *memory_);
+SetDocument ChunkSetter::set(const DocumentSource& source, bool unfinished) {
+    ChunkJob job(source, unfinished, *memory_);
     SetDocument document = job.set(chunks_set_);
     job.warm_up();
     return document;

@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "documents/chunks/chunks.h"
-#include "documents/filter_messages.h"
-#include "documents/template_file.h"
+#include "documents/document.h"
 
 namespace dynlab::inline documents {
 
@@ -40,9 +39,9 @@ class ChunkSetter {
   public:
     ChunkSetter();
     ~ChunkSetter();
-    /// Of a template, its metadata with it, and its text with cells in place. Slots that the record does not fill say
-    /// so where the record is `unfinished`. Throws DocumentError where Pandoc gives nothing, MissingProgram for pandoc.
-    SetDocument set(const TemplateFile& source, const MarkdownText& markdown, const RunRecord& record, bool unfinished);
+    /// Slots that the record does not fill say so where the record is `unfinished`. Throws DocumentError where Pandoc
+    /// gives nothing and for what document_text refuses, MissingProgram for pandoc.
+    SetDocument set(const DocumentSource& source, bool unfinished);
     std::size_t chunks_set() const { return chunks_set_; }  ///< by the last call
 
     struct Memory;

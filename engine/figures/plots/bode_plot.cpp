@@ -83,10 +83,10 @@ Figure bode_plot(const std::vector<NamedModel>& models, const Vector& w) {
         const ReferenceLine end{false, std::numbers::pi / model.G.Ts(), "", 2};
         if (end.at <= grid.maxCoeff() * 1.001) magnitude.references.push_back(end), phase.references.push_back(end);
     }
-    phase.y_tick_step = phase_tick_step(phase);
     fix_colours(magnitude);
     fix_colours(phase);
     add_bands(magnitude, phase, models);
+    choose_phase_axis(phase);
     const std::pair<double, double> range{grid.minCoeff(), grid.maxCoeff()};
     if (range.first < range.second) magnitude.x_range = phase.x_range = range;
     Figure figure;

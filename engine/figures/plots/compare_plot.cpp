@@ -18,6 +18,8 @@ void check_model_output(const ModelOutput& model, const Matrix& measured) {
         measured.rows(), measured.cols(), measured.cols(), model.y.rows(), model.y.cols(), model.fit_percent.size()));
 }
 
+constexpr double kMeasuredWidth = 2.4;  ///< points: seen on both sides of a model's line that lies upon it
+
 Curve model_curve(const ModelOutput& model, Index output, const Vector& t, int index) {
     static constexpr int kColours[] = {0, 6, 3, 4, 1, 7, 5};  // apart from the grey of the data
     Curve curve;
@@ -25,7 +27,7 @@ Curve model_curve(const ModelOutput& model, Index output, const Vector& t, int i
     curve.y = model.y.col(output);
     curve.label = fmt::format("{}: {:.1f} %", model.name, model.fit_percent[output]);
     curve.colour = kColours[index % 7];
-    curve.dash = index % 4;
+    curve.dash = index % 8;
     return curve;
 }
 
@@ -52,6 +54,7 @@ Figure compare_plot(const IdData& data, const std::vector<ModelOutput>& models, 
         curve.label = "measured";
         curve.colour = style::kGreyColour;
         curve.dash = 0;
+        curve.line_width = kMeasuredWidth;
         panel.curves.push_back(std::move(curve));
         int number = 0;
         for (const ModelOutput& model : models) panel.curves.push_back(model_curve(model, output, t, number++));

@@ -74,7 +74,6 @@ Panel panel_of(const Channel& channel, const std::vector<const IdData*>& data, c
                 curve.label += (curve.label.empty() ? "" : ", ") + name;
             }
             curve.colour = index++;
-            curve.dash = 0;
             add_curve(panel, std::move(curve), channel.output);
         }
     return panel;

@@ -58,11 +58,10 @@ Figure nyquist_plot(const std::vector<NamedModel>& models, const Vector& w) {
         curve.y = response.imag();
         curve.label = model.name;
         curve.colour = index++;
-        curve.dash = 0;
         panel.curves.push_back(curve);
         curve.y = -curve.y;
         curve.label.clear();
-        curve.dash = 2;
+        curve.line_width *= 0.5;
         panel.curves.push_back(std::move(curve));
         add_direction(panel, response);
     }

@@ -11,8 +11,10 @@ namespace dynlab::inline figures {
 namespace {
 
 constexpr int kInsideColour = 0, kOutsideColour = 6;
+constexpr int kInsideMarker = 0, kOutsideMarker = 5;  ///< a filled circle, an open square
 
-Curve stems(const std::vector<double>& lags, const std::vector<double>& values, int colour, const std::string& label) {
+Curve stems(const std::vector<double>& lags, const std::vector<double>& values, int colour, int marker,
+            const std::string& label) {
     const auto count = static_cast<Index>(lags.size());
     Curve curve;
     curve.x = Eigen::Map<const Vector>(lags.data(), count);
@@ -20,7 +22,7 @@ Curve stems(const std::vector<double>& lags, const std::vector<double>& values, 
     curve.style = CurveStyle::kStems;
     curve.colour = colour;
     curve.dash = 0;
-    curve.marker = 0;
+    curve.marker = marker;
     curve.label = label;
     return curve;
 }
@@ -44,8 +46,9 @@ Panel correlation_panel(const Vector& correlation, Index first, double bound, do
         lags[outside].push_back(static_cast<double>(first + i));
         values[outside].push_back(correlation[i]);
     }
-    if (!lags[0].empty()) panel.curves.push_back(stems(lags[0], values[0], kInsideColour, ""));
-    if (!lags[1].empty()) panel.curves.push_back(stems(lags[1], values[1], kOutsideColour, "beyond the bound"));
+    if (!lags[0].empty()) panel.curves.push_back(stems(lags[0], values[0], kInsideColour, kInsideMarker, ""));
+    if (!lags[1].empty())
+        panel.curves.push_back(stems(lags[1], values[1], kOutsideColour, kOutsideMarker, "beyond the bound"));
     panel.references = {{true, 0, "", 0}};
     return panel;
 }

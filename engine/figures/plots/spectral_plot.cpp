@@ -87,7 +87,7 @@ Figure spectral_plot(const SpectralEstimate& estimate, const std::string& name, 
         limit_to_readable(figure.panels[0], lines, kLeastDecibels);
         limit_to_readable(figure.panels[1], lines, kLeastDegrees);
     }
-    figure.panels[1].y_tick_step = phase_tick_step(figure.panels[1]);
+    choose_phase_axis(figure.panels[1]);
     double first = std::numeric_limits<double>::infinity();
     for (const double value : estimate.w)
         if (value > 0) first = std::min(first, value);

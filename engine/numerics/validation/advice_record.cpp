@@ -7,6 +7,7 @@
 
 #include "numerics/error.h"
 #include "numerics/estimators/srivc.h"
+#include "numerics/fit/transfer_search.h"
 #include "numerics/number_text.h"
 #include "numerics/signals/correlation.h"
 #include "numerics/signals/robust_statistics.h"
@@ -16,9 +17,10 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr Index kShortRecord = 5000, kLongestSearch = 2500, kLongestSecondSearch = 16000;  // samples
-constexpr double kFineSampling = 40;  // samples per turn of the fastest pole that a search can do with
-constexpr double kStraight = 1e-3;    // of the input's standard deviation, what straight lines may miss
-constexpr double kSlowCycles = 20;    // over the window, below which a movement counts as slow
+constexpr double kFineSampling = 40;       // samples per turn of the fastest pole that a search can do with
+constexpr double kStraight = 1e-3;         // of the input's standard deviation, what straight lines may miss
+constexpr double kSearchTolerance = 1e-4;  // relative, of parameters
+constexpr double kSlowCycles = 20;         // over the window, below which a movement counts as slow
 constexpr double kHardlyWorse = 1.05;
 constexpr Index kParts = 20;  // of a record, whose means are compared
 
@@ -108,14 +110,49 @@ IdData without_slow_movement(const IdData& data) {
     return fast;
 }
 
+/// Both signals averaged over blocks of so many samples: the same linear system lies between them.
+IdData block_averages(const IdData& data, Index block) {
+    const Experiment& whole = data.experiments.front();
+    const Index count = whole.y.rows() / block;
+    const auto averaged = [&](const Matrix& x) -> Matrix {
+        return x.col(0).head(count * block).reshaped(block, count).colwise().mean().transpose();
+    };
+    IdData short_record = data;
+    short_record.Ts = data.Ts * static_cast<double>(block);
+    short_record.hold = Hold::kFoh;
+    short_record.experiments.front().y = averaged(whole.y);
+    short_record.experiments.front().u = averaged(whole.u);
+    return short_record;
+}
+
+/// The model from the whole record, with the start and the constant that BIC chooses, from where the search ended.
+void choose_start(DelaySearch& search, const IdData& data, FitOptions options) {
+    Fit& found = search.candidate.estimate;
+    options.initial_state = InitialState::kAuto;
+    options.offset = Offset::kAuto;
+    SearchAids aids;
+    aids.start = found.theta;
+    aids.poorer = {&found};
+    found = srivc(data, found.structure, options, aids);
+    search.delay = found.models.front().delay();
+    search.std = found.std[found.std.size() - 1];
+}
+
 std::optional<DelaySearch> search_model(const IdData& data, const std::function<bool()>& cancel) {
+    const VectorView u = data.experiments.front().u.col(0);
+    const bool constant = (u.array() == u[0]).all();  // then a free start and a constant exclude each other
+    const Index block = data.sample_count() / kShortRecord;
     DelaySearchOptions options;
-    options.estimation.initial_state = InitialState::kAuto;
-    options.estimation.offset = Offset::kAuto;
+    options.estimation.initial_state = constant ? InitialState::kAuto : InitialState::kEstimate;
+    options.estimation.offset = constant ? Offset::kAuto : Offset::kEstimate;
+    options.estimation.tolerance = kSearchTolerance;
+    options.profile = false;
     options.cancel = cancel;
     try {
-        DelaySearch search = search_delay(data, options);
-        if (!search.cancelled) return search;
+        DelaySearch search = search_delay(block > 1 ? block_averages(data, block) : data, options);
+        if (search.cancelled) return std::nullopt;
+        choose_start(search, data, options.estimation);
+        return search;
     } catch (const InvalidArgument&) {
         // nothing could be fitted: the findings on the signals say why
     }

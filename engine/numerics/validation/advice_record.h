@@ -45,13 +45,14 @@ struct FittedRecord {
     void take_off(const VectorView& part);  ///< of y, and simulates anew
 };
 
-/// A model with one to three poles and a free delay (search_delay) from the window, or, where its mean square error
-/// in the record is twice that in the window, from up to 16000 samples. Where its error wanders, where it
-/// explains less than half, has a very slow or unstable pole, or needs a free motion from before the record, a second
-/// one is fitted to input and output behind the same high-pass filter, which slow disturbances hardly pass, and taken
-/// unless it explains these worse by more than 5 %. An integrator that explains 80 % is not doubted: it is not seen
-/// behind the filter either; nor is a model taken that explains the whole record worse than -50 %. Nothing when nothing
-/// can be fitted, or when cancelled.
+/// A model with one to three poles and a free delay. Its structure is looked for (search_delay) with a free start and a
+/// constant, from 10000 samples on in averages of both signals over blocks; then it is fitted to all samples with the
+/// start that BIC chooses. It comes from the window, or, where its mean square error in the record is twice that in the
+/// window, from up to 16000 samples. Where its error wanders, where it explains less than half, has a very slow or
+/// unstable pole, or needs a free motion from before the record, a second one is fitted to input and output behind the
+/// same high-pass filter, which slow disturbances hardly pass, and taken unless it explains these worse by more than 5
+/// %. An integrator that explains 80 % is not doubted: it is not seen behind the filter either; nor is a model taken
+/// that explains the whole record worse than -50 %. Nothing when nothing can be fitted, or when cancelled.
 std::optional<FittedRecord> fitted_record(const IdData& data, const std::function<bool()>& cancel);
 
 /// How far a signal wanders: the variance of its means over 20 parts of the record against what its correlation inside

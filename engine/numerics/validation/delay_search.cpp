@@ -2,15 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 #include "numerics/error.h"
+#include "numerics/fit/operating_points.h"
+#include "numerics/fit/srivc_iteration.h"
 #include "numerics/number_text.h"
+#include "numerics/validation/delay_profile.h"
 
 namespace dynlab::inline numerics {
 namespace {
 
 constexpr double kChance = 6.635;  // 99 % quantile of chi-square with one degree of freedom
 constexpr double kFarSteps = 2, kFarErrors = 3;
+constexpr Index kProfiledSamples = 50'000;  // of a longer record, its beginning
 
 void check_options(const DelaySearchOptions& options) {
     const FitOptions& estimation = options.estimation;
@@ -25,6 +30,21 @@ double loss_without_model(const IdData& data) {
     double squares = 0;
     for (const Experiment& experiment : data.experiments) squares += experiment.y.squaredNorm();
     return squares / static_cast<double>(data.sample_count());
+}
+
+/// Of the structure that was taken, under the start condition that its model has.
+Vector profile_of(const DelaySearch& search, const IdData& data, const DelaySearchOptions& options) {
+    const Fit& estimate = search.candidate.estimate;
+    const IdData beginning = beginning_of(data, kProfiledSamples);
+    const bool remove = options.estimation.offset == Offset::kRemove;
+    std::mutex callbacks;
+    FitOptions estimation = options.estimation;
+    estimation.cancel = [&] {
+        const std::scoped_lock lock(callbacks);
+        return options.cancel && options.cancel();
+    };
+    return delay_profile(remove ? without_operating_points(beginning).data : beginning, estimate.structure,
+                         estimate.start, search.grid(), estimation, options.threads);
 }
 
 bool is_valley(const Vector& losses, Index i) {
@@ -86,6 +106,9 @@ DelaySearch search_delay(const IdData& data, const DelaySearchOptions& options) 
     if (search.cancelled) return search;
     search.candidate = selection.candidates[choose_order(selection).place];
     Vector& losses = search.candidate.estimate.delay_loss;
+    if (options.profile) losses = profile_of(search, data, options);
+    search.cancelled = options.cancel && options.cancel();
+    if (search.cancelled) return search;
     losses = losses.cwiseMin(loss_without_model(data));
     search.delay = search.candidate.delay;
     search.std = search.candidate.estimate.std[search.candidate.estimate.std.size() - 1];

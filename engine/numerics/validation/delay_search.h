@@ -10,6 +10,7 @@ namespace dynlab::inline numerics {
 struct DelaySearchOptions {
     std::pair<int, int> poles{1, 3}, zeros{0, 1};  ///< structures among which the recommended one is taken
     FitOptions estimation = {};  ///< least_delay, largest_delay, delay_count and all else for every structure
+    bool profile = true;         ///< else the curve is what the search met on its way, which may lie higher
     int threads = 0;             ///< all cores when 0; never more than there are
     std::function<void(std::size_t done)> progress = {};  ///< structures done; called by one thread at a time
     std::function<bool()> cancel = {};                    ///< asked before every structure, by one thread at a time
@@ -23,7 +24,8 @@ struct DelaySearch {
     std::string explanation;      ///< plain sentences
     bool cancelled = false;       ///< nothing else holds then
 
-    /// s, the delays that were tried, and the smallest mean square error found at each.
+    /// s, the delays that were tried, and the smallest mean square error at each (delay_profile.h), on at most the
+    /// first 50,000 samples.
     const Vector& grid() const { return candidate.estimate.delay_grid; }
     const Vector& losses() const { return candidate.estimate.delay_loss; }
     double loss() const { return candidate.estimate.loss; }  ///< at the delay itself

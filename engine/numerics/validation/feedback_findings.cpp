@@ -23,6 +23,7 @@ constexpr double kFeedbackLevel = 1e-5;
 constexpr double kOneSided = 3;  // times more correlation with later inputs than with earlier ones
 constexpr double kExplainsHalf = 50, kExplainsMost = 85;  // per cent of fit
 constexpr double kPromises = 30, kQuickMisses = 10;       // per cent of fit
+constexpr double kQuickTolerance = 1e-3;                  // relative, of parameters
 constexpr double kMuchBetter = 2.0 / 3;                   // of the error
 
 /// Whether a quick model of two poles from the output to the input comes near the fit of the one the other way round.
@@ -30,6 +31,7 @@ bool may_be_exchanged(const IdData& turned, double forward) {
     FitOptions options;
     options.initial_state = InitialState::kEstimate;
     options.offset = Offset::kEstimate;
+    options.tolerance = kQuickTolerance;
     try {
         return srivc(turned, TransferStructure::single(2, 1), options).fit_percent[0] >
                std::max(kPromises, forward - kQuickMisses);

@@ -149,14 +149,18 @@ void describe_parameter(MonteCarloResult& result, Index i) {
         if (std::isfinite(result.theta(k, i))) values.push_back(result.theta(k, i));
         if (std::isfinite(result.std(k, i))) reported.push_back(result.std(k, i));
     }
-    const auto count = static_cast<Index>(values.size());
-    const Eigen::Map<const Vector> v(values.data(), count);
+    const auto as_vector = [](const std::vector<double>& list) -> Vector {
+        return Eigen::Map<const Vector>(list.data(), static_cast<Index>(list.size()));
+    };
+    // Sums over vectors of Eigen's own, aligned alike: those over a list depend on where it lies in memory.
+    const Vector v = as_vector(values);
+    const Index count = v.size();
     result.mean[i] = v.mean();
     result.spread[i] = std::sqrt((v.array() - v.mean()).square().sum() / std::max(1.0, static_cast<double>(count - 1)));
     result.low[i] = v.minCoeff();
     result.high[i] = v.maxCoeff();
     if (!reported.empty())
-        result.reported[i] = Eigen::Map<const Vector>(reported.data(), static_cast<Index>(reported.size())).mean();
+        result.reported[i] = as_vector(reported).mean();
     result.median[i] = median(values);
 }
 

@@ -4,8 +4,10 @@
 #include <unicode/udata.h>
 #include <unicode/unorm2.h>
 
+#include <algorithm>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "platform/error.h"
 #include "platform/utf8.h"
@@ -37,6 +39,41 @@ std::u16string utf16_of_bytes(std::string_view bytes, const char* charset) {
     if (U_FAILURE(status)) fail_of_icu(std::string("read ") + charset, status);
     units.resize(static_cast<std::size_t>(count));
     return units;
+}
+
+using Converter = std::unique_ptr<UConverter, void (*)(UConverter*)>;
+
+/// One that stops at what it cannot convert.
+Converter strict_converter(const char* charset) {
+    use_own_data();
+    UErrorCode status = U_ZERO_ERROR;
+    Converter converter(ucnv_open(charset, &status), ucnv_close);
+    ucnv_setToUCallBack(converter.get(), UCNV_TO_U_CALLBACK_STOP, nullptr, nullptr, nullptr, &status);
+    ucnv_setFromUCallBack(converter.get(), UCNV_FROM_U_CALLBACK_STOP, nullptr, nullptr, nullptr, &status);
+    if (U_FAILURE(status)) fail_of_icu(std::string("convert ") + charset, status);
+    return converter;
+}
+
+std::optional<std::string> bytes_in(const char* charset, const std::u16string& units) {
+    const Converter converter = strict_converter(charset);
+    UErrorCode status = U_ZERO_ERROR;
+    std::string bytes(4 * units.size() + 4, '\0');
+    const std::int32_t count = ucnv_fromUChars(converter.get(), bytes.data(), static_cast<std::int32_t>(bytes.size()),
+                                               units.data(), static_cast<std::int32_t>(units.size()), &status);
+    if (U_FAILURE(status)) return {};
+    bytes.resize(static_cast<std::size_t>(count));
+    return bytes;
+}
+
+std::optional<std::string> text_in(const char* charset, const std::string& bytes) {
+    const Converter converter = strict_converter(charset);
+    UErrorCode status = U_ZERO_ERROR;
+    std::u16string units(2 * bytes.size() + 1, u'\0');
+    const std::int32_t count = ucnv_toUChars(converter.get(), units.data(), static_cast<std::int32_t>(units.size()),
+                                             bytes.data(), static_cast<std::int32_t>(bytes.size()), &status);
+    if (U_FAILURE(status)) return {};
+    units.resize(static_cast<std::size_t>(count));
+    return utf8_of(std::u16string_view(units));
 }
 
 /// How little a text looks like a name.
@@ -79,6 +116,21 @@ std::string utf8_of_name(std::string_view bytes) {
         best = text;
     }
     return utf8_of(std::u16string_view(best));
+}
+
+std::vector<std::string> other_readings_of_name(std::string_view utf8) {
+    std::vector<std::string> readings;
+    if (std::none_of(utf8.begin(), utf8.end(), [](unsigned char c) { return c >= 0x80; })) return readings;
+    const std::u16string units = utf16_of(utf8);
+    for (const char* western : {"ibm-850", "windows-1252"}) {
+        const std::optional<std::string> bytes = bytes_in(western, units);
+        if (!bytes) continue;
+        for (const char* charset : {"ibm-866", "windows-1251", "gbk", "big5", "ibm-943", "ibm-949"})
+            if (const auto text = text_in(charset, *bytes);
+                text && std::find(readings.begin(), readings.end(), *text) == readings.end())
+                readings.push_back(*text);
+    }
+    return readings;
 }
 
 std::string composed(std::string_view utf8) {

@@ -75,7 +75,7 @@ int require_file(Call& call) {
     const std::filesystem::path file = file_of_module(call, name);
     call.context().recorder.note_file_read(file);
     const std::string code = read_text(file);
-    const std::string chunk = "@" + file.filename().string();
+    const std::string chunk = "@" + file.lexically_relative(call.context().options.script_folder).string();
     if (luaL_loadbufferx(L, code.data(), code.size(), chunk.c_str(), "t") != LUA_OK)
         throw InvalidArgument(plain_syntax_message(lua_tostring(L, -1), code));
     lua_pushboolean(L, true);
@@ -126,7 +126,7 @@ int run_file(Call& call) {
     const std::string text = read_text(file);
     const PromptStatement script = read_statement(with_shown_expressions(text));
     announce_variables(L, script.variables);
-    const std::string chunk = "@" + file.filename().string();
+    const std::string chunk = "@" + file.string();
     if (luaL_loadbufferx(L, script.code.data(), script.code.size(), chunk.c_str(), "t") != LUA_OK)
         throw InvalidArgument(plain_syntax_message(lua_tostring(L, -1), text));
     push_prompt_variables(L);

@@ -27,6 +27,12 @@ unsigned highest_figure(const fs::path& folder) {
     return highest;
 }
 
+std::string with_calls(const RecordedError& error) {
+    std::string text = error.message;
+    for (const RecordedCall& call : error.calls) text += fmt::format("\n  {}:{}: {}", call.file, call.line, call.what);
+    return text;
+}
+
 RunOptions options_of_prompt(std::function<void(const std::string&)> print) {
     RunOptions options;
     options.print = std::move(print);
@@ -42,7 +48,7 @@ StatementResult PromptSession::run(const PromptStatement& statement, const std::
     StatementResult result;
     try {
         const RunRecord record = runtime_.run_statement(statement, name);
-        if (record.error) result.error = record.error->message;
+        if (record.error) result.error = with_calls(*record.error);
         save_figures(record, result);
     } catch (const Interrupted& error) {
         result.error = error.what();

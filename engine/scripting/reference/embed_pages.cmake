@@ -1,6 +1,6 @@
 # Writes one C++ source that holds all help pages: cmake -DPAGES=folder -DOUTPUT=file.cpp -P embed_pages.cmake
-file(GLOB pages ${PAGES}/*.md)
-list(SORT pages)
+file(GLOB pages ${PAGES}/*.md ${PAGES}/guides/*.md)
+list(SORT pages COMPARE FILE_BASENAME)
 set(entries "")
 foreach(page IN LISTS pages)
   get_filename_component(name ${page} NAME)

@@ -42,6 +42,7 @@ struct RuntimeContext {
     std::optional<std::chrono::steady_clock::time_point> deadline;
     std::string* printed_by_call = nullptr;  ///< also gets what is printed, while a call is watched
     int refusal_line = 0;                    ///< of the main chunk when memory was last refused
+    std::vector<RecordedCall> calls;         ///< that led to the error which stopped the script
 };
 
 RuntimeContext& context_of(lua_State* L);

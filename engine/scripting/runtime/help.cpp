@@ -3,18 +3,165 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <regex>
 
+#include "documents/text_lines.h"
 #include "numerics/error.h"
 #include "platform/spelling.h"
+#include "scripting/runtime/help_layout.h"
+#include "scripting/runtime/matlab_hints.h"
 
 namespace dynlab::inline scripting {
 namespace {
 
-std::vector<std::string> help_names(const std::vector<const FunctionEntry*>& functions) {
+using FunctionList = std::vector<const FunctionEntry*>;
+
+constexpr std::size_t kSummaryColumn = 21, kMostFound = 20;
+
+std::vector<std::string> help_names(const FunctionList& functions) {
     std::vector<std::string> names;
     for (const FunctionEntry* entry : functions) names.emplace_back(entry->name);
     for (const HelpPage& page : help_pages()) names.emplace_back(page.name);
     return names;
+}
+
+const FunctionEntry* entry_of(std::string_view name, const FunctionList& functions) {
+    const auto found = std::find_if(functions.begin(), functions.end(), [&](const auto* e) { return e->name == name; });
+    return found == functions.end() ? nullptr : *found;
+}
+
+/// What stands behind "guide: " or "subject: " in the third line of a page that is no function's.
+std::string subject_of(const HelpPage& page) {
+    const std::vector<std::string> lines = lines_of(page.text);
+    const std::string& line = lines.size() > 2 ? lines[2] : lines[0];
+    const auto colon = line.find(": ");
+    return colon == std::string::npos ? line : line.substr(colon + 2);
+}
+
+std::string help_row(const std::string& name, const std::string& summary, std::size_t width) {
+    return fmt::format("  {:<18} {}\n", name, filled(summary, width, kSummaryColumn));
+}
+
+std::string in_lower_case(std::string_view text) {
+    std::string lower(text);
+    std::transform(lower.begin(), lower.end(), lower.begin(),
+                   [](unsigned char c) { return c < 128 ? static_cast<char>(std::tolower(c)) : static_cast<char>(c); });
+    return lower;
+}
+
+/// Where a word of the text begins with `word`, both in lower case.
+bool begins_a_word(const std::string& text, const std::string& word) {
+    for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
+        if (at == 0 || !std::isalpha(static_cast<unsigned char>(text[at - 1]))) return true;
+    return false;
+}
+
+struct Found {
+    int rank;  ///< 0 in the name, 1 in the summary, 2 in the page
+    std::string name, summary;
+};
+
+std::vector<Found> pages_about(const std::string& asked, const FunctionList& functions) {
+    std::vector<Found> found;
+    const std::string word = in_lower_case(asked);
+    const auto look = [&](const std::string& name, const std::string& summary, std::string_view text) {
+        const int rank = begins_a_word(in_lower_case(name), word)      ? 0
+                         : begins_a_word(in_lower_case(summary), word) ? 1
+                         : begins_a_word(in_lower_case(text), word)    ? 2
+                                                                       : 3;
+        if (rank < 3) found.push_back({rank, name, summary});
+    };
+    for (const FunctionEntry* entry : functions) {
+        const auto page = find_help_page(entry->name);
+        look(entry->name, entry->summary, page ? page->text : std::string_view());
+    }
+    for (const HelpPage& page : help_pages())
+        if (entry_of(page.name, functions) == nullptr) look(std::string(page.name), subject_of(page), page.text);
+    std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.rank < b.rank; });
+    return found;
+}
+
+std::string list_of(const std::vector<Found>& found, std::size_t width) {
+    std::string text;
+    for (std::size_t i = 0; i < std::min(found.size(), kMostFound); ++i)
+        text += help_row(found[i].name, found[i].summary, width);
+    if (found.size() > kMostFound) text += fmt::format("  and {} more\n", found.size() - kMostFound);
+    return text + "\nhelp NAME shows a page.\n";
+}
+
+/// What is written here for a function of MATLAB, and the pages of what it calls.
+std::string matlab_answer(const std::string& name, const char* hint, const FunctionList& functions, std::size_t width) {
+    std::string text = filled(fmt::format("{} is a word of MATLAB; here: {}.", name, hint), width) + '\n';
+    static const std::regex kCall("([a-z][a-z_0-9.]*)[({]");
+    const std::string words = hint;
+    std::vector<std::string> shown;
+    for (std::sregex_iterator i(words.begin(), words.end(), kCall), end; i != end; ++i) {
+        const FunctionEntry* entry = entry_of((*i)[1].str(), functions);
+        if (entry == nullptr || std::find(shown.begin(), shown.end(), entry->name) != shown.end()) continue;
+        text += (shown.empty() ? "\n" : "") + help_row(entry->name, entry->summary, width);
+        shown.emplace_back(entry->name);
+    }
+    return text + "\nhelp matlab is a phrase book.\n";
+}
+
+struct ObjectWords {
+    std::string_view word, page;
+};
+constexpr std::array kObjects = {ObjectWords{"iddata", "iddata"}, ObjectWords{"data", "iddata"},
+                                 ObjectWords{"fig", "plot"},      ObjectWords{"figure", "plot"},
+                                 ObjectWords{"vector", "vector"}, ObjectWords{"v", "vector"},
+                                 ObjectWords{"matrix", "matrix"}, ObjectWords{"A", "matrix"}};
+
+/// What the page of an object says where it names the method, `name` being "iddata.split" or "fig:add".
+std::optional<std::string> method_answer(const std::string& name, std::size_t width) {
+    const auto dot = name.find_last_of(".:");
+    if (dot == std::string::npos) return std::nullopt;
+    const std::string object = name.substr(0, dot), method = name.substr(dot + 1);
+    const auto known =
+        std::find_if(kObjects.begin(), kObjects.end(), [&](const ObjectWords& one) { return one.word == object; });
+    if (known == kObjects.end() || method.empty()) return std::nullopt;
+    const auto page = find_help_page(known->page);
+    const auto at = page ? page->text.find(":" + method) : std::string_view::npos;
+    if (at == std::string_view::npos) return std::nullopt;
+    // The call begins with its backtick and ends where the next one begins, or the paragraph does.
+    const auto begin = page->text.rfind('`', at);
+    auto end = page->text.find("\n\n", at);
+    if (const auto next = page->text.find(", `", page->text.find('`', at)); next < end) end = next;
+    std::string words(page->text.substr(begin, end - begin));
+    std::replace(words.begin(), words.end(), '\n', ' ');
+    return laid_out(fmt::format("{}\n\nhelp {} tells the rest.\n", words, known->page), width);
+}
+
+/// The first part of the guide to Lua whose code holds the word.
+std::optional<std::string> lua_answer(const std::string& word, std::size_t width) {
+    static constexpr std::array kWords = {
+        "and",        "break",        "do",           "else",    "elseif", "end",    "false",  "for",
+        "if",         "in",           "ipairs",       "local",   "math",   "nil",    "not",    "or",
+        "pairs",      "pcall",        "print",        "repeat",  "return", "string", "table",  "then",
+        "tostring",   "true",         "until",        "while",   "error",  "select", "unpack", "string.format",
+        "table.sort", "table.concat", "string.upper", "function"};
+    if (std::find(kWords.begin(), kWords.end(), word) == kWords.end()) return std::nullopt;
+    const auto page = find_help_page("lua");
+    if (!page) return std::nullopt;
+    const std::string guide(page->text);
+    const std::regex whole("(^|[^A-Za-z_])" + std::regex_replace(word, std::regex("\\."), "\\.") + "([^A-Za-z_]|$)");
+    for (auto begin = guide.find("\n## "); begin != std::string::npos;) {
+        const auto end = guide.find("\n## ", begin + 1);
+        const std::string part = guide.substr(begin + 1, end == std::string::npos ? end : end - begin - 1);
+        const auto code = part.find("```lua");
+        if (code != std::string::npos && std::regex_search(part.substr(code), whole))
+            return laid_out(fmt::format("`{}` belongs to Lua itself.\n\n{}\nhelp lua tells the rest.\n", word, part),
+                            width);
+        begin = end;
+    }
+    return laid_out(fmt::format("`{}` belongs to Lua itself; help lua tells the most important of it.\n", word), width);
+}
+
+[[noreturn]] void refuse_topic(const std::string& name, const FunctionList& functions) {
+    const auto near = nearest_word(name, help_names(functions));
+    throw InvalidArgument(fmt::format("there is no help about '{}'{}", name,
+                                      near ? fmt::format("; did you mean '{}'?", *near) : "; help() lists everything"));
 }
 
 }  // namespace
@@ -25,7 +172,7 @@ std::optional<HelpPage> find_help_page(std::string_view name) {
     return std::nullopt;
 }
 
-std::string help_overview(const std::vector<const FunctionEntry*>& functions) {
+std::string help_overview(const FunctionList& functions, std::size_t width) {
     std::vector<std::string_view> areas;
     for (const FunctionEntry* entry : functions)
         if (std::find(areas.begin(), areas.end(), entry->area) == areas.end()) areas.emplace_back(entry->area);
@@ -33,21 +180,35 @@ std::string help_overview(const std::vector<const FunctionEntry*>& functions) {
     for (std::string_view area : areas) {
         text += fmt::format("{}\n", area);
         for (const FunctionEntry* entry : functions)
-            if (entry->area == area) text += fmt::format("  {:<18} {}\n", entry->name, entry->summary);
+            if (entry->area == area) text += help_row(entry->name, entry->summary, width);
         text += '\n';
     }
+    text += "guides\n";
+    for (const HelpPage& page : help_pages())
+        if (entry_of(page.name, functions) == nullptr)
+            text += help_row(std::string(page.name), subject_of(page), width);
     return text +
-           "help(\"lsim\") explains a function, help(\"matlab\") is a phrase book for those who come from MATLAB\n";
+           "\nhelp(\"lsim\") explains a function, help(\"lua\") is Lua in ten minutes, help(\"matlab\") a phrase book "
+           "for\n"
+           "those who come from MATLAB; help(\"delay\") lists what speaks of a word\n";
 }
 
-std::string help_text(const std::string& name, const std::vector<const FunctionEntry*>& functions) {
-    if (const auto page = find_help_page(name)) return std::string(page->text);
-    const auto entry =
-        std::find_if(functions.begin(), functions.end(), [&](const FunctionEntry* e) { return e->name == name; });
-    if (entry != functions.end()) return fmt::format("{}\n  {}\n", (*entry)->signature, (*entry)->summary);
-    const auto near = nearest_word(name, help_names(functions));
-    throw InvalidArgument(fmt::format("there is no help about '{}'{}", name,
-                                      near ? fmt::format("; did you mean '{}'?", *near) : "; help() lists everything"));
+std::string help_text(const std::string& name, const FunctionList& functions, std::size_t width) {
+    if (const auto page = find_help_page(name)) return laid_out(page->text, width);
+    if (const FunctionEntry* entry = entry_of(name, functions))
+        return fmt::format("{}\n  {}\n", entry->signature, entry->summary);
+    if (const auto method = method_answer(name, width)) return *method;
+    if (const char* hint = matlab_name_hint(name)) return matlab_answer(name, hint, functions, width);
+    if (const auto words = lua_answer(name, width)) return *words;
+    const std::vector<Found> found = pages_about(name, functions);
+    if (name.empty() || found.empty()) refuse_topic(name, functions);
+    return fmt::format("No page is called '{}'; these speak of it:\n\n", name) + list_of(found, width);
+}
+
+std::string help_search(const std::string& word, const FunctionList& functions, std::size_t width) {
+    const std::vector<Found> found = pages_about(word, functions);
+    if (word.empty() || found.empty()) refuse_topic(word, functions);
+    return list_of(found, width);
 }
 
 }  // namespace dynlab::inline scripting

@@ -11,6 +11,7 @@
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/text_form.h"
 #include "scripting/prompt/prompt_variables.h"
+#include "scripting/runtime/call_chain.h"
 #include "scripting/runtime/context.h"
 #include "scripting/runtime/errors.h"
 #include "scripting/runtime/sandbox.h"
@@ -30,6 +31,7 @@ void count_hook(lua_State* L, lua_Debug*) {
 /// Handler of the outermost call: always leaves a sentence.
 int final_message(lua_State* L) {
     translate_error(L);
+    context_of(L).calls = call_chain(L);
     if (lua_type(L, 1) == LUA_TSTRING) return 1;
     if (lua_isnil(L, 1)) {
         lua_pushliteral(L, "error() was called without a message");
@@ -195,6 +197,7 @@ void Runtime::prepare(const PercentScript& script) {
     context.script_name = script.file.filename().string();
     context.source = script.source;
     context.refusal_line = 0;
+    context.calls.clear();
     context.main_chunk_known = false;
     if (context.options.time_limit) context.deadline = std::chrono::steady_clock::now() + *context.options.time_limit;
 }
@@ -261,7 +264,7 @@ void Runtime::record_error(int status, const std::string& source) {
     if (status == LUA_ERRSYNTAX) message = plain_syntax_message(message, source);
     const LocatedMessage placed = take_apart(message);
     const int line = placed.file == context.script_name ? placed.line : 0;
-    context.recorder.record().error = RecordedError{std::move(message), line};
+    context.recorder.record().error = RecordedError{std::move(message), line, std::move(context.calls)};
 }
 
 std::size_t Runtime::peak_memory_bytes() const {

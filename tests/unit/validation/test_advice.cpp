@@ -417,4 +417,19 @@ TEST(advice, long_records_keep_their_dynamics) {  // oracle: known noise, a pole
     EXPECT_TRUE(advice.clean()) << codes(advice);
 }
 
+TEST(advice, a_record_that_begins_slowly_is_fitted_whole_and_sample_by_sample) {  // oracle: the system put in
+    const Index N = 10000;
+    Vector u(N);
+    for (Index k = 0; k < N; ++k) u[k] = std::sin(0.02 * kTs * static_cast<double>(k));
+    u.tail(7000) += random_levels(7000, 6, 61);
+    const double delay = 0.43;  // of a second, 4.3 samples: a block holds two
+    const Vector x = lsim(TransferFunction(Vector{{4.0}}, Vector{{1.0, 1.0, 4.0}}, 0, delay), u, kTs);
+    const double size = std::sqrt(x.squaredNorm() / static_cast<double>(N));
+    const Advice advice = advise(IdData(Matrix(x + 0.05 * size * RandomStream(62).normal(N)), Matrix(u), kTs));
+    ASSERT_TRUE(advice.has("dead_time")) << codes(advice);
+    EXPECT_NEAR(advice.find("dead_time")->value, delay, 0.01);
+    EXPECT_NEAR(advice.find("noise")->value, 26.02, 0.3);
+    EXPECT_TRUE(advice.clean()) << codes(advice);
+}
+
 }  // namespace test_advice

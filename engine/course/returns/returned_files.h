@@ -24,8 +24,8 @@ struct ReturnOutcome {
 /// Lays what groups are to get and have not got yet into a new folder: copies to review, reviews, receipts.
 ///
 ///     FOLDER/GROUP/NAME   the files
-///     FOLDER/mail.csv     a row a group: group, members, mails, files
-///     FOLDER/moodle.zip   NAME_NUMBER_assignsubmission_file_/FILE for each member, if wanted
+///     FOLDER/mail.csv     a row a student, see mailing_list
+///     FOLDER/moodle.zip   for each student, if wanted, see MoodleFeedback
 ///
 /// What another version replaced is new again. The store remembers what was returned. Throws InvalidArgument where the
 /// folder is not new.

@@ -1,13 +1,12 @@
-#include "course/review/returns.h"
+#include "course/returns/returned_files.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "course/grading/zip_file.h"
+#include "course/returns/mailing.h"
 #include "course/store/groups.h"
 #include "course/store/hand_ins.h"
-#include "data_io/text_table.h"
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
 #include "platform/hash.h"
@@ -20,6 +19,7 @@ namespace fs = std::filesystem;
 struct FileToReturn {
     std::string place;  ///< "to-review/report-07.pdf"
     std::string content, hash;
+    bool is_new = true;
     std::string name() const { return fs::path(place).filename(); }
 };
 
@@ -67,53 +67,43 @@ class Returner {
         Rows newest = course_.database().query(
             "SELECT hash FROM returns WHERE group_id = ? AND place = ? ORDER BY id DESC LIMIT 1", group.id,
             assignment_.name + "/" + place);
-        if (request_.all || !newest.next() || newest.text(0) != file.hash) files.push_back(std::move(file));
+        file.is_new = !newest.next() || newest.text(0) != file.hash;
+        if (request_.all || file.is_new) files.push_back(std::move(file));
     }
 
     void lay_out() {
         const fs::path growing = request_.folder.string() + ".unfinished";
         fs::remove_all(growing);
-        TextTable mails;
-        mails.names = {"group", "members", "mails", "files"};
-        std::map<std::string, std::string> zip;
+        std::vector<Mailing> mailings;
+        MoodleFeedback moodle;
         for (const auto& [group, files] : groups_) {
             fs::create_directories(growing / group.name);
             for (const FileToReturn& file : files)
                 write_file_atomically(growing / group.name / file.name(), file.content);
-            add_member_rows(group, files, mails);
-            if (request_.moodle) add_moodle_folders(group, files, zip);
+            address(group, files, mailings, moodle);
         }
-        write_file_atomically(growing / "mail.csv", csv_text(mails));
-        if (request_.moodle) write_zip(growing / "moodle.zip", zip);
+        write_file_atomically(growing / "mail.csv", csv_text(mailing_list(mailings)));
+        if (request_.moodle) moodle.write(growing / "moodle.zip");
         fs::permissions(growing, fs::perms::owner_all);
         fs::rename(growing, request_.folder);
     }
 
-    void add_member_rows(const Group& group, const std::vector<FileToReturn>& files, TextTable& mails) {
-        std::vector<std::string> names, addresses, own;
+    void address(const Group& group, const std::vector<FileToReturn>& files, std::vector<Mailing>& mailings,
+                 MoodleFeedback& moodle) {
+        bool reached = false;
         for (const std::string& id : group.members) {
             const Student& student = students_[id];
-            names.push_back(student.name.empty() ? id : student.name);
-            if (!student.mail.empty()) addresses.push_back(student.mail);
-        }
-        for (const FileToReturn& file : files) own.push_back(group.name + "/" + file.name());
-        if (addresses.empty()) outcome_.without_mail.push_back(group.name);
-        mails.rows.push_back({group.name, fmt::format("{}", fmt::join(names, "; ")),
-                              fmt::format("{}", fmt::join(addresses, "; ")), fmt::format("{}", fmt::join(own, "; "))});
-    }
-
-    void add_moodle_folders(const Group& group, const std::vector<FileToReturn>& files,
-                            std::map<std::string, std::string>& zip) {
-        for (const std::string& id : group.members) {
-            const Student& student = students_[id];
-            if (student.moodle.empty()) {
-                outcome_.without_number.push_back(id);
-                continue;
+            Mailing mailing{{id, student.name, group.name, student.mail, student.moodle}, {}, false};
+            reached = reached || !student.mail.empty();
+            if (request_.moodle && student.moodle.empty()) outcome_.without_number.push_back(id);
+            for (const FileToReturn& file : files) {
+                mailing.files.push_back(group.name + "/" + file.name());
+                mailing.is_new = mailing.is_new || file.is_new;
+                moodle.add(mailing.to, file.name(), file.content);
             }
-            const std::string folder =
-                fmt::format("{}_{}_assignsubmission_file_/", student.name.empty() ? id : student.name, student.moodle);
-            for (const FileToReturn& file : files) zip[folder + file.name()] = file.content;
+            mailings.push_back(std::move(mailing));
         }
+        if (!reached) outcome_.without_mail.push_back(group.name);
     }
 
     void remember() {

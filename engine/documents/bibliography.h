@@ -1,0 +1,20 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "documents/complaints.h"
+
+namespace dynlab::inline documents {
+
+/// The file with a document's literature, in BibTeX (.bib) or CSL-JSON (.json), named behind "bibliography:" in the
+/// header of a report or a script and lying beside it.
+
+/// Throws DocumentError, its message begun with `where`, unless `name` is that of a .bib or .json file without folder.
+void check_bibliography_name(const std::string& name, const std::string& where);
+
+/// Copies `file` into the folder in which Pandoc works, and returns the name it has there. Adds to `complaints`: that
+/// it is missing or longer than a megabyte.
+std::string place_bibliography(const std::filesystem::path& file, const std::filesystem::path& work_folder,
+                               Complaints& complaints);
+
+}  // namespace dynlab::inline documents

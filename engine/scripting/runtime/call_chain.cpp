@@ -1,0 +1,79 @@
+#include "scripting/runtime/call_chain.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "platform/utf8.h"
+#include "scripting/objects/text_form.h"
+#include "scripting/runtime/context.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+constexpr std::size_t kMostCalls = 6, kLongestArgument = 40;
+constexpr int kMostArguments = 6, kMostLevels = 100;
+
+/// The first line of a value's text, cut where it is long.
+std::string short_value_text(lua_State* L, int index) {
+    if (lua_type(L, index) == LUA_TTABLE && luaL_getmetafield(L, index, "__tostring") != LUA_TNIL) {
+        lua_pop(L, 1);
+        return "table";  // the script's own function is not called while its error is told
+    }
+    std::string text = value_text(L, index);
+    if (lua_type(L, index) == LUA_TSTRING) text = '"' + text + '"';
+    text = text.substr(0, text.find('\n'));
+    const std::u32string characters = characters_in(text);
+    return characters.size() <= kLongestArgument ? text : utf8_of(characters.substr(0, kLongestArgument)) + " ...";
+}
+
+/// "gain(x = 2)" of an activation record.
+std::string call_words(lua_State* L, lua_Debug& record) {
+    lua_getinfo(L, "nSu", &record);
+    if (std::string_view(record.what) == "main") return fmt::format("ran {}", record.short_src);
+    std::vector<std::string> arguments;
+    const int count = std::min<int>(record.nparams, kMostArguments);
+    for (int i = 1; i <= count; ++i) {
+        const char* name = lua_getlocal(L, &record, i);
+        if (name == nullptr) break;
+        arguments.push_back(fmt::format("{} = {}", name, short_value_text(L, -1)));
+        lua_pop(L, 1);
+    }
+    if (record.nparams > count || record.isvararg != 0) arguments.emplace_back("...");
+    const std::string name =
+        record.name != nullptr ? record.name : fmt::format("the function of line {} ", record.linedefined);
+    return fmt::format("called {}({})", name, fmt::join(arguments, ", "));
+}
+
+/// The vector's address is its argument.
+int collect_calls(lua_State* L) {
+    auto& calls = *static_cast<std::vector<RecordedCall>*>(lua_touserdata(L, 1));
+    std::string called;
+    lua_Debug record;
+    for (int level = 0; level < kMostLevels && lua_getstack(L, level, &record) != 0; ++level) {
+        lua_getinfo(L, "Sl", &record);
+        if (record.currentline <= 0) continue;
+        if (!called.empty()) {
+            if (calls.size() == kMostCalls) {
+                RuntimeContext& context = context_of(L);
+                calls.push_back({"began a longer chain of calls", context.script_name, main_chunk_line(context)});
+                break;
+            }
+            calls.push_back({called, record.short_src, record.currentline});
+        }
+        called = call_words(L, record);
+    }
+    return 0;
+}
+
+}  // namespace
+
+std::vector<RecordedCall> call_chain(lua_State* L) {
+    std::vector<RecordedCall> calls;
+    if (lua_checkstack(L, 3) == 0) return calls;
+    lua_pushcfunction(L, collect_calls);
+    lua_pushlightuserdata(L, &calls);
+    if (lua_pcall(L, 1, 0, 0) != LUA_OK) lua_pop(L, 1);  // too little stack or memory is left: what was found counts
+    return calls;
+}
+
+}  // namespace dynlab::inline scripting

@@ -1,0 +1,208 @@
+#include "scripting/runtime/help_layout.h"
+
+#include <algorithm>
+#include <cctype>
+#include <vector>
+
+#include "documents/text_lines.h"
+#include "platform/utf8.h"
+
+namespace dynlab::inline scripting {
+namespace {
+
+using Cells = std::vector<std::string>;
+
+std::vector<std::string> words_of(std::string_view text) {
+    std::vector<std::string> words;
+    std::string word;
+    for (const char c : text) {
+        if (c != ' ') {
+            word += c;
+        } else if (!word.empty()) {
+            words.push_back(std::move(word));
+            word.clear();
+        }
+    }
+    if (!word.empty()) words.push_back(std::move(word));
+    return words;
+}
+
+std::vector<std::string> lines_filled(std::string_view text, std::size_t width) {
+    std::vector<std::string> lines;
+    for (const std::string& word : words_of(text)) {
+        if (!lines.empty() && columns_of(lines.back()) + 1 + columns_of(word) <= width)
+            lines.back() += ' ' + word;
+        else
+            lines.push_back(word);
+    }
+    if (lines.empty()) lines.emplace_back();
+    return lines;
+}
+
+bool is_in_word(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0;
+}
+
+/// Without the backticks of code and the stars of emphasis; what stands in code stays as it is.
+std::string without_marks(std::string_view text) {
+    std::string plain;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '`') {
+            std::size_t ticks = 1;
+            while (i + ticks < text.size() && text[i + ticks] == '`') ++ticks;
+            const std::size_t begin = i + ticks, end = text.find(std::string(ticks, '`'), begin);
+            if (end == std::string_view::npos) break;
+            std::string_view code = text.substr(begin, end - begin);
+            if (ticks > 1 && code.starts_with(' ') && code.ends_with(' ')) code = code.substr(1, code.size() - 2);
+            plain += code;
+            i = end + ticks - 1;
+        } else if (text[i] == '\\' && i + 1 < text.size() && std::string_view("|*_\\").find(text[i + 1]) != text.npos) {
+            plain += text[++i];
+        } else if (text[i] != '*' ||
+                   (i > 0 && i + 1 < text.size() && is_in_word(text[i - 1]) && is_in_word(text[i + 1]))) {
+            plain += text[i];
+        }
+    }
+    return plain;
+}
+
+/// "| a | b \| c |" as its cells.
+Cells cells_of(std::string_view row) {
+    Cells cells;
+    std::string cell;
+    for (std::size_t i = 1; i < row.size(); ++i) {
+        if (row[i] == '\\' && i + 1 < row.size() && row[i + 1] == '|') {
+            cell += row[++i];
+        } else if (row[i] == '|') {
+            cells.push_back(without_marks(trimmed(cell)));
+            cell.clear();
+        } else {
+            cell += row[i];
+        }
+    }
+    return cells;
+}
+
+bool is_rule(const Cells& cells) {
+    return std::all_of(cells.begin(), cells.end(), [](const std::string& cell) {
+        return !cell.empty() && cell.find_first_not_of("-:") == std::string::npos;
+    });
+}
+
+/// As wide as the cells want, the widest made narrower until all fit.
+std::vector<std::size_t> column_widths(const std::vector<Cells>& rows, std::size_t width) {
+    std::vector<std::size_t> widths;
+    for (const Cells& row : rows) {
+        widths.resize(std::max(widths.size(), row.size()));
+        for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], columns_of(row[i]));
+    }
+    constexpr std::size_t kGap = 2, kNarrowest = 8;
+    const auto total = [&] {
+        std::size_t sum = 0;
+        for (const std::size_t one : widths) sum += one + kGap;
+        return sum;
+    };
+    while (!widths.empty() && total() > width + kGap) {
+        auto& widest = *std::max_element(widths.begin(), widths.end());
+        if (widest <= kNarrowest) break;
+        --widest;
+    }
+    return widths;
+}
+
+std::string filled_table(const std::vector<Cells>& rows, std::size_t width) {
+    const std::vector<std::size_t> widths = column_widths(rows, width);
+    std::string text;
+    bool head = true;
+    for (const Cells& row : rows) {
+        std::vector<std::vector<std::string>> columns;
+        std::size_t height = 1;
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            columns.push_back(lines_filled(row[i], widths[i]));
+            height = std::max(height, columns.back().size());
+        }
+        for (std::size_t k = 0; k < height; ++k) {
+            std::string line;
+            for (std::size_t i = 0; i < columns.size(); ++i) {
+                const std::string part = k < columns[i].size() ? columns[i][k] : "";
+                line += part + std::string(std::max(widths[i] + 2, columns_of(part) + 2) - columns_of(part), ' ');
+            }
+            line.erase(line.find_last_not_of(' ') + 1);
+            text += line + '\n';
+        }
+        if (head) {
+            for (const std::size_t one : widths) text += std::string(one, '-') + "  ";
+            text.erase(text.find_last_not_of(' ') + 1);
+            text += '\n';
+        }
+        head = false;
+    }
+    return text;
+}
+
+/// Reads a page block by block.
+class PageReader {
+  public:
+    explicit PageReader(std::size_t width) : width_(width) {}
+
+    std::string read(std::string_view markdown) {
+        bool code = false;
+        for (const std::string& line : lines_of(markdown)) {
+            const bool fence = line.starts_with("```");
+            if (fence) end_block();
+            if (fence || code) {
+                if (!fence) text_ += line.empty() ? "\n" : "    " + line + '\n';
+                code = code != fence;
+                continue;
+            }
+            read_line(line);
+        }
+        end_block();
+        return std::move(text_);
+    }
+
+  private:
+    void read_line(const std::string& line) {
+        const bool row = line.starts_with('|'), heading = line.starts_with('#'), item = line.starts_with("- ");
+        if (line.empty() || heading || item || row != !rows_.empty()) end_block();
+        if (line.empty()) {
+            text_ += '\n';
+        } else if (heading) {
+            const std::string words = without_marks(line.substr(line.find_first_not_of("# ")));
+            text_ += words + '\n' + std::string(columns_of(words), line[1] == '#' ? '-' : '=') + '\n';
+        } else if (row) {
+            if (Cells cells = cells_of(line); !is_rule(cells)) rows_.push_back(std::move(cells));
+        } else {
+            if (item) indent_ = 2;
+            block_ += (block_.empty() ? "" : " ") + trimmed(line);
+        }
+    }
+
+    void end_block() {
+        if (!block_.empty()) text_ += filled(without_marks(block_), width_, indent_) + '\n';
+        if (!rows_.empty()) text_ += filled_table(rows_, width_);
+        block_.clear();
+        rows_.clear();
+        indent_ = 0;
+    }
+
+    std::size_t width_, indent_ = 0;
+    std::string text_, block_;
+    std::vector<Cells> rows_;
+};
+
+}  // namespace
+
+std::string filled(std::string_view text, std::size_t width, std::size_t indent) {
+    const std::size_t most = width > indent ? width - indent : 1;
+    std::string result;
+    for (const std::string& line : lines_filled(text, most))
+        result += (result.empty() ? "" : '\n' + std::string(indent, ' ')) + line;
+    return result;
+}
+
+std::string laid_out(std::string_view markdown, std::size_t width) {
+    return PageReader(width).read(markdown);
+}
+
+}  // namespace dynlab::inline scripting

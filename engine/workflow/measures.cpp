@@ -1,0 +1,28 @@
+#include "workflow/measures.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "documents/text_lines.h"
+#include "scripting/runtime/help.h"
+
+namespace dynlab::inline workflow {
+
+std::map<std::string, std::string> measures_for_documents() {
+    std::map<std::string, std::string> measures;
+    std::string* current = nullptr;
+    for (const std::string& line : lines_of(find_help_page("measures")->text)) {
+        const std::size_t colon = line.find(": ");
+        if (line.starts_with("## ") && colon != std::string::npos) {
+            std::string key = line.substr(3, colon - 3);
+            std::transform(key.begin(), key.end(), key.begin(), [](unsigned char c) { return std::tolower(c); });
+            current = &measures[key];
+            *current = "### " + line.substr(colon + 2) + " {.unnumbered}\n";
+        } else if (current) {
+            *current += line + "\n";
+        }
+    }
+    return measures;
+}
+
+}  // namespace dynlab::inline workflow

@@ -1,0 +1,78 @@
+-- ---
+-- title: Identification d'une grue à chariot
+-- subtitle: Leçon 3.2 – une entrée, deux sorties, un rapport
+-- language: fr
+-- ---
+
+-- %% [markdown]
+-- Un chariot roule le long d'un rail, tiré par un moteur ; un pendule y est suspendu. Une seule tension meut les deux, si bien qu'un seul modèle a
+-- deux sorties : la position du chariot et le balancement de la charge. Vous recevez cinq enregistrements, dont un où la grue a été
+-- menée là où aucun modèle linéaire ne suit. La grue est *simulée* : un programme en résout les équations, bruit compris. Trouvez un modèle, dites ce qu'il vaut, et
+-- décrivez-le de sorte que quelqu'un qui n'était pas là puisse tout refaire.
+--
+-- Travaillez dans ce script, cellule par cellule ; votre texte va dans `report.md`, qui contient les sections d'un rapport et des notes sur
+-- ce qui appartient à chacune. Ce que vous rendez est le rapport : six pages au plus, sept avec l'annexe.
+--
+-- # Les enregistrements
+--
+-- | enregistrement | ce qui a été fait |
+-- |---|---|
+-- | `estimation`, `validation` | un repos, puis une tension binaire pseudo-aléatoire de ±2 V, dans deux ordres différents |
+-- | `steps` | un repos, puis des poussées de ±2 V et ±4 V séparées par des pauses |
+-- | `free_swing` | moteur à 0 V, charge lâchée à la main |
+-- | `limits` | tension pseudo-aléatoire, puis conduite à la main jusqu'aux deux bouts du rail, puis de nouveau pseudo-aléatoire |
+--
+-- Chacun contient `t` (s), `u` (V), `x` (m) et `theta` (rad), toutes les 0,02 s ; la tension est maintenue entre deux échantillons.
+
+-- %% [markdown]
+-- **Question 1.** Montrez les enregistrements bruts. Que voit-on avant tout calcul ?
+
+-- %% [markdown]
+-- **Question 2.** Bruit, résolution, niveaux au repos : que disent la première seconde d'un enregistrement et les différences entre ses échantillons ?
+--
+-- **Question 3.** Quelle section de `limits` n'appartient à aucun modèle linéaire, et pourquoi ? Trouvez-en le premier et le dernier instant dans
+-- l'enregistrement, et comparez avec ce que `advice` dit de l'enregistrement et de son champ `discard`.
+
+-- %% [markdown]
+-- **Question 4.** Qu'y a-t-il entre la tension et la position qu'aucun enregistrement de durée finie ne montre entièrement ? Écrivez les équations
+-- de la grue comme la physique les donne, et lisez-y quels pôles et zéros position et angle ont en commun.
+--
+-- **Question 5.** Comparez des structures pour chaque sortie, sur les enregistrements d'estimation et de validation (`srivcstruc`).
+
+-- %% [markdown]
+-- **Question 6.** Estimez le modèle que vous avez retenu. Les deux sorties, estimées chacune pour elle-même, s'accordent-elles sur ce qu'elles
+-- ont en commun ? Que donnent-elles ensemble (`CommonDenominator`) ? Un millimètre et un milliradian ne s'additionnent pas : par quoi
+-- faut-il diviser les erreurs de chaque sortie (`OutputWeights`) ?
+
+-- %% [markdown]
+-- **Question 7.** Qu'a-t-on essayé d'autre, et pourquoi l'écarter ? Comparez la simulation d'un modèle ARX, et ce que devient votre
+-- modèle quand il est estimé sur `limits`, en entier puis sans la section que vous avez écartée.
+
+-- %% [markdown]
+-- **Question 8.** Validez : les sorties simulées contre l'enregistrement qui n'a pas servi, puis les résidus. Que vaut le modèle sur les
+-- poussées de `steps`, et que dit le balancement libre du pendule ?
+
+-- %% [markdown]
+-- **Question 9.** Un enregistrement est un seul coup de dés. On peut interroger de nouveau la grue de ce cours : `rig("crane", {seed = 2})` répète les cinq
+-- expériences avec un autre ordre des bits et un autre bruit. Devinez d'abord : votre adéquation en validation est-elle typique ? Puis répétez toute votre
+-- démarche quarante fois. De combien adéquation, paramètres et fréquence se dispersent-ils, les erreurs types annoncent-elles cette dispersion, et à quelle
+-- distance votre modèle est-il du meilleur modèle linéaire de cette structure ?
+
+-- %% [markdown]
+-- **Question 10.** Quelle non-linéarité reste-t-il ? Simulez les équations de la question 4 avec le frottement sec, avec le sinus de l'angle au lieu de l'angle
+-- (et la traînée de l'air), et avec les deux ; estimez leurs quelques paramètres comme ceux du modèle linéaire, par la plus petite erreur de simulation. Laquelle
+-- explique la position, laquelle l'angle, et que reste-t-il à la fin ?
+
+-- %% [markdown]
+-- **Question 11 (annexe).** Proposez un moyen d'amener vite le chariot à un endroit donné tandis que la charge balance peu : un schéma-bloc,
+-- un régulateur conçu sur votre modèle (`lqr`, `place`), et sa boucle fermée sur la grue non linéaire (`drive_crane`).
+
+-- %% [markdown]
+-- # Ce que vous rendez en plus du rapport
+--
+-- Le rapport est lu par des gens. Là où le script est noté aussi, il rend avec `answer(nom, valeur)` : `discarded`, premier et dernier instant (s) de la section
+-- de `limits` qui n'appartient à aucun modèle linéaire ; `rest_angle`, ce qu'indique le potentiomètre (rad) quand la charge pend immobile ; vos modèles recommandés,
+-- de la tension à la position, `G_position`, intégrateur compris, et de la tension à l'angle, `G_angle` ; `fits`, l'adéquation (%) avec laquelle ils simulent position et
+-- angle de l'enregistrement de validation ; et `free_swing`, la fréquence (rad/s) à laquelle la charge balance quand le moteur est au repos. Le script sera exécuté sur
+-- les enregistrements d'une autre grue, et les modèles qu'il y trouve seront comparés à des expériences que personne n'a vues. Les figures que
+-- l'on cherche s'appellent `raw` et `validation`.

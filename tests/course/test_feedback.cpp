@@ -1,0 +1,102 @@
+// What students read. Oracles: the header and roster that are made here, and poppler's text of the PDF.
+#include <gmock/gmock.h>
+
+#include "course/grading_bench.h"
+#include "course/hand_ins/work_language.h"
+
+namespace dynlab::test {
+namespace test_feedback {
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+constexpr const char* kAnswers = "--   x: number\n";
+constexpr const char* kSolution = "answer('x', 42)\n";
+constexpr const char* kChecks =
+    "check{id = 'x', points = 2.5, about = 'The number', hint = 'Six times seven.',\n"
+    "  test = function(a) return near(a.x, 42) end}\n";
+constexpr const char* kFrench =
+    "-- ---\n-- title: T\n-- lesson: 99_small\n-- language: fr\n-- answers:\n--   x: number\n";
+
+TEST(feedback, is_in_the_language_of_what_was_handed_in) {
+    const Workbench bench;
+    const auto language = [&] { return language_of_work(bench.path()); };
+    EXPECT_EQ(language(), "");
+    bench.write("analysis.lua", GradingBench::header(kAnswers));
+    EXPECT_EQ(language(), "en");
+    bench.write("analysis.lua", "-- ---\n-- title: T\n-- language: fr\n-- ---\n");
+    EXPECT_EQ(language(), "fr");
+    bench.write("report.md", "---\ntitle: T\n---\n");
+    EXPECT_EQ(language(), "fr");
+    bench.write("report.md", "---\ntitle: T\nlang: en\n---\n");
+    EXPECT_EQ(language(), "en");
+    bench.write("report.md", "---\nsecret: [\n---\n");
+    EXPECT_EQ(language(), "fr");
+    bench.write("analysis.lua", "-- ---\n-- language: klingon\n-- ---\n");
+    EXPECT_EQ(language(), "");
+}
+
+TEST(feedback, is_titled_after_the_group_and_not_after_the_folder_of_a_platform) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    Workbench& work = bench.bench();
+    bench.hand_in("Zoé Lefèvre_900001_assignsubmission_file_", "answer('x', 1)\n");
+    work.write("in/Zoé Lefèvre_900001_assignsubmission_file_/report.md", "---\ntitle: T\nlang: fr\n---\n");
+    bench.hand_in("Ada Byron_900002_assignsubmission_file_", kSolution);
+    bench.hand_in("Ida Rhodes_900003_assignsubmission_file_", kSolution);
+    work.write("roster.csv",
+               "id,name,group,language\n1,Zoé Lefèvre,group-03,\n2,Ada Byron,,fr\n3,Ida Rhodes,group-04,\n");
+    std::vector<std::string> words = {"grade", "in",          "--lesson",    "99",       "--out",
+                                      "out",   "--isolation", bench.level(), "--roster", "roster.csv"};
+    const ChildResult run = work.dynlab(words);
+    ASSERT_EQ(run.exit_code, 0) << run.error_output;
+    const auto feedback = [&](const std::string& name) {
+        return work.read("out/results/" + name + "_assignsubmission_file_/feedback.md");
+    };
+    EXPECT_THAT(
+        feedback("Zoé Lefèvre_900001"),
+        AllOf(StartsWith("# Retour pour group-03\n\nLeçon 99\\_small : **0 points sur 2,5.**\n\nVotre script est "
+                         "allé jusqu'au bout.\n\n## Contrôles\n\n- **The number** – 0 sur 2,5"),
+              Not(HasSubstr("assignsubmission")), HasSubstr("dites à votre enseignant")));
+    EXPECT_THAT(feedback("Ada Byron_900002"), StartsWith("# Retour pour Ada Byron\n\nLeçon"));
+    EXPECT_THAT(feedback("Ida Rhodes_900003"),
+                StartsWith("# Feedback for group-04\n\nLesson 99\\_small: **2.5 of 2.5 points.**"));
+    const std::string pdf =
+        work.shell("pdftotext -layout out/results/Zo*/feedback.pdf - && pdfinfo out/results/Zo*/feedback.pdf").output;
+    EXPECT_THAT(pdf, AllOf(HasSubstr("Retour pour group-03"), HasSubstr("Contrôles"), HasSubstr("0 sur 2,5"),
+                           HasSubstr("Leçon 99_small : 0 points sur 2,5."), Not(HasSubstr("assignsubmission"))));
+    const std::string english = work.shell("pdftotext -layout out/results/Ida*/feedback.pdf -").output;
+    EXPECT_THAT(english, AllOf(HasSubstr("Feedback for group-04"), HasSubstr("Checks"), HasSubstr("tell your")));
+    work.write("roster.csv", "id,name,language\n1,Zoé Lefèvre,français\n");
+    EXPECT_THAT(work.dynlab(words).error_output,
+                HasSubstr("roster.csv, line 2: the language must be en or fr, but \"français\" was given"));
+}
+
+TEST(feedback, of_a_hand_in_that_does_not_count_says_so) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    Workbench& work = bench.bench();
+    bench.hand_in("Zoé Lefèvre_900001_assignsubmission_file_", "answer('x', 1)\n");
+    work.write("in/Ida Rhodes_900003_assignsubmission_file_/analysis.lua",
+               std::string(kFrench) + "-- ---\n" + kSolution);
+    work.write("roster.csv", "id,name,group\n1,Zoé Lefèvre,group-03\n3,Ida Rhodes,group-03\n");
+    const auto feedback = [&](const std::string& name) {
+        return work.read("out/results/" + name + "_assignsubmission_file_/feedback.md");
+    };
+    bench.grade({"--roster", "roster.csv"});
+    EXPECT_THAT(feedback("Zoé Lefèvre_900001"), HasSubstr("**This hand-in does not count.** Of several from you the "
+                                                          "better one counts: Ida Rhodes (900003)."));
+    EXPECT_THAT(feedback("Ida Rhodes_900003"), Not(HasSubstr("ne compte pas")));
+    // A mark by hand turns it round.
+    work.write("out/manual.csv",
+               "submission,check,points,reason\nZoé Lefèvre_900001_assignsubmission_file_,x,2.5,said it\n"
+               "Ida Rhodes_900003_assignsubmission_file_,x,0,copied\n");
+    EXPECT_THAT(bench.grade({"--roster", "roster.csv"}).output, HasSubstr("0 graded now, 2 unchanged"));
+    EXPECT_THAT(feedback("Zoé Lefèvre_900001"), Not(HasSubstr("does not count")));
+    EXPECT_THAT(feedback("Ida Rhodes_900003"),
+                HasSubstr("**Cette remise ne compte pas.** De plusieurs remises de votre part, la meilleure compte : "
+                          "Zoé Lefèvre (900001)."));
+    EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr("3,Ida Rhodes,Zoé Lefèvre_900001_assign"));
+}
+
+}  // namespace test_feedback
+}  // namespace dynlab::test

@@ -1,0 +1,125 @@
+// Oracle: what a reader sees, in the HTML that Pandoc writes and in the text poppler reads back; lines counted by hand.
+#include <gmock/gmock.h>
+
+#include "document_fixture.h"
+#include "support/pdf_inspection.h"
+
+namespace dynlab {
+namespace test_literature {
+
+using test::inspect_pdf;
+using testing::HasSubstr;
+using testing::Not;
+
+class literature : public DocumentTest {
+  protected:
+    literature() {
+        write("books.bib",
+              "@book{ljung1999, author={Ljung, Lennart}, title={System Identification}, publisher={Prentice Hall}, "
+              "year={1999}}\n@book{young2011, author={Young, Peter C.}, title={Recursive Estimation}, year={2011}}\n");
+    }
+    const std::string header_ = "---\nlang: en\nbibliography: books.bib\n---\n";
+};
+
+TEST_F(literature, citations_name_authors_and_the_list_holds_what_is_cited) {
+    const std::string page = html(header_ + "As in [@ljung1999, section 7.4].\n\n# End\n\nLast.\n");
+    EXPECT_THAT(page, HasSubstr("Ljung 1999"));
+    EXPECT_THAT(page, HasSubstr("System Identification"));
+    EXPECT_THAT(page, Not(HasSubstr("Recursive Estimation")));
+    EXPECT_LT(page.find("Last."), page.find("References"));
+    EXPECT_LT(page.find("References"), page.find("Prentice Hall"));
+}
+
+TEST_F(literature, the_list_stands_where_the_author_puts_it) {
+    const std::string page =
+        html(header_ + "As @young2011 says.\n\n# Books\n\n::: references\n:::\n\n# Appendix\n\nLast.\n");
+    EXPECT_LT(page.find("Recursive Estimation"), page.find("Appendix"));
+    EXPECT_THAT(page, Not(HasSubstr("References")));
+}
+
+TEST_F(literature, csl_json_and_french_do_as_well) {
+    write("books.json",
+          R"([{"id": "garnier", "type": "book", "title": "Continuous-time models", "issued": {"date-parts": [[2008]]},
+              "author": [{"family": "Garnier", "given": "Hugues"}, {"family": "Wang", "given": "Liuping"}]}])");
+    const std::string page = html("---\nlang: fr\nbibliography: books.json\n---\nSelon @garnier.\n");
+    EXPECT_THAT(page, HasSubstr("Garnier et Wang"));
+    EXPECT_THAT(page, HasSubstr("Références"));
+}
+
+TEST_F(literature, the_pdf_lists_it_too) {
+    const auto content =
+        inspect_pdf(make(header_ + "As in [@ljung1999].\n\n# Next\n\nSee @sec:a.\n\n# A {#sec:a}\n", "out.pdf"));
+    EXPECT_THAT(content.pages.at(0), HasSubstr("(Ljung 1999)"));
+    EXPECT_THAT(content.pages.at(0), HasSubstr("Prentice Hall"));
+}
+
+TEST_F(literature, unknown_keys_are_errors_with_their_line) {
+    const std::string message = refusal(header_ + "One.\n\nTwo [@ljung1998].\n");
+    EXPECT_THAT(message, HasSubstr("report.md:7: "));
+    EXPECT_THAT(message, HasSubstr("no entry \"ljung1998\"; did you mean \"ljung1999\"?"));
+}
+
+TEST_F(literature, citations_without_a_bibliography_are_errors) {
+    EXPECT_THAT(refusal("One.\n\nAs in [@ljung1999].\n"), HasSubstr("report.md:3: @ljung1999 cites literature"));
+    EXPECT_THAT(refusal("One @young2011 says.\n"), HasSubstr("report.md:1: @young2011 cites literature"));
+    EXPECT_EQ(refusal("Write to ada@example.org or \\@home.\n"), "");
+}
+
+TEST_F(literature, a_bibliography_that_cannot_be_read_is_told) {
+    EXPECT_THAT(refusal("---\nbibliography: none.bib\n---\nText\n"),
+                HasSubstr("none.bib: the bibliography is missing"));
+    EXPECT_THAT(refusal("---\nbibliography: ../books.bib\n---\nText\n"),
+                HasSubstr("report.md:2: bibliography must be"));
+    EXPECT_THAT(refusal("---\nbibliography: /etc/passwd\n---\nText\n"), HasSubstr("report.md:2: bibliography must be"));
+    write("books.bib", "@book{ljung1999, title={never closed\n");
+    EXPECT_THAT(refusal(header_ + "As in [@ljung1999].\n"), HasSubstr("the bibliography cannot be read: (line"));
+}
+
+// A title is Pandoc's own to read: whatever it makes of TeX, nothing of it is run.
+TEST_F(literature, what_a_bibliography_holds_reaches_no_file_and_no_script) {
+    write("secret.txt", "SECRETWORD");
+    write("books.bib",
+          "@book{a, author={A, B}, title={One $\\input{secret.txt}$ \\input{secret.txt} and more}, year={2000},\n"
+          "url={javascript:alert(1)}, note={\\href{javascript:alert(2)}{here} \\includegraphics{secret.txt}}}\n");
+    const std::string page = html(header_ + "As in [@a].\n");
+    EXPECT_THAT(page, Not(HasSubstr("SECRETWORD")));
+    EXPECT_THAT(page, Not(HasSubstr("href=\"javascript")));
+    EXPECT_THAT(inspect_pdf(make(header_ + "As in [@a].\n", "out.pdf")).pages.at(0), Not(HasSubstr("SECRETWORD")));
+}
+
+TEST_F(literature, latex_that_would_be_printed_is_an_error_with_its_line) {
+    for (const auto& [written, told] : {std::pair("\\newpage", "\\newpage"),
+                                        {"\\begin{align} a &= b \\end{align}", "\\begin"},
+                                        {"as in \\ref{fig:x}", "\\ref"},
+                                        {"an angle \\alpha here", "\\alpha"},
+                                        {"\\(x\\) is", "\\(...\\)"},
+                                        {"\\[x\\]", "\\[...\\]"},
+                                        {"\\[\nx\n\\]", "\\[...\\]"}}) {
+        const std::string message = refusal("One.\n\n" + std::string(written) + "\n");
+        EXPECT_THAT(message, HasSubstr("report.md:3: ")) << written;
+        EXPECT_THAT(message, HasSubstr(told)) << written;
+    }
+    EXPECT_EQ(refusal("`\\newpage`, $\\alpha$, C:\\temp, \\\\, 5\\ m, \\(a, \\[1\\.\n\n```\n\\begin{x} \\(x\\)\n```\n"),
+              "");
+}
+
+TEST_F(literature, measures_are_shown_by_name) {
+    write("report.md", "::: measures\nfit, YIC\n:::\n");
+    DocumentSource source;
+    source.template_file = file("report.md");
+    source.measures = {{"fit", "**Fit**\n\n$$ a $$\n"}, {"yic", "**Young**\n"}, {"bic", "**Schwarz**\n"}};
+    DocumentMaker({}).make(source, file("out.html"), DocumentFormat::kHtml, nullptr);
+    const std::string page = read(file("out.html"));
+    EXPECT_LT(page.find("Fit"), page.find("Young"));
+    EXPECT_THAT(page, Not(HasSubstr("Schwarz")));
+    write("report.md", "One.\n\n::: measures\nYCI\n:::\n");
+    try {
+        DocumentMaker({}).make(source, file("other.html"), DocumentFormat::kHtml, nullptr);
+        FAIL();
+    } catch (const DocumentError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("report.md:4: there is no measure \"YCI\""));
+    }
+}
+
+}  // namespace test_literature
+}  // namespace dynlab

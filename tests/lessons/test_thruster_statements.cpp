@@ -1,0 +1,248 @@
+// What the slides of lesson 5 say, held to a second route: the simulator's parameters, and lag, delay and static curve
+// found again on its records by linear regression, without any estimator.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "numerics/rigs/thruster.h"
+#include "numerics/signals/butterworth.h"
+#include "support/program.h"
+
+namespace dynlab::test {
+namespace test_thruster_statements {
+
+const double kPeriod = ThrusterExperiments{}.Ts;
+
+/// The three records of a shape, measured from neutral and from the level at rest.
+struct Records {
+    std::vector<Vector> width, thrust;
+
+    explicit Records(const std::string& shape) {
+        for (const ThrusterRecord& record : simulate_thruster({}, {}, 1)) {
+            if (!record.name.starts_with(shape)) continue;
+            width.push_back(record.pwm.array() - ThrusterParameters{}.neutral);
+            thrust.push_back(record.force.array() - record.force.head(250).mean());
+        }
+    }
+};
+
+Vector below_8_hz(const Vector& signal) {
+    return filter_zero_phase(butterworth({.high = 2 * M_PI * 8}, kPeriod), signal);
+}
+
+/// Thrust's root, with its sign.
+Vector root(const Vector& thrust) {
+    return thrust.unaryExpr([](double F) { return std::copysign(std::sqrt(std::abs(F)), F); });
+}
+
+/// Straight lines between values at these widths: the weight of each value.
+Matrix weights(const Vector& edges, const Vector& width) {
+    Matrix result = Matrix::Zero(width.size(), edges.size());
+    for (Index k = 0; k < width.size(); ++k) {
+        const double u = std::clamp(width[k], edges[0], edges[edges.size() - 1]);
+        Index i = 0;
+        while (i + 2 < edges.size() && u > edges[i + 1]) ++i;
+        const double share = (u - edges[i]) / (edges[i + 1] - edges[i]);
+        result(k, i) = 1 - share;
+        result(k, i + 1) = share;
+    }
+    return result;
+}
+
+/// Columns held between samples, late and behind one lag, from rest with their first values.
+Matrix behind_lag(const Matrix& columns, double delay, double lag) {
+    const auto whole = static_cast<Index>(std::floor(delay / kPeriod));
+    const double rest = delay - static_cast<double>(whole) * kPeriod;
+    const double all = std::exp(-kPeriod / lag), late = std::exp(-(kPeriod - rest) / lag);
+    Matrix result(columns.rows(), columns.cols());
+    result.row(0) = columns.row(0);
+    for (Index k = 0; k + 1 < columns.rows(); ++k)
+        result.row(k + 1) = all * result.row(k) + (late - all) * columns.row(std::max<Index>(0, k - whole - 1)) +
+                            (1 - late) * columns.row(std::max<Index>(0, k - whole));
+    return result;
+}
+
+Vector stacked(const std::vector<Vector>& parts) {
+    Vector result(0);
+    for (const Vector& part : parts) {
+        result.conservativeResize(result.size() + part.size());
+        result.tail(part.size()) = part;
+    }
+    return result;
+}
+
+/// The values of the static curve (edges) that explain the outputs best behind this delay and lag.
+struct Regression {
+    Vector levels;
+    double left;  ///< norm of what remains
+};
+Regression regression(const std::vector<Vector>& widths, const std::vector<Vector>& outputs, const Vector& edges,
+                      double delay, double lag) {
+    const Index n = edges.size();
+    Matrix normal = Matrix::Zero(n, n);
+    Vector right = Vector::Zero(n);
+    double squares = 0;
+    for (std::size_t i = 0; i < widths.size(); ++i) {
+        const Matrix X = behind_lag(weights(edges, widths[i]), delay, lag);
+        normal += X.transpose() * X;
+        right += X.transpose() * outputs[i];
+        squares += outputs[i].squaredNorm();
+    }
+    const Vector levels = normal.ldlt().solve(right);
+    return {levels, std::sqrt(squares - levels.dot(right))};
+}
+
+/// Least of what remains at this delay, over lags about the one given (s).
+double least_left(const std::vector<Vector>& widths, const std::vector<Vector>& outputs, const Vector& edges,
+                  double delay, double lag) {
+    double least = regression(widths, outputs, edges, delay, lag).left;
+    for (const double change : {-2e-3, -1e-3, 1e-3, 2e-3})
+        least = std::min(least, regression(widths, outputs, edges, delay, lag + change).left);
+    return least;
+}
+
+Vector edges_of(const std::string& shape) {
+    Vector edges(shape == "sine" ? 8 : 7);
+    if (shape == "sine") {
+        edges << -300, -200, -100, -25, 25, 100, 200, 300;
+    } else {
+        edges << -300, -200, -100, 0, 100, 200, 300;
+    }
+    return edges;
+}
+
+nlohmann::json record_of_lesson() {
+    const Workbench bench;
+    const ChildResult run = bench.dynlab({"run", DYNLAB_SOURCE_DIR "/lessons/05_thruster/lesson.lua", "--out", "made"});
+    EXPECT_EQ(run.exit_code, 0) << run.error_output;
+    return nlohmann::json::parse(bench.read("made/record.json"));
+}
+
+class thruster_statements : public testing::Test {
+  protected:
+    static void SetUpTestSuite() { record_ = new nlohmann::json(record_of_lesson()); }
+    static void TearDownTestSuite() { delete record_; }
+
+    static double number(const std::string& name) { return record_->at("values").at(name).at("number"); }
+    static double cell(const char* table, int row, int column) {
+        return std::stod(record_->at("tables").at(table).at("rows").at(row).at(column).get<std::string>());
+    }
+
+    static nlohmann::json* record_;
+};
+nlohmann::json* thruster_statements::record_ = nullptr;
+
+TEST_F(thruster_statements, delays_and_lags_are_those_of_a_regression) {
+    const ThrusterParameters rig;
+    for (const std::string shape : {"sine", "square"}) {
+        const Records records(shape);
+        const Vector edges = edges_of(shape);
+        std::vector<Vector> roots;
+        for (const Vector& thrust : records.thrust) roots.push_back(root(thrust));
+        for (const std::string kind : {"hammerstein", "root"}) {
+            const double delay = 1e-3 * number("delay_" + kind + "_" + shape),
+                         lag = 1e-3 * number("lag_" + kind + "_" + shape);
+            const std::vector<Vector>& outputs = kind == "root" ? roots : records.thrust;
+            const Regression best = regression(records.width, outputs, edges, delay, lag);
+            for (const double change : {-5e-4, 5e-4})
+                EXPECT_LT(best.left, least_left(records.width, outputs, edges, delay + change, lag))
+                    << kind << " from " << shape << ", delay by " << change << " s";
+            for (const double change : {-2e-3, 2e-3})
+                EXPECT_LT(best.left, regression(records.width, outputs, edges, delay, lag + change).left)
+                    << kind << " from " << shape << ", lag by " << change << " s";
+
+            // What the curve from sines is off, and the fit on the other shape.
+            const auto output = [&kind](const Vector& y) {
+                return kind == "root" ? Vector(y.array() * y.array().abs()) : y;
+            };
+            const Vector curve = output(best.levels);
+            for (const int size : {100, 200, 300}) {
+                if (shape == "square") continue;
+                double most = 0;
+                for (Index i = 0; i < edges.size(); ++i)
+                    if (std::abs(edges[i]) == size)
+                        most =
+                            std::max(most, std::abs(curve[i] / thruster_thrust(rig, rig.neutral + edges[i]) - 1) * 100);
+                EXPECT_NEAR(number("curve_off_" + kind + "_" + std::to_string(size)), most, 0.3);
+            }
+            const Records others(shape == "sine" ? "square" : "sine");
+            std::vector<Vector> errors, swings;
+            for (std::size_t i = 0; i < others.width.size(); ++i) {
+                const Vector y = below_8_hz(others.thrust[i]);
+                const Vector simulated = output(behind_lag(weights(edges, others.width[i]), delay, lag) * best.levels);
+                errors.push_back(y - below_8_hz(simulated));
+                swings.push_back(y.array() - y.mean());
+            }
+            EXPECT_NEAR(number("val_" + kind + "_" + shape),
+                        100 * (1 - stacked(errors).norm() / stacked(swings).norm()), 0.1);
+        }
+    }
+}
+
+TEST_F(thruster_statements, a_filter_on_one_side_becomes_a_part_of_the_delay) {
+    const Records records("square");
+    const Vector edges = edges_of("square");
+    std::vector<Vector> filtered;
+    for (const Vector& thrust : records.thrust) filtered.push_back(root(below_8_hz(thrust)));
+    // The best delay by regression, lags on a grid.
+    double best = 0, least = INFINITY;
+    for (int ms = 26; ms <= 50; ms += 2)
+        for (int lag = 50; lag <= 80; lag += 5) {
+            const double left = regression(records.width, filtered, edges, 1e-3 * ms, 1e-3 * lag).left;
+            if (left < least) {
+                least = left;
+                best = ms;
+            }
+        }
+    EXPECT_NEAR(number("delay_one_sided"), best, 2) << "the grid's step";
+    EXPECT_GT(number("delay_one_sided"), number("delay_root_square") + 8);
+}
+
+TEST_F(thruster_statements, delays_differ_by_structure_and_two_are_near_the_truth) {
+    const ThrusterTruth truth = thruster_truth({});
+    int near = 0;
+    double least = INFINITY, most = 0;
+    for (const std::string kind : {"linear", "hammerstein", "root"})
+        for (const std::string shape : {"sine", "square"}) {
+            const double delay = number("delay_" + kind + "_" + shape);
+            least = std::min(least, delay);
+            most = std::max(most, delay);
+            if (std::abs(delay - 1e3 * truth.delay) < 1) ++near;
+        }
+    EXPECT_EQ(near, 2);
+    EXPECT_EQ(least, number("delay_linear_sine")) << "the text names the smallest";
+    EXPECT_EQ(most, number("delay_root_sine")) << "and the largest";
+    EXPECT_LT(number("delay_change"), (most - least) / 10) << "what is wrong is not noise";
+    EXPECT_NEAR(number("slow_lag"), 1e3 * truth.slow_time_constant, 0.5);
+    EXPECT_NEAR(number("fast_lag"), 1e3 * truth.fast_time_constant, 0.5);
+    EXPECT_LT(number("lag_root_sine"), number("slow_lag"));
+    EXPECT_GT(number("lag_root_sine"), number("fast_lag"));
+}
+
+TEST_F(thruster_statements, the_root_model_is_the_best_at_every_amplitude_but_one) {
+    // Rows: linear, Hammerstein, root model, each from sines and from squares.
+    int beaten = 0;
+    for (const int direction : {0, 1})
+        for (const int amplitude : {2, 3, 4}) {
+            const double best =
+                std::max(cell("verdict", direction, amplitude), cell("verdict", 2 + direction, amplitude));
+            if (cell("verdict", 4 + direction, amplitude) < best) ++beaten;
+        }
+    EXPECT_EQ(beaten, 1);
+    for (const int direction : {0, 1}) {
+        const auto gain = [direction](int amplitude) {
+            return cell("verdict", 2 + direction, amplitude) - cell("verdict", direction, amplitude);
+        };
+        EXPECT_GT(gain(2), std::max(gain(3), gain(4))) << "most at 100 µs";
+    }
+    EXPECT_LT(number("pole_gain"), 1) << "further poles gain next to nothing";
+    const int three_poles = 4, one_pole = 2, from_sine = 3, from_square = 6;
+    EXPECT_LT(cell("orders", three_poles, from_sine), cell("orders", one_pole, from_sine));
+    EXPECT_LT(cell("orders", three_poles, from_square), cell("orders", one_pole, from_square));
+}
+
+}  // namespace test_thruster_statements
+}  // namespace dynlab::test

@@ -1,0 +1,182 @@
+// What `dynlab run` and `dynlab report` tell of a script: its errors with place, line and calls, what it reported, what
+// has no place in the text. Oracle: the lines of the scripts, written here by hand.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "support/program.h"
+
+namespace dynlab::test {
+namespace test_script_messages {
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+std::string told(const Workbench& bench, const std::string& script, const std::string& code) {
+    bench.write(script, code);
+    return bench.dynlab({"run", script}).error_output;
+}
+
+TEST(script_messages, a_syntax_error_shows_the_line_behind_the_path_as_given) {
+    const Workbench bench;
+    EXPECT_THAT(told(bench, "A/a.lua", "local x = 1\n  local y = = 2\n"),
+                testing::MatchesRegex("dynlab: A/a.lua:2: [^\n]*\n    local y = = 2\n"));
+    EXPECT_THAT(bench.shell("cd A && \"$DYNLAB\" run ./a.lua 2>&1").output, HasSubstr("dynlab: ./a.lua:2: "));
+    EXPECT_THAT(bench.dynlab({"run", bench.path("A/a.lua").string()}).error_output,
+                HasSubstr("dynlab: " + bench.path("A/a.lua").string() + ":2: "));
+}
+
+TEST(script_messages, an_error_of_the_main_chunk_shows_its_line_alone) {
+    const Workbench bench;
+    EXPECT_EQ(told(bench, "A/a.lua", "\nlocal v = zeros('x') -- here\n"),
+              "dynlab: A/a.lua:2: zeros: argument 1 (n) must be a number, but the text \"x\" was given\n"
+              "    local v = zeros('x') -- here\n");
+    EXPECT_EQ(bench.dynlab({"run", "-e", "error('no')"}).error_output, "dynlab: command line:1: no\n    error('no')\n");
+}
+
+TEST(script_messages, an_error_inside_functions_shows_who_called_with_what) {
+    const Workbench bench;
+    EXPECT_EQ(told(bench, "A/a.lua",
+                   "local function half(x, name)\n"
+                   "  return zeros(x)\n"
+                   "end\n"
+                   "function twice(t, ...)\n"
+                   "  local y = half('two', t[1])\n"
+                   "  return y\n"
+                   "end\n"
+                   "for k = 1, 3 do\n"
+                   "  print(twice({k, label = 'run'}))\n"
+                   "end\n"),
+              "dynlab: A/a.lua:2: zeros: argument 1 (n) must be a number, but the text \"two\" was given\n"
+              "    return zeros(x)\n"
+              "  A/a.lua:5: called half(x = \"two\", name = 1)\n"
+              "    local y = half('two', t[1])\n"
+              "  A/a.lua:9: called twice(t = {1, label = \"run\"}, ...)\n"
+              "    print(twice({k, label = 'run'}))\n");
+}
+
+TEST(script_messages, long_arguments_and_long_chains_are_cut) {
+    const Workbench bench;
+    const std::string text = told(bench, "a.lua",
+                                  "local s = string.rep('\u00e9', 500)\n"
+                                  "local function deep(n, s)\n"
+                                  "  if n == 0 then error('deep down') end\n"
+                                  "  deep(n - 1, s)\n"
+                                  "  return n\n"
+                                  "end\n"
+                                  "deep(1000, s)\n");
+    EXPECT_THAT(text, HasSubstr("dynlab: a.lua:3: deep down\n"));
+    EXPECT_THAT(text, HasSubstr("  a.lua:4: called deep(n = 0, s = \"\u00e9\u00e9"));
+    EXPECT_THAT(text, HasSubstr("  a.lua:7: began a longer chain of calls\n    deep(1000, s)\n"));
+    EXPECT_LT(text.size(), 2000u);
+    EXPECT_THAT(told(bench, "b.lua", "local function f() return 1 + f() end\nf()\n"),
+                HasSubstr("b.lua:1: functions call each other without end"));
+}
+
+TEST(script_messages, a_required_file_is_named_with_its_folder_and_line) {
+    const Workbench bench;
+    bench.write("A/lib/tools.lua", "local t = {}\nfunction t.gain(G)\n  return G.gian.x\nend\nreturn t\n");
+    EXPECT_EQ(told(bench, "A/a.lua", "local t = require('lib.tools')\nt.gain({})\n"),
+              "dynlab: A/lib/tools.lua:3: the field 'gian' is nil (it has no value), so it has no fields or elements\n"
+              "    return G.gian.x\n"
+              "  A/a.lua:2: called gain(G = {})\n"
+              "    t.gain({})\n");
+    bench.write("A/wrong.lua", "error('at once')\n");
+    EXPECT_EQ(
+        told(bench, "A/a.lua", "\nrequire('wrong')\n"),
+        "dynlab: A/wrong.lua:1: at once\n    error('at once')\n  A/a.lua:2: ran wrong.lua\n    require('wrong')\n");
+}
+
+// What a script says of a place is no reason to read it.
+TEST(script_messages, no_line_of_a_file_elsewhere_is_shown) {
+    const Workbench bench;
+    bench.write("secret.lua", "secret words\n");
+    for (const char* place : {"../secret.lua:1: x", "/etc/passwd:1: x", "secret.txt:1: x"})
+        EXPECT_THAT(told(bench, "A/a.lua", std::string("error('") + place + "', 0)\n"), Not(HasSubstr("\n    ")));
+}
+
+TEST(script_messages, a_report_tells_the_same) {
+    const Workbench bench;
+    bench.write("A/analysis.lua", "local function f(n)\n  return zeros(n)\nend\nf(-1)\nprint('never')\n");
+    bench.write("A/report.md", "---\ntitle: A\n---\n\nText.\n");
+    EXPECT_EQ(bench.dynlab({"report", "A", "-o", "a.md"}).error_output,
+              "dynlab: A/analysis.lua:2: zeros: argument 1 (n) must not be negative, but -1 was given\n"
+              "    return zeros(n)\n"
+              "  A/analysis.lua:4: called f(n = -1)\n"
+              "    f(-1)\n");
+    const auto checked = nlohmann::json::parse(bench.dynlab({"check", "A", "--json"}).output);
+    EXPECT_EQ(checked.at("findings").at(0).at("what"),
+              "From a clean copy of the folder no report comes out: analysis.lua:2: zeros: argument 1 (n) must not be "
+              "negative, but -1 was given");
+}
+
+TEST(script_messages, run_prints_what_is_reported) {
+    const Workbench bench;
+    bench.write("a.lua",
+                "report.value('fit', 93.25, '%.1f')\nreport.table('models', {{'Model', 'Fit'}, {'P1', '93'}})\n"
+                "report.text('end', 'It *fits*.')\n");
+    const ChildResult run = bench.dynlab({"run", "a.lua"});
+    EXPECT_EQ(run.output, "value fit: 93.2\ntable models:\nModel  Fit\n-----  ---\nP1     93\ntext end: It *fits*.\n");
+    EXPECT_THAT(run.error_output, IsEmpty());  // a script without text has no reader that misses it
+}
+
+TEST(script_messages, run_report_and_check_tell_what_has_no_place) {
+    const Workbench bench;
+    bench.write("A/analysis.lua", "report.value('fit', 93.25, '%.1f')\nreport.value('gain', 2, '%.0f')\n");
+    bench.write("A/report.md", "---\ntitle: A\n---\n\nThe fit is `fit`{.value} % of what could be had.\n");
+    const std::string note =
+        "dynlab: note: the value 'gain' is reported, but has no place in the text; write `gain`{.value}\n";
+    EXPECT_EQ(bench.dynlab({"run", "A"}).error_output, note);
+    EXPECT_EQ(bench.dynlab({"report", "A"}).error_output, note);
+    const std::string checked = bench.dynlab({"check", "A"}).output;
+    EXPECT_THAT(checked, HasSubstr("not-shown\n    report.md: In analysis.lua the value 'gain' is reported, but has no "
+                                   "place in the text."));
+    EXPECT_THAT(checked, HasSubstr("Write `gain`{.value} there."));
+    bench.write("A/report.md", "---\ntitle: A\n---\n\nThe fit is `fit`{.value} %, the gain `gain`{.value}.\n");
+    EXPECT_THAT(bench.dynlab({"run", "A"}).error_output, IsEmpty());
+    EXPECT_THAT(bench.dynlab({"check", "A"}).output, Not(HasSubstr("not-shown")));
+    // Text of cells counts where the report shows them.
+    bench.write("A/analysis.lua", "-- %% [markdown]\n-- `gain`{.value}\n-- %%\nreport.value('gain', 2, '%.0f')\n");
+    bench.write("A/report.md", "---\ntitle: A\n---\n\nText.\n");
+    EXPECT_EQ(bench.dynlab({"run", "A"}).error_output, note);
+    bench.write("A/report.md", "---\ntitle: A\n---\n\n::: {.cells}\n:::\n");
+    EXPECT_THAT(bench.dynlab({"run", "A"}).error_output, IsEmpty());
+}
+
+TEST(script_messages, check_tells_that_nobody_is_named) {
+    const Workbench bench;
+    bench.write("A/analysis.lua", "print(1)\n");
+    bench.write("A/report.md", "---\ntitle: A\n---\n\nText.\n");
+    bench.write("A/group.toml", "members = []\nseed = 1\n");
+    EXPECT_THAT(bench.dynlab({"check", "A"}).output, HasSubstr("members-missing\n    group.toml: No members"));
+    bench.write("A/group.toml", "members = [\"Ada Lovelace\"]\nseed = 1\n");
+    EXPECT_THAT(bench.dynlab({"check", "A"}).output, Not(HasSubstr("members-missing")));
+}
+
+TEST(script_messages, files_of_a_run_lie_beside_its_script) {
+    const Workbench bench;
+    bench.write("A/analysis.lua", "plot({1, 2})\nplot({1, 3})\nsave_csv('r.csv', {x = vector{1, 2}})\n");
+    bench.write("B/analysis.lua", "plot({1, 2})\n");
+    bench.write("A/report.md", "---\ntitle: A\n---\n\nText.\n");
+    const std::string first = "figure cell-1-figure-1: A/analysis_out/01-cell-1-figure-1.pdf\n";
+    EXPECT_EQ(bench.dynlab({"run", "A/analysis.lua"}).output,
+              first + "figure cell-1-figure-2: A/analysis_out/02-cell-1-figure-2.pdf\n");
+    ASSERT_EQ(bench.dynlab({"run", "B"}).exit_code, 0);
+    EXPECT_THAT(bench.files(), ElementsAre("A", "B"));
+    EXPECT_TRUE(std::filesystem::exists(bench.path("A/r.csv")));
+    // A figure that the script no longer makes goes; what is somebody's own stays.
+    bench.write("A/analysis_out/notes.txt", "mine");
+    bench.write("A/analysis.lua", "plot({1, 2})\n");
+    EXPECT_EQ(bench.dynlab({"run", "A"}).output, first);
+    EXPECT_EQ(bench.shell("ls A/analysis_out").output, "01-cell-1-figure-1.pdf\nnotes.txt\n");
+    EXPECT_EQ(bench.dynlab({"report", "A"}).output, bench.path("A/report.pdf").string() + "\n");
+    const ChildResult packed = bench.dynlab({"pack", "A"});
+    EXPECT_THAT(packed.output, HasSubstr("report.pdf\n"));
+    EXPECT_THAT(packed.output, Not(HasSubstr("analysis_out")));
+    EXPECT_THAT(packed.error_output, IsEmpty());
+}
+
+}  // namespace test_script_messages
+}  // namespace dynlab::test

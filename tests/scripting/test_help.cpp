@@ -1,0 +1,126 @@
+// What help answers. Oracles: the outputs written by hand behind the guide's lines, the widths asked for, the names of
+// the toolboxes' documentation.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <sstream>
+
+#include "numerics/error.h"
+#include "platform/utf8.h"
+#include "script_run.h"
+#include "scripting/runtime/help.h"
+#include "scripting/runtime/help_layout.h"
+
+namespace test_help {
+
+using namespace dynlab;
+using dynlab::test::printed;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+std::vector<const FunctionEntry*> functions() {
+    std::vector<const FunctionEntry*> all;
+    for (const FunctionEntry& entry : catalogue_of_functions()) all.push_back(&entry);
+    return all;
+}
+
+std::vector<std::string> code_blocks(const std::string& page) {
+    std::vector<std::string> blocks;
+    constexpr std::string_view kBegin = "```lua\n";
+    for (auto at = page.find(kBegin); at != std::string::npos; at = page.find(kBegin, at + 1)) {
+        const auto begin = at + kBegin.size();
+        blocks.push_back(page.substr(begin, page.find("```", begin) - begin));
+    }
+    return blocks;
+}
+
+TEST(help, guide_to_lua_prints_what_it_says) {
+    const std::vector<std::string> blocks = code_blocks(std::string(find_help_page("lua")->text));
+    EXPECT_GE(blocks.size(), 8u);
+    for (const std::string& block : blocks) {
+        std::string expected, line;
+        for (std::istringstream lines(block); std::getline(lines, line);)
+            if (const auto at = line.find("--> "); at != std::string::npos) expected += line.substr(at + 4) + '\n';
+        EXPECT_EQ(printed(block), expected) << block;
+        EXPECT_FALSE(expected.empty()) << block;
+    }
+}
+
+TEST(help, guide_to_reports_runs) {
+    for (const std::string& block : code_blocks(std::string(find_help_page("guide-report")->text)))
+        EXPECT_THAT(printed(block), Not(HasSubstr("ERROR"))) << block;
+}
+
+TEST(help, fits_the_width_and_shows_no_marks) {
+    const auto all = functions();
+    for (const HelpPage& page : help_pages()) {
+        for (const std::size_t width : {60u, 80u, 100u}) {
+            const std::string text = help_text(std::string(page.name), all, width);
+            bool code = false;
+            std::string line;
+            for (std::istringstream lines(text); std::getline(lines, line);) {
+                code = line.starts_with("    ");  // stays as it is, as do words that are longer than a line
+                if (code) continue;
+                const bool one_word = line.find(' ', line.find_first_not_of("- ")) == std::string::npos;
+                if (page.text.find("\n|") == std::string_view::npos) {  // a table keeps its columns
+                    EXPECT_TRUE(columns_of(line) <= width || one_word) << page.name << ", " << width << ": " << line;
+                }
+                EXPECT_THAT(line, AllOf(Not(StartsWith("# ")), Not(StartsWith("## ")))) << page.name;
+                EXPECT_THAT(line, Not(HasSubstr("**"))) << page.name;
+                EXPECT_THAT(line, Not(StartsWith("|"))) << page.name;
+            }
+            EXPECT_THAT(text, Not(HasSubstr("```lua"))) << page.name;
+        }
+    }
+    std::string line;
+    for (std::istringstream lines(help_overview(all, 70)); std::getline(lines, line);)
+        EXPECT_TRUE(columns_of(line) <= 70 || line.find("help(") != std::string::npos) << line;
+}
+
+TEST(help, lays_out_the_forms_of_a_page) {
+    EXPECT_EQ(
+        laid_out("# name\n\nSome `code` and *words* that\nare 2*3 long.\n\n## Part\n\n- `a`: first\n  goes on\n- b\n",
+                 20),
+        "name\n====\n\nSome code and words\nthat are 2*3 long.\n\nPart\n----\n\n- a: first goes on\n- b\n");
+    EXPECT_EQ(
+        laid_out("| x | y |\n|---|---|\n| `a \\|\\| b` | 1 |\n| c | two |\n\n```lua\nlocal x = `y`\n\n  z\n```\n", 40),
+        "x       y\n------  ---\na || b  1\nc       two\n\n    local x = `y`\n\n      z\n");
+    EXPECT_EQ(laid_out("| a | b |\n|---|---|\n| one | a text of many words |\n", 20),
+              "a    b\n---  ---------------\none  a text of many\n     words\n");
+    EXPECT_EQ(filled("one two three", 7, 2), "one\n  two\n  three");
+}
+
+TEST(help, leads_on_from_toolboxes_methods_and_lua) {
+    const auto all = functions();
+    EXPECT_THAT(help_text("tfest", all),
+                AllOf(HasSubstr("tfest is a word of MATLAB; here: write tfsrivc"), HasSubstr("\n  tfsrivc  ")));
+    EXPECT_THAT(help_text("legend", all), HasSubstr("name the curves: plot(x1"));
+    for (const char* name : {"procest", "ssest", "polyest", "idpoly", "disp", "fprintf", "roots"})
+        EXPECT_THAT(help_text(name, all), HasSubstr("is a word of MATLAB; here: ")) << name;
+    EXPECT_THAT(help_text("iddata.split", all), StartsWith("data:split(0.6) (two parts)\n"));
+    EXPECT_THAT(help_text("data:shift", all), StartsWith("data:shift(n) (input delayed by n samples)\n"));
+    EXPECT_THAT(help_text("fig.add", all), StartsWith("fig:add(x, y, {label =, style =, ...}) (a curve)\n"));
+    EXPECT_THAT(help_text("pairs", all), AllOf(HasSubstr("belongs to Lua itself"), HasSubstr("Tables\n------")));
+    EXPECT_THAT(help_text("pcall", all), HasSubstr("local ok, message = pcall("));
+    EXPECT_THAT(help_text("string.format", all), HasSubstr("%.1f"));
+    EXPECT_THAT(help_text("for", all), HasSubstr("for k = 1, 3 do"));
+    EXPECT_THAT(help_text("math", all), HasSubstr("belongs to Lua itself"));
+}
+
+TEST(help, finds_pages_by_words) {
+    const auto all = functions();
+    const std::string delay = help_search("delay", all);
+    EXPECT_LT(delay.find("delayest"), delay.find("tfsrivc"));  // names come before pages
+    for (const char* word : {"report", "cells", "noise", "csv", "colour", "Young"})
+        EXPECT_THAT(help_text(word, all), AllOf(HasSubstr("these speak of it:\n\n  "), HasSubstr("help NAME"))) << word;
+    EXPECT_THAT(help_text("cells", all), HasSubstr("guide-report"));
+    EXPECT_THAT(help_text("colour", all), HasSubstr("\n  plot  "));
+    EXPECT_THROW(help_search("zzzz", all), InvalidArgument);
+    EXPECT_THROW(help_search("", all), InvalidArgument);
+    EXPECT_THROW(help_text("", all), InvalidArgument);
+}
+
+}  // namespace test_help
