@@ -22,6 +22,7 @@ constexpr const char* kFooter =
     "  dynlab lessons                 what there is to learn\n"
     "  dynlab report 02               a lesson with its worked solution, as a PDF\n"
     "  dynlab new 02 my-work          your own copy, to be worked on\n"
+    "  dynlab preview my-work         a page that follows what you write\n"
     "  dynlab report my-work          your report, as a PDF\n"
     "  dynlab check my-work           what an instructor would ask you to mend\n"
     "  dynlab grade handed-in --lesson 04 --out marks          the marks of a class\n"

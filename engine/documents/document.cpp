@@ -102,8 +102,8 @@ class DocumentBuilder {
         complaints.throw_if_any();
         watch.note("pandoc");
         if (wait_for_figures) wait_for_figures();
-        const auto figures =
-            find_figures(written.pictures, text_.markdown, source_.template_file, *record_, format_, prefix(), complaints);
+        const auto figures = find_figures(written.pictures, text_.markdown, source_.template_file, *record_, format_,
+                                          prefix(), complaints);
         complaints.throw_if_any();
         pictures.insert(pictures.end(), figures.begin(), figures.end());
         watch.note("figures");
@@ -141,7 +141,8 @@ class DocumentBuilder {
         int number = 0;
         for (const std::string& line : lines_of(text_.markdown.text)) {
             ++number;
-            if (const auto sentence = printable.complaint(line)) complaints.add(text_.markdown.origin_of(number), *sentence);
+            if (const auto sentence = printable.complaint(line))
+                complaints.add(text_.markdown.origin_of(number), *sentence);
         }
         for (const auto& [key, value] : text_.metadata)
             if (const auto sentence = printable.complaint(value))

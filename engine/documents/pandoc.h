@@ -32,8 +32,8 @@ struct PandocJob {
     std::filesystem::path shared_templates;                  ///< the folder report_templates
     std::string picture_prefix;                              ///< what the writer puts before a picture's number
     std::filesystem::path work_folder;                       ///< private; slots.lua is written there
-    std::string bibliography;                     ///< a file of the work folder, or empty
-    std::map<std::string, std::string> measures;  ///< Markdown of each
+    std::string bibliography;                                ///< a file of the work folder, or empty
+    std::map<std::string, std::string> measures;             ///< Markdown of each
     std::optional<ChunkSurroundings> chunks = std::nullopt;  ///< then what can be set is set, whatever is wrong
     bool unfinished = false;                                 ///< a slot without an entry says so
     ChildProcess* started = nullptr;  ///< by start_pandoc, for a job of the same format in the same folder

@@ -131,9 +131,11 @@ TEST_F(chunk_setter, footnotes_are_those_of_the_whole_document) {
 }
 
 TEST_F(chunk_setter, literature_stands_behind_the_last_chunk) {
-    write("references.bib", "@book{ljung1999, author = {Ljung, Lennart}, title = {System Identification}, year = {1999}}\n");
+    write("references.bib",
+          "@book{ljung1999, author = {Ljung, Lennart}, title = {System Identification}, year = {1999}}\n");
     const std::string cited =
-        changed(changed(kText, "title: A report", "title: A report\nbibliography: references.bib"), "A figure again", "A figure [@ljung1999] again");
+        changed(changed(kText, "title: A report", "title: A report\nbibliography: references.bib"), "A figure again",
+                "A figure [@ljung1999] again");
     set(cited);
     expect_as_at_once(cited);
     expect_as_at_once(changed(cited, "End, with", "The end, with"));

@@ -20,8 +20,8 @@ namespace {
 
 const std::string kPicturePrefix = "dynlab-picture-";
 /// With what the page goes on behind the last chunk: notes, and literature with its title.
-const char* const kBehindChunks[] = {"<section class=\"footnotes", "<h1 class=\"unnumbered\" id=\"bibliography\"",
-                                     "<h2 class=\"unnumbered\" id=\"bibliography\"", "<div id=\"refs\""};
+const char* const kBehindChunks[] = {"<section class=\"footnotes", "<h1 id=\"bibliography\"", "<h2 id=\"bibliography\"",
+                                     "<div id=\"refs\""};
 using Labels = std::map<std::string, std::string>;
 
 /// What of the record a chunk shows: the entries whose names occur in it.
@@ -96,7 +96,11 @@ namespace {
 class ChunkJob {
   public:
     ChunkJob(const DocumentSource& source, bool unfinished, ChunkSetter::Memory& memory)
-        : source_(source), text_(document_text(source)), record_(*source.record), unfinished_(unfinished), memory_(memory) {
+        : source_(source),
+          text_(document_text(source)),
+          record_(*source.record),
+          unfinished_(unfinished),
+          memory_(memory) {
         for (Chunk& chunk : chunks_of(text_.markdown)) {
             DigestStream digest;
             digest.add_part(chunk.markdown);

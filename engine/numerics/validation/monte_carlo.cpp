@@ -159,8 +159,7 @@ void describe_parameter(MonteCarloResult& result, Index i) {
     result.spread[i] = std::sqrt((v.array() - v.mean()).square().sum() / std::max(1.0, static_cast<double>(count - 1)));
     result.low[i] = v.minCoeff();
     result.high[i] = v.maxCoeff();
-    if (!reported.empty())
-        result.reported[i] = as_vector(reported).mean();
+    if (!reported.empty()) result.reported[i] = as_vector(reported).mean();
     result.median[i] = median(values);
 }
 
