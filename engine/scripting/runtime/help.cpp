@@ -185,7 +185,8 @@ std::string help_overview(const FunctionList& functions, std::size_t width) {
     }
     text += "guides\n";
     for (const HelpPage& page : help_pages())
-        if (entry_of(page.name, functions) == nullptr) text += help_row(std::string(page.name), subject_of(page), width);
+        if (entry_of(page.name, functions) == nullptr)
+            text += help_row(std::string(page.name), subject_of(page), width);
     return text +
            "\nhelp(\"lsim\") explains a function, help(\"lua\") is Lua in ten minutes, help(\"matlab\") a phrase book "
            "for\n"
