@@ -43,7 +43,8 @@ std::string error_text(const RecordedError& error, const PercentScript& script) 
     std::string text = place_text(message.file, message.line, script) + message.text;
     text += source_line(message.file, message.line, script);
     for (const RecordedCall& call : error.calls)
-        text += "\n  " + place_text(call.file, call.line, script) + call.what + source_line(call.file, call.line, script);
+        text +=
+            "\n  " + place_text(call.file, call.line, script) + call.what + source_line(call.file, call.line, script);
     return text;
 }
 
