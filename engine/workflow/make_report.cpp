@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "documents/error.h"
+#include "documents/solutions.h"
 #include "documents/template_file.h"
 #include "documents/unplaced_entries.h"
 #include "platform/atomic_file.h"
@@ -156,6 +157,15 @@ ReportRequest report_of(const std::string& lesson_or_folder, const fs::path& out
     if (!language.empty())
         throw EnvironmentError("the language of " + lesson_or_folder + " stands in its report.md, behind \"lang:\"");
     return report_of_folder(lesson_or_folder, output);
+}
+
+ReportRequest sheet_of(const std::string& name, const fs::path& output) {
+    const Lesson lesson = find_lesson(name);
+    const std::string master = read_percent_script(lesson.script()).source;
+    const PercentScript tasks = parse_percent_script(without_solutions(master, lesson.script()), lesson.script());
+    ReportRequest request = report_of_script(tasks, output.empty() ? fs::path(lesson.slug + "_sheet.pdf") : output);
+    request.of_lesson = true;
+    return request;
 }
 
 ReportResult make_report(const ReportRequest& request) {

@@ -68,7 +68,7 @@ TEST_P(lessons, starter_runs_and_shows_no_solution) {
     EXPECT_TRUE(record.at("values").empty()) << "the starter must not hold the solution's values";
 
     ASSERT_EQ(bench.dynlab({"report", "mine"}).exit_code, 0);
-    const std::string starter = text_of_pdf(bench, "report.pdf");
+    const std::string starter = text_of_pdf(bench, "mine/report.pdf");
     ASSERT_EQ(bench.dynlab({"report", GetParam()}).exit_code, 0);
     EXPECT_LT(starter.size(), text_of_pdf(bench, GetParam() + ".pdf").size());
 }
@@ -360,7 +360,7 @@ TEST(lesson_05_copy, makes_slides_with_the_points_and_no_guidance) {
     EXPECT_THAT(bench.read("mine/report.md"), HasSubstr("title: \"Identification of an underwater thruster\""));
     const ChildResult made = bench.dynlab({"report", "mine"});
     ASSERT_EQ(made.exit_code, 0) << made.error_output;
-    const std::string text = text_of_pdf(bench, "report.pdf");
+    const std::string text = text_of_pdf(bench, "mine/report.pdf");
     EXPECT_THAT(text, HasSubstr("Raw data"));
     EXPECT_THAT(text, Not(HasSubstr("naked eye")));
     EXPECT_EQ(std::count(text.begin(), text.end(), '\f'), 9) << "the title and eight points";
