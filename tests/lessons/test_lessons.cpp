@@ -354,6 +354,16 @@ TEST(lesson_copies, are_french_throughout_where_french_is_asked_for) {
     }
 }
 
+TEST(lesson_copies, of_a_review_are_french_as_well) {
+    const Workbench bench;
+    ASSERT_EQ(bench.dynlab({"new", "review", "mine", "--lang", "fr"}).exit_code, 0);
+    const std::string report = bench.read("mine/report.md");
+    for (const char* word : {" is ", " are ", " your ", " what ", " with ", " which "})
+        EXPECT_THAT(report, Not(HasSubstr(word)));
+    EXPECT_THAT(report, HasSubstr("title: Relecture d'un rapport\nlang: fr\n"));
+    EXPECT_EQ(bench.dynlab({"report", "mine"}).exit_code, 0);
+}
+
 TEST(lesson_05_copy, makes_slides_with_the_points_and_no_guidance) {
     const Workbench bench;
     ASSERT_EQ(bench.dynlab({"new", "05", "mine"}).exit_code, 0);
