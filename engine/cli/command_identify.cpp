@@ -25,6 +25,15 @@ std::optional<double> delay_of(const std::string& text) {
     throw CLI::ValidationError("--delay", "wanted a number of seconds or the word auto, not '" + text + "'");
 }
 
+/// Nothing for "auto".
+std::optional<int> poles_of(const std::string& text) {
+    if (text == "auto") return std::nullopt;
+    int number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error == std::errc() && end == text.data() + text.size()) return number;
+    throw CLI::ValidationError("--poles", "wanted a whole number or the word auto, not '" + text + "'");
+}
+
 void print_at_once(const std::string& text) {
     std::fwrite(text.data(), 1, text.size(), stdout);
     std::fflush(stdout);
@@ -60,8 +69,14 @@ void add_identify(CLI::App& app, Action& action) {
         ->type_name("NAME,...")
         ->delimiter(',')
         ->required();
-    command->add_option("--poles", request.poles, "Number of poles")->type_name("N")->required();
-    command->add_option("--zeros", request.zeros, "Number of zeros, 0 unless given")->type_name("N");
+    command
+        ->add_option_function<std::string>(
+            "--poles", [&request](const std::string& text) { request.poles = poles_of(text); },
+            "Number of poles, or the word auto: then srivcstruc finds it, and the zeros with it")
+        ->type_name("N|auto")
+        ->required();
+    command->add_option("--zeros", request.zeros, "Number of zeros; 0 unless given, with --poles auto found")
+        ->type_name("N");
     command
         ->add_option_function<std::string>(
             "--delay", [&request](const std::string& text) { request.delay = delay_of(text); },

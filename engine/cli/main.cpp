@@ -66,9 +66,9 @@ int main(int argc, char** argv) {
 
     Action action;
     for (const auto add :
-         {add_run,     add_look,       add_identify,  add_report,  add_weave,  add_preview, add_new,    add_check,
-          add_lessons, add_demo,       add_help,      add_doctor,  add_pack,   add_verify,  add_bundle, add_checks,
-          add_grade,   add_gradescope, add_hand_back, add_similar, add_course, add_boxed})
+         {add_run,    add_look,    add_identify,   add_report,    add_sheet,   add_weave,  add_preview, add_new,
+          add_check,  add_lessons, add_demo,       add_help,      add_doctor,  add_pack,   add_verify,  add_bundle,
+          add_checks, add_grade,   add_gradescope, add_hand_back, add_similar, add_course, add_boxed})
         add(app, action);
     app.footer(kFooter);  // commands made before have no part in it
     try {

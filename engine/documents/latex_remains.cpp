@@ -1,11 +1,14 @@
 #include "documents/latex_remains.h"
 
+#include <algorithm>
 #include <regex>
 
 #include "documents/text_lines.h"
 
 namespace dynlab::inline documents {
 namespace {
+
+constexpr std::size_t kLongestLine = 4000;  // std::regex takes stack for every character
 
 /// The line without code between backticks, formulas between dollar signs and escaped backslashes.
 std::string prose_of(const std::string& line) {
@@ -15,13 +18,27 @@ std::string prose_of(const std::string& line) {
 
 }  // namespace
 
+std::set<std::string> escaped_commands(const MarkdownText& markdown) {
+    const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+    const std::string& text = markdown.text;
+    std::set<std::string> words;
+    for (std::size_t at = text.find("\\\\"); at != std::string::npos; at = text.find("\\\\", at)) {
+        at += 2;
+        const auto begin = text.begin() + static_cast<std::ptrdiff_t>(at);
+        words.emplace(begin, std::find_if_not(begin, text.end(), is_letter));
+    }
+    return words;
+}
+
 void find_latex_brackets(const MarkdownText& markdown, Complaints& complaints) {
-    static const std::regex round(R"(\\\(.*\\\))"), square(R"(\\\[.*\\\]|^\s*\\[\[\]]\s*$)");
+    // What looks like a formula: with its signs, or a symbol of few letters.
+    static const std::regex round(R"(\\\(([^()]*[=^_\\{}<>][^()]*|\s*\w{1,3}\s*)\\\))"),
+        square(R"(\\\[([^\[\]]*[=^_\\{}<>][^\[\]]*|\s*\w{1,3}\s*)\\\](?!\()|^\s*\\[\[\]]\s*$)");
     FencedCode fence;
     int number = 0;
     for (const std::string& line : lines_of(markdown.text)) {
         ++number;
-        if (fence.holds(line)) continue;
+        if (fence.holds(line) || line.size() > kLongestLine) continue;
         const std::string prose = prose_of(line);
         if (std::regex_search(prose, round))
             complaints.add(markdown.origin_of(number),

@@ -1,11 +1,17 @@
 #pragma once
+#include <set>
+#include <string>
+
 #include "documents/complaints.h"
 #include "documents/weave.h"
 
 namespace dynlab::inline documents {
 
+/// The words that stand behind an escaped backslash: their authors want to see them as they are.
+std::set<std::string> escaped_commands(const MarkdownText& markdown);
+
 /// Formulas between \( and \) or \[ and \], which Markdown takes for escaped brackets and prints without a word: a
-/// complaint for each line with one, outside code and formulas.
+/// complaint for each line with one, outside code and formulas. Other text between escaped brackets is left alone.
 void find_latex_brackets(const MarkdownText& markdown, Complaints& complaints);
 
 }  // namespace dynlab::inline documents

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "documents/error.h"
+#include "documents/latex_remains.h"
 #include "documents/text_lines.h"
 #include "documents/work_file.h"
 #include "platform/child_process.h"
@@ -49,6 +50,12 @@ template <typename Entry, typename Write>
 std::string lua_map(const std::map<std::string, Entry>& entries, Write write) {
     std::string result = "{";
     for (const auto& [name, entry] : entries) result += "[" + lua_string(name) + "]=" + write(entry) + ",\n";
+    return result + "}";
+}
+
+std::string lua_set(const std::set<std::string>& words) {
+    std::string result = "{";
+    for (const std::string& word : words) result += "[" + lua_string(word) + "]=true,";
     return result + "}";
 }
 
@@ -114,9 +121,9 @@ std::string slots_file(const PandocJob& job) {
            ",stopped=" + (record.error || job.unfinished ? "true" : "false") +
            ",\npicture_prefix=" + lua_string(job.picture_prefix) +
            ",figure_extension=" + lua_string(figure_extension(job.format)) +
-           ",bibliography=" + lua_string(job.bibliography) + ",slides=" + (sets_slides(job) ? "true" : "false") +
-           ",\nvariables=" + variables + "},\nmetadata=" + lua_map(shown, as_string) +
-           ",\nmeasures=" + lua_map(job.measures, as_string) +
+           ",bibliography=" + lua_string(job.bibliography) + ",escaped=" + lua_set(escaped_commands(job.markdown)) +
+           ",slides=" + (sets_slides(job) ? "true" : "false") + ",\nvariables=" + variables +
+           "},\nmetadata=" + lua_map(shown, as_string) + ",\nmeasures=" + lua_map(job.measures, as_string) +
            ",\nsection_titles=" + lua_map(section_titles(job), as_string) +
            ",\nvalue=" + lua_map(record.values, [](const RecordedValue& v) { return lua_string(one_line(v.text)); }) +
            ",\ntable=" + lua_map(record.tables, lua_table_entry) + ",\nfigure=" +

@@ -39,6 +39,24 @@ local data{s} = {data}
 report.value("output{s}", {output})
 report.value("samples{s}", data{s}.N, "%d")
 report.figure("data{s}", idplot(data{s}):set{{height = 5}}, "")
+
+-- %% id=advice{s} echo=false output=false
+advice(data{s})
+)";
+
+/// Before the model, where its structure is to be found.
+constexpr const char* kSearch = R"(
+-- %% [markdown]
+-- ## The structure
+--
+-- Number of poles: `poles{s}`{{.value}}, of zeros: `zeros{s}`{{.value}}, as `srivcstruc` recommends.
+
+-- %% id=structure{s} echo=false
+local V{s} = srivcstruc(data{s}, {{poles = {{1, 4}}, zeros = {zeros}, {delay}InitialState = "auto", Offset = "auto"}})
+print(V{s}.recommendation)
+local best{s} = V{s}.best
+report.value("poles{s}", best{s}.poles, "%d")
+report.value("zeros{s}", best{s}.zeros, "%d")
 )";
 
 constexpr const char* kModel = R"(
@@ -108,14 +126,27 @@ constexpr const char* kNoValidation = R"( No
 std::string structure_of(const IdentifyRequest& request) {
     std::string delay = ", an estimated delay";
     if (request.delay) delay = *request.delay > 0 ? fmt::format(", a delay of {} s", *request.delay) : "";
-    return fmt::format("{}, {}{}.", counted(request.poles, "pole"), counted(request.zeros, "zero"), delay);
+    if (!request.poles) return request.delay ? "No delay." : "An estimated delay.";
+    return fmt::format("{}, {}{}.", counted(*request.poles, "pole"), counted(request.zeros.value_or(0), "zero"), delay);
 }
 
-std::string estimating_call(const IdentifyRequest& request, const std::string& data) {
+std::string search_of(const IdentifyRequest& request, const std::string& suffix) {
+    using namespace fmt::literals;
+    // A delay is looked for up to a tenth of the record.
+    const std::string delay =
+        request.delay ? "" : fmt::format("TdMax = (data{0}.t[data{0}.N] - data{0}.t[1])/10, ", suffix);
+    const std::string zeros = request.zeros ? fmt::format("{}", *request.zeros) : "{0, 2}";
+    return fmt::format(kSearch, "s"_a = suffix, "zeros"_a = zeros, "delay"_a = delay);
+}
+
+std::string estimating_call(const IdentifyRequest& request, const std::string& suffix) {
     std::string delay;
     if (request.delay) delay = *request.delay > 0 ? fmt::format("IODelay = {}, ", *request.delay) : "TdMax = 0, ";
-    return fmt::format("tfsrivc({}, {}, {}, {{{}InitialState = \"auto\", Offset = \"auto\"}})", data, request.poles,
-                       request.zeros, delay);
+    const std::string poles = request.poles ? fmt::format("{}", *request.poles) : fmt::format("best{}.poles", suffix),
+                      zeros = request.poles ? fmt::format("{}", request.zeros.value_or(0))
+                                            : fmt::format("best{}.zeros", suffix);
+    return fmt::format("tfsrivc(data{}, {}, {}, {{{}InitialState = \"auto\", Offset = \"auto\"}})", suffix, poles,
+                       zeros, delay);
 }
 
 }  // namespace
@@ -127,10 +158,17 @@ void IdentifyRequest::validate() const {
         if (std::find(outputs.begin(), output, *output) != output)
             throw InvalidArgument(fmt::format("the output '{}' is given twice", *output));
     }
-    if (poles < 1) throw InvalidArgument(fmt::format("the number of poles must be at least 1, not {}", poles));
-    if (zeros < 0 || zeros > poles)
+    if (poles && *poles < 1)
+        throw InvalidArgument(fmt::format("the number of poles must be at least 1, not {}", *poles));
+    if (zeros && (*zeros < 0 || (poles && *zeros > *poles)))
+        throw InvalidArgument(fmt::format("the number of zeros must be from 0 to that of the poles{}; it is {}",
+                                          poles ? fmt::format(", {}", *poles) : "", *zeros));
+    if (!poles && zeros && *zeros > 3)
+        throw InvalidArgument("the number of poles is looked for up to 4, and there must be fewer zeros");
+    if (!poles && delay && *delay > 0)
         throw InvalidArgument(
-            fmt::format("the number of zeros must be from 0 to that of the poles, {}; it is {}", poles, zeros));
+            "the number of poles is found for no delay or an estimated one; give the number, or the "
+            "delay auto");
     if (delay && !(std::isfinite(*delay) && *delay >= 0))
         throw InvalidArgument(fmt::format("the delay must be at least 0 s, not {}", *delay));
     if (Ts && !time.empty()) throw InvalidArgument("give either Ts or the column of the time, not both");
@@ -154,8 +192,9 @@ std::string identification_script(const IdentifyRequest& request) {
         const std::string suffix = request.outputs.size() == 1 ? "" : fmt::format("_{}", i + 1);
         script +=
             fmt::format(kData, "s"_a = suffix, "data"_a = record.data("record", output), "output"_a = lua_text(output));
+        if (!request.poles) script += search_of(request, suffix);
         script += fmt::format(kModel, "s"_a = suffix, "structure"_a = structure_of(request),
-                              "estimate"_a = estimating_call(request, "data" + suffix));
+                              "estimate"_a = estimating_call(request, suffix));
         script += fmt::format(kFit, "s"_a = suffix, "remark"_a = unseen ? "" : kNoValidation);
         script += unseen
                       ? fmt::format(kCompareBoth, "s"_a = suffix, "validation"_a = unseen->data("validation", output))

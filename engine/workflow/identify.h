@@ -10,12 +10,12 @@ struct IdentifyRequest {
     std::string data;  ///< a data file, or a data set's name
     std::string input;
     std::vector<std::string> outputs;  ///< at least one
-    int poles = 2;
-    int zeros = 0;                    ///< at most the number of poles
-    std::optional<double> delay = 0;  ///< s; estimated when empty
-    std::optional<double> Ts;         ///< s; else as the file states it, or from its column of time
-    std::string time = {};            ///< name of that column; the most likely one when empty
-    std::string validation = {};      ///< file with the same names; none when empty
+    std::optional<int> poles = 2;      ///< found among structures of up to four poles when empty
+    std::optional<int> zeros = {};     ///< at most the number of poles; 0 when empty, or found with the poles
+    std::optional<double> delay = 0;   ///< s; estimated when empty
+    std::optional<double> Ts;          ///< s; else as the file states it, or from its column of time
+    std::string time = {};             ///< name of that column; the most likely one when empty
+    std::string validation = {};       ///< file with the same names; none when empty
 
     /// Throws InvalidArgument for names given twice and for orders, delay or Ts that make no sense.
     void validate() const;

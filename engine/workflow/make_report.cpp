@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "documents/error.h"
+#include "documents/solutions.h"
 #include "documents/template_file.h"
 #include "documents/unplaced_entries.h"
 #include "platform/atomic_file.h"
@@ -167,6 +168,15 @@ DocumentSource document_source(const ReportRequest& request, const RunRecord& re
     source.measures = measures_for_documents();
     source.cells = weave_cells(request.script, record);
     return source;
+}
+
+ReportRequest sheet_of(const std::string& name, const fs::path& output) {
+    const Lesson lesson = find_lesson(name);
+    const std::string master = read_percent_script(lesson.script()).source;
+    const PercentScript tasks = parse_percent_script(without_solutions(master, lesson.script()), lesson.script());
+    ReportRequest request = report_of_script(tasks, output.empty() ? fs::path(lesson.slug + "_sheet.pdf") : output);
+    request.of_lesson = true;
+    return request;
 }
 
 ReportResult make_report(const ReportRequest& request) {

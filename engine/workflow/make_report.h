@@ -53,6 +53,9 @@ struct ReportResult {
 /// without these files, a lesson without a report in the language asked for, a language asked of a folder.
 ReportRequest report_of(const std::string& lesson_or_folder, const std::filesystem::path& output = {},
                         const std::string& language = {});
+/// The task sheet of a lesson: its text, data and code without the solutions, as students get it, with the places for
+/// their answers. Without `output` it goes to the current folder: 02_least_squares_sheet.pdf.
+ReportRequest sheet_of(const std::string& lesson, const std::filesystem::path& output = {});
 /// The report of any script, with the template its header names, or that of lessons when it has no place for cells.
 ReportRequest report_of_script(const PercentScript& script, const std::filesystem::path& output);
 

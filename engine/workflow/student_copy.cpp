@@ -28,7 +28,7 @@ void put(std::string& text, const std::string& slot, const std::string& value) {
 }
 
 /// report_templates/slides.md, or slides.fr.md where the language has one of its own.
-fs::path template_file(const std::string& name, const std::string& language = "en") {
+fs::path template_file(const std::string& name, const std::string& language) {
     const fs::path folder = shared_folder() / "report_templates", own = folder / (name + "." + language + ".md");
     return fs::is_regular_file(own) ? own : folder / (name + ".md");
 }
@@ -90,12 +90,7 @@ void fill_lesson(const fs::path& folder, const Lesson& lesson, const std::option
 }
 
 void fill_review(const fs::path& folder, const std::string& language) {
-    std::string text = read_text(template_file("peer_review"));
-    if (language == "fr") {
-        put(text, "title: Review of a report", "title: Relecture d'un rapport");
-        put(text, "lang: en", "lang: fr");
-    }
-    write_file_atomically(folder / "report.md", text);
+    write_file_atomically(folder / "report.md", read_text(template_file("peer_review", language)));
     write_file_atomically(folder / "analysis.lua", read_text(shared_folder() / "report_templates" / "peer_review.lua"));
     write_file_atomically(folder / "group.toml", fmt::format(kGroupFile, 1));
 }

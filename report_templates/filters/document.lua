@@ -509,7 +509,7 @@ local function check_no_latex(document)
   document:walk {
     Str = function(element)
       local word = latex_word(element.text)
-      if word then report("latex", word, word) end
+      if word and not slots.escaped[word:sub(2)] then report("latex", word, word) end
     end,
   }
 end

@@ -19,7 +19,7 @@ constexpr int kGroups = 300;
 /// A course of 300 groups, and class.zip with a report of six pages by each. The reports differ in one remark.
 void prepare(const Workbench& bench) {
     make_six_pages(bench);
-    const std::string report = bench.read("report.pdf");
+    const std::string report = bench.read("six/report.pdf");
     const std::size_t end = report.rfind("startxref");
     std::string roster = "id,name,group,mail\n";
     for (int i = 1; i <= kGroups; ++i) {

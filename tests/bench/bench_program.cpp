@@ -63,10 +63,10 @@ void measure_report(const Workbench& bench, Report& report) {
         must_succeed(bench.dynlab({"report", "six", "-o", output}));
     };
     const auto pandoc = [&] { must_succeed(bench.shell("pandoc in.md -o out.pdf")); };
-    ours("report.pdf");
+    ours("six/report.pdf");
     pandoc();
     const auto [edited, peer] = paired_medians(
-        kRepetitions, [&] { ours("report.pdf"); }, pandoc);
+        kRepetitions, [&] { ours("six/report.pdf"); }, pandoc);
     report.results.push_back(
         {"six-page report after an edit (s)", "pandoc in.md -o out.pdf (s)", edited, peer, 0.6, 0.5});
 

@@ -3,6 +3,7 @@
 
 #include "check_fixture.h"
 #include "course/findings/leftover_findings.h"
+#include "platform/atomic_file.h"
 #include "support/pdf_inspection.h"
 
 namespace dynlab {
@@ -172,6 +173,31 @@ TEST_F(document_findings, guidance_of_the_template_must_not_be_printed) {
         check_latex("", std::string(kProse) + "What moves the process, and what is measured on it?\n");
     EXPECT_THAT(only(result, "guidance-left").what, HasSubstr("What moves the process"));
     EXPECT_THAT(ids(check_latex("", std::string(kProse) + "Be brief. What moves it is measured.\n")), IsEmpty());
+}
+
+TEST_F(document_findings, guidance_of_the_french_template_must_not_be_printed_either) {
+    for (const char* name : {"lab_report", "slides", "peer_review"}) {
+        const std::string folder = DYNLAB_SOURCE_DIR "/report_templates/", text = read_file(folder + name + ".fr.md");
+        const std::vector<std::string> both = standard_of(name).guidance;
+        for (const std::string& sentence : guidance_of(text)) EXPECT_THAT(both, testing::Contains(sentence)) << name;
+        EXPECT_GT(both.size(), guidance_of(text).size()) << "and the English one";
+        // Both languages demand the same sections and pages.
+        const DocumentRules rules = standard_of(name).rules,
+                            french = document_rules(read_template(folder + name + ".fr.md"));
+        ASSERT_EQ(french.sections.size(), rules.sections.size());
+        for (std::size_t i = 0; i < rules.sections.size(); ++i) {
+            EXPECT_EQ(french.sections[i].french, rules.sections[i].french);
+            if (rules.sections[i].optional) continue;
+            EXPECT_THAT(text, HasSubstr("\n# " + rules.sections[i].french));
+        }
+        EXPECT_EQ(french.pages, rules.pages);
+    }
+    try {
+        standard_of("novel");
+        FAIL();
+    } catch (const EnvironmentError& error) {
+        EXPECT_THAT(error.what(), testing::Not(HasSubstr("slides.fr")));
+    }
 }
 
 TEST_F(document_findings, a_passage_in_the_other_language_is_a_hint_with_its_page) {

@@ -94,11 +94,13 @@ TEST_F(literature, latex_that_would_be_printed_is_an_error_with_its_line) {
                                         {"an angle \\alpha here", "\\alpha"},
                                         {"\\(x\\) is", "\\(...\\)"},
                                         {"\\[x\\]", "\\[...\\]"},
-                                        {"\\[\nx\n\\]", "\\[...\\]"}}) {
+                                        {"\\[\nx\n\\]", "\\[...\\]"},
+                                        {"so \\(y = a x\\)", "\\(...\\)"}}) {
         const std::string message = refusal("One.\n\n" + std::string(written) + "\n");
         EXPECT_THAT(message, HasSubstr("report.md:3: ")) << written;
         EXPECT_THAT(message, HasSubstr(told)) << written;
     }
+    EXPECT_EQ(refusal("\\\\input{x} \\[a\\](b) \\[see below\\] \\(or not\\)\n"), "");
     EXPECT_EQ(refusal("`\\newpage`, $\\alpha$, C:\\temp, \\\\, 5\\ m, \\(a, \\[1\\.\n\n```\n\\begin{x} \\(x\\)\n```\n"),
               "");
 }

@@ -68,7 +68,7 @@ TEST_P(lessons, starter_runs_and_shows_no_solution) {
     EXPECT_TRUE(record.at("values").empty()) << "the starter must not hold the solution's values";
 
     ASSERT_EQ(bench.dynlab({"report", "mine"}).exit_code, 0);
-    const std::string starter = text_of_pdf(bench, "report.pdf");
+    const std::string starter = text_of_pdf(bench, "mine/report.pdf");
     ASSERT_EQ(bench.dynlab({"report", GetParam()}).exit_code, 0);
     EXPECT_LT(starter.size(), text_of_pdf(bench, GetParam() + ".pdf").size());
 }
@@ -354,13 +354,23 @@ TEST(lesson_copies, are_french_throughout_where_french_is_asked_for) {
     }
 }
 
+TEST(lesson_copies, of_a_review_are_french_as_well) {
+    const Workbench bench;
+    ASSERT_EQ(bench.dynlab({"new", "review", "mine", "--lang", "fr"}).exit_code, 0);
+    const std::string report = bench.read("mine/report.md");
+    for (const char* word : {" is ", " are ", " your ", " what ", " with ", " which "})
+        EXPECT_THAT(report, Not(HasSubstr(word)));
+    EXPECT_THAT(report, HasSubstr("title: Relecture d'un rapport\nlang: fr\n"));
+    EXPECT_EQ(bench.dynlab({"report", "mine"}).exit_code, 0);
+}
+
 TEST(lesson_05_copy, makes_slides_with_the_points_and_no_guidance) {
     const Workbench bench;
     ASSERT_EQ(bench.dynlab({"new", "05", "mine"}).exit_code, 0);
     EXPECT_THAT(bench.read("mine/report.md"), HasSubstr("title: \"Identification of an underwater thruster\""));
     const ChildResult made = bench.dynlab({"report", "mine"});
     ASSERT_EQ(made.exit_code, 0) << made.error_output;
-    const std::string text = text_of_pdf(bench, "report.pdf");
+    const std::string text = text_of_pdf(bench, "mine/report.pdf");
     EXPECT_THAT(text, HasSubstr("Raw data"));
     EXPECT_THAT(text, Not(HasSubstr("naked eye")));
     EXPECT_EQ(std::count(text.begin(), text.end(), '\f'), 9) << "the title and eight points";

@@ -28,6 +28,20 @@ TEST(answers, are_told_at_once_when_missing_unknown_or_of_the_wrong_kind) {
     EXPECT_THAT(run("answer('gain', 2) answer('gain', 3)").error_output, HasSubstr("was given already"));
 }
 
+// oracle: the vector that stands for the same numbers
+TEST(answers, a_table_of_numbers_is_a_vector_where_one_is_wanted) {
+    const Workbench bench;
+    const auto given = [&](const std::string& value) {
+        bench.write("a.lua", "-- ---\n-- title: A\n-- answers:\n--   v: vector\n-- ---\nanswer('v', " + value + ")\n");
+        const ChildResult run = bench.dynlab({"run", "a.lua", "--out", "out"});
+        return run.exit_code == 0 ? nlohmann::json::parse(bench.read("out/record.json")).at("answers").dump()
+                                  : run.error_output;
+    };
+    EXPECT_EQ(given("{9.7, 9.5, 9.9}"), given("vector{9.7, 9.5, 9.9}"));
+    EXPECT_THAT(given("{9.7, 'x'}"), HasSubstr("must be a vector of numbers, but its element 2 is the text"));
+    EXPECT_THAT(given("'x'"), HasSubstr("must be of the kind vector, but a text was given"));
+}
+
 // oracle: what was handed in
 TEST(answers, stand_in_the_record_bit_by_bit) {
     const Workbench bench;

@@ -154,6 +154,22 @@ TEST(program, students_copy_has_no_solutions_and_its_report_works) {
     EXPECT_THAT(again.error_output, HasSubstr("exists already"));
 }
 
+// oracle: the lesson's source
+TEST(program, a_task_sheet_has_the_questions_and_no_solutions) {
+    const Workbench bench;
+    const ChildResult made = bench.dynlab({"sheet", "02"});
+    ASSERT_EQ(made.exit_code, 0) << made.error_output;
+    EXPECT_EQ(made.output, bench.path("02_least_squares_sheet.pdf").string() + "\n");
+    const std::string text = bench.shell("pdftotext 02_least_squares_sheet.pdf -").output;
+    for (int question = 1; question <= 8; ++question)
+        EXPECT_THAT(text, HasSubstr("Question " + std::to_string(question))) << question;
+    EXPECT_THAT(text, HasSubstr("Your answer"));
+    for (const char* solution : {"The times fall", "stands far above all others", "SOLUTION", "STARTER"})
+        EXPECT_THAT(text, Not(HasSubstr(solution)));
+    ASSERT_EQ(bench.dynlab({"sheet", "04_estimators", "-o", "four.md"}).exit_code, 0);
+    EXPECT_THAT(bench.read("four.md"), HasSubstr("**Question 4.**"));
+}
+
 // oracle: the record that dynlab run writes
 TEST(program, a_report_gives_the_record_of_its_run_whether_it_was_made_before_or_not) {
     const Workbench bench;
@@ -184,7 +200,7 @@ TEST(program, weaves_to_html_and_markdown) {
 TEST(program, every_command_has_help_and_doctor_is_content) {
     const Workbench bench;
     for (const char* command :
-         {"run", "look", "identify", "report", "weave", "new", "lessons", "demo", "help", "doctor"}) {
+         {"run", "look", "identify", "report", "sheet", "weave", "new", "lessons", "demo", "help", "doctor"}) {
         const ChildResult result = bench.dynlab({command, "--help"});
         EXPECT_EQ(result.exit_code, 0) << command;
         EXPECT_THAT(result.output, HasSubstr(command));

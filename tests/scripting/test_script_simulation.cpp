@@ -35,6 +35,33 @@ TEST(script_simulation, sim_adds_the_noise_of_the_model) {
               "true\ttrue\n");
 }
 
+TEST(script_simulation, a_static_characteristic_belongs_to_its_model) {  // oracle: f(u) by hand, then lsim
+    const std::string model =
+        "rng(2)\nlocal u = 2*rand(600) - 1\n"
+        "for k = 1, 600 do u[k] = u[1 + 6*((k - 1)//6)] end\n"
+        "local bent = interp1({-1, -0.2, 0.2, 1}, {-0.8, 0, 0, 1.6}, u)\n"
+        "local y = lsim(tf({9}, {1, 2, 9}), bent, 0.05) + 0.01*randn(600)\n"
+        "local d = iddata(y, u, 0.05)\n"
+        "local options = {Breakpoints = {-1, -0.2, 0.2, 1}, IODelay = 0, InitialState = 'zero'}\n"
+        "local G = hammerstein(d, 2, 0, options)\n"
+        "local f = interp1(G.report.breakpoints, G.report.levels, u, {outside = 'hold'})\n"
+        "local x = lsim(G, f, 0.05)\n"
+        "local start = {InitialState = 'zero', Offset = 'none'}\n";
+    EXPECT_EQ(printed(model + "print(norm(sim(G, u, 0.05) - x), norm(sim(G, d) - x), norm(lsim(G, u, 0.05) - x) > 1)\n"
+                              "print(norm(compare(d, G, start).curves[2].y - x) < 1e-12)\n"
+                              "print(norm(predict(d, G, start) - x) < 1e-12, norm(pe(d, G, start) - (y - x)) < 1e-12)\n"
+                              "print(math.abs(fit(d, G, start) - G.report.fit_percent) < 1e-6)\n"
+                              "start.quiet = true\nlocal _, tests = resid(d, G, start)\n"
+                              "print(norm(tests.residuals[1] - (y - x)) < 1e-12)"),
+              "0\t0\ttrue\ntrue\ntrue\ttrue\ntrue\ntrue\n");
+    // Of several experiments each input is put through it.
+    EXPECT_EQ(printed(model + "local both = merge(d, iddata(-2*y, u, 0.05))\n"
+                              "print(math.abs(fit(both:experiment(2), G, start) - 100*(1 - norm(-2*y - x)/norm(2*(y - "
+                              "mean(y))))) < 1e-6)\n"
+                              "print(#predict(both, G, start))"),
+              "true\n2\n");
+}
+
 TEST(script_simulation, sim_takes_a_signal_to_noise_ratio) {
     EXPECT_EQ(printed("local u = prbs(7, 8)\nlocal S = tf({2}, {1, 4, 3})\n"
                       "local x = lsim(S, u, 0.05)\nlocal y, v = sim(S, u, 0.05, {snr = 15, seed = 2})\n"

@@ -84,8 +84,10 @@ TEST(script_vectors, give_and_take_elements) {
               "lesson.lua:2: v[0] does not exist: v has the elements 1 to 3");
     EXPECT_EQ(error_of("local v = vector{1, 2, 3}\nprint(v[1.5])"),
               "lesson.lua:2: v[1.5]: an element has a whole number from 1 to 3");
-    EXPECT_EQ(error_of("local v = vector{1, 2, 3}\nv[4] = 1"),
-              "lesson.lua:2: v[4] does not exist: v has the elements 1 to 3");
+    EXPECT_EQ(
+        error_of("local v = vector{1, 2, 3}\nv[4] = 1"),
+        "lesson.lua:2: v[4] does not exist: v has 3 elements, and a vector keeps its length; zeros(n) makes one to "
+        "fill, vector{v, x} one that is longer by x");
     EXPECT_EQ(error_of("local v = vector{1, 2, 3}\nv:range(2, 4)"),
               "lesson.lua:2: range: the elements 2 to 4 do not exist: v has the elements 1 to 3");
     EXPECT_EQ(error_of("local s = 'v = ' .. vector{1}"),

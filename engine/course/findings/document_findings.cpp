@@ -41,10 +41,12 @@ Finding file_finding(const PdfRefusal& refusal) {
             "",        refusal.what(),  "Make it again, or copy it again from where it was made."};
 }
 
+/// Without those that are others in another language, such as slides.fr.md.
 std::vector<std::string> installed_templates() {
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator(shared_folder() / "report_templates")) {
-        if (entry.path().extension() == ".md") names.push_back(entry.path().stem());
+        const fs::path stem = entry.path().stem();
+        if (entry.path().extension() == ".md" && !stem.has_extension()) names.push_back(stem);
     }
     std::sort(names.begin(), names.end());
     return names;
@@ -142,7 +144,13 @@ DocumentStandard standard_of(const std::string& name) {
     const std::vector<std::string> known = installed_templates();
     if (!is_file && std::find(known.begin(), known.end(), name) == known.end())
         throw EnvironmentError("there is no template '" + name + "'; the templates are " + listed(known));
-    return {fs::path(name).stem(), document_rules(read_template(file)), guidance_of(read_text(file)), std::nullopt};
+    std::vector<std::string> guidance = guidance_of(read_text(file));
+    const fs::path french = fs::path(file).replace_extension(".fr.md");
+    if (!is_file && fs::is_regular_file(french)) {
+        const std::vector<std::string> more = guidance_of(read_text(french));
+        guidance.insert(guidance.end(), more.begin(), more.end());
+    }
+    return {fs::path(name).stem(), document_rules(read_template(file)), guidance, std::nullopt};
 }
 
 CheckResult check_pdf(const fs::path& file, const CheckOptions& wishes, const PdfLimits& limits) {

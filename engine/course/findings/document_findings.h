@@ -16,7 +16,7 @@ namespace dynlab::inline course {
 struct DocumentStandard {
     std::string template_name;            ///< for the summary; empty when nothing is known of the document's kind
     DocumentRules rules;                  ///< pages and sections
-    std::vector<std::string> guidance;    ///< sentences of the template that must not be printed
+    std::vector<std::string> guidance;    ///< sentences of the template, in any language, that must not be printed
     std::optional<std::string> language;  ///< as the header declares it
 };
 

@@ -20,6 +20,7 @@ constexpr Index kComparedSamples = 10'000;  // on which poorer structures are co
 constexpr int kComparedPasses = 4;
 constexpr Index kFewestToCompare = 4;  // parameters: smaller models were not seen to end in bad minima
 constexpr double kComparedTolerance = 1e-3, kNoGain = 1e-3;
+constexpr double kPoorFit = 20;          // per cent: where little is explained, the passes easily miss the best
 constexpr double kGramTolerance = 1e-6;  // relative change of theta; standard errors change by some 20 times as much
 
 /// (sum Z'Z/noise variance)^-1 of each denominator group; `last_gram` is sum Z'Z of the last pass, or empty.
@@ -160,7 +161,8 @@ Fit srivc(const IdData& data, const TransferStructure& structure, const FitOptio
     Fit estimate = estimate_by_passes(data, structure, options);
     if (estimate.termination == Termination::kCancelled) return estimate;
     const bool settled = estimate.termination == Termination::kConverged;
-    if (!settled || gains_nothing(estimate, data, options, aids.poorer))
+    const bool poor = !(estimate.fit_percent.minCoeff() > kPoorFit);
+    if (!settled || poor || gains_nothing(estimate, data, options, aids.poorer))
         return better_by_search(std::move(estimate), data, options, aids);
     check_transient("srivc", data, estimate, estimate.theta.size());
     return estimate;

@@ -2,15 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
+#include "numerics/criteria/discrete_output.h"
 #include "numerics/criteria/transfer_output.h"
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
+#include "numerics/fit/discrete_fit.h"
 #include "numerics/fit/srivc_iteration.h"
 #include "numerics/fit/transfer_refinement.h"
 #include "numerics/fit/transfer_search.h"
 #include "numerics/linalg/decompositions.h"
+#include "numerics/linalg/least_squares.h"
 #include "numerics/number_text.h"
 
 namespace dynlab::inline numerics {
@@ -20,6 +24,7 @@ namespace {
 constexpr Index kLookedAt = 3000, kFitted = 100'000;  // samples
 constexpr double kStrongEvidence = 10;                // BIC
 constexpr double kHalfPoint = 0.5, kFairShare = 0.2, kLeastPoints = 0.05;
+constexpr double kLostFit = 20;     // per cent, of a difference equation
 constexpr double kRidge = 1e-9;     // of a sum of squares of sensitivities
 constexpr double kFastestPole = 2;  // per sample: faster ones are as good as none
 constexpr double kLargestCorrelation = 0.999;
@@ -327,6 +332,96 @@ std::optional<std::string> missed_option(const IdData& data, const Fit& fit, con
         }
     }
     return told.sentence.empty() ? std::nullopt : std::optional(told.sentence);
+}
+
+namespace {
+
+/// What is left of the errors of a discrete model when further values make their step with the parameters.
+class DiscreteLookAhead {
+  public:
+    DiscreteLookAhead(const DiscreteOutput& model, const Fit& fit) : model_(model) {
+        Vector theta = Vector::Zero(model.parameter_count()), output;
+        own_ = fit.theta.size();
+        theta.head(own_) = fit.theta;
+        model.simulate(theta, output, &sensitivities_);
+        errors_ = model.target() - output;
+    }
+
+    bool usable() const { return errors_.allFinite() && sensitivities_.allFinite(); }
+    bool promises() const {
+        const Index constants = model_.offset_index(0), all = model_.parameter_count();
+        const Vector both = left(all, all);
+        const double count = static_cast<double>(errors_.size());
+        const double r = std::clamp(
+            both.head(both.size() - 1).dot(both.tail(both.size() - 1)) / std::max(both.squaredNorm(), kLeastSquares),
+            0.0, kLargestCorrelation);
+        const auto explained = [&](const Vector& errors, Index values) {
+            return Explanation{std::max(errors.squaredNorm(), kLeastSquares), model_.target_variation(),
+                               count * (1 - r) / (1 + r), values};
+        };
+        const Explanation now = explained(left(own_, own_), own_);
+        return gains(now, explained(both, all)) ||
+               gains(now, explained(left(own_, constants), own_ + all - constants)) ||
+               gains(now, explained(left(constants, all), constants));
+    }
+
+  private:
+    /// Without the columns from `first` to before `last`.
+    Vector left(Index first, Index last) const {
+        const Index all = first == last ? first : model_.parameter_count() - (last - first);
+        Matrix columns(errors_.size(), all);
+        columns.leftCols(first) = sensitivities_.leftCols(first);
+        if (all > first) columns.rightCols(all - first) = sensitivities_.rightCols(all - first);
+        return solve_least_squares(columns, errors_).residuals;
+    }
+
+    const DiscreteOutput& model_;
+    Index own_ = 0;
+    Matrix sensitivities_;
+    Vector errors_;
+};
+
+}  // namespace
+
+std::optional<std::string> missed_discrete_option(const IdData& data, const Fit& fit, const FitOptions& options,
+                                                  const std::function<Fit(const FitOptions&)>& again) {
+    if (!by_defaults(fit) || !fit.orders || !(fit.fit_percent.size() == 1)) return std::nullopt;
+    const IdData beginning = data.sample_count() > kLookedAt ? beginning_of(data, kLookedAt) : data;
+    const std::vector<SampledExperiment> experiments = sampled_experiments(beginning);
+    const DiscreteOutput model(*fit.orders, {InitialState::kEstimate, true}, experiments);
+    if (model.target().size() <= 2 * model.parameter_count()) return std::nullopt;
+    const DiscreteLookAhead ahead(model, fit);
+    const bool lost = !ahead.usable() || !(fit.fit_percent[0] > kLostFit);  // too far away to look ahead from
+    if (!lost && !ahead.promises()) return std::nullopt;
+    const double variation = output_variations(data)[0];
+    const auto explained = [&](const Fit& one) {
+        Index values = one.theta.size() + (one.start.offset ? 1 : 0);
+        if (one.start.state == InitialState::kEstimate)
+            values += std::accumulate(fit.orders->nf.begin(), fit.orders->nf.end(), Index{0});
+        const auto samples = static_cast<double>(data.sample_count());
+        return Explanation{std::max(one.loss * samples, kLeastSquares), variation, samples, values};
+    };
+    const Explanation present = explained(fit);
+    Explanation best = present;
+    StartCondition chosen = fit.start;
+    for (const StartCondition& condition : start_conditions(data, InitialState::kAuto, Offset::kAuto)) {
+        FitOptions wanted = options;
+        wanted.initial_state = condition.state;
+        wanted.offset = condition.offset ? Offset::kEstimate : Offset::kNone;
+        try {
+            const Explanation found = explained(again(wanted));
+            if (!gains(best, found)) continue;
+            best = found;
+            chosen = condition;
+        } catch (const InvalidArgument&) {
+            continue;  // too few samples for it
+        }
+    }
+    const Remedy remedy{{}, chosen, false};
+    const std::string option = option_text(remedy);
+    if (option.empty()) return std::nullopt;
+    return kFirstWord + option + kThenFit + " is " + number_text(best.fit(), 4) + " % instead of " +
+           number_text(present.fit(), 4) + " %: " + reason_text(remedy) + ".";
 }
 
 void warn_of_missed_option(Fit& fit, const IdData& data, const FitOptions& options) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,12 @@ namespace dynlab::inline numerics {
 /// `data`, `fit` and `options`: as srivc or coe were given them and gave it. Nothing for fits by other options, for
 /// cancelled ones, and where outputs share a denominator.
 std::optional<std::string> missed_option(const IdData& data, const Fit& fit, const FitOptions& options);
+
+/// The same of a model of difference equations that oe or sriv found by the defaults: a constant and a start. The look
+/// ahead is by least squares of the errors on the sensitivities, of up to 3000 samples; `again` fits the data with
+/// other options.
+std::optional<std::string> missed_discrete_option(const IdData& data, const Fit& fit, const FitOptions& options,
+                                                  const std::function<Fit(const FitOptions&)>& again);
 
 /// The same as a warning of the fit, which its message ends with.
 void warn_of_missed_option(Fit& fit, const IdData& data, const FitOptions& options);

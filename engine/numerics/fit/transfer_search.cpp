@@ -70,6 +70,13 @@ Fit refine_from(const IdData& data, const TransferStructure& structure, const St
     return *std::min_element(ends.begin(), ends.end(), [](const Fit& a, const Fit& b) { return a.loss < b.loss; });
 }
 
+/// The fit, or its search continued where it has not settled.
+Fit followed_to_the_end(const IdData& record, const TransferStructure& structure, Fit fit, const FitOptions& options) {
+    if (!options.goes_on || fit.termination != Termination::kIterationLimit) return fit;
+    return continued(fit, refine_output_error(record, structure, fit.start, fit.theta,
+                                              options.limited(kLastIterations, options.tolerance)));
+}
+
 /// One search under a start condition, and what it begins with.
 class NestedFits {
   public:
@@ -112,15 +119,23 @@ class NestedFits {
   private:
     NestedSolution solution_of(const TransferStructure& structure, std::vector<Vector> starts) const {
         try {
-            if (starts.empty()) {
-                starts = {start_from_rest(for_start_, structure, options_)};
-                starts.push_back(iterate_srivc(for_start_, structure, starts.front(), options_).theta);
-            }
-            const Fit fit = refine_from(record_, structure, condition_, starts, options_);
-            return {fit.theta, fit.loss, structure};
+            if (!starts.empty())
+                return settled(structure, refine_from(record_, structure, condition_, starts, options_));
+            // As a call of its own finds it, and from the passes: together the nearer end would hide the better one.
+            const Vector start = start_from_rest(for_start_, structure, options_);
+            const NestedSolution own = settled(structure, best(structure, {start}));
+            const Vector passed = iterate_srivc(for_start_, structure, start, options_).theta;
+            const NestedSolution other =
+                settled(structure, refine_from(record_, structure, condition_, {passed}, options_));
+            return other.loss < own.loss ? other : own;
         } catch (const InvalidArgument&) {
             return {};  // no start for this structure: the richer one has its own
         }
+    }
+
+    NestedSolution settled(const TransferStructure& structure, Fit fit) const {
+        fit = followed_to_the_end(record_, structure, std::move(fit), options_);
+        return {fit.theta, fit.loss, structure};
     }
 
     const IdData &record_, &for_start_;
@@ -238,9 +253,7 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
             best = std::move(other);
         }
     }
-    if (options.goes_on && best.termination == Termination::kIterationLimit)
-        best = continued(best, refine_output_error(record, structure, chosen, best.theta,
-                                                   options.limited(kLastIterations, options.tolerance)));
+    best = followed_to_the_end(record, structure, std::move(best), options);
     best = without_unheard_inputs(record, structure, std::move(best), options);
     if (remove) add_operating_points(best, centred.removed);
     best.delay_grid = scan.delays;

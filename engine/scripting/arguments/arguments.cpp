@@ -137,10 +137,12 @@ const char* Call::function_name() const {
 }
 
 void Call::at_most(int arguments) const {
-    if (arguments_ > arguments)
-        throw InvalidArgument(
-            fmt::format("takes at most {}, but {} were given; options are written as one table {{name = value}}",
-                        counted(arguments, "argument"), arguments_));
+    if (arguments_ <= arguments) return;
+    const bool orders = to_vector(state_, 1) == nullptr && lua_isuserdata(state_, 1) && arguments >= 2 &&
+                        lua_type(state_, 2) == LUA_TNUMBER && lua_type(state_, 3) == LUA_TNUMBER;
+    throw InvalidArgument(fmt::format("takes at most {}, but {} were given; {} are written as one table {}",
+                                      counted(arguments, "argument"), arguments_, orders ? "orders" : "options",
+                                      orders ? "{1, 1, 0}" : "{name = value}"));
 }
 
 double Call::number(int index, const char* what) const {

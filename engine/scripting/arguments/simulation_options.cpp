@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "numerics/signals/interpolation.h"
 #include "scripting/arguments/table_fields.h"
 #include "scripting/objects/model.h"
 
@@ -30,6 +31,37 @@ NoisyModel noisy_model_argument(const Call& call, int index, const char* what) {
     for (const auto& [name, value] : model->estimate->numbers)
         if (name == "Ts") noisy.noise_Ts = value;
     return noisy;
+}
+
+namespace {
+
+const Vector* vector_of(const Estimate& estimate, const char* name) {
+    for (const auto& [own, values] : estimate.vectors)
+        if (own == name) return &values;
+    return nullptr;
+}
+
+/// The estimate of a model that begins with a static characteristic.
+const Estimate* characteristic_of(const Call& call, int index) {
+    const Model* model = index <= call.count() ? to_object<Model>(call.state(), index) : nullptr;
+    if (model == nullptr || !model->estimate || vector_of(*model->estimate, "breakpoints") == nullptr) return nullptr;
+    return model->estimate.get();
+}
+
+}  // namespace
+
+Matrix driving_input(const Call& call, int index, const Matrix& u) {
+    const Estimate* estimate = characteristic_of(call, index);
+    if (estimate == nullptr || u.cols() != 1) return u;
+    return interpolate_linearly(*vector_of(*estimate, "breakpoints"), *vector_of(*estimate, "levels"), u.col(0),
+                                Outside::kHold);
+}
+
+const IdData& driving_data(const Call& call, int index, const IdData& data, IdData& storage) {
+    if (characteristic_of(call, index) == nullptr) return data;
+    storage = data;
+    for (Experiment& experiment : storage.experiments) experiment.u = driving_input(call, index, experiment.u);
+    return storage;
 }
 
 void read_steps_as_option(const Call& call, int index) {

@@ -18,6 +18,12 @@ std::vector<TransferFunction> channels_argument(const Call& call, int index, con
 /// A model argument with what it says of its noise.
 NoisyModel noisy_model_argument(const Call& call, int index, const char* what);
 
+/// The signal that drives the linear part of the model argument: f(u) of one that begins with a static characteristic f
+/// (hammerstein), u itself of all others.
+Matrix driving_input(const Call& call, int index, const Matrix& u);
+/// The data with that in the place of the input: in `storage` where something changes.
+const IdData& driving_data(const Call& call, int index, const IdData& data, IdData& storage);
+
 /// Makes a number at `index`, where options may stand, the table {k = number}: compare(data, G, 5).
 void read_steps_as_option(const Call& call, int index);
 /// The option k: a whole number of steps from 1 on, or nothing for math.huge, a simulation.

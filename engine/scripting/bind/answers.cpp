@@ -28,9 +28,17 @@ void check_declared(const std::vector<ExpectedAnswer>& expected, const std::stri
         near ? fmt::format("did you mean \"{}\"?", *near) : fmt::format("it declares {}", fmt::join(names, ", "))));
 }
 
+/// The kind that the script's header declares for an answer; empty where it declares none of this name.
+std::string kind_of(const std::vector<ExpectedAnswer>& expected, const std::string& name) {
+    const auto found =
+        std::find_if(expected.begin(), expected.end(), [&](const ExpectedAnswer& one) { return one.name == name; });
+    return found == expected.end() ? std::string() : found->kind;
+}
+
 AnswerValue checked_answer(const Call& call, const std::string& name) {
     if (!call.given(2)) wrong_argument(call.state(), 2, "value", "the answer's value");
     const Recorder& recorder = call.context().recorder;
+    if (call.type(2) == LUA_TTABLE && kind_of(recorder.expected_answers(), name) == "vector") call.vector(2, "value");
     AnswerValue value = answer_value(call.state(), 2);
     check_declared(recorder.expected_answers(), name, value.kind);
     return value;

@@ -6,7 +6,9 @@
 #include "numerics/estimators/iv4.h"
 #include "numerics/estimators/oe.h"
 #include "numerics/estimators/sriv.h"
+#include "numerics/fit/diagnosis.h"
 #include "numerics/fit/integrated_input.h"
+#include "numerics/fit/missed_options.h"
 #include "scripting/arguments/estimation.h"
 #include "scripting/arguments/order_vector.h"
 #include "scripting/arguments/transfer_arguments.h"
@@ -69,7 +71,11 @@ int estimate_simulation(Call& call, const PolynomialOrders& orders) {
     read_fit_options(options, wanted);
     const bool integration = options.flag("Integration", false);
     const IdData seen = data_for(data, integration);
-    return give_assessed(call, seen, kMethod(seen, orders, wanted), integration);
+    Fit result = kMethod(seen, orders, wanted);
+    const auto again = [&](const FitOptions& other) { return kMethod(seen, orders, other); };
+    if (orders.nc + orders.nd == 0)
+        if (const auto sentence = missed_discrete_option(seen, result, wanted, again)) add_warning(result, *sentence);
+    return give_assessed(call, seen, std::move(result), integration);
 }
 
 template <auto kMethod>

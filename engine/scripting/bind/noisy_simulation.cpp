@@ -97,7 +97,8 @@ class DrawnNumbers {
 /// sim(G, u, Ts, {noise =, snr =, seed =, hold =}) or sim(G, data, {...})
 int simulate_with_noise(Call& call) {
     const NoisyModel model = noisy_model_argument(call, 1, "G");
-    const InputSignals input = input_argument(call);
+    InputSignals input = input_argument(call);
+    input.u = driving_input(call, 1, input.u);
     const Options options(call, input.options_index, {"noise", "snr", "seed", "hold"});
     const Matrix y = simulated_outputs(model.channels, input, hold_of(options, input.hold));
     const auto snr = options.optional_number("snr");

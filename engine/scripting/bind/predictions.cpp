@@ -44,7 +44,9 @@ int predict_output(Call& call) {
     const NoisyModel model = noisy_model_argument(call, 2, "G");
     read_steps_as_option(call, 3);
     const Options options(call, 3, {"k", "InitialState", "Offset"});
-    const Predictions all = predict(data, model, {steps_option(options, 1), compare_options(options)});
+    IdData storage;
+    const Predictions all =
+        predict(driving_data(call, 2, data, storage), model, {steps_option(options, 1), compare_options(options)});
     std::vector<Matrix> signals;
     for (std::size_t k = 0; k < data.experiments.size(); ++k)
         signals.push_back(kErrors ? all.output_errors(data, k) : all.outputs(k));

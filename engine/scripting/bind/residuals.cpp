@@ -81,10 +81,12 @@ int test_residuals(Call& call) {
     wanted.lags = options.size("lags", wanted.lags);
     wanted.confidence = options.number("confidence", wanted.confidence);
     const CompareOptions start = compare_options(options);
+    IdData storage;
+    const IdData& driven = driving_data(call, 2, data, storage);
     const ResidualTests tests =
         options.flag("prediction", false)
-            ? prediction_error_tests(data, predict(data, noisy_model_argument(call, 2, "G"), {1, start}), wanted)
-            : residual_tests(data, channels_argument(call, 2, "G"), start, wanted, doubts_of(call, 2));
+            ? prediction_error_tests(driven, predict(driven, noisy_model_argument(call, 2, "G"), {1, start}), wanted)
+            : residual_tests(driven, channels_argument(call, 2, "G"), start, wanted, doubts_of(call, 2));
     if (!quiet) call.print(tests.verdict + "\n");
     bool drawable = false;
     for (const OutputResiduals& output : tests.outputs) drawable = drawable || !output.exact;

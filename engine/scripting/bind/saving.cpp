@@ -43,11 +43,12 @@ std::vector<std::string> names_of_entries(const Call& call, int index, const Opt
     return names;
 }
 
-bool is_list_of_texts(lua_State* L, int index) {
+/// Whether a table's first entry is of this type of Lua's.
+bool is_list_of(lua_State* L, int index, int type) {
     if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) == 0) return false;
-    const bool text = lua_rawgeti(L, index, 1) == LUA_TSTRING;
+    const bool found = lua_rawgeti(L, index, 1) == type;
     lua_pop(L, 1);
-    return text;
+    return found;
 }
 
 std::vector<std::string> list_of_texts(lua_State* L, int index) {
@@ -59,6 +60,18 @@ std::vector<std::string> list_of_texts(lua_State* L, int index) {
         lua_pop(L, 1);
     }
     return texts;
+}
+
+Vector list_of_numbers(lua_State* L, int index, const std::string& name) {
+    Vector numbers(static_cast<Index>(lua_rawlen(L, index)));
+    for (Index i = 0; i < numbers.size(); ++i) {
+        if (lua_rawgeti(L, index, i + 1) != LUA_TNUMBER)
+            throw InvalidArgument(
+                fmt::format("'{}': entry {} of a list of numbers is {}", name, i + 1, given_text(L, -1)));
+        numbers[i] = lua_tonumber(L, -1);
+        lua_pop(L, 1);
+    }
+    return numbers;
 }
 
 [[noreturn]] void refuse_entry(lua_State* L, const std::string& name) {
@@ -99,7 +112,9 @@ CsvTable table_of_columns(const Call& call, int index, const Options& options) {
         table.columns.emplace_back();
         if (NumericBlock* column = to_vector(L, -1)) {
             table.columns.back() = column->vector();
-        } else if (is_list_of_texts(L, -1)) {
+        } else if (is_list_of(L, -1, LUA_TNUMBER)) {
+            table.columns.back() = list_of_numbers(L, lua_gettop(L), name);
+        } else if (is_list_of(L, -1, LUA_TSTRING)) {
             table.texts[name] = list_of_texts(L, lua_gettop(L));
         } else {
             refuse_entry(L, name);
@@ -164,7 +179,7 @@ Variable variable_on_top(const Call& call, const std::string& name, int depth) {
     if (lua_type(L, -1) == LUA_TSTRING) return {std::string(lua_tostring(L, -1))};
     if (is_table_of_variables(L, lua_gettop(L)))
         return {std::make_shared<VariableTable>(variables_of(call, lua_gettop(L), depth + 1))};
-    if (!is_list_of_texts(L, -1)) refuse_entry(L, name);
+    if (!is_list_of(L, -1, LUA_TSTRING)) refuse_entry(L, name);
     auto cells = std::make_shared<VariableList>();
     for (const std::string& text : list_of_texts(L, lua_gettop(L))) cells->push_back({text});
     return {cells};

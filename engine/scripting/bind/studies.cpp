@@ -91,6 +91,14 @@ MonteCarloMethod method_of_function(const Call& call, const std::string& label, 
     return {label, estimate, false};
 }
 
+/// Whether the method's second argument is a table of orders, as its signature says.
+bool takes_orders(const Call& call, const std::string& method) {
+    const auto& functions = call.context().functions;
+    return std::any_of(functions.begin(), functions.end(), [&](const FunctionEntry* entry) {
+        return entry->name == method && std::string_view(entry->signature).find("(data, {n") != std::string_view::npos;
+    });
+}
+
 /// One entry of the estimators: its value is on top of the stack, and stays when it is a function.
 MonteCarloMethod method_of_entry(const Call& call, const std::string& label) {
     lua_State* L = call.state();
@@ -104,6 +112,12 @@ MonteCarloMethod method_of_entry(const Call& call, const std::string& label) {
     const bool names_itself = lua_rawgeti(L, value, 1) == LUA_TSTRING;
     const std::string name = names_itself ? lua_tostring(L, -1) : label;
     const bool holds_function = names_itself && lua_rawgeti(L, value, 2) == LUA_TFUNCTION;
+    if (lua_rawgeti(L, value, names_itself ? 2 : 1) == LUA_TNUMBER && takes_orders(call, name))
+        throw InvalidArgument(
+            fmt::format("the arguments of the estimator '{0}' stand in a table, and its orders in one inside: {0} = "
+                        "{{{{1, 1, 0}}}}",
+                        name));
+    lua_settop(L, value + (holds_function ? 2 : 0));
     if (holds_function) return method_of_function(call, label.empty() ? name : label, lua_gettop(L));
     lua_settop(L, value);
     std::string shown = label.empty() ? name : label;

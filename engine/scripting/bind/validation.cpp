@@ -68,8 +68,11 @@ int draw_comparison(Call& call, const IdData& data, int first, int options_index
     for (int i = first; holds_model(call, i); ++i) {
         const std::string name = model_name(call, i, labels, models.size()) + steps_text(steps);
         const CompareOptions start = compare_options(options);
-        models.push_back(steps ? model_outputs(name, predict(data, noisy_model_argument(call, i, "G"), {steps, start}))
-                               : model_outputs(name, compare_all(data, channels_argument(call, i, "G"), start)));
+        IdData storage;
+        const IdData& driven = driving_data(call, i, data, storage);
+        models.push_back(steps
+                             ? model_outputs(name, predict(driven, noisy_model_argument(call, i, "G"), {steps, start}))
+                             : model_outputs(name, compare_all(driven, channels_argument(call, i, "G"), start)));
     }
     if (models.empty()) wrong_argument(call.state(), first, "G", "model");
     return give_figure(call, comparison_figure(data, models));
@@ -96,17 +99,20 @@ int fit(Call& call) {
     read_steps_as_option(call, 3);
     const Options options(call, 3, {"k", "InitialState", "Offset"});
     const CompareOptions start = compare_options(options);
+    IdData storage;
+    const IdData& driven = driving_data(call, 2, data, storage);
     if (const auto steps = steps_option(options, std::nullopt))
-        return call.give(predict(data, noisy_model_argument(call, 2, "G"), {steps, start}).fit_percent[0]);
-    return call.give(compare_all(data, channels_argument(call, 2, "G"), start).fit_percent[0]);
+        return call.give(predict(driven, noisy_model_argument(call, 2, "G"), {steps, start}).fit_percent[0]);
+    return call.give(compare_all(driven, channels_argument(call, 2, "G"), start).fit_percent[0]);
 }
 
 int measure_fit(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const Model model = model_argument(call, 2, "G");
-    const Comparison comparison =
-        compare_all(data, {model.G}, compare_options(Options(call, 3, {"InitialState", "Offset"})));
+    IdData storage;
+    const Comparison comparison = compare_all(driving_data(call, 2, data, storage), {model.G},
+                                              compare_options(Options(call, 3, {"InitialState", "Offset"})));
     const LevelledOutputs pair = levelled_outputs(data, comparison);
     const Vector &y = pair.measured, &simulated = pair.simulated;
     const double mean_square = (y - simulated).squaredNorm() / static_cast<double>(y.size());

@@ -39,6 +39,11 @@ int read_element(Call& call) {
 
 int write_element(Call& call) {
     NumericBlock* v = to_vector(call.state(), 1);
+    if (lua_isinteger(call.state(), 2) && lua_tointeger(call.state(), 2) > v->rows)
+        throw InvalidArgument(
+            fmt::format("v[{}] does not exist: v has {}, and a vector keeps its length; zeros(n) makes one to fill, "
+                        "vector{{v, x}} one that is longer by x",
+                        lua_tointeger(call.state(), 2), counted(v->rows, "element")));
     const Index number = element_index(call.state(), 2, v->rows, "v");
     v->data()[number] = call.number(3, "the new value");
     return 0;

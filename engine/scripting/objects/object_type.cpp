@@ -50,8 +50,12 @@ int read_member(lua_State* L) {
         lua_call(L, 2, 1);
         return 1;
     }
-    const std::string key = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : luaL_typename(L, 2);
-    raise_error(L, unknown_member_message(type, key));
+    if (lua_type(L, 2) != LUA_TSTRING)
+        raise_error(L, fmt::format("a {0} has no elements; help(\"{0}\") tells what it has{1}", type.name,
+                                   std::string_view(type.name) == "figure"
+                                       ? ", and bode_values(G, w), freqresp(G, w) and lsim(G, u, t) give numbers"
+                                       : ""));
+    raise_error(L, unknown_member_message(type, lua_tostring(L, 2)));
 }
 
 int refuse_writing(lua_State* L) {

@@ -29,7 +29,7 @@ std::string subject(const std::string& text) {
     for (const char* kind : {"local '", "global '", "upvalue '"})
         if (auto name = between(text, kind, "')")) return fmt::format("the variable '{}'", *name);
     if (auto name = between(text, "field '", "')"))
-        return *name == "?" ? "this element" : fmt::format("the field '{}'", *name);
+        return *name == "?" || *name == "integer index" ? "this element" : fmt::format("the field '{}'", *name);
     if (auto name = between(text, "method '", "')")) return fmt::format("the method '{}'", *name);
     if (auto name = between(text, "constant '", "')")) return fmt::format("the text '{}'", *name);
     return "this value";
@@ -111,7 +111,10 @@ bool starts_with(const std::string& text, std::string_view start) {
 std::string plain_sentence(const std::string& text) {
     if (auto type = between(text, "attempt to call a ", " value")) return call_sentence(text, *type);
     if (auto type = between(text, "attempt to index a ", " value"))
-        return fmt::format("{} is {}, so it has no fields or elements", subject(text), with_article(*type));
+        return fmt::format("{} is {}, so it has no fields or elements{}", subject(text), with_article(*type),
+                           *type == "number" && text.find("integer index") != std::string::npos
+                               ? "; the element i, j of a matrix is A[{i, j}]"
+                               : "");
     if (auto type = between(text, "attempt to perform arithmetic on a ", " value")) {
         const char* advice = *type == "table" ? "; make a vector of it: vector(t)" : "";
         return fmt::format("{} is {}, so it cannot be calculated with{}", subject(text), with_article(*type), advice);
@@ -203,9 +206,12 @@ std::string plain_syntax_message(const std::string& message, const std::string& 
     if (!near.empty()) near.pop_back();
     if (placed.text.find(" near <eof>") != std::string::npos) near = "<eof>";
     // A comment of another language may end a statement before it, or look like a part of it.
-    for (int line = placed.line; line > 0 && line > placed.line - kLinesBack; --line)
+    for (int line = placed.line; line > 0 && line > placed.line - kLinesBack; --line) {
         if (begins_foreign_comment(line_of(source, line)))
             return LocatedMessage{placed.file, line, "a comment starts with -- in Lua"}.joined();
+        if (const std::string hint = lone_word_hint(line_of(source, line)); !hint.empty())
+            return LocatedMessage{placed.file, line, hint}.joined();
+    }
     const std::string wrong = line_of(source, placed.line);
     if (starts_with(near, "<\\"))
         if (const auto sentence = foreign_character_sentence(wrong))

@@ -78,6 +78,81 @@ constexpr std::array kNames = {
     NameHint{"xlim", "give it among the options: plot(x, y, {x_range = {a, b}})"},
     NameHint{"ylabel", "give it among the options: plot(x, y, {ylabel = \"output\"})"},
     NameHint{"ylim", "give it among the options: plot(x, y, {y_range = {a, b}})"},
+    NameHint{"aic", "write G.report or srivcstruc(data, ...), whose rows have aic, bic and fpe"},
+    NameHint{"all", "write #find(mask) == #v"},
+    NameHint{"angle", "write freqresp(G, w):arg(), or bode_values(G, w) for degrees"},
+    NameHint{"any", "write #find(mask) > 0"},
+    NameHint{"cellfun", "write a loop: for i, x in ipairs(t) do ... end"},
+    NameHint{"chol", "there is no Cholesky factor; solve(A, b) solves A*x = b"},
+    NameHint{"cond", "write lsq(Phi, y), whose result tells the condition number"},
+    NameHint{"conj", "complex numbers have the fields re, im, abs and arg"},
+    NameHint{"cpsd", "write spa(data) or etfe(data): they give frequency responses"},
+    NameHint{"ctrb", "write ss(A, B, C, D) and place or lqr"},
+    NameHint{"cumprod", "write exp(cumsum(log(v)))"},
+    NameHint{"d2d", "write c2d(d2c(G), Ts)"},
+    NameHint{"date", "scripts have no access to the system and no date"},
+    NameHint{"datetime", "scripts have no access to the system and no date"},
+    NameHint{"db", "write 20*log10(x)"},
+    NameHint{"deconv", "write pole(tf({1}, a)) for the roots of a polynomial"},
+    NameHint{"double", "every number is one already; tonumber(text) reads a text"},
+    NameHint{"exit", "a script ends with its last line"},
+    NameHint{"expm", "write lsim or c2d(G, Ts): they take the matrix exponential"},
+    NameHint{"fix", "write floor(x), or ceil(x) below zero"},
+    NameHint{"fliplr", "write v:select(range(#v, -1, 1))"},
+    NameHint{"flipud", "write v:select(range(#v, -1, 1))"},
+    NameHint{"fminsearch", "there is no general minimiser; estimators such as srivc and procsrivc fit models"},
+    NameHint{"format", "write print(string.format(\"%.10g\", x)) for more digits"},
+    NameHint{"fpe", "write srivcstruc(data, ...), whose rows have aic, bic and fpe"},
+    NameHint{"freqz", "write bode(G) or freqresp(G, w)"},
+    NameHint{"getenv", "scripts have no access to the system"},
+    NameHint{"getTrend", "write detrend(data), and mean(data.y) for the mean"},
+    NameHint{"getpar", "write G.param"},
+    NameHint{"hist", "write histogram(v)"},
+    NameHint{"iddemo", "type dynlab demo"},
+    NameHint{"idnlarx", "write hammerstein(data, ...) for a static characteristic before linear dynamics"},
+    NameHint{"imag", "a complex number has the field im"},
+    NameHint{"initial", "write lsim(G, u, t, {x0 = ...}) with an input of zeros"},
+    NameHint{"input", "scripts ask nothing; give the value in a variable"},
+    NameHint{"int32", "write math.floor(x)"},
+    NameHint{"isa", "write type(x)"},
+    NameHint{"iscell", "write type(x) == \"table\""},
+    NameHint{"isfield", "a field that is not there is nil: t.name == nil"},
+    NameHint{"isnumeric", "write type(x) == \"number\""},
+    NameHint{"keyboard", "write print(x); dynlab run -i FILE opens the prompt with the script's variables"},
+    NameHint{"lower", "write string.lower(text)"},
+    NameHint{"lsqnonlin", "there is no general minimiser; estimators such as srivc and procsrivc fit models"},
+    NameHint{"mag2db", "write 20*log10(x)"},
+    NameHint{"meshgrid", "write two loops: for i = 1, m do for j = 1, n do ... end end"},
+    NameHint{"minreal", "cancelling poles and zeros stay; srivcstruc(data, ...) tells a structure without them"},
+    NameHint{"nan", "write 0/0"},
+    NameHint{"nparams", "write #G.param"},
+    NameHint{"null", "write nil"},
+    NameHint{"obsv", "write ss(A, B, C, D) and place or lqr"},
+    NameHint{"optimset", "give the options to the function: srivc(data, {1, 2, 0}, {MaxIter = 50})"},
+    NameHint{"pinv", "write lsq(Phi, y) for least squares"},
+    NameHint{"pwelch", "write spa(data) or etfe(data): they give frequency responses"},
+    NameHint{"qr", "write lsq(Phi, y) for least squares, solve(A, b) for equations"},
+    NameHint{"quit", "a script ends with its last line"},
+    NameHint{"randi", "write math.random(a, b)"},
+    NameHint{"randperm", "write local _, order = sort(rand(n))"},
+    NameHint{"randomseed", "write rng(seed)"},
+    NameHint{"rank", "write lsq(Phi, y), whose result tells the condition number"},
+    NameHint{"real", "a complex number has the field re"},
+    NameHint{"regexp", "write string.match(text, pattern) or string.gmatch"},
+    NameHint{"repmat", "write vector{v, v}, or matrix{v, v} for columns side by side"},
+    NameHint{"reshape", "write matrix{v1, v2}: vectors are the columns"},
+    NameHint{"rlocus", "write pole(feedback(k*G, 1)) for each gain k"},
+    NameHint{"setpar", "write tf(num, den) with the values wanted"},
+    NameHint{"sisotool", "write margin(L), place or lqr"},
+    NameHint{"ssdata", "write G.A, G.B, G.C and G.D of a state-space model"},
+    NameHint{"strsplit", "write string.gmatch(text, \"[^,]+\") in a loop"},
+    NameHint{"svd", "write eig(A:t()*A): its square roots are the singular values"},
+    NameHint{"tfestimate", "write spa(data) or etfe(data): they give frequency responses"},
+    NameHint{"trace", "write sum of A[{i, i}] in a loop"},
+    NameHint{"trapz", "write sum(y)*Ts, or cumsum(y)*Ts for the integral over time"},
+    NameHint{"unique", "write sort(v) and leave out what equals its neighbour"},
+    NameHint{"upper", "write string.upper(text)"},
+    NameHint{"zpkdata", "write zero(G), pole(G) and dcgain(G)"},
     // Identification.
     NameHint{"allmargin", "write margin(G)"},
     NameHint{"arxstruc",
@@ -244,6 +319,12 @@ std::string element_hint(const std::string& code) {
     static const std::regex kTwoPlaces(R"(\w\[\s*[\w.:]+\s*,)");
     if (std::regex_search(code, kTwoPlaces)) return "the element in row 1 and column 2 is A[{1, 2}]";
     if (contains(code, "?")) return "write if ... then ... else ... end instead of ?";
+    static const std::regex kElementSet(R"(^\s*(local\s+)?([A-Za-z_]\w*)\(([\w\s,:#]+)\)\s*=[^=].*)");
+    std::smatch element;
+    if (std::regex_match(code, element, kElementSet))
+        return element[3].str().find(',') == std::string::npos
+                   ? fmt::format("an element is written {}[{}]", element[2].str(), element[3].str())
+                   : fmt::format("an element of a matrix is written {}[{{{}}}]", element[2].str(), element[3].str());
     static const std::regex kImaginary(R"((^|[^\w.])\d+(\.\d*)?[ij]\b)");
     if (std::regex_search(code, kImaginary))
         return "there are no complex numbers to calculate with; those that functions give have the fields re, im, abs, "
@@ -279,16 +360,31 @@ std::string block_hint(const std::string& code) {
     return {};
 }
 
-/// Commands of words alone: hold on, close all, clear x y.
-std::string command_hint(const std::string& code) {
+/// Commands of words alone: hold on, close all, clear x y; step G; ?lsim.
+std::string command_hint(const std::string& code, const std::string& near) {
+    static const std::regex kAsked(R"(\s*\?\s*(\w+)\s*)"), kTwoWords(R"(\s*([A-Za-z_]\w*)[ \t]+(\w+)[\s;]*)");
+    std::smatch words;
+    if (std::regex_match(code, words, kAsked)) return fmt::format("help is asked for by help(\"{}\")", words[1].str());
     const bool words_only = std::all_of(code.begin(), code.end(), [](char c) {
         return name_character(c) || std::string_view(" \t\r;").find(c) != std::string_view::npos;
     });
     const char* hint = words_only ? matlab_name_hint(first_word(code)) : nullptr;
-    return hint != nullptr ? hint : "";
+    if (hint != nullptr) return hint;
+    const std::string block = block_hint(code);
+    if (block.empty() && std::regex_match(code, words, kTwoWords) && words[2] == near && words[1] != "local" &&
+        words[1] != "return" && words[1] != "goto" && words[1] != "function")
+        return fmt::format("a call is written {}({})", words[1].str(), words[2].str());
+    return {};
 }
 
 }  // namespace
+
+std::string lone_word_hint(const std::string& line) {
+    const std::string code = code_only(line), word = first_word(code);
+    const auto last = code.find_last_not_of(" \t\r;");
+    if (last == std::string::npos || last + 1 != code.find(word) + word.size()) return {};
+    return word == "try" || word == "catch" ? "'" + word + "' is no word of Lua; " + block_hint(code) : "";
+}
 
 std::optional<std::string> foreign_character_sentence(const std::string& line) {
     const std::string code = code_only(line);
@@ -326,7 +422,7 @@ const char* matlab_name_hint(const std::string& name) {
 
 std::string matlab_syntax_hint(const std::string& line, const std::string& near) {
     const std::string code = code_only(line);
-    if (std::string hint = command_hint(code); !hint.empty()) return hint;
+    if (std::string hint = command_hint(code, near); !hint.empty()) return hint;
     const auto first = code.find_first_not_of(" \t");
     if (first != std::string::npos && (code[first] == '%' || code[first] == '#')) return kCommentHint;
     if (has_assignment_condition(code)) return "to compare, write == instead of =";
@@ -340,6 +436,8 @@ std::string matlab_syntax_hint(const std::string& line, const std::string& near)
         return "a range is range(first, last) or range(first, step, last), a part of a vector v:range(i, j)";
     if (contains(code, "%") || contains(code, "# ")) return kCommentHint;
     if (contains(code, "\\")) return "A\\b is written solve(A, b)";
+    static const std::regex kBeginsWithDigit(R"(\d+[A-Za-z_]\w*)");
+    if (std::regex_match(near, kBeginsWithDigit)) return "a name begins with a letter";
     if (contains(code, "@(")) return "a function is written function(x) return x^2 end";
     return {};
 }

@@ -12,6 +12,8 @@ std::string matlab_syntax_hint(const std::string& line, const std::string& near)
 std::string comment_hint(const std::string& line, const std::string& name);
 /// Whether a line begins as a comment does in other languages.
 bool begins_foreign_comment(const std::string& line);
+/// For a line of one word that opens a block elsewhere and is none here: "try".
+std::string lone_word_hint(const std::string& line);
 /// About the first character outside of texts that no program can hold: typographic quotes, dashes, accents.
 std::optional<std::string> foreign_character_sentence(const std::string& line);
 

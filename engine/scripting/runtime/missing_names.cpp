@@ -105,6 +105,7 @@ int set_global(lua_State* L) {
 
 /// __index behind a sealed table; upvalue 1 is the table's name.
 int unknown_member(lua_State* L) {
+    if (key_text(L, 2) == "randomseed") raise_error(L, "the random numbers of a run begin with rng(seed)");
     std::vector<std::string> names;
     collect_names(L, 1, names);
     const std::string key = key_text(L, 2);

@@ -239,6 +239,14 @@ void Runtime::run_source(const std::string& source, const PromptStatement* state
                               .c_str());
         return record_error(LUA_ERRRUN, {});
     }
+    if (const std::optional<DecimalComma> number = decimal_comma_of(source)) {
+        const std::string text = fmt::format(
+            "{0} = {1},{2} gives {0} the value {1}: a decimal number is written with a "
+            "point, {1}.{2}",
+            number->name, number->whole, number->fraction);
+        lua_pushstring(L, LocatedMessage{context.script_name, number->line, text}.joined().c_str());
+        return record_error(LUA_ERRRUN, {});
+    }
     int status = luaL_loadbufferx(L, source.data(), source.size(), chunk_name.c_str(), "t");
     if (status == LUA_OK) {
         if (statement != nullptr) {

@@ -153,4 +153,25 @@ std::optional<int> line_with_semicolon_rows(const std::string& source) {
     return std::nullopt;
 }
 
+std::optional<DecimalComma> decimal_comma_of(const std::string& source) {
+    const std::vector<LuaToken> tokens = lua_tokens(source);
+    const auto whole = [](const LuaToken& token) {
+        return token.kind == LuaToken::Kind::kNumber && token.text.find_first_not_of("0123456789") == token.text.npos;
+    };
+    int depth = 0;  // of brackets, in which commas separate entries
+    for (std::size_t i = 0; i + 4 < tokens.size(); ++i) {
+        if (tokens[i].is("(") || tokens[i].is("{") || tokens[i].is("[")) ++depth;
+        if (tokens[i].is(")") || tokens[i].is("}") || tokens[i].is("]")) --depth;
+        const bool alone = i == 0 || (!tokens[i - 1].is(",") && !tokens[i - 1].is("for"));
+        if (depth != 0 || !alone || tokens[i].kind != LuaToken::Kind::kName || !tokens[i + 1].is("=")) continue;
+        const LuaToken &left = tokens[i + 2], &comma = tokens[i + 3], &right = tokens[i + 4];
+        if (!whole(left) || !whole(right) || !comma.is(",") || comma.begin != left.end() || right.begin != comma.end())
+            continue;
+        const auto before = source.begin() + static_cast<std::ptrdiff_t>(left.begin);
+        return DecimalComma{1 + static_cast<int>(std::count(source.begin(), before, '\n')), std::string(tokens[i].text),
+                            std::string(left.text), std::string(right.text)};
+    }
+    return std::nullopt;
+}
+
 }  // namespace dynlab::inline scripting

@@ -17,4 +17,11 @@ std::string with_shown_expressions(const std::string& source);
 /// for a comma, so that one long row would come of it.
 std::optional<int> line_with_semicolon_rows(const std::string& source);
 
+/// A number written with a decimal comma, as in `x = 3,5`, which Lua reads as two values, and its line.
+struct DecimalComma {
+    int line;
+    std::string name, whole, fraction;
+};
+std::optional<DecimalComma> decimal_comma_of(const std::string& source);
+
 }  // namespace dynlab::inline scripting

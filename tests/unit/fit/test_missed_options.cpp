@@ -8,6 +8,8 @@
 #include <cmath>
 
 #include "numerics/estimators/coe.h"
+#include "numerics/estimators/oe.h"
+#include "numerics/estimators/sriv.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/number_text.h"
@@ -169,6 +171,56 @@ TEST(missed_options, of_a_long_record_its_beginning) {
     EXPECT_THAT(told_of({IdData(Matrix(y), Matrix(u), 0.1), structure}),
                 AllOf(HasSubstr("With `offset` = \"estimate\" the fit of the first 100000 samples is"),
                       Not(HasSubstr("initial_state"))));
+}
+
+/// y = B/F u and white noise; cut from a record that ran before where it is `running`.
+IdData sampled_case(std::uint32_t seed, bool offset, bool running) {
+    RandomStream random(seed);
+    const Index before = running ? 4 : 0, N = 300 + before;
+    Vector u(N), x(N);
+    for (Index k = 0; k < N; ++k) {
+        u[k] = random.normal();
+        x[k] = (k > 0 ? 1.6 * x[k - 1] + 0.5 * u[k - 1] : running ? 12 : 0) - (k > 1 ? 0.7 * x[k - 2] : 0);
+    }
+    const Vector y = x + 0.2 * random.normal(N) + Vector::Constant(N, offset ? 2 : 0);
+    return IdData(Matrix(y.tail(300)), Matrix(u.tail(300)), 1);
+}
+
+int told_of_sampled(bool offset, bool running, const char* wanted) {
+    int told = 0;
+    for (std::uint32_t seed = 1; seed <= 20; ++seed)
+        for (const auto& method : {oe, sriv}) {
+            const IdData data = sampled_case(seed, offset, running);
+            const PolynomialOrders orders = PolynomialOrders::output_error({1}, {2}, {1});
+            const auto again = [&](const FitOptions& options) { return method(data, orders, options); };
+            const auto sentence = missed_discrete_option(data, again({}), {}, again);
+            told += sentence && sentence->starts_with(wanted) ? 1 : 0;
+        }
+    return told;
+}
+
+// Oracle: what was put into the records, 20 of each for oe and for sriv.
+TEST(missed_options, of_difference_equations_constants_and_starts_are_told) {
+    EXPECT_EQ(told_of_sampled(false, false, ""), 0);
+    EXPECT_GE(told_of_sampled(true, false, "With `offset` = \"estimate\" the fit is "), 38);
+    EXPECT_GE(told_of_sampled(false, true, "With `initial_state` = \"estimate\" the fit is "), 38);
+    EXPECT_GE(told_of_sampled(true, true, "With `initial_state` = \"estimate\" and `offset` = \"estimate\" the fit"),
+              38);
+}
+
+// Oracle: the fit that the option leads to, made as a user would make it.
+TEST(missed_options, of_difference_equations_the_fit_that_is_told_is_reached) {
+    const IdData data = sampled_case(3, true, false);
+    const PolynomialOrders orders = PolynomialOrders::output_error({1}, {2}, {1});
+    FitOptions with_offset;
+    with_offset.offset = Offset::kEstimate;
+    const Fit given = oe(data, orders), better = oe(data, orders, with_offset);
+    const auto again = [&](const FitOptions& options) { return oe(data, orders, options); };
+    const auto sentence = missed_discrete_option(data, given, {}, again);
+    ASSERT_TRUE(sentence);
+    EXPECT_THAT(*sentence, HasSubstr("the fit is " + number_text(better.fit_percent[0], 4) + " % instead of " +
+                                     number_text(given.fit_percent[0], 4) + " %: the output stands on a constant"));
+    EXPECT_FALSE(missed_discrete_option(data, better, with_offset, again));
 }
 
 }  // namespace test_missed_options
