@@ -66,6 +66,13 @@ std::size_t kept_by_edit_script(const Words& before, const Words& after) {
 }
 
 // oracle: the definition of an edit script, and the longest common subsequence for its being the shortest
+// oracle: what a reader sees of it
+TEST(text_changes, signs_of_a_heading_without_words_are_none) {
+    const ReportText text = report_text_of_markdown("#\n\n## \n\nIt moves.\n\n###\n");
+    ASSERT_EQ(text.sentences.size(), 1u);
+    EXPECT_EQ(text.sentences.front().text, "It moves.");
+}
+
 TEST(text_changes, edit_scripts_lead_from_one_list_to_the_other) {
     std::mt19937 random(7);
     for (int round = 0; round < 40; ++round) {

@@ -1,5 +1,6 @@
 // Rosters, and whose a submission is.
 #include "course/grading/roster.h"
+#include "course/hand_ins/owners.h"
 #include "fuzz/fuzz_input.h"
 #include "platform/error.h"
 
@@ -12,7 +13,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         for (const Student& student : roster.students()) fuzz::demand(!student.id.empty());
         Submission submission;
         submission.name = text.substr(0, 60);
-        for (const std::size_t place : roster.owners(submission)) fuzz::demand(place < roster.students().size());
+        const Owners::Found found = Owners(roster.students()).find(submission);
+        fuzz::demand(found.anybody() == found.trouble.empty());
+        for (const std::size_t place : found.students) fuzz::demand(place < roster.students().size());
     } catch (const EnvironmentError& error) {
         fuzz::demand(*error.what() != '\0');
     }

@@ -151,8 +151,8 @@ class MarkdownReader {
             flush();
         } else if (line.starts_with('#')) {
             flush();
-            const std::string title = trimmed(line.substr(line.find_first_not_of('#')));
-            if (!(has_title_ && line.starts_with("# "))) maker_.heading(without_marks(title), 0);
+            const std::string title = trimmed(line.substr(std::min(line.find_first_not_of('#'), line.size())));
+            if (!title.empty() && !(has_title_ && line.starts_with("# "))) maker_.heading(without_marks(title), 0);
         } else if (trimmed(line).starts_with('|')) {
             flush();
             if (!in_table_) first_row_ = maker_.count();
