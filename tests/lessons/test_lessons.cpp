@@ -56,6 +56,8 @@ TEST_P(lessons, report_is_whole) {
     EXPECT_TRUE(slides || text.find("Figure 1") != std::string::npos);
     EXPECT_THAT(text, HasSubstr(has_own_report ? "Conclusion" : "What was learnt"));
     const std::string source = has_own_report ? own_report : DYNLAB_SOURCE_DIR "/lessons/" + GetParam() + "/lesson.lua";
+    const ChildResult page = bench.dynlab({"report", GetParam(), "-o", "page.html"});
+    EXPECT_EQ(page.exit_code, 0) << page.error_output;
     if (!slides) expect_full_pages(bench, GetParam() + ".pdf", section_titles(read_file(source)));
 }
 
