@@ -69,18 +69,18 @@ std::optional<std::string> between(const std::string& text, const std::string& b
     return text.substr(first + begin.size(), last - first - begin.size());
 }
 
-/// A chunk that was set, and the counts it began and ended with.
-struct KnownChunk {
-    std::string key, html;
-    std::vector<SetPicture> pictures;
-    Counts begin{}, end{};
-    Labels labels;
-};
-
 }  // namespace
 
 /// What the last call left, and the Pandoc that waits for the next.
 struct ChunkSetter::Memory {
+    /// A chunk that was set, and the counts it began and ended with.
+    struct KnownChunk {
+        std::string key, html;
+        std::vector<SetPicture> pictures;
+        Counts begin{}, end{};
+        Labels labels;
+    };
+
     TemporaryFolder folder;
     std::optional<ChildProcess> warm;
     std::string warm_bibliography;
@@ -91,6 +91,8 @@ struct ChunkSetter::Memory {
 };
 
 namespace {
+
+using KnownChunk = ChunkSetter::Memory::KnownChunk;
 
 /// One document to be set, next to what is known of the one before.
 class ChunkJob {
