@@ -87,7 +87,7 @@ class DocumentBuilder {
           format_(format),
           options_(options),
           shared_templates_(shared_folder() / "report_templates"),
-          text_(document_text(source)),
+          text_(prepared_text(source)),
           record_(source.record ? source.record : &nothing_reported_) {}
 
     void make(const std::function<void()>& wait_for_figures) {
@@ -218,16 +218,16 @@ class DocumentBuilder {
     const DocumentMaker::Options& options_;
     fs::path shared_templates_;
     RunRecord nothing_reported_;
-    DocumentText text_;
+    PreparedText text_;
     const RunRecord* record_ = nullptr;
     TemporaryFolder work_;
 };
 
 }  // namespace
 
-DocumentText document_text(const DocumentSource& source) {
+PreparedText prepared_text(const DocumentSource& source) {
     const TemplateFile file = read_template(source.template_file);
-    DocumentText text{with_cells(file, source.cells), file.metadata, document_rules(file), "en"};
+    PreparedText text{with_cells(file, source.cells), file.metadata, document_rules(file), "en"};
     for (const auto& [key, value] : source.metadata) {
         check_metadata(key, value, source.template_file.string() + ": ");
         text.metadata[key] = value;
@@ -238,7 +238,7 @@ DocumentText document_text(const DocumentSource& source) {
     return text;
 }
 
-std::string placed_bibliography(const DocumentSource& source, const DocumentText& text, const fs::path& work_folder,
+std::string placed_bibliography(const DocumentSource& source, const PreparedText& text, const fs::path& work_folder,
                                 Complaints& complaints) {
     const auto own = text.metadata.find("bibliography");
     const bool has_own = own != text.metadata.end() && !own->second.empty();

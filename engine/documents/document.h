@@ -30,16 +30,16 @@ struct DocumentSource {
 };
 
 /// The text of a document with everything in its place but the slots.
-struct DocumentText {
+struct PreparedText {
     MarkdownText markdown;  ///< an error of a run that shows no cells stands at its beginning
     std::map<std::string, std::string> metadata;
     DocumentRules rules;
     std::string language = "en";
 };
 /// Throws DocumentError for what read_template, check_metadata and with_cells refuse.
-DocumentText document_text(const DocumentSource& source);
+PreparedText prepared_text(const DocumentSource& source);
 /// The document's literature, copied into the folder in which Pandoc works: its name there, empty where there is none.
-std::string placed_bibliography(const DocumentSource& source, const DocumentText& text,
+std::string placed_bibliography(const DocumentSource& source, const PreparedText& text,
                                 const std::filesystem::path& work_folder, Complaints& complaints);
 
 /// Makes documents: template -> Markdown -> Pandoc with our filter -> HTML, or LaTeX -> pdflatex with a

@@ -13,6 +13,7 @@
 
 #include "app/live/runner_messages.h"
 #include "data_io/values/cbor_values.h"
+#include "figures/french_texts.h"
 #include "figures/gnuplot_renderer.h"
 #include "platform/cache.h"
 #include "scripting/memoized_calls/call_cache.h"
@@ -125,9 +126,12 @@ class RunnerProcess {
     void draw(RunRecord& record, const std::filesystem::path& folder, bool all) {
         world_->renderer.finish();
         GnuplotRenderer renderer(&world_->cache);
+        const bool french = world_->language.code == "fr";
         for (auto& [name, figure] : record.figures) {
             figure.file = folder / (digest_of(name).hex() + ".svg");
-            if (all || !world_->drawn.contains(name)) renderer.draw(figure.figure, figure.file, FigureFormat::kSvg);
+            if (all || !world_->drawn.contains(name))
+                renderer.draw(french ? in_french(figure.figure) : figure.figure, figure.file, FigureFormat::kSvg,
+                              french);
             world_->drawn.insert(name);
         }
         renderer.finish();

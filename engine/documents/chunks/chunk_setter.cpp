@@ -99,7 +99,7 @@ class ChunkJob {
   public:
     ChunkJob(const DocumentSource& source, bool unfinished, ChunkSetter::Memory& memory)
         : source_(source),
-          text_(document_text(source)),
+          text_(prepared_text(source)),
           record_(*source.record),
           unfinished_(unfinished),
           memory_(memory) {
@@ -309,7 +309,7 @@ class ChunkJob {
     }
 
     const DocumentSource& source_;
-    const DocumentText text_;
+    const PreparedText text_;
     const RunRecord& record_;
     const bool unfinished_;
     ChunkSetter::Memory& memory_;

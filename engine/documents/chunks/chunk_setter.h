@@ -40,7 +40,7 @@ class ChunkSetter {
     ChunkSetter();
     ~ChunkSetter();
     /// Slots that the record does not fill say so where the record is `unfinished`. Throws DocumentError where Pandoc
-    /// gives nothing and for what document_text refuses, MissingProgram for pandoc.
+    /// gives nothing and for what prepared_text refuses, MissingProgram for pandoc.
     SetDocument set(const DocumentSource& source, bool unfinished);
     std::size_t chunks_set() const { return chunks_set_; }  ///< by the last call
 
