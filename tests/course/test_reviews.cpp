@@ -49,6 +49,7 @@ std::vector<std::string> ids(const ChildResult& checked) {
 TEST(reviews, the_form_is_checked_by_its_own_rules) {
     const Workbench bench;
     make_review(bench, "whole", kAnswer);
+    bench.write("whole/group.toml", "members = [\"Ada Lovelace\"]\n");
     EXPECT_THAT(bench.files(), ElementsAre("whole", "whole.pdf"));
     EXPECT_THAT(ids(bench.dynlab({"check", "whole", "--json"})), ElementsAre());
     EXPECT_THAT(bench.dynlab({"new", "review", "whole"}).error_output, HasSubstr("whole"));  // and is left alone

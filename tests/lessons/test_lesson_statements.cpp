@@ -239,22 +239,21 @@ TEST(lesson_02_statements, of_long_records_follow_the_limit_of_least_squares) {
 }
 
 // Oracle: the loss of models whose delay is held at whole samples.
-TEST(lesson_03_statements, of_delays_hold_near_the_minimum_and_not_far_from_it) {
+TEST(lesson_03_statements, of_delays_hold_near_the_minimum_and_far_from_it) {
     const json losses = record_of_code(R"(
 local L = load("linear_system")
 local est = iddata(L.y, L.u, 0.05)
 local Td, fig, D = delayest(est)
-for _, samples in ipairs{1, 2, 3, 8} do
+for _, samples in ipairs{0, 1, 2, 3, 5, 8, 12} do
     local G = srivc(est, {2, 3, samples})
     report.value("held_" .. samples, mean((L.y - lsim(G, L.u, 0.05))^2), "%.6f")
     report.value("curve_" .. samples, interp1(D.delays, D.losses, vector{0.05*samples})[1], "%.6f")
 end
 )");
-    for (const char* samples : {"1", "2", "3"}) {
+    for (const char* samples : {"0", "1", "2", "3", "5", "8", "12"}) {
         const double held = value(losses, std::string("held_") + samples);
         EXPECT_NEAR(value(losses, std::string("curve_") + samples), held, 0.005 * held) << samples;
     }
-    EXPECT_GE(value(losses, "curve_8"), value(losses, "held_8")) << "the lowest of several minima";
 }
 
 TEST(lesson_03_statements, of_the_noise_model_agree_with_an_independent_program) {

@@ -79,6 +79,7 @@ struct ChunkSetter::Memory {
         std::vector<SetPicture> pictures;
         Counts begin{}, end{};
         Labels labels;
+        bool has_notes = false;
     };
 
     TemporaryFolder folder;
@@ -108,7 +109,7 @@ class ChunkJob {
             digest.add_part(chunk.markdown);
             add_entries(record_, chunk.markdown, digest);
             if (lacks_entry(record_, chunk.markdown)) digest.add_part(unfinished ? "not yet" : "missing");
-            set_.push_back({digest.digest().hex(), {}, {}, {}, {}, {}});
+            set_.push_back({digest.digest().hex(), {}, {}, {}, {}, {}, has_notes(chunk.markdown)});
             chunks_.push_back(std::move(chunk));
         }
         bibliography_ = placed_bibliography(source, text_, memory.folder.path(), complaints_);
@@ -148,13 +149,14 @@ class ChunkJob {
         for (std::size_t i = 0; i < set_.size(); ++i) {
             const auto same = before.find(set_[i].key);
             if (same == before.end()) {
-                if (has_notes(chunks_[i].markdown)) whole_document_ = true;
+                whole_document_ = whole_document_ || set_[i].has_notes;
                 continue;
             }
             set_[i] = *same->second;
             before.erase(same);
             wanted[i] = false;
         }
+        for (const auto& [key, gone] : before) whole_document_ = whole_document_ || gone->has_notes;
         if (whole_document_) wanted.assign(chunks_.size(), true);
         return wanted;
     }
