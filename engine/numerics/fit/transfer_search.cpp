@@ -26,6 +26,7 @@ constexpr double kClearly = 1.02;          // times the loss of an unstable mode
 constexpr int kRoughIterations = 15;
 constexpr double kRoughTolerance = 1e-3;
 constexpr int kLastIterations = 500;    // of a search that did not settle before
+constexpr int kStretch = 50;            // of them, after which its pace is looked at
 constexpr double kMayStillWin = 1.1;    // of the smallest loss after so much
 constexpr double kSameSolution = 0.01;  // of every parameter
 constexpr std::size_t kFollowed = 3;    // to the end
@@ -70,13 +71,6 @@ Fit refine_from(const IdData& data, const TransferStructure& structure, const St
     return *std::min_element(ends.begin(), ends.end(), [](const Fit& a, const Fit& b) { return a.loss < b.loss; });
 }
 
-/// The fit, or its search continued where it has not settled.
-Fit followed_to_the_end(const IdData& record, const TransferStructure& structure, Fit fit, const FitOptions& options) {
-    if (!options.goes_on || fit.termination != Termination::kIterationLimit) return fit;
-    return continued(fit, refine_output_error(record, structure, fit.start, fit.theta,
-                                              options.limited(kLastIterations, options.tolerance)));
-}
-
 /// One search under a start condition, and what it begins with.
 class NestedFits {
   public:
@@ -103,8 +97,9 @@ class NestedFits {
         std::vector<Vector> starts;
         if (known.empty()) {
             const TransferStructure at = with_delays_of(structure, best.theta);
-            NestedSearch nested(record_, [this](const TransferStructure& poorer, const std::vector<Vector>& own) {
-                return solution_of(poorer, own);
+            const double wanted = best.loss;
+            NestedSearch nested(record_, [&](const TransferStructure& poorer, const std::vector<Vector>& own) {
+                return solution_of(poorer, own, wanted);
             });
             for (const Vector& start : nested.better_starts(at, best.loss))
                 starts.push_back(structure.free_delays ? with_delays(structure, at, start) : start);
@@ -117,25 +112,38 @@ class NestedFits {
     }
 
   private:
-    NestedSolution solution_of(const TransferStructure& structure, std::vector<Vector> starts) const {
+    /// The best that is found from these starts, or without any as a call of its own finds it. A search that
+    /// will not come below `wanted`, the richer structure's loss, is not followed to its end.
+    NestedSolution solution_of(const TransferStructure& structure, std::vector<Vector> starts, double wanted) const {
+        const auto settled = [&](Fit fit) { return solution(structure, followed(structure, std::move(fit), wanted)); };
         try {
-            if (!starts.empty())
-                return settled(structure, refine_from(record_, structure, condition_, starts, options_));
+            if (!starts.empty()) return settled(refine_from(record_, structure, condition_, starts, options_));
             // As a call of its own finds it, and from the passes: together the nearer end would hide the better one.
             const Vector start = start_from_rest(for_start_, structure, options_);
-            const NestedSolution own = settled(structure, best(structure, {start}));
+            const NestedSolution own = settled(best(structure, {start}));
             const Vector passed = iterate_srivc(for_start_, structure, start, options_).theta;
-            const NestedSolution other =
-                settled(structure, refine_from(record_, structure, condition_, {passed}, options_));
+            const NestedSolution other = settled(refine_from(record_, structure, condition_, {passed}, options_));
             return other.loss < own.loss ? other : own;
         } catch (const InvalidArgument&) {
             return {};  // no start for this structure: the richer one has its own
         }
     }
 
-    NestedSolution settled(const TransferStructure& structure, Fit fit) const {
-        fit = followed_to_the_end(record_, structure, std::move(fit), options_);
+    static NestedSolution solution(const TransferStructure& structure, const Fit& fit) {
         return {fit.theta, fit.loss, structure};
+    }
+
+    /// A search that has not settled goes on as long as it is below `wanted`, or will be at its pace.
+    Fit followed(const TransferStructure& structure, Fit fit, double wanted) const {
+        for (int left = kLastIterations; options_.goes_on && left > 0; left -= kStretch) {
+            if (fit.termination != Termination::kIterationLimit) break;
+            const double before = fit.loss;
+            fit = refine_output_error(record_, structure, fit.start, fit.theta,
+                                      options_.limited(kStretch, options_.tolerance));
+            const double gained_at_this_pace = (before - fit.loss) * left / kStretch;
+            if (fit.loss - gained_at_this_pace > wanted) break;
+        }
+        return fit;
     }
 
     const IdData &record_, &for_start_;
@@ -253,7 +261,9 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
             best = std::move(other);
         }
     }
-    best = followed_to_the_end(record, structure, std::move(best), options);
+    if (options.goes_on && best.termination == Termination::kIterationLimit)
+        best = continued(best, refine_output_error(record, structure, chosen, best.theta,
+                                                   options.limited(kLastIterations, options.tolerance)));
     best = without_unheard_inputs(record, structure, std::move(best), options);
     if (remove) add_operating_points(best, centred.removed);
     best.delay_grid = scan.delays;
