@@ -216,6 +216,13 @@ TEST(course_marks, scores_come_with_the_reviews_packs) {
     EXPECT_EQ(scores_in_script(script), given);
     EXPECT_TRUE(scores_in_script("-- scores = {data = 4}\nscores = load('x')").empty());
     EXPECT_EQ(scores_in_script("scores={data=3,steps=os.exit(),conclusions = 1e3}").size(), 1u);
+    EXPECT_EQ(scores_in_script("x = {}\n  local scores\n=\n{ data = 3 }").size(), 1u);
+    EXPECT_TRUE(scores_in_script("my scores = {data = 3}\nlocalscores = {data = 3}").empty());
+    // Whatever somebody hands in: nothing that takes stack for every character.
+    for (const std::string& filling :
+         {std::string(900'000, '\n'), std::string(900'000, ' '), std::string(900'000, 'a')})
+        EXPECT_EQ(scores_in_script(filling + "\nscores = {data = 4}").size(), 1u);
+    EXPECT_TRUE(scores_in_script("scores = {" + std::string(3900, 'a') + "}").empty());
     CourseBench bench(2, 1);
     for (const char* group : {"group-01", "group-02"})
         bench.hand_in(std::string(group) + ".pdf", small_pdf(group), "2026-03-01 10:00", {"--no-checks"});

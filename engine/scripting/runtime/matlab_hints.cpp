@@ -421,6 +421,7 @@ const char* matlab_name_hint(const std::string& name) {
 }
 
 std::string matlab_syntax_hint(const std::string& line, const std::string& near) {
+    if (line.size() > 2000) return {};  // std::regex takes stack for every character
     const std::string code = code_only(line);
     if (std::string hint = command_hint(code, near); !hint.empty()) return hint;
     const auto first = code.find_first_not_of(" \t");
