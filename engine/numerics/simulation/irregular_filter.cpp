@@ -110,6 +110,8 @@ Matrix IrregularFilter::run_sized(const VectorView& u, const VectorView& t, cons
     double time = t(0);
     for (Index k = 0; k < N; ++k) {
         while (time < t(k)) {
+            // Samples that change nothing of a held input make no step of their own.
+            while (hold_ == Hold::kZoh && segment >= 0 && segment + 1 < N && u(segment + 1) == u(segment)) ++segment;
             // With no delay the samples of the input are the sampling instants themselves, free of rounding.
             const double segment_end =
                 segment + 1 < N ? t(segment + 1) + delay_ : std::numeric_limits<double>::infinity();
