@@ -148,7 +148,7 @@ void put_points(std::vector<std::string>& row, const CriterionPoints* points, st
 }
 
 template <class Map, class Key>
-const typename Map::mapped_type* found_in(const Map& map, const Key& key) {
+const typename Map::mapped_type* given_for(const Map& map, const Key& key) {
     const auto found = map.find(key);
     return found == map.end() ? nullptr : &found->second;
 }
@@ -206,10 +206,10 @@ std::string oral_sheet(Course& course, const Assignment& a, const OralSheetWishe
         if (group.dropped_out) continue;
         std::vector<std::string> row = {group.name};
         if (wishes.students) row.resize(3);
-        finish(row, found_in(points, group.id), found_in(said.groups, group.id));
+        finish(row, given_for(points, group.id), given_for(said.groups, group.id));
         if (!wishes.students) continue;
         for (const std::string& id : group.members)
-            finish({group.name, id, names[id]}, found_in(own_points, id), found_in(said.students, id));
+            finish({group.name, id, names[id]}, given_for(own_points, id), given_for(said.students, id));
     }
     return csv_text(table);
 }
@@ -220,7 +220,7 @@ void add_student_marks(Course& course, const Assignment& a, std::vector<GroupMar
     for (const Group& group : groups_of(course)) members[group.id] = group.members;
     for (GroupMark& mark : marks)
         for (const std::string& id : members[mark.group]) {
-            const CriterionPoints* const own = found_in(own_points, id);
+            const CriterionPoints* const own = given_for(own_points, id);
             if (!own || std::none_of(own->begin(), own->end(), [](const auto& p) { return p.has_value(); })) continue;
             StudentMark student{id, mark.medians, {}};
             for (std::size_t c = 0; c < own->size(); ++c)
