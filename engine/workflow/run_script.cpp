@@ -6,6 +6,7 @@
 #include <cctype>
 #include <map>
 
+#include "documents/html/plot_data.h"
 #include "documents/text_lines.h"
 #include "figures/french_texts.h"
 #include "scripting/runtime/report_language.h"
@@ -108,7 +109,9 @@ void draw_figures(RunRecord& record, GnuplotRenderer& renderer, const std::files
     for (const std::string& name : figures_in_order(record)) {
         RecordedFigure& figure = record.figures.at(name);
         figure.file = folder / (figure_file_stem(name, ++number) + extension(format));
-        renderer.draw(french ? in_french(figure.figure) : figure.figure, figure.file, format, french);
+        const Figure shown = french ? in_french(figure.figure) : figure.figure;
+        renderer.draw(shown, figure.file, format, french);
+        if (format == FigureFormat::kSvg) figure.plot = plot_data(shown, french);
     }
 }
 
