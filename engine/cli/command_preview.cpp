@@ -29,8 +29,8 @@ void open_browser(const std::string& address) {
 }
 
 int show_preview(PreviewWords words) {
-    words.options.opened = [no_browser = words.no_browser](const std::string& address) {
-        std::cout << address << "\n(Ctrl-C ends it)" << std::endl;
+    words.options.opened = [no_browser = words.no_browser](const std::string& address, bool elsewhere) {
+        std::cout << address << (elsewhere ? "\n(it is shown there already)" : "\n(Ctrl-C ends it)") << std::endl;
         if (!no_browser) open_browser(address);
     };
     try {
@@ -53,10 +53,12 @@ void add_preview(CLI::App& app, Action& action) {
         ->required();
     command->add_option("--port", words->options.port, "The port of the page's address (default: any free one)")
         ->check(CLI::Range(1, 65535));
+    command->add_flag("--edit", words->options.edit,
+                      "Show the script and the text beside the page, to be changed there");
     command->add_flag("--no-browser", words->no_browser, "Only print the address");
     command->add_flag("--run", words->options.run_at_once,
                       "Run the scripts of this folder without being asked on the page, now and later");
-    command->footer("Example:  dynlab preview my-work");
+    command->footer("Examples:  dynlab preview my-work     dynlab preview my-work --edit     dynlab preview 02");
     command->callback([words, &action] { action = [words] { return show_preview(*words); }; });
 }
 

@@ -7,6 +7,7 @@
 
 #include "cli/commands.h"
 #include "cli/seed_option.h"
+#include "cli/slider_option.h"
 #include "course/store/aligned_table.h"
 #include "platform/atomic_file.h"
 #include "platform/terminal/activity_line.h"
@@ -25,6 +26,7 @@ struct RunArguments {
     std::string file, code, out;
     bool interactive = false;
     SeedOption seed;
+    SliderOption sliders;
 };
 
 /// A terminal would obey what a script prints; a file gets it as it is.
@@ -88,6 +90,7 @@ int run(const RunArguments& words) {
     const fs::path file = fs::is_directory(words.file) ? fs::path(words.file) / "analysis.lua" : fs::path(words.file);
     request.script = from_file ? read_percent_script(file) : parse_percent_script(words.code, "command line");
     request.seed = words.seed.value();
+    request.slider_values = words.sliders.values();
     const std::string stem = from_file ? file.stem().string() : "dynlab";
     const fs::path beside = from_file ? folder_of(file) : fs::path(".");
     const fs::path out = words.out.empty() ? (beside / (stem + "_out")).lexically_normal() : fs::path(words.out);
@@ -125,6 +128,7 @@ void add_run(CLI::App& app, Action& action) {
     command->add_option("--out", words->out, "Folder for figures, saved files and the run's record (record.json)")
         ->type_name("DIR");
     words->seed.add_to(*command);
+    words->sliders.add_to(*command);
     command->footer(
         "Figures that the script makes are saved as PDF in NAME_out beside the script and their paths printed; those "
         "of\n"

@@ -45,6 +45,17 @@ struct CellOutput {
     std::optional<std::string> figure;  ///< name of a captured figure
 };
 
+/// `slider`: a number that whoever runs the script may choose.
+struct RecordedSlider {
+    double value = 0, initial = 0;  ///< what this run had; what the script says
+    double from = 0, to = 0;
+    std::optional<double> step;  ///< none: any number between
+    bool logarithmic = false;    ///< its places are spread evenly over the logarithm
+    std::string label, unit;     ///< plain text
+    std::string cell;            ///< id of the cell that asked for it first
+    std::size_t order = 0;       ///< in the order in which the script asked
+};
+
 /// A call on the way to an error.
 struct RecordedCall {
     std::string what;  ///< "called gain(x = 2)"
@@ -73,6 +84,7 @@ struct RunRecord {
     std::map<std::string, RecordedFigure> figures;
     std::map<std::string, RecordedText> texts;
     std::map<std::string, RecordedAnswer> answers;
+    std::map<std::string, RecordedSlider> sliders;
     std::map<std::string, std::vector<CellOutput>> outputs;  ///< by cell id, in the order produced
     std::optional<RecordedError> error;                      ///< the run stopped here
     std::vector<std::filesystem::path> files_read;           ///< data files, in the order first read

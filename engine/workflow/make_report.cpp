@@ -193,7 +193,7 @@ ReportResult make_report(const ReportRequest& request) {
     watch.lap("look for changes");
     if (result.up_to_date) return result;
 
-    const RunCache runs(request.script, request.seed, figure_format_for(format), cache);
+    const RunCache runs(request, figure_format_for(format), cache);
     const TemporaryFolder workplace;
     CallCache calls(cache);
     GnuplotRenderer renderer(&cache);
@@ -208,6 +208,7 @@ ReportResult make_report(const ReportRequest& request) {
         begin("running the script");
         RunRequest run{.script = request.script,
                        .seed = request.seed,
+                       .slider_values = request.slider_values,
                        .out_folder = workplace.path(),
                        .print = request.print,
                        .enter_cell = request.enter_cell,

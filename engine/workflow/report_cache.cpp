@@ -48,6 +48,7 @@ std::string entry_of_report(const ReportRequest& request) {
     for (const auto& [key, value] : request.metadata) name.add(key).add(value);
     for (const fs::path& file : bibliographies(request)) name.add(digest_or_nothing(file));
     name.add(std::to_string(request.seed));
+    name.add(cbor_of(request.slider_values));
     name.add(fs::absolute(request.output).string());
     for (const fs::path& file : template_files()) name.add(digest_of_file(file).hex());
     return name.text();

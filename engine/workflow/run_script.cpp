@@ -6,11 +6,13 @@
 #include <cctype>
 #include <map>
 
+#include "documents/error.h"
 #include "documents/html/plot_data.h"
 #include "documents/text_lines.h"
 #include "figures/french_texts.h"
 #include "scripting/runtime/report_language.h"
 #include "scripting/runtime/runtime.h"
+#include "scripting/runtime/slider_values.h"
 
 namespace dynlab::inline workflow {
 namespace {
@@ -63,6 +65,16 @@ std::map<std::string, std::string> cell_titles(const PercentScript& script) {
     return titles;
 }
 
+void check_sliders(const RunRequest& request, const RunRecord& record) {
+    for (const auto& [name, value] : request.slider_values) {
+        if (record.sliders.contains(name)) continue;
+        std::string known;
+        for (const auto& [other, slider] : record.sliders) known += (known.empty() ? "" : ", ") + other;
+        throw DocumentError(fmt::format("{} has no slider \"{}\"; {}", request.script.file.string(), name,
+                                        known.empty() ? "it has none at all" : "it has " + known));
+    }
+}
+
 }  // namespace
 
 RunRecord run_script(const RunRequest& request, GnuplotRenderer& renderer) {
@@ -82,7 +94,11 @@ RunRecord run_script(const RunRequest& request, GnuplotRenderer& renderer) {
     ReportLanguage language{request.script.header.language};
     Runtime runtime(options, renderer);
     runtime.set_service(&language);
-    return runtime.run(request.script);
+    SliderValues sliders{request.slider_values};
+    runtime.set_service(&sliders);
+    RunRecord record = runtime.run(request.script);
+    if (!record.error) check_sliders(request, record);
+    return record;
 }
 
 std::string missing_answers(const PercentScript& script, const RunRecord& record) {

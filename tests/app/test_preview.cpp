@@ -2,80 +2,14 @@
 // page's own text, places and states.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <chrono>
-#include <csignal>
-#include <fstream>
-#include <thread>
-
-#include "platform/atomic_file.h"
-#include "platform/temporary_folder.h"
-#include "support/browser.h"
+#include "support/preview.h"
 
 namespace test_preview {
 using namespace dynlab;
-using test::Browser;
+using namespace dynlab::test;
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
-
-const std::string kHead = "-- ---\n-- title: A document\n-- ---\n\n";
-const std::string kFirst =
-    "-- %% [markdown]\n-- # First\n--\n-- Words at the beginning.\n\n-- %% id=one\nlocal x = 20\nprint(\"x is \" .. "
-    "x)\n\n";
-const std::string kPlot =
-    "-- %% id=drawn\nplot({1, 2, 3}, {1, 4, 9}, {title = \"Squares\"})\n\n-- %% [markdown]\n-- Words at the end.\n";
-
-/// The program that serves a document, as a user starts it.
-class Preview {
-  public:
-    explicit Preview(const fs::path& document, bool run = true) {
-        const fs::path address = out.path() / "address";
-        process_ = ::fork();
-        if (process_ == 0) {
-            ::setenv("XDG_CACHE_HOME", out.path().c_str(), 1);
-            ::setenv("DYNLAB_HOME", DYNLAB_SOURCE_DIR, 1);
-            if (!std::freopen(address.c_str(), "w", stdout)) ::_exit(1);
-            ::execl(DYNLAB_PROGRAM, "dynlab", "preview", document.c_str(), "--no-browser", run ? "--run" : nullptr,
-                    nullptr);
-            ::_exit(1);
-        }
-        for (int i = 0; i < 1000 && address_.empty(); ++i) {
-            std::ifstream file(address);
-            std::getline(file, address_);
-            std::this_thread::sleep_for(10ms);
-        }
-    }
-    ~Preview() { end(); }
-    void end() {
-        if (process_ <= 0) return;
-        ::kill(process_, SIGINT);
-        ::waitpid(process_, nullptr, 0);
-        process_ = 0;
-    }
-    const std::string& address() const { return address_; }
-    TemporaryFolder out;
-
-  private:
-    pid_t process_ = 0;
-    std::string address_;
-};
-
-class preview_page : public testing::Test {
-  protected:
-    fs::path file(const std::string& name = "analysis.lua") const { return folder.path() / name; }
-    void write(const std::string& text, const std::string& name = "analysis.lua") const {
-        std::ofstream(file(name)) << text;
-    }
-    bool shows(Browser& browser, const std::string& text) const {
-        return browser.comes("document.getElementById('document').innerText.includes('" + text + "')");
-    }
-    static bool state_is(Browser& browser, const std::string& cell, const std::string& state) {
-        return browser.comes("document.querySelector('[data-cell=" + cell + "]')?.dataset.state === '" + state + "'");
-    }
-    TemporaryFolder folder;
-};
 
 TEST_F(preview_page, shows_text_code_output_and_figures_and_follows_the_file) {
     write(kHead + kFirst + kPlot);
