@@ -117,11 +117,13 @@ const dynlabPlots = (() => {
       on("pointermove", (event) => this.moved(event));
       on("pointerup", (event) => this.up(event));
       on("pointercancel", (event) => { this.pointers.delete(event.pointerId); this.pulled = null; this.drawCursor(); });
-      on("pointerleave", () => { if (this.pointers.size === 0 && !this.byKeys) this.setCursor(null); });
+      on("pointerleave", (event) => {  // what a finger showed stays until another place is touched
+        if (event.pointerType !== "touch" && this.pointers.size === 0 && !this.byKeys) this.setCursor(null);
+      });
       on("dblclick", (event) => { if (!event.target.closest("button")) this.reset(); });
       on("wheel", (event) => this.wheel(event));
       on("keydown", (event) => this.key(event));
-      on("focusout", () => { if (this.byKeys) this.setCursor(null); });
+      on("focusout", (event) => { if (!this.box.contains(event.relatedTarget)) this.setCursor(null); });
     }
     down(event) {
       if (event.target.closest("button") || event.button !== 0) return;
@@ -210,7 +212,6 @@ const dynlabPlots = (() => {
         while (guide.x[i + aside] !== undefined && panel.place(guide.x[i], 0)[0] * aside < x * aside - 1e-9) i += aside;
         x = panel.place(guide.x[i], 0)[0];
       }
-      this.byKeys = true;
       this.setCursor({ panel, x: clamp(x, panel.left, panel.right), y: panel.bottom + panel.height / 2 }, true);
     }
 

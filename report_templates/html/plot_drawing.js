@@ -35,7 +35,6 @@ const dynlabDrawing = (() => {
     reset() { [this.low, this.high] = this.whole; }
     /// The part from position a to position b becomes the whole.
     zoom(a, b) { this.show(this.value(Math.min(a, b)), this.value(Math.max(a, b))); }
-    around(position, factor) { this.zoom(position - position * factor, position + (1 - position) * factor); }
     decimals(step) { return clamp(Math.ceil(-Math.log10(step) - 1e-9), 0, 12); }
     /// Numbered ticks, short ones and the power of ten taken out: those of the printed figure as long as it is whole.
     marks(count) {
@@ -99,7 +98,7 @@ const dynlabDrawing = (() => {
     }
     covers(x) { return this.x.length > 0 && x >= this.x[0] && x <= this.x[this.x.length - 1]; }
     at(x, values = this.y) {
-      const i = this.nearest(x, this.style === "stairs"), k = this.x[i] < x ? i + 1 : i - 1;
+      const i = this.nearest(x), k = this.x[i] < x ? i + 1 : i - 1;
       const between = ["line", "line_points", "band"].includes(this.style) && this.x[i] !== x && k >= 0 && k < this.x.length;
       if (!between || values[i] === null || values[k] === null || this.x[k] === this.x[i]) return values[i];
       return values[i] + (values[k] - values[i]) * (x - this.x[i]) / (this.x[k] - this.x[i]);

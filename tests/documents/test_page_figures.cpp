@@ -63,7 +63,9 @@ class page_figures : public testing::Test {
         browser.evaluate("window.plot = document.querySelector('.plot').plot; window.panel = plot.panels[0]");
     }
     json value(const std::string& expression) { return json::parse(browser.evaluate("return " + expression)); }
-    std::string reading() { return value("document.querySelector('.reading').innerText"); }
+    std::string reading() {
+        return value("(read => read.hidden ? '' : read.innerText)(document.querySelector('.reading'))");
+    }
 
     /// Where in the window a place of the first panel is, in parts of its frame from the lower left corner.
     std::pair<int, int> at(double x, double y) {
