@@ -13,8 +13,9 @@ DYNLAB_DESCRIBE(RecordedTable, header, rows)
 
 template <Is<RecordedFigure> T, class V>
 void describe(T& object, V& member) {
-    auto& [figure, caption, file, order] = object;
-    member("caption", caption), member.unless_empty("file", file), member.kept("order", order);
+    auto& [figure, caption, file, order, plot] = object;
+    member("caption", caption), member.unless_empty("file", file), member.kept("order", order),
+        member.kept("plot", plot);
 }
 
 template <Is<CellOutput> T, class V>

@@ -31,6 +31,7 @@ struct RecordedFigure {
     std::string caption;         ///< Markdown, read as safely as a template
     std::filesystem::path file;  ///< where it was drawn, once it was
     std::size_t order = 0;       ///< in the order in which the script made its figures
+    std::string plot = {};       ///< what a page draws it from (documents/html/plot_data.h), where it was drawn for one
 };
 
 /// `report.text`: Markdown written by the script.

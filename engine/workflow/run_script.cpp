@@ -7,6 +7,7 @@
 #include <map>
 
 #include "documents/error.h"
+#include "documents/html/plot_data.h"
 #include "documents/text_lines.h"
 #include "figures/french_texts.h"
 #include "scripting/runtime/report_language.h"
@@ -124,7 +125,9 @@ void draw_figures(RunRecord& record, GnuplotRenderer& renderer, const std::files
     for (const std::string& name : figures_in_order(record)) {
         RecordedFigure& figure = record.figures.at(name);
         figure.file = folder / (figure_file_stem(name, ++number) + extension(format));
-        renderer.draw(french ? in_french(figure.figure) : figure.figure, figure.file, format, french);
+        const Figure shown = french ? in_french(figure.figure) : figure.figure;
+        renderer.draw(shown, figure.file, format, french);
+        if (format == FigureFormat::kSvg) figure.plot = plot_data(shown, french);
     }
 }
 
