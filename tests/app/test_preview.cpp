@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <map>
+
 #include "support/preview.h"
 
 namespace test_preview {
@@ -252,6 +255,59 @@ TEST_F(preview_page, is_dark_where_the_desktop_is) {
                                    "'); return [b(n, 'backgroundColor') < 150, b(n, 'color') > 450]"),
                   "[true,true]")
             << part;
+}
+
+/// Resident memory of a process, in kB, and how many there are of it and what it started.
+std::pair<long, int> memory_of_family(pid_t first) {
+    std::map<pid_t, pid_t> parents;
+    std::map<pid_t, long> memory;
+    for (const auto& entry : fs::directory_iterator("/proc")) {
+        std::ifstream status(entry.path() / "status");
+        pid_t process = 0, parent = 0;
+        long kilobytes = 0;
+        for (std::string line; std::getline(status, line);) {
+            std::sscanf(line.c_str(), "Pid: %d", &process);
+            std::sscanf(line.c_str(), "PPid: %d", &parent);
+            std::sscanf(line.c_str(), "VmRSS: %ld", &kilobytes);
+        }
+        parents[process] = parent;
+        memory[process] = kilobytes;
+    }
+    std::pair<long, int> sum{0, 0};
+    for (const auto& [process, kilobytes] : memory) {
+        pid_t at = process;
+        while (at != first && at > 1 && parents.contains(at)) at = parents[at];
+        if (at == first && kilobytes > 0) ++sum.second;
+    }
+    sum.first = memory[first];
+    return sum;
+}
+
+/// As many saves of text and code as an hour of work has: memory and processes stay what they were.
+TEST_F(preview_page, does_not_grow_with_the_edits) {
+    const auto save = [&](int number) {
+        write(kHead + "-- %% [markdown]\n-- Save number " + std::to_string(number) + ".\n\n" + kFirst +
+              "-- %% id=two\nlocal s = 0 for i = 1, 1e5 do s = s + i end\nprint(\"save\", " +
+              std::to_string(number / 3) + ")\n\n" + kPlot);
+    };
+    save(0);
+    const Preview preview(file());
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(shows(browser, "Save number 0."));
+    const auto save_up_to = [&](int first, int last) {
+        for (int i = first; i <= last; ++i) {
+            save(i);
+            ASSERT_TRUE(shows(browser, "Save number " + std::to_string(i) + "."));
+        }
+        ASSERT_TRUE(browser.comes("document.getElementById('stop').hidden"));
+    };
+    save_up_to(1, 40);
+    const auto [before, processes] = memory_of_family(preview.process());
+    save_up_to(41, 240);
+    const auto [after, processes_after] = memory_of_family(preview.process());
+    EXPECT_LT(static_cast<double>(after), 1.1 * static_cast<double>(before));
+    EXPECT_LE(processes_after, processes + 2);  // a Pandoc that waits for the next time, a gnuplot
 }
 
 }  // namespace test_preview

@@ -57,6 +57,7 @@ class Preview {
         process_ = 0;
     }
     const std::string& address() const { return address_; }
+    pid_t process() const { return process_; }
     TemporaryFolder out;
 
   private:
