@@ -12,7 +12,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr double kShortestStep = 2e-3;     // kept, times the norm of A
+constexpr double kShortestKept = 2e-3;     // kept, times the norm of A
 constexpr std::int64_t kBase = 32;         // of the digits
 constexpr double kMostUnits = 1 << 30;     // longer steps are made one by one
 constexpr double kNegligibleTerm = 1e-17;  // of the state
@@ -25,7 +25,7 @@ IrregularFilter::IrregularFilter(const Matrix& A, const Vector& B, const Matrix&
     B_ = B.cwiseQuotient(scale_);
     C_ = C * scale_.asDiagonal();
     size_ = A_.size() > 0 ? A_.cwiseAbs().colwise().sum().maxCoeff() : 0;
-    unit_ = size_ > 0 ? kShortestStep / size_ : kInfinity;
+    unit_ = size_ > 0 ? kShortestKept / size_ : kInfinity;
 }
 
 /// F, G and R, the answers to a constant one and to a ramp of one a second, of steps from one to `kBase` - 1 units.
