@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "cli/commands.h"
+#include "cli/usage_error.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
 #include "platform/memory.h"
@@ -63,6 +64,7 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", "dynlab " DYNLAB_VERSION);
     app.set_help_flag("-h,--help", "Show this text, or a command's: dynlab run --help");
     app.require_subcommand(0, 1);
+    app.failure_message(usage_message);
 
     Action action;
     for (const auto add :
