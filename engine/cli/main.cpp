@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "cli/commands.h"
+#include "cli/usage_error.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
 #include "platform/memory.h"
@@ -65,6 +66,7 @@ int main(int argc, char** argv) {
     app.require_subcommand(0, 1);
     bool view = false;
     app.add_flag("--view", view, "Show the prompt's figures in the browser as they are made");
+    app.failure_message(usage_message);
 
     Action action;
     for (const auto add :

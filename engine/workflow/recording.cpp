@@ -108,6 +108,11 @@ Recording::Signal Recording::signal(const std::string& name) const {
     const Vector* numbers = found == loaded_.variables.end() ? nullptr : std::get_if<Vector>(&found->second.value);
     if (numbers != nullptr) return {*numbers, "[" + lua_text(key) + "]", key};
     if (auto column = matrix_column(name)) return *std::move(column);
+    if (signals().empty())
+        throw EnvironmentError(fmt::format(
+            "{} holds no columns of numbers, so no '{}'; what it holds are tables or texts, which a script reads: "
+            "load({}).NAME",
+            name_, name, lua_text(name_)));
     const auto near = nearest_word(name, signals());
     throw EnvironmentError(fmt::format("{} has no column of numbers '{}'{}; there are {}", name_, name,
                                        near ? fmt::format(" (did you mean '{}'?)", *near) : "",

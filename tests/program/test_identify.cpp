@@ -216,6 +216,8 @@ TEST_F(identify, what_the_file_lacks_is_told_with_what_it_has) {
     EXPECT_THAT(
         complaint({"even.csv", "--input", "u", "--output", "theta", "--poles", "2", "--validate", "stated.mat"}, 1),
         HasSubstr("stated.mat has no column of numbers 'theta'"));
+    EXPECT_THAT(complaint({"crane", "--input", "u", "--output", "y", "--poles", "2"}, 1),
+                HasSubstr("crane holds no columns of numbers, so no 'u'"));
     EXPECT_THAT(complaint({"nowhere.csv", "--input", "u", "--output", "x", "--poles", "2"}, 1),
                 HasSubstr("nowhere.csv"));
     EXPECT_THAT(complaint({"even.csv", "--input", "u", "--output", "x", "--poles", "2", "--validate", "none.csv"}, 1),
@@ -243,6 +245,15 @@ TEST_F(identify, wrong_options_are_wrong_usage) {
         EXPECT_THAT(complaint(words, 2), Not(IsEmpty()));
     }
     EXPECT_THAT(complaint({"even.csv", "--input", "u", "--output", "x,x", "--poles", "2"}, 2), HasSubstr("twice"));
+    EXPECT_THAT(complaint({"even.csv", "--input", "u", "--output", "x", "--poles", "2", "--zeros", "a"}, 2),
+                StartsWith("--zeros wants a number, but 'a' was given\n"));
+    EXPECT_THAT(
+        complaint({"even.csv", "--input", "u", "--output", "x", "--time", "t", "--time", "u", "--poles", "2"}, 2),
+        StartsWith("--time can be given once only\n"));
+    EXPECT_THAT(complaint({"even.csv", "extra", "--input", "u", "--output", "x", "--poles", "2"}, 2),
+                StartsWith("nothing is known of extra here\n"));
+    EXPECT_EQ(bench_.dynlab({"mine.lua"}).error_output,
+              "a script is run by its command: dynlab run mine.lua\nRun with --help for more information.\n");
     EXPECT_THAT(complaint({"even.csv", "--input", "u", "--output", "x", "--poles", "2", "-o", "a.docx"}, 1),
                 HasSubstr(".pdf"));
 }

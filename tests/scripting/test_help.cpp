@@ -96,10 +96,10 @@ TEST(help, lays_out_the_forms_of_a_page) {
 TEST(help, leads_on_from_toolboxes_methods_and_lua) {
     const auto all = functions();
     EXPECT_THAT(help_text("tfest", all),
-                AllOf(HasSubstr("tfest is a word of MATLAB; here: write tfsrivc"), HasSubstr("\n  tfsrivc  ")));
+                AllOf(HasSubstr("tfest is a word of other programs; here: write tfsrivc"), HasSubstr("\n  tfsrivc  ")));
     EXPECT_THAT(help_text("legend", all), HasSubstr("name the curves: plot(x1"));
     for (const char* name : {"procest", "ssest", "polyest", "idpoly", "disp", "fprintf", "roots"})
-        EXPECT_THAT(help_text(name, all), HasSubstr("is a word of MATLAB; here: ")) << name;
+        EXPECT_THAT(help_text(name, all), HasSubstr("is a word of other programs; here: ")) << name;
     EXPECT_THAT(help_text("iddata.split", all), StartsWith("data:split(0.6) (two parts)\n"));
     EXPECT_THAT(help_text("data:shift", all), StartsWith("data:shift(n) (input delayed by n samples)\n"));
     EXPECT_THAT(help_text("fig.add", all), StartsWith("fig:add(x, y, {label =, style =, ...}) (a curve)\n"));

@@ -90,9 +90,9 @@ std::string list_of(const std::vector<Found>& found, std::size_t width) {
     return text + "\nhelp NAME shows a page.\n";
 }
 
-/// What is written here for a function of MATLAB, and the pages of what it calls.
+/// What is written here for a function of MATLAB or another program, and the pages of what it calls.
 std::string matlab_answer(const std::string& name, const char* hint, const FunctionList& functions, std::size_t width) {
-    std::string text = filled(fmt::format("{} is a word of MATLAB; here: {}.", name, hint), width) + '\n';
+    std::string text = filled(fmt::format("{} is a word of other programs; here: {}.", name, hint), width) + '\n';
     static const std::regex kCall("([a-z][a-z_0-9.]*)[({]");
     const std::string words = hint;
     std::vector<std::string> shown;

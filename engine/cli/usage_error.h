@@ -1,0 +1,10 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace dynlab::inline cli {
+
+/// What is wrong with the words of the command line, in the style of the other messages, and how to get on.
+std::string usage_message(const CLI::App* app, const CLI::Error& error);
+
+}  // namespace dynlab::inline cli
