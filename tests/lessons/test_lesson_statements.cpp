@@ -73,6 +73,21 @@ TEST_P(lesson_pages, have_no_code_that_wraps) {
     }
 }
 
+// The same for what students are given of the lessons that end with a report of their own form.
+TEST(lesson_sheets, have_no_code_that_wraps) {
+    for (const char* lesson : {"03_crane", "05_thruster"}) {
+        std::ifstream file(script_of(lesson));
+        bool given = true;
+        int number = 0;
+        for (std::string line; std::getline(file, line);) {
+            ++number;
+            if (line == "-- BEGIN SOLUTION") given = false;
+            EXPECT_TRUE(!given || line.starts_with("-- ") || characters(line) <= 84) << lesson << ":" << number;
+            if (line == "-- END SOLUTION") given = true;
+        }
+    }
+}
+
 TEST_P(lesson_pages, show_every_figure_with_number_and_caption) {
     const json record = record_of_run(script_of(GetParam()));
     const std::string text = read_percent_script(script_of(GetParam())).source;
