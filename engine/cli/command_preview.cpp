@@ -1,10 +1,9 @@
 #include <iostream>
 
 #include "app/live/preview.h"
+#include "cli/browser.h"
 #include "cli/commands.h"
-#include "platform/child_process.h"
 #include "platform/error.h"
-#include "platform/program_lookup.h"
 
 namespace dynlab::inline cli {
 namespace {
@@ -13,20 +12,6 @@ struct PreviewWords {
     PreviewOptions options;
     bool no_browser = false;
 };
-
-/// The address in the browser of the desktop, where there is one.
-void open_browser(const std::string& address) {
-    if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
-    if (!find_program("xdg-open")) return;
-    ChildOptions xdg_open;
-    xdg_open.command = {"xdg-open", address};
-    xdg_open.timeout = std::chrono::seconds(10);
-    try {
-        run_child(xdg_open, "xdg-utils");
-    } catch (const std::exception&) {
-        return;  // the address stands on the terminal
-    }
-}
 
 int show_preview(PreviewWords words) {
     words.options.opened = [no_browser = words.no_browser](const std::string& address, bool elsewhere) {

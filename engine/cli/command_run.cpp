@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 struct RunArguments {
     std::string file, code, out;
-    bool interactive = false;
+    bool interactive = false, view = false;
     SeedOption seed;
     SliderOption sliders;
 };
@@ -125,6 +125,7 @@ void add_run(CLI::App& app, Action& action) {
     file->excludes(code);
     command->add_flag("-i,--interactive", words->interactive, "Open the prompt afterwards, with the script's variables")
         ->needs(file);
+    command->add_flag("--view", words->view, "The same, and show the figures in the browser")->needs(file);
     command->add_option("--out", words->out, "Folder for figures, saved files and the run's record (record.json)")
         ->type_name("DIR");
     words->seed.add_to(*command);
@@ -140,7 +141,9 @@ void add_run(CLI::App& app, Action& action) {
         if (words->file.empty() && words->code.empty()) {
             throw CLI::RequiredError("a script FILE or -e CODE");
         }
-        action = [words] { return words->interactive ? open_prompt(words->file) : run(*words); };
+        action = [words] {
+            return words->interactive || words->view ? open_prompt(words->file, words->view) : run(*words);
+        };
     });
 }
 

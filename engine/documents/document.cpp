@@ -192,8 +192,8 @@ class DocumentBuilder {
                                      fs::absolute(source_.template_file).lexically_normal().string();
         try {
             const LatexLayout layout{shared_templates_, text_.language, text_.rules.slides};
-            return run_latex(
-                {body, layout, work_.path(), identity, options_.use_cache, options_.latex_format, options_.timings});
+            return run_latex({body, layout, work_.path(), identity, options_.use_cache, options_.latex_format,
+                              options_.timings, options_.begun_format});
         } catch (const LatexRefusal& refusal) {
             const SourceLine where = origin_of_refusal(refusal, text_.markdown, source_.template_file);
             const std::string line = where.line > 0 ? ":" + std::to_string(where.line) : "";
@@ -231,6 +231,11 @@ PreparedText prepared_text(const DocumentSource& source) {
     if (source.record && source.record->error && !shows_cells(file))
         begin_with_error(source.record->error->message, source.template_file, text.markdown);
     return text;
+}
+
+LatexLayout latex_layout(const DocumentSource& source) {
+    const PreparedText text = prepared_text(source);
+    return {shared_folder() / "report_templates", text.language, text.rules.slides};
 }
 
 std::string placed_bibliography(const DocumentSource& source, const PreparedText& text, const fs::path& work_folder,

@@ -73,6 +73,11 @@ class Sentences {
         if (code == "unknown-citation")
             return "the bibliography has no entry " + quoted(first) + suggestion(first, split_at(second, ' '));
         if (code == "diagram") return "in this block diagram " + quoted(fields[2]) + ": " + first;
+        if (code == "unknown-drawing")
+            return "there is no drawing " + quoted(first) + suggestion(first, split_at(second, ' ')) + "; there are " +
+                   replaced(second, " ", ", ");
+        if (code == "drawing-content")
+            return "the drawing " + quoted(first) + " may hold nothing but one line with its caption";
         if (code == "unknown-measure")
             return "there is no measure " + quoted(first) + suggestion(first, split_at(second, ' ')) +
                    "; dynlab help measures lists them";
@@ -151,12 +156,12 @@ class Sentences {
         if (code == "division-class") {
             if (name.empty())
                 return "a ::: block needs a class: table, text, note, warning, exercise, columns, column, "
-                       "block-diagram, references, measures or pagebreak";
+                       "block-diagram, drawing, references, measures or pagebreak";
             return "the block class " + quoted(name) + " is not known" +
                    suggestion(name, {"table", "text", "note", "warning", "exercise", "columns", "column",
-                                     "block-diagram", "references", "measures", "pagebreak", "cells"}) +
+                                     "block-diagram", "drawing", "references", "measures", "pagebreak", "cells"}) +
                    "; known are table, text, cells, note, warning, exercise, columns, column, block-diagram, "
-                   "references, measures, pagebreak";
+                   "drawing, references, measures, pagebreak";
         }
         if (code == "code-class")
             return "the slot `" + text + "`{." + name + "} has an unknown class; values are written `" + text +

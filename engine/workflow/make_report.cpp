@@ -112,6 +112,13 @@ std::vector<std::pair<std::string, double>> cells_in_order(const PercentScript& 
     return cells;
 }
 
+DocumentSource template_of(const ReportRequest& request) {
+    DocumentSource source;
+    source.template_file = request.template_file;
+    source.metadata = request.metadata;
+    return source;
+}
+
 FigureFormat figure_format_for(DocumentFormat format) {
     return format == DocumentFormat::kPdf ? FigureFormat::kPdf : FigureFormat::kSvg;
 }
@@ -161,9 +168,7 @@ ReportRequest report_of(const std::string& lesson_or_folder, const fs::path& out
 }
 
 DocumentSource document_source(const ReportRequest& request, const RunRecord& record) {
-    DocumentSource source;
-    source.template_file = request.template_file;
-    source.metadata = request.metadata;
+    DocumentSource source = template_of(request);
     source.record = &record;
     source.bibliography = bibliography_of(request.script);
     source.measures = measures_for_documents();
@@ -198,6 +203,7 @@ ReportResult make_report(const ReportRequest& request) {
     const TemporaryFolder workplace;
     CallCache calls(cache);
     GnuplotRenderer renderer(&cache);
+    std::optional<CachedLatexFormat> latex_format;  // made by TeX while the script runs
     std::optional<RunRecord> known;
     if (!anew) known = runs.recall();
     const bool recalled = known.has_value();
@@ -207,6 +213,7 @@ ReportResult make_report(const ReportRequest& request) {
         watch.lap("recall the run");
     } else {
         begin("running the script");
+        if (format == DocumentFormat::kPdf) latex_format.emplace(latex_layout(template_of(request)));
         RunRequest run{.script = request.script,
                        .seed = request.seed,
                        .slider_values = request.slider_values,
@@ -230,7 +237,10 @@ ReportResult make_report(const ReportRequest& request) {
     if (!record.error && !request.of_lesson)
         result.unplaced = unplaced_entries(record, text_of_document(request.template_file, source.cells));
     try {
-        DocumentMaker({.use_cache = true, .timings = &result.timings}).make(source, request.output, format, [&] {
+        DocumentMaker::Options options;
+        options.timings = &result.timings;
+        options.begun_format = latex_format ? &*latex_format : nullptr;
+        DocumentMaker(options).make(source, request.output, format, [&] {
             renderer.finish();
             if (recalled) return;
             result.figures = renderer.use();

@@ -235,4 +235,23 @@ TEST_F(preview_page, gives_the_pdf) {
     EXPECT_TRUE(browser.comes("window.pdf === '%PDF-'", 60));
 }
 
+/// Light words on dark paper where the desktop is dark, in the document, the bar and the editor.
+TEST_F(preview_page, is_dark_where_the_desktop_is) {
+    write(kHead + kFirst);
+    const Preview preview(file(), true, {"--edit"});
+    Browser browser;
+    browser.prefer_dark();
+    browser.open(preview.address());
+    ASSERT_TRUE(shows(browser, "x is 20"));
+    ASSERT_TRUE(browser.comes("document.querySelector('.CodeMirror')"));
+    const std::string brightness =
+        "(node, what) => getComputedStyle(node)[what].match(/[0-9]+/g).slice(0, 3).reduce((sum, c) => sum + Number(c), "
+        "0)";
+    for (const char* part : {"body", "#bar", ".CodeMirror", "#document pre"})
+        EXPECT_EQ(browser.evaluate("const b = " + brightness + "; const n = document.querySelector('" + part +
+                                   "'); return [b(n, 'backgroundColor') < 150, b(n, 'color') > 450]"),
+                  "[true,true]")
+            << part;
+}
+
 }  // namespace test_preview

@@ -108,6 +108,12 @@ void Browser::new_tab() {
     work_->command("/window", {{"handle", tab["handle"]}});
 }
 
+void Browser::prefer_dark() {
+    const json dark = {{"name", "prefers-color-scheme"}, {"value", "dark"}};
+    work_->command("/goog/cdp/execute",
+                   {{"cmd", "Emulation.setEmulatedMedia"}, {"params", {{"features", json::array({dark})}}}});
+}
+
 void Browser::act(const std::string& actions) {
     work_->command("/actions", {{"actions", json::parse(actions)}});
 }

@@ -6,7 +6,7 @@
 #include "app/live/background_work.h"
 #include "app/live/live_document.h"
 #include "app/live/source_files.h"
-#include "app/page/page_files.h"
+#include "app/page/page_routes.h"
 #include "app/server/web_server.h"
 #include "data_io/values/json_values.h"
 #include "documents/error.h"
@@ -24,11 +24,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kCodeMirror = "/usr/share/javascript/codemirror";
-
 /// How the document is read, now and after every change.
 std::function<ReportRequest()> reader_of(const std::string& document) {
-    if (fs::is_regular_file(document))
+    const bool names_file = document.ends_with(".lua") || document.find('/') != std::string::npos;
+    if (names_file && !fs::exists(document)) throw EnvironmentError("there is no file or folder " + document);
+    if (fs::exists(document) && !fs::is_directory(document))
         return [document] { return report_of_script(read_percent_script(document), "preview.html"); };
     return [document] { return report_of(document, "preview.html", ""); };
 }
@@ -50,39 +50,6 @@ class Permissions {
     fs::path folder_;
     Cache cache_;
 };
-
-constexpr const char* kPlainText = "text/plain; charset=utf-8";
-
-std::string type_of_page_file(const fs::path& name) {
-    if (name.extension() == ".css") return "text/css; charset=utf-8";
-    if (name.extension() == ".js") return "text/javascript; charset=utf-8";
-    return "text/html; charset=utf-8";
-}
-
-/// The editor's files as Debian's libjs-codemirror puts them, by the names that the page asks for.
-constexpr std::pair<const char*, const char*> kEditorFiles[] = {
-    {"/codemirror.js", "codemirror.js"},
-    {"/codemirror.css", "codemirror.css"},
-    {"/codemirror-lua.js", "mode/lua/lua.js"},
-    {"/codemirror-markdown.js", "mode/markdown/markdown.js"},
-    {"/codemirror-search.js", "addon/search/searchcursor.js"}};
-
-void serve_files(WebServer& server) {
-    for (const PageFile& file : page_files()) {
-        const PageReply reply{std::string(file.text), type_of_page_file(file.name)};
-        server.on_get("/" + std::string(file.name == "index.html" ? "" : file.name),
-                      [reply](const PageRequest&) { return reply; });
-    }
-    server.on_get("/document.css", [](const PageRequest&) {
-        return PageReply{read_text(shared_folder() / "report_templates/html/document.css"), "text/css; charset=utf-8"};
-    });
-    for (const auto& [name, file] : kEditorFiles) {
-        server.on_get(name, [place = kCodeMirror / file](const PageRequest&) {
-            if (!fs::exists(place)) return PageReply{"The package libjs-codemirror is not installed.", kPlainText, 404};
-            return PageReply{read_file(place), type_of_page_file(place)};
-        });
-    }
-}
 
 void serve_page(WebServer& server, LivePage& page) {
     server.on_get("/picture/*", [&page](const PageRequest& asked) {
@@ -190,7 +157,7 @@ void preview(const PreviewOptions& options) {
     const auto send_changes = [&] {
         if (const auto changes = page.changes()) server.send("page", *changes);
     };
-    serve_files(server);
+    serve_page_files(server, "index.html");
     serve_page(server, page);
     take_orders(server, document, permissions);
     SourceFiles sources = options.edit ? sources_of(request) : SourceFiles({});
