@@ -21,6 +21,7 @@
 #include "workflow/report_cache.h"
 #include "workflow/run_cache.h"
 #include "workflow/run_script.h"
+#include "workflow/slider_runs.h"
 
 namespace dynlab::inline workflow {
 namespace {
@@ -245,6 +246,7 @@ ReportResult make_report(const ReportRequest& request) {
             result.figures = renderer.use();
             runs.remember(record);
         });
+        if (format == DocumentFormat::kHtml) add_slider_places(request, record, renderer, calls, workplace.path());
     } catch (const DocumentError& complaint) {
         if (!result.error) throw;
         throw DocumentError(*result.error + "\nThe report up to there cannot be made: " + complaint.what());

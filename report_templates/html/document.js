@@ -86,4 +86,5 @@
   for (const code of main.querySelectorAll("pre:not(.output):not(.error)")) addCopyButton(code);
   applyTheme();
   dynlabPlots.enliven(document);
+  dynlabSliders.begin();
 })();

@@ -316,5 +316,8 @@ const dynlabPlots = (() => {
     }, { rootMargin: "400px" });
     for (const data of root.querySelectorAll("img:not(.printed) + script.plot-data")) near.observe(data.previousElementSibling);
   }
-  return { enliven };
+  function enlivenNow(root) {
+    root.querySelectorAll("script.plot-data").forEach(begin);
+  }
+  return { enliven, enlivenNow };
 })();

@@ -2,7 +2,7 @@
 // page, from its lower left corner; `unit` is what one of them is in pixels.
 const dynlabDrawing = (() => {
   "use strict";
-  const FONT = '"Latin Modern Roman", "LM Roman 10", "CMU Serif", "STIX Two Text", serif';
+  const FONT = '"Latin Modern Roman", "LM Roman 10", "Latin Modern Math", "CMU Serif", "STIX Two Text", serif';
   const TICK = 0.1, SAMPLE = 0.8, GAP = 0.12, NUMBER_SIZE = 8, TEXT_SIZE = 9, TICK_LINE = 0.36;
   const SMALLEST_TYPE = 8;  // pixels, on narrow screens
   const plainText = (pieces) => typeof pieces === "string" ? pieces : pieces.map((piece) => piece.slice(1)).join("");

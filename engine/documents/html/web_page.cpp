@@ -35,29 +35,6 @@ std::string with_first(std::string page, const std::string& from, const std::str
     return at == std::string::npos ? page : page.replace(at, from.size(), to);
 }
 
-std::string with_inlined_pictures(const std::string& html, const std::vector<PlacedPicture>& pictures) {
-    std::map<std::string, const PlacedPicture*> by_name;
-    for (const PlacedPicture& picture : pictures) by_name[picture.written_name] = &picture;
-    const std::string sign = "<img src=\"";
-    std::string result;
-    std::size_t at = 0;
-    for (std::size_t next; (next = html.find(sign, at)) != std::string::npos;) {
-        const std::size_t start = next + sign.size(), end = html.find('"', start);
-        const auto picture = by_name.find(html.substr(start, end - start));
-        result.append(html, at, start - at);
-        at = html.find('>', end) + 1;
-        if (picture == by_name.end()) {
-            result.append(html, start, at - start);
-            continue;
-        }
-        const fs::path& file = picture->second->file;
-        result += "data:" + media_type(file.extension().string()) + ";base64," + base64(read_file(file));
-        result.append(html, end, at - end);
-        result += plot_element(picture->second->plot);
-    }
-    return result.append(html, at);
-}
-
 }  // namespace
 
 std::string media_type(const std::string& extension) {
@@ -75,10 +52,35 @@ std::string plot_scripts(const fs::path& shared_templates) {
     return read_file(shared_templates / "html/plot_drawing.js") + read_file(shared_templates / "html/plot.js");
 }
 
+std::string with_inlined_pictures(const std::string& html, const std::vector<PlacedPicture>& pictures) {
+    std::map<std::string, const PlacedPicture*> by_name;
+    for (const PlacedPicture& picture : pictures) by_name[picture.written_name] = &picture;
+    const std::string sign = "<img src=\"";
+    std::string result;
+    std::size_t at = 0;
+    for (std::size_t next; (next = html.find(sign, at)) != std::string::npos;) {
+        const std::size_t start = next + sign.size(), end = html.find('"', start);
+        const auto picture = by_name.find(html.substr(start, end - start));
+        result.append(html, at, start - at);
+        at = html.find('>', end) + 1;
+        if (picture == by_name.end()) {
+            result.append(html, start, at - start);
+            continue;
+        }
+        const fs::path& file = picture->second->file;
+        const std::string type = file.empty() ? "" : media_type(file.extension().string());
+        result += file.empty() ? "data:," : "data:" + type + ";base64," + base64(read_file(file));
+        result.append(html, end, at - end);
+        result += plot_element(picture->second->plot);
+    }
+    return result.append(html, at);
+}
+
 std::string whole_web_page(const std::string& html, const fs::path& shared_templates,
                            const std::vector<PlacedPicture>& pictures) {
     // They go in here, not in the template: Pandoc takes 0.3 s to read them there.
-    const std::string script = "\n" + plot_scripts(shared_templates) + read_file(shared_templates / "html/document.js");
+    const std::string script = "\n" + plot_scripts(shared_templates) + read_file(shared_templates / "html/sliders.js") +
+                               read_file(shared_templates / "html/document.js");
     std::string page = with_first(html, "script-src 'none'", "script-src " + policy_hash(script));
     page = with_first(std::move(page), "<style></style>",
                       "<style>\n" + read_file(shared_templates / "html/document.css") + "</style>");

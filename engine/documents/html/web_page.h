@@ -13,9 +13,13 @@ std::string media_type(const std::string& extension);
 /// What follows the picture of a figure in a page, for plot.js to draw it from; empty without a plot.
 std::string plot_element(const std::string& plot);
 
-/// What Pandoc made with html/document.html as one file that needs nothing else: style and scripts are put in, and the
-/// pictures themselves (RFC 2397 data URL) wherever `src="WRITTEN_NAME"` stands. The page's policy lets exactly these
-/// scripts run, by their hash (Content Security Policy Level 3).
+/// HTML with the pictures themselves (RFC 2397 data URL) wherever `src="WRITTEN_NAME"` stands, and their plots behind
+/// them; a picture without a file is left empty.
+std::string with_inlined_pictures(const std::string& html, const std::vector<PlacedPicture>& pictures);
+
+/// What Pandoc made with html/document.html as one file that needs nothing else: style, scripts and
+/// pictures are put in. The page's policy lets exactly these scripts run, by their hash (Content Security Policy
+/// Level 3).
 std::string whole_web_page(const std::string& html, const std::filesystem::path& shared_templates,
                            const std::vector<PlacedPicture>& pictures);
 
