@@ -35,6 +35,7 @@ FunctionEntries noisy_simulation_functions();
 FunctionEntries figure_functions();
 FunctionEntries report_functions();
 FunctionEntries answer_functions();
+FunctionEntries guess_functions();
 FunctionEntries program_functions();
 FunctionEntries help_functions();
 

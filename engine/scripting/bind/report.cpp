@@ -105,10 +105,7 @@ int report_text(Call& call) {
 
 int report_language(Call& call) {
     call.at_most(0);
-    const auto& services = call.context().services;
-    const auto found = services.find(typeid(ReportLanguage).hash_code());
-    return call.give(found == services.end() ? ReportLanguage{}.code
-                                             : static_cast<ReportLanguage*>(found->second)->code);
+    return call.give(report_language_of(call.context()));
 }
 
 constexpr const char* kReportArea = "report";
