@@ -35,7 +35,6 @@ FunctionEntries noisy_simulation_functions();
 FunctionEntries figure_functions();
 FunctionEntries report_functions();
 FunctionEntries answer_functions();
-FunctionEntries guess_functions();
 FunctionEntries program_functions();
 FunctionEntries help_functions();
 

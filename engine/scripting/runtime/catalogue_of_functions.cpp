@@ -23,8 +23,7 @@ const std::vector<FunctionEntry>& catalogue_of_functions() {
                                      order_functions(),         study_functions(),
                                      figure_functions(),        control_functions(),
                                      report_functions(),        answer_functions(),
-                                     guess_functions(),         program_functions(),
-                                     help_functions()})
+                                     program_functions(),       help_functions()})
             all.insert(all.end(), area.begin(), area.end());
         return all;
     }();
