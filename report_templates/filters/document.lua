@@ -331,6 +331,7 @@ local function division(element)
   if class == "pagebreak" then return layout:page_break() end
   if class == "columns" then return columns(element) end
   if class == "block-diagram" then return block_diagram(element) end
+  if class == "kept" then return layout:kept(element.content) end
   if class == "answer" then return layout:folded(element.content, layout.words.answer) end
   if class == "column" then
     report("not-a-column", "column")
@@ -552,12 +553,12 @@ local function asked_choice(division)
   end
   choices = choices + 1
   local shown = not slots.chunks and choices or nil
-  local blocks = choice.asked(read, shown)
+  local blocks = pandoc.List { pandoc.Div(choice.asked(read, shown), { class = "kept" }) }
   local answer = choice.answered(read, shown, layout.words)
   if slots.format == "html" then
     blocks:insert(pandoc.Div(answer, { class = "answer" }))
   else
-    answers:extend(answer)
+    answers:insert(pandoc.Div(answer, { class = "kept" }))
   end
   return blocks
 end

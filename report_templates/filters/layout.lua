@@ -215,6 +215,12 @@ function layout:box(division, kind)
   return pandoc.BlockQuote(division.content)
 end
 
+-- A paragraph and its list, of which so many lines at least stand together.
+function layout:kept(blocks)
+  if self.format ~= "latex" then return pandoc.Div(blocks) end
+  return { self:need(least_lines), pandoc.Div(blocks) }
+end
+
 -- What the reader unfolds; on paper it stands open.
 function layout:folded(blocks, title)
   if self.format ~= "html" then return pandoc.Div(blocks) end
