@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "cli/commands.h"
+#include "cli/document_command.h"
 #include "course/grading/grading.h"
 #include "numerics/number_text.h"
 #include "platform/atomic_file.h"
@@ -22,7 +23,7 @@ struct GradeArguments {
                                                                                                isolation = "full";
     std::vector<std::string> only;
     int jobs = 0, timeout = 60;
-    bool regrade = false, again = false, no_pdf = false;
+    bool regrade = false, again = false, no_pdf = false, answers = false;
 };
 
 std::optional<fs::path> given(const std::string& path) {
@@ -73,6 +74,8 @@ int grade(const GradeArguments& words) {
                              isolation_name(request.setup.isolation))
               << eye_text(outcome) << (request.out / "gradebook.csv").string() << '\n'
               << (request.out / (request.pdf ? "summary.pdf" : "summary.md")).string() << '\n';
+    const fs::path answers = request.out / (request.pdf ? "model_answers.pdf" : "model_answers.md");
+    if (words.answers) make_document(model_answers_of(request.setup.lesson, answers), false);
     const bool all_is_graded = outcome.not_whole + outcome.unreadable + outcome.unowned == 0;
     return all_is_graded && outcome.complaints.empty() ? kDone : kFailed;
 }
@@ -131,6 +134,9 @@ void add_grade(CLI::App& app, Action& action) {
         ->type_name("full|process")
         ->capture_default_str()
         ->check(CLI::IsMember({"full", "process"}));
+    command->add_flag(
+        "--answers", words->answers,
+        "Model answers for all, OUT/model_answers.pdf: the worked solution's text; dynlab hand-back adds them");
     command->add_flag("--no-pdf", words->no_pdf, "Feedback and summary as Markdown only");
     command->footer(
         "Every submission is run and checked alone in a box; what it breaks is its own. A run that was ended goes on\n"

@@ -1,27 +1,11 @@
-#include <sys/ioctl.h>
-#include <unistd.h>
-
-#include <algorithm>
 #include <iostream>
 
 #include "cli/commands.h"
+#include "cli/terminal_width.h"
 #include "scripting/runtime/help.h"
 #include "workflow/cheat_sheet.h"
 
 namespace dynlab::inline cli {
-namespace {
-
-constexpr std::size_t kWidest = 100;  // longer lines are hard to read
-
-/// Columns to fill: the terminal's, or the usual ones in a pipe.
-std::size_t help_width() {
-    winsize size{};
-    if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kHelpWidth;
-    return std::min<std::size_t>(size.ws_col, kWidest);
-}
-
-}  // namespace
-
 void add_help(CLI::App& app, Action& action) {
     auto name = std::make_shared<std::string>();
     auto word = std::make_shared<std::string>();
@@ -49,7 +33,7 @@ void add_help(CLI::App& app, Action& action) {
             }
             std::vector<const FunctionEntry*> functions;
             for (const FunctionEntry& entry : catalogue_of_functions()) functions.push_back(&entry);
-            const std::size_t width = help_width();
+            const std::size_t width = terminal_width();
             if (!word->empty())
                 std::cout << help_search(*word, functions, width);
             else

@@ -15,6 +15,7 @@ void add_run(CLI::App& app, Action& action);
 void add_look(CLI::App& app, Action& action);
 void add_identify(CLI::App& app, Action& action);
 void add_report(CLI::App& app, Action& action);
+void add_hint(CLI::App& app, Action& action);
 void add_sheet(CLI::App& app, Action& action);
 void add_weave(CLI::App& app, Action& action);
 void add_preview(CLI::App& app, Action& action);

@@ -24,6 +24,7 @@ constexpr const char* kFooter =
     "  dynlab report 02               a lesson with its worked solution, as a PDF\n"
     "  dynlab new 02 my-work          your own copy, to be worked on\n"
     "  dynlab preview my-work         a page that follows what you write\n"
+    "  dynlab hint my-work 4          help with question 4, a little at a time\n"
     "  dynlab report my-work          your report, as a PDF\n"
     "  dynlab check my-work           what an instructor would ask you to mend\n"
     "  dynlab grade handed-in --lesson 04 --out marks          the marks of a class\n"
@@ -70,9 +71,9 @@ int main(int argc, char** argv) {
 
     Action action;
     for (const auto add :
-         {add_run,    add_look,    add_identify,   add_report,    add_sheet,   add_weave,  add_preview, add_new,
-          add_check,  add_lessons, add_demo,       add_help,      add_doctor,  add_pack,   add_verify,  add_bundle,
-          add_checks, add_grade,   add_gradescope, add_hand_back, add_similar, add_course, add_boxed})
+         {add_run,    add_look,   add_identify, add_report,     add_sheet,     add_hint,    add_weave,  add_preview,
+          add_new,    add_check,  add_lessons,  add_demo,       add_help,      add_doctor,  add_pack,   add_verify,
+          add_bundle, add_checks, add_grade,    add_gradescope, add_hand_back, add_similar, add_course, add_boxed})
         add(app, action);
     app.footer(kFooter);  // commands made before have no part in it
     try {

@@ -78,6 +78,7 @@ class Sentences {
                    replaced(second, " ", ", ");
         if (code == "drawing-content")
             return "the drawing " + quoted(first) + " may hold nothing but one line with its caption";
+        if (code == "choice") return "in the question " + quoted(fields[2]) + ": " + first;
         if (code == "unknown-measure")
             return "there is no measure " + quoted(first) + suggestion(first, split_at(second, ' ')) +
                    "; dynlab help measures lists them";
@@ -156,12 +157,12 @@ class Sentences {
         if (code == "division-class") {
             if (name.empty())
                 return "a ::: block needs a class: table, text, note, warning, exercise, columns, column, "
-                       "block-diagram, drawing, references, measures or pagebreak";
+                       "block-diagram, choice, drawing, references, measures or pagebreak";
             return "the block class " + quoted(name) + " is not known" +
                    suggestion(name, {"table", "text", "note", "warning", "exercise", "columns", "column",
-                                     "block-diagram", "drawing", "references", "measures", "pagebreak", "cells"}) +
+                                     "block-diagram", "choice", "drawing", "references", "measures", "pagebreak", "cells"}) +
                    "; known are table, text, cells, note, warning, exercise, columns, column, block-diagram, "
-                   "drawing, references, measures, pagebreak";
+                   "choice, drawing, references, measures, pagebreak";
         }
         if (code == "code-class")
             return "the slot `" + text + "`{." + name + "} has an unknown class; values are written `" + text +

@@ -13,6 +13,15 @@ struct Lesson {
     std::string slug;  ///< "02_least_squares"
     std::filesystem::path folder;
     std::filesystem::path script() const { return folder / "lesson.lua"; }
+    /// What helps with its questions, in a language; of lessons in English alone there is no other file.
+    std::filesystem::path hints(const std::string& language) const {
+        return folder / (language == "en" ? "hints.md" : "hints." + language + ".md");
+    }
+    /// Questions to check oneself by, with answers: the last section of the sheet and of the woven lesson; may be
+    /// absent.
+    std::filesystem::path self_check() const { return folder / "self_check.md"; }
+    /// Questions that a talk on the lesson may meet, with model answers: for instructors only; may be absent.
+    std::filesystem::path talk_questions() const { return folder / "talk.md"; }
     /// Of lessons that end with a report of its own form: the worked solution's; no such file for others.
     std::filesystem::path report(const std::string& language) const { return folder / ("report." + language + ".md"); }
 };

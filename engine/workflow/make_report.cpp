@@ -1,5 +1,6 @@
 #include "workflow/make_report.h"
 
+#include <fmt/format.h>
 #include <toml++/toml.h>
 #include <algorithm>
 #include <chrono>
@@ -7,6 +8,7 @@
 #include "documents/error.h"
 #include "documents/solutions.h"
 #include "documents/template_file.h"
+#include "documents/text_lines.h"
 #include "documents/unplaced_entries.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
@@ -16,7 +18,6 @@
 #include "platform/text_file.h"
 #include "scripting/memoized_calls/call_cache.h"
 #include "workflow/error_text.h"
-#include "workflow/lesson_catalogue.h"
 #include "workflow/measures.h"
 #include "workflow/report_cache.h"
 #include "workflow/run_cache.h"
@@ -82,12 +83,19 @@ ReportRequest report_of_folder(const fs::path& folder, const fs::path& output) {
     return request;
 }
 
+/// The questions that the lesson's readers check themselves by, where there are some.
+void add_self_check(const Lesson& lesson, ReportRequest& request) {
+    const fs::path file = lesson.self_check();
+    if (fs::is_regular_file(file)) request.last_section.append(read_text(file), file, 1);
+}
+
 /// The report that stands beside a lesson's script, or the lesson itself woven.
 ReportRequest report_of_lesson(const Lesson& lesson, const fs::path& output, const std::string& language) {
     PercentScript script = read_percent_script(lesson.script());
     if (!language.empty()) script.header.language = language;
     ReportRequest request = report_of_script(script, output.empty() ? fs::path(lesson.slug + ".pdf") : output);
     request.of_lesson = true;
+    add_self_check(lesson, request);
     const fs::path report = lesson.report(script.header.language);
     if (fs::is_regular_file(report)) {
         request.template_file = report;
@@ -121,6 +129,11 @@ DocumentSource template_of(const ReportRequest& request) {
 
 FigureFormat figure_format_for(DocumentFormat format) {
     return format == DocumentFormat::kPdf ? FigureFormat::kPdf : FigureFormat::kSvg;
+}
+
+PercentScript text_of(PercentScript script) {
+    std::erase_if(script.cells, [](const Cell& cell) { return cell.kind == Cell::Kind::kCode; });
+    return script;
 }
 
 bool has_text(const PercentScript& script) {
@@ -172,7 +185,11 @@ DocumentSource document_source(const ReportRequest& request, const RunRecord& re
     source.record = &record;
     source.bibliography = bibliography_of(request.script);
     source.measures = measures_for_documents();
-    source.cells = weave_cells(request.script, record);
+    if (request.shows == ReportRequest::Shows::kCells) source.cells = weave_cells(request.script, record);
+    if (request.shows == ReportRequest::Shows::kText) source.cells = weave_cells(text_of(request.script), record);
+    source.cells.text += request.last_section.text;
+    const std::vector<SourceLine>& further = request.last_section.origin;
+    source.cells.origin.insert(source.cells.origin.end(), further.begin(), further.end());
     return source;
 }
 
@@ -182,6 +199,37 @@ ReportRequest sheet_of(const std::string& name, const fs::path& output) {
     const PercentScript tasks = parse_percent_script(without_solutions(master, lesson.script()), lesson.script());
     ReportRequest request = report_of_script(tasks, output.empty() ? fs::path(lesson.slug + "_sheet.pdf") : output);
     request.of_lesson = true;
+    add_self_check(lesson, request);
+    return request;
+}
+
+ReportRequest model_answers_of(const Lesson& lesson, const fs::path& output, const std::string& language) {
+    ReportRequest request = report_of_lesson(lesson, output, language);
+    request.shows = ReportRequest::Shows::kText;
+    request.last_section = {};
+    return request;
+}
+
+ReportRequest talk_sheet_of(const std::string& name, bool with_answers, const fs::path& output) {
+    const Lesson lesson = find_lesson(name);
+    const fs::path file = lesson.talk_questions();
+    if (!fs::is_regular_file(file))
+        throw EnvironmentError("lesson " + lesson.slug + " has no questions for a talk (" + file.string() + ")");
+    const PercentScript master = read_percent_script(lesson.script());
+    ReportRequest request = report_of_script(master, output.empty() ? fs::path(lesson.slug + "_talk.pdf") : output);
+    request.metadata["title"] = "Questions after the talk";
+    request.metadata["subtitle"] = master.header.title + (with_answers ? " – with model answers" : "");
+    request.template_file = template_named("lesson");
+    request.of_lesson = true;
+    request.shows = ReportRequest::Shows::kNothing;
+    int line_number = 0, question = 0;
+    for (const std::string& line : lines_of(read_text(file))) {
+        ++line_number;
+        if (line.starts_with("# "))
+            request.last_section.append(fmt::format("**{}. {}**\n\n", ++question, line.substr(2)), file, line_number);
+        else if (with_answers)
+            request.last_section.append(line + "\n", file, line_number);
+    }
     return request;
 }
 

@@ -10,6 +10,7 @@
 #include "documents/document.h"
 #include "documents/percent_script.h"
 #include "platform/cache.h"
+#include "workflow/lesson_catalogue.h"
 
 namespace dynlab::inline workflow {
 
@@ -18,8 +19,11 @@ struct ReportRequest {
     PercentScript script;
     std::filesystem::path template_file;
     std::map<std::string, std::string>
-        metadata;                  ///< title, subtitle and language of a lesson; empty for a student's report
-    std::filesystem::path output;  ///< .pdf, .html or .md
+        metadata;  ///< title, subtitle and language of a lesson; empty for a student's report
+    enum class Shows { kCells, kText, kNothing };
+    Shows shows = Shows::kCells;     ///< of the script: text, code and output, or text alone, or nothing
+    MarkdownText last_section = {};  ///< follows the cells
+    std::filesystem::path output;    ///< .pdf, .html or .md
     std::filesystem::path record;  ///< where what the run gave is written, too, as JSON (documents/run_record.h); such
                                    ///< a report is always made anew
     std::uint32_t seed = 1;
@@ -57,6 +61,14 @@ ReportRequest report_of(const std::string& lesson_or_folder, const std::filesyst
 /// The task sheet of a lesson: its text, data and code without the solutions, as students get it, with the places for
 /// their answers. Without `output` it goes to the current folder: 02_least_squares_sheet.pdf.
 ReportRequest sheet_of(const std::string& lesson, const std::filesystem::path& output = {});
+/// The questions that a talk on the lesson may meet (its talk.md: a heading `# Question?` each, then the answer), with
+/// the model answers for whoever asks; 05_thruster_talk.pdf unless given. Slots in the answers are filled from a run of
+/// the worked solution. Throws EnvironmentError for a lesson without such questions.
+ReportRequest talk_sheet_of(const std::string& lesson, bool with_answers, const std::filesystem::path& output = {});
+/// The model answers of a lesson for those who have handed in: its text with the worked solutions, figures and tables,
+/// without code and printed output, or the report beside it in `language` where there is one.
+ReportRequest model_answers_of(const Lesson& lesson, const std::filesystem::path& output,
+                               const std::string& language = {});
 /// The report of any script, with the template its header names, or that of lessons when it has no place for cells.
 ReportRequest report_of_script(const PercentScript& script, const std::filesystem::path& output);
 

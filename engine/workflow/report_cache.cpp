@@ -47,6 +47,8 @@ std::string entry_of_report(const ReportRequest& request) {
     name.add(digest_of_file(request.template_file).hex());
     for (const auto& [key, value] : request.metadata) name.add(key).add(value);
     for (const fs::path& file : bibliographies(request)) name.add(digest_or_nothing(file));
+    name.add(request.last_section.text);
+    name.add(std::to_string(static_cast<int>(request.shows)));
     name.add(std::to_string(request.seed));
     name.add(cbor_of(request.slider_values));
     name.add(fs::absolute(request.output).string());

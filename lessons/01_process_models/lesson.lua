@@ -413,6 +413,14 @@ report.value("T_extra", 20/3, "%.0f")
 --
 -- **Question 10.** `rig("heat_exchanger", {seed = k})` repeats the first experiment with other noise. Read and estimate two hundred records. How large is the
 -- error of the reading? Are the standard errors of the estimate right? Look up the truth now: `rig_truth("heat_exchanger")`.
+--
+-- Guess first: how many times further than the estimates do the readings scatter? `outcome` prints the guess beside what you find.
+
+-- %% id=noise_guess
+-- BEGIN SOLUTION
+-- STARTER: guess("scatter, reading over estimate", nil)
+guess("scatter, reading over estimate", 3)
+-- END SOLUTION
 
 -- %% id=noise_study
 -- BEGIN SOLUTION
@@ -433,6 +441,7 @@ end
 local study = subplot(2, 1, {bars(T_reading, "T, read off the figure (s)"),
                              bars(T_estimate, "T, estimated (s)")})
 report.figure("noise_study", study:set{height = 9}, "Two hundred experiments")
+outcome("scatter, reading over estimate", std(T_reading)/std(T_estimate))
 -- END SOLUTION
 
 -- %% id=noise_study_report echo=false

@@ -189,6 +189,14 @@ report.value("rmse_later", sqrt(mean(residuals:range(2, N)^2)), "%.3f")
 --    s^2 = \frac{1}{N-2}\sum_{i=1}^{N} \varepsilon_i^2 , $$ {#eq:interval}
 --
 -- where $t_{0.975,\,N-2}$ is the quantile of Student's distribution. Compare it with what happened.
+--
+-- Guess first: how far from the forecast are the ends of that interval? `outcome` prints the guess beside what you find.
+
+-- %% id=forecast_guess
+-- BEGIN SOLUTION
+-- STARTER: guess("half of the interval", nil, "s")
+guess("half of the interval", 0.2, "s")
+-- END SOLUTION
 
 -- %% id=forecast
 -- BEGIN SOLUTION
@@ -201,6 +209,7 @@ local picture = regression_plot(years, y, line, {forecast = 2024, level = 0.95,
 picture:mark(2024, actual, string.format("run: %.2f s", actual))
 picture:set{x_range = {1890, 2050}}
 report.figure("forecast", picture, "Line, 95 % bands and the forecast for 2024")
+outcome("half of the interval", (paris.high - paris.low)/2)
 -- END SOLUTION
 
 -- %% id=forecast_report echo=false

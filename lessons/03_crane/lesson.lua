@@ -412,9 +412,15 @@ report.value("free_moved", 1e3*(max(swing.x) - min(swing.x)), "%.1f")
 
 -- %% [markdown]
 -- **Question 9.** One record is one throw of the dice. The crane of this course can be asked again: `rig("crane", {seed = 2})` repeats all five
--- experiments with another order of bits and other noise. Guess first: is your fit on the validation record typical? Then repeat your whole procedure
+-- experiments with another order of bits and other noise. Guess first (`guess`, `outcome`): which fit of the angle is typical? Then repeat your whole procedure
 -- forty times. How far do fit, parameters and frequency scatter, do the standard errors tell that scatter, and how far is your model from the
 -- best that any linear model of this structure could do?
+
+-- %% id=repetition_guess
+-- BEGIN SOLUTION
+-- STARTER: guess(say("angle: mean fit", "angle : adéquation moyenne"), nil, "%")
+guess(say("angle: mean fit", "angle : adéquation moyenne"), 96, "%")
+-- END SOLUTION
 
 -- %% id=repetition
 -- BEGIN SOLUTION
@@ -475,6 +481,7 @@ add(say("angle: fitted to the very record (%)", "angle : ajusté à l'enregistre
 add(say("swing of the model's poles (rad/s)", "balancement, pôles du modèle (rad/s)"), study.swing, "%.3f")
 add(say("pendulum of the position's zeros (rad/s)", "pendule, zéros de la position (rad/s)"), study.pendulum, "%.3f")
 report.table("repetition", repeated_rows)
+outcome(say("angle: mean fit", "angle : adéquation moyenne"), mean(vector(study.theta)))
 report.value("repetitions", repetitions, "%d")
 report.value("expected_theta", mean(vector(study.theta)), "%.0f")
 report.value("expected_theta_std", std(vector(study.theta)), "%.1f")

@@ -58,7 +58,7 @@
 
 -- %% [markdown]
 -- **Question 9.** Un enregistrement est un seul coup de dés. On peut interroger de nouveau la grue de ce cours : `rig("crane", {seed = 2})` répète les cinq
--- expériences avec un autre ordre des bits et un autre bruit. Devinez d'abord : votre adéquation en validation est-elle typique ? Puis répétez toute votre
+-- expériences avec un autre ordre des bits et un autre bruit. Devinez d'abord (`guess`, `outcome`) : quelle adéquation de l'angle est typique ? Puis répétez toute votre
 -- démarche quarante fois. De combien adéquation, paramètres et fréquence se dispersent-ils, les erreurs types annoncent-elles cette dispersion, et à quelle
 -- distance votre modèle est-il du meilleur modèle linéaire de cette structure ?
 

@@ -24,6 +24,13 @@
 -- model fails twice; and with the record of a real hair dryer. The truth of the two simulated processes can be looked up at the end; that of the dryer
 -- is known to nobody.
 --
+-- The work is planned for two sittings of three hours:
+--
+-- | sitting | questions, with minutes | aim |
+-- |---------|-------------------------|------------------------|
+-- | A structure that can be believed | 1 (15), 2 (30), 3 (20), 4 (20), 5 (30), 6 (20), 7 (15), 8 (15), 9 (15) | choose an order, validate, and let a failed validation say what to change |
+-- | What the model leaves | 10 (20), 11 (30), 12 (30), 13 (15), 14 (25), 15 (20), 16 (40) | find and remove a drift, judge parameters, and reach a verdict where no truth is known |
+--
 -- ::: block-diagram
 -- - experiment = block 1 1: experiment
 -- - data = block 2 1: data
@@ -454,12 +461,21 @@ advice(low)
 --
 -- **Question 8.** Estimate a model with two poles and a delay on the first record. Because 60 noisy samples do not fix the level, let a constant
 -- be estimated as well (`Offset = "estimate"`). How does the model do on the two other records?
+--
+-- Guess first: with which fit will it simulate the record about 7 V? `outcome` prints the guess beside what you find.
+
+-- %% id=heat_guess
+-- BEGIN SOLUTION
+-- STARTER: guess("fit about 7 V", nil, "%")
+guess("fit about 7 V", 80, "%")
+-- END SOLUTION
 
 -- %% id=heat_first
 -- BEGIN SOLUTION
 local function start(data) return detrend(data, "start") end
 local G1 = tfsrivc(start(low), 2, 0, {TdMax = 20, Offset = "estimate"})
 print(G1)
+outcome("fit about 7 V", fit(start(high), G1))
 -- END SOLUTION
 
 -- %% id=heat_first_report echo=false
@@ -533,6 +549,11 @@ report.value("heat2_high", fit(w_records[3], G2), "%.0f")
 -- estimated about 4 V now reaches `heat2_high`{.value} % about 7 V (@fig:heat_high). But on its own record the fit has fallen to
 -- `heat2_low`{.value} %, and on the second one it is `heat2_val`{.value} %: something else is in these records.
 -- END SOLUTION
+--
+-- ::: note
+-- Here the second sitting begins: *what the model leaves*. Run what you have (`dynlab run -i analysis.lua`) and look at the fits of both models on all
+-- three records before you go on.
+-- :::
 --
 -- **Question 10.** Draw what the model leaves unexplained in all three records, smoothed by a low-pass filter that does not shift it
 -- (`idfilt` with `zero_phase`). What is it?

@@ -24,6 +24,13 @@
 --
 -- `dynlab demo` shows the methods in short guided tours; take one before you start or when you want to see more.
 --
+-- The work is planned for two sittings of three hours:
+--
+-- | sitting | questions, with minutes | aim |
+-- |---------|-------------------------|------------------------|
+-- | Regressions and their bias | 1 (5), 2 (15), 3 (20), 4 (35), 5 (20), 6 (15), 7 (25), 8 (25), 9 (20) | write an estimator, see its bias, remove it by instruments, and know what the filter does |
+-- | Which method, and how sure | 10 (25), 11 (35), 12 (25), 13 (20), 14 (25), 15 (30), 16 (20) | compare methods over many records with the best that is possible, and with discrete time |
+--
 -- # The system and its record
 --
 -- ## The true system
@@ -403,6 +410,11 @@ report.figure("colour", weights, "How the filter colours the equation error")
 -- iteratively: it filters with $1/F$ of the current model, makes instruments with the same model, solves @eq:iv, and repeats this
 -- with the new model until nothing changes. There is no $\lambda$ to choose.
 --
+-- ::: note
+-- Here the second sitting begins: *which method, and how sure*. Run what you have (`dynlab run -i analysis.lua`); the models of the first sitting are compared with the
+-- new one.
+-- :::
+--
 -- **Question 10.** Estimate the model by `tfsrivc(data, np, nz, {TdMax = 0})`, where `np` and `nz` count poles and zeros and the largest
 -- delay is zero, so that none is looked for. Compare all methods with the truth.
 
@@ -515,6 +527,14 @@ report.value("iv_more_error", 100*math.sqrt((1 - math.min(correlation, 1)^2)/(lo
 -- END SOLUTION
 --
 -- **Question 12.** Double the noise to $\sigma = 0.4$. What happens to the three methods?
+--
+-- Guess first: by what factor does the bias of LSSVF grow? `outcome` prints the guess beside what you find.
+
+-- %% id=noise_guess
+-- BEGIN SOLUTION
+-- STARTER: guess("growth of the bias of a1", nil)
+guess("growth of the bias of a1", 4)
+-- END SOLUTION
 
 -- %% id=more_noise
 -- BEGIN SOLUTION
@@ -535,6 +555,7 @@ local function cloud(name)
 end
 local panels = subplot(1, 3, {cloud("LSSVF"), cloud("IVSVF"), cloud("TFSRIVC")})
 report.figure("scatter", panels:set{height = 6}, "200 records with σ = 0.4")
+outcome("growth of the bias of a1", high.LSSVF.bias[1]/low.LSSVF.bias[1])
 -- END SOLUTION
 
 -- %% id=more_noise_report echo=false

@@ -123,7 +123,13 @@ report.value("snr_rest", 20*math.log(std(thrust(thruster.sine_300))/std(rest_rea
 -- **Question 3.** The square chirp makes something ring. Find its frequency (`etfe` with some smoothing, or an average over many switchings). Is it
 -- the thruster? Choose a low-pass filter for what you want to see of the thruster, and say what the filter must not do.
 --
--- **Question 4.** Average the answers to many switchings. How long does nothing happen?
+-- **Question 4.** Average the answers to many switchings. How long does nothing happen? Guess first (`guess`, `outcome`).
+
+-- %% id=switchings_guess
+-- BEGIN SOLUTION
+-- STARTER: guess(say("time without an answer", "temps sans réponse"), nil, "ms")
+guess(say("time without an answer", "temps sans réponse"), 20, "ms")
+-- END SOLUTION
 
 -- %% id=switchings
 -- BEGIN SOLUTION
@@ -145,6 +151,8 @@ local onset  -- the first answer of a hundredth of the whole
 for k = before + 1, #since do
     if not onset and answer_mean[k] > 0.01*max(answer_mean) then onset = since[k] end
 end
+
+outcome(say("time without an answer", "temps sans réponse"), onset)
 
 local band = 8  -- Hz
 local function low_pass(v) return idfilt(v, {0, 2*math.pi*band}, {zero_phase = true, Ts = Ts}) end

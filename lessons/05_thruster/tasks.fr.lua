@@ -38,7 +38,7 @@
 -- **Question 3.** Le balayage carré fait vibrer quelque chose. Trouvez sa fréquence (`etfe` avec un peu de lissage, ou une moyenne sur de nombreuses
 -- commutations). Est-ce le propulseur ? Choisissez un filtre passe-bas pour ce que vous voulez voir du propulseur, et dites ce que le filtre ne doit pas faire.
 --
--- **Question 4.** Faites la moyenne des réponses à de nombreuses commutations. Pendant combien de temps ne se passe-t-il rien ?
+-- **Question 4.** Faites la moyenne des réponses à de nombreuses commutations. Pendant combien de temps ne se passe-t-il rien ? Devinez d'abord (`guess`, `outcome`).
 
 -- %% [markdown]
 -- **Question 5.** La poussée selon la largeur : filtrez les deux signaux de la même façon, prenez la partie lente des balayages sinusoïdaux, et faites des

@@ -35,7 +35,7 @@ plot(G.report.delay_grid, G.report.delay_loss,
      {xlabel = "delay (s)", ylabel = "mean square error", title = "What remains at each delay"}):vline(0.735, "true")
 
 -- %% [markdown]
--- Let us be caught on purpose and search the wrong valley only. The other
+-- Let us search the wrong valley only, on purpose. The other
 -- parameters try to make up for the wrong delay: even the sign of the gain is
 -- wrong now.
 

@@ -11,6 +11,7 @@ local layout = dofile(folder .. "/layout.lua").new(slots.format, slots.language,
 local tables = dofile(folder .. "/tables.lua").new(layout)
 local diagram = dofile(folder .. "/diagram.lua")
 local drawing = dofile(folder .. "/drawing.lua")
+local choice = dofile(folder .. "/choice.lua")
 
 local failed = false
 local function clean(text) return (tostring(text):gsub("[%c]", " ")) end
@@ -352,6 +353,8 @@ local function division(element)
   if class == "columns" then return columns(element) end
   if class == "block-diagram" then return block_diagram(element) end
   if class == "drawing" then return named_drawing(element) end
+  if class == "kept" then return layout:kept(element.content) end
+  if class == "answer" then return layout:folded(element.content, layout.words.answer) end
   if class == "column" then
     report("not-a-column", "column")
     return {}
@@ -562,7 +565,28 @@ local function measures(division)
   return blocks
 end
 
+-- Questions to check oneself by, numbered through the document, and what is to stand at its end.
+local choices, answers = 0, pandoc.List {}
+local function asked_choice(division)
+  local read, complaint = choice.read(division)
+  if not read then
+    report("choice", division.content[1] and pandoc.utils.stringify(division.content[1]):match("^%S+") or "choice", complaint)
+    return {}
+  end
+  choices = choices + 1
+  local shown = not slots.chunks and choices or nil
+  local blocks = pandoc.List { pandoc.Div(choice.asked(read, shown), { class = "kept" }) }
+  local answer = choice.answered(read, shown, layout.words)
+  if slots.format == "html" then
+    blocks:insert(pandoc.Div(answer, { class = "answer" }))
+  else
+    answers:insert(pandoc.Div(answer, { class = "kept" }))
+  end
+  return blocks
+end
+
 local function expand(element)
+  if element.classes[1] == "choice" and #element.classes == 1 then return asked_choice(element) end
   if element.classes[1] == "measures" and #element.classes == 1 then return measures(element) end
   if element.classes[1] == "text" and #element.classes == 1 then return text_slot(element) end
 end
@@ -602,7 +626,12 @@ function Pandoc(document)
   for key, markdown in pairs(slots.metadata) do
     document.meta[key] = pandoc.MetaBlocks(finished(pandoc.Pandoc(read_blocks(markdown))).blocks)
   end
-  document = finished(document:walk { Div = expand })
+  document = document:walk { Div = expand }
+  if #answers > 0 then
+    document.blocks:insert(pandoc.Header(1, { pandoc.Str(layout.words.answers) }, { class = "unnumbered" }))
+    document.blocks:extend(answers)
+  end
+  document = finished(document)
   for _, key in ipairs { "title", "subtitle", "date" } do
     local value = document.meta[key]
     if value then document.meta[key] = pandoc.MetaInlines(pandoc.utils.blocks_to_inlines(value)) end

@@ -3,9 +3,11 @@ local layout = {}
 
 local words = {
   en = { fig = "Figure", tbl = "Table", eq = "Equation", sec = "Section", note = "Note", warning = "Take care",
-         exercise = "Exercise", references = "References", missing = "is not there: the script stopped before" },
+         exercise = "Exercise", references = "References", missing = "is not there: the script stopped before",
+         answer = "Answer", answers = "Answers to the questions", right = "Right.", wrong = "Wrong." },
   fr = { fig = "Figure", tbl = "Tableau", eq = "Équation", sec = "Section", note = "Remarque", warning = "Attention",
-         exercise = "Exercice", references = "Références", missing = "manque : le programme s’est arrêté avant" },
+         exercise = "Exercice", references = "Références", missing = "manque : le programme s’est arrêté avant",
+         answer = "Réponse", answers = "Réponses aux questions", right = "Juste.", wrong = "Faux." },
 }
 
 local latex_escapes = { ["\\"] = "\\textbackslash{}", ["{"] = "\\{", ["}"] = "\\}" }
@@ -211,6 +213,18 @@ function layout:box(division, kind)
   end
   division.content:insert(1, pandoc.Para { pandoc.Strong { pandoc.Str(title) } })
   return pandoc.BlockQuote(division.content)
+end
+
+-- A paragraph and its list, of which so many lines at least stand together.
+function layout:kept(blocks)
+  if self.format ~= "latex" then return pandoc.Div(blocks) end
+  return { self:need(least_lines), pandoc.Div(blocks) }
+end
+
+-- What the reader unfolds; on paper it stands open.
+function layout:folded(blocks, title)
+  if self.format ~= "html" then return pandoc.Div(blocks) end
+  return within("html", '<details class="answer"><summary>' .. html(title) .. "</summary>", blocks, "</details>")
 end
 
 -- A list of literature, as Pandoc's citeproc leaves it: entries with hanging first lines.

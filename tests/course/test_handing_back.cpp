@@ -67,6 +67,28 @@ TEST(handing_back, gives_platforms_what_they_import) {
     EXPECT_EQ(work.dynlab({"hand-back", "in"}).exit_code, 1);
 }
 
+// oracle: the text of the worked solution
+TEST(handing_back, model_answers_go_to_everybody_where_the_instructor_wants_it) {
+    const std::string worked = std::string(kSolution) +
+                               "-- %% [markdown]\n-- **Question 1.** How much?\n--\n-- BEGIN SOLUTION\n"
+                               "-- Six times seven is forty-two.\n-- END SOLUTION\n";
+    GradingBench bench(kAnswers, kChecks, worked);
+    Workbench& work = bench.bench();
+    bench.hand_in("Anna Lovelace_900001_assignsubmission_file_", kSolution);
+    bench.grade();
+    work.dynlab({"hand-back", "out"});
+    EXPECT_THAT(work.read("out/handed_back/mail.csv"), Not(HasSubstr("model_answers")));
+    bench.grade({"--answers"});
+    const std::string answers = work.read("out/model_answers.md");
+    EXPECT_THAT(answers, AllOf(HasSubstr("How much?"), HasSubstr("Six times seven is forty-two.")));
+    EXPECT_THAT(answers, AllOf(Not(HasSubstr("answer('x'")), Not(HasSubstr("SOLUTION"))));
+    work.dynlab({"hand-back", "out"});
+    EXPECT_THAT(work.read("out/handed_back/mail.csv"),
+                HasSubstr("results/Anna Lovelace_900001_assignsubmission_file_/feedback.md; model_answers.md,yes,"));
+    EXPECT_THAT(work.shell("unzip -l out/handed_back/moodle-feedback.zip").output,
+                HasSubstr("Anna Lovelace_900001_assignfeedback_file_/model_answers.md"));
+}
+
 // oracle: the results of dynlab grade; Gradescope's form of results.json
 TEST(handing_back, an_autograder_for_gradescope_grades_alone) {
     GradingBench bench(kAnswers, kChecks, kSolution);

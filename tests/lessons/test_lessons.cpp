@@ -58,7 +58,9 @@ TEST_P(lessons, report_is_whole) {
     const std::string source = has_own_report ? own_report : DYNLAB_SOURCE_DIR "/lessons/" + GetParam() + "/lesson.lua";
     const ChildResult page = bench.dynlab({"report", GetParam(), "-o", "page.html"});
     EXPECT_EQ(page.exit_code, 0) << page.error_output;
-    if (!slides) expect_full_pages(bench, GetParam() + ".pdf", section_titles(read_file(source)));
+    std::vector<std::string> sections = section_titles(read_file(source));
+    sections.insert(sections.end(), {"Five questions to check yourself", "Answers to the questions"});
+    if (!slides) expect_full_pages(bench, GetParam() + ".pdf", sections);
 }
 
 TEST_P(lessons, starter_runs_and_shows_no_solution) {

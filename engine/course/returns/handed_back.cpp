@@ -126,6 +126,13 @@ class Outbox {
     }
 
   private:
+    /// What dynlab grade --answers left for all; empty where it did not.
+    fs::path model_answers() const {
+        for (const char* name : {"model_answers.pdf", "model_answers.md"})
+            if (fs::exists(request_.marks / name)) return request_.marks / name;
+        return {};
+    }
+
     void write(const std::string& name, const TextTable& table) {
         write_file_atomically(folder_ / name, csv_text(table));
         result_.files.push_back(folder_ / name);
@@ -142,6 +149,8 @@ class Outbox {
                                   comments_on(request_.marks, student)});
             if (!student.feedback.empty())
                 feedback.add(student, student.feedback.filename().string(), read_file(student.feedback));
+            if (const fs::path answers = model_answers(); !student.feedback.empty() && !answers.empty())
+                feedback.add(student, answers.filename().string(), read_file(answers));
         }
         if (table.rows.empty()) return;
         write("moodle-grades.csv", table);
@@ -185,10 +194,12 @@ class Outbox {
         std::vector<std::vector<std::string>> more;
         for (const MarkedStudent& student : students_) {
             if (student.feedback.empty()) continue;
-            const std::string hash = sha256_of_file(student.feedback),
-                              name = fs::relative(student.feedback, request_.marks).string();
-            const auto before = sent.find(student.id + "\n" + name);
-            mailings.push_back({student, {name}, before == sent.end() || before->second != hash});
+            const std::string hash = sha256_of_file(student.feedback);
+            std::vector<std::string> files = {fs::relative(student.feedback, request_.marks).string()};
+            if (const fs::path answers = model_answers(); !answers.empty())
+                files.push_back(answers.filename().string());
+            const auto before = sent.find(fmt::format("{}\n{}", student.id, fmt::join(files, "; ")));
+            mailings.push_back({student, files, before == sent.end() || before->second != hash});
             more.push_back({student.points, student.possible, hash});
         }
         TextTable table = mailing_list(mailings);

@@ -27,6 +27,7 @@ struct HandedBack {
 /// * mail.csv, see mailing_list, with points, possible and sha256 (of the feedback) besides; new is what changed since
 ///   the last time.
 ///
+/// Where dynlab grade --answers left model answers in `marks`, everybody with feedback gets them as well.
 /// Who has no marks is left out, and so is a platform that nobody has a number of. Throws EnvironmentError where there
 /// is no gradebook.csv, or one of another kind.
 HandedBack hand_back(const HandBackRequest& request);

@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+
+#include "cli/commands.h"
+#include "cli/terminal_width.h"
+#include "documents/template_file.h"
+#include "platform/error.h"
+#include "scripting/runtime/help_layout.h"
+#include "workflow/hints.h"
+#include "workflow/lesson_catalogue.h"
+
+namespace dynlab::inline cli {
+namespace {
+
+struct HintArguments {
+    std::string lesson, language;
+    int question = 0;
+    bool next = false, all = false;
+};
+
+/// The lesson that is named, or that the copy in this folder is of, whose report also tells the language.
+Lesson lesson_to_help(HintArguments& words) {
+    const std::filesystem::path folder = words.lesson;
+    if (!std::filesystem::is_regular_file(folder / "analysis.lua")) return find_lesson(words.lesson);
+    if (words.language.empty() && std::filesystem::is_regular_file(folder / "report.md")) {
+        const auto metadata = read_template(folder / "report.md").metadata;
+        if (const auto found = metadata.find("lang"); found != metadata.end()) words.language = found->second;
+    }
+    const std::string name = read_percent_script(folder / "analysis.lua").header.lesson;
+    if (name.empty()) throw EnvironmentError((folder / "analysis.lua").string() + " does not name its lesson");
+    words.lesson = name;
+    return find_lesson(name);
+}
+
+Hints hints_of(const Lesson& lesson, const std::string& language) {
+    for (const std::string& wanted : {language, std::string("en")})
+        if (!wanted.empty() && std::filesystem::is_regular_file(lesson.hints(wanted)))
+            return read_hints(lesson.hints(wanted));
+    throw EnvironmentError("lesson " + lesson.slug + " has no hints (" + lesson.hints("en").string() + ")");
+}
+
+int list_hints(const Lesson& lesson, const Hints& hints, const std::string& name) {
+    std::cout << "Lesson " << lesson.slug << "\n\n";
+    for (const auto& [question, stages] : hints)
+        std::cout << fmt::format("question {:>2}   {} hints, {} seen\n", question, stages.size(),
+                                 std::min(HintsSeen(lesson.slug, question).count(), stages.size()));
+    std::cout << "\nThe first one of a question:  dynlab hint " << name << " " << hints.begin()->first << '\n';
+    return kDone;
+}
+
+void show_stages(const std::vector<std::string>& stages, std::size_t shown) {
+    const std::size_t width = terminal_width();
+    for (std::size_t i = 0; i < shown; ++i)
+        std::cout << "\nHint " << i + 1 << " of " << stages.size() << '\n' << laid_out(stages[i], width);
+}
+
+int give_hint(HintArguments words) {
+    const std::string name = words.lesson;
+    const Lesson lesson = lesson_to_help(words);
+    const Hints hints = hints_of(lesson, words.language);
+    if (hints.empty()) throw EnvironmentError("the hints of lesson " + lesson.slug + " are empty");
+    if (words.question == 0) return list_hints(lesson, hints, name);
+    const auto found = hints.find(words.question);
+    if (found == hints.end())
+        throw EnvironmentError(fmt::format("lesson {} has no hints for question {}; it has some for {} to {}",
+                                           lesson.slug, words.question, hints.begin()->first, hints.rbegin()->first));
+    const std::vector<std::string>& stages = found->second;
+    const HintsSeen seen(lesson.slug, words.question);
+    if (words.next && !seen.lasting())
+        throw EnvironmentError("--next needs to remember what was seen, which is not possible here; --all shows all");
+    const std::size_t before = std::min(seen.count(), stages.size());
+    const std::size_t shown = words.all    ? stages.size()
+                              : words.next ? std::min(before + 1, stages.size())
+                                           : std::max<std::size_t>(before, 1);
+    std::cout << "Lesson " << lesson.slug << ", question " << words.question << '\n';
+    show_stages(stages, shown);
+    seen.remember(std::max(shown, before));
+    if (const std::size_t left = stages.size() - shown; left > 0)
+        std::cout << fmt::format("\n{} more:  dynlab hint {} {} --next\n", left, name, words.question);
+    else
+        std::cout << "\nThis is the last one. The worked solution:  dynlab report " << lesson.slug << '\n';
+    return kDone;
+}
+
+}  // namespace
+
+void add_hint(CLI::App& app, Action& action) {
+    auto words = std::make_shared<HintArguments>();
+    CLI::App* command = app.add_subcommand("hint", "Help with a question of a lesson, a little at a time");
+    command->add_option("LESSON", words->lesson, "The lesson's number or name, or your folder")->required();
+    command->add_option("QUESTION", words->question, "Its number; without it, what there is")
+        ->check(CLI::Range(1, 999));
+    CLI::Option* next = command->add_flag("--next", words->next, "One hint more than were seen so far");
+    command->add_flag("--all", words->all, "All hints of the question")->excludes(next);
+    command->add_option("--lang", words->language, "Language, where the lesson has hints in it")
+        ->check(CLI::IsMember({"en", "fr"}));
+    command->footer("Examples:  dynlab hint 04 4     dynlab hint 04 4 --next     dynlab hint my-work");
+    command->callback([words, &action] { action = [words] { return give_hint(*words); }; });
+}
+
+}  // namespace dynlab::inline cli

@@ -1,0 +1,101 @@
+#include "workflow/hints.h"
+
+#include <charconv>
+#include <optional>
+
+#include "documents/error.h"
+#include "documents/text_lines.h"
+#include "platform/cache.h"
+#include "platform/text_file.h"
+
+namespace dynlab::inline workflow {
+namespace {
+
+std::optional<int> whole_number(std::string_view text) {
+    int number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (text.empty() || error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    return number;
+}
+
+class HintsReader {
+  public:
+    explicit HintsReader(const std::filesystem::path& file) : file_(file) {}
+
+    Hints read(const std::string& text) {
+        for (const std::string& line : lines_of(text)) {
+            ++number_;
+            if (is_blank(line)) continue;
+            if (line.starts_with('#'))
+                read_heading(line);
+            else if (line.starts_with(' '))
+                read_more(line);
+            else
+                read_stage(line);
+        }
+        return std::move(hints_);
+    }
+
+  private:
+    [[noreturn]] void fail(const std::string& what) const {
+        throw DocumentError(file_.string() + ":" + std::to_string(number_) + ": " + what);
+    }
+
+    void read_heading(const std::string& line) {
+        const std::string begin = "# Question ";
+        const auto question = line.starts_with(begin) ? whole_number(trimmed(line.substr(begin.size()))) : std::nullopt;
+        if (!question) fail("a heading of hints is \"# Question 4\", not \"" + trimmed(line) + "\"");
+        const auto [place, is_new] = hints_.try_emplace(*question);
+        if (!is_new) fail("question " + std::to_string(*question) + " has hints already");
+        stages_ = &place->second;
+    }
+
+    void read_stage(const std::string& line) {
+        if (!stages_) fail("hints stand below a heading such as \"# Question 4\"");
+        const std::size_t point = line.find(". ");
+        const std::size_t next = stages_->size() + 1;
+        if (point == std::string::npos || whole_number(line.substr(0, point)) != static_cast<int>(next))
+            fail("here hint " + std::to_string(next) + " should begin, with \"" + std::to_string(next) +
+                 ". \", not \"" + trimmed(line).substr(0, 30) + "\" (further lines of a hint are indented)");
+        stages_->push_back(trimmed(line.substr(point + 2)));
+    }
+
+    void read_more(const std::string& line) {
+        if (!stages_ || stages_->empty()) fail("this line is indented, but no hint begins before it");
+        stages_->back() += " " + trimmed(line);
+    }
+
+    std::filesystem::path file_;
+    Hints hints_;
+    std::vector<std::string>* stages_ = nullptr;
+    int number_ = 0;
+};
+
+}  // namespace
+
+Hints hints_in(const std::string& text, const std::filesystem::path& name) {
+    return HintsReader(name).read(text);
+}
+
+Hints read_hints(const std::filesystem::path& file) {
+    return hints_in(read_text(file), file);
+}
+
+HintsSeen::HintsSeen(std::string lesson, int question)
+    : entry_(EntryName("hints", "hints seen").add(lesson).add(std::to_string(question)).text()) {}
+
+bool HintsSeen::lasting() const {
+    return Cache().lasting();
+}
+
+std::size_t HintsSeen::count() const {
+    const auto known = Cache().recall(entry_);
+    const auto number = known ? whole_number(*known) : std::nullopt;
+    return number && *number > 0 ? static_cast<std::size_t>(*number) : 0;
+}
+
+void HintsSeen::remember(std::size_t count) const {
+    Cache().remember(entry_, std::to_string(count));
+}
+
+}  // namespace dynlab::inline workflow

@@ -1,0 +1,82 @@
+// The questions with which a lesson's reader checks what was understood. Oracle: the notation, read here a second time,
+// and poppler's reading of the sheet.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <set>
+
+#include "platform/text_file.h"
+#include "support/program.h"
+#include "workflow/lesson_catalogue.h"
+
+namespace dynlab::test {
+namespace test_self_check {
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+std::size_t count(const std::string& text, const std::string& what) {
+    std::size_t found = 0;
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++found;
+    return found;
+}
+
+TEST(self_check, has_five_questions_a_lesson_each_with_one_right_answer_and_a_reason_for_every_option) {
+    for (const Lesson& lesson : lessons()) {
+        SCOPED_TRACE(lesson.slug);
+        const std::string text = read_text(lesson.self_check());
+        EXPECT_EQ(count(text, "::: choice\n"), 5u);
+        EXPECT_EQ(count(text, "\n- [x] "), 5u);
+        EXPECT_EQ(count(text, "\n- [ ] "), 10u);
+        const std::regex with_reason("- \\[[ x]\\] [^\n]+\n\n  [^\n]+[.*)]\n");
+        EXPECT_EQ(std::distance(std::sregex_iterator(text.begin(), text.end(), with_reason), std::sregex_iterator()),
+                  15);
+        std::set<std::size_t> places;  // nobody learns "always the second"
+        for (std::size_t at = text.find("::: choice"); at != std::string::npos; at = text.find("::: choice", at + 1))
+            places.insert(count(text.substr(at, text.find("\n- [x]", at) - at), "\n- [ ]"));
+        EXPECT_GE(places.size(), 2u);
+    }
+}
+
+TEST(self_check, is_the_end_of_the_sheet_and_no_part_of_the_copy) {
+    const Workbench bench;
+    const ChildResult made = bench.dynlab({"sheet", "05"});
+    ASSERT_EQ(made.exit_code, 0) << made.error_output;
+    const std::string text = bench.shell("pdftotext -layout 05_thruster_sheet.pdf -").output;
+    const std::size_t last_task = text.find("Question 10."), asked = text.find("Five questions to check yourself"),
+                      answered = text.find("Answers to the questions");
+    EXPECT_LT(last_task, asked);
+    EXPECT_LT(asked, answered);
+    EXPECT_NE(answered, std::string::npos);
+    EXPECT_LT(answered, text.find("Luck would change"));
+    EXPECT_THAT(text, Not(HasSubstr("[x]")));
+    const ChildResult page = bench.dynlab({"sheet", "05", "-o", "sheet.html"});
+    ASSERT_EQ(page.exit_code, 0) << page.error_output;
+    EXPECT_EQ(count(bench.read("sheet.html"), "<details"), 5u);
+    ASSERT_EQ(bench.dynlab({"new", "05", "mine"}).exit_code, 0);
+    EXPECT_THAT(bench.read("mine/analysis.lua"), Not(HasSubstr("choice")));
+}
+
+// oracle: the file of the lesson, and the values that its run reported
+TEST(talk_sheets, have_answers_for_the_instructor_only) {
+    const Workbench bench;
+    const ChildResult made = bench.dynlab({"sheet", "05", "--talk", "-o", "ask.md"});
+    ASSERT_EQ(made.exit_code, 0) << made.error_output;
+    const std::string asked = bench.read("ask.md");
+    ASSERT_EQ(bench.dynlab({"sheet", "05", "--talk", "--answers", "-o", "answer.md"}).exit_code, 0);
+    const std::string answered = bench.read("answer.md");
+    const std::string source = read_text(find_lesson("05").talk_questions());
+    const std::size_t questions = count("\n" + source, "\n# ");
+    EXPECT_GE(questions, 8u);
+    EXPECT_EQ(count(asked, "?**"), questions);
+    EXPECT_EQ(count(answered, "?**"), questions);
+    EXPECT_THAT(asked, Not(HasSubstr("The sine visits all widths")));
+    EXPECT_THAT(answered, AllOf(HasSubstr("The sine visits all widths"), Not(HasSubstr(".value}"))));
+    EXPECT_THAT(answered, Not(HasSubstr("local "))) << "no code";
+    EXPECT_EQ(bench.dynlab({"sheet", "02", "--talk"}).exit_code, 1);
+    EXPECT_EQ(bench.dynlab({"sheet", "05", "--answers"}).exit_code, 2);
+}
+
+}  // namespace test_self_check
+}  // namespace dynlab::test

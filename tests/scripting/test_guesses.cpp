@@ -1,0 +1,31 @@
+// Guesses that are typed before a run. Oracle: the sentences, written here by hand.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "script_run.h"
+
+namespace test_guesses {
+
+using dynlab::test::error_of;
+using dynlab::test::printed;
+using testing::HasSubstr;
+
+TEST(guesses, stand_beside_what_was_found) {
+    EXPECT_EQ(printed("guess('delay', 0.3, 's')\noutcome('delay', 0.24)"),
+              "delay: guessed 0.3 s, found 0.24 s (off by 25 %)\n");
+    EXPECT_EQ(printed("guess('poles', 3)\noutcome('poles', 3)"), "poles: guessed 3, found 3 (off by 0 %)\n");
+    EXPECT_EQ(printed("guess('mean', 1)\noutcome('mean', 0)"), "mean: guessed 1, found 0\n");
+}
+
+TEST(guesses, that_are_missing_are_told_and_stop_nothing) {
+    EXPECT_EQ(printed("guess('delay', nil, 's')\noutcome('delay', 0.24)"),
+              "delay: not guessed yet; type your number in the place of nil\ndelay: found 0.24 s, not guessed\n");
+}
+
+TEST(guesses, are_made_once_and_before) {
+    EXPECT_THAT(error_of("guess('a', 1)\nguess('a', 2)"), HasSubstr("\"a\" was guessed already"));
+    EXPECT_THAT(error_of("outcome('a', 1)"), HasSubstr("nothing called \"a\" was guessed before"));
+    EXPECT_THAT(error_of("guess('a', 'much')"), HasSubstr("your guess"));
+}
+
+}  // namespace test_guesses
