@@ -159,8 +159,9 @@ class Sentences {
                 return "a ::: block needs a class: table, text, note, warning, exercise, columns, column, "
                        "block-diagram, choice, drawing, references, measures or pagebreak";
             return "the block class " + quoted(name) + " is not known" +
-                   suggestion(name, {"table", "text", "note", "warning", "exercise", "columns", "column",
-                                     "block-diagram", "choice", "drawing", "references", "measures", "pagebreak", "cells"}) +
+                   suggestion(name,
+                              {"table", "text", "note", "warning", "exercise", "columns", "column", "block-diagram",
+                               "choice", "drawing", "references", "measures", "pagebreak", "cells"}) +
                    "; known are table, text, cells, note, warning, exercise, columns, column, block-diagram, "
                    "choice, drawing, references, measures, pagebreak";
         }
