@@ -33,6 +33,13 @@ const std::map<std::string, std::string>& media_types() {
     return types;
 }
 
+/// In small letters: telephones write .JPG.
+std::string kind_of(const fs::path& picture) {
+    std::string extension = picture.extension().string();
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return extension;
+}
+
 bool format_holds(DocumentFormat format, const std::string& extension) {
     if (format == DocumentFormat::kMarkdown) return media_types().count(extension) || extension == ".pdf";
     if (format == DocumentFormat::kHtml) return media_types().count(extension);
@@ -75,12 +82,12 @@ std::vector<PlacedPicture> find_picture_files(const std::vector<UsedPicture>& pi
             complaints.add(where, shown + "lies outside the folder of this file; copy it into the folder");
         else if (!fs::is_regular_file(file))
             complaints.add(where, shown + "does not exist in " + fs::absolute(folder).lexically_normal().string());
-        else if (!format_holds(format, path.extension().string()))
+        else if (!format_holds(format, kind_of(path)))
             complaints.add(where,
                            shown + "is of a kind this output cannot hold; " +
                                (format == DocumentFormat::kPdf ? "use .pdf, .png or .jpg" : "use .svg, .png or .jpg"));
         else
-            found.push_back({file, prefix + std::to_string(picture.number) + path.extension().string()});
+            found.push_back({file, prefix + std::to_string(picture.number) + kind_of(path)});
     }
     return found;
 }
@@ -120,7 +127,7 @@ std::string with_inlined_pictures(const std::string& html, const std::vector<Pla
             result.append(html, start, end - start);
         } else {
             const fs::path& file = picture->second->file;
-            result += "data:" + media_types().at(file.extension().string()) + ";base64," + base64(read_file(file));
+            result += "data:" + media_types().at(kind_of(file)) + ";base64," + base64(read_file(file));
         }
         at = end;
     }
