@@ -1,7 +1,6 @@
 #include "documents/pictures.h"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 
 #include "documents/html/web_page.h"
@@ -64,12 +63,12 @@ std::vector<PlacedPicture> find_picture_files(const std::vector<UsedPicture>& pi
             complaints.add(where, shown + "lies outside the folder of this file; copy it into the folder");
         else if (!fs::is_regular_file(file))
             complaints.add(where, shown + "does not exist in " + fs::absolute(folder).lexically_normal().string());
-        else if (!format_holds(format, path.extension().string()))
+        else if (!format_holds(format, kind_of(path)))
             complaints.add(where,
                            shown + "is of a kind this output cannot hold; " +
                                (format == DocumentFormat::kPdf ? "use .pdf, .png or .jpg" : "use .svg, .png or .jpg"));
         else
-            found.push_back({file, prefix + std::to_string(picture.number) + path.extension().string(), {}});
+            found.push_back({file, prefix + std::to_string(picture.number) + kind_of(path), {}});
     }
     return found;
 }

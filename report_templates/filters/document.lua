@@ -50,7 +50,7 @@ local function picture_file(kind, name)
   local key = kind .. ":" .. name
   if not pictures[key] then
     picture_count = picture_count + 1
-    local extension = kind == "figure" and slots.figure_extension or name:match("%.(%w+)$") or ""
+    local extension = kind == "figure" and slots.figure_extension or (name:match("%.(%w+)$") or ""):lower()
     pictures[key] = slots.picture_prefix .. picture_count .. "." .. extension
     io.stderr:write(table.concat({ "dynlab:use", tostring(picture_count), kind, clean(name) }, "\t"), "\n")
   end

@@ -199,6 +199,20 @@ TEST(program, code_of_a_pdf_can_be_copied) {  // oracle: the script's own signs
                       HasSubstr("Now s^2 \u00ea.")));
 }
 
+TEST(program, pictures_of_a_telephone_have_capital_letters) {
+    const Workbench bench;
+    bench.write("A/analysis.lua", "save(plot({1, 2}), 'small.png')\n");
+    ASSERT_EQ(bench.dynlab({"run", "A"}).exit_code, 0);
+    bench.shell("cp A/small.png 'A/IMG 001.PNG'");
+    bench.write("A/report.md", "---\ntitle: A\n---\n\n![A rig.](IMG 001.PNG)\n");
+    for (const char* output : {"a.pdf", "a.html"}) {
+        const ChildResult made = bench.dynlab({"report", "A", "-o", output});
+        EXPECT_EQ(made.exit_code, 0) << made.error_output;
+    }
+    EXPECT_THAT(bench.shell("pdfimages -list a.pdf").output, testing::ContainsRegex("1 +0 +image"));
+    EXPECT_THAT(bench.read("a.html"), HasSubstr("data:image/png;base64,"));
+}
+
 TEST(program, weaves_to_html_and_markdown) {
     const Workbench bench;
     bench.write("a.lua", "-- ---\n-- title: Square\n-- ---\n\n-- %% [markdown]\n-- Some prose.\n\n-- %%\nprint(7*6)\n");

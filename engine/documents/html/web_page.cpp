@@ -2,6 +2,7 @@
 
 #include <sodium.h>
 
+#include <cctype>
 #include <map>
 
 #include "documents/text_lines.h"
@@ -37,6 +38,12 @@ std::string with_first(std::string page, const std::string& from, const std::str
 
 }  // namespace
 
+std::string kind_of(const fs::path& picture) {
+    std::string extension = picture.extension().string();
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return extension;
+}
+
 std::string media_type(const std::string& extension) {
     static const std::map<std::string, std::string> types = {
         {".svg", "image/svg+xml"}, {".png", "image/png"}, {".jpg", "image/jpeg"}, {".jpeg", "image/jpeg"}};
@@ -68,7 +75,7 @@ std::string with_inlined_pictures(const std::string& html, const std::vector<Pla
             continue;
         }
         const fs::path& file = picture->second->file;
-        const std::string type = file.empty() ? "" : media_type(file.extension().string());
+        const std::string type = file.empty() ? "" : media_type(kind_of(file));
         result += file.empty() ? "data:," : "data:" + type + ";base64," + base64(read_file(file));
         result.append(html, end, at - end);
         result += plot_element(picture->second->plot);
