@@ -28,12 +28,12 @@ const dynlabPlots = (() => {
 
     build() {
       const element = (name, kind) => Object.assign(document.createElement(name), { className: kind });
-      const [width, height] = this.size;
+      const [width, height] = this.size.map((length) => Math.round(length / 2.54 * 96));  // as the picture's own
       this.box = element("div", "plot");
       this.box.plot = this;
       this.box.tabIndex = 0;
       this.box.style.aspectRatio = `${width} / ${height}`;
-      this.box.style.width = this.picture.style.width || `${Math.round(width / 2.54 * 96)}px`;
+      this.box.style.width = this.picture.style.width || `${width}px`;
       this.box.setAttribute("role", "application");
       this.box.setAttribute("aria-roledescription", WORDS.kind);
       this.box.setAttribute("aria-label", [this.picture.alt, WORDS.help].filter(Boolean).join(". "));

@@ -22,6 +22,7 @@ TEST_F(preview_page, shows_text_code_output_and_figures_and_follows_the_file) {
     EXPECT_TRUE(shows(browser, "Words at the beginning."));
     EXPECT_TRUE(shows(browser, "x is 20"));
     EXPECT_TRUE(browser.comes("document.querySelector('figure img')?.naturalWidth > 100"));
+    EXPECT_TRUE(browser.comes("document.querySelector('figure .plot')?.clientWidth > 100"));
     EXPECT_TRUE(browser.comes("document.getElementById('head').innerText.includes('A document')"));
     EXPECT_EQ(browser.evaluate("return location.search"), "\"\"");  // no token in the address
 
@@ -33,6 +34,18 @@ TEST_F(preview_page, shows_text_code_output_and_figures_and_follows_the_file) {
     write(changed);
     EXPECT_TRUE(shows(browser, "x is 21"));
     EXPECT_TRUE(browser.comes("!document.getElementById('document').innerText.includes('x is 20')"));
+}
+
+TEST_F(preview_page, figures_can_be_read_off) {
+    write(kHead + kFirst + kPlot);
+    const Preview preview(file());
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(browser.comes("document.querySelector('.plot')"));
+    browser.evaluate(
+        "const plot = document.querySelector('.plot').plot; const panel = plot.panels[0]; plot.setCursor({panel, x: "
+        "panel.place(2, 4)[0], y: panel.place(2, 4)[1]})");
+    EXPECT_TRUE(browser.comes("/2\\.0.*4\\.0/s.test(document.querySelector('.reading').innerText)"));
 }
 
 TEST_F(preview_page, changes_only_what_has_changed) {
@@ -145,8 +158,8 @@ TEST_F(preview_page, nothing_in_a_document_runs_in_the_page) {
     browser.open(preview.address());
     ASSERT_TRUE(state_is(browser, "evil", "done"));
     EXPECT_TRUE(shows(browser, "<script>window.bad = 4</script>"));
-    EXPECT_EQ(browser.evaluate("return [window.bad === undefined, document.querySelectorAll('#document script, "
-                               "#document img[onerror]').length]"),
+    EXPECT_EQ(browser.evaluate("return [window.bad === undefined, document.querySelectorAll('#document "
+                               "script:not([type=\"application/json\"]), #document img[onerror]').length]"),
               "[true,0]");
 }
 

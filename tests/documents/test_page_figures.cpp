@@ -43,9 +43,12 @@ class page_figures : public testing::Test {
         recorded.caption = "Two ramps";
         recorded.file = folder.path() / "ramps.svg";
         recorded.plot = plot_data(figure, language == "fr");
-        std::ofstream(recorded.file)
-            << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"529\" height=\"300\"><path d=\"M0 100 L200 0\" "
-               "stroke=\"black\"/></svg>\n";
+        const json size = json::parse(recorded.plot)["size"];
+        const auto pixels = [&](int side) { return std::lround(size[side].get<double>() / 2.54 * 96); };
+        std::ofstream(recorded.file) << fmt::format(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}\" height=\"{}\"><path d=\"M0 100 L200 0\" "
+            "stroke=\"black\"/></svg>\n",
+            pixels(0), pixels(1));
         record.figures["ramps"] = recorded;
         std::ofstream(folder.path() / "report.md")
             << "---\ntitle: Ramps\nlang: " << language << "\n---\n\n![](figure:ramps)\n\n"
@@ -130,6 +133,7 @@ TEST_F(page_figures, curves_are_drawn_where_their_samples_lie) {
 TEST_F(page_figures, paper_and_browsers_without_scripts_show_the_picture) {
     make(ramps());
     open();
+    const double height = value("document.querySelector('figure').offsetHeight");
     const std::string shown = "getComputedStyle(document.querySelector('figure img')).display";
     EXPECT_EQ(value(shown), "none");
     browser.devtools("Emulation.setEmulatedMedia", R"({"media": "print"})");
@@ -141,6 +145,7 @@ TEST_F(page_figures, paper_and_browsers_without_scripts_show_the_picture) {
     EXPECT_EQ(value("document.querySelectorAll('.plot').length"), 0);
     EXPECT_EQ(value(shown), "inline");
     EXPECT_EQ(value("document.querySelector('figure img').naturalWidth"), 529);
+    EXPECT_EQ(value("document.querySelector('figure').offsetHeight"), height) << "nothing moves when it comes";
 }
 
 TEST_F(page_figures, the_cursor_reads_all_curves_with_their_units) {

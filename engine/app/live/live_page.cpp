@@ -6,8 +6,8 @@
 #include <set>
 
 #include "data_io/values/json_values.h"
+#include "documents/html/web_page.h"
 #include "documents/record_description.h"
-#include "documents/text_lines.h"
 #include "platform/hash.h"
 #include "platform/text_file.h"
 
@@ -57,11 +57,16 @@ std::string LivePage::with_pictures(const SetChunk& chunk, const RunRecord& reco
     std::string html = chunk.html;
     for (const SetPicture& picture : chunk.pictures) {
         fs::path file = picture.file;
+        std::string plot;
         if (picture.is_figure) {
             const auto figure = record.figures.find(picture.name);
             file = figure == record.figures.end() ? fs::path() : figure->second.file;
+            if (figure != record.figures.end()) plot = plot_element(figure->second.plot);
         }
-        html = replaced(html, "\"" + picture.written_name + "\"", "\"/picture/" + keep_picture(file) + "\"");
+        const std::size_t at = html.find("\"" + picture.written_name + "\"");
+        if (at == std::string::npos) continue;
+        html.insert(html.find('>', at) + 1, plot);
+        html.replace(at + 1, picture.written_name.size(), "/picture/" + keep_picture(file));
     }
     return html;
 }

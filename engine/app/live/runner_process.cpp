@@ -8,11 +8,12 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <map>
 #include <memory>
-#include <set>
 
 #include "app/live/runner_messages.h"
 #include "data_io/values/cbor_values.h"
+#include "documents/html/plot_data.h"
 #include "figures/french_texts.h"
 #include "figures/gnuplot_renderer.h"
 #include "platform/cache.h"
@@ -42,7 +43,7 @@ struct World {
     ReportLanguage language;
     SliderValues sliders;
     Runtime runtime;
-    std::set<std::string> drawn;  ///< names of figures
+    std::map<std::string, std::string> drawn;  ///< names of figures, and what a page draws them from
 
     explicit World(const RunOptions& options, const std::string& report_language)
         : language{report_language}, runtime(options, renderer) {
@@ -133,10 +134,12 @@ class RunnerProcess {
         const bool french = world_->language.code == "fr";
         for (auto& [name, figure] : record.figures) {
             figure.file = folder / (digest_of(name).hex() + ".svg");
-            if (all || !world_->drawn.contains(name))
-                renderer.draw(french ? in_french(figure.figure) : figure.figure, figure.file, FigureFormat::kSvg,
-                              french);
-            world_->drawn.insert(name);
+            if (all || !world_->drawn.contains(name)) {
+                const Figure shown = french ? in_french(figure.figure) : figure.figure;
+                renderer.draw(shown, figure.file, FigureFormat::kSvg, french);
+                world_->drawn[name] = plot_data(shown, french);
+            }
+            figure.plot = world_->drawn.at(name);
         }
         renderer.finish();
     }

@@ -62,6 +62,7 @@ function place(pieces, html) {
     else main.insertBefore(node, before);
     while (before?.classList.contains("slider")) before = before.nextElementSibling;
   }
+  dynlabPlots.enliven(main);
   return true;
 }
 

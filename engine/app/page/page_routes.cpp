@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "app/page/page_files.h"
+#include "documents/html/web_page.h"
 #include "platform/atomic_file.h"
 #include "platform/program_lookup.h"
 #include "platform/text_file.h"
@@ -40,6 +41,9 @@ void serve_page_files(WebServer& server, const std::string& first) {
         server.on_get("/" + std::string(file.name == first ? "" : file.name),
                       [reply](const PageRequest&) { return reply; });
     }
+    server.on_get("/plot.js", [](const PageRequest&) {
+        return PageReply{plot_scripts(shared_folder() / "report_templates"), "text/javascript; charset=utf-8"};
+    });
     server.on_get("/document.css", [](const PageRequest&) {
         return PageReply{read_text(shared_folder() / "report_templates/html/document.css"), "text/css; charset=utf-8"};
     });
