@@ -4,7 +4,7 @@
 #include <iostream>
 
 #include "cli/course_commands.h"
-#include "course/review/review_marks.h"
+#include "course/review/oral_marks.h"
 #include "course/store/aligned_table.h"
 #include "course/store/course_export.h"
 #include "course/store/groups.h"
@@ -18,6 +18,7 @@ struct MarkArguments {
     std::string assignment, file, group, what, reason, at, out, from = ".", stage = "first";
     double percent = 0;
     bool json = false;
+    OralSheetWishes sheet;
 };
 using Run = int (*)(const CourseArguments&, const MarkArguments&);
 
@@ -45,7 +46,7 @@ int scores(const CourseArguments& where, const MarkArguments& words) {
 
 int sheet(const CourseArguments& where, const MarkArguments& words) {
     Course course(where.folder);
-    return give_out(oral_sheet(course, assignment_named(course, words.assignment)), words.out);
+    return give_out(oral_sheet(course, assignment_named(course, words.assignment), words.sheet), words.out);
 }
 
 std::string percent(const std::optional<double>& mark, bool overridden) {
@@ -74,6 +75,36 @@ void tell_costs_and_gaps(Course& course, const Assignment& a, const Marks& all) 
         }
 }
 
+/// Students with points of their own, and what was said at the oral.
+void tell_students_and_comments(Course& course, const Assignment& a, const Marks& all) {
+    std::map<std::string, std::string> names;
+    for (const Student& student : students_of(course)) names[student.id] = student.name;
+    std::vector<std::string> header = {"group", "student", "name"};
+    for (const Criterion& c : a.criteria) header.push_back(fmt::format("{} /{}", c.name, c.most));
+    header.emplace_back("work %");
+    std::vector<std::vector<std::string>> rows;
+    OralComments said = oral_comments(course, a);
+    std::string comments;
+    for (const Group& group : groups_of(course)) {
+        if (const std::string& comment = said.groups[group.id]; !comment.empty())
+            comments += fmt::format("{}: {}\n", group.name, comment);
+        for (const std::string& id : group.members)
+            if (const std::string& comment = said.students[id]; !comment.empty())
+                comments += fmt::format("{}, {} ({}): {}\n", group.name, names[id], id, comment);
+        for (const GroupMark& mark : all.groups) {
+            if (mark.group != group.id) continue;
+            for (const StudentMark& own : mark.students) {
+                std::vector<std::string> row = {group.name, own.student, names[own.student]};
+                for (const auto& points : own.points) row.push_back(points ? fmt::format("{}", *points) : "-");
+                row.push_back(percent(mark.work_mark_of(own.student), mark.work_override.has_value()));
+                rows.push_back(row);
+            }
+        }
+    }
+    if (!rows.empty()) std::cout << "\nWith points of their own:\n" << terminal_text(aligned_table(header, rows));
+    if (!comments.empty()) std::cout << "\nComments:\n" << terminal_text(comments);
+}
+
 int marks(const CourseArguments& where, const MarkArguments& words) {
     Course course(where.folder);
     const Assignment a = assignment_named(course, words.assignment);
@@ -100,6 +131,7 @@ int marks(const CourseArguments& where, const MarkArguments& words) {
                     "Look at the review of {} by {}: far below the others{}.\n", pair.author_name, pair.reviewer_name,
                     mark.retaliation ? fmt::format("; {} had given {} few points", pair.author_name, pair.reviewer_name)
                                      : ""));
+    if (!a.is_report()) tell_students_and_comments(course, a, all);
     return kDone;
 }
 
@@ -142,7 +174,9 @@ MarkCommand add_one(CLI::App& course, const char* name, const char* about, Cours
 void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action) {
     const auto scored = add_one(course, "scores", "Read scores: of reviewers, or of the oral", where, action, scores);
     scored.app->add_option("ASSIGNMENT", scored.words->assignment)->required();
-    scored.app->add_option("CSV", scored.words->file, "Columns reviewer, report (or group, at the oral), criteria")
+    scored.app
+        ->add_option("CSV", scored.words->file,
+                     "Columns reviewer, report (at the oral group, student, comment), criteria")
         ->required();
     add_time_option(*scored.app, scored.words->at);
     scored.app
@@ -164,7 +198,14 @@ void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action)
     const auto marking = add_one(*oral, "sheet", "A marking sheet to be filled in, for scores", where, action, sheet);
     marking.app->add_option("ASSIGNMENT", marking.words->assignment)->required();
     marking.app->add_option("-o,--out", marking.words->out, "Printed unless given")->type_name("CSV");
-    marking.app->footer("Example:  dynlab course oral sheet final-talk -o sheet.csv");
+    marking.app->add_flag("--students", marking.words->sheet.students, "A row a student as well");
+    marking.app->add_flag("--drawn", marking.words->sheet.drawn, "In an order drawn by lot, the same each time");
+    marking.app->footer(
+        "Points in a student's row are that student's; where it is empty the group's hold, and - takes back what was\n"
+        "given before. Comments are shown by marks and stand in the export.\n"
+        "Examples:\n"
+        "  dynlab course oral sheet final-talk -o sheet.csv\n"
+        "  dynlab course oral sheet final-talk --students --drawn -o sheet.csv");
 
     const auto shown =
         add_one(course, "marks", "Medians, marks of reports and reviewers, odd reviews", where, action, marks);

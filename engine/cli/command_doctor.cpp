@@ -3,6 +3,7 @@
 #include <iostream>
 #include <set>
 
+#include "app/page/page_routes.h"
 #include "cli/commands.h"
 #include "data_io/dataset_index.h"
 #include "platform/box.h"
@@ -90,6 +91,7 @@ int examine() {
     show("lessons", std::to_string(lessons().size()), !lessons().empty());
     missing.merge(check_data());
     check_isolation();
+    show("editor of pages", has_editor() ? "CodeMirror" : "a plain field of text (libjs-codemirror has more)", true);
     show("caches", Cache().root().string() + " (safe to delete)", true);
     if (missing.empty()) {
         std::cout << "\nEverything is in place.\n";

@@ -3,21 +3,35 @@
 #include "cli/commands.h"
 #include "cli/terminal_width.h"
 #include "scripting/runtime/help.h"
+#include "workflow/cheat_sheet.h"
 
 namespace dynlab::inline cli {
+
 void add_help(CLI::App& app, Action& action) {
     auto name = std::make_shared<std::string>();
     auto word = std::make_shared<std::string>();
+    auto sheet = std::make_shared<std::string>();
     CLI::App* command = app.add_subcommand("help", "What a function of the scripts does, with an example");
     CLI::Option* page = command->add_option(
         "NAME", *name,
         "A function (tf, lsim, ...), a method (iddata.split), a word of MATLAB or Lua, or a "
         "subject: lua, matlab, guide-report, checks, names, review_marks; without it the list of all");
-    command->add_option("--search", *word, "List the pages that speak of it")->type_name("WORD")->excludes(page);
+    CLI::Option* search =
+        command->add_option("--search", *word, "List the pages that speak of it")->type_name("WORD")->excludes(page);
+    command->add_option("--sheet", *sheet, "Write all functions and MATLAB's phrases on two pages (.pdf)")
+        ->type_name("FILE")
+        ->excludes(page)
+        ->excludes(search);
     command->footer(
-        "Examples:  dynlab help     dynlab help procsrivc     dynlab help lua     dynlab help --search delay");
-    command->callback([name, word, &action] {
-        action = [name, word]() -> int {
+        "Examples:  dynlab help     dynlab help procsrivc     dynlab help lua     dynlab help --search delay"
+        "     dynlab help --sheet cheat.pdf");
+    command->callback([name, word, sheet, &action] {
+        action = [name, word, sheet]() -> int {
+            if (!sheet->empty()) {
+                make_cheat_sheet(*sheet);
+                std::cout << std::filesystem::absolute(*sheet).lexically_normal().string() << "\n";
+                return kDone;
+            }
             std::vector<const FunctionEntry*> functions;
             for (const FunctionEntry& entry : catalogue_of_functions()) functions.push_back(&entry);
             const std::size_t width = terminal_width();

@@ -62,8 +62,11 @@ void add_identify(CLI::App& app, Action& action) {
         ->add_option("DATA", request.data,
                      "The record: a .mat file, a table (.csv, .txt, .dat, .tsv, .xlsx), or a data set's name")
         ->required();
-    command->add_option("--input", request.input, "Name of the input's column or variable")
-        ->type_name("NAME")
+    command
+        ->add_option("--input", request.inputs,
+                     "Names of the inputs' columns or variables, with commas between them or one option each")
+        ->type_name("NAME,...")
+        ->delimiter(',')
         ->required();
     command->add_option("--output", request.outputs, "Names of the outputs, with commas between them; one model each")
         ->type_name("NAME,...")

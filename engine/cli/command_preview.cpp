@@ -1,10 +1,9 @@
 #include <iostream>
 
 #include "app/live/preview.h"
+#include "cli/browser.h"
 #include "cli/commands.h"
-#include "platform/child_process.h"
 #include "platform/error.h"
-#include "platform/program_lookup.h"
 
 namespace dynlab::inline cli {
 namespace {
@@ -14,23 +13,9 @@ struct PreviewWords {
     bool no_browser = false;
 };
 
-/// The address in the browser of the desktop, where there is one.
-void open_browser(const std::string& address) {
-    if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
-    if (!find_program("xdg-open")) return;
-    ChildOptions xdg_open;
-    xdg_open.command = {"xdg-open", address};
-    xdg_open.timeout = std::chrono::seconds(10);
-    try {
-        run_child(xdg_open, "xdg-utils");
-    } catch (const std::exception&) {
-        return;  // the address stands on the terminal
-    }
-}
-
 int show_preview(PreviewWords words) {
-    words.options.opened = [no_browser = words.no_browser](const std::string& address) {
-        std::cout << address << "\n(Ctrl-C ends it)" << std::endl;
+    words.options.opened = [no_browser = words.no_browser](const std::string& address, bool elsewhere) {
+        std::cout << address << (elsewhere ? "\n(it is shown there already)" : "\n(Ctrl-C ends it)") << std::endl;
         if (!no_browser) open_browser(address);
     };
     try {
@@ -53,10 +38,12 @@ void add_preview(CLI::App& app, Action& action) {
         ->required();
     command->add_option("--port", words->options.port, "The port of the page's address (default: any free one)")
         ->check(CLI::Range(1, 65535));
+    command->add_flag("--edit", words->options.edit,
+                      "Show the script and the text beside the page, to be changed there");
     command->add_flag("--no-browser", words->no_browser, "Only print the address");
     command->add_flag("--run", words->options.run_at_once,
                       "Run the scripts of this folder without being asked on the page, now and later");
-    command->footer("Example:  dynlab preview my-work");
+    command->footer("Examples:  dynlab preview my-work     dynlab preview my-work --edit     dynlab preview 02");
     command->callback([words, &action] { action = [words] { return show_preview(*words); }; });
 }
 

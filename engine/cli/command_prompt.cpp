@@ -1,8 +1,11 @@
 #include <unistd.h>
 
 #include <iostream>
+#include <optional>
 #include <sstream>
 
+#include "app/live/figure_viewer.h"
+#include "cli/browser.h"
 #include "cli/commands.h"
 #include "scripting/prompt/console.h"
 
@@ -17,18 +20,26 @@ constexpr const char* kGreeting =
 
 }  // namespace
 
-int open_prompt(const std::string& script) {
+int open_prompt(const std::string& script, bool view) {
+    std::optional<FigureViewer> viewer;
+    FigureListener see;
+    if (view) {
+        viewer.emplace();
+        std::cerr << "figures: " << viewer->address() << std::endl;
+        open_browser(viewer->address());
+        see = [&viewer](const std::string& name, const Figure& figure) { viewer->show(name, figure); };
+    }
     std::string quoted;
     for (const char c : script) quoted += (c == '"' || c == '\\' ? "\\" : "") + std::string(1, c);
     const std::string first = script.empty() ? "" : "run(\"" + quoted + "\")";
     if (::isatty(STDIN_FILENO) && ::isatty(STDOUT_FILENO)) {
-        run_prompt(kFigureFolder, kGreeting, first);
+        run_prompt(kFigureFolder, kGreeting, first, see);
         return kDone;
     }
-    if (first.empty()) return run_statements_of(std::cin, kFigureFolder) ? kDone : kFailed;
+    if (first.empty()) return run_statements_of(std::cin, kFigureFolder, see) ? kDone : kFailed;
     std::stringstream input;
     input << first << '\n' << std::cin.rdbuf();
-    return run_statements_of(input, kFigureFolder) ? kDone : kFailed;
+    return run_statements_of(input, kFigureFolder, see) ? kDone : kFailed;
 }
 
 }  // namespace dynlab::inline cli

@@ -1,6 +1,7 @@
 #include "cli/commands.h"
 #include "cli/document_command.h"
 #include "cli/seed_option.h"
+#include "cli/slider_option.h"
 
 namespace dynlab::inline cli {
 namespace {
@@ -9,11 +10,13 @@ struct ReportArguments {
     std::string subject, output, record, language;
     bool timings = false, stay_in_folder = false;
     SeedOption seed;
+    SliderOption sliders;
 };
 
 int report(const ReportArguments& words) {
     ReportRequest request = report_of(words.subject, words.output, words.language);
     request.seed = words.seed.value().value_or(request.seed);
+    request.slider_values = words.sliders.values();
     request.record = words.record;
     request.stay_in_folder = words.stay_in_folder;
     return make_document(std::move(request), words.timings);
@@ -37,6 +40,7 @@ void add_report(CLI::App& app, Action& action) {
     command->add_flag("--timings", words->timings, "Say how long each step took");
     command->add_flag("--stay-in-folder", words->stay_in_folder, "")->group("");  // what check wants
     words->seed.add_to(*command);
+    words->sliders.add_to(*command);
     command->footer("Examples:  dynlab report 02     dynlab report my-work -o my-work.html");
     command->callback([words, &action] { action = [words] { return report(*words); }; });
 }

@@ -7,6 +7,7 @@
 
 #include "cli/commands.h"
 #include "cli/seed_option.h"
+#include "cli/slider_option.h"
 #include "course/store/aligned_table.h"
 #include "platform/atomic_file.h"
 #include "platform/terminal/activity_line.h"
@@ -23,8 +24,9 @@ namespace fs = std::filesystem;
 
 struct RunArguments {
     std::string file, code, out;
-    bool interactive = false;
+    bool interactive = false, view = false;
     SeedOption seed;
+    SliderOption sliders;
 };
 
 /// A terminal would obey what a script prints; a file gets it as it is.
@@ -88,6 +90,7 @@ int run(const RunArguments& words) {
     const fs::path file = fs::is_directory(words.file) ? fs::path(words.file) / "analysis.lua" : fs::path(words.file);
     request.script = from_file ? read_percent_script(file) : parse_percent_script(words.code, "command line");
     request.seed = words.seed.value();
+    request.slider_values = words.sliders.values();
     const std::string stem = from_file ? file.stem().string() : "dynlab";
     const fs::path beside = from_file ? folder_of(file) : fs::path(".");
     const fs::path out = words.out.empty() ? (beside / (stem + "_out")).lexically_normal() : fs::path(words.out);
@@ -122,9 +125,11 @@ void add_run(CLI::App& app, Action& action) {
     file->excludes(code);
     command->add_flag("-i,--interactive", words->interactive, "Open the prompt afterwards, with the script's variables")
         ->needs(file);
+    command->add_flag("--view", words->view, "The same, and show the figures in the browser")->needs(file);
     command->add_option("--out", words->out, "Folder for figures, saved files and the run's record (record.json)")
         ->type_name("DIR");
     words->seed.add_to(*command);
+    words->sliders.add_to(*command);
     command->footer(
         "Figures that the script makes are saved as PDF in NAME_out beside the script and their paths printed; those "
         "of\n"
@@ -136,7 +141,9 @@ void add_run(CLI::App& app, Action& action) {
         if (words->file.empty() && words->code.empty()) {
             throw CLI::RequiredError("a script FILE or -e CODE");
         }
-        action = [words] { return words->interactive ? open_prompt(words->file) : run(*words); };
+        action = [words] {
+            return words->interactive || words->view ? open_prompt(words->file, words->view) : run(*words);
+        };
     });
 }
 

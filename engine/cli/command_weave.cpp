@@ -1,6 +1,7 @@
 #include "cli/commands.h"
 #include "cli/document_command.h"
 #include "cli/seed_option.h"
+#include "cli/slider_option.h"
 
 namespace dynlab::inline cli {
 namespace {
@@ -9,11 +10,13 @@ struct WeaveArguments {
     std::string script, output;
     bool timings = false;
     SeedOption seed;
+    SliderOption sliders;
 };
 
 int weave(const WeaveArguments& words) {
     ReportRequest request = report_of_script(read_percent_script(words.script), words.output);
     request.seed = words.seed.value().value_or(request.seed);
+    request.slider_values = words.sliders.values();
     return make_document(std::move(request), words.timings);
 }
 
@@ -28,6 +31,7 @@ void add_weave(CLI::App& app, Action& action) {
         ->required();
     command->add_flag("--timings", words->timings, "Say how long each step took");
     words->seed.add_to(*command);
+    words->sliders.add_to(*command);
     command->footer("Example:  dynlab weave analysis.lua -o analysis.html");
     command->callback([words, &action] { action = [words] { return weave(*words); }; });
 }

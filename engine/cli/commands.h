@@ -38,6 +38,6 @@ void add_boxed(CLI::App& app, Action& action);
 
 /// What `dynlab` without a command does: the prompt on a terminal, statements from a pipe or file otherwise.
 /// After running a script, unless `script` is empty, whose variables stay.
-int open_prompt(const std::string& script = "");
+int open_prompt(const std::string& script, bool view);
 
 }  // namespace dynlab::inline cli

@@ -64,6 +64,8 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", "dynlab " DYNLAB_VERSION);
     app.set_help_flag("-h,--help", "Show this text, or a command's: dynlab run --help");
     app.require_subcommand(0, 1);
+    bool view = false;
+    app.add_flag("--view", view, "Show the prompt's figures in the browser as they are made");
 
     Action action;
     for (const auto add :
@@ -79,5 +81,5 @@ int main(int argc, char** argv) {
         app.exit(error);
         return asked_for_text ? kDone : kUsage;
     }
-    return run_action(action ? action : [] { return open_prompt(); });
+    return run_action(action ? action : [view] { return open_prompt("", view); });
 }

@@ -8,6 +8,7 @@
 #include "documents/characters.h"
 #include "documents/complaints.h"
 #include "documents/error.h"
+#include "documents/html/web_page.h"
 #include "documents/latex.h"
 #include "documents/latex_remains.h"
 #include "documents/pandoc.h"
@@ -176,7 +177,7 @@ class DocumentBuilder {
                 fs::copy_file(picture.file, work_.path() / picture.written_name);
             place_file_atomically(latex(text), output_);
         } else if (format_ == DocumentFormat::kHtml) {
-            write_file_atomically(output_, with_inlined_pictures(styled(text), pictures));
+            write_file_atomically(output_, whole_web_page(text, shared_templates_, pictures));
         } else {
             const fs::path folder = output_.parent_path() / (output_.stem().string() + "_files");
             if (!pictures.empty()) fs::create_directories(folder);
@@ -186,19 +187,13 @@ class DocumentBuilder {
         }
     }
 
-    /// The style goes in here, not in the template: Pandoc takes 0.3 s to read it there.
-    std::string styled(const std::string& html) const {
-        return replaced(html, "<style></style>",
-                        "<style>\n" + read_file(shared_templates_ / "html/document.css") + "</style>");
-    }
-
     fs::path latex(const std::string& body) const {
         const std::string identity = fs::absolute(output_).lexically_normal().string() + "\n" +
                                      fs::absolute(source_.template_file).lexically_normal().string();
         try {
             const LatexLayout layout{shared_templates_, text_.language, text_.rules.slides};
-            return run_latex(
-                {body, layout, work_.path(), identity, options_.use_cache, options_.latex_format, options_.timings});
+            return run_latex({body, layout, work_.path(), identity, options_.use_cache, options_.latex_format,
+                              options_.timings, options_.begun_format});
         } catch (const LatexRefusal& refusal) {
             const SourceLine where = origin_of_refusal(refusal, text_.markdown, source_.template_file);
             const std::string line = where.line > 0 ? ":" + std::to_string(where.line) : "";
@@ -236,6 +231,11 @@ PreparedText prepared_text(const DocumentSource& source) {
     if (source.record && source.record->error && !shows_cells(file))
         begin_with_error(source.record->error->message, source.template_file, text.markdown);
     return text;
+}
+
+LatexLayout latex_layout(const DocumentSource& source) {
+    const PreparedText text = prepared_text(source);
+    return {shared_folder() / "report_templates", text.language, text.rules.slides};
 }
 
 std::string placed_bibliography(const DocumentSource& source, const PreparedText& text, const fs::path& work_folder,

@@ -7,6 +7,7 @@
 
 #include "documents/complaints.h"
 #include "documents/document_rules.h"
+#include "documents/latex_format.h"
 #include "documents/run_record.h"
 #include "documents/weave.h"
 
@@ -38,6 +39,8 @@ struct PreparedText {
 };
 /// Throws DocumentError for what read_template, check_metadata and with_cells refuse.
 PreparedText prepared_text(const DocumentSource& source);
+/// The layout in which `source` is set as a PDF, known before its script has run.
+LatexLayout latex_layout(const DocumentSource& source);
 /// The document's literature, copied into the folder in which Pandoc works: its name there, empty where there is none.
 std::string placed_bibliography(const DocumentSource& source, const PreparedText& text,
                                 const std::filesystem::path& work_folder, Complaints& complaints);
@@ -56,6 +59,7 @@ class DocumentMaker {
         std::filesystem::path latex_format =
             {};  ///< the folder of a preamble format that stands ready, in the document's language (no slides)
         std::vector<std::pair<std::string, double>>* timings = nullptr;  ///< seconds of each step, appended
+        CachedLatexFormat* begun_format = nullptr;  ///< of latex_layout(), begun before the script ran
     };
     explicit DocumentMaker(Options options) : options_(options) {}
 

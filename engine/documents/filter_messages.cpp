@@ -74,6 +74,11 @@ class Sentences {
             return "the bibliography has no entry " + quoted(first) + suggestion(first, split_at(second, ' '));
         if (code == "diagram") return "in this block diagram " + quoted(fields[2]) + ": " + first;
         if (code == "choice") return "in the question " + quoted(fields[2]) + ": " + first;
+        if (code == "unknown-drawing")
+            return "there is no drawing " + quoted(first) + suggestion(first, split_at(second, ' ')) + "; there are " +
+                   replaced(second, " ", ", ");
+        if (code == "drawing-content")
+            return "the drawing " + quoted(first) + " may hold nothing but one line with its caption";
         if (code == "unknown-measure")
             return "there is no measure " + quoted(first) + suggestion(first, split_at(second, ' ')) +
                    "; dynlab help measures lists them";
@@ -152,12 +157,13 @@ class Sentences {
         if (code == "division-class") {
             if (name.empty())
                 return "a ::: block needs a class: table, text, note, warning, exercise, columns, column, "
-                       "block-diagram, choice, references, measures or pagebreak";
+                       "block-diagram, drawing, choice, references, measures or pagebreak";
             return "the block class " + quoted(name) + " is not known" +
-                   suggestion(name, {"table", "text", "note", "warning", "exercise", "columns", "column",
-                                     "block-diagram", "choice", "references", "measures", "pagebreak", "cells"}) +
+                   suggestion(name,
+                              {"table", "text", "note", "warning", "exercise", "columns", "column", "block-diagram",
+                               "drawing", "choice", "references", "measures", "pagebreak", "cells"}) +
                    "; known are table, text, cells, note, warning, exercise, columns, column, block-diagram, "
-                   "choice, references, measures, pagebreak";
+                   "drawing, choice, references, measures, pagebreak";
         }
         if (code == "code-class")
             return "the slot `" + text + "`{." + name + "} has an unknown class; values are written `" + text +

@@ -129,7 +129,7 @@ class LatexRun {
         format_folder_ = job.format_folder;
         if (format_folder_.empty() && job.use_cache) {
             const auto start = std::chrono::steady_clock::now();
-            format_folder_ = latex_format_folder(job.layout);
+            format_folder_ = job.begun_format ? job.begun_format->folder() : CachedLatexFormat(job.layout).folder();
             note("latex format", start);
         }
         if (format_folder_.empty()) {
@@ -144,9 +144,11 @@ class LatexRun {
         const KeptAuxiliaryFiles kept(job_);
         std::string before = references(job_.work_folder, has_contents), after;
         for (int pass = 1; pass <= kMostPasses; ++pass) {
-            run_pass(pass);
+            // Where nothing is known of page counts and bookmarks there is another pass: the first writes no PDF.
+            const bool draft = pass == 1 && before.empty();
+            run_pass(pass, draft);
             after = references(job_.work_folder, has_contents);
-            if (after == before) break;
+            if (after == before && !draft) break;
             before = after;
         }
         kept.keep();
@@ -160,10 +162,11 @@ class LatexRun {
         job_.timings->emplace_back(step, seconds.count());
     }
 
-    ChildOptions command() const {
+    ChildOptions command(bool draft) const {
         ChildOptions child;
         child.command = {"pdflatex", "-no-shell-escape", "-interaction=nonstopmode", "-halt-on-error",
                          "-file-line-error"};
+        if (draft) child.command.push_back("-draftmode");
         if (!format_folder_.empty()) child.command.push_back(std::string("-fmt=") + kLatexFormatName);
         child.command.push_back("main.tex");
         child.folder = job_.work_folder;
@@ -187,9 +190,9 @@ class LatexRun {
         return child;
     }
 
-    void run_pass(int pass) const {
+    void run_pass(int pass, bool draft) const {
         const auto start = std::chrono::steady_clock::now();
-        const ChildResult run = run_child(command(), "texlive-latex-base");
+        const ChildResult run = run_child(command(draft), "texlive-latex-base");
         note("latex pass " + std::to_string(pass), start);
         if (run.timed_out) throw LatexRefusal("pdflatex did not finish within two minutes", 0, "");
         if (run.exit_code == 128 + SIGXFSZ)

@@ -17,6 +17,7 @@ struct LatexJob {
     bool use_cache = true;
     std::filesystem::path format_folder;  ///< made by make_latex_format for this layout; empty: the cache's, or none
     std::vector<std::pair<std::string, double>>* timings = nullptr;
+    CachedLatexFormat* begun_format = nullptr;  ///< the cache's for this layout, where it was begun before
 };
 
 /// LaTeX refused the document: its first real complaint, the line of the body (1-based, 0 unknown) and the text of

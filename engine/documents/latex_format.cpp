@@ -33,7 +33,8 @@ std::string tex_version() {
     return file_stamp(*pdflatex) + "\n" + file_stamp("/var/lib/texmf/web2c/pdftex/pdflatex.fmt");
 }
 
-void compile_format(const fs::path& folder) {
+ChildProcess begin_format(const LatexLayout& layout, const fs::path& folder) {
+    write_preamble(layout, folder);
     ChildOptions child;
     child.command = {"pdflatex",
                      "-ini",
@@ -45,7 +46,11 @@ void compile_format(const fs::path& folder) {
     child.folder = folder;
     child.environment = {{"max_print_line", "10000"}, {"openin_any", "p"}, {"openout_any", "p"}, {"MKTEXFMT", "0"}};
     child.timeout = 60s;
-    const ChildResult run = run_child(child, "texlive-latex-base");
+    return ChildProcess(child, "texlive-latex-base");
+}
+
+void finish_format(ChildProcess& tex, const fs::path& folder) {
+    const ChildResult run = tex.wait();
     const fs::path format = folder / (std::string(kLatexFormatName) + ".fmt");
     if (run.exit_code == 0 && fs::exists(format)) return;
     check_missing_packages(run.output);
@@ -71,19 +76,33 @@ void check_missing_packages(const std::string& log) {
                              "texlive-latex-recommended texlive-fonts-recommended texlive-pictures lmodern");
 }
 
-fs::path latex_format_folder(const LatexLayout& layout) {
-    const Cache cache;
+CachedLatexFormat::CachedLatexFormat(const LatexLayout& layout) {
     EntryName name("latex-formats", tex_version());
     for (const auto& [file, text] : preamble_files(layout)) name.add(text);
-    if (const auto folder = cache.find(name.text())) return *folder;
-    const fs::path folder = cache.prepare();
-    make_latex_format(layout, folder);
-    return cache.commit(folder, name.text());
+    name_ = name.text();
+    folder_ = cache_.find(name_);
+    if (folder_) return;
+    prepared_ = cache_.prepare();
+    tex_ = begin_format(layout, prepared_);
+}
+
+CachedLatexFormat::~CachedLatexFormat() {
+    tex_.reset();
+    std::error_code ignored;
+    if (!folder_) fs::remove_all(prepared_, ignored);
+}
+
+fs::path CachedLatexFormat::folder() {
+    if (!folder_) {
+        finish_format(*tex_, prepared_);
+        folder_ = cache_.commit(prepared_, name_);
+    }
+    return *folder_;
 }
 
 void make_latex_format(const LatexLayout& layout, const fs::path& folder) {
-    write_preamble(layout, folder);
-    compile_format(folder);
+    ChildProcess tex = begin_format(layout, folder);
+    finish_format(tex, folder);
 }
 
 }  // namespace dynlab::inline documents

@@ -1,6 +1,10 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
+
+#include "platform/cache.h"
+#include "platform/child_process.h"
 
 namespace dynlab::inline documents {
 
@@ -17,9 +21,26 @@ struct LatexLayout {
 /// Writes preamble.tex, and what it reads, into `folder`.
 void write_preamble(const LatexLayout& layout, const std::filesystem::path& folder);
 
-/// The cache folder that holds dynlab.fmt for this layout, these templates and the TeX that is installed; made
-/// when it is not there (about a second). Throws MissingProgram when pdflatex or a LaTeX package is missing.
-std::filesystem::path latex_format_folder(const LatexLayout& layout);
+/// The cache's format for a layout, its templates and the TeX that is installed. Where the cache has none, TeX begins
+/// with it at once (it takes about a second) and works while the caller does something else.
+class CachedLatexFormat {
+  public:
+    /// Throws MissingProgram without pdflatex.
+    explicit CachedLatexFormat(const LatexLayout& layout);
+    ~CachedLatexFormat();
+    CachedLatexFormat(const CachedLatexFormat&) = delete;
+    CachedLatexFormat& operator=(const CachedLatexFormat&) = delete;
+
+    /// The folder that holds dynlab.fmt, once it is made. Throws MissingProgram when a LaTeX package is missing.
+    std::filesystem::path folder();
+
+  private:
+    Cache cache_;
+    std::string name_;
+    std::optional<std::filesystem::path> folder_;
+    std::filesystem::path prepared_;
+    std::optional<ChildProcess> tex_;
+};
 
 /// Makes dynlab.fmt in `folder` itself, beside no cache.
 void make_latex_format(const LatexLayout& layout, const std::filesystem::path& folder);

@@ -10,7 +10,6 @@
 #include "documents/solutions.h"
 #include "documents/text_lines.h"
 #include "platform/spelling.h"
-#include "platform/text_file.h"
 
 namespace dynlab::inline documents {
 namespace {
@@ -134,7 +133,7 @@ std::filesystem::path bibliography_of(const PercentScript& script) {
 }
 
 PercentScript read_percent_script(const std::filesystem::path& file) {
-    return parse_percent_script(read_text(file), file);
+    return parse_percent_script(text_of_source(file), file);
 }
 
 }  // namespace dynlab::inline documents

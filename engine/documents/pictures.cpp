@@ -1,11 +1,10 @@
 #include "documents/pictures.h"
 
-#include <sodium.h>
-
 #include <algorithm>
 #include <cctype>
 #include <map>
 
+#include "documents/html/web_page.h"
 #include "documents/pandoc.h"
 #include "platform/atomic_file.h"
 
@@ -27,16 +26,14 @@ std::string without_percent_signs(const std::string& path) {
     return result;
 }
 
-const std::map<std::string, std::string>& media_types() {
-    static const std::map<std::string, std::string> types = {
-        {".svg", "image/svg+xml"}, {".png", "image/png"}, {".jpg", "image/jpeg"}, {".jpeg", "image/jpeg"}};
-    return types;
+bool is_web_picture(const std::string& extension) {
+    return !media_type(extension).empty();
 }
 
 bool format_holds(DocumentFormat format, const std::string& extension) {
-    if (format == DocumentFormat::kMarkdown) return media_types().count(extension) || extension == ".pdf";
-    if (format == DocumentFormat::kHtml) return media_types().count(extension);
-    return extension == ".pdf" || (media_types().count(extension) && extension != ".svg");
+    if (format == DocumentFormat::kMarkdown) return is_web_picture(extension) || extension == ".pdf";
+    if (format == DocumentFormat::kHtml) return is_web_picture(extension);
+    return extension == ".pdf" || (is_web_picture(extension) && extension != ".svg");
 }
 
 bool is_inside(const fs::path& file, const fs::path& folder) {
@@ -46,14 +43,6 @@ bool is_inside(const fs::path& file, const fs::path& folder) {
 
 fs::path folder_of(const fs::path& file) {
     return file.has_parent_path() ? file.parent_path() : fs::path(".");
-}
-
-std::string base64(const std::string& bytes) {
-    std::string text(sodium_base64_ENCODED_LEN(bytes.size(), sodium_base64_VARIANT_ORIGINAL), '\0');
-    sodium_bin2base64(text.data(), text.size(), reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(),
-                      sodium_base64_VARIANT_ORIGINAL);
-    text.pop_back();  // the zero behind it
-    return text;
 }
 
 }  // namespace
@@ -80,7 +69,7 @@ std::vector<PlacedPicture> find_picture_files(const std::vector<UsedPicture>& pi
                            shown + "is of a kind this output cannot hold; " +
                                (format == DocumentFormat::kPdf ? "use .pdf, .png or .jpg" : "use .svg, .png or .jpg"));
         else
-            found.push_back({file, prefix + std::to_string(picture.number) + path.extension().string()});
+            found.push_back({file, prefix + std::to_string(picture.number) + path.extension().string(), {}});
     }
     return found;
 }
@@ -101,30 +90,10 @@ std::vector<PlacedPicture> find_figures(const std::vector<UsedPicture>& pictures
                            "the figure \"" + picture.name + "\" was drawn as " + file.extension().string() +
                                ", but this document wants ." + figure_extension(format));
         else
-            found.push_back({file, prefix + std::to_string(picture.number) + "." + figure_extension(format)});
+            found.push_back({file, prefix + std::to_string(picture.number) + "." + figure_extension(format),
+                             record.figures.at(picture.name).plot});
     }
     return found;
-}
-
-std::string with_inlined_pictures(const std::string& html, const std::vector<PlacedPicture>& pictures) {
-    std::map<std::string, const PlacedPicture*> by_name;
-    for (const PlacedPicture& picture : pictures) by_name[picture.written_name] = &picture;
-    const std::string sign = "<img src=\"";
-    std::string result;
-    std::size_t at = 0;
-    for (std::size_t next; (next = html.find(sign, at)) != std::string::npos;) {
-        const std::size_t start = next + sign.size(), end = html.find('"', start);
-        const auto picture = by_name.find(html.substr(start, end - start));
-        result.append(html, at, start - at);
-        if (picture == by_name.end()) {
-            result.append(html, start, end - start);
-        } else {
-            const fs::path& file = picture->second->file;
-            result += "data:" + media_types().at(file.extension().string()) + ";base64," + base64(read_file(file));
-        }
-        at = end;
-    }
-    return result.append(html, at);
 }
 
 }  // namespace dynlab::inline documents

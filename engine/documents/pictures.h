@@ -13,6 +13,7 @@ namespace dynlab::inline documents {
 struct PlacedPicture {
     std::filesystem::path file;
     std::string written_name;  ///< prefix + number + extension
+    std::string plot;          ///< of a figure of the run (RecordedFigure)
 };
 
 /// Finds the picture files (not figures) of a document. They must be files inside the folder of the template or
@@ -25,8 +26,5 @@ std::vector<PlacedPicture> find_picture_files(const std::vector<UsedPicture>& pi
 std::vector<PlacedPicture> find_figures(const std::vector<UsedPicture>& pictures, const MarkdownText& markdown,
                                         const std::filesystem::path& template_file, const RunRecord& record,
                                         DocumentFormat format, const std::string& prefix, Complaints& complaints);
-
-/// HTML with every `src="WRITTEN_NAME"` replaced by the picture itself (RFC 2397 data URL).
-std::string with_inlined_pictures(const std::string& html, const std::vector<PlacedPicture>& pictures);
 
 }  // namespace dynlab::inline documents

@@ -13,8 +13,9 @@ DYNLAB_DESCRIBE(RecordedTable, header, rows)
 
 template <Is<RecordedFigure> T, class V>
 void describe(T& object, V& member) {
-    auto& [figure, caption, file, order] = object;
-    member("caption", caption), member.unless_empty("file", file), member.kept("order", order);
+    auto& [figure, caption, file, order, plot] = object;
+    member("caption", caption), member.unless_empty("file", file), member.kept("order", order),
+        member.kept("plot", plot);
 }
 
 template <Is<CellOutput> T, class V>
@@ -23,6 +24,7 @@ void describe(T& object, V& member) {
     member.unless_empty("printed", printed), member("figure", figure);
 }
 
+DYNLAB_DESCRIBE(RecordedSlider, value, initial, from, to, step, logarithmic, label, unit, cell, order)
 DYNLAB_DESCRIBE(RecordedCall, what, file, line)
 
 template <Is<RecordedError> T, class V>
@@ -33,9 +35,11 @@ void describe(T& object, V& member) {
 
 template <Is<RunRecord> T, class V>
 void describe(T& object, V& member) {
-    auto& [script, seed, values, tables, figures, texts, answers, outputs, error, files_read, timings] = object;
+    auto& [script, seed, values, tables, figures, texts, answers, sliders, outputs, error, files_read, timings] =
+        object;
     member("script", script), member("seed", seed), member("values", values), member("tables", tables);
-    member("figures", figures), member("texts", texts), member("answers", answers), member("outputs", outputs);
+    member("figures", figures), member("texts", texts), member("answers", answers);
+    member.unless_empty("sliders", sliders), member("outputs", outputs);
     member("error", error), member("files_read", files_read), member.kept("timings", timings);
 }
 

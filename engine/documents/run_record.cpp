@@ -15,6 +15,7 @@ RunRecord readable_record(const RunRecord& record) {
     readable.tables = record.tables;
     readable.texts = record.texts;
     readable.answers = record.answers;
+    readable.sliders = record.sliders;
     readable.error = record.error;
     for (const auto& [name, figure] : record.figures)
         readable.figures[name] = {{}, figure.caption, figure.file.filename(), figure.order};

@@ -31,6 +31,7 @@ struct RecordedFigure {
     std::string caption;         ///< Markdown, read as safely as a template
     std::filesystem::path file;  ///< where it was drawn, once it was
     std::size_t order = 0;       ///< in the order in which the script made its figures
+    std::string plot = {};       ///< what a page draws it from (documents/html/plot_data.h), where it was drawn for one
 };
 
 /// `report.text`: Markdown written by the script.
@@ -42,6 +43,17 @@ struct RecordedText {
 struct CellOutput {
     std::string printed;                ///< text printed since the piece before
     std::optional<std::string> figure;  ///< name of a captured figure
+};
+
+/// `slider`: a number that whoever runs the script may choose.
+struct RecordedSlider {
+    double value = 0, initial = 0;  ///< what this run had; what the script says
+    double from = 0, to = 0;
+    std::optional<double> step;  ///< none: any number between
+    bool logarithmic = false;    ///< its places are spread evenly over the logarithm
+    std::string label, unit;     ///< plain text
+    std::string cell;            ///< id of the cell that asked for it first
+    std::size_t order = 0;       ///< in the order in which the script asked
 };
 
 /// A call on the way to an error.
@@ -72,6 +84,7 @@ struct RunRecord {
     std::map<std::string, RecordedFigure> figures;
     std::map<std::string, RecordedText> texts;
     std::map<std::string, RecordedAnswer> answers;
+    std::map<std::string, RecordedSlider> sliders;
     std::map<std::string, std::vector<CellOutput>> outputs;  ///< by cell id, in the order produced
     std::optional<RecordedError> error;                      ///< the run stopped here
     std::vector<std::filesystem::path> files_read;           ///< data files, in the order first read

@@ -9,7 +9,6 @@
 #include "documents/error.h"
 #include "documents/text_lines.h"
 #include "platform/spelling.h"
-#include "platform/text_file.h"
 
 namespace dynlab::inline documents {
 namespace {
@@ -71,6 +70,8 @@ std::size_t end_of_metadata(const std::vector<std::string>& lines, const std::fi
 }
 
 bool opens_cells(const std::string& line) {
+    constexpr std::size_t kLongest = 200;
+    if (line.size() > kLongest) return false;
     static const std::regex opening(R"(:::+\s*(\{\s*\.cells\s*\}|cells)\s*:*\s*)");
     return std::regex_match(line, opening);
 }
@@ -101,7 +102,7 @@ void check_metadata(const std::string& key, const std::string& value, const std:
 TemplateFile read_template(const std::filesystem::path& file) {
     TemplateFile result;
     result.file = file;
-    const std::vector<std::string> lines = lines_of(read_text(file));
+    const std::vector<std::string> lines = lines_of(text_of_source(file));
     std::size_t first = 0;
     if (!lines.empty() && trimmed(lines[0]) == "---") {
         const std::size_t end = end_of_metadata(lines, file);

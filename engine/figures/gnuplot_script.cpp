@@ -15,8 +15,6 @@ namespace {
 
 using namespace style;
 
-constexpr double kMarkerSize = 0.4;
-
 /// Writes one panel. Coordinates are cm from the frame's lower left corner, gnuplot's "first" system here.
 class PanelScript {
   public:
@@ -171,9 +169,6 @@ class PanelScript {
     static bool draws_points(CurveStyle style) {
         return style == CurveStyle::kPoints || style == CurveStyle::kLinePoints || style == CurveStyle::kStems;
     }
-    // A curve's line width makes its markers larger rather than bolder.
-    static double marker_size(const Curve& curve) { return kMarkerSize * std::clamp(curve.line_width / 0.9, 0.7, 3.0); }
-    static double marker_line(const Curve& curve) { return std::clamp(0.8 * curve.line_width, 0.6, 0.9); }
 
     void write_legend_entry(const LegendEntry& entry) {
         const Curve& curve = panel_.curves[entry.curve];

@@ -1,5 +1,6 @@
 #include "figures/style.h"
 
+#include <algorithm>
 #include <array>
 
 namespace dynlab::inline figures::style {
@@ -32,6 +33,14 @@ CurveLook look_of(const Curve& curve, int index) {
     const int round = curve.colour ? 0 : index / kGreyColour;  // the ninth curve has the first one's colour alone
     return {pick(kPalette, colour), dash_pattern(curve.dash.value_or(pick(kDashOfColour, colour) + round)),
             pick(kPointTypes, curve.marker.value_or(pick(kMarkerOfColour, colour + round)))};
+}
+
+double marker_size(const Curve& curve) {
+    return 0.4 * std::clamp(curve.line_width / 0.9, 0.7, 3.0);
+}
+
+double marker_line(const Curve& curve) {
+    return std::clamp(0.8 * curve.line_width, 0.6, 0.9);
 }
 
 }  // namespace dynlab::inline figures::style

@@ -40,5 +40,9 @@ struct CurveLook {
 /// readers and in grey print; dash pattern and marker change with the colour, and again where the colours repeat.
 CurveLook look_of(const Curve& curve, int index);
 std::string dash_pattern(int dash);
+/// Size and line of a curve's markers, in gnuplot's units of size and in points: a wide line makes markers larger
+/// rather than bolder.
+double marker_size(const Curve& curve);
+double marker_line(const Curve& curve);
 
 }  // namespace dynlab::inline figures::style

@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,11 +22,12 @@ struct ChildOptions {
     std::optional<std::uint64_t> memory_bytes;  ///< address-space limit of the child
     std::optional<std::uint64_t> file_bytes;    ///< of the largest file the child may write; SIGXFSZ ends it
     std::uint64_t output_bytes = 64u << 20;     ///< more output than this ends the child
+    std::function<bool()> give_up = {};         ///< asked twenty times a second: true ends the child
 };
 
 struct ChildResult {
     int exit_code = -1;  ///< 128 + signal when ended by a signal
-    bool timed_out = false, output_exceeded = false;
+    bool timed_out = false, output_exceeded = false, given_up = false;
     std::string output, error_output;
 };
 

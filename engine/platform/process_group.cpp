@@ -69,7 +69,8 @@ ProcessGroup::ProcessGroup(pid_t leader, FileDescriptor output, FileDescriptor e
       error_output_(std::move(error_output)),
       leader_exit_(open_process(leader)),
       timeout_(limits.timeout),
-      output_bytes_(limits.output_bytes) {
+      output_bytes_(limits.output_bytes),
+      give_up_(limits.give_up) {
     ::setpgid(leader, leader);  // by parent and child, so that the group exists whoever runs first
     start_clock();
     for (const FileDescriptor* stream : {&output_, &error_output_}) {
@@ -105,7 +106,8 @@ void ProcessGroup::collect_until_exit() {
         collect(output_, result_.output);
         collect(error_output_, result_.error_output);
         result_.timed_out = deadline_ && Clock::now() >= *deadline_ && !leader_exited();
-        if (result_.timed_out || result_.output_exceeded) return;
+        result_.given_up = give_up_ && give_up_();
+        if (result_.timed_out || result_.output_exceeded || result_.given_up) return;
     }
 }
 

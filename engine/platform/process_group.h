@@ -29,6 +29,7 @@ class ProcessGroup {
     struct Limits {
         std::optional<std::chrono::milliseconds> timeout;  ///< from construction, or the last start_clock
         std::uint64_t output_bytes;
+        std::function<bool()> give_up = {};
     };
     ProcessGroup(pid_t leader, FileDescriptor output, FileDescriptor error_output, const Limits& limits);
     ~ProcessGroup();  ///< kills the group when wait() has not reaped the leader
@@ -51,6 +52,7 @@ class ProcessGroup {
     std::optional<std::chrono::milliseconds> timeout_;
     std::optional<std::chrono::steady_clock::time_point> deadline_;
     std::uint64_t output_bytes_;
+    std::function<bool()> give_up_;
     ChildResult result_;
 };
 

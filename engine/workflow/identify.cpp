@@ -20,8 +20,7 @@ constexpr const char* kBegin = R"(-- ---
 -- ---
 
 -- %% id=records echo=false
-{load}report.value("input", {input})
-report.value("file", {file})
+{load}{inputs}report.value("file", {file})
 )";
 
 constexpr const char* kData = R"(
@@ -107,15 +106,18 @@ constexpr const char* kRest = R"(
 
 -- %% id=residuals{s} echo=false
 local errors{s} = resid({tested}{s}, G{s})
-if errors{s} then subplot(1, 2, {{errors{s}}}):set{{height = 4}} end
+if errors{s} then subplot({rows}, 2, {{errors{s}}}):set{{height = {height}}} end
+)";
 
+/// Of the model from one input; {m} is that model.
+constexpr const char* kResponses = R"(
 -- %% [markdown]
--- ## Step and frequency response
+-- ## Step and frequency response{from}
 --
 -- ![The bands hold the true response with a probability of 99 %, if the structure is right](figure:responses{s})
 
 -- %% id=responses{s} echo=false
-local responses{s} = subplot(1, 3, {{step(G{s}), bode(G{s})}})
+local responses{s} = subplot(1, 3, {{step({m}), bode({m})}})
 for panel = 1, 3 do responses{s}:set{{height = 3.8, legend = "none", panel = panel}} end
 report.figure("responses{s}", responses{s}, "")
 )";
@@ -149,12 +151,38 @@ std::string estimating_call(const IdentifyRequest& request, const std::string& s
                        zeros, delay);
 }
 
+std::string responses_of(const IdentifyRequest& request, const std::string& suffix) {
+    using namespace fmt::literals;
+    const std::string model = "G" + suffix;
+    if (request.inputs.size() == 1) return fmt::format(kResponses, "s"_a = suffix, "m"_a = model, "from"_a = "");
+    std::string text;
+    for (std::size_t i = 1; i <= request.inputs.size(); ++i)
+        text += fmt::format(kResponses, "s"_a = fmt::format("{}_of_{}", suffix, i),
+                            "m"_a = fmt::format("{}.channels[{}]", model, i),
+                            "from"_a = fmt::format(" from `input_{}`{{.value}}", i));
+    return text;
+}
+
+/// Names of the inputs, which the text speaks of: all together, and each.
+std::string reported_inputs(const std::vector<std::string>& inputs) {
+    std::string text =
+        fmt::format("report.value(\"input\", {})\n", lua_text(fmt::format("{}", fmt::join(inputs, ", "))));
+    for (std::size_t i = 0; inputs.size() > 1 && i < inputs.size(); ++i)
+        text += fmt::format("report.value(\"input_{}\", {})\n", i + 1, lua_text(inputs[i]));
+    return text;
+}
+
 }  // namespace
 
 void IdentifyRequest::validate() const {
     if (outputs.empty()) throw InvalidArgument("at least one output is needed");
+    if (inputs.empty()) throw InvalidArgument("at least one input is needed");
+    for (auto input = inputs.begin(); input != inputs.end(); ++input)
+        if (std::find(inputs.begin(), input, *input) != input)
+            throw InvalidArgument(fmt::format("the input '{}' is given twice", *input));
     for (auto output = outputs.begin(); output != outputs.end(); ++output) {
-        if (*output == input) throw InvalidArgument(fmt::format("'{}' cannot be both input and output", input));
+        if (std::find(inputs.begin(), inputs.end(), *output) != inputs.end())
+            throw InvalidArgument(fmt::format("'{}' cannot be both input and output", *output));
         if (std::find(outputs.begin(), output, *output) != output)
             throw InvalidArgument(fmt::format("the output '{}' is given twice", *output));
     }
@@ -163,6 +191,8 @@ void IdentifyRequest::validate() const {
     if (zeros && (*zeros < 0 || (poles && *zeros > *poles)))
         throw InvalidArgument(fmt::format("the number of zeros must be from 0 to that of the poles{}; it is {}",
                                           poles ? fmt::format(", {}", *poles) : "", *zeros));
+    if (!poles && inputs.size() > 1)
+        throw InvalidArgument("the number of poles is found for one input only; with several give the number");
     if (!poles && zeros && *zeros > 3)
         throw InvalidArgument("the number of poles is looked for up to 4, and there must be fewer zeros");
     if (!poles && delay && *delay > 0)
@@ -179,14 +209,14 @@ void IdentifyRequest::validate() const {
 std::string identification_script(const IdentifyRequest& request) {
     using namespace fmt::literals;
     request.validate();
-    const Recording record(request.data, request.input, request.outputs, request.Ts, request.time);
+    const Recording record(request.data, request.inputs, request.outputs, request.Ts, request.time);
     std::optional<Recording> unseen;
     if (!request.validation.empty())
-        unseen.emplace(request.validation, request.input, request.outputs, request.Ts, request.time);
+        unseen.emplace(request.validation, request.inputs, request.outputs, request.Ts, request.time);
 
     std::string script =
         fmt::format(kBegin, "load"_a = record.loading("record") + (unseen ? unseen->loading("validation") : ""),
-                    "input"_a = lua_text(request.input), "file"_a = lua_text(request.data));
+                    "inputs"_a = reported_inputs(request.inputs), "file"_a = lua_text(request.data));
     for (std::size_t i = 0; i < request.outputs.size(); ++i) {
         const std::string& output = request.outputs[i];
         const std::string suffix = request.outputs.size() == 1 ? "" : fmt::format("_{}", i + 1);
@@ -199,8 +229,11 @@ std::string identification_script(const IdentifyRequest& request) {
         script += unseen
                       ? fmt::format(kCompareBoth, "s"_a = suffix, "validation"_a = unseen->data("validation", output))
                       : fmt::format(kCompare, "s"_a = suffix);
-        script += fmt::format(kRest, "s"_a = suffix, "tested"_a = unseen ? "unseen" : "data",
-                              "record"_a = unseen ? "validation" : "estimation");
+        script +=
+            fmt::format(kRest, "s"_a = suffix, "tested"_a = unseen ? "unseen" : "data",
+                        "record"_a = unseen ? "validation" : "estimation", "rows"_a = (request.inputs.size() + 2) / 2,
+                        "height"_a = 4 * ((request.inputs.size() + 2) / 2));
+        script += responses_of(request, suffix);
     }
     return script;
 }

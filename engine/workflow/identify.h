@@ -5,12 +5,12 @@
 
 namespace dynlab::inline workflow {
 
-/// A model wanted from a file: one input, one model for each output.
+/// A model wanted from a file: one for each output, from all inputs.
 struct IdentifyRequest {
-    std::string data;  ///< a data file, or a data set's name
-    std::string input;
+    std::string data;                  ///< a data file, or a data set's name
+    std::vector<std::string> inputs;   ///< at least one
     std::vector<std::string> outputs;  ///< at least one
-    std::optional<int> poles = 2;      ///< found among structures of up to four poles when empty
+    std::optional<int> poles = 2;      ///< from each input; found among structures of up to four when empty
     std::optional<int> zeros = {};     ///< at most the number of poles; 0 when empty, or found with the poles
     std::optional<double> delay = 0;   ///< s; estimated when empty
     std::optional<double> Ts;          ///< s; else as the file states it, or from its column of time

@@ -119,6 +119,13 @@ std::vector<std::pair<std::string, double>> cells_in_order(const PercentScript& 
     return cells;
 }
 
+DocumentSource template_of(const ReportRequest& request) {
+    DocumentSource source;
+    source.template_file = request.template_file;
+    source.metadata = request.metadata;
+    return source;
+}
+
 FigureFormat figure_format_for(DocumentFormat format) {
     return format == DocumentFormat::kPdf ? FigureFormat::kPdf : FigureFormat::kSvg;
 }
@@ -173,9 +180,7 @@ ReportRequest report_of(const std::string& lesson_or_folder, const fs::path& out
 }
 
 DocumentSource document_source(const ReportRequest& request, const RunRecord& record) {
-    DocumentSource source;
-    source.template_file = request.template_file;
-    source.metadata = request.metadata;
+    DocumentSource source = template_of(request);
     source.record = &record;
     source.bibliography = bibliography_of(request.script);
     source.measures = measures_for_documents();
@@ -241,10 +246,11 @@ ReportResult make_report(const ReportRequest& request) {
     watch.lap("look for changes");
     if (result.up_to_date) return result;
 
-    const RunCache runs(request.script, request.seed, figure_format_for(format), cache);
+    const RunCache runs(request, figure_format_for(format), cache);
     const TemporaryFolder workplace;
     CallCache calls(cache);
     GnuplotRenderer renderer(&cache);
+    std::optional<CachedLatexFormat> latex_format;  // made by TeX while the script runs
     std::optional<RunRecord> known;
     if (!anew) known = runs.recall();
     const bool recalled = known.has_value();
@@ -254,8 +260,10 @@ ReportResult make_report(const ReportRequest& request) {
         watch.lap("recall the run");
     } else {
         begin("running the script");
+        if (format == DocumentFormat::kPdf) latex_format.emplace(latex_layout(template_of(request)));
         RunRequest run{.script = request.script,
                        .seed = request.seed,
+                       .slider_values = request.slider_values,
                        .out_folder = workplace.path(),
                        .print = request.print,
                        .enter_cell = request.enter_cell,
@@ -276,7 +284,10 @@ ReportResult make_report(const ReportRequest& request) {
     if (!record.error && !request.of_lesson)
         result.unplaced = unplaced_entries(record, text_of_document(request.template_file, source.cells));
     try {
-        DocumentMaker({.use_cache = true, .timings = &result.timings}).make(source, request.output, format, [&] {
+        DocumentMaker::Options options;
+        options.timings = &result.timings;
+        options.begun_format = latex_format ? &*latex_format : nullptr;
+        DocumentMaker(options).make(source, request.output, format, [&] {
             renderer.finish();
             if (recalled) return;
             result.figures = renderer.use();

@@ -27,6 +27,7 @@ struct ReportRequest {
     std::filesystem::path record;  ///< where what the run gave is written, too, as JSON (documents/run_record.h); such
                                    ///< a report is always made anew
     std::uint32_t seed = 1;
+    std::map<std::string, double> slider_values;  ///< instead of what the script gives its sliders
     bool of_lesson = false;       ///< its text is not the user's to mend: nothing is told of what has no place in it
     bool stay_in_folder = false;  ///< the script reads files of its folder and the installed data only
     std::function<void(const std::string&)> step;        ///< called with each step as it begins; may be empty

@@ -2,23 +2,36 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "data_io/tables/unit_text.h"
 #include "platform/error.h"
 #include "platform/spelling.h"
 #include "scripting/runtime/lua_text.h"
 
 namespace dynlab::inline workflow {
+namespace {
 
-Recording::Recording(const std::string& name, const std::string& input, const std::vector<std::string>& outputs,
-                     std::optional<double> Ts, const std::string& time)
-    : name_(name), input_(input), loaded_(load_data(name, ".")) {
-    const Index samples = signal(input).numbers.size();
-    for (const std::string& output : outputs) {
-        const Index others = signal(output).numbers.size();
-        if (others != samples)
-            throw EnvironmentError(fmt::format("{}: the output '{}' has {} samples, but the input '{}' has {}", name_,
-                                               output, others, input, samples));
-    }
+/// One text, or a list of several.
+std::string lua_texts(const std::vector<std::string>& texts) {
+    std::vector<std::string> quoted;
+    for (const std::string& text : texts) quoted.push_back(lua_text(text));
+    return quoted.size() == 1 ? quoted.front() : fmt::format("{{{}}}", fmt::join(quoted, ", "));
+}
+
+}  // namespace
+
+Recording::Recording(const std::string& name, const std::vector<std::string>& inputs,
+                     const std::vector<std::string>& outputs, std::optional<double> Ts, const std::string& time)
+    : name_(name), inputs_(inputs), loaded_(load_data(name, ".")) {
+    const Index samples = signal(inputs.front()).numbers.size();
+    for (const auto& [kind, names] : {std::pair("input", &inputs), std::pair("output", &outputs)})
+        for (const std::string& other : *names) {
+            const Index others = signal(other).numbers.size();
+            if (others != samples)
+                throw EnvironmentError(fmt::format("{}: the {} '{}' has {} samples, but the input '{}' has {}", name_,
+                                                   kind, other, others, inputs.front(), samples));
+        }
     find_sampling(Ts, time);
 }
 
@@ -27,14 +40,14 @@ void Recording::find_sampling(std::optional<double> given, const std::string& ti
         sampling_ = fmt::format("{}", *given);
         return;
     }
-    const Index samples = signal(input_).numbers.size();
+    const Index samples = signal(inputs_.front()).numbers.size();
     if (time.empty()) {
         time_ = time_column(loaded_, samples);
     } else {
         const Signal instants = signal(time);
         if (instants.numbers.size() != samples)
             throw EnvironmentError(fmt::format("{}: the time '{}' has {} samples, but the input '{}' has {}", name_,
-                                               time, instants.numbers.size(), input_, samples));
+                                               time, instants.numbers.size(), inputs_.front(), samples));
         const auto unit = loaded_.units.find(instants.name);
         time_ = {instants.name, unit == loaded_.units.end() ? 1 : seconds_of(unit->second).value_or(1)};
     }
@@ -81,10 +94,10 @@ std::string Recording::samples(const std::string& variable, const std::string& n
 }
 
 std::string Recording::data(const std::string& variable, const std::string& output) const {
-    std::string options = fmt::format("InputName = {}, OutputName = {}{}{}", lua_text(input_), lua_text(output),
-                                      unit("InputUnit", input_), unit("OutputUnit", output));
+    std::string options = fmt::format("InputName = {}, OutputName = {}{}{}", lua_texts(inputs_), lua_text(output),
+                                      input_units(), unit("OutputUnit", output));
     if (!even_) options = fmt::format("SamplingInstants = {}_t, {}", variable, options);
-    return fmt::format("iddata({}, {}, {},\n  {{{}}})", samples(variable, output), samples(variable, input_),
+    return fmt::format("iddata({}, {}, {},\n  {{{}}})", samples(variable, output), input_samples(variable),
                        fmt::format(fmt::runtime(sampling_), variable), options);
 }
 
@@ -120,6 +133,23 @@ std::vector<std::string> Recording::signals() const {
             for (Index j = 0; j < matrix->cols(); ++j) names.push_back(fmt::format("{}{}", name, j + 1));
     }
     return names;
+}
+
+/// A vector, or a matrix of several.
+std::string Recording::input_samples(const std::string& variable) const {
+    std::vector<std::string> columns;
+    for (const std::string& input : inputs_) columns.push_back(samples(variable, input));
+    return columns.size() == 1 ? columns.front() : fmt::format("matrix{{{}}}", fmt::join(columns, ", "));
+}
+
+std::string Recording::input_units() const {
+    std::vector<std::string> units;
+    for (const std::string& input : inputs_) {
+        const auto found = loaded_.units.find(signal(input).name);
+        units.push_back(found == loaded_.units.end() ? "" : found->second);
+    }
+    const bool known = std::any_of(units.begin(), units.end(), [](const std::string& unit) { return !unit.empty(); });
+    return known ? ", InputUnit = " + lua_texts(units) : "";
 }
 
 std::string Recording::unit(const char* option, const std::string& column) const {

@@ -15,7 +15,7 @@ class Recording {
     /// says; without it the file's own, or the column `time`, or the one that is most likely the time (time_column()).
     /// Throws EnvironmentError for a name that is not a column of numbers there (listing those there are), signals of
     /// different lengths, unknown sampling, a time that does not increase.
-    Recording(const std::string& name, const std::string& input, const std::vector<std::string>& outputs,
+    Recording(const std::string& name, const std::vector<std::string>& inputs, const std::vector<std::string>& outputs,
               std::optional<double> Ts, const std::string& time);
 
     /// The lines that load the file into `variable`.
@@ -37,7 +37,11 @@ class Recording {
     std::string samples(const std::string& variable, const std::string& name) const;
     std::string unit(const char* option, const std::string& column) const;
 
-    std::string name_, input_;
+    std::string input_samples(const std::string& variable) const;
+    std::string input_units() const;
+
+    std::string name_;
+    std::vector<std::string> inputs_;
     LoadedData loaded_;
     std::optional<TimeColumn> time_;  ///< nothing when Ts is all that is needed
     std::string sampling_;            ///< third argument of iddata, in which {0} stands for the variable

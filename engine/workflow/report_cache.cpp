@@ -50,6 +50,7 @@ std::string entry_of_report(const ReportRequest& request) {
     name.add(request.last_section.text);
     name.add(std::to_string(static_cast<int>(request.shows)));
     name.add(std::to_string(request.seed));
+    name.add(cbor_of(request.slider_values));
     name.add(fs::absolute(request.output).string());
     for (const fs::path& file : template_files()) name.add(digest_of_file(file).hex());
     return name.text();

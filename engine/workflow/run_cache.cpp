@@ -36,14 +36,14 @@ bool names_a_line(const RunRecord& record) {
     return false;
 }
 
-std::string entry_of_script(const PercentScript& script, const fs::path& file, std::uint32_t seed,
-                            FigureFormat format) {
+std::string entry_of_script(const ReportRequest& request, const fs::path& file, FigureFormat format) {
     EntryName name("runs");
     name.add(file.string());
-    name.add(std::to_string(seed));
-    name.add(script.header.language);
+    name.add(std::to_string(request.seed));
+    name.add(cbor_of(request.slider_values));
+    name.add(request.script.header.language);
     name.add(std::to_string(static_cast<int>(format)));
-    for (const Cell& cell : script.cells)
+    for (const Cell& cell : request.script.cells)
         if (cell.kind == Cell::Kind::kCode) name.add(cell.id).add(cell.content);
     return name.text();
 }
@@ -54,10 +54,10 @@ std::string entry_of_run(const std::string& entry_of_script, const InputsRead& i
 
 }  // namespace
 
-RunCache::RunCache(const PercentScript& script, std::uint32_t seed, FigureFormat format, const Cache& cache)
+RunCache::RunCache(const ReportRequest& request, FigureFormat format, const Cache& cache)
     : cache_(cache),
-      script_(fs::absolute(script.file)),
-      entry_(cache.lasting() ? entry_of_script(script, script_, seed, format) : std::string()) {}
+      script_(fs::absolute(request.script.file)),
+      entry_(cache.lasting() ? entry_of_script(request, script_, format) : std::string()) {}
 
 std::optional<RunRecord> RunCache::recall() const {
     const auto known = entry_.empty() ? std::nullopt : cache_.recall(entry_);

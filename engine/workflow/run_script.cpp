@@ -6,10 +6,13 @@
 #include <cctype>
 #include <map>
 
+#include "documents/error.h"
+#include "documents/html/plot_data.h"
 #include "documents/text_lines.h"
 #include "figures/french_texts.h"
 #include "scripting/runtime/report_language.h"
 #include "scripting/runtime/runtime.h"
+#include "scripting/runtime/slider_values.h"
 
 namespace dynlab::inline workflow {
 namespace {
@@ -62,6 +65,16 @@ std::map<std::string, std::string> cell_titles(const PercentScript& script) {
     return titles;
 }
 
+void check_sliders(const RunRequest& request, const RunRecord& record) {
+    for (const auto& [name, value] : request.slider_values) {
+        if (record.sliders.contains(name)) continue;
+        std::string known;
+        for (const auto& [other, slider] : record.sliders) known += (known.empty() ? "" : ", ") + other;
+        throw DocumentError(fmt::format("{} has no slider \"{}\"; {}", request.script.file.string(), name,
+                                        known.empty() ? "it has none at all" : "it has " + known));
+    }
+}
+
 }  // namespace
 
 RunRecord run_script(const RunRequest& request, GnuplotRenderer& renderer) {
@@ -81,7 +94,11 @@ RunRecord run_script(const RunRequest& request, GnuplotRenderer& renderer) {
     ReportLanguage language{request.script.header.language};
     Runtime runtime(options, renderer);
     runtime.set_service(&language);
-    return runtime.run(request.script);
+    SliderValues sliders{request.slider_values};
+    runtime.set_service(&sliders);
+    RunRecord record = runtime.run(request.script);
+    if (!record.error) check_sliders(request, record);
+    return record;
 }
 
 std::string missing_answers(const PercentScript& script, const RunRecord& record) {
@@ -108,7 +125,9 @@ void draw_figures(RunRecord& record, GnuplotRenderer& renderer, const std::files
     for (const std::string& name : figures_in_order(record)) {
         RecordedFigure& figure = record.figures.at(name);
         figure.file = folder / (figure_file_stem(name, ++number) + extension(format));
-        renderer.draw(french ? in_french(figure.figure) : figure.figure, figure.file, format, french);
+        const Figure shown = french ? in_french(figure.figure) : figure.figure;
+        renderer.draw(shown, figure.file, format, french);
+        if (format == FigureFormat::kSvg) figure.plot = plot_data(shown, french);
     }
 }
 

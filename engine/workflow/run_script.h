@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -18,6 +19,7 @@ namespace dynlab::inline workflow {
 struct RunRequest {
     PercentScript script;
     std::optional<std::uint32_t> seed;              ///< instead of the script header's
+    std::map<std::string, double> slider_values;    ///< instead of what the script gives its sliders
     std::filesystem::path out_folder;               ///< where `save` and `save_csv` may write
     std::function<void(const std::string&)> print;  ///< live output; none when empty
     std::function<void(const std::string&)>
@@ -26,7 +28,8 @@ struct RunRequest {
     CallCache* call_cache = nullptr;  ///< where results of long calls are kept
 };
 
-/// Runs a script from top to bottom. An error of the script stands in the record; Ctrl-C throws Interrupted.
+/// Runs a script from top to bottom. An error of the script stands in the record; Ctrl-C throws Interrupted. Throws
+/// DocumentError for a value of a slider that the script has not.
 RunRecord run_script(const RunRequest& request, GnuplotRenderer& renderer);
 
 /// The answers that the script's header declares and the run did not give, "G1 (model), gain (number)"; empty where

@@ -17,8 +17,12 @@
 -- %% [markdown]
 -- A trolley runs along a rail, pulled by a motor; a pendulum hangs from it. One voltage moves both, so one model has two outputs:
 -- where the trolley is and how far the load swings. You are given five records, among them one in which the crane was driven
--- where no linear model follows. The crane is *simulated*: a program solves its equations, with noise. Find a model, say what it is worth, and write it down so that somebody who was not there can
+-- where no linear model follows (@fig:crane shows what is measured). The crane is *simulated*: a program solves its equations, with noise. Find a model, say what it is worth, and write it down so that somebody who was not there can
 -- do the same again.
+--
+-- ::: {.drawing name=crane}
+-- The crane: the motor's voltage $u$, the position $x$ of the trolley and the angle $\theta$ of the rod, all positive as drawn {#fig:crane}
+-- :::
 --
 -- Work in this script, cell by cell; your text goes to `report.md`, which has the sections that a report must have and notes on what
 -- belongs into each. What you hand in is the report: at most six pages, seven with the appendix.
@@ -37,10 +41,13 @@
 -- %% id=records
 local crane = load("crane")
 local Ts = 0.02
-local function say(english, french) return report.language() == "fr" and french or english end
+local function say(english, french)
+    return report.language() == "fr" and french or english
+end
 local signals = {InputName = say("voltage", "tension"), InputUnit = "V",
                  OutputName = {"position", "angle"}, OutputUnit = {"m", "rad"}}
-local estimation = iddata(matrix{crane.estimation.x, crane.estimation.theta}, crane.estimation.u, Ts, signals)
+local estimation = iddata(matrix{crane.estimation.x, crane.estimation.theta},
+                          crane.estimation.u, Ts, signals)
 print(estimation)
 idplot(estimation)
 

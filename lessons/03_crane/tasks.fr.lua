@@ -7,8 +7,12 @@
 -- %% [markdown]
 -- Un chariot roule le long d'un rail, tiré par un moteur ; un pendule y est suspendu. Une seule tension meut les deux, si bien qu'un seul modèle a
 -- deux sorties : la position du chariot et le balancement de la charge. Vous recevez cinq enregistrements, dont un où la grue a été
--- menée là où aucun modèle linéaire ne suit. La grue est *simulée* : un programme en résout les équations, bruit compris. Trouvez un modèle, dites ce qu'il vaut, et
+-- menée là où aucun modèle linéaire ne suit (la @fig:crane montre ce qui est mesuré). La grue est *simulée* : un programme en résout les équations, bruit compris. Trouvez un modèle, dites ce qu'il vaut, et
 -- décrivez-le de sorte que quelqu'un qui n'était pas là puisse tout refaire.
+--
+-- ::: {.drawing name=crane}
+-- La grue : la tension $u$ du moteur, la position $x$ du chariot et l'angle $\theta$ de la tige, positifs comme ils sont dessinés {#fig:crane}
+-- :::
 --
 -- Travaillez dans ce script, cellule par cellule ; votre texte va dans `report.md`, qui contient les sections d'un rapport et des notes sur
 -- ce qui appartient à chacune. Ce que vous rendez est le rapport : six pages au plus, sept avec l'annexe.

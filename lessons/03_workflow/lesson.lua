@@ -416,7 +416,11 @@ report.value("linear_true_val", fit(val, truth), "%.1f")
 --
 -- ## Experiment and data
 --
--- In this simulated rig air is blown over an electric heater and through a tube; the input is the heater's voltage, the output the temperature at the
+-- ::: {.drawing name=heat_rig}
+-- The rig: a fan blows air over a heater with the voltage $u$; the temperature $y$ is measured at the end of the tube {#fig:heat_rig}
+-- :::
+--
+-- In this simulated rig (@fig:heat_rig) air is blown over an electric heater and through a tube; the input is the heater's voltage, the output the temperature at the
 -- end of the tube, one sample a second. There are two records about 4 V, for estimation and validation, and one about 7 V. Each
 -- begins with a minute of rest; then a binary sequence of ±1 V follows, with bits of 15 s.
 

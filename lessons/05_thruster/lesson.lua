@@ -16,9 +16,13 @@
 
 -- %% [markdown]
 -- An underwater thruster is commanded by the width of electrical pulses and pushes or pulls on a load cell. Two kinds of experiments were made with
--- it, a sine and a square wave of rising frequency. Thruster and load cell are *simulated*: the records come from a program that solves their
+-- it, a sine and a square wave of rising frequency (@fig:thruster). Thruster and load cell are *simulated*: the records come from a program that solves their
 -- equations, with noise, so that your results can be held against the truth. Find a model from one of them, try it on the other, then change their parts; say which model
 -- you recommend and why. You will be asked about it, so know what you tried and why you dropped it.
+--
+-- ::: {.drawing name=thruster}
+-- The thruster hangs in the water on a beam that turns about a pivot and presses on a load cell: the input is the width $p$ of the pulses, the output its reading $F$ {#fig:thruster}
+-- :::
 --
 -- Work in this script, cell by cell; your text goes to `report.md`, which becomes slides: at most twelve, for ten minutes. It has the eight
 -- points that a presentation must have, and notes on what belongs to each.
@@ -35,8 +39,11 @@
 -- %% id=records
 local thruster = load("thruster")
 local Ts = 0.002
-local function say(english, french) return report.language() == "fr" and french or english end
-local signals = {InputName = say("pulse width", "largeur d'impulsion"), InputUnit = "µs",
+local function say(english, french)
+    return report.language() == "fr" and french or english
+end
+local signals = {InputName = say("pulse width", "largeur d'impulsion"),
+                 InputUnit = "µs",
                  OutputName = say("thrust", "poussée"), OutputUnit = "N"}
 local function raw(name)
     local record = thruster[name]

@@ -6,10 +6,14 @@
 
 -- %% [markdown]
 -- Un propulseur sous-marin est commandé par la largeur d'impulsions électriques ; il pousse ou tire sur un capteur de force. Deux sortes
--- d'expériences ont été faites, avec un sinus et avec un signal carré de fréquence croissante. Propulseur et capteur sont *simulés* : les
+-- d'expériences ont été faites, avec un sinus et avec un signal carré de fréquence croissante (@fig:thruster). Propulseur et capteur sont *simulés* : les
 -- enregistrements viennent d'un programme qui résout leurs équations, bruit compris, et vos résultats pourront être comparés à la vérité. Trouvez
 -- un modèle à partir des uns, éprouvez-le sur les autres, puis échangez les rôles ; dites quel modèle vous recommandez et pourquoi. On vous
 -- interrogera : sachez ce que vous avez essayé et pourquoi vous l'avez écarté.
+--
+-- ::: {.drawing name=thruster}
+-- Le propulseur est suspendu dans l'eau à une poutre qui pivote et appuie sur un capteur de force : l'entrée est la largeur $p$ des impulsions, la sortie l'indication $F$ {#fig:thruster}
+-- :::
 --
 -- Travaillez dans ce script, cellule par cellule ; votre texte va dans `report.md`, qui devient des diapositives : douze au plus, pour dix
 -- minutes. Ce fichier contient les huit points d'une présentation et des notes sur ce qui appartient à chacun.

@@ -14,6 +14,7 @@
 -- colon is written beside the last arrow. Nothing of the list but labels, which are checked as all text is, and numbers
 -- reaches LaTeX or HTML.
 local diagram = {}
+local canvas = dofile((PANDOC_SCRIPT_FILE:match("^(.*)/") or ".") .. "/canvas.lua")
 
 local kinds = { block = true, sum = true, signal = true, branch = true }
 local arrows = { ["->"] = true, ["-|"] = true, ["|-"] = true }
@@ -137,8 +138,6 @@ local function label_place(corners)
   return a[1] + 0.3, 0.5 * (a[2] + b[2]), 1
 end
 
-local function raw(format, text) return pandoc.RawInline(format, text) end
-
 local latex = {}
 
 function latex.segment(_, a, b, with_head)
@@ -159,21 +158,14 @@ function latex.frame(drawing, node, x, y)
   return ""
 end
 
-function latex.label(x, y, width)
-  return string.format("\\put(%.3f,%.3f){\\makebox(0,0){\\parbox{%.3fcm}{\\centering\\small ", x, y, width), "}}}"
-end
-
-function latex.begin(drawing)
-  return string.format("\\setlength{\\unitlength}{1cm}\\linethickness{.5pt}\\begin{picture}(%.3f,%.3f)",
-    drawing.columns * drawing.step, drawing.rows * row_height)
-end
-
-latex.finish = "\\end{picture}"
-
 local svg = {}
-local pixels = 96 / 2.54
+local pixels = canvas.pixels
 
 local function svg_y(drawing, y) return (drawing.rows * row_height - y) * pixels end
+
+-- The heads of SVG's arrows
+svg.begin = '<defs><marker id="dynlab-head" viewBox="0 0 10 10" refX="10" refY="5" markerWidth="8" markerHeight="8" ' ..
+  'orient="auto"><path d="M0 1 L10 5 L0 9 z" fill="currentColor"/></marker></defs>'
 
 function svg.segment(drawing, a, b, with_head)
   return string.format('<line x1="%.1f" y1="%.1f" x2="%.1f" y2="%.1f" stroke="currentColor"%s/>', a[1] * pixels,
@@ -194,49 +186,29 @@ function svg.frame(drawing, node, x, y)
   return ""
 end
 
-function svg.label(x, y, width, drawing)
-  local height = 0.9
-  return string.format('<foreignObject x="%.1f" y="%.1f" width="%.1f" height="%.1f"><div class="diagram-label">',
-    (x - 0.5 * width) * pixels, svg_y(drawing, y) - 0.5 * height * pixels, width * pixels, height * pixels),
-    "</div></foreignObject>"
-end
-
-function svg.begin(drawing)
-  local width, height = drawing.columns * drawing.step * pixels, drawing.rows * row_height * pixels
-  return string.format('<svg class="diagram" xmlns="http://www.w3.org/2000/svg" viewBox="0 0 %.1f %.1f" width="%.0f" height="%.0f">' ..
-    '<defs><marker id="dynlab-head" viewBox="0 0 10 10" refX="10" refY="5" markerWidth="8" markerHeight="8" orient="auto">' ..
-    '<path d="M0 1 L10 5 L0 9 z" fill="currentColor"/></marker></defs>', width, height, width, height)
-end
-
-svg.finish = "</svg>"
-
 -- The drawing as inlines for "latex" or "html".
 function diagram.draw(drawing, format)
   local pen = format == "latex" and latex or svg
   drawing.step = math.min(widest_column, text_width / drawing.columns)
-  local content = pandoc.List { raw(format, pen.begin(drawing)) }
+  local paper = canvas.new(format, drawing.columns * drawing.step, drawing.rows * row_height)
+  if pen.begin then paper:add(pen.begin) end
   local function label(inlines, x, y, width)
-    if #inlines == 0 then return end
-    local before, after = pen.label(x, y, width, drawing)
-    content:insert(raw(format, before))
-    content:extend(inlines)
-    content:insert(raw(format, after))
+    if #inlines > 0 then paper:label(inlines, x, y, width) end
   end
   for _, arrow in ipairs(drawing.arrows) do
     local corners = path(drawing, arrow)
     for i = 2, #corners do
-      content:insert(raw(format, pen.segment(drawing, corners[i - 1], corners[i], i == #corners and arrow.to.kind ~= "branch")))
+      paper:add(pen.segment(drawing, corners[i - 1], corners[i], i == #corners and arrow.to.kind ~= "branch"))
     end
     label(arrow.label, label_place(corners))
   end
   for _, name in ipairs(drawing.order) do
     local node = drawing.nodes[name]
     local x, y = centre(drawing, node)
-    content:insert(raw(format, pen.frame(drawing, node, x, y)))
+    paper:add(pen.frame(drawing, node, x, y))
     label(node.label, x, y, node.kind == "block" and (block_width(drawing) - 0.06) or drawing.step)
   end
-  content:insert(raw(format, pen.finish))
-  return content
+  return paper:finish()
 end
 
 return diagram

@@ -11,6 +11,7 @@ local layout = dofile(folder .. "/layout.lua").new(slots.format, slots.language,
 local tables = dofile(folder .. "/tables.lua").new(layout)
 local diagram = dofile(folder .. "/diagram.lua")
 local choice = dofile(folder .. "/choice.lua")
+local drawing = dofile(folder .. "/drawing.lua")
 
 local failed = false
 local function clean(text) return (tostring(text):gsub("[%c]", " ")) end
@@ -258,7 +259,8 @@ local function check_mathematics(element)
   end
 end
 
-local division_attributes = { table = { name = true }, text = { name = true }, column = { width = true } }
+local division_attributes =
+  { table = { name = true }, text = { name = true }, drawing = { name = true }, column = { width = true } }
 
 local function columns(element)
   local list = {}
@@ -315,6 +317,25 @@ local function block_diagram(division)
   return layout:diagram(drawing, diagram, label, caption), false
 end
 
+-- A drawing by its name, and at most a line with the caption.
+local function named_drawing(division)
+  local name, line = division.attributes.name or "", division.content[1]
+  local label = label_of(division.identifier, "fig")
+  local caption = line and line.content or pandoc.List {}
+  if #division.content > 1 or line and line.t ~= "Para" and line.t ~= "Plain" then
+    report("drawing-content", "name=" .. name, name)
+    return {}
+  end
+  label = take_label(caption, "fig") or label
+  local drawn, names = drawing.read(name, slots.language, checked_inlines)
+  if not drawn then
+    report("unknown-drawing", name == "" and "drawing" or "name=" .. name, name, names)
+    return {}
+  end
+  if is_numbered(caption, label) then caption = layout:numbered_caption("fig", number("fig", label), caption) end
+  return layout:diagram(drawn, drawing, label, caption), false
+end
+
 local function division(element)
   local class = element.classes[1]
   if slots.chunks and class == "chunk" then return begin_chunk(element) end
@@ -333,6 +354,7 @@ local function division(element)
   if class == "block-diagram" then return block_diagram(element) end
   if class == "kept" then return layout:kept(element.content) end
   if class == "answer" then return layout:folded(element.content, layout.words.answer) end
+  if class == "drawing" then return named_drawing(element) end
   if class == "column" then
     report("not-a-column", "column")
     return {}

@@ -105,7 +105,7 @@ function layout:figure(file, id, caption, alternative, width)
   return blocks
 end
 
--- drawing: of diagram.lua. Markdown has no drawings: the caption stands alone.
+-- drawing: of the module diagram (diagram.lua or drawing.lua). Markdown has none: the caption stands alone.
 function layout:diagram(drawing, diagram, id, caption)
   if self.format == "markdown" then return #caption > 0 and { pandoc.Para(caption) } or {} end
   return self:drawn_figure(diagram.draw(drawing, self.format), id, caption)

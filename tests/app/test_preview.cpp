@@ -2,80 +2,17 @@
 // page's own text, places and states.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <chrono>
-#include <csignal>
-#include <fstream>
-#include <thread>
+#include <cstdio>
+#include <map>
 
-#include "platform/atomic_file.h"
-#include "platform/temporary_folder.h"
-#include "support/browser.h"
+#include "support/preview.h"
 
 namespace test_preview {
 using namespace dynlab;
-using test::Browser;
+using namespace dynlab::test;
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
-
-const std::string kHead = "-- ---\n-- title: A document\n-- ---\n\n";
-const std::string kFirst =
-    "-- %% [markdown]\n-- # First\n--\n-- Words at the beginning.\n\n-- %% id=one\nlocal x = 20\nprint(\"x is \" .. "
-    "x)\n\n";
-const std::string kPlot =
-    "-- %% id=drawn\nplot({1, 2, 3}, {1, 4, 9}, {title = \"Squares\"})\n\n-- %% [markdown]\n-- Words at the end.\n";
-
-/// The program that serves a document, as a user starts it.
-class Preview {
-  public:
-    explicit Preview(const fs::path& document, bool run = true) {
-        const fs::path address = out.path() / "address";
-        process_ = ::fork();
-        if (process_ == 0) {
-            ::setenv("XDG_CACHE_HOME", out.path().c_str(), 1);
-            ::setenv("DYNLAB_HOME", DYNLAB_SOURCE_DIR, 1);
-            if (!std::freopen(address.c_str(), "w", stdout)) ::_exit(1);
-            ::execl(DYNLAB_PROGRAM, "dynlab", "preview", document.c_str(), "--no-browser", run ? "--run" : nullptr,
-                    nullptr);
-            ::_exit(1);
-        }
-        for (int i = 0; i < 1000 && address_.empty(); ++i) {
-            std::ifstream file(address);
-            std::getline(file, address_);
-            std::this_thread::sleep_for(10ms);
-        }
-    }
-    ~Preview() { end(); }
-    void end() {
-        if (process_ <= 0) return;
-        ::kill(process_, SIGINT);
-        ::waitpid(process_, nullptr, 0);
-        process_ = 0;
-    }
-    const std::string& address() const { return address_; }
-    TemporaryFolder out;
-
-  private:
-    pid_t process_ = 0;
-    std::string address_;
-};
-
-class preview_page : public testing::Test {
-  protected:
-    fs::path file(const std::string& name = "analysis.lua") const { return folder.path() / name; }
-    void write(const std::string& text, const std::string& name = "analysis.lua") const {
-        std::ofstream(file(name)) << text;
-    }
-    bool shows(Browser& browser, const std::string& text) const {
-        return browser.comes("document.getElementById('document').innerText.includes('" + text + "')");
-    }
-    static bool state_is(Browser& browser, const std::string& cell, const std::string& state) {
-        return browser.comes("document.querySelector('[data-cell=" + cell + "]')?.dataset.state === '" + state + "'");
-    }
-    TemporaryFolder folder;
-};
 
 TEST_F(preview_page, shows_text_code_output_and_figures_and_follows_the_file) {
     write(kHead + kFirst + kPlot);
@@ -299,6 +236,78 @@ TEST_F(preview_page, gives_the_pdf) {
         "fetch('/document.pdf').then(r => r.arrayBuffer()).then(b => { window.pdf = new "
         "TextDecoder('latin1').decode(b.slice(0, 5)) })");
     EXPECT_TRUE(browser.comes("window.pdf === '%PDF-'", 60));
+}
+
+/// Light words on dark paper where the desktop is dark, in the document, the bar and the editor.
+TEST_F(preview_page, is_dark_where_the_desktop_is) {
+    write(kHead + kFirst);
+    const Preview preview(file(), true, {"--edit"});
+    Browser browser;
+    browser.prefer_dark();
+    browser.open(preview.address());
+    ASSERT_TRUE(shows(browser, "x is 20"));
+    ASSERT_TRUE(browser.comes("document.querySelector('.CodeMirror')"));
+    const std::string brightness =
+        "(node, what) => getComputedStyle(node)[what].match(/[0-9]+/g).slice(0, 3).reduce((sum, c) => sum + Number(c), "
+        "0)";
+    for (const char* part : {"body", "#bar", ".CodeMirror", "#document pre"})
+        EXPECT_EQ(browser.evaluate("const b = " + brightness + "; const n = document.querySelector('" + part +
+                                   "'); return [b(n, 'backgroundColor') < 150, b(n, 'color') > 450]"),
+                  "[true,true]")
+            << part;
+}
+
+/// Resident memory of a process, in kB, and how many there are of it and what it started.
+std::pair<long, int> memory_of_family(pid_t first) {
+    std::map<pid_t, pid_t> parents;
+    std::map<pid_t, long> memory;
+    for (const auto& entry : fs::directory_iterator("/proc")) {
+        std::ifstream status(entry.path() / "status");
+        pid_t process = 0, parent = 0;
+        long kilobytes = 0;
+        for (std::string line; std::getline(status, line);) {
+            std::sscanf(line.c_str(), "Pid: %d", &process);
+            std::sscanf(line.c_str(), "PPid: %d", &parent);
+            std::sscanf(line.c_str(), "VmRSS: %ld", &kilobytes);
+        }
+        parents[process] = parent;
+        memory[process] = kilobytes;
+    }
+    std::pair<long, int> sum{0, 0};
+    for (const auto& [process, kilobytes] : memory) {
+        pid_t at = process;
+        while (at != first && at > 1 && parents.contains(at)) at = parents[at];
+        if (at == first && kilobytes > 0) ++sum.second;
+    }
+    sum.first = memory[first];
+    return sum;
+}
+
+/// As many saves of text and code as an hour of work has: memory and processes stay what they were.
+TEST_F(preview_page, does_not_grow_with_the_edits) {
+    const auto save = [&](int number) {
+        write(kHead + "-- %% [markdown]\n-- Save number " + std::to_string(number) + ".\n\n" + kFirst +
+              "-- %% id=two\nlocal s = 0 for i = 1, 1e5 do s = s + i end\nprint(\"save\", " +
+              std::to_string(number / 3) + ")\n\n" + kPlot);
+    };
+    save(0);
+    const Preview preview(file());
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(shows(browser, "Save number 0."));
+    const auto save_up_to = [&](int first, int last) {
+        for (int i = first; i <= last; ++i) {
+            save(i);
+            ASSERT_TRUE(shows(browser, "Save number " + std::to_string(i) + "."));
+        }
+        ASSERT_TRUE(browser.comes("document.getElementById('stop').hidden"));
+    };
+    save_up_to(1, 40);
+    const auto [before, processes] = memory_of_family(preview.process());
+    save_up_to(41, 240);
+    const auto [after, processes_after] = memory_of_family(preview.process());
+    EXPECT_LT(static_cast<double>(after), 1.1 * static_cast<double>(before));
+    EXPECT_LE(processes_after, processes + 2);  // a Pandoc that waits for the next time, a gnuplot
 }
 
 }  // namespace test_preview

@@ -22,10 +22,18 @@ class script_runner : public testing::Test {
         return parse_percent_script(source, folder.path() / "analysis.lua");
     }
 
+    void order(const std::string& source, std::uint32_t seed = 1, const std::set<fs::path>& changed = {}) {
+        ReportRequest request;
+        request.script = script(source);
+        request.seed = seed;
+        request.slider_values = sliders;
+        runner.run(request, folder.path(), changed);
+    }
+
     /// Runs to the end; the parts that ran.
     std::vector<std::size_t> run(const std::string& source, const std::set<fs::path>& changed = {}) {
         std::vector<std::size_t> ran;
-        runner.run(script(source), 1, folder.path(), changed);
+        order(source, 1, changed);
         while (runner.running()) {
             RunnerNews news = runner.next();
             if (news.kind == "begun") ran.push_back(news.part);
@@ -41,6 +49,7 @@ class script_runner : public testing::Test {
 
     TemporaryFolder folder;
     ScriptRunner runner;
+    std::map<std::string, double> sliders;
     RunRecord record;
 };
 
@@ -63,6 +72,37 @@ TEST_F(script_runner, text_alone_runs_nothing) {
     run(kA + kB);
     EXPECT_THAT(run("-- %% [markdown]\n-- Text.\n\n" + kA + kB), ElementsAre());
     EXPECT_THAT(run(kA + kB + kC), ElementsAre(2));
+}
+
+/// A slider that was moved runs its cell and what follows; one that stands where the script puts it runs nothing.
+TEST_F(script_runner, a_slider_runs_only_from_its_cell_on) {
+    const std::string source = kA + "-- %% id=b\nlocal k = slider(\"k\", 3, 1, 10)\nwork()\nprint(k)\n" +
+                               "-- %% id=c\nwork()\nprint(k * 10)\n";
+    EXPECT_THAT(run(source), ElementsAre(0, 1, 2));
+    EXPECT_EQ(printed("c"), "30\n");
+    sliders["k"] = 4;
+    EXPECT_THAT(run(source), ElementsAre(1, 2));
+    EXPECT_EQ(printed("b"), "4\n");
+    EXPECT_EQ(printed("c"), "40\n");
+    EXPECT_EQ(record.sliders.at("k").initial, 3);
+    EXPECT_EQ(record.sliders.at("k").cell, "b");
+    EXPECT_THAT(run(source), ElementsAre());
+    sliders["other"] = 7;
+    EXPECT_THAT(run(source), ElementsAre());
+    sliders.clear();
+    EXPECT_THAT(run(source), ElementsAre(1, 2));
+    EXPECT_EQ(printed("b"), "3\n");
+}
+
+/// Moved again while what it started is still under way.
+TEST_F(script_runner, a_slider_moved_during_a_run_counts) {
+    const std::string source = kA +
+                               "-- %% id=b\nlocal k = slider(\"k\", 1, 1, 10)\n"
+                               "if k < 5 then while true do end end\nprint(k)\n";
+    order(source);
+    sliders["k"] = 8;
+    run(source);
+    EXPECT_EQ(printed("b"), "8\n");
 }
 
 TEST_F(script_runner, goes_on_behind_a_failure) {
@@ -89,7 +129,7 @@ TEST_F(script_runner, a_file_that_has_changed_is_read_again) {
 TEST_F(script_runner, another_seed_or_a_shorter_script_are_changes) {
     run(kA + kB + kC);
     EXPECT_THAT(run(kA + kB), ElementsAre());
-    runner.run(script(kA + kB), 2, folder.path(), {});
+    order(kA + kB, 2);
     EXPECT_TRUE(runner.running());
     EXPECT_EQ(runner.next().kind, "split");
     EXPECT_EQ(runner.next().part, 0u);
@@ -98,7 +138,7 @@ TEST_F(script_runner, another_seed_or_a_shorter_script_are_changes) {
 TEST_F(script_runner, an_endless_loop_is_stopped_and_the_next_run_goes_on_before_it) {
     run(kA + kB + kC);
     const std::string endless = kA + kB + "-- %% id=c\nwhile true do end\n";
-    runner.run(script(endless), 1, folder.path(), {});
+    order(endless);
     while (runner.next().kind != "begun") {
     }
     pollfd waiting{runner.descriptor(), POLLIN, 0};
@@ -109,14 +149,14 @@ TEST_F(script_runner, an_endless_loop_is_stopped_and_the_next_run_goes_on_before
     const std::vector<std::size_t> ran = run(kA + kB + kC);
     EXPECT_EQ(ran.back(), 2u);
     EXPECT_EQ(printed("c"), "20\n");
-    runner.run(script(endless), 1, folder.path(), {});
+    order(endless);
     EXPECT_THAT(run(kA + kB + "-- %% id=c\nprint(\"new\")\n"), ElementsAre(2));  // a new text stops it, too
     EXPECT_EQ(printed("c"), "new\n");
 }
 
 /// Out of memory for good, or killed: the run is over and the next one runs.
 TEST_F(script_runner, survives_the_death_of_its_processes) {
-    runner.run(script(kA + kB + "-- %% id=c\nwhile true do end\n"), 1, folder.path(), {});
+    order(kA + kB + "-- %% id=c\nwhile true do end\n");
     pid_t process = 0;
     for (std::size_t begun = 0; begun < 3;) {
         const RunnerNews news = runner.next();

@@ -104,6 +104,26 @@ TEST_F(corrections, lateness_follows_deadlines_and_extensions) {
     EXPECT_EQ(course({"extend", "crane", "group-01", "--reason", "x"}).exit_code, 1);
 }
 
+TEST_F(corrections, a_version_with_the_content_of_an_earlier_one_is_as_late_as_that) {
+    done({"assignment", "change", "crane", "--costs", "late-day:10", "--reason", "rules"});
+    const auto hand_in = [&](const std::string& text, const std::string& at) {
+        return course_.hand_in("group-01.pdf", small_pdf(text), at, {"--no-checks"}).output;
+    };
+    hand_in("one", "2026-03-01 10:00");
+    EXPECT_THAT(hand_in("two", "2026-03-01 20:00"), HasSubstr("late by 8 h"));
+    EXPECT_THAT(hand_in("one", "2026-03-02 06:00"),
+                AllOf(HasSubstr("1 file taken, 0 late"), ContainsRegex("v3 +in time +the same file as v1 of ")));
+    EXPECT_THAT(status(), ContainsRegex("group-01 +1 +v3  "));
+    EXPECT_THAT(shell("cat k/receipts/crane/00003-*"), HasSubstr("late: 18 h\n"));  // when this version came
+    EXPECT_THAT(course({"verify"}).output, HasSubstr("all there and unaltered"));
+    done({"withdraw", "crane", "group-01", "--version", "1", "--reason", "the group's wish"});
+    EXPECT_THAT(status(), ContainsRegex("group-01 +1 +v3 late 18 h  "));  // no other of its content stands
+    done({"restore", "crane", "group-01", "--version", "1", "--reason", "no"});
+    EXPECT_THAT(status(), ContainsRegex("group-01 +1 +v3  "));
+    done({"time", "crane", "group-01", "2026-03-01 14:00", "--version", "1", "--reason", "the platform's log"});
+    EXPECT_THAT(status(), ContainsRegex("group-01 +1 +v3 late 2 h  "));
+}
+
 TEST_F(corrections, a_version_is_withdrawn_and_stands_again) {
     course_.hand_in("group-01.pdf", small_pdf("one"), "2026-03-01 10:00", {"--no-checks"});
     course_.hand_in("group-01.pdf", small_pdf("two"), "2026-03-01 14:00", {"--no-checks"});

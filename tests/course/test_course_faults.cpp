@@ -225,5 +225,35 @@ TEST(course_migration, of_a_first_version_keeps_its_students) {
     EXPECT_EQ(rows.text(0), "Ada King");
 }
 
+// oracle: what the third version told of the same rows, but for content that had come in time
+TEST(course_migration, of_a_third_version_keeps_what_stands) {
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "course.db";
+    Database database(file, Database::Opening::kNew);
+    const std::vector<const char*>& steps = course_steps();
+    migrate_course(database, Database::Opening::kNew, "k", {steps.begin(), steps.begin() + 3});
+    database.run("INSERT INTO groups VALUES (1, 'g1', 0, NULL, NULL)");
+    database.run(
+        "INSERT INTO assignments (id, name, kind, lesson, first_due, grace, reviews, seed, made_at) VALUES "
+        "(1, 'a', 'report', '', 100, 10, 0, 0, 0)");
+    for (const char* hash : {"x", "y", "z"}) database.run("INSERT INTO files VALUES (?, 1, 0)", hash);
+    const auto version = [&](std::int64_t number, const char* hash, std::int64_t at) {
+        database.run(
+            "INSERT INTO versions (assignment, group_id, stage, part, number, hash, name, received_at, "
+            "due_at, late, findings, signature) VALUES (1, 1, 'first', 'report', ?, ?, '', ?, 100, 0, '', '')",
+            number, hash, at);
+    };
+    version(1, "x", 90), version(2, "y", 105), version(3, "y", 130), version(4, "x", 140), version(5, "z", 150);
+    const auto late = [&] {
+        std::vector<std::int64_t> all;
+        for (Rows rows = database.query("SELECT late FROM standing ORDER BY number"); rows.next();)
+            all.push_back(rows.integer(0));
+        return all;
+    };
+    EXPECT_EQ(late(), (std::vector<std::int64_t>{0, 0, 30, 40, 50}));
+    migrate_course(database, Database::Opening::kExisting, "k");
+    EXPECT_EQ(late(), (std::vector<std::int64_t>{0, 0, 0, 0, 50}));
+}
+
 }  // namespace test_course_faults
 }  // namespace dynlab::test

@@ -135,14 +135,14 @@ TEST(course_marks, of_a_presentation_come_from_the_sheet_of_the_oral) {
         EXPECT_THAT(bench.course(words).error_output, HasSubstr("talk is a presentation: it has no reviews"));
     EXPECT_THAT(bench.course({"oral", "sheet", "crane"}).error_output, HasSubstr("crane is a report: "));
     EXPECT_EQ(bench.course({"oral", "sheet", "talk"}).output,
-              "group,content,figures,answers\r\ngroup-01,,,\r\ngroup-02,,,\r\ngroup-03,,,\r\n");
+              "group,content,figures,answers,comment\r\ngroup-01,,,,\r\ngroup-02,,,,\r\ngroup-03,,,,\r\n");
     bench.bench().write("oral.csv", "group,content,figures,answers\ngroup-01,8,5,3\ngroup-02,10,,\n");
     EXPECT_THAT(bench.course({"scores", "talk", "oral.csv"}).output, HasSubstr("talk: 4 new scores."));
     const std::string marks = bench.course({"marks", "talk"}).output;
     EXPECT_THAT(marks, ContainsRegex("group-01 +8 +5 +3 +80\\.0"));
     EXPECT_THAT(marks, ContainsRegex("group-02 +10 +- +- +100\\.0"));  // of what was scored
     EXPECT_THAT(marks, ContainsRegex("group-03 +- +- +- +- "));
-    EXPECT_THAT(bench.course({"oral", "sheet", "talk"}).output, HasSubstr("group-01,8,5,3\r\n"));
+    EXPECT_THAT(bench.course({"oral", "sheet", "talk"}).output, HasSubstr("group-01,8,5,3,\r\n"));
     bench.bench().write("oral.csv", "group,content\ngroup-01,11\n");
     EXPECT_THAT(bench.course({"scores", "talk", "oral.csv"}).error_output,
                 HasSubstr("content must be a number from 0 to 10, but \"11\" was given"));
@@ -204,6 +204,76 @@ TEST(course_marks, a_forgotten_cell_is_told) {
                       Not(HasSubstr("group-02:"))));
 }
 
+// oracle: by hand: a group of 7 of 10 points, one of whose members has 4 + 5; a day late costs 10; the help's example
+TEST(course_marks, students_have_points_of_their_own_at_the_oral) {
+    CourseBench bench(2);
+    bench.bench().write("roster.csv", "id,name,group\ns1,Ada King,group-01\ns2,Bo Ek,group-01\ns3,Cy Li,group-02\n");
+    CourseBench::expect_done(bench.course({"roster", "import", "roster.csv"}));
+    CourseBench::expect_done(
+        bench.course({"assignment", "add", "talk", "--kind", "presentation", "--first", "2026-04-01 12:00",
+                      "--criteria", "content:5,answers:5", "--costs", "late-day:10"}));
+    EXPECT_EQ(bench.course({"oral", "sheet", "talk", "--students"}).output,
+              "group,student,name,content,answers,comment\r\ngroup-01,,,,,\r\ngroup-01,s1,Ada King,,,\r\n"
+              "group-01,s2,Bo Ek,,,\r\ngroup-02,,,,,\r\ngroup-02,s3,Cy Li,,,\r\n");
+    const auto read = [&](const std::string& csv) {
+        bench.bench().write("oral.csv", csv);
+        return bench.course({"scores", "talk", "oral.csv"});
+    };
+    const std::string sheet =
+        "group,student,name,content,answers,comment\ngroup-01,,,4,\"3,0\",a good plot of the poles\n"
+        "group-01,s1,Ada King,,,\ngroup-01,s2,Bo Ek,,5,knew the bias\ngroup-02,,,5,,\n";
+    EXPECT_THAT(read(sheet).output, HasSubstr("talk: 6 new scores."));
+    EXPECT_THAT(read(sheet).output, HasSubstr("talk: 0 new scores."));
+    const auto marks = [&] { return bench.course({"marks", "talk"}).output; };
+    EXPECT_THAT(marks(), AllOf(ContainsRegex("group-01 +4 +3 +70\\.0 "), ContainsRegex("s2 +Bo Ek +4 +5 +90\\.0"),
+                               Not(HasSubstr("Ada King")), HasSubstr("group-01: a good plot of the poles\n"),
+                               HasSubstr("group-01, Bo Ek (s2): knew the bias\n")));
+    const auto mark_of = [&](const std::string& id) {
+        return bench.bench()
+            .shell("$DYNLAB course --course k export talk | awk -F, '$1 == \"" + id + "\" {printf \"%s\", $11}'")
+            .output;
+    };
+    EXPECT_EQ(mark_of("s1"), "70");
+    EXPECT_EQ(mark_of("s2"), "90");
+    EXPECT_THAT(bench.course({"export", "talk"}).output,
+                AllOf(ContainsRegex("s1,Ada King[^\n]*,a good plot of the poles\r\n"),
+                      HasSubstr(",\"a good plot of the poles; knew the bias\"\r\n")));
+    EXPECT_THAT(bench.course({"oral", "sheet", "talk", "--students"}).output,
+                HasSubstr("group-01,s2,Bo Ek,,5,knew the bias\r\n"));
+    bench.bench().write("group-01.pdf", small_pdf("slide"));
+    CourseBench::expect_done(
+        bench.course({"receive", "group-01.pdf", "--assignment", "talk", "--at", "2026-04-02 11:00", "--no-checks"}));
+    EXPECT_EQ(mark_of("s1") + " " + mark_of("s2"), "60 80");
+    CourseBench::expect_done(bench.course({"override", "talk", "group-01", "work", "50", "--reason", "film only"}));
+    EXPECT_EQ(mark_of("s1") + " " + mark_of("s2"), "50 50");
+    CourseBench::expect_done(bench.course({"withdraw", "talk", "group-01", "--mark", "work", "--reason", "no"}));
+    CourseBench::expect_done(read("student,answers\nBo Ek,-\n"));  // by name; the group's points hold again
+    EXPECT_EQ(mark_of("s2"), "60");
+    const std::string before = bench.dump();
+    EXPECT_THAT(read("group,student,content\ngroup-02,s2,3\n").error_output,
+                HasSubstr("oral.csv, line 2: s2 is in group-01, not in group-02"));
+    EXPECT_THAT(read("student,content\ns1,3\ns33,3\n").error_output,
+                HasSubstr("oral.csv, line 3: there is no student \"s33\"; did you mean s3?"));
+    EXPECT_THAT(read("content\n3\n").error_output, HasSubstr("the column group or student is missing"));
+    EXPECT_THAT(read("group,content\ngroup-01,-\n").error_output,
+                HasSubstr("content must be a number from 0 to 5, but \"-\" was given"));
+    EXPECT_EQ(bench.dump(), before);
+    EXPECT_THAT(bench.course({"assignment", "remove", "talk", "--reason", "x"}).error_output, HasSubstr("hangs on it"));
+}
+
+// oracle: a permutation, the same each time, of groups that are neither all in the order of their names
+TEST(course_marks, the_order_of_talks_is_drawn) {
+    CourseBench bench(6);
+    CourseBench::expect_done(bench.course(
+        {"assignment", "add", "talk", "--kind", "presentation", "--first", "2026-04-01 12:00", "--seed", "3"}));
+    const std::string drawn = bench.course({"oral", "sheet", "talk", "--drawn"}).output;
+    const std::string plain = bench.course({"oral", "sheet", "talk"}).output;
+    EXPECT_NE(drawn, plain);
+    EXPECT_EQ(bench.course({"oral", "sheet", "talk", "--drawn"}).output, drawn);
+    const auto sorted = [](std::string text) { return std::sort(text.begin(), text.end()), text; };
+    EXPECT_EQ(sorted(drawn), sorted(plain));
+}
+
 // oracle: the template's own table, filled in
 TEST(course_marks, scores_come_with_the_reviews_packs) {
     std::string script = read_file(DYNLAB_SOURCE_DIR "/report_templates/peer_review.lua");
@@ -216,6 +286,13 @@ TEST(course_marks, scores_come_with_the_reviews_packs) {
     EXPECT_EQ(scores_in_script(script), given);
     EXPECT_TRUE(scores_in_script("-- scores = {data = 4}\nscores = load('x')").empty());
     EXPECT_EQ(scores_in_script("scores={data=3,steps=os.exit(),conclusions = 1e3}").size(), 1u);
+    EXPECT_EQ(scores_in_script("x = {}\n  local scores\n=\n{ data = 3 }").size(), 1u);
+    EXPECT_TRUE(scores_in_script("my scores = {data = 3}\nlocalscores = {data = 3}").empty());
+    // Whatever somebody hands in: nothing that takes stack for every character.
+    for (const std::string& filling :
+         {std::string(900'000, '\n'), std::string(900'000, ' '), std::string(900'000, 'a')})
+        EXPECT_EQ(scores_in_script(filling + "\nscores = {data = 4}").size(), 1u);
+    EXPECT_TRUE(scores_in_script("scores = {" + std::string(3900, 'a') + "}").empty());
     CourseBench bench(2, 1);
     for (const char* group : {"group-01", "group-02"})
         bench.hand_in(std::string(group) + ".pdf", small_pdf(group), "2026-03-01 10:00", {"--no-checks"});

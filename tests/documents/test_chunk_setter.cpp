@@ -53,7 +53,7 @@ class chunk_setter : public DocumentTest {
 
     std::string at_once(const std::string& text) {
         const std::string html = read(make(text, "page.html"));
-        const std::size_t begin = html.find("<body>") + 6, end = html.find("</body>");
+        const std::size_t begin = html.find("<body>") + 6, end = html.find("</main>") + 7;
         return html.substr(begin, end - begin);
     }
 

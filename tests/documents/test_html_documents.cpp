@@ -1,6 +1,9 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <sodium.h>
 
 #include "document_fixture.h"
+#include "platform/hash.h"
 
 namespace dynlab {
 namespace test_html_documents {
@@ -18,24 +21,47 @@ TEST_F(html_documents, the_file_needs_nothing_but_itself) {
     EXPECT_THAT(text, HasSubstr("<html lang=\"en\">"));
     EXPECT_THAT(text, HasSubstr("<style>\n:root {"));
     EXPECT_THAT(text, HasSubstr("<h1>A <em>b</em></h1>"));
-    for (const char* outside : {"<script", "<link", "src=\"http", "@import", "url("})
+    for (const char* outside : {"<script src", "<link", "src=\"http", "@import", "url(", "fetch(", "XMLHttpRequest"})
         EXPECT_THAT(text, Not(HasSubstr(outside)));
     EXPECT_THAT(text, Not(HasSubstr("dynlab-picture")));
     EXPECT_THAT(text, Not(HasSubstr(folder_.path().string())));
 }
 
-// Oracle: Content Security Policy Level 3; a browser asked so runs no script and asks no server.
-TEST_F(html_documents, browsers_are_told_to_run_and_load_nothing) {
-    const std::string text = html("[a](https://example.org){.wide} <https://example.org>\n");
-    const std::string policy =
-        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src "
-        "'unsafe-inline'; base-uri 'none'; form-action 'none'\">";
-    ASSERT_THAT(text, HasSubstr(policy));
+// Oracle: Content Security Policy Level 3, SHA-256 by platform/hash; a browser asked so runs the page's own script
+// alone and asks no server.
+TEST_F(html_documents, browsers_are_told_to_run_our_script_alone_and_load_nothing) {
+    const std::string text = html("[a](https://example.org){.wide} <https://example.org> `script-src 'none'`\n");
+    const std::string before =
+        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src '";
+    const std::string after = "'; img-src data:; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'\">";
+    const std::size_t policy = text.find(before), end = text.find(after);
+    ASSERT_NE(policy, std::string::npos);
+    const std::string allowed = text.substr(policy + before.size(), end - policy - before.size());
+    ASSERT_TRUE(allowed.starts_with("sha256-")) << allowed;
+    const std::size_t script = text.find("<script>") + 8;
+    std::string hash(32, '\0');
+    ASSERT_EQ(sodium_base642bin(reinterpret_cast<unsigned char*>(hash.data()), hash.size(), allowed.c_str() + 7,
+                                allowed.size() - 7, nullptr, nullptr, nullptr, sodium_base64_VARIANT_ORIGINAL),
+              0);
+    std::string hex;
+    for (const char byte : hash) hex += fmt::format("{:02x}", static_cast<unsigned char>(byte));
+    EXPECT_EQ(hex, sha256_of(text.substr(script, text.find("</script>", script) - script)));
+    EXPECT_TRUE(text.find("<script", script) == std::string::npos) << "one script";
     const std::size_t head = text.find("<head>");
-    EXPECT_EQ(text.find(policy), text.find("<meta", text.find("<meta", head) + 1))
-        << "only the encoding stands before it";
+    EXPECT_EQ(policy, text.find("<meta", text.find("<meta", head) + 1)) << "only the encoding stands before it";
     EXPECT_THAT(text, HasSubstr("<a href=\"https://example.org\">a</a>"));
-    EXPECT_THAT(text, HasSubstr("<a href=\"https://example.org\">https://example.org</a>"));
+    EXPECT_NE(text.find("<code>script-src 'none'</code>"), std::string::npos);
+}
+
+TEST_F(html_documents, a_figure_of_the_run_brings_what_it_is_drawn_from) {
+    add_figure("raw", "Raw", DocumentFormat::kHtml);
+    record_.figures["raw"].plot = "{\"size\":[14,7]}";
+    const std::string text = html("![](figure:raw)\n\nand again\n\n![](figure:raw)\n");
+    const std::string element = "<script type=\"application/json\" class=\"plot-data\">{\"size\":[14,7]}</script>";
+    const std::size_t first = text.find(element);
+    ASSERT_NE(first, std::string::npos);
+    EXPECT_EQ(text[first - 1], '>') << "right behind its picture";
+    EXPECT_NE(text.find(element, first + 1), std::string::npos);
 }
 
 TEST_F(html_documents, pictures_are_inlined_byte_for_byte) {

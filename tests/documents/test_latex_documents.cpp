@@ -137,6 +137,37 @@ TEST_F(latex_documents, an_edit_of_the_prose_needs_one_pass) {
     EXPECT_EQ(passes(), 2);
 }
 
+std::size_t entries_of(const Cache& cache) {
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(cache.root()))
+        count += entry.is_regular_file();
+    return count;
+}
+
+TEST_F(latex_documents, a_format_that_is_begun_is_taken_or_leaves_nothing) {
+    const Cache cache;
+    write("report.md", "---\nlang: fr\n---\nUn.\n");
+    DocumentSource source;
+    source.template_file = file("report.md");
+    const LatexLayout layout = latex_layout(source);
+    EXPECT_EQ(layout.language, "fr");
+    LatexLayout other = layout;
+    other.shared_templates = folder_.path() / "templates";
+    std::filesystem::copy(layout.shared_templates, other.shared_templates, std::filesystem::copy_options::recursive);
+    std::ofstream(other.shared_templates / "latex/preamble.tex", std::ios::app) << "% of this test\n";
+    const std::size_t before = entries_of(cache);
+    { const CachedLatexFormat abandoned(other); }
+    EXPECT_EQ(entries_of(cache), before);
+    CachedLatexFormat begun(other);
+    const std::filesystem::path made = begun.folder();
+    EXPECT_TRUE(std::filesystem::exists(made / "dynlab.fmt"));
+    EXPECT_EQ(CachedLatexFormat(other).folder(), made);
+    DocumentMaker::Options options;
+    options.begun_format = &begun;
+    DocumentMaker(options).make(source, file("out.pdf"), DocumentFormat::kPdf, nullptr);
+    EXPECT_EQ(inspect_pdf(file("out.pdf")).pages.size(), 1u);
+}
+
 TEST_F(latex_documents, the_title_stands_in_the_metadata) {
     std::map<std::string, std::string> metadata;
     for (const auto& [key, value] : pdf("---\ntitle: A *step* of ω\n---\nText\n").metadata) metadata[key] = value;

@@ -65,6 +65,26 @@ TEST_F(caches, a_changed_data_file_computes_and_draws_what_depends_on_it) {
     EXPECT_THAT(weave(kStudy + kSearch + kLate), AllOf(HasSubstr(calls(2, 1)), HasSubstr(figures(1, 2))));
 }
 
+/// A number set for a slider is part of what a document was made from.
+TEST_F(caches, a_slider_that_is_set_makes_another_document) {
+    bench_.write("a.lua", kHeader + "-- %% id=a\nprint(\"k is \" .. slider(\"k\", 3, 1, 10))\n");
+    const auto weave_with = [&](const std::vector<std::string>& options) {
+        std::vector<std::string> words = {"weave", "a.lua", "-o", "a.html"};
+        words.insert(words.end(), options.begin(), options.end());
+        const ChildResult made = bench_.dynlab(words);
+        EXPECT_EQ(made.exit_code, 0) << made.error_output;
+        return bench_.read("a.html");
+    };
+    EXPECT_THAT(weave_with({}), HasSubstr("k is 3"));
+    EXPECT_THAT(weave_with({"--set", "k=4"}), HasSubstr("k is 4"));
+    EXPECT_THAT(weave_with({}), HasSubstr("k is 3"));
+    EXPECT_THAT(bench_.dynlab({"run", "a.lua", "--set", "k=5"}).output, HasSubstr("k is 5"));
+    const ChildResult wrong = bench_.dynlab({"run", "a.lua", "--set", "kk=5"});
+    EXPECT_EQ(wrong.exit_code, 1);
+    EXPECT_THAT(wrong.error_output, HasSubstr("a.lua has no slider \"kk\"; it has k"));
+    EXPECT_EQ(bench_.dynlab({"run", "a.lua", "--set", "k=much"}).exit_code, 2);
+}
+
 TEST_F(caches, edited_prose_runs_nothing) {
     weave(kStudy + kLate);
     EXPECT_THAT(weave("-- %% [markdown]\n-- Prose.\n" + kStudy + kLate),

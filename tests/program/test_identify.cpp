@@ -90,6 +90,33 @@ TEST_F(identify, reads_a_column_of_a_matrix) {
     EXPECT_THAT(complaint({"matrix.mat", "--input", "u", "--output", "y3", "--poles", "2"}, 1), HasSubstr("u, y1, y2"));
 }
 
+// Oracle: the two systems whose outputs add up.
+TEST_F(identify, takes_several_inputs) {
+    bench_.write("two.lua",
+                 "local u, w, Ts = prbs(8, 4), rbs(1020, 4), 0.05\n"
+                 "local x = lsim(tf({2}, {1, 4, 3}), u, Ts)\nlocal z = lsim(tf({5}, {1, 1, 5}), w, Ts)\n"
+                 "save_csv('two.csv', {valve = u, heat = w, x = x + z}, {Ts = Ts, units = {valve = 'V'}})\n");
+    ASSERT_EQ(bench_.dynlab({"run", "two.lua"}).exit_code, 0);
+    for (const std::vector<std::string>& inputs :
+         {std::vector<std::string>{"--input", "valve,heat"}, {"--input", "valve", "--input", "heat"}}) {
+        std::vector<std::string> words = {"two.csv", "--output", "x", "--poles", "2", "-o", "x.pdf"};
+        words.insert(words.end(), inputs.begin(), inputs.end());
+        EXPECT_THAT(report(words), AllOf(HasSubstr("s^2 + 4 s + 3"), HasSubstr("s^2 + s + 5"),
+                                         HasSubstr("fit to the estimation data: 100.00 %")));
+        EXPECT_THAT(bench_.shell("pdftotext -layout x.pdf -").output,
+                    AllOf(HasSubstr("From valve, heat to x"), HasSubstr("Step and frequency response from heat")));
+    }
+    const std::vector<std::string> both = {"two.csv", "--input", "valve,heat", "--output", "x"};
+    const auto with = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), both.begin(), both.end());
+        return complaint(options, 2);
+    };
+    EXPECT_THAT(with({"--poles", "auto"}), HasSubstr("with several give the number"));
+    EXPECT_THAT(with({"--poles", "2", "--input", "heat"}), HasSubstr("the input 'heat' is given twice"));
+    EXPECT_THAT(complaint({"two.csv", "--input", "valve,cold", "--output", "x", "--poles", "2"}, 1),
+                HasSubstr("'cold'"));
+}
+
 TEST_F(identify, fills_missing_samples_and_says_so) {
     bench_.shell("awk -F, -v OFS=, 'NR > 100 && NR % 97 == 0 { $5 = \"\" } { print }' even.csv > holes.csv");
     EXPECT_THAT(report({"holes.csv", "--input", "u", "--output", "x", "--poles", "2", "-o", "x.md"}),

@@ -89,6 +89,33 @@ TEST(script_cells, report_values_tables_and_texts) {
     EXPECT_EQ(record.texts.at("note").markdown, "*good*");
 }
 
+TEST(script_cells, sliders_are_their_own_number_and_are_recorded) {
+    const RunRecord record = run_script(
+        "-- %% id=a\nlocal k = slider('k', 3, 1, 10)\n-- %% id=b\nlocal l = slider('l', 2, 0.5, 8, {log = true, unit = "
+        "'s'})\nprint(k + l)\n");
+    ASSERT_FALSE(record.error) << record.error->message;
+    EXPECT_EQ(record.outputs.at("b").front().printed, "5\n");
+    const RecordedSlider& slider = record.sliders.at("l");
+    EXPECT_EQ(slider.value, 2);
+    EXPECT_EQ(slider.from, 0.5);
+    EXPECT_EQ(slider.to, 8);
+    EXPECT_TRUE(slider.logarithmic);
+    EXPECT_EQ(slider.unit, "s");
+    EXPECT_EQ(slider.label, "l");
+    EXPECT_EQ(slider.cell, "b");
+    EXPECT_EQ(record_from_json(to_json(record)).sliders.at("k").to, 10);
+    for (const auto& [call, sentence] : std::vector<std::pair<std::string, std::string>>{
+             {"slider('k', 3, 10, 1)", "the slider \"k\" must go from a number to a greater one, not from 10 to 1"},
+             {"slider('k', 0, 1, 2)", "the slider \"k\" goes from 1 to 2; 0 lies outside"},
+             {"slider('k', 1, 0, 2, {log = true})", "must begin above 0"},
+             {"slider('k', 1, 0, 2, {step = -1})", "must be above 0 and at most 2"},
+             {"slider('k', 1, 1, 2, {log = true, step = 1})", "it takes no step"},
+             {"slider('k', 1, 1, 2) slider('k', 1, 1, 2)", "is taken already"},
+             {"slider('a b', 1, 1, 2)", "must be made of letters"},
+             {"slider('k', 0/0, 1, 2)", "lies outside"}})
+        EXPECT_THAT(test::error_of(call), testing::HasSubstr(sentence)) << call;
+}
+
 TEST(script_cells, show_curves_as_described) {
     const RunRecord record = run_script(
         "-- %% id=a\nplot({0, 1}, {1, 2}, 'a', {0, 1}, {3, 4}, 'b', {style = {'points', 'line'}, xlabel = 'time (s)', "

@@ -1,4 +1,5 @@
 // Oracle: the sentences that the language promises, written here by hand.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <regex>
@@ -57,11 +58,10 @@ std::vector<std::string> functions_of(const std::string& hint) {
 // Oracle: the names of the toolboxes' documentation; what a hint calls can be called here.
 TEST(script_errors, lead_from_the_toolboxes_functions_to_those_here) {
     for (const char* name :
-         {"tfest",     "procest",    "ssest",    "polyest", "pem",   "idtf",   "idpoly",   "idss",
-          "idfrd",     "frd",        "idinput",  "misdata", "simc",  "conv",   "comparec", "residc",
-          "getpvec",   "getcov",     "isstable", "zpplot",  "zpk",   "tfdata", "arxstruc", "selstruc",
-          "nlhw",      "nlarx",      "rlssvf",   "rsrivc",  "roots", "xcorr",  "filter",   "etime",
-          "allmargin", "shadedplot", "sidgpmf",  "hsrivc",  "poly",  "os"}) {
+         {"tfest",    "procest", "ssest",   "polyest",   "pem",        "idtf",     "idpoly", "idss",    "idfrd",
+          "frd",      "idinput", "misdata", "simc",      "conv",       "comparec", "residc", "getpvec", "getcov",
+          "isstable", "zpplot",  "zpk",     "tfdata",    "nlhw",       "nlarx",    "rlssvf", "rsrivc",  "roots",
+          "xcorr",    "filter",  "etime",   "allmargin", "shadedplot", "sidgpmf",  "hsrivc", "poly",    "os"}) {
         const std::string said = error_of(std::string(name) + "()");
         const std::string::size_type hint = said.find(" here; ");
         ASSERT_NE(hint, std::string::npos) << name << ": " << said;
@@ -263,6 +263,13 @@ TEST(script_errors, refuse_to_replace_functions_of_dynlab) {
     EXPECT_EQ(printed("answer_to_all = 42\nanswer_to_all = 43\nprint(answer_to_all, dynlab.sum{1, 2})\nlocal mean = "
                       "5\nprint(mean)"),
               "43\t3\n5\n");
+}
+
+TEST(script_errors, wrong_lines_of_any_length_are_told) {
+    for (const std::string& filling : {std::string(600'000, 'a'), std::string(600'000, ' '), std::string(600'000, '1')})
+        for (const std::string& wrong :
+             {"f(" + filling + ") = 3", filling + " y", "x[" + filling + ", 2", "? " + filling})
+            EXPECT_THAT(error_of(wrong), testing::HasSubstr("lesson.lua:1:"));
 }
 
 }  // namespace test_script_errors

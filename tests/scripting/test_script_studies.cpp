@@ -115,6 +115,39 @@ TEST(script_studies, a_second_record_is_judged_as_fit_judges_it) {  // oracle: f
     }
 }
 
+// Oracle: arx() itself, over the same samples.
+TEST(script_studies, arx_orders_are_chosen_and_go_on_to_arx) {
+    const std::string record =
+        "local function made(seed)\nrng(seed)\nlocal u, y = randn(500), zeros(500)\n"
+        "for k = 3, 500 do y[k] = 1.5*y[k-1] - 0.7*y[k-2] + u[k-1] + 0.5*u[k-2] + 0.2*randn() end\n"
+        "return iddata(y, u, 1)\nend\nlocal data, second = made(1), made(2)\n";
+    EXPECT_THAT(printed(record + "local V = arxstruc(data, {na = {1, 4}, nb = {1, 4}, nk = {1, 2}})\n"
+                                 "local o, fig = selstruc(V, 'MDL')\nprint(o[1], o[2], o[3], #V.rows, V.best.na)\n"
+                                 "print(arx(data, o).param[1] < -1.4)"),
+                AllOf(HasSubstr("*    2    2    1          4"), HasSubstr("has the smallest BIC."),
+                      HasSubstr("2\t2\t1\t32\t2\ntrue\n")));
+    EXPECT_THAT(printed(record + "local V = arxstruc(data, {na = 2, nb = 2, nk = 1, validate = second})\n"
+                                 "local G = arx(data, {2, 2, 1})\n"
+                                 "print(math.abs(V.best.loss/G.report.loss - 1) < 1e-9, V.best.validation_loss > "
+                                 "V.best.loss/2, V.best.determined)\nprint(V)"),
+                AllOf(HasSubstr("true\ttrue\ttrue"), HasSubstr("val. loss")));
+    EXPECT_THAT(error_of(record + "selstruc(arxstruc(data), 'FPE')"),
+                HasSubstr("\"loss\", \"AIC\", \"BIC\" or \"MDL\""));
+    EXPECT_THAT(error_of(record + "arxstruc(data, second, {{1, 1, 1}})"), HasSubstr("takes at most 2 arguments"));
+    EXPECT_THAT(error_of(record + "arxstruc(data, {n = 2})"), HasSubstr("option 'n' is unknown"));
+    EXPECT_THAT(error_of(record + "selstruc(3)"), HasSubstr("what arxstruc gave"));
+}
+
+// Oracle: srivc() with Integration, called by itself.
+TEST(script_studies, structures_may_have_an_integrator) {
+    EXPECT_THAT(printed("local u = prbs(7, 8)\nlocal x = lsim(tf({3}, {1, 2, 0}), u, 0.05)\n"
+                        "local data = iddata(x + 0.05*randn(#u), u, 0.05)\n"
+                        "local V = srivcstruc(data, {poles = {1, 2}, zeros = {0, 1}, Integration = true})\n"
+                        "local G = srivc(data, {1, 1, 0}, {Integration = true})\nprint(V.recommendation)\n"
+                        "print(V.best.poles, norm(V.best.model.den - G.den) < 1e-9, V.best.model.den)"),
+                AllOf(HasSubstr("Recommended: an integrator, 1 pole and no zero"), HasSubstr("1\ttrue\t[1 ")));
+}
+
 TEST(script_studies, delays_are_real_numbers) {  // oracle: the simulated system
     const std::string record =
         "local u = prbs(8, 5)\nlocal x = lsim(tf({-4, 0.5}, {1, 1, 4}, {IODelay = 8}), u, 0.1)\n"

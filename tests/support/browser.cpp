@@ -3,6 +3,7 @@
 #include <arpa/inet.h>
 #include <fmt/format.h>
 #include <httplib.h>
+#include <sodium.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -10,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "platform/atomic_file.h"
 #include "platform/child_process.h"
 #include "platform/error.h"
 #include "platform/system_call.h"
@@ -104,6 +106,29 @@ void Browser::click(const std::string& selector) {
 void Browser::new_tab() {
     const json tab = work_->command("/window/new", {{"type", "tab"}});
     work_->command("/window", {{"handle", tab["handle"]}});
+}
+
+void Browser::prefer_dark() {
+    const json dark = {{"name", "prefers-color-scheme"}, {"value", "dark"}};
+    work_->command("/goog/cdp/execute",
+                   {{"cmd", "Emulation.setEmulatedMedia"}, {"params", {{"features", json::array({dark})}}}});
+}
+
+void Browser::act(const std::string& actions) {
+    work_->command("/actions", {{"actions", json::parse(actions)}});
+}
+
+std::string Browser::devtools(const std::string& command, const std::string& parameters) {
+    return work_->command("/goog/cdp/execute", {{"cmd", command}, {"params", json::parse(parameters)}}).dump();
+}
+
+void Browser::photograph(const std::string& file) {
+    const auto text = work_->get("/screenshot").get<std::string>();
+    std::string bytes(text.size(), '\0');
+    std::size_t size = 0;
+    sodium_base642bin(reinterpret_cast<unsigned char*>(bytes.data()), bytes.size(), text.c_str(), text.size(), nullptr,
+                      &size, nullptr, sodium_base64_VARIANT_ORIGINAL);
+    write_file_atomically(file, bytes.substr(0, size));
 }
 
 }  // namespace dynlab::test

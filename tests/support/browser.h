@@ -16,6 +16,13 @@ class Browser {
     bool comes(const std::string& expression, double seconds = 10);
     void click(const std::string& selector);
     void new_tab();
+    void prefer_dark();  ///< as a system with a dark desktop does
+    /// What hands do, as WebDriver's "actions" list in JSON: pointers, wheels and keys.
+    void act(const std::string& actions);
+    /// A command of Chromium's own protocol, its parameters in JSON; gives the JSON of its result.
+    std::string devtools(const std::string& command, const std::string& parameters);
+    /// Writes what is to be seen as a PNG picture.
+    void photograph(const std::string& file);
 
   private:
     class Work;

@@ -9,6 +9,7 @@
 #include "documents/text_lines.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
+#include "workflow/run_script.h"
 
 namespace dynlab::inline app {
 namespace {
@@ -58,6 +59,12 @@ void LiveDocument::stop_run() {
 void LiveDocument::run_anew() {
     const std::lock_guard lock(orders_mutex_);
     anew_ = true;
+    wake();
+}
+
+void LiveDocument::set_slider(const std::string& name, double value) {
+    const std::lock_guard lock(orders_mutex_);
+    sliders_[name] = value;
     wake();
 }
 
@@ -129,10 +136,12 @@ void LiveDocument::read_again(const std::set<fs::path>& changed) {
         {
             const std::lock_guard lock(orders_mutex_);
             may_run = may_run_;
+            request_->slider_values = sliders_;
         }
+        tell_of_reading_(request_->slider_values);
         page_.ask_whether_to_run(!may_run);
         if (!may_run) return;
-        const std::size_t first = runner_.run(request_->script, request_->seed, figures_.path(), data);
+        const std::size_t first = runner_.run(*request_, figures_.path(), data);
         for (std::size_t i = first; runner_.running() && i < runner_.parts().size(); ++i)
             for (const std::string& cell : runner_.parts()[i].cells) states_[cell] = {"waiting", 0};
         show_states();
@@ -176,6 +185,7 @@ void LiveDocument::take(RunnerNews news) {
                 add_older(shown_.texts, before.texts);
                 add_older(shown_.figures, before.figures);
                 add_older(shown_.outputs, before.outputs);
+                add_older(shown_.sliders, before.sliders);
             }
         }
         page_is_old_ = true;
@@ -213,6 +223,7 @@ void LiveDocument::set_page() {
         watch_inputs();
         const bool unfinished = runner_.running() || shown_.error.has_value() || runner_.parts().empty();
         page_.show(setter_.set(document_source(*request_, shown_), unfinished), request_->script, shown_);
+        page_.set_open_answers(missing_answers(request_->script, shown_));
     } catch (const DocumentError& error) {
         page_.complain(lines_of(error.what()));
     }

@@ -26,12 +26,17 @@ class LiveDocument {
 
     /// Called after each change of the page, in the thread that works.
     void on_change(std::function<void()> tell) { tell_ = std::move(tell); }
+    /// Called after each reading of the document, in the same thread.
+    void on_reading(std::function<void(const std::map<std::string, double>& slider_values)> tell) {
+        tell_of_reading_ = std::move(tell);
+    }
     /// Works until `end` or Ctrl-C. Nothing is run before `allow_runs`.
     void work();
 
     void allow_runs();
     void stop_run();
     void run_anew();  ///< from the first cell
+    void set_slider(const std::string& name, double value);
     void end();
 
   private:
@@ -51,6 +56,7 @@ class LiveDocument {
     ScriptRunner& runner_;
     LivePage& page_;
     std::function<void()> tell_ = [] {};
+    std::function<void(const std::map<std::string, double>&)> tell_of_reading_ = [](const auto&) {};
     TemporaryFolder figures_;
     FolderWatch watch_;
     ChunkSetter setter_;
@@ -66,6 +72,7 @@ class LiveDocument {
     FileDescriptor wake_;
     std::mutex orders_mutex_;
     bool may_run_ = false, stop_ = false, anew_ = false;  ///< orders
+    std::map<std::string, double> sliders_;               ///< where they were moved to
     std::atomic<bool> end_ = false;
 };
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "data_io/values/json_values.h"
+#include "documents/record_description.h"
 #include "documents/text_lines.h"
 #include "platform/hash.h"
 #include "platform/text_file.h"
@@ -24,6 +25,17 @@ std::string type_of(const fs::path& file) {
     if (extension == ".svg") return "image/svg+xml";
     if (extension == ".png") return "image/png";
     return "image/jpeg";
+}
+
+/// In the order in which the script asks for them.
+json sliders_json(const std::map<std::string, RecordedSlider>& sliders) {
+    json list = json::array();
+    for (const auto& [name, slider] : sliders) {
+        list.push_back(json::parse(json_of(slider)));
+        list.back()["name"] = name;
+    }
+    std::sort(list.begin(), list.end(), [](const json& a, const json& b) { return a["order"] < b["order"]; });
+    return list;
 }
 
 }  // namespace
@@ -62,6 +74,7 @@ void LivePage::show(const SetDocument& document, const PercentScript& script, co
     head_ = document.head;
     notes_ = document.notes;
     complaints_ = document.complaints;
+    sliders_ = record.sliders;
     pieces_.clear();
     fresh_.clear();
     std::map<std::string, std::string> html;
@@ -103,6 +116,26 @@ void LivePage::ask_whether_to_run(bool asking) {
     changed_ = true;
 }
 
+void LivePage::set_open_answers(std::string answers) {
+    const std::lock_guard lock(mutex_);
+    changed_ = changed_ || open_answers_ != answers;
+    open_answers_ = std::move(answers);
+}
+
+void LivePage::set_sources(std::map<std::string, std::string> digests) {
+    const std::lock_guard lock(mutex_);
+    changed_ = changed_ || sources_ != digests;
+    sources_ = std::move(digests);
+}
+
+void LivePage::set_work(std::string findings, bool pdf_is_ready) {
+    const std::lock_guard lock(mutex_);
+    changed_ = changed_ || findings_ != findings || pdf_is_ready_ != pdf_is_ready;
+    findings_changed_ = findings_changed_ || findings_ != findings;
+    findings_ = std::move(findings);
+    pdf_is_ready_ = pdf_is_ready;
+}
+
 std::string LivePage::json(bool all) const {
     ::nlohmann::json page = {{"version", version_},
                              {"all", all},
@@ -110,12 +143,19 @@ std::string LivePage::json(bool all) const {
                              {"asking", asking_},
                              {"name", name_},
                              {"complaints", complaints_},
+                             {"open_answers", open_answers_},
+                             {"sources", sources_},
+                             {"pdf_is_ready", pdf_is_ready_},
                              {"states", ::nlohmann::json::object()}};
     for (const auto& [cell, state] : states_)
         page["states"][cell] = {{"state", state.state}, {"seconds", state.seconds}};
+    if (all || findings_changed_)
+        page["findings"] =
+            ::nlohmann::json::accept(findings_) ? ::nlohmann::json::parse(findings_) : ::nlohmann::json();
     if (all || text_changed_) {
         ::nlohmann::json& pieces = page["pieces"] = ::nlohmann::json::array();
         for (const Piece& piece : pieces_) pieces.push_back({piece.id, piece.cell, piece.file, piece.line});
+        page["sliders"] = sliders_json(sliders_);
         page["head"] = head_;
         page["notes"] = notes_;
         ::nlohmann::json& html = page["html"] = ::nlohmann::json::object();
@@ -123,6 +163,11 @@ std::string LivePage::json(bool all) const {
             if (all || std::find(fresh_.begin(), fresh_.end(), id) != fresh_.end()) html[id] = content;
     }
     return page.dump(-1, ' ', false, ::nlohmann::json::error_handler_t::replace);
+}
+
+bool LivePage::running() const {
+    const std::lock_guard lock(mutex_);
+    return running_;
 }
 
 std::string LivePage::whole() const {
@@ -134,7 +179,7 @@ std::optional<std::string> LivePage::changes() {
     const std::lock_guard lock(mutex_);
     if (!changed_) return {};
     std::string text = json(false);
-    changed_ = text_changed_ = false;
+    changed_ = text_changed_ = findings_changed_ = false;
     fresh_.clear();
     return text;
 }

@@ -28,6 +28,12 @@ class LivePage {
     void complain(const std::vector<std::string>& sentences);
     void set_states(std::map<std::string, CellState> states, bool running);
     void ask_whether_to_run(bool asking);
+    /// Answers that the script does not give yet, "G1 (model), gain (number)".
+    void set_open_answers(std::string answers);
+    void set_sources(std::map<std::string, std::string> digests);  ///< of the files that the page may change
+    void set_work(std::string findings, bool pdf_is_ready);        ///< findings: JSON, or empty
+
+    bool running() const;
 
     /// Everything, JSON.
     std::string whole() const;
@@ -56,8 +62,12 @@ class LivePage {
     std::vector<std::string> fresh_;           ///< ids that the last version did not have
     std::vector<std::string> complaints_;
     std::map<std::string, CellState> states_;
+    std::map<std::string, RecordedSlider> sliders_;
     std::map<std::string, Picture> pictures_;
-    bool running_ = false, asking_ = false, changed_ = false, text_changed_ = false;
+    std::map<std::string, std::string> sources_;
+    std::string open_answers_, findings_;
+    bool pdf_is_ready_ = false;
+    bool running_ = false, asking_ = false, changed_ = false, text_changed_ = false, findings_changed_ = false;
     std::uint64_t version_ = 0;
 };
 

@@ -1,18 +1,21 @@
 #include "app/live/preview.h"
 
-#include <mutex>
+#include <fstream>
 #include <thread>
 
+#include "app/live/background_work.h"
 #include "app/live/live_document.h"
-#include "app/page/page_files.h"
+#include "app/live/source_files.h"
+#include "app/page/page_routes.h"
 #include "app/server/web_server.h"
+#include "data_io/values/json_values.h"
 #include "documents/error.h"
 #include "platform/atomic_file.h"
 #include "platform/cache.h"
-#include "platform/child_process.h"
 #include "platform/error.h"
+#include "platform/hash.h"
+#include "platform/locks/file_lock.h"
 #include "platform/program_lookup.h"
-#include "platform/temporary_folder.h"
 #include "platform/text_file.h"
 #include "workflow/lesson_catalogue.h"
 
@@ -23,7 +26,9 @@ namespace fs = std::filesystem;
 
 /// How the document is read, now and after every change.
 std::function<ReportRequest()> reader_of(const std::string& document) {
-    if (fs::is_regular_file(document))
+    const bool names_file = document.ends_with(".lua") || document.find('/') != std::string::npos;
+    if (names_file && !fs::exists(document)) throw EnvironmentError("there is no file or folder " + document);
+    if (fs::exists(document) && !fs::is_directory(document))
         return [document] { return report_of_script(read_percent_script(document), "preview.html"); };
     return [document] { return report_of(document, "preview.html", ""); };
 }
@@ -46,90 +51,147 @@ class Permissions {
     Cache cache_;
 };
 
-PageReply file_of_page(const std::string& name, const char* type) {
-    for (const PageFile& file : page_files())
-        if (file.name == name) return {std::string(file.text), type};
-    return {"There is nothing here.", "text/plain; charset=utf-8", 404};
-}
-
-void serve_files(WebServer& server) {
-    server.on_get("/", [](const PageRequest&) { return file_of_page("index.html", "text/html; charset=utf-8"); });
-    server.on_get("/page.css", [](const PageRequest&) { return file_of_page("page.css", "text/css; charset=utf-8"); });
-    server.on_get("/page.js",
-                  [](const PageRequest&) { return file_of_page("page.js", "text/javascript; charset=utf-8"); });
-    server.on_get("/document.css", [](const PageRequest&) {
-        return PageReply{read_text(shared_folder() / "report_templates/html/document.css"), "text/css; charset=utf-8"};
-    });
-}
-
 void serve_page(WebServer& server, LivePage& page) {
-    server.on_stream([&page] { return page.whole(); });
     server.on_get("/picture/*", [&page](const PageRequest& asked) {
         const auto picture = page.picture(fs::path(asked.path).filename().string());
-        if (!picture) return PageReply{"This picture is no longer shown.", "text/plain; charset=utf-8", 404};
+        if (!picture) return PageReply{"This picture is no longer shown.", kPlainText, 404};
         return PageReply{picture->second, picture->first};
     });
 }
 
-/// The document as `dynlab report` makes it, by a process of its own.
-class PrintedDocument {
-  public:
-    explicit PrintedDocument(std::string document) : document_(std::move(document)) {}
-
-    PageReply pdf() {
-        const std::lock_guard lock(mutex_);
-        const fs::path file = folder_.path() / "document.pdf";
-        fs::remove(file);
-        ChildOptions child;
-        child.command = {fs::read_symlink("/proc/self/exe").string(),
-                         fs::is_regular_file(document_) ? "weave" : "report", document_, "-o", file.string()};
-        child.timeout = std::chrono::minutes(10);
-        const ChildResult made = run_child(child, "dynlab");
-        if (!fs::exists(file)) return {made.error_output, "text/plain; charset=utf-8", 500};
-        return {read_file(file), "application/pdf"};
-    }
-
-  private:
-    const std::string document_;
-    TemporaryFolder folder_;
-    std::mutex mutex_;
+/// What a page says when a slider was moved.
+struct SliderOrder {
+    std::string name;
+    double value = 0;
 };
+DYNLAB_DESCRIBE(SliderOrder, name, value)
 
 PageReply done() {
-    return {"", "text/plain; charset=utf-8", 204};
+    return {"", kPlainText, 204};
 }
+
+void take_orders(WebServer& server, LiveDocument& document, const Permissions& permissions) {
+    server.on_post("/stop", [&](const PageRequest&) { return document.stop_run(), done(); });
+    server.on_post("/anew", [&](const PageRequest&) { return document.run_anew(), done(); });
+    server.on_post("/slider", [&](const PageRequest& asked) {
+        const auto order = from_json<SliderOrder>(asked.body);
+        document.set_slider(order.name, order.value);
+        return done();
+    });
+    server.on_post("/allow", [&](const PageRequest&) {
+        permissions.grant();
+        document.allow_runs();
+        return done();
+    });
+}
+
+/// What a page that edits may read and write: the script, and a template that is the document's own.
+SourceFiles sources_of(const ReportRequest& request) {
+    std::vector<fs::path> files = {request.script.file};
+    if (fs::weakly_canonical(request.template_file.parent_path()) ==
+        fs::weakly_canonical(request.script.file.parent_path()))
+        files.push_back(request.template_file);
+    return SourceFiles(files);
+}
+
+void serve_sources(WebServer& server, SourceFiles& sources, LivePage& page) {
+    constexpr const char* kJson = "application/json";
+    server.on_get("/sources", [&](const PageRequest&) { return PageReply{json_of(sources.read()), kJson}; });
+    server.on_post("/save", [&, kJson](const PageRequest& asked) {
+        constexpr int kConflict = 409;
+        const SourceFiles::Outcome outcome = sources.save(from_json<SourceText>(asked.body));
+        page.set_sources(sources.digests());
+        return PageReply{json_of(outcome.now), kJson, outcome.written ? 200 : kConflict};
+    });
+}
+
+/// The one preview of a document: another that begins is told of it.
+class OnlyPreview {
+  public:
+    explicit OnlyPreview(const std::string& document) : file_(file_for(document)), lock_(file_) {}
+    /// Of the one that is there; nothing when this is it.
+    std::optional<std::string> other() const {
+        if (lock_.held()) return {};
+        const std::string address = read_text(file_);
+        return address.empty() ? std::nullopt : std::optional(address);
+    }
+    void tell(const std::string& address) const {
+        std::ofstream(file_, std::ios::trunc)
+            << address << std::flush;  // not another file in its place: the lock is on this
+    }
+    void forget() const { fs::resize_file(file_, 0); }
+
+  private:
+    static fs::path file_for(const std::string& document) {
+        const fs::path folder = Cache().root() / "previews";
+        fs::create_directories(folder);
+        return folder / digest_of(fs::weakly_canonical(fs::absolute(document)).string()).hex();
+    }
+    fs::path file_;
+    FileLock lock_;
+};
+
+/// Replies that wait for the work must come while the server still is; what the work tells needs the server.
+struct StopsBeforeServer {
+    BackgroundWork& work;
+    ~StopsBeforeServer() { work.stop(); }
+};
 
 }  // namespace
 
 void preview(const PreviewOptions& options) {
     ScriptRunner runner;  // before any thread
     const std::function<ReportRequest()> read = reader_of(options.document);
-    const Permissions permissions(read().script.file);
+    const ReportRequest request = read();
+    const OnlyPreview only(request.script.file.string());
+    if (const auto address = only.other()) return options.opened(*address, true);
+    const Permissions permissions(request.script.file);
     LivePage page;
     LiveDocument document(read, runner, page);
     if (options.run_at_once) permissions.grant();
     if (permissions.granted()) document.allow_runs();
 
+    BackgroundWork background(options.document);
     WebServer server({.port = options.port});
-    serve_files(server);
+    const StopsBeforeServer stops{background};
+    const auto send_changes = [&] {
+        if (const auto changes = page.changes()) server.send("page", *changes);
+    };
+    serve_page_files(server, "index.html");
     serve_page(server, page);
-    PrintedDocument printed(options.document);
-    server.on_get("/document.pdf", [&printed](const PageRequest&) { return printed.pdf(); });
-    server.on_post("/stop", [&](const PageRequest&) { return document.stop_run(), done(); });
-    server.on_post("/anew", [&](const PageRequest&) { return document.run_anew(), done(); });
-    server.on_post("/allow", [&](const PageRequest&) {
-        permissions.grant();
-        document.allow_runs();
-        return done();
+    take_orders(server, document, permissions);
+    SourceFiles sources = options.edit ? sources_of(request) : SourceFiles({});
+    serve_sources(server, sources, page);
+    page.set_sources(sources.digests());
+
+    background.start([&] {
+        page.set_work(background.findings(), background.pdf_is_ready());
+        send_changes();
+    });
+    const auto look_for_readers = [&] {
+        background.want(server.streams() > 0 && permissions.granted() && !page.running());
+    };
+    server.on_get("/document.pdf", [&](const PageRequest&) {
+        const BackgroundWork::Pdf pdf = background.pdf();
+        return pdf.bytes.empty() ? PageReply{pdf.error, kPlainText, 500} : PageReply{pdf.bytes, "application/pdf"};
+    });
+    server.on_stream([&] { return look_for_readers(), page.whole(); });
+    document.on_reading([&](const std::map<std::string, double>& slider_values) {
+        background.document_changed(slider_values);
+        page.set_work(background.findings(), false);
+        page.set_sources(sources.digests());
     });
     document.on_change([&] {
-        if (const auto changes = page.changes()) server.send("page", *changes);
+        look_for_readers();
+        send_changes();
     });
     server.start();
-    options.opened(server.address());
+    only.tell(server.address());
+    options.opened(server.address(), false);
     try {
         document.work();
     } catch (...) {
+        only.forget();
         server.send("over", "{}");
         std::this_thread::sleep_for(std::chrono::milliseconds(50));  // so that tabs hear of it
         throw;

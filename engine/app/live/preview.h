@@ -9,11 +9,13 @@ struct PreviewOptions {
     std::string document;  ///< a script, a folder with analysis.lua and report.md, or a lesson
     int port = 0;          ///< any free one
     bool run_at_once = false;
-    /// Gets the page's address once it answers.
-    std::function<void(const std::string& address)> opened = [](const std::string&) {};
+    bool edit = false;  ///< the page changes the document's files, too
+    /// Gets the page's address once it answers; `elsewhere`: another program shows this document there already.
+    std::function<void(const std::string& address, bool elsewhere)> opened = [](const std::string&, bool) {};
 };
 
-/// Serves a document that follows its source until Ctrl-C (which throws Interrupted). A folder whose scripts nobody has
+/// Serves a document that follows its source until Ctrl-C (which throws Interrupted); returns at once when another
+/// program does. A folder whose scripts nobody has
 /// allowed to run yet is shown and asked about. To be called before the program has threads. Throws DocumentError and
 /// EnvironmentError for what cannot be opened.
 void preview(const PreviewOptions& options);

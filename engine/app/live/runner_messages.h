@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <map>
 #include <string>
 
 #include "documents/record_description.h"
@@ -14,6 +15,7 @@ struct RunOrder {
     std::size_t from = 0;  ///< the first part to run
     std::uint32_t seed = 1;
     std::string figure_folder;
+    std::map<std::string, double> slider_values;  ///< instead of what the script gives its sliders
 };
 
 /// What it tells.
@@ -27,7 +29,7 @@ struct RunnerNews {
     RunRecord record = {};
 };
 
-DYNLAB_DESCRIBE(RunOrder, file, source, from, seed, figure_folder)
+DYNLAB_DESCRIBE(RunOrder, file, source, from, seed, figure_folder, slider_values)
 DYNLAB_DESCRIBE(RunnerNews, kind, part, process, seconds, record)
 
 }  // namespace dynlab::inline app

@@ -19,6 +19,7 @@
 #include "scripting/memoized_calls/call_cache.h"
 #include "scripting/runtime/report_language.h"
 #include "scripting/runtime/runtime.h"
+#include "scripting/runtime/slider_values.h"
 #include "workflow/run_script.h"
 
 namespace dynlab::inline app {
@@ -39,12 +40,14 @@ struct World {
     CallCache calls{cache};
     GnuplotRenderer renderer{&cache};
     ReportLanguage language;
+    SliderValues sliders;
     Runtime runtime;
     std::set<std::string> drawn;  ///< names of figures
 
     explicit World(const RunOptions& options, const std::string& report_language)
         : language{report_language}, runtime(options, renderer) {
         runtime.set_service(&language);
+        runtime.set_service(&sliders);
     }
 };
 
@@ -92,6 +95,7 @@ class RunnerProcess {
         const PercentScript script = parse_percent_script(order.source, order.file);
         const std::vector<ScriptPart> parts = script_parts(script);
         if (!world_) begin(order, script);
+        world_->sliders.chosen = order.slider_values;
         std::size_t last = order.from;
         for (std::size_t i = order.from; i < parts.size(); ++i) {
             last = i;

@@ -64,27 +64,36 @@ void ScriptRunner::go_back_to(std::size_t parts) {
     while (kept_.back().parts > parts) end_last();
 }
 
-bool ScriptRunner::is_as_it_ran(std::size_t part, const std::vector<ScriptPart>& parts,
+bool ScriptRunner::is_as_it_ran(std::size_t part, const std::vector<ScriptPart>& parts, const ReportRequest& request,
                                 const std::set<fs::path>& changed) const {
     if (part >= parts_.size() || part >= parts.size() || !is_same(parts[part], parts_[part])) return false;
-    return part >= done_ || std::none_of(read_[part].begin(), read_[part].end(),
-                                         [&](const fs::path& file) { return changed.contains(file); });
+    if (part >= done_) return request.slider_values == slider_values_;
+    const auto& [files, sliders] = used_[part];
+    const auto was_moved = [&](const auto& slider) {
+        const auto chosen = request.slider_values.find(slider.first);
+        return slider.second.value != (chosen == request.slider_values.end() ? slider.second.initial : chosen->second);
+    };
+    return std::none_of(files.begin(), files.end(), [&](const fs::path& file) { return changed.contains(file); }) &&
+           std::none_of(sliders.begin(), sliders.end(), was_moved);
 }
 
-std::size_t ScriptRunner::run(const PercentScript& script, std::uint32_t seed, const fs::path& figure_folder,
+std::size_t ScriptRunner::run(const ReportRequest& request, const fs::path& figure_folder,
                               const std::set<fs::path>& changed) {
+    const PercentScript& script = request.script;
     std::vector<ScriptPart> parts = script_parts(script);
-    const std::string settings = settings_of(script, seed);
+    const std::string settings = settings_of(script, request.seed);
     std::size_t same = 0;
-    while (settings == settings_ && is_as_it_ran(same, parts, changed)) ++same;
+    while (settings == settings_ && is_as_it_ran(same, parts, request, changed)) ++same;
     const bool all_same = same == parts.size() && same == parts_.size();
     if (all_same && (running_ || done_ == same)) return under_way_;
     go_back_to(std::min(same, done_));
     settings_ = settings;
+    slider_values_ = request.slider_values;
     parts_ = std::move(parts);
-    read_.resize(parts_.size());
+    used_.resize(parts_.size());
     under_way_ = done_ = kept_.back().parts;
-    const RunOrder order{script.file.string(), script.source, done_, seed, figure_folder.string()};
+    const RunOrder order{script.file.string(), script.source,          done_,
+                         request.seed,         figure_folder.string(), request.slider_values};
     split_ = false;
     running_ = kept_.back().line.send(cbor_of(order));
     if (!running_) throw EnvironmentError("the process that runs the script has ended");
@@ -118,7 +127,7 @@ RunnerNews ScriptRunner::next() {
         under_way_ = news.part;
     } else if (news.kind == "done" && !news.record.error) {
         done_ = news.part + 1;
-        read_[news.part] = {news.record.files_read.begin(), news.record.files_read.end()};
+        used_[news.part] = {{news.record.files_read.begin(), news.record.files_read.end()}, news.record.sliders};
     } else if (news.kind == "ended") {
         running_ = false;
         kept_.back().parts = done_;

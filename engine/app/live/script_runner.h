@@ -10,6 +10,7 @@
 #include "app/live/channel.h"
 #include "app/live/runner_messages.h"
 #include "scripting/runtime/script_parts.h"
+#include "workflow/make_report.h"
 
 namespace dynlab::inline app {
 
@@ -24,9 +25,10 @@ class ScriptRunner {
     ScriptRunner(const ScriptRunner&) = delete;
     ScriptRunner& operator=(const ScriptRunner&) = delete;
 
-    /// Runs `script` from the first part that differs from what ran before, or reads a file that is named in `changed`;
-    /// a run that is under way is given up, but not for a change of text alone. Returns the part with which it begins.
-    std::size_t run(const PercentScript& script, std::uint32_t seed, const std::filesystem::path& figure_folder,
+    /// Runs the script of `request`, with its seed and sliders, from the first part that differs from what ran before,
+    /// asks for a slider that was moved or reads a file that is named in `changed`; a run that is under way is given
+    /// up, but not for a change of text alone. Returns the part with which it begins.
+    std::size_t run(const ReportRequest& request, const std::filesystem::path& figure_folder,
                     const std::set<std::filesystem::path>& changed);
     void stop();                          ///< gives the run up; the next begins behind the last part that was kept
     void forget() { settings_.clear(); }  ///< the next run begins with the first part
@@ -46,16 +48,21 @@ class ScriptRunner {
         Channel line;
         pid_t process;
     };
-    bool is_as_it_ran(std::size_t part, const std::vector<ScriptPart>& parts,
+    bool is_as_it_ran(std::size_t part, const std::vector<ScriptPart>& parts, const ReportRequest& request,
                       const std::set<std::filesystem::path>& changed) const;
     void go_back_to(std::size_t parts);
     void end_last();
 
     std::vector<Kept> kept_;  ///< by the number of parts; the last one is the process that runs, where one does
     std::vector<ScriptPart> parts_;
-    std::vector<std::set<std::filesystem::path>> read_;  ///< by each part: the files that had been read behind it
-    std::string settings_;                               ///< file, seed and header of the run
-    std::size_t done_ = 0;                               ///< parts that are over
+    struct Used {
+        std::set<std::filesystem::path> files;
+        std::map<std::string, RecordedSlider> sliders;
+    };
+    std::vector<Used> used_;                       ///< by each part: what had been used behind it
+    std::string settings_;                         ///< file, seed and header of the run
+    std::map<std::string, double> slider_values_;  ///< of the run
+    std::size_t done_ = 0;                         ///< parts that are over
     std::size_t under_way_ = 0;
     bool running_ = false, split_ = false;  ///< split: the process that got the order has made the one that runs
 };

@@ -1,8 +1,14 @@
 // A live document: puts what the server tells of into the page, and keeps the page where the reader has it.
+import { controlsByCell } from "/sliders.js";
+import * as editor from "/editor.js";
+import { showFindings } from "/findings.js";
+
 const $ = (id) => document.getElementById(id);
 const nodes = new Map();  // id of a piece -> its element
 let version = -1;
 let source = null;
+let sliders = [];
+let findings = null;
 
 /// The piece at the top of the window, and how far from there: what must not move.
 function anchor() {
@@ -54,8 +60,21 @@ function place(pieces, html) {
     node.dataset.file = file;
     if (node === before) before = before.nextElementSibling;
     else main.insertBefore(node, before);
+    while (before?.classList.contains("slider")) before = before.nextElementSibling;
   }
   return true;
+}
+
+/// Behind the code of the cell that asks for them.
+function placeSliders(running) {
+  for (const [cell, controls] of controlsByCell(sliders, running)) {
+    let behind = document.querySelector(`.piece[data-cell="${CSS.escape(cell)}"]`);
+    if (!behind) continue;
+    for (const control of controls) {
+      if (behind.nextElementSibling !== control) behind.after(control);
+      behind = control;
+    }
+  }
 }
 
 function showStates(page) {
@@ -67,7 +86,7 @@ function showStates(page) {
     if (state === "failed") ++failed;
     if (state === "running") running = cell;
   }
-  for (const node of $("document").children) {
+  for (const node of nodes.values()) {
     const state = page.states[node.dataset.cell]?.state;
     if (state) node.dataset.state = state;
     else delete node.dataset.state;
@@ -96,6 +115,7 @@ function show(page) {
     if (!page.all && page.version > version + 1 || !place(page.pieces, page.html)) return connect();
     $("head").innerHTML = page.head;
     $("notes").innerHTML = page.notes;
+    sliders = page.sliders;
   }
   version = page.version;
   document.title = page.name + (page.name ? " · " : "") + "dynlab";
@@ -103,8 +123,62 @@ function show(page) {
   $("question").hidden = !page.asking;
   showComplaints(page.complaints);
   showStates(page);
+  placeSliders(page.running);
+  if ("findings" in page) findings = page.findings;
+  showFindings(findings, page.open_answers, goTo);
+  showPdf(page.pdf_is_ready);
+  editor.follow(page.sources, showLine);
   hold(held);
 }
+
+/// The last piece of a file that begins at a line or before it.
+function pieceAt(file, line) {
+  let found = null;
+  for (const node of $("document").children)
+    if (node.dataset.file === file && Number(node.dataset.line) <= line) found = node;
+  return found;
+}
+
+function mark(piece) {
+  for (const node of document.querySelectorAll(".chosen")) node.classList.remove("chosen");
+  piece?.classList.add("chosen");
+  $("place").textContent = piece ? `${piece.dataset.file}:${piece.dataset.line}` : "";
+}
+
+/// The page follows the cursor of the source: what stands there is brought into the window.
+function showLine(file, line) {
+  const piece = pieceAt(file, line);
+  mark(piece);
+  if (!piece) return;
+  const box = piece.getBoundingClientRect(), top = $("bar").getBoundingClientRect().bottom;
+  if (box.top < top || box.bottom > window.innerHeight) piece.scrollIntoView({ block: "center" });
+}
+
+function goTo(file, line) {
+  if (!editor.goTo(file, line)) showLine(file, line);
+}
+
+/// The printed document in place of the page; a new one when there is one.
+let pdfShown = false, pdfReady = false;
+function showPdf(ready) {
+  const anew = ready && !pdfReady;
+  pdfReady = ready;
+  $("view").classList.toggle("ready", ready);
+  if (!pdfShown) return $("pdf").replaceChildren();
+  if (!anew && $("pdf").firstChild) return;
+  const frame = document.createElement("iframe");
+  frame.title = "The document as it is printed";
+  frame.src = `/document.pdf?version=${version}`;
+  $("pdf").replaceChildren(frame);
+}
+
+$("view").onclick = () => {
+  pdfShown = !pdfShown;
+  $("view").setAttribute("aria-pressed", String(pdfShown));
+  $("pdf").hidden = !pdfShown;
+  for (const id of ["head", "document", "notes"]) $(id).hidden = pdfShown;
+  showPdf(pdfReady);
+};
 
 /// One stream of news; the browser comes again by itself when it is cut, and gets everything then.
 function connect() {
@@ -132,11 +206,10 @@ $("anew").onclick = () => order("/anew");
 $("allow").onclick = () => order("/allow");
 
 $("document").addEventListener("click", (event) => {
+  if (event.target.closest(".slider, a, button, summary, input")) return;
   const piece = event.target.closest(".piece");
-  for (const node of document.querySelectorAll(".chosen")) node.classList.remove("chosen");
-  if (!piece) return;
-  piece.classList.add("chosen");
-  $("place").textContent = `${piece.dataset.file}:${piece.dataset.line}`;
+  mark(piece);
+  if (piece && window.getSelection().isCollapsed) editor.goTo(piece.dataset.file, Number(piece.dataset.line));
 });
 
 if (!document.hidden) connect();

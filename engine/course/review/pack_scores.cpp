@@ -25,15 +25,31 @@ std::string without_comments(std::string_view text) {
     return kept;
 }
 
+/// Behind the brace of the first statement "scores = {" or "local scores = {" that begins a line.
+std::size_t begin_of_scores(const std::string& text) {
+    constexpr std::string_view kName = "scores", kLocal = "local", kBlank = " \t\r\n";
+    for (std::size_t at = text.find(kName); at != std::string::npos; at = text.find(kName, at + 1)) {
+        const std::size_t line = at == 0 ? 0 : text.rfind('\n', at - 1) + 1;  // 0 in the first line, too
+        std::string_view before = std::string_view(text).substr(line, at - line);
+        const auto word = before.find_first_not_of(kBlank);
+        before.remove_prefix(std::min(word, before.size()));
+        const bool alone = before.empty() || (before.starts_with(kLocal) && before.size() > kLocal.size() &&
+                                              before.find_first_not_of(kBlank, kLocal.size()) == before.npos);
+        const std::size_t sign = text.find_first_not_of(kBlank, at + kName.size());
+        if (!alone || sign == std::string::npos || text[sign] != '=') continue;
+        const std::size_t brace = text.find_first_not_of(kBlank, sign + 1);
+        if (brace != std::string::npos && text[brace] == '{') return brace + 1;
+    }
+    return std::string::npos;
+}
+
 }  // namespace
 
 std::map<std::string, double> scores_in_script(std::string_view script) {
-    static const std::regex table(R"((?:^|\n)\s*(?:local\s+)?scores\s*=\s*\{)"),
-        entry(R"((\w+)\s*=\s*(\d{1,4}(?:\.\d{1,4})?)\s*[,;\n}])");
+    static const std::regex entry(R"((\w{1,80})\s{0,80}=\s{0,80}(\d{1,4}(?:\.\d{1,4})?)\s{0,80}[,;\n}])");
     const std::string text = without_comments(script);
-    std::smatch begin;
-    if (!std::regex_search(text, begin, table)) return {};
-    const auto from = static_cast<std::size_t>(begin.position(0) + begin.length(0));
+    const std::size_t from = begin_of_scores(text);
+    if (from == std::string::npos) return {};
     const std::size_t close = text.find('}', from);
     if (close == std::string::npos || close - from > kMostOfTable) return {};
     const std::string body = text.substr(from, close + 1 - from);

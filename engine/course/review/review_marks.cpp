@@ -99,6 +99,13 @@ class ReviewMarker {
 
 }  // namespace
 
+std::optional<double> GroupMark::work_mark_of(const std::string& student) const {
+    if (!work_override)
+        for (const StudentMark& own : students)
+            if (own.student == student) return own.work;
+    return work_mark();
+}
+
 Marks marks_of(const std::vector<Criterion>& criteria, const std::vector<ScoredReview>& reviews,
                const std::vector<std::int64_t>& groups) {
     const ReviewMarker marking(criteria, reviews);

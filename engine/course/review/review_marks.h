@@ -22,15 +22,26 @@ struct ReviewMark {
     bool retaliation = false;        ///< an outlier against a group that had reviewed this reviewer's report badly
 };
 
+/// A member of a group who has points of their own at the oral.
+struct StudentMark {
+    std::string student;                        ///< id
+    std::vector<std::optional<double>> points;  ///< a criterion; the group's where the student has none
+    std::optional<double> work;                 ///< percent, costs taken off
+};
+
 struct GroupMark {
     std::int64_t group = 0;
     std::vector<std::optional<double>> medians;  ///< a criterion, over the reviews of its report
     std::optional<double> work, reviews;         ///< percent, from scores, costs taken off
     std::optional<double> final_version;         ///< percent, from the instructor's scores of it; within `work`
     std::vector<std::string> costs;              ///< what was taken off, in words
+    double work_costs = 0;                       ///< what was taken off the work, in percent points
+    std::vector<StudentMark> students;           ///< those whose points differ from the group's
     std::optional<double> work_override, reviews_override;
     std::string work_reason, reviews_reason;
     std::optional<double> work_mark() const { return work_override ? work_override : work; }
+    /// Of one member: the instructor's word for the group holds for all of it.
+    std::optional<double> work_mark_of(const std::string& student) const;
     std::optional<double> reviews_mark() const { return reviews_override ? reviews_override : reviews; }
 };
 
@@ -51,16 +62,13 @@ Marks marks_of(const std::vector<Criterion>& criteria, const std::vector<ScoredR
 Marks course_marks(Course& course, const Assignment& assignment, Instant now = CourseClock::now());
 
 /// Reads scores, whole or not at all. Columns: reviewer (a group), report (report-NN; may miss where the group has one)
-/// and the criteria; the reviewer "instructor" is the instructor, whose report is a pseudonym or a group. For the oral,
-/// and of final versions by the instructor: group and the criteria. Empty cells are no scores. Returns how many are
-/// new. Throws EnvironmentError with file, line and column.
+/// and the criteria; the reviewer "instructor" is the instructor, whose report is a pseudonym or a group. Of final
+/// versions by the instructor: group and the criteria. Empty cells are no scores. Returns how many are new. Throws
+/// EnvironmentError with file, line and column. Those of an oral: oral_marks.h.
 int import_review_scores(Course& course, const Assignment& assignment, const std::filesystem::path& file, Instant now);
 /// Within a transaction: the points of one criterion (counted from 0) of one review.
 void add_review_score(Course& course, std::int64_t pair, std::int64_t criterion, double points, Instant now);
 int import_final_scores(Course& course, const Assignment& assignment, const std::filesystem::path& file, Instant now);
-int import_oral_scores(Course& course, const Assignment& assignment, const std::filesystem::path& file, Instant now);
-/// The sheet for the oral: a row a group, a column a criterion with what was given so far, as CSV.
-std::string oral_sheet(Course& course, const Assignment& assignment);
 
 /// The instructor's word, which always wins; the newest holds. `what`: "work" or "reviews"; up to 200 percent, for what
 /// deserves more than all.

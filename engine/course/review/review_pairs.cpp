@@ -41,7 +41,8 @@ std::vector<ReviewPair> review_pairs(Course& course, const Assignment& assignmen
              "(SELECT version FROM sendings WHERE pair = p.id AND way = 'to author' ORDER BY id DESC LIMIT 1), "
              "(SELECT id FROM standing v WHERE v.assignment = p.assignment AND v.group_id = p.author AND v.stage = "
              "'first' AND v.part = 'report' ORDER BY number DESC LIMIT 1), "
-             "(SELECT version FROM sendings WHERE pair = p.id AND way = 'to reviewer' ORDER BY id DESC LIMIT 1) "
+             "(SELECT version FROM sendings WHERE pair = p.id AND way = 'to reviewer' ORDER BY id DESC LIMIT 1), "
+             "EXISTS (SELECT 1 FROM standing WHERE pair = p.id AND part = 'pack') "
              "FROM pairs p JOIN groups r ON r.id = p.reviewer JOIN groups w ON w.id = p.author "
              "JOIN pseudonyms pw ON pw.assignment = p.assignment AND pw.group_id = p.author AND pw.role = 'author' "
              "JOIN pseudonyms pr ON pr.assignment = p.assignment AND pr.group_id = p.reviewer AND pr.role = 'reviewer' "
@@ -54,6 +55,7 @@ std::vector<ReviewPair> review_pairs(Course& course, const Assignment& assignmen
         pair.report_number = rows.integer(5), pair.reviewer_number = rows.integer(6);
         pair.ended = rows.integer(7) != 0, pair.sent = rows.integer(8) != 0;
         pair.written = rows.integer(9) != 0, pair.released = rows.integer(10) != 0;
+        pair.only_pack = !pair.written && rows.integer(16) != 0;
         pair.late = pair.written && rows.integer(11) == 0;
         pair.newer_review = pair.released && pair.written && rows.integer(12) != rows.integer(13);
         pair.newer_report = pair.sent && !pair.written && !pair.released && !rows.isColumnNull(14) &&

@@ -15,6 +15,7 @@ struct ReviewPair {
     std::int64_t report_number = 0, reviewer_number = 0;  ///< pseudonyms in this assignment
     bool ended = false;                                   ///< taken back before the review was written
     bool sent = false, written = false, released = false;
+    bool only_pack = false;     ///< a pack came for it, but no document that somebody could read
     bool late = false;          ///< written, but no version of it was in time
     bool newer_report = false;  ///< sent, but another version of the report stands since, and no review is written
     bool newer_review = false;  ///< released, but another version of the review stands since

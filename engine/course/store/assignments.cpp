@@ -172,7 +172,8 @@ void remove_assignment(Course& course, const Assignment& assignment, const std::
     refuse_without_reason(reason);
     Database& db = course.database();
     Transaction transaction(db);
-    for (const char* table : {"versions", "pairs", "oral_scores", "instructor_scores", "overrides", "extensions"})
+    for (const char* table : {"versions", "pairs", "oral_scores", "student_scores", "oral_comments",
+                              "instructor_scores", "overrides", "extensions"})
         if (db.query(fmt::format("SELECT 1 FROM {} WHERE assignment = ?", table), assignment.id).next())
             throw InvalidArgument(fmt::format(
                 "{} cannot be removed: something hangs on it (its {}); nothing was changed", assignment.name, table));

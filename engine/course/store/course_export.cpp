@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "course/names/plain_words.h"
+#include "course/review/oral_marks.h"
 #include "course/review/review_marks.h"
 #include "course/store/course_schema.h"
 #include "course/store/groups.h"
@@ -193,6 +194,7 @@ std::string marks_csv(Course& course, const Assignment& a) {
     const auto remarks = remarks_by_reviewer(course, a, marks);
     const std::vector<ReviewPair> pairs = review_pairs(course, a);
     auto versions = newest_versions(course, a);
+    OralComments said = oral_comments(course, a);
     std::map<std::string, Group> by_name;
     for (const Group& group : groups_of(course)) by_name[group.name] = group;
     for (const Student& s : students_of(course)) {
@@ -209,7 +211,7 @@ std::string marks_csv(Course& course, const Assignment& a) {
                 if (pair.reviewer == id && !pair.ended) ++all, written += pair.written, late += pair.late;
             for (const GroupMark& mark : marks.groups)
                 if (mark.group == id)
-                    row.insert(row.end(), {percent_text(mark.work_mark()), mark.work_reason,
+                    row.insert(row.end(), {percent_text(mark.work_mark_of(s.id)), mark.work_reason,
                                            all > 0 ? fmt::format("{} of {}", written, all) : "",
                                            all > 0 ? fmt::format("{}", late) : "", percent_text(mark.reviews_mark()),
                                            mark.reviews_reason});
@@ -219,6 +221,10 @@ std::string marks_csv(Course& course, const Assignment& a) {
             for (const GroupMark& mark : marks.groups)
                 if (mark.group == id)
                     for (const std::string& cost : mark.costs) remark += (remark.empty() ? "" : "; ") + cost;
+            const auto say = [&](const std::string& comment) {
+                if (!comment.empty()) remark += (remark.empty() ? "" : "; ") + comment;
+            };
+            say(said.groups[id]), say(said.students[s.id]);
             row.push_back(remark);
         }
         row.resize(table.names.size());

@@ -109,6 +109,23 @@ CREATE VIEW arrived AS SELECT v.id, v.assignment, v.group_id, v.stage, v.pair, v
   FROM versions v JOIN assignments a ON a.id = v.assignment;
 CREATE VIEW standing AS SELECT *, CASE WHEN received_at > due_at + grace THEN received_at - due_at ELSE 0 END AS late
   FROM arrived WHERE NOT withdrawn;
+)",
+    // A version with the content of an earlier one is as late as that one. Points of students at the oral: null takes
+    // back what was given.
+    R"(
+CREATE TABLE student_scores (assignment INTEGER NOT NULL REFERENCES assignments,
+  student TEXT NOT NULL REFERENCES students, criterion INTEGER NOT NULL, given_at INTEGER NOT NULL,
+  points REAL CHECK (points >= 0), PRIMARY KEY (assignment, student, criterion, given_at)) WITHOUT ROWID;
+CREATE TABLE oral_comments (id INTEGER PRIMARY KEY, assignment INTEGER NOT NULL REFERENCES assignments,
+  group_id INTEGER NOT NULL REFERENCES groups, student TEXT REFERENCES students, comment TEXT NOT NULL,
+  made_at INTEGER NOT NULL);
+DROP VIEW standing;
+CREATE VIEW standing AS SELECT *,
+  CASE WHEN first_at > due_at + grace THEN first_at - due_at ELSE 0 END AS late
+  FROM (SELECT w.*, (SELECT min(e.received_at) FROM arrived e WHERE e.hash = w.hash AND e.number <= w.number AND
+    NOT e.withdrawn AND e.assignment = w.assignment AND e.group_id = w.group_id AND e.stage = w.stage AND
+    ifnull(e.pair, 0) = ifnull(w.pair, 0) AND e.part = w.part) AS first_at
+    FROM arrived w WHERE NOT w.withdrawn);
 )"};
 
 std::int64_t pragma(Database& database, const char* name) {
@@ -121,11 +138,11 @@ std::int64_t pragma(Database& database, const char* name) {
 
 const std::vector<std::string>& course_tables() {
     static const std::vector<std::string> tables = {
-        "course",     "groups",      "students",    "memberships", "assignments",       "criteria",
-        "files",      "pseudonyms",  "allocations", "pairs",       "versions",          "sendings",
-        "scores",     "oral_scores", "overrides",   "journal",     "former_names",      "arrivals",
-        "extensions", "withdrawals", "holds",       "pair_wishes", "instructor_scores", "returns",
-        "seals"};
+        "course",         "groups",        "students",    "memberships", "assignments",       "criteria",
+        "files",          "pseudonyms",    "allocations", "pairs",       "versions",          "sendings",
+        "scores",         "oral_scores",   "overrides",   "journal",     "former_names",      "arrivals",
+        "extensions",     "withdrawals",   "holds",       "pair_wishes", "instructor_scores", "returns",
+        "student_scores", "oral_comments", "seals"};
     return tables;
 }
 

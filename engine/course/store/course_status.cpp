@@ -216,8 +216,14 @@ class Status {
             things.push_back("a review by it was not released: release tells why");
         if (!pairs_.empty() && !in_allocation(group.id)) things.push_back("came after the allocation: peer assign");
         int open = 0;
-        for (const ReviewPair& pair : pairs_)
-            if (pair.reviewer == group.id && !pair.ended && !pair.written) ++open;
+        for (const ReviewPair& pair : pairs_) {
+            if (pair.reviewer != group.id || pair.ended || pair.written) continue;
+            if (pair.only_pack)
+                things.push_back(
+                    fmt::format("no PDF in the pack with its review of {}: ask for one", pair.report_pseudonym()));
+            else
+                ++open;
+        }
         if (open > 0 && due_over("review")) things.push_back("remind of " + counted(open, "review"));
         only_pack(last, " of the final version");
         if (last.empty() && due_over("final")) things.push_back("ask for the final version");

@@ -372,6 +372,9 @@ class HandInReceiver {
             a.id, c.group.id, request_.stage, pair, c.part, received.version, c.hash, c.file->name, c.at, due,
             received.late, c.inspection.json, version_signature(course_, receipt));
         received.id = db.getLastInsertRowid();
+        // What its receipt tells is when this version came; what counts is when its content did.
+        if (Rows standing = db.query("SELECT late FROM standing WHERE id = ?", received.id); standing.next())
+            received.late = standing.integer(0);
         for (std::size_t i = 0; i < a.criteria.size(); ++i) {
             const auto points = c.scores.find(a.criteria[i].name);
             if (points == c.scores.end() || points->second > a.criteria[i].most) continue;

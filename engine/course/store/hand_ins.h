@@ -27,7 +27,8 @@ struct ReceiveRequest {
 /// One file that was taken.
 struct Received {
     std::string group, part, about;  ///< about: of a review, the pseudonym of the report
-    std::int64_t version = 0, late = 0, id = 0;
+    std::int64_t version = 0, id = 0;
+    std::int64_t late = 0;     ///< of its content, which may be that of an earlier version
     bool known = false;        ///< the same content as the version before: nothing was changed
     bool from_pack = false;    ///< a PDF that was taken out of the group's pack
     bool withdrawn = false;    ///< known, and withdrawn by the instructor

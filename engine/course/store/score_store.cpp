@@ -1,15 +1,14 @@
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "course/corrections/corrections.h"
+#include "course/review/oral_marks.h"
 #include "course/review/review_marks.h"
+#include "course/review/score_sheet.h"
 #include "course/store/groups.h"
 #include "course/store/newest_versions.h"
-#include "data_io/text_table.h"
 #include "numerics/error.h"
 #include "numerics/number_text.h"
 #include "platform/error.h"
@@ -21,20 +20,18 @@ constexpr double kMostPercent = 200;
 constexpr std::int64_t kDay = 86400;
 constexpr char kInstructor[] = "instructor";
 
-using Points = std::vector<std::optional<double>>;
-
-/// The newest points by owner (a pair, or a group at the oral).
-std::map<std::int64_t, Points> newest_points(Rows rows, std::size_t criteria) {
-    std::map<std::int64_t, Points> points;
+/// The newest points by owner: a pair, or a group.
+std::map<std::int64_t, CriterionPoints> newest_points(Rows rows, std::size_t criteria) {
+    std::map<std::int64_t, CriterionPoints> points;
     while (rows.next()) {
-        Points& own = points.try_emplace(rows.integer(0), criteria).first->second;
+        CriterionPoints& own = points.try_emplace(rows.integer(0), criteria).first->second;
         const auto c = static_cast<std::size_t>(rows.integer(1));
         if (c < criteria) own[c] = rows.number(2);
     }
     return points;
 }
 
-std::map<std::int64_t, Points> review_points(Course& course, const Assignment& a) {
+std::map<std::int64_t, CriterionPoints> review_points(Course& course, const Assignment& a) {
     return newest_points(
         course.database().query("SELECT s.pair, s.criterion, s.points FROM scores s JOIN pairs p ON p.id = s.pair "
                                 "WHERE p.assignment = ? ORDER BY s.given_at",
@@ -43,97 +40,22 @@ std::map<std::int64_t, Points> review_points(Course& course, const Assignment& a
 }
 
 /// By group.
-std::map<std::int64_t, Points> instructor_points(Course& course, const Assignment& a, const char* stage) {
+std::map<std::int64_t, CriterionPoints> instructor_points(Course& course, const Assignment& a, const char* stage) {
     return newest_points(course.database().query("SELECT group_id, criterion, points FROM instructor_scores WHERE "
                                                  "assignment = ? AND stage = ? ORDER BY given_at",
                                                  a.id, stage),
                          a.criteria.size());
 }
 
-std::map<std::int64_t, Points> oral_points(Course& course, const Assignment& a) {
-    return newest_points(course.database().query("SELECT group_id, criterion, points FROM oral_scores WHERE assignment "
-                                                 "= ? ORDER BY given_at",
-                                                 a.id),
-                         a.criteria.size());
-}
-
-/// A sheet of scores: each row has an owner and points.
-class ScoreSheet {
-  public:
-    /// Besides `owner` and the criteria there may be the columns `others`.
-    ScoreSheet(const Assignment& assignment, const std::filesystem::path& file, const char* owner,
-               std::set<std::string> others = {})
-        : assignment_(assignment), file_(file), table_(read_text_table(file)), owner_(owner) {
-        if (!table_.column(owner)) fail(1, fmt::format("the column {} is missing", owner));
-        std::vector<std::string> criteria, unknown;
-        bool any = false;
-        for (const Criterion& c : assignment.criteria) {
-            criteria.push_back(c.name);
-            any = any || column(c.name);
-            others.insert(lower_case(c.name));
-        }
-        for (const std::string& name : table_.names)
-            if (name != owner && !others.contains(name)) unknown.push_back(name);
-        const std::string known = fmt::format("the criteria of {} are {}", assignment.name, fmt::join(criteria, ", "));
-        if (!unknown.empty()) fail(1, fmt::format("unknown columns: {}; {}", fmt::join(unknown, ", "), known));
-        if (!any) fail(1, "there is no column of a criterion; " + known);
-    }
-
-    std::size_t rows() const { return table_.rows.size(); }
-    std::string cell(std::size_t row, const char* name) const {
-        const auto index = table_.column(name);
-        return index ? table_.rows[row][*index] : "";
-    }
-    std::string owner(std::size_t row) const { return cell(row, owner_); }
-    std::optional<double> points(std::size_t row, std::size_t criterion) const {
-        const Criterion& c = assignment_.criteria[criterion];
-        const auto index = column(c.name);
-        if (!index || table_.rows[row][*index].empty()) return {};
-        const std::string& text = table_.rows[row][*index];
-        double value = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (error != std::errc() || end != text.data() + text.size() || !(value >= 0 && value <= c.most))
-            fail(table_.lines[row],
-                 fmt::format("{} must be a number from 0 to {}, but \"{}\" was given", c.name, c.most, text));
-        return value;
-    }
-    /// What `work` throws about a row gets its place.
-    template <class Work>
-    auto at(std::size_t row, const Work& work) const {
-        try {
-            return work();
-        } catch (const std::runtime_error& error) {
-            fail(table_.lines[row], error.what());
-        } catch (const std::logic_error& error) {
-            fail(table_.lines[row], error.what());
-        }
-    }
-
-  private:
-    [[noreturn]] void fail(int line, const std::string& what) const {
-        throw EnvironmentError(fmt::format("{}, line {}: {}", file_.string(), line, what));
-    }
-    static std::string lower_case(std::string name) {
-        for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-        return name;
-    }
-    std::optional<std::size_t> column(const std::string& name) const { return table_.column(lower_case(name)); }
-
-    const Assignment& assignment_;
-    std::filesystem::path file_;
-    TextTable table_;
-    const char* owner_;
-};
-
 /// Writes what differs from what is known; `owner_of` gives the row's owner, `insert` writes one score.
 template <class Owner, class Insert>
-int import_scores(Course& course, const Assignment& a, const ScoreSheet& sheet, std::map<std::int64_t, Points> known,
-                  const Owner& owner_of, const Insert& insert) {
+int import_scores(Course& course, const Assignment& a, const ScoreSheet& sheet,
+                  std::map<std::int64_t, CriterionPoints> known, const Owner& owner_of, const Insert& insert) {
     Transaction transaction(course.database());
     int fresh = 0;
     for (std::size_t row = 0; row < sheet.rows(); ++row) {
         const std::int64_t owner = sheet.at(row, [&] { return owner_of(row); });
-        Points& own = known.try_emplace(owner, a.criteria.size()).first->second;
+        CriterionPoints& own = known.try_emplace(owner, a.criteria.size()).first->second;
         for (std::size_t c = 0; c < a.criteria.size(); ++c) {
             const auto points = sheet.points(row, c);
             if (!points || own[c] == points) continue;
@@ -161,15 +83,6 @@ void add_instructor_score(Course& course, const Assignment& a, std::int64_t grou
         a.id, group, stage, criterion, now, points);
 }
 
-/// 100 sum of points / sum of most, over what was scored.
-std::optional<double> percent_of(const std::vector<Criterion>& criteria, const Points& points) {
-    double sum = 0, most = 0;
-    for (std::size_t c = 0; c < criteria.size(); ++c)
-        if (points[c]) sum += *points[c], most += criteria[c].most;
-    if (most == 0) return {};
-    return 100 * sum / most;
-}
-
 /// Takes what is late or missing off the marks of groups.
 class CostTaker {
   public:
@@ -189,6 +102,7 @@ class CostTaker {
     void take(GroupMark& mark, std::optional<double>& from, double points, const std::string& why) const {
         if (!from || points <= 0) return;
         from = std::max(0.0, *from - points);
+        if (&from == &mark.work) mark.work_costs += points;
         mark.costs.push_back(fmt::format("{:g} off for {}", points, why));
     }
 
@@ -227,16 +141,17 @@ class CostTaker {
 }  // namespace
 
 int import_review_scores(Course& course, const Assignment& a, const std::filesystem::path& file, Instant now) {
-    const ScoreSheet sheet(a, file, "reviewer", {"report"});
+    const ScoreSheet sheet(a, file, {"reviewer"}, {"report"});
     const std::vector<ReviewPair> pairs = review_pairs(course, a);
     // What the instructor scores belongs to the group, with its sign changed; what a group scores to the pair.
-    std::map<std::int64_t, Points> known = review_points(course, a);
+    std::map<std::int64_t, CriterionPoints> known = review_points(course, a);
     for (const auto& [group, points] : instructor_points(course, a, "first")) known[-group] = points;
     return import_scores(
         course, a, sheet, known,
         [&](std::size_t row) {
-            if (sheet.owner(row) == kInstructor) return -author_called(course, pairs, sheet.cell(row, "report"));
-            return reviewed_pair(pairs, group_named(course, sheet.owner(row)), sheet.cell(row, "report")).id;
+            if (sheet.cell(row, "reviewer") == kInstructor)
+                return -author_called(course, pairs, sheet.cell(row, "report"));
+            return reviewed_pair(pairs, group_named(course, sheet.cell(row, "reviewer")), sheet.cell(row, "report")).id;
         },
         [&](std::int64_t owner, std::int64_t c, double points) {
             if (owner < 0)
@@ -253,44 +168,13 @@ void add_review_score(Course& course, std::int64_t pair, std::int64_t criterion,
 
 int import_final_scores(Course& course, const Assignment& a, const std::filesystem::path& file, Instant now) {
     refuse_without_reviews(a);
-    const ScoreSheet sheet(a, file, "group");
+    const ScoreSheet sheet(a, file, {"group"});
     return import_scores(
         course, a, sheet, instructor_points(course, a, "final"),
-        [&](std::size_t row) { return group_named(course, sheet.owner(row)).id; },
+        [&](std::size_t row) { return group_named(course, sheet.cell(row, "group")).id; },
         [&](std::int64_t group, std::int64_t c, double points) {
             add_instructor_score(course, a, group, "final", c, points, now);
         });
-}
-
-int import_oral_scores(Course& course, const Assignment& a, const std::filesystem::path& file, Instant now) {
-    const ScoreSheet sheet(a, file, "group");
-    return import_scores(
-        course, a, sheet, oral_points(course, a),
-        [&](std::size_t row) { return group_named(course, sheet.owner(row)).id; },
-        [&](std::int64_t group, std::int64_t c, double points) {
-            course.database().run(
-                "INSERT INTO oral_scores VALUES (?, ?, ?, ?, ?) ON CONFLICT DO UPDATE SET points = "
-                "excluded.points",
-                a.id, group, c, now, points);
-        });
-}
-
-std::string oral_sheet(Course& course, const Assignment& a) {
-    if (a.is_report())
-        throw InvalidArgument(fmt::format("{} is a report: its marks come from reviews, not from an oral", a.name));
-    TextTable table;
-    table.names = {"group"};
-    for (const Criterion& c : a.criteria) table.names.push_back(c.name);
-    const auto points = oral_points(course, a);
-    for (const Group& group : groups_of(course)) {
-        if (group.dropped_out) continue;
-        std::vector<std::string> row = {group.name};
-        const auto own = points.find(group.id);
-        for (std::size_t c = 0; c < a.criteria.size(); ++c)
-            row.push_back(own != points.end() && own->second[c] ? fmt::format("{}", *own->second[c]) : "");
-        table.rows.push_back(row);
-    }
-    return csv_text(table);
 }
 
 void override_mark(Course& course, const Assignment& a, const std::string& group, const std::string& what,
@@ -352,6 +236,7 @@ Marks course_marks(Course& course, const Assignment& a, Instant now) {
         }
         costs.apply(mark);
     }
+    if (!a.is_report()) add_student_marks(course, a, marks.groups);
     for (Rows rows = course.database().query(
              "SELECT group_id, what, percent, reason FROM overrides WHERE assignment = ? ORDER BY id", a.id);
          rows.next();)

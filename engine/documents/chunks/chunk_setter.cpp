@@ -44,7 +44,8 @@ void add_entries(const RunRecord& record, const std::string& markdown, DigestStr
 
 /// Whether the chunk has a slot that the record does not fill.
 bool lacks_entry(const RunRecord& record, const std::string& markdown) {
-    static const std::regex kSlot(R"(`([^`]+)`\{\.value\}|\(figure:([^)]+)\)|\{\.(?:table|text) [^}]*name=([^ }]+))");
+    static const std::regex kSlot(
+        R"(`([\w-]{1,80})`\{\.value\}|\(figure:([\w-]{1,80})\)|\{\.(?:table|text) [^}]{0,80}name=([\w-]{1,80}))");
     for (std::sregex_iterator slot(markdown.begin(), markdown.end(), kSlot), end; slot != end; ++slot) {
         const std::string name = (*slot)[1].str() + (*slot)[2].str() + (*slot)[3].str();
         if (!record.values.contains(name) && !record.figures.contains(name) && !record.tables.contains(name) &&

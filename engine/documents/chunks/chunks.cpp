@@ -7,8 +7,12 @@
 namespace dynlab::inline documents {
 namespace {
 
-bool matches(const std::string& line, const std::regex& pattern) {
-    return std::regex_search(line, pattern);
+/// Longer lines are prose: std::regex takes stack for every character.
+constexpr std::size_t kLongestMark = 2000;
+
+bool matches(const std::string& line, const std::regex& pattern, std::smatch* found = nullptr) {
+    std::smatch unused;
+    return line.size() <= kLongestMark && std::regex_search(line, found ? *found : unused, pattern);
 }
 
 /// Follows fences, comments and tables with empty lines through the text.
@@ -18,7 +22,7 @@ class OpenBlocks {
         if (!code_fence_.empty()) {
             static const std::regex kClosing(R"(^ {0,3}(`{3,}|~{3,})\s*$)");
             std::smatch closing;
-            const bool closes = std::regex_search(line, closing, kClosing) && closing.str(1)[0] == code_fence_[0] &&
+            const bool closes = matches(line, kClosing, &closing) && closing.str(1)[0] == code_fence_[0] &&
                                 closing.str(1).size() >= code_fence_.size();
             if (closes) code_fence_.clear();
             return;
@@ -30,9 +34,9 @@ class OpenBlocks {
         static const std::regex kCode(R"(^ {0,3}(`{3,}|~{3,}))"), kBlock(R"(^ {0,3}:{3,}\s*(\S?))"),
             kRule(R"(^\s*-{3,}[ -]*$)");
         std::smatch found;
-        if (std::regex_search(line, found, kCode)) {
+        if (matches(line, kCode, &found)) {
             code_fence_ = found[1];
-        } else if (std::regex_search(line, found, kBlock)) {
+        } else if (matches(line, kBlock, &found)) {
             depth_ += found[1].length() > 0 ? 1 : -1;
         } else if (const std::size_t begin = line.find("<!--");
                    begin != std::string::npos && line.find("-->", begin) == std::string::npos) {

@@ -76,7 +76,9 @@ Curve curve_of(const std::map<double, double>& values, int zeros, int index) {
     return curve;
 }
 
-Curve mark_at(double x, double y) {
+}  // namespace
+
+Curve mark_of_choice(double x, double y) {
     Curve mark;
     mark.x = Vector::Constant(1, x);
     mark.y = Vector::Constant(1, y);
@@ -87,8 +89,6 @@ Curve mark_at(double x, double y) {
     mark.label = "chosen";
     return mark;
 }
-
-}  // namespace
 
 Figure order_plot(const OrderSelection& selection, OrderCriterion criterion, const OrderChoice& choice) {
     const Quantity quantity = quantity_of(criterion, selection.validated);
@@ -105,7 +105,7 @@ Figure order_plot(const OrderSelection& selection, OrderCriterion criterion, con
     if (panel.curves.empty()) throw InvalidArgument("there is nothing to draw: no structure could be estimated");
     const OrderCandidate& chosen = selection.candidates.at(choice.place);
     if (const double value = quantity.value(chosen); std::isfinite(value))
-        panel.curves.push_back(mark_at(over_delay ? chosen.delay : chosen.poles, value));
+        panel.curves.push_back(mark_of_choice(over_delay ? chosen.delay : chosen.poles, value));
     panel.x_range = x_extent.padded(0.08);
     panel.y_range = y_extent.padded(0.1);
     if (!over_delay) panel.x_tick_step = 1;

@@ -10,4 +10,7 @@ namespace dynlab::inline figures {
 /// nothing is left, and for kValidationFit without a second record.
 Figure order_plot(const OrderSelection& selection, OrderCriterion criterion, const OrderChoice& choice);
 
+/// An open circle around the point of the chosen structure.
+Curve mark_of_choice(double x, double y);
+
 }  // namespace dynlab::inline figures

@@ -108,9 +108,10 @@ TransferFunction exact_d2c(const TransferFunction& G, Hold hold) {
     const ComplexVector discrete_poles = G.poles();
     for (const Complex& pole : discrete_poles)
         if (pole.imag() == 0 && pole.real() <= 0)
-            throw InvalidArgument("d2c: the pole z = " + number_text(pole.real()) +
-                                  " is not the sample of a continuous-time pole of this order; with zoh and foh no "
-                                  "pole may lie on the negative real axis or at zero");
+            throw InvalidArgument(
+                "d2c: the pole z = " + number_text(pole.real()) +
+                " is not the sample of a continuous-time pole of this order; with zoh and foh no "
+                "pole may lie on the negative real axis or at zero; noise, or a pole too many, puts it there");
     // The discrete numerator is linear in the continuous one: solve for its coefficients, with time in samples.
     const Vector den = polynomial_from_roots(discrete_poles.array().log().matrix());
     const Matrix map = discrete_numerators(derivative_filter(den, 1, hold), G.den());

@@ -90,7 +90,9 @@ std::size_t simplest_of(const OrderSelection& selection, const Places& places) {
 
 std::string faults_of(const OrderCandidate& candidate) {
     std::vector<std::string> faults;
-    if (candidate.cancellation) faults.push_back("a zero that cancels a pole");
+    if (candidate.cancellation)
+        faults.push_back(candidate.integrator ? "a zero that cancels a pole or the integrator"
+                                              : "a zero that cancels a pole");
     if (!candidate.undetermined.empty()) {
         std::string names;
         for (const std::string& name : candidate.undetermined) names += (names.empty() ? "" : ", ") + name;
@@ -155,7 +157,8 @@ OrderChoice recommend(const OrderSelection& selection, const Places& estimated) 
 std::string structure_text(const OrderCandidate& candidate) {
     const std::string zeros = candidate.zeros == 0 ? "no zero" : counted(candidate.zeros, "zero");
     const std::string delay = candidate.delay > 0 ? " and a delay of " + number_text(candidate.delay) + " s" : "";
-    return counted(candidate.poles, "pole") + (delay.empty() ? " and " : ", ") + zeros + delay;
+    const std::string integrator = candidate.integrator ? "an integrator, " : "";
+    return integrator + counted(candidate.poles, "pole") + (delay.empty() ? " and " : ", ") + zeros + delay;
 }
 
 OrderChoice choose_order(const OrderSelection& selection, OrderCriterion criterion) {

@@ -12,6 +12,7 @@
 #include "numerics/error.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/filters/thread_count.h"
+#include "numerics/fit/integrated_input.h"
 #include "numerics/fit/search_starts.h"
 #include "numerics/validation/compare.h"
 #include "numerics/validation/fit_measures.h"
@@ -48,14 +49,26 @@ bool cancel(const RootUncertainty& pole, const RootUncertainty& zero) {
     return gap <= 0.1 * size && !(gap > 3 * spread);
 }
 
-bool has_cancellation(const Fit& estimate) {
+/// Closer to the integrator's pole, 0, than a tenth of the slowest pole's distance and not told from 0 by three
+/// standard deviations, or closer than a hundredth.
+bool cancels_integrator(const RootUncertainty& zero, double slowest) {
+    const double gap = std::abs(zero.root);
+    return gap <= 0.01 * slowest || (gap <= 0.1 * slowest && !(gap > 3 * std::sqrt(zero.covariance.trace())));
+}
+
+bool has_cancellation(const Fit& estimate, bool integrator) {
     if (!estimate.covariance.allFinite()) return false;
     const UncertainModel model(estimate.models.front(), estimate.covariance);
     const std::vector<RootUncertainty> zeros = zero_uncertainty(model);
-    for (const RootUncertainty& pole : pole_uncertainty(model))
+    double slowest = kInfinity;
+    for (const RootUncertainty& pole : pole_uncertainty(model)) {
+        slowest = std::min(slowest, std::abs(pole.root));
         for (const RootUncertainty& zero : zeros)
             if (cancel(pole, zero)) return true;
-    return false;
+    }
+    return integrator && std::any_of(zeros.begin(), zeros.end(), [slowest](const RootUncertainty& zero) {
+               return cancels_integrator(zero, slowest);
+           });
 }
 
 bool has_constant_inputs(const IdData& data) {
@@ -70,6 +83,12 @@ double validation_fit(const IdData& data, const Fit& estimate, Offset offset) {
     const InitialState state = hidden ? InitialState::kAuto : InitialState::kEstimate;
     const double fit = compare_all(data, estimate.models, {state, offset}).fit_percent[0];
     return std::isfinite(fit) ? fit : -std::numeric_limits<double>::infinity();
+}
+
+/// The integrator's initial state is that of the output, and takes in any offset of it.
+double validation_fit_with_integrator(const IdData& data, Fit estimate) {
+    append_integrator(estimate);
+    return validation_fit(data, estimate, Offset::kNone);
 }
 
 void measure(OrderCandidate& candidate, const IdData& data, const OrderSelectionOptions& options) {
@@ -92,9 +111,11 @@ void measure(OrderCandidate& candidate, const IdData& data, const OrderSelection
     const double rounding = kRoundingShare * outputs.measured.squaredNorm() / samples;
     candidate.evidence = samples * std::log(std::max(mean_square, rounding)) + count * std::log(samples);
     candidate.undetermined = undetermined_parameters(estimate);
-    candidate.cancellation = has_cancellation(estimate);
+    candidate.cancellation = has_cancellation(estimate, options.integration);
     candidate.converged = estimate.termination == Termination::kConverged;
-    if (options.validation != nullptr) candidate.validation_fit = validation_fit(*options.validation, estimate, offset);
+    if (options.validation == nullptr) return;
+    candidate.validation_fit = options.integration ? validation_fit_with_integrator(*options.validation, estimate)
+                                                   : validation_fit(*options.validation, estimate, offset);
 }
 
 /// `poorer`: fits of all structures that are a step poorer, or none.
@@ -104,6 +125,7 @@ OrderCandidate candidate_of(const IdData& data, const TransferStructure& structu
     candidate.poles = structure.poles.front();
     candidate.zeros = structure.channels.front().zeros;
     candidate.delay = structure.channels.front().delay;
+    candidate.integrator = options.integration;
     try {
         candidate.estimate = srivc(data, structure, options.estimation, {{}, {}, std::move(poorer)});
         if (!candidate.estimate.theta.allFinite()) throw InvalidArgument("a parameter is not finite");
@@ -191,6 +213,8 @@ std::vector<TransferStructure> order_grid(std::pair<int, int> poles, std::pair<i
 OrderSelection select_order(const IdData& data, const std::vector<TransferStructure>& candidates,
                             const OrderSelectionOptions& options) {
     check_selection(data, candidates, options);
+    const IdData integrated = options.integration ? integrated_inputs(data) : IdData();
+    const IdData& seen = options.integration ? integrated : data;
     OrderSelection selection;
     selection.samples = data.sample_count();
     selection.validated = options.validation != nullptr;
@@ -208,7 +232,7 @@ OrderSelection select_order(const IdData& data, const std::vector<TransferStruct
             candidate.failure = "the search was stopped before its turn";
             return;
         }
-        candidate = candidate_of(data, candidates[i], options, poorer_fits(candidates, i, selection.candidates));
+        candidate = candidate_of(seen, candidates[i], options, poorer_fits(candidates, i, selection.candidates));
         const std::scoped_lock lock(callbacks);
         if (options.progress) options.progress(++done);
     };
@@ -223,6 +247,9 @@ OrderSelection select_order(const IdData& data, const std::vector<TransferStruct
                 tbb::simple_partitioner());
     });
     const auto estimated = [](const OrderCandidate& candidate) { return candidate.failure.empty(); };
+    if (options.integration)
+        for (OrderCandidate& candidate : selection.candidates)
+            if (estimated(candidate)) append_integrator(candidate.estimate);
     if (!selection.cancelled && std::none_of(selection.candidates.begin(), selection.candidates.end(), estimated))
         throw InvalidArgument("none of the structures could be estimated; the first one says: " +
                               selection.candidates.front().failure);

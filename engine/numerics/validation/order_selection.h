@@ -26,6 +26,7 @@ struct OrderCandidate {
     std::vector<std::string> undetermined;  ///< parameters whose standard error exceeds their value
     bool cancellation = false;              ///< a zero lies on a pole within what the data can tell
     bool converged = true;
+    bool integrator = false;  ///< besides the poles, which do not count it
 
     /// An estimate without the three faults that tell of too high an order.
     bool sound() const { return failure.empty() && undetermined.empty() && !cancellation && converged; }
@@ -43,6 +44,7 @@ struct OrderSelectionOptions {
     const IdData* validation = nullptr;                   ///< another record of the same channels
     int threads = 0;                                      ///< all cores when 0; never more than there are
     FitOptions estimation = {};                           ///< the same for every structure
+    bool integration = false;                             ///< every structure has an integrator besides its poles
     std::function<void(std::size_t done)> progress = {};  ///< called by one thread at a time
     std::function<bool()> cancel = {};                    ///< asked before every candidate, by one thread at a time
 };
@@ -59,6 +61,8 @@ std::vector<TransferStructure> order_grid(std::pair<int, int> poles, std::pair<i
 /// A second record is simulated as compare_all() does it with the initial state estimated, for that is the record's
 /// own, and with the offset that the estimation was asked for. Equal numbers for any number of threads. Throws
 /// InvalidArgument for other data, no candidates, and when none of them could be estimated.
+/// With `integration` inputs are held (zoh), the record begins at rest, and a second record's initial state is that of
+/// the integrator too, so that an offset of its output is part of it.
 OrderSelection select_order(const IdData& data, const std::vector<TransferStructure>& candidates,
                             const OrderSelectionOptions& options = {});
 

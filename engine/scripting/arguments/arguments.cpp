@@ -24,7 +24,12 @@ namespace {
 constexpr double kLargestExactWhole = 9007199254740992.0;  // 2^53
 
 [[noreturn]] void wrong_value(lua_State* L, int index, const std::string& label, const std::string& wanted) {
-    throw InvalidArgument(fmt::format("{} must be {}, but {} was given", label, wanted, given_text(L, index)));
+    const bool mask = to_mask(L, index) != nullptr;
+    const bool variables = wanted == "an iddata" && lua_istable(L, index);
+    throw InvalidArgument(fmt::format("{} must be {}, but {} was given{}", label, wanted, given_text(L, index),
+                                      mask        ? "; find(mask) gives the places, #find(mask) how many there are"
+                                      : variables ? "; iddata(y, u, Ts) makes one of vectors"
+                                                  : ""));
 }
 
 double number_at(lua_State* L, int index, const std::string& label) {
@@ -140,9 +145,11 @@ void Call::at_most(int arguments) const {
     if (arguments_ <= arguments) return;
     const bool orders = to_vector(state_, 1) == nullptr && lua_isuserdata(state_, 1) && arguments >= 2 &&
                         lua_type(state_, 2) == LUA_TNUMBER && lua_type(state_, 3) == LUA_TNUMBER;
+    const bool named = arguments >= 1 && lua_type(state_, arguments) == LUA_TSTRING;
+    const std::string options = fmt::format("{{{} = value}}", named ? lua_tostring(state_, arguments) : "name");
     throw InvalidArgument(fmt::format("takes at most {}, but {} were given; {} are written as one table {}",
                                       counted(arguments, "argument"), arguments_, orders ? "orders" : "options",
-                                      orders ? "{1, 1, 0}" : "{name = value}"));
+                                      orders ? "{1, 1, 0}" : options));
 }
 
 double Call::number(int index, const char* what) const {
@@ -230,6 +237,15 @@ int Call::give_matrix(const MatrixView& m) const {
     return 1;
 }
 
+namespace {
+
+/// The names of the options, for messages.
+std::string names_of(std::initializer_list<const char*> known) {
+    return known.size() == 0 ? "" : fmt::format("; the names are {}", fmt::join(known, ", "));
+}
+
+}  // namespace
+
 Options::Options(const Call& call, int index, std::initializer_list<const char*> known)
     : call_(call), index_(lua_absindex(call.state(), index)) {
     lua_State* L = call.state();
@@ -238,8 +254,8 @@ Options::Options(const Call& call, int index, std::initializer_list<const char*>
         return;
     }
     if (lua_type(L, index_) != LUA_TTABLE)
-        throw InvalidArgument(
-            fmt::format("options are written as a table {{name = value}}, but {} was given", given_text(L, index_)));
+        throw InvalidArgument(fmt::format("options are written as a table {{name = value}}, but {} was given{}",
+                                          given_text(L, index_), names_of(known)));
     check_names(known);
 }
 
@@ -261,8 +277,8 @@ void Options::check_names(std::initializer_list<const char*> known) const {
     while (lua_next(L, index_)) {
         lua_pop(L, 1);
         if (lua_type(L, -1) != LUA_TSTRING)
-            throw InvalidArgument(
-                fmt::format("options are written {{name = value}}; the entry [{}] has no name", given_text(L, -1)));
+            throw InvalidArgument(fmt::format("options are written {{name = value}}; the entry [{}] has no name{}",
+                                              given_text(L, -1), names_of(known)));
         const std::string name = lua_tostring(L, -1);
         const auto is_known = [&](const std::string& word) {
             return std::find(known.begin(), known.end(), word) != known.end();

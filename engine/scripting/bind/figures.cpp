@@ -204,6 +204,9 @@ int subplot(Call& call) {
 
 int save(Call& call) {
     call.at_most(2);
+    if (call.type(1) == LUA_TSTRING)
+        throw InvalidArgument(
+            "the figure comes first: save(fig, path); variables are written by save_mat(path, {x = x}) and save_csv");
     ScriptFigure& figure = used_figure(call, 1, "figure");
     const std::filesystem::path file = output_path(call.context(), call.text(2, "path"));
     if (call.context().options.graded) return 0;

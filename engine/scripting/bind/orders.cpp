@@ -1,6 +1,7 @@
 #include <array>
 #include <cmath>
 
+#include "figures/plots/arx_order_plot.h"
 #include "figures/plots/delay_plot.h"
 #include "figures/plots/order_plot.h"
 #include "numerics/validation/delay_search.h"
@@ -86,7 +87,7 @@ std::vector<TransferStructure> listed_structures(const Call& call, const IdData&
 }
 
 bool is_list(const Call& call, int index) {
-    const bool found = call.type(index) == LUA_TTABLE && lua_rawgeti(call.state(), index, 1) != LUA_TNIL;
+    const bool found = call.type(index) == LUA_TTABLE && lua_rawgeti(call.state(), index, 1) == LUA_TTABLE;
     lua_settop(call.state(), call.count());
     return found;
 }
@@ -97,22 +98,29 @@ FitOptions estimation_options(const Options& options) {
     return wanted;
 }
 
+/// The second record, or nothing.
+const IdData* validation_record(const Options& options) {
+    if (!options.has("validate")) return nullptr;
+    const IdData* record = to_object<IdData>(options.call().state(), options.push("validate"));
+    if (record == nullptr) throw InvalidArgument("option 'validate' must be a data object");
+    return record;
+}
+
 int try_structures(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const bool listed = is_list(call, 2);
     const Options options =
-        listed
-            ? Options(call, 3, {"validate", "lambda", "InitialState", "Offset", "MaxIter", "Tol", "Stable", "threads"})
-            : Options(call, 2,
-                      {"poles", "zeros", "delays", "TdMin", "TdMax", "NumTd", "validate", "lambda", "InitialState",
-                       "Offset", "MaxIter", "Tol", "Stable", "Feedthrough", "threads"});
+        listed ? Options(call, 3,
+                         {"validate", "lambda", "InitialState", "Offset", "MaxIter", "Tol", "Stable", "Integration",
+                          "threads"})
+               : Options(call, 2,
+                         {"poles", "zeros", "delays", "TdMin", "TdMax", "NumTd", "validate", "lambda", "InitialState",
+                          "Offset", "MaxIter", "Tol", "Stable", "Feedthrough", "Integration", "threads"});
     const std::vector<TransferStructure> structures = listed ? listed_structures(call, data) : grid_of(options, data);
     OrderSelectionOptions wanted;
-    if (options.has("validate")) {
-        wanted.validation = to_object<IdData>(call.state(), options.push("validate"));
-        if (wanted.validation == nullptr) throw InvalidArgument("option 'validate' must be a data object");
-    }
+    wanted.validation = validation_record(options);
+    wanted.integration = options.flag("Integration", false);
     wanted.threads = static_cast<int>(options.size("threads", 0));
     wanted.cancel = call.cancel();
     wanted.estimation = estimation_options(options);
@@ -149,6 +157,41 @@ int select_structure(Call& call) {
     const OrderCandidate& candidate = table.selection.candidates[choice.place];
     give_transfer_estimate(call, "srivc", candidate.estimate);
     give_figure(call, order_plot(table.selection, criterion, choice));
+    return 2;
+}
+
+int try_arx_structures(Call& call) {
+    call.at_most(2);
+    const IdData& data = object_argument<IdData>(call, 1, "data");
+    const Options options(call, 2, {"na", "nb", "nk", "validate"});
+    ArxRanges ranges;
+    ranges.na = range_of(options, "na", ranges.na);
+    ranges.nb = range_of(options, "nb", ranges.nb);
+    ranges.nk = range_of(options, "nk", ranges.nk);
+    push_object(call.state(), select_arx(data, ranges, validation_record(options)));
+    return 1;
+}
+
+/// BIC is MDL to users of MATLAB.
+ArxCriterion arx_criterion_of(const Call& call, const ArxSelection& table) {
+    if (!call.given(2)) return usual_criterion(table);
+    const std::string text = call.text(2, "criterion");
+    for (const auto& [name, criterion] : {std::pair("loss", ArxCriterion::kLoss), std::pair("AIC", ArxCriterion::kAic),
+                                          std::pair("BIC", ArxCriterion::kBic), std::pair("MDL", ArxCriterion::kBic)})
+        if (text == name) return criterion;
+    throw InvalidArgument(
+        fmt::format("the criterion must be \"loss\", \"AIC\", \"BIC\" or \"MDL\", but \"{}\" was given", text));
+}
+
+int select_arx_structure(Call& call) {
+    call.at_most(2);
+    const ArxSelection& table = object_argument<ArxSelection>(call, 1, "what arxstruc gave");
+    const ArxCriterion criterion = arx_criterion_of(call, table);
+    const OrderChoice choice = choose_arx(table, criterion);
+    call.print(arx_table_text(table, choice));
+    const ArxCandidate& chosen = table.candidates[choice.place];
+    give_value(call, std::array{chosen.na, chosen.nb, chosen.nk});
+    give_figure(call, arx_order_plot(table, criterion, choice));
     return 2;
 }
 
@@ -200,6 +243,10 @@ constexpr std::array kOrdersFunctions = {
                   guarded<memoized_call<try_structures>>},
     FunctionEntry{"selcstruc", kOrdersArea, "selcstruc(V, criterion) -> G, fig",
                   "the structure that a criterion chooses, explained in words", guarded<select_structure>},
+    FunctionEntry{"arxstruc", kOrdersArea, "arxstruc(data, {na = {1, 4}, nb = {1, 4}, nk = 1, validate =}) -> V",
+                  "the loss of arx for every structure, on a second record too", guarded<try_arx_structures>},
+    FunctionEntry{"selstruc", kOrdersArea, "selstruc(V, criterion) -> {na, nb, nk}, fig",
+                  "the orders that a criterion chooses among those of arxstruc", guarded<select_arx_structure>},
     FunctionEntry{"delayest", kOrdersArea,
                   "delayest(data, {poles = {1, 3}, zeros = {0, 1}, TdMin =, TdMax =, ...}) -> Td, fig, D",
                   "the delay between input and output, with its standard error and the loss over the delay",

@@ -2,11 +2,13 @@
 #include <cctype>
 #include <cmath>
 
+#include "scripting/arguments/arguments.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/text_form.h"
 #include "scripting/runtime/report_language.h"
 #include "scripting/runtime/sandbox.h"
+#include "scripting/runtime/slider_values.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -104,9 +106,56 @@ int report_text(Call& call) {
     return 0;
 }
 
+template <class T>
+T service_or_default(const Call& call) {
+    const auto& services = call.context().services;
+    const auto found = services.find(typeid(T).hash_code());
+    return found == services.end() ? T{} : *static_cast<const T*>(found->second);
+}
+
 int report_language(Call& call) {
     call.at_most(0);
-    return call.give(report_language_of(call.context()));
+    return call.give(service_or_default<ReportLanguage>(call).code);
+}
+
+void check_range(const std::string& name, const RecordedSlider& slider) {
+    if (!(slider.from < slider.to) || !std::isfinite(slider.from) || !std::isfinite(slider.to))
+        throw InvalidArgument(fmt::format("the slider \"{}\" must go from a number to a greater one, not from {} to {}",
+                                          name, number_text(slider.from), number_text(slider.to)));
+    if (slider.logarithmic && slider.from <= 0)
+        throw InvalidArgument(fmt::format("the slider \"{}\" has log = true and must begin above 0, not at {}", name,
+                                          number_text(slider.from)));
+    if (slider.step && !(*slider.step > 0 && *slider.step <= slider.to - slider.from))
+        throw InvalidArgument(fmt::format("the step of the slider \"{}\" must be above 0 and at most {}, not {}", name,
+                                          number_text(slider.to - slider.from), number_text(*slider.step)));
+    for (const double value : {slider.initial, slider.value})
+        if (!(value >= slider.from && value <= slider.to))
+            throw InvalidArgument(fmt::format("the slider \"{}\" goes from {} to {}; {} lies outside", name,
+                                              number_text(slider.from), number_text(slider.to), number_text(value)));
+}
+
+int slider(Call& call) {
+    call.at_most(5);
+    Recorder& recorder = call.context().recorder;
+    const std::string name =
+        new_name(call, [&](const std::string& n) { return recorder.record().sliders.count(n) != 0; });
+    RecordedSlider slider;
+    slider.initial = call.number(2, "value");
+    slider.from = call.number(3, "from");
+    slider.to = call.number(4, "to");
+    const Options options(call, 5, {"step", "log", "unit", "label"});
+    slider.step = options.optional_number("step");
+    slider.logarithmic = options.flag("log", false);
+    slider.unit = options.text("unit", "");
+    slider.label = options.text("label", name);
+    if (slider.step && slider.logarithmic)
+        throw InvalidArgument(fmt::format("the slider \"{}\" has log = true: it takes no step", name));
+    const auto chosen = service_or_default<SliderValues>(call).chosen;
+    const auto found = chosen.find(name);
+    slider.value = found == chosen.end() ? slider.initial : found->second;
+    check_range(name, slider);
+    recorder.add_slider(name, slider);
+    return call.give(slider.value);
 }
 
 constexpr const char* kGuesses = "dynlab guesses";  // in Lua's registry: a table for each name
@@ -117,7 +166,7 @@ void push_guesses(lua_State* L) {
 }
 
 bool in_french(const Call& call) {
-    return report_language_of(call.context()) == "fr";
+    return service_or_default<ReportLanguage>(call).code == "fr";
 }
 
 std::string with_unit(double value, const std::string& unit) {
@@ -194,6 +243,8 @@ constexpr std::array kReportFunctions = {
                   guarded<report_text>},
     FunctionEntry{"report.language", kReportArea, "report.language() -> text", "tells the report's language",
                   guarded<report_language>},
+    FunctionEntry{"slider", kReportArea, "slider(name, x, from, to, {step = , log = , unit = , label = }) -> x",
+                  "a number that the reader of a page moves", guarded<slider>},
     FunctionEntry{"guess", kReportArea, "guess(name, value, unit)", "writes down what you expect before you look",
                   guarded<guess>},
     FunctionEntry{"outcome", kReportArea, "outcome(name, value)", "prints a guess beside what was found",

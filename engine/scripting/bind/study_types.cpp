@@ -124,10 +124,52 @@ constexpr std::array kTableFields = {Member{"rows", guarded<table_rows>}, Member
                                      Member{"recommendation", field<OrderTable, recommendation>}};
 constexpr std::array kTableOperators = {Member{"__tostring", field<OrderTable, table_text>}};
 
+// ---- table of ARX orders
+
+int push_arx_candidate(const Call& call, const ArxCandidate& candidate) {
+    lua_createtable(call.state(), 0, 9);
+    for (const auto& [name, value] : {std::pair("na", candidate.na), std::pair("nb", candidate.nb),
+                                      std::pair("nk", candidate.nk), std::pair("parameters", candidate.parameters())})
+        set_field(call, name, value);
+    for (const auto& [name, value] :
+         {std::pair("loss", candidate.loss), std::pair("aic", candidate.aic), std::pair("bic", candidate.bic)})
+        set_field(call, name, value);
+    if (candidate.validation_loss) set_field(call, "validation_loss", *candidate.validation_loss);
+    set_field(call, "determined", candidate.determined);
+    return 1;
+}
+
+int arx_rows(Call& call) {
+    return give_list(call, object_argument<ArxSelection>(call, 1, "table").candidates,
+                     [&](const ArxCandidate& candidate) { push_arx_candidate(call, candidate); });
+}
+OrderChoice usual_arx_choice(const ArxSelection& table) {
+    return choose_arx(table, usual_criterion(table));
+}
+int arx_best(Call& call) {
+    const ArxSelection& table = object_argument<ArxSelection>(call, 1, "table");
+    return push_arx_candidate(call, table.candidates[usual_arx_choice(table).place]);
+}
+std::string arx_recommendation(const ArxSelection& table) {
+    return usual_arx_choice(table).explanation;
+}
+std::string arx_text(const ArxSelection& table) {
+    return arx_table_text(table, usual_arx_choice(table));
+}
+
+constexpr std::array kArxTableFields = {Member{"rows", guarded<arx_rows>}, Member{"best", guarded<arx_best>},
+                                        Member{"recommendation", field<ArxSelection, arx_recommendation>}};
+constexpr std::array kArxTableOperators = {Member{"__tostring", field<ArxSelection, arx_text>}};
+
 }  // namespace
 
+const ObjectType Boxed<ArxSelection>::type{"table of ARX orders", kArxTableFields, {}, kArxTableOperators};
 const ObjectType Boxed<MonteCarlo>::type{"Monte Carlo study", kStudyFields, kStudyMethods, kStudyOperators};
 const ObjectType Boxed<OrderTable>::type{"table of orders", kTableFields, {}, kTableOperators};
+
+std::size_t Boxed<ArxSelection>::outside_bytes(const ArxSelection& table) {
+    return table.candidates.size() * sizeof(ArxCandidate);
+}
 
 std::size_t Boxed<MonteCarlo>::outside_bytes(const MonteCarlo& study) {
     std::size_t numbers = 0;

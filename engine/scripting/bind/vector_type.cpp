@@ -11,25 +11,28 @@
 namespace dynlab::inline scripting {
 namespace {
 
+[[noreturn]] void refuse_element(const char* what, double number, Index size) {
+    throw InvalidArgument(fmt::format("{0}[{1:.10g}] does not exist: {0} has the elements 1 to {2}{3}", what, number,
+                                      size, number < 0 ? fmt::format("; the last one is {0}[#{0}]", what) : ""));
+}
+
 /// Reads an element number from 1 to `size`, 0-based. `what` is "v" or "row" for messages.
 Index element_index(lua_State* L, int index, Index size, const char* what) {
     if (lua_isinteger(L, index)) {
         const lua_Integer number = lua_tointeger(L, index);
         if (number >= 1 && number <= size) return number - 1;
-        throw InvalidArgument(
-            fmt::format("{}[{}] does not exist: {} has the elements 1 to {}", what, number, what, size));
+        refuse_element(what, static_cast<double>(number), size);
     }
     if (lua_type(L, index) != LUA_TNUMBER)
-        throw InvalidArgument(fmt::format("{}[i] needs a whole number i from 1 to {}, but {} was given{}", what, size,
-                                          given_text(L, index),
-                                          to_mask(L, index) != nullptr ? "; write v:select(mask)" : ""));
+        throw InvalidArgument(fmt::format(
+            "{}[i] needs a whole number i from 1 to {}, but {} was given{}", what, size, given_text(L, index),
+            to_mask(L, index) != nullptr ? "; write v:select(mask), or loop over find(mask) to set elements" : ""));
     const double number = lua_tonumber(L, index);
     if (std::floor(number) != number)
         throw InvalidArgument(
             fmt::format("{}[{:.10g}]: an element has a whole number from 1 to {}", what, number, size));
     if (number >= 1 && number <= static_cast<double>(size)) return static_cast<Index>(number) - 1;
-    throw InvalidArgument(
-        fmt::format("{}[{:.10g}] does not exist: {} has the elements 1 to {}", what, number, what, size));
+    refuse_element(what, number, size);
 }
 
 int read_element(Call& call) {

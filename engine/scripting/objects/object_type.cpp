@@ -7,6 +7,9 @@
 
 #include "platform/spelling.h"
 #include "scripting/runtime/context.h"
+#include "scripting/runtime/errors.h"
+#include "scripting/runtime/matlab_hints.h"
+#include "scripting/runtime/sandbox.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -22,13 +25,28 @@ void push_members(lua_State* L, std::span<const Member> members) {
     }
 }
 
-std::string unknown_member_message(const ObjectType& type, const std::string& key) {
+bool is_library_function(lua_State* L, const std::string& name) {
+    push_library(L);
+    lua_pushstring(L, name.c_str());
+    const bool found = lua_rawget(L, -2) == LUA_TFUNCTION;
+    lua_pop(L, 2);
+    return found;
+}
+
+std::string unknown_member_message(lua_State* L, const ObjectType& type, const std::string& key) {
     std::vector<std::string> names;
     for (const Member& member : type.fields) names.emplace_back(member.name);
     for (const Member& member : type.methods) names.emplace_back(member.name);
     const auto near = nearest_word(key, names);
-    std::string message = fmt::format("a {} has no field or method '{}'", type.name, key);
+    std::string message = fmt::format("{} has no field or method '{}'", article(type.name), key);
+    const std::string singular = key.ends_with('s') ? key.substr(0, key.size() - 1) : key;
+    const auto as_function = [&](const std::string& name) {
+        return fmt::format("; write it as a function, {}(...)", name);
+    };
+    if (is_library_function(L, key)) return message + as_function(key);
+    if (const char* hint = foreign_member_hint(type.name, key)) return message + "; " + hint;
     if (near) return message + fmt::format("; did you mean '{}'?", *near);
+    if (is_library_function(L, singular)) return message + as_function(singular);
     return names.empty() ? message : message + fmt::format("; it has {}", fmt::join(names, ", "));
 }
 
@@ -55,12 +73,12 @@ int read_member(lua_State* L) {
                                    std::string_view(type.name) == "figure"
                                        ? ", and bode_values(G, w), freqresp(G, w) and lsim(G, u, t) give numbers"
                                        : ""));
-    raise_error(L, unknown_member_message(type, lua_tostring(L, 2)));
+    raise_error(L, unknown_member_message(L, type, lua_tostring(L, 2)));
 }
 
 int refuse_writing(lua_State* L) {
     const auto& type = *static_cast<const ObjectType*>(lua_touserdata(L, lua_upvalueindex(1)));
-    raise_error(L, fmt::format("a {} cannot be changed; make a new one", type.name));
+    raise_error(L, fmt::format("{} cannot be changed; make a new one", article(type.name)));
 }
 
 /// __concat: Lua would say "concatenate a userdata value".

@@ -1,4 +1,5 @@
 #pragma once
+#include "numerics/validation/arx_selection.h"
 #include "numerics/validation/monte_carlo.h"
 #include "numerics/validation/order_selection.h"
 #include "scripting/objects/boxed.h"
@@ -15,6 +16,13 @@ template <>
 struct Boxed<OrderTable> {
     static const ObjectType type;
     static std::size_t outside_bytes(const OrderTable& table);
+};
+
+/// What arxstruc gives.
+template <>
+struct Boxed<ArxSelection> {
+    static const ObjectType type;
+    static std::size_t outside_bytes(const ArxSelection& table);
 };
 
 template <>

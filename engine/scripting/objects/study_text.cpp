@@ -113,4 +113,19 @@ std::string order_table_text(const OrderSelection& selection, const OrderChoice&
     return text + choice.explanation + "\n";
 }
 
+std::string arx_table_text(const ArxSelection& selection, const OrderChoice& choice) {
+    std::string text = fmt::format("  {:>4} {:>4} {:>4} {:>10} {:>11} {:>9} {:>9}", "na", "nb", "nk", "parameters",
+                                   "loss", "AIC", "BIC");
+    if (selection.validated) text += fmt::format(" {:>11}", "val. loss");
+    text += "\n";
+    for (std::size_t i = 0; i < selection.candidates.size(); ++i) {
+        const ArxCandidate& one = selection.candidates[i];
+        text += fmt::format("{} {:>4} {:>4} {:>4} {:>10} {:>11} {:>9.4f} {:>9.4f}", i == choice.place ? '*' : ' ',
+                            one.na, one.nb, one.nk, one.parameters(), number_text(one.loss, 5), one.aic, one.bic);
+        if (one.validation_loss) text += fmt::format(" {:>11}", number_text(*one.validation_loss, 5));
+        text += one.determined ? "\n" : "  not determined: the input is too poor\n";
+    }
+    return text + choice.explanation + "\n";
+}
+
 }  // namespace dynlab::inline scripting

@@ -1,6 +1,7 @@
 #pragma once
 #include <string>
 
+#include "numerics/validation/arx_selection.h"
 #include "numerics/validation/monte_carlo.h"
 #include "numerics/validation/order_selection.h"
 
@@ -11,5 +12,6 @@ std::string monte_carlo_text(const MonteCarlo& study);
 
 /// All candidates in a table, the chosen one marked, and why it was chosen.
 std::string order_table_text(const OrderSelection& selection, const OrderChoice& choice);
+std::string arx_table_text(const ArxSelection& selection, const OrderChoice& choice);
 
 }  // namespace dynlab::inline scripting

@@ -42,8 +42,8 @@ void show_figures(const StatementResult& result) {
 
 class Prompt {
   public:
-    explicit Prompt(const std::filesystem::path& figure_folder)
-        : session_(figure_folder, print_shown),
+    Prompt(const std::filesystem::path& figure_folder, const FigureListener& see)
+        : session_(figure_folder, print_shown, see),
           history_(history_file()),
           editor_(history_, [this](const auto& line) { return session_.complete_end(pending_ + line); }) {}
 
@@ -137,14 +137,15 @@ bool run_from_pipe(PromptSession& session, const PromptStatement& statement, int
 
 }  // namespace
 
-void run_prompt(const std::filesystem::path& figure_folder, const std::string& greeting, const std::string& first) {
-    Prompt prompt(figure_folder);
+void run_prompt(const std::filesystem::path& figure_folder, const std::string& greeting, const std::string& first,
+                const FigureListener& see) {
+    Prompt prompt(figure_folder, see);
     print_now(greeting);
     prompt.run(first);
 }
 
-bool run_statements_of(std::istream& input, const std::filesystem::path& figure_folder) {
-    PromptSession session(figure_folder, print_now);
+bool run_statements_of(std::istream& input, const std::filesystem::path& figure_folder, const FigureListener& see) {
+    PromptSession session(figure_folder, print_now, see);
     bool all_well = true;
     std::string pending;
     int first_line = 1, line_number = 0;

@@ -41,8 +41,10 @@ RunOptions options_of_prompt(std::function<void(const std::string&)> print) {
 
 }  // namespace
 
-PromptSession::PromptSession(fs::path figure_folder, std::function<void(const std::string&)> print)
-    : figure_folder_(std::move(figure_folder)), runtime_(options_of_prompt(std::move(print)), renderer_) {}
+PromptSession::PromptSession(fs::path figure_folder, std::function<void(const std::string&)> print, FigureListener see)
+    : figure_folder_(std::move(figure_folder)),
+      see_(std::move(see)),
+      runtime_(options_of_prompt(std::move(print)), renderer_) {}
 
 StatementResult PromptSession::run(const PromptStatement& statement, const std::string& name) {
     StatementResult result;
@@ -68,6 +70,7 @@ void PromptSession::save_figures(const RunRecord& record, StatementResult& resul
     for (const auto& [name, figure] : record.figures) {
         const fs::path file = figure_folder_ / fmt::format("{}{}.pdf", kStem, ++*last_figure_);
         renderer_.draw(figure.figure, file, FigureFormat::kPdf);
+        if (see_) see_(file.filename().string(), figure.figure);
         files.push_back(file);
     }
     renderer_.finish();

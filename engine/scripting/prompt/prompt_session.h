@@ -18,12 +18,16 @@ struct StatementResult {
     std::vector<std::filesystem::path> figures;  ///< files of the figures it made, also before an error
 };
 
+/// Sees a figure as it is made, with the name of its file.
+using FigureListener = std::function<void(const std::string& name, const Figure& figure)>;
+
 /// The statements of one session: variables, random numbers and the count of figures live on from one to the next.
 class PromptSession {
   public:
     /// Figures go to `figure_folder`, made with the first one, as figure-1.pdf, figure-2.pdf, ...; the numbers go on
     /// after those of the files that are there, so that no figure is overwritten.
-    PromptSession(std::filesystem::path figure_folder, std::function<void(const std::string&)> print);
+    PromptSession(std::filesystem::path figure_folder, std::function<void(const std::string&)> print,
+                  FigureListener see = {});
 
     /// `name` stands for the file in messages. Ctrl-C ends the statement with the error "interrupted" (while an
     /// InterruptScope lives); nothing is thrown that a statement can cause.
@@ -35,6 +39,7 @@ class PromptSession {
 
     GnuplotRenderer renderer_;
     std::filesystem::path figure_folder_;
+    FigureListener see_;
     std::optional<unsigned> last_figure_;  ///< once the folder was looked at
     Runtime runtime_;
 };

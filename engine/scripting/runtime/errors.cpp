@@ -46,20 +46,34 @@ std::string with_article(const std::string& type) {
 std::string call_sentence(const std::string& text, const std::string& type) {
     if (auto name = between(text, "method '", "')"))
         return fmt::format("there is no method '{}' on this object", *name);
+    if (text.find("for iterator") != std::string::npos && type != "nil")
+        return fmt::format("{} cannot be looped over so; write for i, x in ipairs(v) do ... end", with_article(type));
     if (type == "nil") return subject(text) + " is nil (it has no value), so it cannot be called like a function";
-    const char* advice = type == "matrix"                      ? "; the element i, j is written A[{i, j}]"
+    const char* advice = type == "model"                       ? "; its values at frequencies are freqresp(G, w)"
+                         : type == "matrix"                    ? "; the element i, j is written A[{i, j}]"
                          : type == "vector" || type == "table" ? "; the element i is written v[i]"
                                                                : "";
     return fmt::format("{} is {}, so it cannot be called like a function{}", subject(text), with_article(type), advice);
 }
+
+constexpr const char *kComplexNumber = "complex number", *kPartsOfComplex = "compare their fields re, im, abs or arg";
 
 std::string compare_sentence(const std::string& text) {
     if (auto type = between(text, "attempt to compare two ", " values"))
         return fmt::format("two values of kind '{}' cannot be compared with < or >", *type);
     const auto left = between(text, "attempt to compare ", " with ");
     const auto right = between(text, " with ", "");
+    if (left == kComplexNumber || right == kComplexNumber)
+        return fmt::format("complex numbers have no order; {}", kPartsOfComplex);
     return fmt::format("{} cannot be compared with {} by < or >", with_article(left.value_or("this value")),
                        with_article(right.value_or("this value")));
+}
+
+/// Functions of Lua's math that have a namesake for vectors.
+bool takes_vectors(const std::string& function) {
+    for (const char* name : {"abs", "ceil", "cos", "exp", "floor", "log", "max", "min", "sin", "sqrt"})
+        if (function == name) return true;
+    return false;
 }
 
 /// bad argument #1 to 'insert' (table expected, got nil)
@@ -71,12 +85,16 @@ std::string argument_sentence(const std::string& text) {
     const std::string inside = reason->substr(0, reason->size() - 1);
     if (*function == "format" && inside.find("no integer representation") != std::string::npos)
         return fmt::format("format: argument {} is not a whole number, which %d wants; write %g or %.0f", *number);
+    const std::string given = between(inside, " expected, got ", "").value_or("");
+    if ((given == "vector" || given == "matrix") && takes_vectors(*function))
+        return fmt::format("math.{0} takes numbers, but a {1} was given; write {0}(x), without math", *function, given);
     if (auto wanted = between(inside, "", " expected, got "))
-        return fmt::format("{}: argument {} must be a {}, but {} was given", *function, *number, *wanted,
-                           *between(inside, " expected, got ", ""));
+        return fmt::format("{}: argument {} must be a {}, but {} was given", *function, *number, *wanted, given);
     return fmt::format("{}: argument {}: {}", *function, *number, inside);
 }
 
+constexpr const char *kLoopForm = "a loop is written: while condition do ... end",
+                     *kConditionForm = "a condition is written: if a > b then ... end";
 constexpr int kLinesBack = 5;  // from a syntax error to a comment that caused it
 
 struct PlainMessage {
@@ -116,11 +134,14 @@ std::string plain_sentence(const std::string& text) {
                                ? "; the element i, j of a matrix is A[{i, j}]"
                                : "");
     if (auto type = between(text, "attempt to perform arithmetic on a ", " value")) {
-        const char* advice = *type == "table" ? "; make a vector of it: vector(t)" : "";
+        const char* advice = *type == "table"          ? "; make a vector of it: vector(t)"
+                             : *type == kComplexNumber ? "; calculate with its fields re, im, abs and arg"
+                                                       : "";
         return fmt::format("{} is {}, so it cannot be calculated with{}", subject(text), with_article(*type), advice);
     }
     if (auto type = between(text, "attempt to perform bitwise operation on a ", " value"))
-        return fmt::format("{} is {}, so & | ~ << >> cannot work with it", subject(text), with_article(*type));
+        return fmt::format("{} is {}, so & | ~ << >> cannot work with it{}", subject(text), with_article(*type),
+                           *type == "boolean" ? "; 'not' is written not x" : "");
     if (auto type = between(text, "attempt to concatenate a ", " value"))
         return fmt::format("{} is {}, so .. cannot join it to a text; use tostring(x)", subject(text),
                            with_article(*type));
@@ -149,8 +170,12 @@ std::string syntax_sentence(const std::string& text, const std::string& near) {
                            *between(text, "(to close '", "' at line "), *between(text, "at line ", ")"), *closing);
     if (auto name = between(text, "attempt to assign to const variable '", "'"))
         return fmt::format("'{}' was declared constant and cannot change", *name);
+    if (auto line = between(text, "break outside loop at line ", ""))
+        return fmt::format("the break of line {} stands outside of any loop", line->substr(0, line->find(' ')));
     if (text.find("unfinished string") != std::string::npos) return "a text is not closed with its quote";
     if (near == "<eof>") return "the script ends in the middle of a statement";
+    if (starts_with(text, "<eof> expected") && near != "end")
+        return fmt::format("'{}' cannot follow: return ends its block; -- before it takes it out", near);
     if (starts_with(text, "<eof> expected"))
         return fmt::format("this '{}' closes nothing: there is one too many", near);
     if (starts_with(text, "<name> expected")) return fmt::format("a name is missing before '{}'", near);
@@ -212,12 +237,24 @@ std::string plain_syntax_message(const std::string& message, const std::string& 
         if (const std::string hint = lone_word_hint(line_of(source, line)); !hint.empty())
             return LocatedMessage{placed.file, line, hint}.joined();
     }
+    if (near == "<eof>") {
+        const int last = 1 + static_cast<int>(std::count(source.begin(), source.end(), '\n'));
+        for (int line = 1; line <= last; ++line)
+            if (const std::string hint = colon_block_hint(line_of(source, line)); !hint.empty())
+                return LocatedMessage{placed.file, line, hint}.joined();
+        if (placed.text.find("'end' expected") != std::string::npos && source.find("else if ") != std::string::npos)
+            return LocatedMessage{placed.file, placed.line,
+                                  "an 'end' is missing: 'else if' opens a second block; write elseif"}
+                .joined();
+    }
     const std::string wrong = line_of(source, placed.line);
     if (starts_with(near, "<\\"))
         if (const auto sentence = foreign_character_sentence(wrong))
             return LocatedMessage{placed.file, placed.line, *sentence}.joined();
     const bool ended_early = near == "<eof>" && placed.text.find("unfinished string") == std::string::npos;
-    const std::string hint = ended_early ? "" : matlab_syntax_hint(wrong, near);
+    std::string hint = ended_early ? "" : matlab_syntax_hint(wrong, near);
+    if (hint.empty() && starts_with(placed.text, "'do' expected")) hint = kLoopForm;
+    if (hint.empty() && starts_with(placed.text, "'then' expected")) hint = kConditionForm;
     placed.text = syntax_sentence(placed.text, near);
     if (!hint.empty()) placed.text += "; " + hint;
     return placed.joined();

@@ -6,12 +6,16 @@ namespace dynlab::inline scripting {
 
 /// How a habit from MATLAB or another language is written in Lua; nothing (nullptr, empty) where none is recognised.
 const char* matlab_name_hint(const std::string& name);
+/// The same for a field or method of an object of this type.
+const char* foreign_member_hint(const std::string& type, const std::string& name);
 /// For a line that Lua cannot read; `near` is the word at which it stopped.
 std::string matlab_syntax_hint(const std::string& line, const std::string& near);
 /// For a word that is no variable, where it stands behind the % or # of a comment.
 std::string comment_hint(const std::string& line, const std::string& name);
 /// Whether a line begins as a comment does in other languages.
 bool begins_foreign_comment(const std::string& line);
+/// For a line that Lua read to its end, but whose block it never found closed, as Python writes one: for k in x:
+std::string colon_block_hint(const std::string& line);
 /// For a line of one word that opens a block elsewhere and is none here: "try".
 std::string lone_word_hint(const std::string& line);
 /// About the first character outside of texts that no program can hold: typographic quotes, dashes, accents.

@@ -110,6 +110,10 @@ int unknown_member(lua_State* L) {
     collect_names(L, 1, names);
     const std::string key = key_text(L, 2);
     const std::string table = lua_tostring(L, lua_upvalueindex(1));
+    push_library(L);
+    lua_pushstring(L, key.c_str());
+    if (lua_rawget(L, -2) == LUA_TFUNCTION)
+        raise_error(L, fmt::format("'{0}' has no member '{1}'; write {1}(x), without {0}", table, key));
     raise_error(L, fmt::format("'{}' has no member '{}'{}", table, key, suggestion(key, std::move(names))));
 }
 

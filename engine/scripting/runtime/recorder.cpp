@@ -87,6 +87,13 @@ void Recorder::report_figure(const std::string& name, const FigurePointer& figur
     reported_[name] = {figure, caption};
 }
 
+void Recorder::add_slider(const std::string& name, RecordedSlider slider) {
+    note_time();
+    slider.cell = timed_cell_;
+    slider.order = record_.sliders.size() + 1;
+    record_.sliders.emplace(name, std::move(slider));
+}
+
 void Recorder::note_file_read(const std::filesystem::path& file) {
     auto& files = record_.files_read;
     if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);

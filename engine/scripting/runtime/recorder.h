@@ -44,6 +44,7 @@ class Recorder {
     void show_figure(const FigurePointer& figure);
     /// Gives a figure a name of the script's own; as it looks at the end of the run.
     void report_figure(const std::string& name, const FigurePointer& figure, const std::string& caption);
+    void add_slider(const std::string& name, RecordedSlider slider);
     bool has_reported_figure(const std::string& name) const { return reported_.count(name) != 0; }
     void set_next_figure_number(long long number) { next_number_ = number; }
     void note_time();  ///< charges the time since the last call to the cell that was running

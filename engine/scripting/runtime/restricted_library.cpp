@@ -147,6 +147,12 @@ std::vector<int> sorted_keys(lua_State* L, int keys, int count) {
     return order;
 }
 
+/// math.max and math.min, which would give back a vector that is their only argument.
+int call_with_numbers(lua_State* L) {
+    for (int i = 1; i <= lua_gettop(L); ++i) luaL_checknumber(L, i);
+    return call_original(L);
+}
+
 /// Iterator of pairs: upvalues are the sorted keys and the index reached. Keys removed meanwhile are skipped.
 int next_pair(lua_State* L) {
     lua_Integer index = lua_tointeger(L, lua_upvalueindex(2));
@@ -246,6 +252,7 @@ void add_restricted_functions(lua_State* L) {
     lua_pop(L, 1);
     lua_getfield(L, -1, "math");
     set_function(L, "random", script_random);
+    for (const char* name : {"max", "min"}) wrap_field(L, name, call_with_numbers);
     lua_pop(L, 1);
 }
 

@@ -239,6 +239,14 @@ void Runtime::run_source(const std::string& source, const PromptStatement* state
                               .c_str());
         return record_error(LUA_ERRRUN, {});
     }
+    if (const std::optional<int> line = line_with_compared_place(source)) {
+        lua_pushstring(L, LocatedMessage{context.script_name, *line,
+                                         "max(v) and min(v) give the element's place, too, which math.max and math.min "
+                                         "would compare like a value: write math.max(x, (max(v)))"}
+                              .joined()
+                              .c_str());
+        return record_error(LUA_ERRRUN, {});
+    }
     if (const std::optional<DecimalComma> number = decimal_comma_of(source)) {
         const std::string text = fmt::format(
             "{0} = {1},{2} gives {0} the value {1}: a decimal number is written with a "

@@ -153,6 +153,35 @@ std::optional<int> line_with_semicolon_rows(const std::string& source) {
     return std::nullopt;
 }
 
+std::optional<int> line_with_compared_place(const std::string& source) {
+    const std::vector<LuaToken> tokens = lua_tokens(source);
+    const auto extreme = [&](std::size_t i) { return tokens[i].is("max") || tokens[i].is("min"); };
+    // The place of the bracket that closes the one at `open`, and whether a comma stands between them.
+    const auto closing = [&](std::size_t open) {
+        int depth = 0;
+        bool comma = false;
+        std::size_t i = open;
+        for (; i < tokens.size(); ++i) {
+            if (tokens[i].is("(") || tokens[i].is("{") || tokens[i].is("[")) ++depth;
+            if ((tokens[i].is(")") || tokens[i].is("}") || tokens[i].is("]")) && --depth == 0) break;
+            comma = comma || (depth == 1 && tokens[i].is(","));
+        }
+        return std::pair(i, comma);
+    };
+    for (std::size_t i = 0; i + 3 < tokens.size(); ++i) {
+        if (!tokens[i].is("math") || !tokens[i + 1].is(".") || !extreme(i + 2) || !tokens[i + 3].is("(")) continue;
+        const std::size_t end = closing(i + 3).first;
+        for (std::size_t k = i + 4; k + 1 < end; ++k) {
+            if (!extreme(k) || !tokens[k + 1].is("(") || (!tokens[k - 1].is(",") && !tokens[k - 1].is("("))) continue;
+            const auto [last, of_two] = closing(k + 1);
+            if (last + 1 == end && !of_two && (tokens[k - 1].is(",") || k == i + 4))
+                return 1 + static_cast<int>(std::count(
+                               source.begin(), source.begin() + static_cast<std::ptrdiff_t>(tokens[k].begin), '\n'));
+        }
+    }
+    return std::nullopt;
+}
+
 std::optional<DecimalComma> decimal_comma_of(const std::string& source) {
     const std::vector<LuaToken> tokens = lua_tokens(source);
     const auto whole = [](const LuaToken& token) {

@@ -24,4 +24,8 @@ struct DecimalComma {
 };
 std::optional<DecimalComma> decimal_comma_of(const std::string& source);
 
+/// The line of a math.max or math.min whose last argument is max(v) or min(v) of one vector: these give the place of
+/// the element, too, which would be compared like a value.
+std::optional<int> line_with_compared_place(const std::string& source);
+
 }  // namespace dynlab::inline scripting

@@ -1,9 +1,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "documents/error.h"
 #include "documents/percent_script.h"
 #include "documents/solutions.h"
+#include "platform/temporary_folder.h"
 
 namespace dynlab {
 namespace test_percent_script {
@@ -138,6 +141,18 @@ TEST(percent_script, a_file_that_is_not_there_is_named) {
         FAIL() << "no error";
     } catch (const std::runtime_error& error) {
         EXPECT_THAT(error.what(), HasSubstr("/nowhere/lesson.lua"));
+    }
+}
+
+TEST(percent_script, a_file_far_too_large_is_refused) {
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "a.lua";
+    std::ofstream(file) << std::string(5u << 20, 'a');
+    try {
+        read_percent_script(file);
+        FAIL() << "no error";
+    } catch (const DocumentError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("a.lua: a script or template has at most 4 MB, this file has 5 MB"));
     }
 }
 

@@ -95,6 +95,19 @@ TEST(child_process, timeout_kills_the_whole_group) {
     EXPECT_TRUE(ends_soon(result.output.substr(0, result.output.find('\n'))));
 }
 
+TEST(child_process, is_given_up_when_asked) {
+    ChildOptions options = shell("sleep 60 & echo begun; wait");
+    int asked = 0;
+    options.give_up = [&asked] { return ++asked == 4; };
+    const Clock::time_point start = Clock::now();
+    const ChildResult result = run_child(options, "dash");
+    EXPECT_TRUE(result.given_up);
+    EXPECT_FALSE(result.timed_out);
+    EXPECT_EQ(result.output, "begun\n");
+    EXPECT_EQ(asked, 4);
+    EXPECT_LT(Clock::now() - start, 30s);
+}
+
 TEST(child_process, does_not_wait_for_what_the_program_leaves_running) {
     const auto start = Clock::now();
     const ChildResult result = run_child(shell("sleep 60 & echo $!"), "dash");

@@ -65,6 +65,20 @@ TEST(irregular_filter, equals_the_matrix_exponential_of_every_step) {
     }
 }
 
+// Oracle: second route, an input of levels that differ by less than what is asked of the result: each sample is a step.
+TEST(irregular_filter, an_input_that_stays_for_several_samples_is_held) {
+    const Index N = 200;
+    const Vector t = irregular_instants(N);
+    RandomStream random(6);
+    Vector u(N);
+    for (Index k = 0; k < N; ++k) u[k] = k > 0 && random.uniform() < 0.8 ? u[k - 1] : random.uniform() - 0.5;
+    const Vector moving = u + 1e-15 * Vector::LinSpaced(N, 0, static_cast<double>(N));
+    for (const double delay : {0.0, 0.33, 2.5}) {
+        IrregularFilter filter(kA, kB, kC, kD, Hold::kZoh, delay);
+        EXPECT_LT((filter.run(u, t, Vector::Zero(2)) - filter.run(moving, t, Vector::Zero(2))).norm(), 1e-10) << delay;
+    }
+}
+
 TEST(irregular_filter, extra_instants_change_nothing) {  // oracle: property, sampling a straight input more often
     const Index N = 40;
     const Vector t = irregular_instants(N), u = RandomStream(5).normal(N);

@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "numerics/error.h"
+#include "numerics/estimators/srivc.h"
+#include "numerics/fit/integrated_input.h"
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
@@ -74,6 +76,38 @@ TEST(order_selection, a_second_record_decides_when_it_is_given) {  // oracle: th
     EXPECT_EQ(chosen(selection).zeros, 0);
     for (const OrderCandidate& candidate : selection.candidates) EXPECT_TRUE(candidate.validation_fit.has_value());
     EXPECT_THAT(choose_order(selection).explanation, HasSubstr("second record"));
+}
+
+// Oracles: srivc() of the integrated record with the integrator appended, compare() of that model, the system.
+TEST(order_selection, structures_with_an_integrator_are_judged_with_it) {
+    const TransferFunction G(Vector{{3.0}}, Vector{{1.0, 2.0, 0.0}});
+    const IdData data = record(G, prbs(7, 8), 0.05, 30, 1), whole = record(G, prbs(8, 5), 0.05, 30, 2);
+    IdData other = whole.range(300, whole.sample_count());  // begins in motion, and somewhere
+    other.experiments.front().y.array() += 20;
+    OrderSelectionOptions options;
+    options.validation = &other;
+    options.integration = true;
+    const OrderSelection selection = select_order(data, order_grid({1, 2}, {0, 1}, {0.0}), options);
+    const OrderCandidate best = chosen(selection);
+    EXPECT_EQ(best.poles, 1);
+    EXPECT_EQ(best.zeros, 0);
+    EXPECT_THAT(structure_text(best), HasSubstr("an integrator, 1 pole and no zero"));
+    Fit alone = srivc(integrated_inputs(data), TransferStructure::single(1, 0));
+    EXPECT_LT((best.estimate.theta - alone.theta).norm(), 1e-9);
+    append_integrator(alone);
+    EXPECT_EQ(best.estimate.models.front().den(), alone.models.front().den());
+    const double fit = compare(other, alone.models.front(), {InitialState::kEstimate, Offset::kNone}).fit_percent;
+    EXPECT_NEAR(*best.validation_fit, fit, 1e-6);
+    EXPECT_GT(fit, 90);
+}
+
+TEST(order_selection, a_zero_at_the_origin_tells_that_there_is_no_integrator) {  // oracle: the simulated system
+    const IdData data = record(kSecondOrder, prbs(7, 8), 0.05, 30, 1);
+    OrderSelectionOptions options;
+    options.integration = true;
+    const OrderSelection selection = select_order(data, order_grid({2, 2}, {0, 1}, {0.0}), options);
+    EXPECT_TRUE(selection.candidates[1].cancellation);
+    EXPECT_FALSE(select_order(data, order_grid({2, 2}, {0, 0}, {0.0})).candidates[0].cancellation);
 }
 
 TEST(order_selection, a_second_record_with_an_offset_is_judged_as_the_estimation_was_asked_to) {

@@ -1,0 +1,160 @@
+#include "app/live/background_work.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "platform/atomic_file.h"
+#include "platform/child_process.h"
+#include "platform/error.h"
+
+namespace dynlab::inline app {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+constexpr auto kLeftAlone = 1s;
+constexpr auto kLongest = 10min;
+
+std::string this_program() {
+    return fs::read_symlink("/proc/self/exe").string();
+}
+
+}  // namespace
+
+BackgroundWork::BackgroundWork(std::string document)
+    : document_(std::move(document)), is_folder_(fs::is_directory(document_)) {}
+
+void BackgroundWork::start(std::function<void()> tell) {
+    tell_ = std::move(tell);
+    thread_ = std::thread([this] { work(); });
+}
+
+void BackgroundWork::stop() {
+    {
+        const std::lock_guard lock(mutex_);
+        end_ = true;
+    }
+    changed_.notify_all();
+    if (thread_.joinable()) thread_.join();
+}
+
+void BackgroundWork::document_changed(std::map<std::string, double> slider_values) {
+    const std::lock_guard lock(mutex_);
+    slider_values_ = std::move(slider_values);
+    ++version_;
+    change_time_ = Clock::now();
+    changed_.notify_all();
+}
+
+void BackgroundWork::want(bool wanted) {
+    const std::lock_guard lock(mutex_);
+    if (wanted_ == wanted) return;
+    wanted_ = wanted;
+    changed_.notify_all();
+}
+
+BackgroundWork::Pdf BackgroundWork::pdf() {
+    std::unique_lock lock(mutex_);
+    ++waiting_for_pdf_;
+    changed_.notify_all();
+    changed_.wait(lock, [this] { return end_ || pdf_version_ == version_; });
+    --waiting_for_pdf_;
+    return pdf_version_ == version_ ? pdf_ : Pdf{{}, "dynlab is ending"};
+}
+
+std::string BackgroundWork::findings() {
+    const std::lock_guard lock(mutex_);
+    return findings_;
+}
+
+bool BackgroundWork::pdf_is_ready() {
+    const std::lock_guard lock(mutex_);
+    return pdf_version_ == version_;
+}
+
+BackgroundWork::Task BackgroundWork::next_task(Clock::time_point now) const {
+    const bool quiet = wanted_ && now - change_time_ >= kLeftAlone;
+    if (pdf_version_ != version_ && (waiting_for_pdf_ > 0 || quiet)) return Task::kPdf;
+    if (is_folder_ && findings_version_ != version_ && quiet) return Task::kFindings;
+    return Task::kNone;
+}
+
+void BackgroundWork::work() {
+    std::unique_lock lock(mutex_);
+    while (!end_) {
+        if (const Task task = next_task(Clock::now()); task != Task::kNone) {
+            do_task(task, lock);
+            continue;
+        }
+        const bool something_left = pdf_version_ != version_ || (is_folder_ && findings_version_ != version_);
+        if (wanted_ && something_left)
+            changed_.wait_until(lock, change_time_ + kLeftAlone);
+        else
+            changed_.wait(lock);
+    }
+}
+
+void BackgroundWork::do_task(Task task, std::unique_lock<std::mutex>& lock) {
+    const std::uint64_t version = version_;
+    const auto slider_values = slider_values_;
+    const auto give_up = [this, version] {
+        const std::lock_guard guard(mutex_);
+        return end_ || version_ != version;
+    };
+    lock.unlock();
+    Pdf pdf;
+    std::string findings;
+    if (task == Task::kPdf)
+        pdf = made_pdf(slider_values, give_up);
+    else
+        findings = made_findings(give_up);
+    lock.lock();
+    if (end_ || version_ != version) return;
+    if (task == Task::kPdf) {
+        pdf_ = std::move(pdf);
+        pdf_version_ = version;
+    } else {
+        findings_ = std::move(findings);
+        findings_version_ = version;
+    }
+    changed_.notify_all();
+    lock.unlock();
+    tell_();
+    lock.lock();
+}
+
+BackgroundWork::Pdf BackgroundWork::made_pdf(const std::map<std::string, double>& slider_values,
+                                             const std::function<bool()>& give_up) {
+    const fs::path file = folder_.path() / "document.pdf";
+    fs::remove(file);
+    ChildOptions child;
+    child.command = {this_program(), fs::is_regular_file(document_) ? "weave" : "report", document_, "-o",
+                     file.string()};
+    for (const auto& [name, value] : slider_values)
+        child.command.insert(child.command.end(), {"--set", fmt::format("{}={}", name, value)});
+    child.timeout = kLongest;
+    child.give_up = give_up;
+    try {
+        const ChildResult made = run_child(child, "dynlab");
+        if (fs::exists(file)) return {read_file(file), {}};
+        return {{}, made.timed_out ? "making the PDF took longer than ten minutes" : made.error_output};
+    } catch (const std::exception& error) {
+        return {{}, error.what()};
+    }
+}
+
+std::string BackgroundWork::made_findings(const std::function<bool()>& give_up) const {
+    ChildOptions child;
+    child.command = {this_program(), "check", document_, "--json"};
+    child.timeout = kLongest;
+    child.give_up = give_up;
+    try {
+        return run_child(child, "dynlab").output;
+    } catch (const std::exception&) {  // then there are none to show
+        return {};
+    }
+}
+
+}  // namespace dynlab::inline app

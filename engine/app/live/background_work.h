@@ -1,0 +1,64 @@
+#pragma once
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "platform/temporary_folder.h"
+
+namespace dynlab::inline app {
+
+/// What is made of a document while nobody types: its PDF, and for a folder the findings of `dynlab check`. Processes
+/// of the program make them; what is under way when the document changes is given up.
+class BackgroundWork {
+  public:
+    explicit BackgroundWork(std::string document);
+    ~BackgroundWork() { stop(); }
+    /// `tell` is called in a thread of this, after each thing that was made anew.
+    void start(std::function<void()> tell);
+    void stop();  ///< gives everything up; whoever waits for a PDF gets none
+
+    void document_changed(std::map<std::string, double> slider_values);
+    /// Whether it may work by itself, a second after the last change: the document has run and somebody looks at it.
+    void want(bool wanted);
+
+    struct Pdf {
+        std::string bytes;  ///< empty where it cannot be made
+        std::string error;  ///< then why
+    };
+    Pdf pdf();  ///< of the document as it is now; waits until it is made
+    /// JSON as `dynlab check --json` prints it; empty before it was made, and for a single script.
+    std::string findings();
+    bool pdf_is_ready();
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    enum class Task { kNone, kPdf, kFindings };
+    void work();
+    Task next_task(Clock::time_point now) const;
+    void do_task(Task task, std::unique_lock<std::mutex>& lock);
+    Pdf made_pdf(const std::map<std::string, double>& slider_values, const std::function<bool()>& give_up);
+    std::string made_findings(const std::function<bool()>& give_up) const;
+
+    const std::string document_;
+    const bool is_folder_;
+    std::function<void()> tell_;
+    TemporaryFolder folder_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::map<std::string, double> slider_values_;
+    std::uint64_t version_ = 1, pdf_version_ = 0, findings_version_ = 0;  ///< what was made is of these
+    Clock::time_point change_time_ = Clock::now();
+    Pdf pdf_;
+    std::string findings_;
+    int waiting_for_pdf_ = 0;
+    bool wanted_ = false, end_ = false;
+    std::thread thread_;
+};
+
+}  // namespace dynlab::inline app

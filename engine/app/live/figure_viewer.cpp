@@ -1,0 +1,59 @@
+#include "app/live/figure_viewer.h"
+
+#include <charconv>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "app/page/page_routes.h"
+#include "platform/text_file.h"
+
+namespace dynlab::inline app {
+namespace {
+
+/// Older ones are forgotten; their files stay where the prompt put them.
+constexpr std::size_t kMostFigures = 100;
+
+}  // namespace
+
+FigureViewer::FigureViewer(int port) : server_({.port = port}) {
+    serve_page_files(server_, "view.html");
+    server_.on_stream([this] { return list(); });
+    server_.on_get("/picture/*", [this](const PageRequest& asked) {
+        const std::string number = asked.path.substr(asked.path.rfind('/') + 1);
+        std::size_t wanted = 0;
+        std::from_chars(number.data(), number.data() + number.size(), wanted);
+        const std::lock_guard lock(mutex_);
+        for (const Shown& shown : shown_)
+            if (shown.number == wanted) return PageReply{shown.picture, "image/svg+xml"};
+        return PageReply{"This figure is no longer shown.", kPlainText, 404};
+    });
+    server_.start();
+}
+
+FigureViewer::~FigureViewer() {
+    server_.send("over", "{}");
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));  // so that tabs hear of it
+}
+
+std::string FigureViewer::list() const {
+    const std::lock_guard lock(mutex_);
+    nlohmann::json figures = nlohmann::json::array();
+    for (const Shown& shown : shown_) figures.push_back({{"number", shown.number}, {"name", shown.name}});
+    return nlohmann::json{{"figures", figures}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+void FigureViewer::show(const std::string& name, const Figure& figure) {
+    const std::filesystem::path file = folder_.path() / "figure.svg";
+    GnuplotRenderer renderer;
+    renderer.draw(figure, file, FigureFormat::kSvg);
+    renderer.finish();
+    {
+        const std::lock_guard lock(mutex_);
+        shown_.push_front({++count_, name, read_text(file)});
+        if (shown_.size() > kMostFigures) shown_.pop_back();
+    }
+    server_.send("page", list());
+}
+
+}  // namespace dynlab::inline app

@@ -1,0 +1,35 @@
+#pragma once
+#include <deque>
+#include <mutex>
+#include <string>
+
+#include "app/server/web_server.h"
+#include "figures/gnuplot_renderer.h"
+#include "platform/temporary_folder.h"
+
+namespace dynlab::inline app {
+
+/// A page on which figures appear as they are made, the newest first.
+class FigureViewer {
+  public:
+    explicit FigureViewer(int port = 0);  ///< any free one; throws EnvironmentError when it is taken
+    ~FigureViewer();
+    std::string address() const { return server_.address(); }
+    /// Throws as GnuplotRenderer does.
+    void show(const std::string& name, const Figure& figure);
+
+  private:
+    struct Shown {
+        std::size_t number;
+        std::string name, picture;
+    };
+    std::string list() const;
+
+    TemporaryFolder folder_;
+    mutable std::mutex mutex_;
+    std::deque<Shown> shown_;  ///< the newest first
+    std::size_t count_ = 0;
+    WebServer server_;
+};
+
+}  // namespace dynlab::inline app

@@ -1,0 +1,65 @@
+#include "app/live/source_files.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "data_io/values/json_values.h"
+#include "platform/atomic_file.h"
+#include "platform/error.h"
+#include "platform/hash.h"
+
+namespace dynlab::inline app {
+
+namespace fs = std::filesystem;
+
+SourceFiles::SourceFiles(const std::vector<fs::path>& files) {
+    for (const fs::path& file : files) {
+        std::error_code failure;
+        const fs::path place = fs::canonical(file, failure);  // a link is followed, not replaced
+        const bool writable =
+            !failure && ::access(place.c_str(), W_OK) == 0 && ::access(place.parent_path().c_str(), W_OK) == 0;
+        if (writable && std::find(files_.begin(), files_.end(), place) == files_.end()) files_.push_back(place);
+    }
+}
+
+std::optional<SourceText> SourceFiles::read(std::size_t number) const {
+    if (number >= files_.size()) throw EnvironmentError("this document has no such file");
+    try {
+        SourceText source{number, files_[number].filename(), read_file(files_[number]), {}};
+        if (in_utf8(source.text) != source.text) return {};
+        source.digest = digest_of(source.text).hex();
+        return source;
+    } catch (const EnvironmentError&) {  // gone for now
+        return {};
+    }
+}
+
+std::vector<SourceText> SourceFiles::read() const {
+    const std::lock_guard lock(mutex_);
+    std::vector<SourceText> sources;
+    for (std::size_t i = 0; i < files_.size(); ++i)
+        if (auto source = read(i)) sources.push_back(*std::move(source));
+    return sources;
+}
+
+std::map<std::string, std::string> SourceFiles::digests() const {
+    std::map<std::string, std::string> digests;
+    for (const SourceText& source : read()) digests[std::to_string(source.number)] = source.digest;
+    return digests;
+}
+
+SourceFiles::Outcome SourceFiles::save(const SourceText& saved) {
+    const std::lock_guard lock(mutex_);
+    std::optional<SourceText> there = read(saved.number);
+    if (there && there->digest != saved.digest) return {false, *std::move(there)};
+    const fs::path& file = files_[saved.number];
+    if (in_utf8(saved.text) != saved.text)
+        throw EnvironmentError(fmt::format("{}: not saved: the text is not UTF-8", file.string()));
+    std::error_code failure;
+    const fs::file_status before = fs::status(file, failure);
+    write_file_atomically(file, saved.text);
+    if (!failure && fs::exists(before)) fs::permissions(file, before.permissions(), failure);
+    return {true, {saved.number, file.filename(), {}, digest_of(saved.text).hex()}};
+}
+
+}  // namespace dynlab::inline app

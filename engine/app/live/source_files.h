@@ -1,0 +1,47 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "data_io/values/described.h"
+
+namespace dynlab::inline app {
+
+/// A text that a page may change: a number for it, and the text it was when it was read.
+struct SourceText {
+    std::size_t number = 0;
+    std::string name, text;
+    std::string digest;  ///< of the text: who saves says what it was made from
+};
+
+DYNLAB_DESCRIBE(SourceText, number, name, text, digest)
+
+/// The texts of a document as an editor on the page reads and writes them. For any thread.
+class SourceFiles {
+  public:
+    /// Those that this user may write; others are not offered.
+    explicit SourceFiles(const std::vector<std::filesystem::path>& files);
+
+    std::vector<SourceText> read() const;                ///< those that are there, and are text in UTF-8
+    std::map<std::string, std::string> digests() const;  ///< by number, as the page's script counts them
+
+    /// Writes the file whole or not at all. When it has changed since `saved.digest`, nothing is written, and what
+    /// stands there now is given instead; else the digest of what stands there now, without its text. Throws
+    /// EnvironmentError when it cannot be written, and for a text that is not UTF-8.
+    struct Outcome {
+        bool written = false;
+        SourceText now;
+    };
+    Outcome save(const SourceText& saved);
+
+  private:
+    std::optional<SourceText> read(std::size_t number) const;
+
+    std::vector<std::filesystem::path> files_;
+    mutable std::mutex mutex_;
+};
+
+}  // namespace dynlab::inline app

@@ -1,0 +1,210 @@
+// The document's files beside the page, where it may change them. What is saved says what it was made from: a file that
+// was changed elsewhere meanwhile is not written over, both texts are shown.
+const $ = (id) => document.getElementById(id);
+const sources = new Map();  // number -> {number, name, digest, saved, doc, tab, theirs}
+let open = null;            // the one that is shown
+let mirror = null;          // CodeMirror, where it is installed
+let followCursor = () => {};
+
+function loaded(file) {
+  return new Promise((yes, no) => {
+    const css = file.endsWith(".css");
+    const node = document.createElement(css ? "link" : "script");
+    if (css) Object.assign(node, { rel: "stylesheet", href: file });
+    else Object.assign(node, { src: file, async: false });
+    node.onload = yes;
+    node.onerror = no;
+    document.head.append(node);
+  });
+}
+
+/// A plain field of text with what is used of CodeMirror, for machines without it.
+class PlainDoc {
+  constructor(text) { this.text = text; this.line = 0; }
+  getValue() { return this.text; }
+  setValue(text) { this.text = text; if (open?.doc === this) $("field").value = text; }
+  getCursor() { return { line: this.line }; }
+  setCursor(line) {
+    this.line = line;
+    if (open?.doc !== this) return;
+    const field = $("field"), lines = this.text.split("\n");
+    const place = lines.slice(0, line).join("\n").length + (line > 0 ? 1 : 0);
+    field.focus();
+    field.setSelectionRange(place, place);
+    field.scrollTop = (line / lines.length) * field.scrollHeight - field.clientHeight / 2;
+  }
+}
+
+const isChanged = (source) => source.doc.getValue() !== source.saved;
+
+function showMarks() {
+  for (const source of sources.values()) {
+    const dirty = isChanged(source);
+    source.tab.textContent = source.name + (dirty ? " •" : "");
+    source.tab.title = dirty ? "not saved yet (Ctrl-S)" : "";
+    source.tab.setAttribute("aria-selected", String(source === open));
+  }
+  $("save").disabled = !open || !isChanged(open);
+  const theirs = open?.theirs;
+  $("conflict").hidden = !theirs;
+  if (theirs) {
+    $("conflict-name").textContent = open.name;
+    $("theirs").textContent = theirs.text;
+  }
+}
+
+function show(source) {
+  open = source;
+  if (mirror) mirror.swapDoc(source.doc);
+  else $("field").value = source.doc.getValue();
+  showMarks();
+}
+
+function add({ number, name, text, digest }) {
+  const tab = document.createElement("button");
+  tab.setAttribute("role", "tab");
+  const mode = name.endsWith(".lua") ? "lua" : "markdown";
+  const doc = mirror ? window.CodeMirror.Doc(text, mode) : new PlainDoc(text);
+  const source = { number, name, digest, saved: text, doc, tab, theirs: null };
+  tab.onclick = () => show(source);
+  $("tabs").append(tab);
+  sources.set(number, source);
+}
+
+/// The file is another now than the one that was read here.
+function meet(source, theirs) {
+  if (theirs.digest === source.digest) return;
+  if (theirs.text === source.doc.getValue() || !isChanged(source)) {
+    const line = source.doc.getCursor().line;
+    source.digest = theirs.digest;
+    source.saved = theirs.text;
+    source.theirs = null;
+    if (theirs.text !== source.doc.getValue()) {
+      source.doc.setValue(theirs.text);
+      if (source === open && mirror) source.doc.setCursor(line);
+    }
+  } else {
+    source.theirs = theirs;
+  }
+  showMarks();
+}
+
+async function save(source) {
+  if (!source || !isChanged(source)) return;
+  const text = source.doc.getValue();
+  try {
+    const reply = await fetch("/save", {
+      method: "POST", body: JSON.stringify({ number: source.number, name: source.name, text, digest: source.digest }) });
+    if (reply.status !== 200 && reply.status !== 409) throw new Error(await reply.text());
+    const now = await reply.json();
+    if (reply.status === 409) {
+      source.digest = "";
+      meet(source, now);
+    } else {
+      source.digest = now.digest;
+      source.saved = text;
+      source.theirs = null;
+    }
+    $("trouble").textContent = "";
+  } catch (error) {
+    $("trouble").textContent = `not saved: ${error.message}`;
+  }
+  showMarks();
+}
+
+let timer = 0;
+function onChange() {
+  showMarks();
+  clearTimeout(timer);
+  if ($("at-once").checked) timer = setTimeout(() => save(open), 300);
+}
+
+async function begin() {
+  try {
+    await loaded("/codemirror.css");
+    await loaded("/codemirror.js");
+    await Promise.all(["/codemirror-lua.js", "/codemirror-markdown.js", "/codemirror-search.js"].map(loaded));
+  } catch {
+    window.CodeMirror = undefined;
+  }
+  document.body.classList.add("editing");
+  if (window.CodeMirror) {
+    mirror = window.CodeMirror($("code"), { lineNumbers: true, lineWrapping: true, indentUnit: 2, tabSize: 2,
+      extraKeys: { "Ctrl-S": () => save(open), "Cmd-S": () => save(open),
+        Esc: () => $("document").focus(), Tab: (cm) => cm.execCommand("insertSoftTab") } });
+    $("field").remove();
+    mirror.on("changes", onChange);
+    mirror.on("cursorActivity", () => { if (mirror.hasFocus()) followCursor(open.name, mirror.getCursor().line + 1); });
+  } else {
+    const field = $("field");
+    field.hidden = false;
+    field.oninput = () => { open.doc.text = field.value; onChange(); };
+    field.onkeyup = field.onclick = () => {
+      open.doc.line = field.value.slice(0, field.selectionStart).split("\n").length - 1;
+      followCursor(open.name, open.doc.line + 1);
+    };
+  }
+  $("save").onclick = () => save(open);
+  $("take-theirs").onclick = () => {
+    const { theirs } = open;
+    open.doc.setValue(theirs.text);
+    Object.assign(open, { digest: theirs.digest, saved: theirs.text, theirs: null });
+    showMarks();
+  };
+  $("keep-mine").onclick = () => {
+    Object.assign(open, { digest: open.theirs.digest, saved: open.theirs.text, theirs: null });
+    save(open);
+  };
+  $("at-once").checked = localStorage.getItem("dynlab-at-once") === "yes";
+  $("at-once").onchange = () => {
+    localStorage.setItem("dynlab-at-once", $("at-once").checked ? "yes" : "no");
+    onChange();
+  };
+  window.addEventListener("beforeunload", (event) => {
+    if ([...sources.values()].some(isChanged)) event.preventDefault();
+  });
+  document.addEventListener("keydown", (event) => {
+    if ((event.ctrlKey || event.metaKey) && event.key === "s") {
+      event.preventDefault();
+      save(open);
+    }
+  });
+}
+
+let beginning = null;
+
+/// The digests of the files as they are on disk: reads those that are new.
+export async function follow(digests, onCursor) {
+  followCursor = onCursor;
+  if (Object.keys(digests).length === 0) return;
+  beginning ??= begin();
+  await beginning;
+  const known = Object.entries(digests).every(([number, digest]) => {
+    const source = sources.get(Number(number));
+    return source && (source.digest === digest || source.theirs?.digest === digest);
+  });
+  if (known) return;
+  const reply = await fetch("/sources");
+  if (!reply.ok) return;
+  for (const text of await reply.json()) {
+    const source = sources.get(text.number);
+    if (source) meet(source, text);
+    else add(text);
+  }
+  if (!open && sources.size > 0) show(sources.values().next().value);
+}
+
+/// Puts the cursor on a line of a file, where the page may change it.
+export function goTo(file, line) {
+  for (const source of sources.values()) {
+    if (source.name !== file) continue;
+    if (source !== open) show(source);
+    source.doc.setCursor(line - 1, 0);
+    if (mirror) {
+      mirror.scrollIntoView({ line: line - 1, ch: 0 }, 120);
+      mirror.focus();
+    }
+    return true;
+  }
+  return false;
+}

@@ -1,0 +1,54 @@
+#include "app/page/page_routes.h"
+
+#include <filesystem>
+
+#include "app/page/page_files.h"
+#include "platform/atomic_file.h"
+#include "platform/program_lookup.h"
+#include "platform/text_file.h"
+
+namespace dynlab::inline app {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kCodeMirror = "/usr/share/javascript/codemirror";
+
+std::string type_of_page_file(const fs::path& name) {
+    if (name.extension() == ".css") return "text/css; charset=utf-8";
+    if (name.extension() == ".js") return "text/javascript; charset=utf-8";
+    return "text/html; charset=utf-8";
+}
+
+/// The editor's files as Debian's libjs-codemirror puts them, by the names that the page asks for.
+constexpr std::pair<const char*, const char*> kEditorFiles[] = {
+    {"/codemirror.js", "codemirror.js"},
+    {"/codemirror.css", "codemirror.css"},
+    {"/codemirror-lua.js", "mode/lua/lua.js"},
+    {"/codemirror-markdown.js", "mode/markdown/markdown.js"},
+    {"/codemirror-search.js", "addon/search/searchcursor.js"}};
+
+}  // namespace
+
+bool has_editor() {
+    return fs::exists(kCodeMirror / "codemirror.js");
+}
+
+void serve_page_files(WebServer& server, const std::string& first) {
+    for (const PageFile& file : page_files()) {
+        const PageReply reply{std::string(file.text), type_of_page_file(file.name)};
+        server.on_get("/" + std::string(file.name == first ? "" : file.name),
+                      [reply](const PageRequest&) { return reply; });
+    }
+    server.on_get("/document.css", [](const PageRequest&) {
+        return PageReply{read_text(shared_folder() / "report_templates/html/document.css"), "text/css; charset=utf-8"};
+    });
+    for (const auto& [name, file] : kEditorFiles) {
+        server.on_get(name, [place = kCodeMirror / file](const PageRequest&) {
+            if (!fs::exists(place)) return PageReply{"The package libjs-codemirror is not installed.", kPlainText, 404};
+            return PageReply{read_file(place), type_of_page_file(place)};
+        });
+    }
+}
+
+}  // namespace dynlab::inline app

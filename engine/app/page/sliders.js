@@ -1,0 +1,101 @@
+// Sliders of a document: a control behind the cell that asks for it. What was chosen goes to the server; while a run is
+// under way only the newest choice waits, so that dragging shows every result that there was time for.
+const kPlaces = 1000;  // of a slider without steps
+const controls = new Map();  // name -> {node, input, output, slider}
+const waiting = new Map();   // name -> value that is to be sent
+let sent = null;             // {name, value, at}: what the page does not show yet
+const kLongestWait = 3000;   // ms for what was sent to be shown
+
+const digits = (value) => Number(value.toPrecision(4));
+
+function valueAt(slider, place) {
+  const { from, to, step, logarithmic } = slider;
+  if (step) return Math.min(to, digits(from + step * place));
+  const part = place / kPlaces;
+  if (place === 0) return from;
+  if (place === kPlaces) return to;
+  return digits(logarithmic ? from * (to / from) ** part : from + (to - from) * part);
+}
+
+function placeOf(slider, value) {
+  const { from, to, step, logarithmic } = slider;
+  if (step) return Math.round((value - from) / step);
+  const part = logarithmic ? Math.log(value / from) / Math.log(to / from) : (value - from) / (to - from);
+  return Math.round(part * kPlaces);
+}
+
+const written = (slider, value) => `${digits(value)}${slider.unit ? "\u202f" + slider.unit : ""}`;
+
+function send() {
+  if (sent && performance.now() - sent.at < kLongestWait) return;
+  const next = waiting.entries().next();
+  if (next.done) return;
+  const [name, value] = next.value;
+  waiting.delete(name);
+  sent = { name, value, at: performance.now() };
+  fetch("/slider", { method: "POST", body: JSON.stringify({ name, value }) }).catch(() => { sent = null; });
+  setTimeout(send, kLongestWait + 1);
+}
+
+function choose(control, value) {
+  control.output.textContent = written(control.slider, value);
+  control.input.setAttribute("aria-valuetext", control.output.textContent);
+  control.reset.hidden = value === control.slider.initial;
+  waiting.set(control.slider.name, value);
+  send();
+}
+
+function make(slider) {
+  const node = document.createElement("div");
+  node.className = "slider";
+  const label = document.createElement("label");
+  const input = document.createElement("input");
+  const output = document.createElement("output");
+  const reset = document.createElement("button");
+  input.type = "range";
+  input.id = "slider-" + slider.name;
+  label.htmlFor = input.id;
+  reset.textContent = "as in the script";
+  const control = { node, label, input, output, reset, slider };
+  input.oninput = () => choose(control, valueAt(control.slider, Number(input.value)));
+  reset.onclick = () => {
+    input.value = placeOf(control.slider, control.slider.initial);
+    choose(control, control.slider.initial);
+    input.focus();
+  };
+  node.append(label, input, output, reset);
+  return control;
+}
+
+function update(control, slider) {
+  control.slider = slider;
+  control.label.textContent = slider.label;
+  control.input.min = 0;
+  control.input.max = slider.step ? Math.round((slider.to - slider.from) / slider.step) : kPlaces;
+  if (waiting.has(slider.name) || sent?.name === slider.name) return;  // the hand is ahead of the page
+  control.input.value = placeOf(slider, slider.value);
+  control.output.textContent = written(slider, slider.value);
+  control.input.setAttribute("aria-valuetext", control.output.textContent);
+  control.reset.hidden = slider.value === slider.initial;
+}
+
+/// What the page shows now; gives the controls of each cell.
+export function controlsByCell(sliders, running) {
+  if (sent && !running && sliders.some((slider) => slider.name === sent.name && slider.value === sent.value)) sent = null;
+  const byCell = new Map();
+  for (const slider of sliders) {
+    if (!controls.has(slider.name)) controls.set(slider.name, make(slider));
+    const control = controls.get(slider.name);
+    update(control, slider);
+    if (!byCell.has(slider.cell)) byCell.set(slider.cell, []);
+    byCell.get(slider.cell).push(control.node);
+  }
+  const names = new Set(sliders.map((slider) => slider.name));
+  for (const [name, { node }] of controls) {
+    if (names.has(name)) continue;
+    node.remove();
+    controls.delete(name);
+  }
+  if (!running) send();
+  return byCell;
+}

@@ -1,0 +1,37 @@
+#pragma once
+#include <map>
+#include <string>
+
+#include "course/review/review_marks.h"
+#include "course/review/score_sheet.h"
+
+namespace dynlab::inline course {
+
+/// What was said of a group at the oral, and of each of its members.
+struct OralComments {
+    std::map<std::int64_t, std::string> groups;
+    std::map<std::string, std::string> students;  ///< by their ids
+};
+
+/// Reads a filled sheet, whole or not at all. Columns: group, or student (an id, or a name that one student has), or
+/// both; the criteria; comment. A row without a student is of the whole group. What a student has no points for has the
+/// group's; "-" in a student's cell takes points back that were given before, so that the group's hold again. Empty
+/// cells say nothing. Returns how many scores and comments are new. Throws EnvironmentError with file, line and column.
+int import_oral_scores(Course& course, const Assignment& assignment, const std::filesystem::path& file, Instant now);
+
+struct OralSheetWishes {
+    bool students = false;  ///< a row a student as well, below the group's
+    bool drawn = false;     ///< in an order drawn by lot, which the assignment's seed decides; else by name
+};
+/// The sheet for the oral: a row a group, a column a criterion with what was given so far, and one for comments, as
+/// CSV. Throws InvalidArgument for a report.
+std::string oral_sheet(Course& course, const Assignment& assignment, const OralSheetWishes& wishes = {});
+
+std::map<std::int64_t, CriterionPoints> oral_points(Course& course, const Assignment& assignment);  ///< by group
+OralComments oral_comments(Course& course, const Assignment& assignment);                           ///< the newest
+
+/// Puts the marks of those members in who have points of their own. What `mark.work_costs` takes off the group's comes
+/// off theirs, too.
+void add_student_marks(Course& course, const Assignment& assignment, std::vector<GroupMark>& marks);
+
+}  // namespace dynlab::inline course

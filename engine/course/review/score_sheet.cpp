@@ -1,0 +1,71 @@
+#include "course/review/score_sheet.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace dynlab::inline course {
+namespace {
+
+/// As the table's reader gives names of columns.
+std::string column_name(std::string name) {
+    for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return name;
+}
+
+}  // namespace
+
+std::optional<double> percent_of(const std::vector<Criterion>& criteria, const CriterionPoints& points) {
+    double sum = 0, most = 0;
+    for (std::size_t c = 0; c < criteria.size(); ++c)
+        if (points[c]) sum += *points[c], most += criteria[c].most;
+    if (most == 0) return {};
+    return 100 * sum / most;
+}
+
+ScoreSheet::ScoreSheet(const Assignment& assignment, const std::filesystem::path& file,
+                       const std::vector<std::string>& owners, std::set<std::string> others)
+    : assignment_(assignment), file_(file), table_(read_text_table(file)) {
+    const auto has = [&](const std::string& name) { return table_.column(name).has_value(); };
+    if (std::none_of(owners.begin(), owners.end(), has))
+        fail(1, fmt::format("the column {} is missing", fmt::join(owners, " or ")));
+    others.insert(owners.begin(), owners.end());
+    std::vector<std::string> criteria, unknown;
+    bool any = false;
+    for (const Criterion& c : assignment.criteria) {
+        criteria.push_back(c.name);
+        any = any || has(column_name(c.name));
+        others.insert(column_name(c.name));
+    }
+    for (const std::string& name : table_.names)
+        if (!others.contains(name)) unknown.push_back(name);
+    const std::string known = fmt::format("the criteria of {} are {}", assignment.name, fmt::join(criteria, ", "));
+    if (!unknown.empty()) fail(1, fmt::format("unknown columns: {}; {}", fmt::join(unknown, ", "), known));
+    if (!any) fail(1, "there is no column of a criterion; " + known);
+}
+
+std::string ScoreSheet::cell(std::size_t row, const std::string& name) const {
+    const auto index = table_.column(name);
+    return index ? table_.rows[row][*index] : "";
+}
+
+std::string ScoreSheet::points_cell(std::size_t row, std::size_t criterion) const {
+    return cell(row, column_name(assignment_.criteria[criterion].name));
+}
+
+std::optional<double> ScoreSheet::points(std::size_t row, std::size_t criterion) const {
+    const Criterion& c = assignment_.criteria[criterion];
+    const std::string text = points_cell(row, criterion);
+    if (text.empty()) return {};
+    const std::optional<double> value = number_in_cell(text);
+    if (!value || !(*value >= 0 && *value <= c.most))
+        fail(table_.lines[row],
+             fmt::format("{} must be a number from 0 to {}, but \"{}\" was given", c.name, c.most, text));
+    return value;
+}
+
+void ScoreSheet::fail(int line, const std::string& what) const {
+    throw EnvironmentError(fmt::format("{}, line {}: {}", file_.string(), line, what));
+}
+
+}  // namespace dynlab::inline course

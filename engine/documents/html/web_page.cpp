@@ -1,0 +1,89 @@
+#include "documents/html/web_page.h"
+
+#include <sodium.h>
+
+#include <map>
+
+#include "documents/text_lines.h"
+#include "platform/atomic_file.h"
+
+namespace dynlab::inline documents {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string base64(const std::string& bytes) {
+    std::string text(sodium_base64_ENCODED_LEN(bytes.size(), sodium_base64_VARIANT_ORIGINAL), '\0');
+    sodium_bin2base64(text.data(), text.size(), reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(),
+                      sodium_base64_VARIANT_ORIGINAL);
+    text.pop_back();  // the zero behind it
+    return text;
+}
+
+/// A script's name in a Content Security Policy.
+std::string policy_hash(const std::string& script) {
+    std::string hash(crypto_hash_sha256_BYTES, '\0');
+    crypto_hash_sha256(reinterpret_cast<unsigned char*>(hash.data()),
+                       reinterpret_cast<const unsigned char*>(script.data()), script.size());
+    return "'sha256-" + base64(hash) + "'";
+}
+
+/// The first `from` of the page: it stands in the template before anything that a document can contain, or is an
+/// element, which no document contains.
+std::string with_first(std::string page, const std::string& from, const std::string& to) {
+    const std::size_t at = page.find(from);
+    return at == std::string::npos ? page : page.replace(at, from.size(), to);
+}
+
+std::string with_inlined_pictures(const std::string& html, const std::vector<PlacedPicture>& pictures) {
+    std::map<std::string, const PlacedPicture*> by_name;
+    for (const PlacedPicture& picture : pictures) by_name[picture.written_name] = &picture;
+    const std::string sign = "<img src=\"";
+    std::string result;
+    std::size_t at = 0;
+    for (std::size_t next; (next = html.find(sign, at)) != std::string::npos;) {
+        const std::size_t start = next + sign.size(), end = html.find('"', start);
+        const auto picture = by_name.find(html.substr(start, end - start));
+        result.append(html, at, start - at);
+        at = html.find('>', end) + 1;
+        if (picture == by_name.end()) {
+            result.append(html, start, at - start);
+            continue;
+        }
+        const fs::path& file = picture->second->file;
+        result += "data:" + media_type(file.extension().string()) + ";base64," + base64(read_file(file));
+        result.append(html, end, at - end);
+        result += plot_element(picture->second->plot);
+    }
+    return result.append(html, at);
+}
+
+}  // namespace
+
+std::string media_type(const std::string& extension) {
+    static const std::map<std::string, std::string> types = {
+        {".svg", "image/svg+xml"}, {".png", "image/png"}, {".jpg", "image/jpeg"}, {".jpeg", "image/jpeg"}};
+    const auto found = types.find(extension);
+    return found == types.end() ? "" : found->second;
+}
+
+std::string plot_element(const std::string& plot) {
+    return plot.empty() ? "" : "<script type=\"application/json\" class=\"plot-data\">" + plot + "</script>";
+}
+
+std::string plot_scripts(const fs::path& shared_templates) {
+    return read_file(shared_templates / "html/plot_drawing.js") + read_file(shared_templates / "html/plot.js");
+}
+
+std::string whole_web_page(const std::string& html, const fs::path& shared_templates,
+                           const std::vector<PlacedPicture>& pictures) {
+    // They go in here, not in the template: Pandoc takes 0.3 s to read them there.
+    const std::string script = "\n" + plot_scripts(shared_templates) + read_file(shared_templates / "html/document.js");
+    std::string page = with_first(html, "script-src 'none'", "script-src " + policy_hash(script));
+    page = with_first(std::move(page), "<style></style>",
+                      "<style>\n" + read_file(shared_templates / "html/document.css") + "</style>");
+    page = with_first(std::move(page), "<script></script>", "<script>" + script + "</script>");
+    return with_inlined_pictures(page, pictures);
+}
+
+}  // namespace dynlab::inline documents

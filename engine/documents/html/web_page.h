@@ -1,0 +1,25 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "documents/pictures.h"
+
+namespace dynlab::inline documents {
+
+/// "image/svg+xml" for ".svg"; empty for what browsers do not show.
+std::string media_type(const std::string& extension);
+
+/// What follows the picture of a figure in a page, for plot.js to draw it from; empty without a plot.
+std::string plot_element(const std::string& plot);
+
+/// What Pandoc made with html/document.html as one file that needs nothing else: style and scripts are put in, and the
+/// pictures themselves (RFC 2397 data URL) wherever `src="WRITTEN_NAME"` stands. The page's policy lets exactly these
+/// scripts run, by their hash (Content Security Policy Level 3).
+std::string whole_web_page(const std::string& html, const std::filesystem::path& shared_templates,
+                           const std::vector<PlacedPicture>& pictures);
+
+/// The scripts of every page that shows figures, in their order.
+std::string plot_scripts(const std::filesystem::path& shared_templates);
+
+}  // namespace dynlab::inline documents

@@ -1,0 +1,12 @@
+#pragma once
+#include <map>
+#include <string>
+
+namespace dynlab::inline scripting {
+
+/// A service of the runtime: what was chosen instead of the numbers that a script gives its sliders, by their names.
+struct SliderValues {
+    std::map<std::string, double> chosen;
+};
+
+}  // namespace dynlab::inline scripting

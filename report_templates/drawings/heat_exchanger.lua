@@ -1,0 +1,21 @@
+-- A vessel that water flows through, with a heating coil behind a valve.
+return {
+  width = 11.3, height = 4.0,
+  { "area", 3.6, 0.7, 6.8, 0.7, 6.8, 3.0, 3.6, 3.0, shade = 0.08, bare = true },
+  { "line", 3.6, 3.45, 3.6, 0.7, 6.8, 0.7, 6.8, 3.45, thick = true },
+  { "line", 3.6, 3.0, 6.8, 3.0 },
+  { "line", 2.3, 2.6, 4.1, 2.6, arrow = true },
+  { "text", 2.2, 2.6, { en = "cold water", fr = "eau froide" }, align = "right", width = 2.2 },
+  { "line", 2.3, 1.2, 4.0, 1.2, 4.2, 1.6, 4.5, 0.95, 4.8, 1.6, 5.1, 0.95, 5.4, 1.6, 5.7, 0.95, 5.9, 1.2, 5.9, 0.15, arrow = true },
+  { "area", 2.6, 1.42, 2.6, 0.98, 3.1, 1.42, 3.1, 0.98, shade = 0.35 },
+  { "line", 2.85, 1.2, 2.85, 1.62 },
+  { "line", 2.65, 1.62, 3.05, 1.62, thick = true },
+  { "text", 2.2, 1.2, { en = "heating", fr = "chauffage" }, align = "right", width = 2.2 },
+  { "text", 2.85, 1.92, "$u$", width = 0.8 },
+  { "line", 6.8, 1.2, 9.0, 1.2, arrow = true },
+  { "circle", 7.6, 1.95, 0.27 },
+  { "line", 7.6, 1.68, 7.6, 1.2 },
+  { "text", 7.6, 1.95, "T", width = 0.5 },
+  { "text", 7.98, 1.95, { en = "temperature $y$", fr = "température $y$" }, align = "left", width = 2.4 },
+  { "text", 9.1, 1.2, { en = "warm water", fr = "eau chaude" }, align = "left", width = 2.2 },
+}

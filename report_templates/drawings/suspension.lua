@@ -1,0 +1,22 @@
+-- A mass on a spring with a damper, pushed by an actuator.
+return {
+  width = 9.2, height = 2.7,
+  { "ground", 0.6, 0.45, 0.6, 2.15 },
+  { "ground", 8.6, 0.45, 0.6, 0.45 },
+  { "spring", 0.6, 1.7, 3.4, 1.7 },
+  { "damper", 0.6, 0.98, 3.4, 0.98 },
+  { "box", 3.4, 0.69, 5.2, 2.05, shade = 0.15 },
+  { "circle", 3.8, 0.57, 0.12 },
+  { "circle", 4.8, 0.57, 0.12 },
+  { "text", 4.3, 1.37, { en = "mass", fr = "masse" }, width = 1.6 },
+  { "line", 6.5, 1.37, 5.2, 1.37, arrow = true, thick = true },
+  { "box", 6.5, 0.97, 8.2, 1.77 },
+  { "text", 7.35, 1.37, { en = "actuator", fr = "actionneur" }, width = 1.7 },
+  { "line", 7.35, 2.5, 7.35, 1.77, arrow = true },
+  { "text", 7.5, 2.3, "$u$", width = 0.8, align = "left" },
+  { "line", 4.3, 2.2, 4.3, 2.55 },
+  { "line", 4.3, 2.38, 3.2, 2.38, arrow = true },
+  { "text", 2.9, 2.4, "$y$", width = 0.6 },
+  { "text", 2.0, 2.13, { en = "spring", fr = "ressort" }, width = 1.6 },
+  { "text", 2.0, 1.36, { en = "damper", fr = "amortisseur" }, width = 2 },
+}

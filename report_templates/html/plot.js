@@ -1,0 +1,320 @@
+// Figures that can be zoomed and read off. A picture is followed by an element "plot-data" with what
+// documents/html/plot_data.h says; on a screen a canvas takes the picture's place. On paper the picture stays.
+const dynlabPlots = (() => {
+  "use strict";
+  const { Panel, Painter, clamp } = dynlabDrawing;
+  const french = document.documentElement.lang.startsWith("fr");
+  const WORDS = french
+    ? { whole: "Figure entière", kind: "figure interactive", curve: "Montrer ou cacher : ",
+        help: "Flèches : lire ; + et − : agrandir, réduire ; Maj et flèches : déplacer ; 0 : figure entière ; Échap : fin" }
+    : { whole: "Whole figure", kind: "interactive figure", curve: "Show or hide: ",
+        help: "Arrows: read off; + and −: zoom; Shift and arrows: move; 0: whole figure; Esc: end" };
+
+  /// A figure in the page: its canvas, what is read off, and what hands do.
+  class Plot {
+    constructor(picture, figure) {
+      Object.assign(this, { picture, size: figure.size, comma: figure.comma, texts: figure.texts });
+      this.panels = figure.panels.map((panel) => new Panel(panel));
+      this.pointers = new Map();
+      this.cursor = null;  // { panel, x, y }: cm
+      this.build();
+      this.listen();
+      new ResizeObserver(() => this.draw()).observe(this.box);
+      for (const query of ["(prefers-color-scheme: dark)", "(resolution: 1dppx)"])
+        matchMedia(query).addEventListener("change", () => this.draw());
+      document.addEventListener("themechange", () => this.draw());
+      document.fonts?.ready.then(() => this.draw());
+    }
+
+    build() {
+      const element = (name, kind) => Object.assign(document.createElement(name), { className: kind });
+      const [width, height] = this.size;
+      this.box = element("div", "plot");
+      this.box.plot = this;
+      this.box.tabIndex = 0;
+      this.box.style.aspectRatio = `${width} / ${height}`;
+      this.box.style.width = this.picture.style.width || `${Math.round(width / 2.54 * 96)}px`;
+      this.box.setAttribute("role", "application");
+      this.box.setAttribute("aria-roledescription", WORDS.kind);
+      this.box.setAttribute("aria-label", [this.picture.alt, WORDS.help].filter(Boolean).join(". "));
+      this.picture.before(this.box);
+      this.canvas = element("canvas", "");
+      this.over = element("canvas", "over");
+      this.reading = element("output", "reading");
+      this.whole = element("button", "whole");
+      this.whole.textContent = WORDS.whole;
+      this.whole.hidden = this.reading.hidden = true;
+      this.whole.onclick = () => { this.reset(); this.box.focus({ preventScroll: true }); };
+      this.box.append(this.canvas, this.over, this.reading, this.whole);
+      for (const panel of this.panels)
+        for (const entry of panel.legend) this.box.append(this.button(panel, entry, element("button", "entry")));
+    }
+    button(panel, { curve: index, x, y, width: length }, button) {
+      const [width, height] = this.size, curve = panel.curves[index];
+      Object.assign(button.style, { left: `${100 * x / width}%`, top: `${100 * (height - y - 0.21) / height}%`,
+                                    width: `${100 * length / width}%`, height: `${100 * 0.42 / height}%` });
+      button.setAttribute("aria-label", WORDS.curve + curve.label);
+      button.setAttribute("aria-pressed", "true");
+      button.onclick = () => {
+        curve.shown = !curve.shown;
+        button.setAttribute("aria-pressed", String(curve.shown));
+        this.draw();
+      };
+      return button;
+    }
+
+    draw() {
+      const width = this.box.clientWidth, height = this.box.clientHeight, dots = window.devicePixelRatio || 1;
+      if (width === 0) return;
+      this.unit = width / this.size[0];
+      for (const canvas of [this.canvas, this.over]) {
+        [canvas.width, canvas.height] = [Math.round(width * dots), Math.round(height * dots)];
+        canvas.getContext("2d").scale(dots, dots);
+      }
+      new Painter(this.canvas.getContext("2d"), this, this.unit).draw();
+      this.whole.hidden = !this.panels.some((panel) => panel.x.moved || panel.y.moved);
+      this.drawCursor();
+    }
+
+    partners(panel) { return this.panels.filter((other) => other === panel || other.goesWith(panel)); }
+    reset() {
+      for (const panel of this.panels) { panel.x.reset(); panel.y.reset(); }
+      this.draw();
+    }
+    /// Positions on the panel's axes (0 to 1) become its corners; null leaves an axis as it is.
+    zoom(panel, x, y) {
+      if (x) {
+        panel.x.zoom(...x);
+        for (const other of this.partners(panel)) [other.x.low, other.x.high] = [panel.x.low, panel.x.high];
+      }
+      if (y) panel.y.zoom(...y);
+      this.draw();
+    }
+    zoomAround(panel, [x, y], factor, only = "") {
+      const part = (position) => [position - position * factor, position + (1 - position) * factor];
+      this.zoom(panel, only === "y" ? null : part(x), only === "x" ? null : part(y));
+    }
+    move(panel, x, y) { this.zoom(panel, [x, 1 + x], y === 0 ? null : [y, 1 + y]); }
+
+    place(event) {
+      const box = this.box.getBoundingClientRect();
+      return [(event.clientX - box.left) / this.unit, this.size[1] - (event.clientY - box.top) / this.unit];
+    }
+    within(panel, [x, y]) { return [(x - panel.left) / panel.width, (y - panel.bottom) / panel.height]; }
+    /// The panel of a place, and which axis alone is meant where it lies beside the numbers.
+    panelAt([x, y]) {
+      for (const panel of this.panels) if (panel.holds(x, y)) return [panel, ""];
+      for (const panel of this.panels) {
+        if (x > panel.left - 1.2 && x < panel.left && y > panel.bottom && y < panel.top) return [panel, "y"];
+        if (y > panel.bottom - 1 && y < panel.bottom && x > panel.left && x < panel.right) return [panel, "x"];
+      }
+      return [null, ""];
+    }
+
+    listen() {
+      const on = (name, act) => this.box.addEventListener(name, act, { passive: false });
+      on("pointerdown", (event) => this.down(event));
+      on("pointermove", (event) => this.moved(event));
+      on("pointerup", (event) => this.up(event));
+      on("pointercancel", (event) => { this.pointers.delete(event.pointerId); this.pulled = null; this.drawCursor(); });
+      on("pointerleave", (event) => {  // what a finger showed stays until another place is touched
+        if (event.pointerType !== "touch" && this.pointers.size === 0 && !this.byKeys) this.setCursor(null);
+      });
+      on("dblclick", (event) => { if (!event.target.closest("button")) this.reset(); });
+      on("wheel", (event) => this.wheel(event));
+      on("keydown", (event) => this.key(event));
+      on("focusout", (event) => { if (!this.box.contains(event.relatedTarget)) this.setCursor(null); });
+    }
+    down(event) {
+      if (event.target.closest("button") || event.button !== 0) return;
+      const at = this.place(event), [panel, only] = this.panelAt(at);
+      if (!panel) return;
+      this.box.focus({ preventScroll: true });
+      this.box.setPointerCapture(event.pointerId);
+      this.pointers.set(event.pointerId, at);
+      this.pulled = { panel, only, from: at, to: at, touch: event.pointerType === "touch", move: event.shiftKey };
+      if (this.pulled.touch) this.setCursor({ panel, x: at[0], y: at[1] });
+      else event.preventDefault();
+    }
+    moved(event) {
+      const at = this.place(event), before = this.pointers.get(event.pointerId);
+      if (before && this.pointers.size === 2) this.pinch(event.pointerId, at);
+      if (before) this.pointers.set(event.pointerId, at);
+      if (this.pulled && !this.pulled.touch) {
+        this.pulled.to = at;
+        if (this.pulled.move) {
+          const { panel } = this.pulled;
+          this.move(panel, (before[0] - at[0]) / panel.width, (before[1] - at[1]) / panel.height);
+        }
+        this.drawCursor();
+      } else if (this.pointers.size < 2) {
+        const [panel, only] = this.panelAt(at);
+        this.setCursor(panel && !only ? { panel, x: at[0], y: at[1] } : null);
+      }
+    }
+    /// Two fingers: what lay under them stays under them.
+    pinch(id, to) {
+      const [other] = [...this.pointers].filter(([pointer]) => pointer !== id).map(([, at]) => at);
+      const from = this.pointers.get(id), { panel } = this.pulled;
+      const old = Math.hypot(from[0] - other[0], from[1] - other[1]), now = Math.hypot(to[0] - other[0], to[1] - other[1]);
+      if (old > 0.1 && now > 0.1) this.zoomAround(panel, this.within(panel, other), old / now);
+    }
+    up(event) {
+      const pulled = this.pulled;
+      this.pointers.delete(event.pointerId);
+      if (this.pointers.size === 0) this.pulled = null;
+      if (pulled && !pulled.touch && !pulled.move) this.zoomToBox(pulled);
+    }
+    /// A flat box means one axis, a small one nothing.
+    zoomToBox({ panel, only, from, to }) {
+      const [wide, high] = [0, 1].map((i) => Math.abs(to[i] - from[i]) * this.unit);
+      const [x0, y0] = this.within(panel, from).map((part) => clamp(part, 0, 1));
+      const [x1, y1] = this.within(panel, to).map((part) => clamp(part, 0, 1));
+      if (Math.max(wide, high) < 8) return this.drawCursor();
+      if (panel.equal) {
+        const half = Math.max(Math.abs(x1 - x0), Math.abs(y1 - y0)) / 2, [x, y] = [(x0 + x1) / 2, (y0 + y1) / 2];
+        return this.zoom(panel, [x - half, x + half], [y - half, y + half]);
+      }
+      this.zoom(panel, wide < 8 || only === "y" ? null : [x0, x1], high < 8 || only === "x" ? null : [y0, y1]);
+    }
+    /// The wheel scrolls the page unless the figure was chosen, by a click or the keyboard.
+    wheel(event) {
+      const at = this.place(event), [panel, only] = this.panelAt(at);
+      if (!panel || !(event.ctrlKey || this.box.contains(document.activeElement))) return;
+      event.preventDefault();
+      const lines = event.deltaMode === 1 ? 30 : 1;
+      this.zoomAround(panel, this.within(panel, at), Math.exp(clamp(event.deltaY * lines, -200, 200) * 0.0015), panel.equal ? "" : only);
+    }
+
+    key(event) {
+      if (event.target !== this.box || event.ctrlKey || event.altKey || event.metaKey) return;
+      const panel = this.cursor?.panel ?? this.panels[0];
+      const middle = this.cursor ? this.within(panel, [this.cursor.x, this.cursor.y]) : [0.5, 0.5];
+      const arrow = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
+      if (arrow && event.shiftKey) this.move(panel, 0.1 * arrow[0], 0.1 * arrow[1]);
+      else if (arrow) this.step(panel, ...arrow);
+      else if (event.key === "+" || event.key === "=") this.zoomAround(panel, middle, 0.7);
+      else if (event.key === "-") this.zoomAround(panel, middle, 1 / 0.7);
+      else if (event.key === "0") this.reset();
+      else if (event.key === "Escape") this.setCursor(null);
+      else return;
+      event.preventDefault();
+    }
+    /// The cursor goes from sample to sample, at least a pixel, and up and down among panels.
+    step(panel, aside, upwards) {
+      const index = this.panels.indexOf(panel);
+      if (upwards) panel = this.panels[clamp(index - upwards, 0, this.panels.length - 1)];
+      const guide = panel.curves.find((curve) => curve.shown && curve.isFunction);
+      let x = this.cursor ? this.cursor.x + aside / this.unit : panel.left + panel.width / 2;
+      if (this.cursor && aside && guide) {
+        const value = (place) => panel.x.value((place - panel.left) / panel.width);
+        let i = guide.nearest(value(this.cursor.x), false);
+        while (guide.x[i + aside] !== undefined && panel.place(guide.x[i], 0)[0] * aside < x * aside - 1e-9) i += aside;
+        x = panel.place(guide.x[i], 0)[0];
+      }
+      this.setCursor({ panel, x: clamp(x, panel.left, panel.right), y: panel.bottom + panel.height / 2 }, true);
+    }
+
+    setCursor(cursor, byKeys = false) {
+      this.cursor = cursor;
+      this.byKeys = byKeys && cursor !== null;
+      this.reading.setAttribute("aria-live", byKeys ? "polite" : "off");
+      this.drawCursor();
+    }
+
+    /// What there is to read at the cursor: lines of text, and the places that are marked.
+    readings() {
+      const { panel, x, y } = this.cursor, lines = [], places = [];
+      const guide = panel.curves.find((curve) => curve.shown && curve.isFunction && curve.x.length > 1);
+      if (!guide) return this.nearestPoint();
+      let value = panel.x.value((x - panel.left) / panel.width);
+      if (guide.covers(value)) value = guide.x[guide.nearest(value, false)];
+      const named = this.partners(panel).find((part) => part.x.name) ?? panel;
+      lines.push({ name: named.x.name || "x", text: named.x.text(value, this.comma) });
+      for (const part of this.partners(panel))
+        for (const curve of part.curves) {
+          if (!curve.shown || !curve.isFunction || !curve.covers(value)) continue;
+          const read = curve.at(value);
+          if (read === null || !Number.isFinite(read)) continue;
+          const upper = curve.style === "band" ? curve.at(value, curve.upper) : null;
+          const text = part.y.text(read, this.comma);
+          lines.push({ name: curve.label || part.y.name, colour: curve.colour,
+                       text: upper === null ? text : `${text} … ${part.y.text(upper, this.comma)}` });
+          places.push({ panel: part, x: value, y: read, colour: curve.colour });
+        }
+      return { lines, places, value };
+    }
+    nearestPoint() {
+      const { panel, x, y } = this.cursor;
+      let best = null, least = this.byKeys ? Infinity : 0.6;
+      for (const curve of panel.curves.filter((one) => one.shown))
+        curve.x.forEach((value, i) => {
+          if (value === null || curve.y[i] === null) return;
+          const [px, py] = panel.place(value, curve.y[i]), distance = Math.hypot(px - x, py - y);
+          if (distance < least) [best, least] = [{ panel, x: value, y: curve.y[i], colour: curve.colour, curve }, distance];
+        });
+      const [a, b] = best ? [best.x, best.y]
+        : [panel.x.value((x - panel.left) / panel.width), panel.y.value((y - panel.bottom) / panel.height)];
+      const lines = [{ name: panel.x.name || "x", text: panel.x.text(a, this.comma) },
+                     { name: panel.y.name || "y", text: panel.y.text(b, this.comma) }];
+      if (best?.curve.label) lines.unshift({ name: best.curve.label, text: "", colour: best.colour });
+      return { lines, places: best ? [best] : [], value: null };
+    }
+
+    drawCursor() {
+      const context = this.over.getContext("2d");
+      context.clearRect(0, 0, this.over.width, this.over.height);
+      const painter = new Painter(context, this, this.unit);
+      const boxed = this.pulled && !this.pulled.touch && !this.pulled.move && this.pulled.to !== this.pulled.from;
+      if (boxed) {
+        const { from, to } = this.pulled;
+        painter.stroke(painter.colours.line, 0.75, [3, 3]);
+        context.strokeRect(painter.X(Math.min(from[0], to[0])), painter.Y(Math.max(from[1], to[1])),
+                           Math.abs(to[0] - from[0]) * this.unit, Math.abs(to[1] - from[1]) * this.unit);
+      }
+      this.reading.hidden = !this.cursor || boxed;
+      if (!this.cursor || boxed) return;
+      const { panel, x, y } = this.cursor, { lines, places, value } = this.readings();
+      painter.stroke(painter.colours.line, 0.5);
+      for (const part of value === null ? [panel] : this.partners(panel)) {
+        const at = value === null ? x : clamp(part.place(value, part.y.low)[0], part.left, part.right);
+        painter.segment(at, part.bottom, at, part.top);
+        if (part === panel && !this.byKeys) painter.segment(part.left, y, part.right, y);
+      }
+      for (const place of places) {
+        const [px, py] = place.panel.place(place.x, place.y);
+        if (place.panel.holds(px, py)) painter.marker(px, py, 7, 0.4, 0.6, painter.colours.of(place.colour));
+      }
+      this.reading.replaceChildren(...lines.map(({ name, text, colour }) => {
+        const line = document.createElement("span"), mark = document.createElement("b");
+        if (colour) mark.style.color = painter.colours.of(colour);
+        mark.textContent = colour ? "● " : "";
+        line.append(mark, text ? `${name}: ${text}` : name);
+        return line;
+      }));
+      const beside = x < this.size[0] / 2;
+      Object.assign(this.reading.style, { left: beside ? `${(x + 0.35) * this.unit}px` : "", top: `${(this.size[1] - panel.top + 0.15) * this.unit}px`,
+                                          right: beside ? "" : `${(this.size[0] - x + 0.35) * this.unit}px` });
+    }
+  }
+
+  function begin(data) {
+    const picture = data.previousElementSibling;
+    if (picture?.tagName !== "IMG" || picture.classList.contains("printed")) return;
+    picture.classList.add("printed");
+    new Plot(picture, JSON.parse(data.textContent)).draw();
+  }
+
+  /// Makes the figures below `root` live as they come near the window.
+  function enliven(root) {
+    const near = new IntersectionObserver((entries) => {
+      for (const { target, isIntersecting } of entries) {
+        if (!isIntersecting) continue;
+        near.unobserve(target);
+        begin(target.nextElementSibling);
+      }
+    }, { rootMargin: "400px" });
+    for (const data of root.querySelectorAll("img:not(.printed) + script.plot-data")) near.observe(data.previousElementSibling);
+  }
+  return { enliven };
+})();

@@ -1,0 +1,59 @@
+// The page on which a prompt's figures appear. Oracle: what a browser shows of it.
+#include "app/live/figure_viewer.h"
+
+#include <gtest/gtest.h>
+
+#include "platform/child_process.h"
+#include "platform/error.h"
+#include "support/browser.h"
+
+namespace test_figure_viewer {
+using namespace dynlab;
+using test::Browser;
+
+Figure figure_titled(const std::string& title) {
+    Figure figure;
+    figure.panels.resize(1);
+    figure.panels[0].title = title;
+    Curve curve;
+    curve.x = curve.y = Vector::LinSpaced(5, 0, 1);
+    figure.panels[0].curves.push_back(curve);
+    return figure;
+}
+
+TEST(figure_viewer, shows_figures_as_they_are_made_the_newest_first) {
+    FigureViewer viewer;
+    Browser browser;
+    browser.open(viewer.address());
+    EXPECT_TRUE(browser.comes("document.getElementById('state').innerText.includes('none yet')"));
+    viewer.show("figure-1.pdf", figure_titled("First"));
+    EXPECT_TRUE(browser.comes("document.querySelector('img')?.naturalWidth > 100"));
+    viewer.show("figure-2.pdf <b>", figure_titled("Second"));
+    EXPECT_TRUE(browser.comes("document.querySelectorAll('img').length === 2"));
+    EXPECT_EQ(browser.evaluate("return [...document.querySelectorAll('figcaption')].map(n => n.innerText)"),
+              "[\"figure-2.pdf <b>\",\"figure-1.pdf\"]");
+    browser.open(viewer.address());  // again: all that were made
+    EXPECT_TRUE(browser.comes("document.querySelectorAll('img').length === 2"));
+}
+
+TEST(figure_viewer, forgets_the_oldest) {
+    FigureViewer viewer;
+    for (int i = 0; i < 103; ++i) viewer.show(std::to_string(i), figure_titled("A figure"));
+    Browser browser;
+    browser.open(viewer.address());
+    EXPECT_TRUE(browser.comes("document.querySelectorAll('img').length === 100"));
+    EXPECT_EQ(browser.evaluate("return document.querySelector('main').lastElementChild.innerText"), "\"3\"");
+}
+
+TEST(figure_viewer, the_prompt_has_one_when_asked) {
+    ChildOptions prompt;
+    prompt.command = {DYNLAB_PROGRAM, "--view"};
+    prompt.environment = {{"DYNLAB_HOME", DYNLAB_SOURCE_DIR}};
+    prompt.input = "print(1 + 1)\n";
+    const ChildResult result = run_child(prompt, "dynlab");
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_EQ(result.output, "2\n");
+    EXPECT_EQ(result.error_output.rfind("figures: http://127.0.0.1:", 0), 0u) << result.error_output;
+}
+
+}  // namespace test_figure_viewer

@@ -1,0 +1,217 @@
+// What a reader does on the page of `dynlab preview`: moves sliders, edits, reads what is found and the PDF. Oracle:
+// the files afterwards, and what the page says.
+#include <gmock/gmock.h>
+
+#include "platform/text_file.h"
+#include "support/preview.h"
+
+namespace test_preview_editing {
+using namespace dynlab;
+using namespace dynlab::test;
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+class preview_editing : public preview_page {
+  protected:
+    std::string text_of(const std::string& name = "analysis.lua") const { return read_text(file(name)); }
+    /// Types into the editor behind everything that stands there.
+    static void type(Browser& browser, const std::string& text) {
+        browser.evaluate("const m = document.querySelector('.CodeMirror').CodeMirror; m.setValue(m.getValue() + `" +
+                         text + "`)");
+    }
+    static bool editor_has(Browser& browser, const std::string& text) {
+        return browser.comes("document.querySelector('.CodeMirror')?.CodeMirror.getValue().includes(`" + text + "`)");
+    }
+};
+
+const std::string kSlider =
+    "-- %% id=before\nlocal s = 0 for i = 1, 1e6 do s = s + i end\nlocal once = rand()\n\n"
+    "-- %% id=choose\nlocal k = slider(\"k\", 3, 1, 10, {step = 0.5, unit = \"V\", label = \"gain\"})\n\n"
+    "-- %% id=shown\nprint(\"k is \" .. k .. \", once \" .. once)\n";
+
+const std::string kMoveTo8 =
+    "const s = document.getElementById('slider-k'); s.value = 14; s.dispatchEvent(new Event('input'))";
+
+TEST_F(preview_editing, a_slider_runs_what_follows_it) {
+    write(kHead + kSlider);
+    const Preview preview(file());
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(shows(browser, "k is 3"));
+    const std::string once =
+        browser.evaluate("return /once (.*)/.exec(document.getElementById('document').innerText)[1]");
+    EXPECT_EQ(browser.evaluate("return document.querySelector('.slider').innerText.replace(/\\s+/g, ' ').trim()"),
+              "\"gain 3 V\"");
+    browser.evaluate(kMoveTo8);
+    EXPECT_TRUE(shows(browser, "k is 8"));
+    EXPECT_EQ(browser.evaluate("return /once (.*)/.exec(document.getElementById('document').innerText)[1]"), once);
+    EXPECT_TRUE(browser.comes("document.querySelector('.slider output').innerText.startsWith('8')"));
+    // The place behind its cell, and the choice, outlast a change of the text above.
+    std::string changed = kHead + "-- %% [markdown]\n-- More words.\n\n" + kSlider;
+    write(changed);
+    EXPECT_TRUE(shows(browser, "More words."));
+    EXPECT_TRUE(shows(browser, "k is 8"));
+    EXPECT_EQ(browser.evaluate("return document.querySelector('.slider').previousElementSibling.dataset.cell"),
+              "\"choose\"");
+    browser.click(".slider button");
+    EXPECT_TRUE(shows(browser, "k is 3"));
+    write(kHead + kFirst);
+    EXPECT_TRUE(browser.comes("!document.querySelector('.slider')"));
+}
+
+/// The last place of a slider that is dragged counts, however many there were.
+TEST_F(preview_editing, a_dragged_slider_ends_where_it_was_left) {
+    write(kHead + kSlider);
+    const Preview preview(file());
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(shows(browser, "k is 3"));
+    browser.evaluate(
+        "const s = document.getElementById('slider-k');"
+        "for (let i = 0; i <= 60; ++i) setTimeout(() => { s.value = i % 19; s.dispatchEvent(new Event('input')) }, 10 "
+        "* i)");
+    EXPECT_TRUE(shows(browser, "k is 2.5"));  // 60 % 19 = 3 steps of 0.5 above 1
+    std::this_thread::sleep_for(300ms);
+    EXPECT_TRUE(shows(browser, "k is 2.5"));
+}
+
+TEST_F(preview_editing, what_is_saved_on_the_page_is_the_file_and_the_page_follows) {
+    write(kHead + kFirst);
+    const Preview preview(file(), true, {"--edit"});
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(editor_has(browser, "local x = 20"));
+    type(browser, "\\n-- %% [markdown]\\n-- Typed: é and λ.\\n");
+    EXPECT_TRUE(browser.comes("!document.getElementById('save').disabled"));
+    EXPECT_THAT(text_of(), testing::Not(HasSubstr("Typed")));
+    browser.click("#save");
+    EXPECT_TRUE(shows(browser, "Typed: é and λ."));
+    EXPECT_THAT(text_of(), HasSubstr("Typed: é and λ."));
+    EXPECT_TRUE(
+        browser.comes("document.getElementById('save').disabled && document.getElementById('conflict').hidden"));
+}
+
+/// Neither text is lost when the file changes on disk while the page has another.
+TEST_F(preview_editing, an_edit_on_both_sides_shows_both) {
+    write(kHead + kFirst);
+    const Preview preview(file(), true, {"--edit"});
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(editor_has(browser, "local x = 20"));
+    type(browser, "\\n-- mine\\n");
+    write(kHead + kFirst + "-- theirs\n");
+    ASSERT_TRUE(browser.comes("!document.getElementById('conflict').hidden"));
+    EXPECT_TRUE(browser.comes("document.getElementById('theirs').innerText.includes('theirs')"));
+    EXPECT_TRUE(editor_has(browser, "-- mine"));
+    EXPECT_THAT(text_of(), HasSubstr("-- theirs"));
+    browser.click("#keep-mine");
+    EXPECT_TRUE(browser.comes("document.getElementById('conflict').hidden"));
+    for (int i = 0; i < 200 && text_of().find("-- mine") == std::string::npos; ++i) std::this_thread::sleep_for(20ms);
+    EXPECT_THAT(text_of(), HasSubstr("-- mine"));
+
+    type(browser, "\\n-- mine again\\n");
+    write(kHead + kFirst + "-- theirs again\n");
+    ASSERT_TRUE(browser.comes("!document.getElementById('conflict').hidden"));
+    browser.click("#take-theirs");
+    EXPECT_TRUE(editor_has(browser, "-- theirs again"));
+    EXPECT_TRUE(browser.comes("document.getElementById('save').disabled"));
+    // A file that changes while nothing was typed is just shown.
+    write(kHead + kFirst + "-- new\n");
+    EXPECT_TRUE(editor_has(browser, "-- new"));
+    EXPECT_EQ(browser.evaluate("return document.getElementById('conflict').hidden"), "true");
+}
+
+/// A save that was made from an older text than the file has now is refused even when the page has not heard of it.
+TEST_F(preview_editing, a_late_save_writes_nothing) {
+    write(kHead + kFirst);
+    const Preview preview(file(), true, {"--edit"});
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(editor_has(browser, "local x = 20"));
+    const auto saves = [&](const std::string& json) {
+        browser.evaluate("window.reply = null; fetch('/save', {method: 'POST', body: JSON.stringify(" + json +
+                         ")}).then(async r => { window.reply = r.status + ' ' + await r.text() })");
+        browser.comes("window.reply");
+        return browser.evaluate("return window.reply");
+    };
+    EXPECT_THAT(saves("{number: 0, name: 'x', text: 'bad', digest: 'old'}"), HasSubstr("409"));
+    EXPECT_THAT(saves("{number: 7, name: 'x', text: 'bad', digest: ''}"), HasSubstr("no such file"));
+    EXPECT_THAT(saves("{number: -1, name: '../../x', text: 'bad', digest: ''}"), HasSubstr("500"));
+    EXPECT_THAT(saves("{text: 'bad'}"), HasSubstr("500"));
+    EXPECT_EQ(text_of(), kHead + kFirst);
+}
+
+TEST_F(preview_editing, nothing_is_written_without_the_option) {
+    write(kHead + kFirst);
+    const Preview preview(file());
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(shows(browser, "x is 20"));
+    browser.evaluate(
+        "fetch('/save', {method: 'POST', body: JSON.stringify({number: 0, name: 'x', text: 'bad', digest: ''})})"
+        ".then(r => { window.reply = r.status })");
+    EXPECT_TRUE(browser.comes("window.reply === 500"));
+    EXPECT_EQ(browser.evaluate("return document.body.classList.contains('editing')"), "false");
+    EXPECT_EQ(text_of(), kHead + kFirst);
+}
+
+TEST_F(preview_editing, source_and_page_lead_to_each_other) {
+    std::string many;
+    for (int i = 0; i < 60; ++i) many += "-- Paragraph " + std::to_string(i) + ".\n--\n";
+    write(kHead + "-- %% [markdown]\n" + many + "\n" + kFirst);
+    const Preview preview(file(), true, {"--edit"});
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(shows(browser, "x is 20"));
+    ASSERT_TRUE(editor_has(browser, "local x = 20"));
+    browser.evaluate(
+        "const m = document.querySelector('.CodeMirror').CodeMirror; m.focus();"
+        "m.setCursor(m.getValue().split('\\n').findIndex(line => line.includes('Paragraph 55')), 0)");
+    EXPECT_TRUE(browser.comes("document.querySelector('.chosen')?.innerText === 'Paragraph 55.'"));
+    EXPECT_TRUE(browser.comes("document.querySelector('.chosen').getBoundingClientRect().bottom <= innerHeight"));
+    browser.evaluate(
+        "[...document.querySelectorAll('.piece')].find(n => n.innerText === 'Paragraph "
+        "3.').querySelector('p').click()");
+    EXPECT_TRUE(
+        browser.comes("(m => m.getLine(m.getCursor().line).includes('Paragraph "
+                      "3.'))(document.querySelector('.CodeMirror').CodeMirror)"));
+}
+
+TEST_F(preview_editing, findings_open_answers_and_the_pdf_come_by_themselves) {
+    write("-- ---\n-- template: lab_report\n-- answers:\n--   gain: number\n-- ---\n\n" + kFirst);
+    write("---\ntitle: My report\n---\n\n# Introduction\n\n<!-- What is it about? -->\n\n# Results\n\nSee.\n",
+          "report.md");
+    const Preview preview(folder.path());
+    Browser browser;
+    browser.open(preview.address());
+    EXPECT_TRUE(browser.comes("document.getElementById('show-findings').innerText.includes('1 answer open')"));
+    EXPECT_TRUE(browser.comes("document.getElementById('view').classList.contains('ready')", 120));
+    EXPECT_TRUE(browser.comes("/rules? broken/.test(document.getElementById('show-findings').innerText)", 120));
+    browser.click("#show-findings");
+    EXPECT_TRUE(browser.comes("document.querySelectorAll('#findings li.rule').length > 0"));
+    browser.click("#view");
+    EXPECT_TRUE(browser.comes("document.querySelector('#pdf iframe') && document.getElementById('document').hidden"));
+    browser.click("#view");
+    EXPECT_TRUE(browser.comes("!document.getElementById('document').hidden"));
+    // What is changed is made anew.
+    write(kFirst);
+    EXPECT_TRUE(browser.comes("!document.getElementById('view').classList.contains('ready')"));
+    EXPECT_TRUE(browser.comes("document.getElementById('view').classList.contains('ready')", 120));
+}
+
+TEST_F(preview_editing, a_second_preview_leads_to_the_first) {
+    write(kHead + kFirst);
+    const Preview first(file());
+    ASSERT_FALSE(first.address().empty());
+    const fs::path told = folder.path() / "told";
+    const auto second = [&] {
+        return std::system(("XDG_CACHE_HOME='" + first.out.path().string() + "' '" + DYNLAB_PROGRAM + "' preview '" +
+                            file().string() + "' --no-browser > '" + told.string() + "'")
+                               .c_str());
+    };
+    EXPECT_EQ(second(), 0);
+    EXPECT_EQ(read_text(told), first.address() + "\n(it is shown there already)\n");
+}
+
+}  // namespace test_preview_editing
