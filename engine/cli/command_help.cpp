@@ -6,6 +6,7 @@
 #include "workflow/cheat_sheet.h"
 
 namespace dynlab::inline cli {
+
 void add_help(CLI::App& app, Action& action) {
     auto name = std::make_shared<std::string>();
     auto word = std::make_shared<std::string>();
