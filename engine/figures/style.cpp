@@ -9,8 +9,8 @@ namespace {
 constexpr std::array kPalette = {"#0072B2", "#E69F00", "#202020", "#009E73", "#882255",
                                  "#56B4E9", "#D55E00", "#CC79A7", "#8C8C8C"};
 constexpr std::array kDashOfColour = {0, 1, 3, 2, 4, 5, 6, 7, 0};
-/// Filled circle, square, triangle, diamond, the same four open, cross, plus.
-constexpr std::array kPointTypes = {7, 5, 9, 13, 6, 4, 8, 12, 2, 1};
+/// Filled circle, square, triangle, diamond, the same four open, cross, plus, asterisk.
+constexpr std::array kPointTypes = {7, 5, 9, 13, 6, 4, 8, 12, 2, 1, 3};
 /// The markers of curves: filled and open ones in turn.
 constexpr std::array kMarkerOfColour = {0, 5, 2, 7, 4, 1, 6, 3, 0};
 

@@ -26,6 +26,8 @@ inline constexpr double kFrameWidth = 0.45, kGridWidth = 0.3, kReferenceWidth = 
 
 /// Places in the marker list with a meaning of their own.
 inline constexpr int kOpenCircle = 4, kCross = 8;
+/// Poles are cross, plus, asterisk; zeros open circle, square, triangle: a pair for each of three models.
+inline constexpr int kPoleMarkers = 3;
 /// The grey beyond the palette's own eight colours, for measured data and guiding curves.
 inline constexpr int kGreyColour = 8;
 

@@ -35,7 +35,7 @@ Figure cross_validation_plot(const CrossValidation& result, const std::vector<st
         mean.x = Vector{{0.5, end + 0.5}};
         mean.y = Vector::Constant(2, result.mean[i]);
         mean.colour = static_cast<int>(i);
-        mean.dash = 1;
+        mean.dash = 1 + static_cast<int>(i);
         mean.line_width = 0.7;
         mean.label = fmt::format("mean {:.1f} %", result.mean[i]);
         panel.curves.push_back(std::move(mean));

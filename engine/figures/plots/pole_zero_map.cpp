@@ -76,7 +76,6 @@ void add_regions(Panel& panel, const ModelConfidence& confidence, int colour, co
         curve.x = region.col(0);
         curve.y = region.col(1);
         curve.colour = colour;
-        curve.dash = 0;
         curve.line_width = root.root.imag() == 0 ? 1.6 : 0.7;
         if (first) curve.label = label;
         first = false;
@@ -105,8 +104,9 @@ Figure pole_zero_map(const std::vector<NamedModel>& models) {
         const ComplexVector poles = model.G.poles(), zeros = model.G.zeros();
         for (const ComplexVector* roots : {&poles, &zeros})
             real.include(Vector(roots->real())), imaginary.include(Vector(roots->imag()));
-        add_roots(panel, poles, prefix + "poles", colour, style::kCross);
-        add_roots(panel, zeros, prefix + "zeros", colour, style::kOpenCircle);
+        const int mark = colour % style::kPoleMarkers;
+        add_roots(panel, poles, prefix + "poles", colour, style::kCross + mark);
+        add_roots(panel, zeros, prefix + "zeros", colour, style::kOpenCircle + mark);
         if (model.confidence) {
             const double level = model.confidence->level;
             add_regions(panel, *model.confidence, colour, explained ? "" : confidence_text(level), real, imaginary);

@@ -3,25 +3,27 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <map>
 #include <set>
-#include <sstream>
 
 #include "figures/figure_layout.h"
-#include "figures/gnuplot_renderer.h"
 #include "figures/plots/bode_plot.h"
 #include "figures/plots/compare_plot.h"
+#include "figures/plots/cross_validation_plot.h"
 #include "figures/plots/id_plot.h"
 #include "figures/plots/impulse_plot.h"
+#include "figures/plots/monte_carlo_plot.h"
 #include "figures/plots/nyquist_plot.h"
+#include "figures/plots/order_plot.h"
+#include "figures/plots/pole_zero_map.h"
 #include "figures/plots/residual_plot.h"
+#include "figures/plots/spectral_plot.h"
 #include "figures/plots/step_plot.h"
 #include "figures/step_construction.h"
 #include "numerics/signals/random.h"
+#include "numerics/simulation/frequency_response.h"
 #include "numerics/simulation/lsim.h"
-#include "platform/child_process.h"
-#include "platform/temporary_folder.h"
+#include "support/grey_looks.h"
 
 namespace test_style {
 
@@ -90,84 +92,80 @@ std::vector<std::pair<std::string, Figure>> standard_figures() {
             {"step_first_order", constructed()}};
 }
 
-/// A panel of a straight line in the look of one of a panel's curves; the others lie outside. Negative: none.
-Figure line_in_the_look_of(const Panel& panel, int shown) {
-    Panel lone;
-    lone.x_range = lone.y_range = std::pair{0.0, 1.0};
-    lone.legend = LegendPlace::kNone;
-    for (std::size_t i = 0; i < panel.curves.size(); ++i) {
-        Curve curve = panel.curves[i];
-        curve.x = Vector::LinSpaced(12, 0, 1);
-        curve.y = Vector::Constant(12, static_cast<int>(i) == shown ? 0.5 : -9.0);
-        if (curve.style == CurveStyle::kBand) curve.y_upper = curve.y;
-        lone.curves.push_back(std::move(curve));
+MonteCarlo study(int methods) {
+    MonteCarlo result;
+    for (int i = 0; i < methods; ++i) {
+        MonteCarloResult one;
+        one.label = "method " + std::to_string(i);
+        one.names = {"a1", "b0"};
+        one.theta = Matrix::Random(20, 2);
+        one.truth = Vector::Zero(2);
+        one.bound = Matrix::Identity(2, 2);
+        one.estimated = 20;
+        result.results.push_back(one);
     }
-    return Figure(std::move(lone));
-}
-
-/// How dark every point of a PDF is, 0 to 255.
-std::vector<int> darkness(const std::filesystem::path& pdf) {
-    ChildOptions child;
-    child.command = {"pdftoppm", "-gray", "-r", "150", pdf.string()};
-    std::istringstream image(run_child(child, "poppler-utils").output);
-    std::string kind;
-    int width = 0, height = 0, white = 0;
-    image >> kind >> width >> height >> white;
-    image.get();
-    std::vector<int> result(static_cast<std::size_t>(width * height));
-    for (int& value : result) value = white - image.get();
     return result;
 }
 
-double distance(const std::vector<int>& a, const std::vector<int>& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(a[i] - b[i]);
-    return sum;
+OrderSelection orders(int zeros) {
+    OrderSelection result;
+    for (int m = 0; m < zeros; ++m)
+        for (int n = 1; n < 4; ++n) {
+            OrderCandidate one;
+            one.poles = n, one.zeros = m, one.bic = -m - n;
+            result.candidates.push_back(one);
+        }
+    return result;
 }
 
-/// The looks of a panel's named curves in grey.
-class GreyLooks {
-  public:
-    explicit GreyLooks(const Panel& panel) {
-        GnuplotRenderer renderer;
-        const auto file = [this](int i) { return folder_.path() / (std::to_string(i) + ".pdf"); };
-        std::vector<int> named;
-        for (int i = 0; i < static_cast<int>(panel.curves.size()); ++i) {
-            const Curve& curve = panel.curves[static_cast<std::size_t>(i)];
-            if (!curve.label.empty() && curve.style != CurveStyle::kBand) named.push_back(i);
-        }
-        named.push_back(-1);
-        for (const int i : named) renderer.draw(line_in_the_look_of(panel, i), file(i), FigureFormat::kPdf);
-        renderer.finish();
-        for (const int i : named) drawn_.push_back(darkness(file(i)));
-    }
-    std::size_t size() const { return drawn_.size() - 1; }
-    /// 0 for equal looks, 2 for marks that nowhere meet.
-    double difference(std::size_t i, std::size_t k) const {
-        const double ink = distance(drawn_[i], drawn_.back()) + distance(drawn_[k], drawn_.back());
-        return 2 * distance(drawn_[i], drawn_[k]) / ink;
-    }
+std::vector<NamedModel> models_with_zeros(int count) {
+    std::vector<NamedModel> result;
+    for (int i = 0; i < count; ++i)
+        result.push_back({"G_" + std::to_string(i), TransferFunction(Vector{{1.0, 1.0 + i}}, Vector{{1.0, 0.5, 1.0}})});
+    return result;
+}
 
-  private:
-    TemporaryFolder folder_;
-    std::vector<std::vector<int>> drawn_;
-};
+SpectralEstimate spectrum() {
+    SpectralEstimate result;
+    result.w = Vector::LinSpaced(20, 0.1, 3);
+    result.response = frequency_response(second_order(0.3), result.w);
+    result.std = 0.1 * result.response.cwiseAbs();
+    return result;
+}
+
+CrossValidation folds(Index outputs) {
+    CrossValidation result;
+    result.fit_percent = 80 * Matrix::Ones(5, outputs);
+    result.mean = 80 * Vector::Ones(outputs);
+    return result;
+}
+
+/// Those whose axes are tested elsewhere.
+std::vector<std::pair<std::string, Figure>> further_figures() {
+    return {{"pzmap", pole_zero_map(models_with_zeros(3))},
+            {"scatter", monte_carlo_scatter(study(3), "a1", "b0")},
+            {"order selection", order_plot(orders(5), OrderCriterion::kBic, {1, ""})},
+            {"spa", spectral_plot(spectrum(), "estimate", models(3))},
+            {"crossvalidate", cross_validation_plot(folds(3), {"x", "y", "z"})}};
+}
 
 TEST(style, curves_of_the_standard_plots_are_told_apart_in_grey) {
-    constexpr double kSeen = 0.3;
-    for (const auto& [name, figure] : standard_figures())
+    auto figures = standard_figures();
+    for (auto& further : further_figures()) figures.push_back(std::move(further));
+    for (const auto& [name, figure] : figures)
         for (const Panel& panel : figure.panels) {
-            const GreyLooks looks(panel);
+            const test::GreyLooks looks(panel);
             for (std::size_t i = 0; i + 1 < looks.size(); ++i)
-                EXPECT_GT(looks.difference(i, i + 1), kSeen) << name << ", curves " << i << " and " << i + 1;
+                EXPECT_GT(looks.difference(i, i + 1), test::kSeenInGrey)
+                    << name << ", curves " << i << " and " << i + 1;
         }
 }
 
 TEST(style, no_two_of_nine_curves_look_alike_in_grey) {
-    const GreyLooks looks(plain(9).panels[0]);
+    const test::GreyLooks looks(plain(9).panels[0]);
     ASSERT_EQ(looks.size(), 9u);
     for (std::size_t i = 0; i < 9; ++i)
-        for (std::size_t k = 0; k < i; ++k) EXPECT_GT(looks.difference(i, k), 0.3) << i << " and " << k;
+        for (std::size_t k = 0; k < i; ++k) EXPECT_GT(looks.difference(i, k), test::kSeenInGrey) << i << " and " << k;
 }
 
 // A filled circle and an open square.

@@ -1,0 +1,36 @@
+// The figures of the lessons as a black-and-white printer gives them. Oracle: poppler's greys.
+#include <gtest/gtest.h>
+
+#include "platform/temporary_folder.h"
+#include "support/grey_looks.h"
+#include "workflow/lesson_catalogue.h"
+#include "workflow/run_script.h"
+
+namespace dynlab::test {
+namespace test_grey_figures {
+
+class grey_figures : public testing::TestWithParam<const char*> {};
+
+TEST_P(grey_figures, neighbouring_curves_are_told_apart) {
+    const PercentScript script = read_percent_script(find_lesson(GetParam()).script());
+    const TemporaryFolder out;
+    GnuplotRenderer renderer;
+    RunRequest request;
+    request.script = script;
+    request.out_folder = out.path();
+    const RunRecord record = run_script(request, renderer);
+    ASSERT_FALSE(record.error) << record.error->message;
+    EXPECT_FALSE(record.figures.empty());
+    for (const auto& [name, drawn] : record.figures)
+        for (std::size_t place = 0; place < drawn.figure.panels.size(); ++place) {
+            const GreyLooks looks(drawn.figure.panels[place]);
+            for (std::size_t i = 0; i + 1 < looks.size(); ++i)
+                EXPECT_GT(looks.difference(i, i + 1), kSeenInGrey)
+                    << "figure " << name << ", panel " << place + 1 << ", named curves " << i + 1 << " and " << i + 2;
+        }
+}
+
+INSTANTIATE_TEST_SUITE_P(all, grey_figures, testing::Values("01", "02", "03_workflow", "03_crane", "04", "05"));
+
+}  // namespace test_grey_figures
+}  // namespace dynlab::test

@@ -1,0 +1,85 @@
+#pragma once
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "figures/figure.h"
+#include "figures/gnuplot_renderer.h"
+#include "figures/style.h"
+#include "platform/child_process.h"
+#include "platform/temporary_folder.h"
+
+namespace dynlab::test {
+
+/// Less is hardly told apart: 0 are equal looks.
+inline constexpr double kSeenInGrey = 0.3;
+
+/// A panel of a straight line in the look of one of a panel's curves; the others lie outside. Negative: none.
+inline Figure line_in_the_look_of(const Panel& panel, int shown) {
+    Panel lone;
+    lone.x_range = lone.y_range = std::pair{0.0, 1.0};
+    lone.legend = LegendPlace::kNone;
+    for (std::size_t i = 0; i < panel.curves.size(); ++i) {
+        Curve curve = panel.curves[i];
+        curve.x = Vector::LinSpaced(12, 0, 1);
+        curve.y = Vector::Constant(12, static_cast<int>(i) == shown ? 0.5 : -9.0);
+        if (curve.style == CurveStyle::kBand) curve.y_upper = curve.y;
+        lone.curves.push_back(std::move(curve));
+    }
+    return Figure(std::move(lone));
+}
+
+/// How dark every point of a PDF is, 0 to 255.
+inline std::vector<int> darkness(const std::filesystem::path& pdf) {
+    ChildOptions child;
+    child.command = {"pdftoppm", "-gray", "-r", "150", pdf.string()};
+    std::istringstream image(run_child(child, "poppler-utils").output);
+    std::string kind;
+    int width = 0, height = 0, white = 0;
+    image >> kind >> width >> height >> white;
+    image.get();
+    std::vector<int> result(static_cast<std::size_t>(width * height));
+    for (int& value : result) value = white - image.get();
+    return result;
+}
+
+inline double distance(const std::vector<int>& a, const std::vector<int>& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(a[i] - b[i]);
+    return sum;
+}
+
+/// The looks of a panel's named curves, but its bands, in grey.
+class GreyLooks {
+  public:
+    explicit GreyLooks(const Panel& panel) {
+        GnuplotRenderer renderer;
+        const auto file = [this](int i) { return folder_.path() / (std::to_string(i) + ".pdf"); };
+        std::vector<int> named;
+        for (int i = 0; i < static_cast<int>(panel.curves.size()); ++i) {
+            const Curve& curve = panel.curves[static_cast<std::size_t>(i)];
+            if (!curve.label.empty() && curve.style != CurveStyle::kBand) named.push_back(i);
+        }
+        if (named.size() < 2) named.clear();  // nothing to be told apart
+        named.push_back(-1);
+        for (const int i : named) renderer.draw(line_in_the_look_of(panel, i), file(i), FigureFormat::kPdf);
+        renderer.finish();
+        for (const int i : named) drawn_.push_back(darkness(file(i)));
+    }
+    std::size_t size() const { return drawn_.size() - 1; }
+    /// 0 for equal looks, 2 for marks that nowhere meet.
+    double difference(std::size_t i, std::size_t k) const {
+        const double ink = distance(drawn_[i], drawn_.back()) + distance(drawn_[k], drawn_.back());
+        return 2 * distance(drawn_[i], drawn_[k]) / ink;
+    }
+
+  private:
+    TemporaryFolder folder_;
+    std::vector<std::vector<int>> drawn_;
+};
+
+}  // namespace dynlab::test
