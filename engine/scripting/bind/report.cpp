@@ -115,7 +115,7 @@ T service_or_default(const Call& call) {
 
 int report_language(Call& call) {
     call.at_most(0);
-    return call.give(report_language_of(call.context()));
+    return call.give(service_or_default<ReportLanguage>(call).code);
 }
 
 void check_range(const std::string& name, const RecordedSlider& slider) {
@@ -166,7 +166,7 @@ void push_guesses(lua_State* L) {
 }
 
 bool in_french(const Call& call) {
-    return report_language_of(call.context()) == "fr";
+    return service_or_default<ReportLanguage>(call).code == "fr";
 }
 
 std::string with_unit(double value, const std::string& unit) {
