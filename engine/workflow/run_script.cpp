@@ -8,6 +8,7 @@
 
 #include "documents/text_lines.h"
 #include "figures/french_texts.h"
+#include "platform/written_files.h"
 #include "scripting/runtime/report_language.h"
 #include "scripting/runtime/runtime.h"
 
@@ -81,6 +82,7 @@ RunRecord run_script(const RunRequest& request, GnuplotRenderer& renderer) {
     ReportLanguage language{request.script.header.language};
     Runtime runtime(options, renderer);
     runtime.set_service(&language);
+    if (request.written != nullptr) runtime.set_service(request.written);
     return runtime.run(request.script);
 }
 

@@ -42,7 +42,11 @@ RunOptions options_of_prompt(std::function<void(const std::string&)> print) {
 }  // namespace
 
 PromptSession::PromptSession(fs::path figure_folder, std::function<void(const std::string&)> print)
-    : figure_folder_(std::move(figure_folder)), runtime_(options_of_prompt(std::move(print)), renderer_) {}
+    : written_(state_file("written")),
+      figure_folder_(std::move(figure_folder)),
+      runtime_(options_of_prompt(std::move(print)), renderer_) {
+    runtime_.set_service(&written_);
+}
 
 StatementResult PromptSession::run(const PromptStatement& statement, const std::string& name) {
     StatementResult result;
