@@ -12,6 +12,7 @@
 #include "platform/atomic_file.h"
 #include "platform/terminal/activity_line.h"
 #include "platform/terminal/terminal_text.h"
+#include "platform/written_files.h"
 #include "scripting/memoized_calls/call_cache.h"
 #include "workflow/error_text.h"
 #include "workflow/make_report.h"
@@ -24,7 +25,7 @@ namespace fs = std::filesystem;
 
 struct RunArguments {
     std::string file, code, out;
-    bool interactive = false, view = false;
+    bool interactive = false, view = false, force = false;
     SeedOption seed;
     SliderOption sliders;
 };
@@ -99,8 +100,10 @@ int run(const RunArguments& words) {
 
     const Cache cache;
     CallCache calls(cache);
+    WrittenFiles written(state_file("written"),
+                         words.force ? WrittenFiles::Others::kReplaced : WrittenFiles::Others::kKept);
     GnuplotRenderer renderer(&cache);
-    request.call_cache = &calls;
+    request.call_cache = &calls, request.written = &written;
     RunRecord record = run_showing_activity(request, renderer);
     if (words.out.empty()) remove_old_figures(out);  // a folder that was named is somebody's
     save_figures(record, renderer, out, request.script.header.language);
@@ -128,12 +131,15 @@ void add_run(CLI::App& app, Action& action) {
     command->add_flag("--view", words->view, "The same, and show the figures in the browser")->needs(file);
     command->add_option("--out", words->out, "Folder for figures, saved files and the run's record (record.json)")
         ->type_name("DIR");
+    command->add_flag("--force", words->force, "Let the script replace files that no run of dynlab wrote");
     words->seed.add_to(*command);
     words->sliders.add_to(*command);
     command->footer(
         "Figures that the script makes are saved as PDF in NAME_out beside the script and their paths printed; those "
         "of\n"
-        "an earlier run are removed. What it saves by itself goes beside it, too. Values and tables that it reports "
+        "an earlier run are removed. What it saves by itself goes beside it, too; a file that is there and that no "
+        "run\n"
+        "wrote, or that was changed since, stays (--force). Values and tables that it reports "
         "are\n"
         "printed, and what the report's text has no place for is told.\n"
         "Example:  dynlab run -e 's = tf(\"s\") step(2/(s^2 + s + 1))'");

@@ -10,6 +10,7 @@
 #include "documents/html/plot_data.h"
 #include "documents/text_lines.h"
 #include "figures/french_texts.h"
+#include "platform/written_files.h"
 #include "scripting/runtime/report_language.h"
 #include "scripting/runtime/runtime.h"
 #include "scripting/runtime/slider_values.h"
@@ -94,6 +95,7 @@ RunRecord run_script(const RunRequest& request, GnuplotRenderer& renderer) {
     ReportLanguage language{request.script.header.language};
     Runtime runtime(options, renderer);
     runtime.set_service(&language);
+    if (request.written != nullptr) runtime.set_service(request.written);
     SliderValues sliders{request.slider_values};
     runtime.set_service(&sliders);
     RunRecord record = runtime.run(request.script);

@@ -10,6 +10,10 @@
 #include "documents/run_record.h"
 #include "figures/gnuplot_renderer.h"
 
+namespace dynlab::inline platform {
+class WrittenFiles;
+}
+
 namespace dynlab::inline scripting {
 class CallCache;
 }
@@ -25,6 +29,7 @@ struct RunRequest {
     std::function<void(const std::string&)>
         enter_cell;                   ///< called with each cell that begins: "cell 4 of 12, validation"
     bool stay_in_folder = false;      ///< files are read from the script's folder and the installed data only
+    WrittenFiles* written = nullptr;  ///< says which files the script may replace; all without
     CallCache* call_cache = nullptr;  ///< where results of long calls are kept
 };
 

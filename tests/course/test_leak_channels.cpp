@@ -1,6 +1,8 @@
 // Names in places of a PDF that no reader of its text meets. Oracle: what was put where (ISO 32000-1; ITU-T T.81).
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "course/names/anonymous_copy.h"
 #include "course/names/jpeg_parts.h"
 #include "leak_corpus.h"
@@ -63,6 +65,38 @@ TEST_F(leak_channels, slanted_text_in_codes_of_a_subset) {
     const std::string slanted = "BT /F1 12 Tf 0.94 0.34 -0.34 0.94 200 400 Tm <010203040506040702> Tj ET";
     EXPECT_THAT(found_in(slanted, font), Contains("name-hidden 1"));
     EXPECT_THAT(found_in("BT /F1 12 Tf 0.94 0.34 -0.34 0.94 200 400 Tm <0102030405> Tj ET", font), IsEmpty());
+}
+
+TEST_F(leak_channels, slanted_letters_in_any_order) {
+    const std::string name = "Zoe Brandtner";
+    const std::vector<std::size_t> order = {6, 0, 12, 3, 9, 1, 11, 4, 2, 10, 5, 8, 7};
+    const std::string subset =
+        "<</Type/Font/Subtype/Type1/BaseFont/ABCDEF+Courier/FirstChar 1/LastChar 10/Encoding<</Type/Encoding"
+        "/Differences[1/Z/o/e/space/B/r/a/n/d/t]>>>>";
+    const std::string codes = "\1\2\3\4\5\6\7\10\11\12\10\3\6";  // of the name in that font
+    for (const double degrees : {5.0, 20.0, -30.0, 120.0}) {
+        const double angle = degrees * 3.141592653589793 / 180, c = std::cos(angle), s = std::sin(angle);
+        std::string plain = "BT /F1 12 Tf\n", coded = "BT /F1 12 Tf\n", moved = "BT /F1 12 Tf\n";
+        for (const std::size_t i : order) {
+            if (name[i] == ' ') continue;
+            const double step = 7.2 * static_cast<double>(i);
+            const auto number = [](double x) { return std::to_string(x) + " "; };
+            const std::string matrix = number(c) + number(s) + number(-s) + number(c);
+            const std::string place = matrix + number(300 + step * c) + number(400 + step * s) + "Tm ";
+            plain += place + "(" + name[i] + ") Tj\n";
+            char code[8];
+            std::snprintf(code, sizeof code, "<%02X>", static_cast<unsigned>(codes[i]));
+            coded += place + code + " Tj\n";
+            moved += matrix + "300 400 Tm " + number(step) + "0 Td [(" + name[i] + ")] TJ\n";
+        }
+        for (const std::string& content : {plain, moved})
+            EXPECT_THAT(found_in(content + "ET\n" + kHello), Contains("name-hidden 1")) << degrees;
+        EXPECT_THAT(found_in(coded + "ET", subset), Contains("name-hidden 1")) << degrees;
+    }
+    EXPECT_THAT(
+        found_in("BT /F1 12 Tf 1 0 0 1 300 400 Tm (7) Tj 1 0 0 1 100 400 Tm (3) Tj 0.9 0.4 -0.4 0.9 9 9 Tm (B) Tj"
+                 " 0.9 0.4 -0.4 0.9 5 7 Tm (Z) Tj ET"),
+        IsEmpty());
 }
 
 TEST_F(leak_channels, fonts_that_tell_no_letters_are_told) {

@@ -46,6 +46,29 @@ TEST(program, saves_dropped_figures_and_prints_their_paths) {
     EXPECT_THAT(result.output, HasSubstr(".pdf"));
 }
 
+// oracle: the contents before
+TEST(program, a_script_replaces_its_own_files_only) {
+    const Workbench bench;
+    bench.write("marks.csv", "somebody's");
+    bench.write("b.lua",
+                "save_csv('own.csv', {y = {1, 2}})\nsave(plot({1, 2}, {3, 4}), 'own.pdf')\n"
+                "save_csv('marks.csv', {y = {1, 2}})\n");
+    for (int again = 0; again < 2; ++again) {
+        const ChildResult kept = bench.dynlab({"run", "b.lua"});
+        EXPECT_EQ(kept.exit_code, 1);
+        EXPECT_THAT(
+            kept.error_output,
+            HasSubstr("b.lua:3: save_csv: 'marks.csv' is there already and no run of dynlab wrote it; save under "
+                      "another name, move it away, or let it be replaced (dynlab run --force)"));
+    }
+    EXPECT_EQ(bench.read("marks.csv"), "somebody's");
+    EXPECT_EQ(bench.shell("echo \"save_csv('marks.csv', {y = {1, 2}})\" | $DYNLAB; head -1 marks.csv").output,
+              "somebody's");
+    EXPECT_EQ(bench.dynlab({"run", "b.lua", "--force"}).exit_code, 0);
+    EXPECT_EQ(bench.dynlab({"run", "b.lua"}).exit_code, 0);
+    EXPECT_THAT(bench.read("marks.csv"), HasSubstr("2"));
+}
+
 TEST(program, waits_for_files_the_script_saves_itself) {
     const Workbench bench;
     const ChildResult result = bench.dynlab({"run", "-e", "save(plot({1, 2}, {3, 4}), 'own.pdf')"});

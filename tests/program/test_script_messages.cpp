@@ -28,6 +28,15 @@ TEST(script_messages, a_syntax_error_shows_the_line_behind_the_path_as_given) {
                 HasSubstr("dynlab: " + bench.path("A/a.lua").string() + ":2: "));
 }
 
+// oracle: Lua's limit of 200
+TEST(script_messages, more_locals_than_lua_can_have_are_told) {
+    std::string code;
+    for (int i = 1; i <= 205; ++i) code += "local a" + std::to_string(i) + " = 0\n";
+    EXPECT_THAT(told(Workbench(), "a.lua", code),
+                HasSubstr("dynlab: a.lua:201: here can be at most 200 local variables; declare further ones without "
+                          "'local', or keep them in a table\n"));
+}
+
 TEST(script_messages, an_error_of_the_main_chunk_shows_its_line_alone) {
     const Workbench bench;
     EXPECT_EQ(told(bench, "A/a.lua", "\nlocal v = zeros('x') -- here\n"),

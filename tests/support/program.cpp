@@ -50,7 +50,8 @@ ChildResult Workbench::run(std::vector<std::string> command) const {
     options.environment = {{"PATH", path_variable_},
                            {"DYNLAB", DYNLAB_PROGRAM},
                            {"DYNLAB_HOME", home_.empty() ? DYNLAB_SOURCE_DIR : home_},
-                           {"XDG_CACHE_HOME", (folder_.path() / "cache").string()}};
+                           {"XDG_CACHE_HOME", (folder_.path() / "cache").string()},
+                           {"XDG_STATE_HOME", (folder_.path() / "state").string()}};
     options.timeout = std::chrono::seconds(DYNLAB_SECONDS_OF_A_PROGRAM);
     return run_child(options, "dynlab");
 }

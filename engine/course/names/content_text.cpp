@@ -1,14 +1,17 @@
 #include "course/names/content_text.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <cstdlib>
 #include <map>
 #include <memory>
 #include <qpdf/BufferInputSource.hh>
 #include <qpdf/QPDFTokenizer.hh>
 #include <set>
+#include <tuple>
 #include <vector>
 
 #include "course/names/byte_text.h"
@@ -19,6 +22,9 @@ namespace {
 
 constexpr double kSpace = -180;  ///< thousandths of the font's size: moved on as far as a space
 constexpr std::uint32_t kLongestRange = 65536;
+constexpr std::size_t kShortString = 8;                               ///< bytes: four letters in codes of two
+constexpr double kSameLine = 0.4, kNextLetter = 1.05, kFarApart = 3;  ///< of the font's size
+constexpr double kDirectionStep = 2 * 3.141592653589793 / 180;
 constexpr char kApart[] = "\n----\n";  ///< more signs than there are within a name
 
 /// Reads the tokens of a content stream or a map, whatever they are.
@@ -132,6 +138,109 @@ std::string character_of_glyph(const std::string& name) {
     const bool whole = read.ec == std::errc() && read.ptr == end && name.size() >= digits + 4;
     return whole ? utf8_of(char32_t{code}) : "";
 }
+
+/// [a b c d e f] of ISO 32000-1, 8.3.3.
+using TextMatrix = std::array<double, 6>;
+constexpr TextMatrix kUnmoved = {1, 0, 0, 1, 0, 0};
+
+TextMatrix product(const TextMatrix& m, const TextMatrix& n) {
+    return {m[0] * n[0] + m[1] * n[2], m[0] * n[1] + m[1] * n[3],        m[2] * n[0] + m[3] * n[2],
+            m[2] * n[1] + m[3] * n[3], m[4] * n[0] + m[5] * n[2] + n[4], m[4] * n[1] + m[5] * n[3] + n[5]};
+}
+
+/// A string where it begins on the page, in points along and across the direction of its text.
+struct PlacedPiece {
+    std::string bytes;
+    double along = 0, across = 0, size = 0;
+    long direction = 0, line = 0;  ///< direction: in steps of two degrees
+};
+
+/// Lines of a direction, numbered from the top: what is less than a part of a letter's height apart is on one.
+void number_lines(std::vector<PlacedPiece>& pieces) {
+    std::vector<PlacedPiece*> all;
+    for (PlacedPiece& piece : pieces) all.push_back(&piece);
+    std::stable_sort(all.begin(), all.end(), [](const PlacedPiece* a, const PlacedPiece* b) {
+        return std::tuple(a->direction, -a->across) < std::tuple(b->direction, -b->across);
+    });
+    for (std::size_t i = 1; i < all.size(); ++i) {
+        const bool same = all[i]->direction == all[i - 1]->direction &&
+                          all[i - 1]->across - all[i]->across <= kSameLine * all[i]->size;
+        all[i]->line = all[i - 1]->line + (same ? 0 : 1);
+    }
+}
+
+/// Follows where text goes, as far as that can be said without the widths of letters.
+class PlacesOfText {
+  public:
+    std::vector<PlacedPiece> read(std::string_view stream) {
+        ContentTokens tokens(stream);
+        for (auto kind = tokens.next(); kind != QPDFTokenizer::tt_eof; kind = tokens.next()) {
+            const std::string& token = tokens.token();
+            if (kind == QPDFTokenizer::tt_string)
+                shown_ += token;
+            else if (kind == QPDFTokenizer::tt_integer || kind == QPDFTokenizer::tt_real)
+                numbers_.push_back(std::strtod(token.c_str(), nullptr));
+            else if (kind == QPDFTokenizer::tt_word)
+                obey(token);
+        }
+        return std::move(pieces_);
+    }
+
+  private:
+    void obey(const std::string& word) {
+        if (word == "Tj" || word == "TJ" || word == "'" || word == "\"") {
+            if (word == "'" || word == "\"") move(0, -leading_);
+            show();
+        } else if (word == "cm" && numbers_.size() >= 6) {
+            page_ = product(last_six(), page_);
+        } else if (word == "q") {
+            kept_.push_back(page_);
+        } else if (word == "Q" && !kept_.empty()) {
+            page_ = kept_.back();
+            kept_.pop_back();
+        } else if (word == "BT") {
+            line_ = kUnmoved;
+        } else if (word == "Tm" && numbers_.size() >= 6) {
+            line_ = last_six();
+        } else if ((word == "Td" || word == "TD") && numbers_.size() >= 2) {
+            if (word == "TD") leading_ = -numbers_.back();
+            move(numbers_[numbers_.size() - 2], numbers_.back());
+        } else if (word == "T*") {
+            move(0, -leading_);
+        } else if (word == "TL" && !numbers_.empty()) {
+            leading_ = numbers_.back();
+        } else if (word == "Tf" && !numbers_.empty()) {
+            size_ = numbers_.back();
+        }
+        numbers_.clear();
+        shown_.clear();
+    }
+
+    TextMatrix last_six() const {
+        TextMatrix matrix;
+        std::copy(numbers_.end() - 6, numbers_.end(), matrix.begin());
+        return matrix;
+    }
+
+    void move(double x, double y) { line_ = product({1, 0, 0, 1, x, y}, line_); }
+
+    void show() {
+        if (shown_.empty() || shown_.size() > kShortString) return;
+        const TextMatrix place = product(line_, page_);
+        const double angle = std::atan2(place[1], place[0]), c = std::cos(angle), s = std::sin(angle);
+        const double along = c * place[4] + s * place[5], across = c * place[5] - s * place[4];
+        const double size = std::abs(size_) * std::hypot(place[0], place[1]);
+        if (!std::isfinite(along) || !std::isfinite(across) || !std::isfinite(size)) return;
+        pieces_.push_back({shown_, along, across, size, std::lround(angle / kDirectionStep), 0});
+    }
+
+    std::vector<PlacedPiece> pieces_;
+    std::vector<double> numbers_;
+    std::string shown_;
+    std::vector<TextMatrix> kept_;
+    TextMatrix page_ = kUnmoved, line_ = kUnmoved;
+    double leading_ = 0, size_ = 1;
+};
 
 }  // namespace
 
@@ -253,6 +362,29 @@ std::vector<ShownPiece> shown_pieces(std::string_view stream, UnshownText* unsho
         }
     }
     return pieces;
+}
+
+std::vector<ShownPiece> pieces_by_place(std::string_view stream) {
+    std::vector<PlacedPiece> pieces = PlacesOfText().read(stream);
+    const auto is_before = [](const PlacedPiece& a, const PlacedPiece& b) {
+        return std::tuple(a.direction, a.line, a.along) < std::tuple(b.direction, b.line, b.along);
+    };
+    number_lines(pieces);
+    if (std::is_sorted(pieces.begin(), pieces.end(), is_before)) return {};
+    std::stable_sort(pieces.begin(), pieces.end(), is_before);
+    std::vector<ShownPiece> shown;
+    const PlacedPiece* last = nullptr;
+    for (const PlacedPiece& piece : pieces) {
+        const bool same_line = last && last->direction == piece.direction && last->line == piece.line;
+        const double gap = same_line ? (piece.along - last->along) / std::max(last->size, 0.1) : 0;
+        if (last && (!same_line || gap > kFarApart))
+            shown.push_back({kApart, false});
+        else if (gap > kNextLetter)
+            shown.push_back({" ", false});
+        shown.push_back({piece.bytes, true});
+        last = &piece;
+    }
+    return shown;
 }
 
 std::string shown_text(const std::vector<ShownPiece>& pieces, const CodeMap* map) {

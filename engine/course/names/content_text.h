@@ -43,6 +43,10 @@ struct UnshownText {
 /// What a content stream shows, visible or not, and the strings of the dictionaries in it, in its own order.
 std::vector<ShownPiece> shown_pieces(std::string_view stream, UnshownText* unshown = nullptr);
 
+/// Short strings, such as single letters, in the order in which they stand on the page: along the direction of their
+/// text, line by line, with white space where they are apart. Nothing where that is the order they are drawn in.
+std::vector<ShownPiece> pieces_by_place(std::string_view stream);
+
 /// The pieces as UTF-8: codes are read with the map, or as Latin letters without one.
 std::string shown_text(const std::vector<ShownPiece>& pieces, const CodeMap* map = nullptr);
 

@@ -284,7 +284,12 @@ class Places {
         say(place, "", unshown.words);
         say(place, "", unshown.pictures, TextManner::kBytes);
         say(place, "", shown_text(pieces), TextManner::kProse);
-        for (const CodeMap& map : maps_) say(place, "", shown_text(pieces, &map), TextManner::kProse);
+        const std::vector<ShownPiece> placed = pieces_by_place(data);
+        if (!placed.empty()) say(place, "", shown_text(placed), TextManner::kProse);
+        for (const CodeMap& map : maps_) {
+            say(place, "", shown_text(pieces, &map), TextManner::kProse);
+            if (!placed.empty()) say(place, "", shown_text(placed, &map), TextManner::kProse);
+        }
     }
 
     /// Bytes that no object holds: comments between objects, earlier versions, what stands behind the end.

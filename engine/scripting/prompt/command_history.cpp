@@ -12,6 +12,7 @@
 #include "platform/error.h"
 #include "platform/system_call.h"
 #include "platform/utf8.h"
+#include "platform/written_files.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -72,13 +73,7 @@ bool CommandHistory::add(std::string_view text) {
 }
 
 fs::path history_file() {
-    const auto folder = [](const char* variable) -> fs::path {
-        const char* value = std::getenv(variable);
-        return value != nullptr && *value == '/' ? fs::path(value) : fs::path();
-    };
-    if (const fs::path state = folder("XDG_STATE_HOME"); !state.empty()) return state / "dynlab/history";
-    if (const fs::path home = folder("HOME"); !home.empty()) return home / ".local/state/dynlab/history";
-    return {};
+    return state_file("history");
 }
 
 std::string clean_line(std::string_view text) {

@@ -42,9 +42,12 @@ RunOptions options_of_prompt(std::function<void(const std::string&)> print) {
 }  // namespace
 
 PromptSession::PromptSession(fs::path figure_folder, std::function<void(const std::string&)> print, FigureListener see)
-    : figure_folder_(std::move(figure_folder)),
+    : written_(state_file("written")),
+      figure_folder_(std::move(figure_folder)),
       see_(std::move(see)),
-      runtime_(options_of_prompt(std::move(print)), renderer_) {}
+      runtime_(options_of_prompt(std::move(print)), renderer_) {
+    runtime_.set_service(&written_);
+}
 
 StatementResult PromptSession::run(const PromptStatement& statement, const std::string& name) {
     StatementResult result;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "figures/gnuplot_renderer.h"
+#include "platform/written_files.h"
 #include "scripting/prompt/completion.h"
 #include "scripting/prompt/prompt_statement.h"
 #include "scripting/runtime/runtime.h"
@@ -37,6 +38,7 @@ class PromptSession {
   private:
     void save_figures(const RunRecord& record, StatementResult& result);
 
+    WrittenFiles written_;  ///< outlives the renderer, which draws into them
     GnuplotRenderer renderer_;
     std::filesystem::path figure_folder_;
     FigureListener see_;

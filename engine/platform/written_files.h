@@ -1,0 +1,38 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <string>
+
+namespace dynlab::inline platform {
+
+/// Keeps scripts from writing over what is not theirs: a file may be replaced where a run of dynlab wrote it and nobody
+/// has changed it since. What runs wrote stands in a ledger, a line a file: SHA-256 of its path, SHA-256 of its content
+/// or "-" while a run is at work (one that was killed leaves that, and its half-made file may be replaced).
+class WrittenFiles {
+  public:
+    enum class Others { kKept, kReplaced };
+    /// An empty `ledger`, or one that cannot be written: nothing is known of earlier runs. With `kReplaced` any file
+    /// may be replaced.
+    explicit WrittenFiles(std::filesystem::path ledger, Others others = Others::kKept);
+    /// Notes what stands in the files now, figures that were drawn after the script included.
+    ~WrittenFiles();
+    WrittenFiles(const WrittenFiles&) = delete;
+    WrittenFiles& operator=(const WrittenFiles&) = delete;
+
+    /// Asks to write `file`, an absolute path without links. Throws EnvironmentError where another's file is there.
+    void take(const std::filesystem::path& file);
+
+  private:
+    std::string known_content(const std::string& path_hash) const;
+    void note(const std::string& lines) const;
+
+    std::filesystem::path ledger_;
+    Others others_;
+    std::map<std::filesystem::path, std::string> taken_;  ///< with the hash of the path
+};
+
+/// A file of this name where programs keep their state: $XDG_STATE_HOME/dynlab, else ~/.local/state/dynlab; empty when
+/// neither folder is known.
+std::filesystem::path state_file(const char* name);
+
+}  // namespace dynlab::inline platform

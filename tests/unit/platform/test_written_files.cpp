@@ -1,0 +1,75 @@
+#include <gtest/gtest.h>
+
+#include "platform/atomic_file.h"
+#include "platform/error.h"
+#include "platform/temporary_folder.h"
+#include "platform/written_files.h"
+
+namespace dynlab::test {
+namespace test_written_files {
+
+/// One run of a script that saves `content` as `file`.
+class written_files : public ::testing::Test {
+  protected:
+    void run(const std::string& content, WrittenFiles::Others others = WrittenFiles::Others::kKept) const {
+        WrittenFiles written(ledger_, others);
+        written.take(file_);
+        write_file_atomically(file_, content);
+        written.take(file_);  // twice in a run
+    }
+    const TemporaryFolder folder_;
+    const std::filesystem::path file_ = folder_.path() / "x.csv", ledger_ = folder_.path() / "state/written";
+};
+
+// oracle: the contents of the file
+TEST_F(written_files, replace_what_earlier_runs_wrote_and_nothing_else) {
+    run("first");
+    run("second");
+    EXPECT_EQ(read_file(file_), "second");
+    write_file_atomically(file_, "edited by hand");
+    EXPECT_THROW(run("third"), EnvironmentError);
+    EXPECT_EQ(read_file(file_), "edited by hand");
+    run("third", WrittenFiles::Others::kReplaced);
+    run("fourth");
+    EXPECT_EQ(read_file(file_), "fourth");
+    std::filesystem::remove(file_);
+    run("fifth");
+    std::filesystem::rename(file_, folder_.path() / "y.csv");
+    EXPECT_THROW(WrittenFiles(ledger_).take(folder_.path() / "y.csv"), EnvironmentError);  // of that name none wrote it
+}
+
+// oracle: the rule: without a ledger every file that is there is somebody else's
+TEST_F(written_files, of_others_stay) {
+    write_file_atomically(file_, "a thesis");
+    EXPECT_THROW(run("x"), EnvironmentError);
+    EXPECT_THROW(WrittenFiles("").take(file_), EnvironmentError);
+    EXPECT_EQ(read_file(file_), "a thesis");
+    std::filesystem::remove(file_);
+    {
+        WrittenFiles unknown("");
+        unknown.take(file_);
+        write_file_atomically(file_, "x");
+        unknown.take(file_);
+    }
+    EXPECT_THROW(WrittenFiles("").take(file_), EnvironmentError);
+}
+
+// oracle: a run that ends without its destructor, and a ledger of many runs
+TEST_F(written_files, are_known_after_a_killed_run_and_in_a_long_ledger) {
+    alignas(WrittenFiles) unsigned char place[sizeof(WrittenFiles)];
+    auto* const killed = new (place) WrittenFiles(ledger_);
+    killed->take(file_);
+    write_file_atomically(file_, "half");
+    run("whole");
+    EXPECT_EQ(read_file(file_), "whole");
+    std::string older;
+    while (older.size() < (3u << 20)) older += std::string(64, 'a') + ' ' + std::string(64, 'b') + '\n';
+    write_file_atomically(ledger_, older + read_file(ledger_));
+    run("again");
+    EXPECT_EQ(read_file(file_), "again");
+    EXPECT_LT(std::filesystem::file_size(ledger_), 1u << 20);
+    killed->~WrittenFiles();
+}
+
+}  // namespace test_written_files
+}  // namespace dynlab::test
