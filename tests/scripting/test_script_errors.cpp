@@ -57,11 +57,11 @@ std::vector<std::string> functions_of(const std::string& hint) {
 // Oracle: the names of the toolboxes' documentation; what a hint calls can be called here.
 TEST(script_errors, lead_from_the_toolboxes_functions_to_those_here) {
     for (const char* name :
-         {"tfest",     "procest",    "ssest",    "polyest", "pem",   "idtf",   "idpoly",   "idss",
-          "idfrd",     "frd",        "idinput",  "misdata", "simc",  "conv",   "comparec", "residc",
-          "getpvec",   "getcov",     "isstable", "zpplot",  "zpk",   "tfdata", "arxstruc", "selstruc",
-          "nlhw",      "nlarx",      "rlssvf",   "rsrivc",  "roots", "xcorr",  "filter",   "etime",
-          "allmargin", "shadedplot", "sidgpmf",  "hsrivc",  "poly",  "os"}) {
+         {"tfest",    "procest", "ssest",   "polyest",  "pem",      "idtf",      "idpoly",     "idss",    "idfrd",
+          "frd",      "idinput", "misdata", "simc",     "conv",     "comparec",  "residc",     "getpvec", "getcov",
+          "isstable", "zpplot",  "zpk",     "tfdata",   "arxstruc", "selstruc",  "nlhw",       "nlarx",   "rlssvf",
+          "rsrivc",   "roots",   "xcorr",   "filter",   "etime",    "allmargin", "shadedplot", "sidgpmf", "hsrivc",
+          "poly",     "os",      "clsrivc", "lpvsrivc", "minreal",  "balred"}) {
         const std::string said = error_of(std::string(name) + "()");
         const std::string::size_type hint = said.find(" here; ");
         ASSERT_NE(hint, std::string::npos) << name << ": " << said;
