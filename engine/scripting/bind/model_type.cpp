@@ -217,7 +217,7 @@ constexpr std::array kSystemFields = {
     Member{"Ts", field<StateSpace, &StateSpace::Ts>}};
 constexpr std::array kSystemOperators = {Member{"__tostring", field<StateSpace, system_text>}};
 
-std::string structure_text(const ProcessStructure& structure) {
+std::string free_structure_text(const ProcessStructure& structure) {
     return fmt::format("{} with the free parameters {}: procsrivc(data, ...) estimates them", structure.text(),
                        fmt::join(structure.parameter_names(), ", "));
 }
@@ -242,7 +242,7 @@ constexpr std::array kStructureFields = {Member{"structure", field<ProcessStruct
                                          Member{"Zeta", kFreeParameter},
                                          Member{"Tz", kFreeParameter},
                                          Member{"Td", kFreeParameter}};
-constexpr std::array kStructureOperators = {Member{"__tostring", field<ProcessStructure, structure_text>}};
+constexpr std::array kStructureOperators = {Member{"__tostring", field<ProcessStructure, free_structure_text>}};
 
 }  // namespace
 
