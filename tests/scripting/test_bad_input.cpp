@@ -257,7 +257,7 @@ TEST(bad_input, cut_off_frequencies_are_refused_or_doubted) {
 TEST(bad_input, unstable_models_are_told) {
     EXPECT_THAT(said("local M = lssvf(iddata(-lsim(tf({1}, {1, -0.2}), u, 0.05), u, 0.05), {1, 1, 0}, 1)\n"
                      "print(M.report.message)"),
-                HasSubstr("The model is unstable."));
+                HasSubstr("The model is unstable: unless the system is unstable, too, srivc with Stable = true"));
 }
 
 TEST(bad_input, models_of_the_wrong_kind_are_refused) {

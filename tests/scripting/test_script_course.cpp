@@ -1,4 +1,5 @@
 // Oracle: the course's own lines with the truth they were written from, and analytic responses.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@ namespace test_script_course {
 using namespace dynlab;
 using dynlab::test::error_of;
 using dynlab::test::printed;
+using testing::HasSubstr;
 
 TEST(script_course, runs_the_lines_of_the_course) {
     const RunRecord record = test::run(
@@ -35,6 +37,18 @@ TEST(script_course, simulates_a_first_order_step_exactly) {
     EXPECT_EQ(printed("local s = tf('s')\nlocal y = lsim(1/(2*s + 1), ones(101), 0.1)\n"
                       "print(norm(y - (1 - exp(-0.5*range(0, 0.1, 10)))) < 1e-12)"),
               "true\n");
+}
+
+TEST(script_course, idproc_without_parameters_is_a_structure) {  // oracle: procsrivc with the text
+    EXPECT_EQ(printed("local S = idproc('P1D')\nprint(S.structure, #S.names, S.Td ~= S.Td)\n"
+                      "local u = prbs(7, 20)\n"
+                      "local data = iddata(lsim(idproc('P1D', {Kp = 2, Tp1 = 5, Td = 0.7}), u, 0.5), u, 0.5)\n"
+                      "local A, B = procsrivc(data, S), procsrivc(data, 'P1D')\n"
+                      "print(A.Kp == B.Kp, A.Td == B.Td, norm(A.std - B.std) == 0)"),
+              "P1D\t3\ttrue\ntrue\ttrue\ttrue\n");
+    EXPECT_THAT(printed("print(idproc('P2U'))"), HasSubstr("free parameters Kp, Tw, Zeta"));
+    EXPECT_THAT(error_of("print(idproc('P1').Td)"), HasSubstr("its parameters are Kp, Tp1"));
+    EXPECT_THAT(error_of("step(idproc('P1'))"), HasSubstr("process structure"));
 }
 
 TEST(script_course, combines_models) {

@@ -106,6 +106,18 @@ TEST(script_simulation, simsd_agrees_with_the_band_of_the_step) {
                 "local _, s = simsd(oe(d, {1, 1, 1}), d, {runs = 20})\nprint(#s.std, s.std[400] > 0)"),
         "508\ttrue\n");
     EXPECT_THAT(error_of("simsd(tf({1}, {1, 1}), ones(9), 1)"), HasSubstr("an estimated model"));
+    // Two inputs: what the estimate simulates is what lsim makes of its channels.
+    EXPECT_EQ(printed("rng(1)\nlocal u, v = prbs(7, 4):range(1, 381), prbs(7, 3)\n"
+                      "local y = lsim(tf({2}, {1, 3}), u, 0.1) + lsim(tf({1}, {1, 1}), v, 0.1) + 0.05*randn(381)\n"
+                      "local d = iddata(y, {u, v}, 0.1)\n"
+                      "for _, G in ipairs{srivc(d, {{1, 1}, {1, 1}, {0, 0}}), tfsrivc(d, 1, 0, {IODelay = 0}),\n"
+                      "                   arx(d, {1, {1, 1}, {1, 1}})} do\n"
+                      "  local _, s = simsd(G, d, {runs = 30, seed = 1})\n"
+                      "  print(norm(s.output - sim(G, d)) < 1e-9, s.std[381] > 0, s.drawn.columns)\nend"),
+              "true\ttrue\t30\ntrue\ttrue\t30\ntrue\ttrue\t30\n");
+    EXPECT_THAT(error_of("rng(1)\nlocal u = prbs(7, 4)\nlocal d = iddata(lsim(tf({2}, {1, 3}), u, 0.1) + "
+                         "0.05*randn(#u), u, 0.1)\nsimsd(srivc(d, {1, 1, 0}), matrix{{1, 2}, {3, 4}}, 0.1)"),
+                HasSubstr("the model has 1 input(s), and 2 were given"));
 }
 
 TEST(script_simulation, data_of_inputs_are_refused_where_an_output_is_needed) {

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "numerics/error.h"
+#include "numerics/fit/missed_options.h"
 #include "numerics/number_text.h"
 #include "numerics/validation/order_selection.h"
 
@@ -132,6 +133,12 @@ std::string validation_doubt(const OrderSelection& selection, const Places& soun
     return " On the second record it fits clearly worse than on the first: the records differ, or the model is wrong.";
 }
 
+/// With the blank before it: which option its fit lacks.
+std::string missed_by(const OrderCandidate& candidate) {
+    const std::string missed = missed_option_among(candidate.estimate.warnings);
+    return missed.empty() ? "" : " " + missed + " Then compare the structures anew.";
+}
+
 OrderChoice recommend(const OrderSelection& selection, const Places& estimated) {
     const Places sound = places_where(selection, [](const OrderCandidate& candidate) { return candidate.sound(); });
     const std::size_t chosen = simplest_of(selection, sound.empty() ? estimated : sound);
@@ -148,7 +155,7 @@ OrderChoice recommend(const OrderSelection& selection, const Places& estimated) 
                              ". Try fewer poles and zeros, or a record with more excitation.";
     else
         choice.explanation += passed_over(selection, estimated, chosen);
-    choice.explanation += validation_doubt(selection, sound, chosen);
+    choice.explanation += validation_doubt(selection, sound, chosen) + missed_by(taken);
     return choice;
 }
 
@@ -176,6 +183,7 @@ OrderChoice choose_order(const OrderSelection& selection, OrderCriterion criteri
                        structure_text(taken) + " have " + name_of(criterion) + " (" + measures_of(taken) + ")."};
     choice.explanation.front() = static_cast<char>(std::toupper(choice.explanation.front()));
     if (!taken.sound()) choice.explanation += " But that model has " + faults_of(taken) + ".";
+    choice.explanation += missed_by(taken);
     return choice;
 }
 

@@ -21,26 +21,39 @@ Matrix root_of_covariance(const Matrix& covariance) {
     return std.asDiagonal() * vectors * values.cwiseMax(0).cwiseSqrt().asDiagonal();
 }
 
+Vector simulated_sum(const std::vector<TransferFunction>& models, const MatrixView& u, double Ts, Hold hold) {
+    Vector y = lsim(models.front(), u.col(0), Ts, hold);
+    for (Index input = 1; input < u.cols(); ++input)
+        y += lsim(models[static_cast<std::size_t>(input)], u.col(input), Ts, hold);
+    return y;
+}
+
 }  // namespace
 
-SimulationSpread simulation_spread(const ModelOfParameters& model, const Vector& theta, const Matrix& covariance,
-                                   const VectorView& u, double Ts, Hold hold, Index runs, RandomStream& random) {
+SimulationSpread simulation_spread(const ModelsOfParameters& models, const Vector& theta, const Matrix& covariance,
+                                   const MatrixView& u, double Ts, Hold hold, Index runs, RandomStream& random) {
     const Index d = theta.size();
     if (runs < 2) throw InvalidArgument("A spread needs at least 2 runs, and " + std::to_string(runs) + " were asked");
     constexpr Index kMostValues = 50'000'000;
-    if (u.size() > kMostValues / runs)
-        throw InvalidArgument("A spread of " + std::to_string(runs) + " runs of " + std::to_string(u.size()) +
+    const Index N = u.rows();
+    if (N > kMostValues / runs)
+        throw InvalidArgument("A spread of " + std::to_string(runs) + " runs of " + std::to_string(N) +
                               " samples is too large to keep: give a shorter input or fewer runs");
     if (covariance.rows() != d || covariance.cols() != d || !covariance.allFinite())
         throw InvalidArgument("The spread needs the finite covariance of the " + std::to_string(d) +
                               " parameters, and got a matrix of " + std::to_string(covariance.rows()) + " x " +
                               std::to_string(covariance.cols()));
+    const std::vector<TransferFunction> own = models(theta);
+    if (u.cols() != static_cast<Index>(own.size()))
+        throw InvalidArgument("The model has " + std::to_string(own.size()) + " input(s), and " +
+                              std::to_string(u.cols()) + " were given");
     const Matrix root = root_of_covariance(covariance);
-    SimulationSpread spread{lsim(model(theta), u, Ts, hold), {}, Matrix(u.size(), runs), 0};
+    SimulationSpread spread{simulated_sum(own, u, Ts, hold), {}, Matrix(N, runs), 0};
     for (Index run = 0; run < runs; ++run) {
-        const TransferFunction G = model(theta + root * random.normal(d));
-        if (!G.stable()) ++spread.unstable;
-        spread.drawn.col(run) = lsim(G, u, Ts, hold);
+        const std::vector<TransferFunction> drawn = models(theta + root * random.normal(d));
+        if (!std::all_of(drawn.begin(), drawn.end(), [](const TransferFunction& G) { return G.stable(); }))
+            ++spread.unstable;
+        spread.drawn.col(run) = simulated_sum(drawn, u, Ts, hold);
     }
     const Vector mean = spread.drawn.rowwise().mean();
     spread.std = ((spread.drawn.colwise() - mean).rowwise().squaredNorm() / static_cast<double>(runs - 1)).cwiseSqrt();
@@ -56,19 +69,34 @@ SimulationSpread simulation_spread(const UncertainModel& model, const VectorView
     if (model.free_delay()) theta[n + m + 1] = G.delay();
     const auto of_coefficients = [&](const Vector& drawn) {
         const double delay = model.free_delay() ? std::max(0.0, drawn[n + m + 1]) : G.delay();
-        return TransferFunction(drawn.segment(n, m + 1), monic(drawn.head(n)), 0, delay);
+        return std::vector{TransferFunction(drawn.segment(n, m + 1), monic(drawn.head(n)), 0, delay)};
     };
     return simulation_spread(of_coefficients, theta, model.covariance, u, Ts, hold, runs, random);
 }
 
-SimulationSpread simulation_spread(const PolynomialModel& model, const Matrix& covariance, const VectorView& u,
+SimulationSpread simulation_spread(const TransferStructure& structure, const Vector& theta, const Matrix& covariance,
+                                   const MatrixView& u, double Ts, Hold hold, Index runs, RandomStream& random) {
+    if (structure.outputs != 1)
+        throw InvalidArgument("The spread is that of a model with one output, and this one has " +
+                              std::to_string(structure.outputs));
+    const auto of_parameters = [&](Vector drawn) {
+        for (Index input = 0; input < structure.inputs && structure.free_delays; ++input) {
+            double& delay = drawn[structure.delay_index(0, input)];
+            delay = std::max(0.0, delay);
+        }
+        return structure.models(drawn);
+    };
+    return simulation_spread(of_parameters, theta, covariance, u, Ts, hold, runs, random);
+}
+
+SimulationSpread simulation_spread(const PolynomialModel& model, const Matrix& covariance, const MatrixView& u,
                                    Index runs, RandomStream& random) {
-    if (model.B.size() != 1)
-        throw InvalidArgument("The spread is that of a model with one input, and this one has " +
-                              std::to_string(model.B.size()));
     const auto [orders, theta] = ordered_parameters(model);
     const auto of_parameters = [&orders = orders, Ts = model.Ts](const Vector& drawn) {
-        return PolynomialModel(orders, drawn, Ts).transfer_function();
+        const PolynomialModel other(orders, drawn, Ts);
+        std::vector<TransferFunction> models;
+        for (std::size_t input = 0; input < orders.inputs(); ++input) models.push_back(other.transfer_function(input));
+        return models;
     };
     return simulation_spread(of_parameters, theta, covariance, u, model.Ts, Hold::kZoh, runs, random);
 }

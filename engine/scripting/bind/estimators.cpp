@@ -9,6 +9,7 @@
 #include "scripting/objects/data_object.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/fit_model.h"
+#include "scripting/objects/process_structure.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -57,7 +58,7 @@ int draw_construction(Call& call) {
 int estimate_process_model(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const ProcessStructure structure = ProcessStructure::parse(call.text(2, "structure"));
+    const ProcessStructure structure = process_structure_argument(call, 2);
     ProcsrivcOptions wanted;
     read_fit_options(Options(call, 3, {"InitialState", "Offset", "TdMin", "TdMax", "NumTd", "MaxIter", "Tol"}), wanted);
     const Fit result = procsrivc(data, structure, wanted);

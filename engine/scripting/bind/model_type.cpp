@@ -1,11 +1,14 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <ranges>
 #include <span>
 
 #include "scripting/arguments/table_fields.h"
 #include "scripting/objects/model.h"
 #include "scripting/objects/present.h"
+#include "scripting/objects/process_structure.h"
 #include "scripting/objects/text_form.h"
 
 namespace dynlab::inline scripting {
@@ -214,9 +217,37 @@ constexpr std::array kSystemFields = {
     Member{"Ts", field<StateSpace, &StateSpace::Ts>}};
 constexpr std::array kSystemOperators = {Member{"__tostring", field<StateSpace, system_text>}};
 
+std::string free_structure_text(const ProcessStructure& structure) {
+    return fmt::format("{} with the free parameters {}: procsrivc(data, ...) estimates them", structure.text(),
+                       fmt::join(structure.parameter_names(), ", "));
+}
+
+/// A parameter that has no value yet.
+int field_free_parameter(Call& call) {
+    const auto names = object_argument<ProcessStructure>(call, 1, "structure").parameter_names();
+    if (std::find(names.begin(), names.end(), call.function_name()) != names.end())
+        return call.give(std::numeric_limits<double>::quiet_NaN());
+    throw InvalidArgument(
+        fmt::format("this structure has no parameter of that name; its parameters are {}", fmt::join(names, ", ")));
+}
+
+constexpr lua_CFunction kFreeParameter = guarded<field_free_parameter>;
+constexpr std::array kStructureFields = {Member{"structure", field<ProcessStructure, &ProcessStructure::text>},
+                                         Member{"names", field<ProcessStructure, &ProcessStructure::parameter_names>},
+                                         Member{"Kp", kFreeParameter},
+                                         Member{"Tp1", kFreeParameter},
+                                         Member{"Tp2", kFreeParameter},
+                                         Member{"Tp3", kFreeParameter},
+                                         Member{"Tw", kFreeParameter},
+                                         Member{"Zeta", kFreeParameter},
+                                         Member{"Tz", kFreeParameter},
+                                         Member{"Td", kFreeParameter}};
+constexpr std::array kStructureOperators = {Member{"__tostring", field<ProcessStructure, free_structure_text>}};
+
 }  // namespace
 
 const ObjectType Boxed<Model>::type{"model", kModelTypeFields, {}, kModelTypeOperators};
+const ObjectType Boxed<ProcessStructure>::type{"process structure", kStructureFields, {}, kStructureOperators};
 const ObjectType Boxed<StateSpace>::type{"state-space model", kSystemFields, {}, kSystemOperators};
 
 }  // namespace dynlab::inline scripting

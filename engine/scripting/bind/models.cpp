@@ -5,6 +5,7 @@
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/model.h"
 #include "scripting/objects/present.h"
+#include "scripting/objects/process_structure.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -33,6 +34,10 @@ int make_tf(Call& call) {
 int make_idproc(Call& call) {
     call.at_most(2);
     const ProcessStructure structure = ProcessStructure::parse(call.text(1, "structure"));
+    if (!call.given(2)) {
+        push_object(call.state(), ProcessStructure(structure));
+        return 1;
+    }
     const Options options(call, 2, {"Kp", "Tp1", "Tp2", "Tp3", "Tw", "Zeta", "Tz", "Td"});
     const std::vector<std::string> names = structure.parameter_names();
     Vector parameters(static_cast<Index>(names.size()));
@@ -171,8 +176,8 @@ constexpr const char* kModelsArea = "models";
 constexpr std::array kModelsFunctions = {
     FunctionEntry{"tf", kModelsArea, "tf(num, den, {Ts =, IODelay =}) -> G; tf(\"s\"); tf(\"z\", Ts)",
                   "a transfer function, or its variable to write one with", guarded<make_tf>},
-    FunctionEntry{"idproc", kModelsArea, "idproc(\"P1D\", {Kp =, Tp1 =, Td =}) -> G",
-                  "a process model from its gain, time constants and delay", guarded<make_idproc>},
+    FunctionEntry{"idproc", kModelsArea, "idproc(\"P1D\", {Kp =, Tp1 =, Td =}) -> G; idproc(\"P1D\")",
+                  "a process model from its gain, time constants and delay, or its structure", guarded<make_idproc>},
     FunctionEntry{"ss", kModelsArea, "ss(A, B, C, D, {Ts =}) -> system; ss(G)", "a state-space model",
                   guarded<make_ss>},
     FunctionEntry{"series", kModelsArea, "series(G1, G2) -> G", "one behind the other", guarded<connect_series>},

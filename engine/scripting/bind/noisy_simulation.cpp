@@ -117,16 +117,34 @@ int simulate_with_noise(Call& call) {
     return call.give_vector(y.col(0) + v) + call.give_vector(v);
 }
 
+/// The structure whose parameters an estimate of coefficients in continuous time holds, of all inputs of one output;
+/// nothing for other estimates.
+std::optional<TransferStructure> structure_of_estimate(const Model& model) {
+    if (!model.G.continuous() || model.process || model.system || !model.estimate->of_coefficients) return std::nullopt;
+    Vector theta;
+    TransferStructure structure = TransferStructure::of_models(channels_of(model), 1, theta);
+    for (const bool free : {false, true}) {
+        structure.free_delays = free;
+        if (structure.parameter_count() == model.estimate->theta.size()) return structure;
+    }
+    return std::nullopt;
+}
+
 SimulationSpread spread_of(const Model& model, const InputSignals& input, Hold hold, Index runs, RandomStream& random) {
     if (input.Ts == 0) throw InvalidArgument("the input must be sampled regularly");
-    if (input.u.cols() != 1)
-        throw InvalidArgument(fmt::format("one input is wanted, and {} were given", input.u.cols()));
+    if (static_cast<std::size_t>(input.u.cols()) != model.inputs())
+        throw InvalidArgument(
+            fmt::format("the model has {} input(s), and {} were given", model.inputs(), input.u.cols()));
     if (const auto uncertain = uncertain_model(model))
         return simulation_spread(*uncertain, input.u.col(0), input.Ts, hold, runs, random);
-    if (!model.estimate || !model.polynomial || model.estimate->covariance.size() == 0)
-        throw InvalidArgument(
-            "an estimated model with one input and one output is wanted, and the covariance of its parameters");
-    return simulation_spread(*model.polynomial, model.estimate->trusted_covariance(), input.u.col(0), runs, random);
+    if (model.estimate && model.outputs == 1 && model.estimate->covariance.size() > 0) {
+        const Matrix& covariance = model.estimate->trusted_covariance();
+        if (model.polynomial) return simulation_spread(*model.polynomial, covariance, input.u, runs, random);
+        if (const auto structure = structure_of_estimate(model))
+            return simulation_spread(*structure, model.estimate->theta, covariance, input.u, input.Ts, hold, runs,
+                                     random);
+    }
+    throw InvalidArgument("an estimated model with one output is wanted, and the covariance of its parameters");
 }
 
 Figure spread_figure(const std::string& name, const SimulationSpread& spread, const Vector& t, double level) {
@@ -146,7 +164,8 @@ Figure spread_figure(const std::string& name, const SimulationSpread& spread, co
 
 /// simsd(G, u, Ts, {runs =, seed =, hold =, confidence =}) or simsd(G, data, {...})
 int simulate_spread(Call& call) {
-    const Model model = model_argument(call, 1, "G");
+    const Model* object = to_object<Model>(call.state(), 1);
+    const Model model = object != nullptr ? *object : model_argument(call, 1, "G");
     const InputSignals input = input_argument(call);
     const Options options(call, input.options_index, {"runs", "seed", "hold", "confidence"});
     const double level = options.number("confidence", 0.99);

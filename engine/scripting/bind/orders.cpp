@@ -4,6 +4,7 @@
 #include "figures/plots/arx_order_plot.h"
 #include "figures/plots/delay_plot.h"
 #include "figures/plots/order_plot.h"
+#include "numerics/fit/missed_options.h"
 #include "numerics/validation/delay_search.h"
 #include "platform/terminal/progress.h"
 #include "scripting/arguments/estimation.h"
@@ -128,6 +129,9 @@ int try_structures(Call& call) {
     wanted.progress = [&bar](std::size_t done) { bar.advance(done); };
     OrderTable table{select_order(data, structures, wanted), {}};
     poll_stop(call.state());
+    if (!wanted.integration && !(options.has("InitialState") && options.has("Offset")))
+        warn_of_missed_option(table.selection.candidates[choose_order(table.selection).place].estimate, data,
+                              wanted.estimation);
     table.choice = choose_order(table.selection);
     push_object(call.state(), std::move(table));
     return 1;

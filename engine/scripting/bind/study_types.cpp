@@ -114,7 +114,7 @@ int table_best(Call& call) {
     return push_candidate(call, table.selection.candidates[table.choice.place]);
 }
 std::string recommendation(const OrderTable& table) {
-    return table.choice.explanation;
+    return in_lua_words(table.choice.explanation);
 }
 std::string table_text(const OrderTable& table) {
     return order_table_text(table.selection, table.choice);

@@ -110,7 +110,7 @@ std::string order_table_text(const OrderSelection& selection, const OrderChoice&
     text += "\n";
     for (std::size_t i = 0; i < selection.candidates.size(); ++i)
         text += candidate_row(selection.candidates[i], i == choice.place, selection.validated, delays);
-    return text + choice.explanation + "\n";
+    return text + in_lua_words(choice.explanation) + "\n";
 }
 
 std::string arx_table_text(const ArxSelection& selection, const OrderChoice& choice) {

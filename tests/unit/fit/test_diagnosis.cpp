@@ -35,7 +35,11 @@ TEST(diagnosis, of_models) {  // oracle: poles and zeros written down
     EXPECT_THAT(cancelling.warnings, ElementsAre(HasSubstr("A pole near -1 and a zero nearly cancel")));
     Fit unstable = fit_of(2, 0, values({-1, 3, 2}));
     describe_models(unstable);
-    EXPECT_THAT(unstable.warnings, ElementsAre("The model is unstable."));
+    EXPECT_THAT(
+        unstable.warnings,
+        ElementsAre(
+            "The model is unstable: unless the system is unstable, too, srivc with `stable` = true finds the best "
+            "stable one."));
 }
 
 TEST(diagnosis, of_parameters) {  // oracle: the definition

@@ -7,6 +7,7 @@
 #include "numerics/error.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/fit/integrated_input.h"
+#include "numerics/fit/missed_options.h"
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
@@ -243,6 +244,25 @@ TEST(order_selection, other_criteria_take_the_best_value) {  // oracle: the defi
     const OrderCandidate closest = chosen(selection, OrderCriterion::kRSquared);
     for (const OrderCandidate& candidate : selection.candidates) EXPECT_GE(closest.r_squared, candidate.r_squared);
     EXPECT_THROW(choose_order(selection, OrderCriterion::kValidationFit), InvalidArgument);
+}
+
+TEST(order_selection, the_recommendation_names_the_option_that_is_missed) {  // oracle: the constant put in
+    const Vector u = prbs(8, 4);
+    const Vector x = lsim(TransferFunction(Vector{{2.0}}, Vector{{1.0, 3.0, 2.0}}), u, 0.1);
+    const Vector y = x + 0.02 * RandomStream(31).normal(u.size());
+    const auto recommendation = [&](double constant, const FitOptions& estimation) {
+        const IdData data(Matrix(y.array() + constant), Matrix(u), 0.1);
+        OrderSelectionOptions options;
+        options.estimation = estimation;
+        OrderSelection selection = select_order(data, order_grid({1, 2}, {0, 1}, {0.0}), options);
+        warn_of_missed_option(selection.candidates[choose_order(selection).place].estimate, data, estimation);
+        return choose_order(selection).explanation;
+    };
+    FitOptions asked;
+    asked.offset = Offset::kEstimate;
+    EXPECT_THAT(recommendation(3, {}), HasSubstr("With `offset` = \"estimate\" the fit is 9"));
+    EXPECT_THAT(recommendation(3, asked), testing::Not(HasSubstr("With `")));
+    EXPECT_THAT(recommendation(0, {}), testing::Not(HasSubstr("With `")));
 }
 
 TEST(order_selection, failures_are_kept_and_told) {

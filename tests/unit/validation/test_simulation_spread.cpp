@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "numerics/estimators/oe.h"
 #include "numerics/simulation/lsim.h"
@@ -14,6 +15,8 @@ namespace test_simulation_spread {
 using namespace dynlab;
 using namespace dynlab::test;
 using testing::HasSubstr;
+
+using ModelOfParameters = std::function<TransferFunction(const Vector& theta)>;
 
 /// Standard deviations to first order, the derivatives of the simulated output by central differences.
 Vector first_order_std(const ModelOfParameters& model, const Vector& theta, const Matrix& covariance, const Vector& u,
@@ -62,6 +65,26 @@ TEST(simulation_spread, of_difference_equations) {  // oracle: the delta method,
     EXPECT_NEAR((spread.std - wanted).tail(550).norm() / wanted.tail(550).norm(), 0, 0.05);
 }
 
+// Oracle: inputs whose parameters are independent add their variances; each alone is the spread of one input.
+TEST(simulation_spread, of_several_inputs) {
+    const TransferStructure both = TransferStructure::grid(1, 2, Denominators::kPerChannel, {1, 1}, {0, 0}, {0, 0});
+    const TransferStructure one = TransferStructure::single(1, 0);
+    const Vector theta{{2, 3, 0.5, 1}}, std{{0.02, 0.03, 0.004, 0.02}};
+    const Matrix covariance = std.cwiseAbs2().asDiagonal();
+    Matrix u(200, 2);
+    u << random_levels(200, 10, 4), random_levels(200, 7, 5);
+    RandomStream random(3);
+    const auto spread = [&](const TransferStructure& structure, Index first, Index count, const Matrix& inputs) {
+        return simulation_spread(structure, theta.segment(first, count), covariance.block(first, first, count, count),
+                                 inputs, 0.1, Hold::kZoh, 2000, random);
+    };
+    const SimulationSpread all = spread(both, 0, 4, u), first = spread(one, 0, 2, u.col(0)),
+                           second = spread(one, 2, 2, u.col(1));
+    EXPECT_LT((all.output - first.output - second.output).norm(), 1e-12 * all.output.norm());
+    const Vector wanted = (first.std.cwiseAbs2() + second.std.cwiseAbs2()).cwiseSqrt();
+    EXPECT_NEAR((all.std - wanted).norm() / wanted.norm(), 0, 0.05);
+}
+
 TEST(simulation_spread, tells_unstable_draws) {  // oracle: the share of negative normal numbers
     RandomStream random(5);
     const UncertainModel uncertain(TransferFunction(Vector{{1.0}}, Vector{{1.0, 1.0}}), Matrix{{1, 0}, {0, 0}});
@@ -81,7 +104,7 @@ TEST(simulation_spread, refuses_what_makes_no_spread) {  // oracle: definitions
                 HasSubstr("the 2 parameters, and got a matrix of 3 x 3"));
     const PolynomialModel two(PolynomialOrders::arx(1, {1, 1}, {1, 1}), Vector{{-0.5, 1, 1}}, 1);
     EXPECT_THAT(thrown_message([&] { simulation_spread(two, Matrix::Identity(3, 3), Vector::Ones(9), 9, random); }),
-                HasSubstr("one input, and this one has 2"));
+                HasSubstr("The model has 2 input(s), and 1 were given"));
 }
 
 }  // namespace test_simulation_spread
