@@ -6,8 +6,8 @@
 #include <regex>
 
 #include "cli/commands.h"
-#include "cli/seed_option.h"
-#include "cli/slider_option.h"
+#include "cli/options/seed_option.h"
+#include "cli/options/slider_option.h"
 #include "course/store/aligned_table.h"
 #include "platform/atomic_file.h"
 #include "platform/terminal/activity_line.h"
@@ -131,9 +131,12 @@ void add_run(CLI::App& app, Action& action) {
     command->add_flag("--view", words->view, "The same, and show the figures in the browser")->needs(file);
     command->add_option("--out", words->out, "Folder for figures, saved files and the run's record (record.json)")
         ->type_name("DIR");
-    command->add_flag("--force", words->force, "Let the script replace files that no run of dynlab wrote");
+    CLI::Option* force =
+        command->add_flag("--force", words->force, "Let the script replace files that no run of dynlab wrote");
     words->seed.add_to(*command);
     words->sliders.add_to(*command);
+    for (CLI::Option* option : {force, command->get_option("--set")})
+        option->excludes(command->get_option("--interactive"))->excludes(command->get_option("--view"));
     command->footer(
         "Figures that the script makes are saved as PDF in NAME_out beside the script and their paths printed; those "
         "of\n"

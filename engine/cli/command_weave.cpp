@@ -1,7 +1,7 @@
 #include "cli/commands.h"
 #include "cli/document_command.h"
-#include "cli/seed_option.h"
-#include "cli/slider_option.h"
+#include "cli/options/seed_option.h"
+#include "cli/options/slider_option.h"
 
 namespace dynlab::inline cli {
 namespace {

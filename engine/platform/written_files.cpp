@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 
 #include <cstdlib>
 #include <deque>
@@ -17,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kAtWork[] = "-";
+constexpr char kAtWork[] = "-", kNotOurs[] = "?";
 constexpr std::uintmax_t kMostLedgerBytes = 2u << 20;
 constexpr std::size_t kLinesKept = 4000;
 
@@ -41,30 +42,44 @@ void shorten(const fs::path& ledger) {
 WrittenFiles::WrittenFiles(fs::path ledger, Others others) : ledger_(std::move(ledger)), others_(others) {}
 
 WrittenFiles::~WrittenFiles() {
+    settle();
+}
+
+void WrittenFiles::settle() {
     std::string lines;
-    for (const auto& [file, path_hash] : taken_) {
+    for (const auto& [file, taken] : taken_) {
+        std::string content = kNotOurs;
         try {
-            if (fs::exists(file)) lines += path_hash + ' ' + sha256_of_file(file) + '\n';
+            if (fs::exists(file)) content = sha256_of_file(file);
         } catch (const std::exception&) {  // what cannot be read is not known to the next run
         }
+        if (content == taken.others_content) content = kNotOurs;  // it was to be written, and was not
+        lines += taken.path_hash + ' ' + content + '\n';
     }
+    taken_.clear();
     if (!lines.empty()) note(lines);
 }
 
 void WrittenFiles::take(const fs::path& file) {
-    const std::string path_hash = sha256_of(file.string());
     if (taken_.contains(file)) return;
-    if (others_ == Others::kKept && fs::exists(file)) {
-        const std::string known = known_content(path_hash);
-        if (known != kAtWork && (known.empty() || known != sha256_of_file(file)))
+    Taken taken{sha256_of(file.string()), {}};
+    if (fs::exists(file)) {
+        const std::string known = known_content(taken.path_hash), content = sha256_of_file(file);
+        const bool ours = known == kAtWork || known == content;
+        if (!ours && others_ == Others::kKept)
             throw EnvironmentError(
                 fmt::format("'{}' is there already and {}; save under another name, move it away, or let it be "
                             "replaced (dynlab run --force)",
-                            file.filename().string(),
-                            known.empty() ? "no run of dynlab wrote it" : "was changed since dynlab wrote it"));
+                            file.filename().string(), reason_to_keep(known)));
+        if (!ours) taken.others_content = content;
     }
-    taken_[file] = path_hash;
-    note(path_hash + ' ' + kAtWork + '\n');
+    note(taken.path_hash + ' ' + kAtWork + '\n');
+    taken_[file] = std::move(taken);
+}
+
+std::string WrittenFiles::reason_to_keep(const std::string& known) const {
+    if (ledger_.empty()) return "it is not known who wrote it (neither HOME nor XDG_STATE_HOME is set)";
+    return known.empty() || known == kNotOurs ? "no run of dynlab wrote it" : "was changed since dynlab wrote it";
 }
 
 std::string WrittenFiles::known_content(const std::string& path_hash) const {
@@ -80,6 +95,8 @@ void WrittenFiles::note(const std::string& lines) const {
     try {
         std::error_code ignored;
         fs::create_directories(ledger_.parent_path(), ignored);
+        const FileDescriptor lock(::open((ledger_.string() + ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
+        if (lock) retry_interrupted([&] { return ::flock(lock.get(), LOCK_EX); });
         shorten(ledger_);
         const FileDescriptor stream(::open(ledger_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600));
         if (stream) write_all(stream.get(), lines.data(), lines.size());

@@ -7,15 +7,18 @@ namespace dynlab::inline platform {
 
 /// Keeps scripts from writing over what is not theirs: a file may be replaced where a run of dynlab wrote it and nobody
 /// has changed it since. What runs wrote stands in a ledger, a line a file: SHA-256 of its path, SHA-256 of its content
-/// or "-" while a run is at work (one that was killed leaves that, and its half-made file may be replaced).
+/// "-" while a run is at work (one that was killed leaves that, and its half-made file may be replaced), or "?" where
+/// nothing was written after all.
 class WrittenFiles {
   public:
     enum class Others { kKept, kReplaced };
     /// An empty `ledger`, or one that cannot be written: nothing is known of earlier runs. With `kReplaced` any file
     /// may be replaced.
     explicit WrittenFiles(std::filesystem::path ledger, Others others = Others::kKept);
-    /// Notes what stands in the files now, figures that were drawn after the script included.
-    ~WrittenFiles();
+    ~WrittenFiles();  ///< settles
+    /// Notes what stands in the files now, figures that were drawn after the script included: what is changed later is
+    /// somebody else's. A prompt does so after each statement.
+    void settle();
     WrittenFiles(const WrittenFiles&) = delete;
     WrittenFiles& operator=(const WrittenFiles&) = delete;
 
@@ -28,7 +31,12 @@ class WrittenFiles {
 
     std::filesystem::path ledger_;
     Others others_;
-    std::map<std::filesystem::path, std::string> taken_;  ///< with the hash of the path
+    struct Taken {
+        std::string path_hash;
+        std::string others_content;  ///< SHA-256 of a file of somebody else that may be replaced; empty for none
+    };
+    std::string reason_to_keep(const std::string& known) const;
+    std::map<std::filesystem::path, Taken> taken_;
 };
 
 /// A file of this name where programs keep their state: $XDG_STATE_HOME/dynlab, else ~/.local/state/dynlab; empty when

@@ -10,6 +10,13 @@ const dynlabPlots = (() => {
     : { whole: "Whole figure", kind: "interactive figure", curve: "Show or hide: ",
         help: "Arrows: read off; + and −: zoom; Shift and arrows: move; 0: whole figure; Esc: end" };
 
+  const plots = new Set();  // those in the page
+  const drawAll = () => { for (const plot of plots) plot.draw(); };
+  for (const query of ["(prefers-color-scheme: dark)", "(resolution: 1dppx)"])
+    matchMedia(query).addEventListener("change", drawAll);
+  document.addEventListener("themechange", drawAll);
+  document.fonts?.ready.then(drawAll);
+
   /// A figure in the page: its canvas, what is read off, and what hands do.
   class Plot {
     constructor(picture, figure) {
@@ -19,11 +26,11 @@ const dynlabPlots = (() => {
       this.cursor = null;  // { panel, x, y }: cm
       this.build();
       this.listen();
-      new ResizeObserver(() => this.draw()).observe(this.box);
-      for (const query of ["(prefers-color-scheme: dark)", "(resolution: 1dppx)"])
-        matchMedia(query).addEventListener("change", () => this.draw());
-      document.addEventListener("themechange", () => this.draw());
-      document.fonts?.ready.then(() => this.draw());
+      new ResizeObserver(() => {  // told when it leaves the page, and when it comes back
+        if (!this.box.isConnected) return plots.delete(this);
+        plots.add(this);
+        this.draw();
+      }).observe(this.box);
     }
 
     build() {

@@ -56,7 +56,7 @@ const dynlabSliders = (() => {
   }
 
   function begin() {
-    const data = document.getElementById("slider-places");
+    const data = document.querySelector("script.slider-places");
     if (!data) return;
     const sliders = JSON.parse(data.textContent);
     for (const box of document.querySelectorAll(".slider")) control(box, sliders[box.dataset.number], () => sliders);

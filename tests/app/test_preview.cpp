@@ -172,6 +172,10 @@ TEST_F(preview_page, a_stranger_s_document_is_shown_and_runs_only_when_told) {
     EXPECT_TRUE(browser.comes("!document.getElementById('question').hidden"));
     std::this_thread::sleep_for(300ms);
     EXPECT_EQ(browser.evaluate("return document.getElementById('document').innerText.includes('x is 20')"), "false");
+    // The printed document runs it, too.
+    browser.evaluate("fetch('/document.pdf').then(async r => { window.refused = r.status + await r.text() })");
+    EXPECT_TRUE(browser.comes("/^403.*allowed/.test(window.refused)"));
+    EXPECT_FALSE(fs::exists(file("mark.csv")));
     browser.click("#allow");
     EXPECT_TRUE(shows(browser, "x is 20"));
     EXPECT_TRUE(browser.comes("document.getElementById('question').hidden"));

@@ -142,6 +142,60 @@ TEST_F(preview_editing, a_late_save_writes_nothing) {
     EXPECT_EQ(text_of(), kHead + kFirst);
 }
 
+/// Line ends of other systems are the file's own, and no change.
+TEST_F(preview_editing, line_ends_stay_as_they_are) {
+    write("-- %% id=one\r\nlocal x = 20\r\nprint(\"x is \" .. x)\r\n");
+    const Preview preview(file(), true, {"--edit"});
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(editor_has(browser, "local x = 20"));
+    EXPECT_TRUE(browser.comes("document.getElementById('save').disabled"));
+    write("-- %% id=one\r\nlocal x = 21\r\nprint(\"x is \" .. x)\r\n");
+    EXPECT_TRUE(editor_has(browser, "local x = 21"));
+    EXPECT_EQ(browser.evaluate("return document.getElementById('conflict').hidden"), "true");
+    type(browser, "print(\\\"more\\\")\\n");
+    browser.click("#save");
+    EXPECT_TRUE(shows(browser, "more"));
+    EXPECT_THAT(text_of(), testing::EndsWith(" .. x)\r\nprint(\"more\")\r\n"));
+}
+
+/// Saves in quick succession are one after the other: none takes another for somebody else's.
+TEST_F(preview_editing, saves_do_not_meet_each_other) {
+    write(kHead + kFirst);
+    const Preview preview(file(), true, {"--edit"});
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(editor_has(browser, "local x = 20"));
+    for (int i = 0; i < 20; ++i) {
+        type(browser, "-- line " + std::to_string(i) + "\\n");
+        browser.evaluate("document.getElementById('save').click(); document.getElementById('save').click()");
+    }
+    EXPECT_TRUE(browser.comes("document.getElementById('save').disabled"));
+    EXPECT_EQ(browser.evaluate("return document.getElementById('conflict').hidden"), "true");
+    EXPECT_THAT(text_of(), testing::EndsWith("-- line 19\n"));
+}
+
+/// A choice that the script no longer allows becomes the nearest that it does; one for a slider that is gone is gone.
+TEST_F(preview_editing, choices_follow_the_script) {
+    write(kHead + kSlider);
+    const Preview preview(file());
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(shows(browser, "k is 3"));
+    browser.evaluate(kMoveTo8);
+    ASSERT_TRUE(shows(browser, "k is 8"));
+    std::string other = kHead + kSlider;
+    other.replace(other.find("3, 1, 10"), 8, "50, 40, 60");
+    write(other);
+    EXPECT_TRUE(shows(browser, "k is 40"));
+    other.replace(other.find("\"k\", 50, 40, 60"), 15, "\"q\", 50, 40, 60");
+    write(other);
+    EXPECT_TRUE(shows(browser, "k is 50"));
+    EXPECT_TRUE(browser.comes("document.getElementById('view').classList.contains('ready')", 60));
+    browser.evaluate("fetch('/document.pdf').then(r => { window.pdf = r.status })");
+    EXPECT_TRUE(browser.comes("window.pdf === 200", 60));
+}
+
 TEST_F(preview_editing, nothing_is_written_without_the_option) {
     write(kHead + kFirst);
     const Preview preview(file());
@@ -191,7 +245,8 @@ TEST_F(preview_editing, findings_open_answers_and_the_pdf_come_by_themselves) {
     browser.click("#show-findings");
     EXPECT_TRUE(browser.comes("document.querySelectorAll('#findings li.rule').length > 0"));
     browser.click("#view");
-    EXPECT_TRUE(browser.comes("document.querySelector('#pdf iframe') && document.getElementById('document').hidden"));
+    EXPECT_TRUE(
+        browser.comes("document.querySelector('#page\\\\:pdf iframe') && document.getElementById('document').hidden"));
     browser.click("#view");
     EXPECT_TRUE(browser.comes("!document.getElementById('document').hidden"));
     // What is changed is made anew.

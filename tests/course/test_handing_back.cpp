@@ -84,7 +84,7 @@ TEST(handing_back, model_answers_go_to_everybody_where_the_instructor_wants_it) 
     EXPECT_THAT(answers, AllOf(Not(HasSubstr("answer('x'")), Not(HasSubstr("SOLUTION"))));
     work.dynlab({"hand-back", "out"});
     EXPECT_THAT(work.read("out/handed_back/mail.csv"),
-                HasSubstr("results/Anna Lovelace_900001_assignsubmission_file_/feedback.md; model_answers.md,yes,"));
+                HasSubstr("results/Anna Lovelace_900001_assignsubmission_file_/feedback.md; model_answers.md\",yes,"));
     EXPECT_THAT(work.shell("unzip -l out/handed_back/moodle-feedback.zip").output,
                 HasSubstr("Anna Lovelace_900001_assignfeedback_file_/model_answers.md"));
 }

@@ -13,6 +13,8 @@ using testing::HasSubstr;
 TEST(guesses, stand_beside_what_was_found) {
     EXPECT_EQ(printed("guess('delay', 0.3, 's')\noutcome('delay', 0.24)"),
               "delay: guessed 0.3 s, found 0.24 s (off by 25 %)\n");
+    EXPECT_EQ(printed("guess('x', 1.097)\noutcome('x', 1)"), "x: guessed 1.097, found 1 (off by 10 %)\n");
+    EXPECT_EQ(printed("guess('x', 1.0000001)\noutcome('x', 1)"), "x: guessed 1, found 1 (off by less than 0.01 %)\n");
     EXPECT_EQ(printed("guess('poles', 3)\noutcome('poles', 3)"), "poles: guessed 3, found 3 (off by 0 %)\n");
     EXPECT_EQ(printed("guess('mean', 1)\noutcome('mean', 0)"), "mean: guessed 1, found 0\n");
 }

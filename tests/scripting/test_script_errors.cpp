@@ -272,4 +272,10 @@ TEST(script_errors, wrong_lines_of_any_length_are_told) {
             EXPECT_THAT(error_of(wrong), testing::HasSubstr("lesson.lua:1:"));
 }
 
+/// A max or min of the script's own is nobody's mistake.
+TEST(script_errors, a_maximum_of_one_s_own_is_compared) {
+    EXPECT_EQ(printed("local function max(t) return 7 end print(math.max(0, max{1}))"), "7\n");
+    EXPECT_EQ(printed("local max = math.max print(math.max(0, max(3, 4)), math.max(1, max(2)))"), "4\t2\n");
+}
+
 }  // namespace test_script_errors

@@ -101,7 +101,7 @@ void BackgroundWork::do_task(Task task, std::unique_lock<std::mutex>& lock) {
     const auto slider_values = slider_values_;
     const auto give_up = [this, version] {
         const std::lock_guard guard(mutex_);
-        return end_ || version_ != version;
+        return end_ || version_ != version || (!wanted_ && waiting_for_pdf_ == 0);
     };
     lock.unlock();
     Pdf pdf;
@@ -110,8 +110,9 @@ void BackgroundWork::do_task(Task task, std::unique_lock<std::mutex>& lock) {
         pdf = made_pdf(slider_values, give_up);
     else
         findings = made_findings(give_up);
+    const bool given_up = give_up();
     lock.lock();
-    if (end_ || version_ != version) return;
+    if (given_up || version_ != version) return;
     if (task == Task::kPdf) {
         pdf_ = std::move(pdf);
         pdf_version_ = version;

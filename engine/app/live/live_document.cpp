@@ -190,7 +190,23 @@ void LiveDocument::take(RunnerNews news) {
         }
         page_is_old_ = true;
     }
+    if (news.kind == "ended" && !shown_.error) settle_sliders();
     show_states();
+}
+
+/// Choices are those of the script as it is now: for sliders that it has, within their ranges.
+void LiveDocument::settle_sliders() {
+    std::map<std::string, double> settled;
+    {
+        const std::lock_guard lock(orders_mutex_);
+        for (const auto& [name, value] : sliders_)
+            if (const auto slider = shown_.sliders.find(name); slider != shown_.sliders.end())
+                settled[name] = std::clamp(value, slider->second.from, slider->second.to);
+        if (settled == sliders_) return;
+        sliders_ = settled;
+    }
+    request_->slider_values = settled;
+    tell_of_reading_(settled);
 }
 
 void LiveDocument::show_states() {

@@ -49,6 +49,7 @@ class LiveDocument {
     void take(RunnerNews news);
     void set_page();
     void show_states();
+    void settle_sliders();
     void watch_inputs();
     void wake();
 

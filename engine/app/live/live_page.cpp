@@ -20,13 +20,6 @@ using nlohmann::json;
 /// Pictures that no version since so many has shown are forgotten: tabs may still ask for those of the one before.
 constexpr std::uint64_t kVersionsKept = 3;
 
-std::string type_of(const fs::path& file) {
-    const std::string extension = file.extension().string();
-    if (extension == ".svg") return "image/svg+xml";
-    if (extension == ".png") return "image/png";
-    return "image/jpeg";
-}
-
 /// In the order in which the script asks for them.
 json sliders_json(const std::map<std::string, RecordedSlider>& sliders) {
     json list = json::array();
@@ -49,7 +42,7 @@ std::string LivePage::keep_picture(const fs::path& file) {
     }
     const std::string name = digest_of(bytes).hex() + file.extension().string();
     Picture& picture = pictures_[name];
-    picture = {type_of(file), std::move(bytes), version_};
+    picture = {media_type(kind_of(file)), std::move(bytes), version_};
     return name;
 }
 
@@ -63,10 +56,12 @@ std::string LivePage::with_pictures(const SetChunk& chunk, const RunRecord& reco
             file = figure == record.figures.end() ? fs::path() : figure->second.file;
             if (figure != record.figures.end()) plot = plot_element(figure->second.plot);
         }
-        const std::size_t at = html.find("\"" + picture.written_name + "\"");
-        if (at == std::string::npos) continue;
-        html.insert(html.find('>', at) + 1, plot);
-        html.replace(at + 1, picture.written_name.size(), "/picture/" + keep_picture(file));
+        const std::string sign = "\"" + picture.written_name + "\"",
+                          address = "\"/picture/" + keep_picture(file) + "\"";
+        for (std::size_t at = html.find(sign); at != std::string::npos; at = html.find(sign, at + address.size())) {
+            html.insert(html.find('>', at) + 1, plot);
+            html.replace(at, sign.size(), address);
+        }
     }
     return html;
 }
@@ -170,9 +165,13 @@ std::string LivePage::json(bool all) const {
     return page.dump(-1, ' ', false, ::nlohmann::json::error_handler_t::replace);
 }
 
-bool LivePage::running() const {
+bool LivePage::settled() const {
     const std::lock_guard lock(mutex_);
-    return running_;
+    const auto any = [this](const char* state) {
+        return std::any_of(states_.begin(), states_.end(),
+                           [&](const auto& cell) { return cell.second.state == state; });
+    };
+    return !running_ && (any("failed") || !any("waiting"));
 }
 
 std::string LivePage::whole() const {

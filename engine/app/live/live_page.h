@@ -33,7 +33,7 @@ class LivePage {
     void set_sources(std::map<std::string, std::string> digests);  ///< of the files that the page may change
     void set_work(std::string findings, bool pdf_is_ready);        ///< findings: JSON, or empty
 
-    bool running() const;
+    bool settled() const;  ///< the run came to its end, or to a mistake; not one that was stopped
 
     /// Everything, JSON.
     std::string whole() const;

@@ -1,6 +1,7 @@
 #include "app/live/preview.h"
 
 #include <fstream>
+#include <mutex>
 #include <thread>
 
 #include "app/live/background_work.h"
@@ -151,16 +152,20 @@ void preview(const PreviewOptions& options) {
     if (options.run_at_once) permissions.grant();
     if (permissions.granted()) document.allow_runs();
 
+    SourceFiles sources = options.edit ? sources_of(request) : SourceFiles({});
     BackgroundWork background(options.document);
+    std::mutex sending;  // news come from two threads, and the later must not go first
+    std::function<void()> send_changes, look_for_readers;
     WebServer server({.port = options.port});
     const StopsBeforeServer stops{background};
-    const auto send_changes = [&] {
+    send_changes = [&] {
+        const std::lock_guard lock(sending);
         if (const auto changes = page.changes()) server.send("page", *changes);
     };
+    look_for_readers = [&] { background.want(server.streams() > 0 && permissions.granted() && page.settled()); };
     serve_page_files(server, "index.html");
     serve_page(server, page);
     take_orders(server, document, permissions);
-    SourceFiles sources = options.edit ? sources_of(request) : SourceFiles({});
     serve_sources(server, sources, page);
     page.set_sources(sources.digests());
 
@@ -168,10 +173,10 @@ void preview(const PreviewOptions& options) {
         page.set_work(background.findings(), background.pdf_is_ready());
         send_changes();
     });
-    const auto look_for_readers = [&] {
-        background.want(server.streams() > 0 && permissions.granted() && !page.running());
-    };
     server.on_get("/document.pdf", [&](const PageRequest&) {
+        constexpr int kForbidden = 403;
+        if (!permissions.granted())
+            return PageReply{"This document has not been allowed to run: say so on the page.", kPlainText, kForbidden};
         const BackgroundWork::Pdf pdf = background.pdf();
         return pdf.bytes.empty() ? PageReply{pdf.error, kPlainText, 500} : PageReply{pdf.bytes, "application/pdf"};
     });

@@ -48,6 +48,7 @@ struct World {
     explicit World(const RunOptions& options, const std::string& report_language)
         : language{report_language}, runtime(options, renderer) {
         runtime.set_service(&language);
+        sliders.clamped = true;  // it was chosen before the script had this range
         runtime.set_service(&sliders);
     }
 };

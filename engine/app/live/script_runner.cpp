@@ -70,8 +70,10 @@ bool ScriptRunner::is_as_it_ran(std::size_t part, const std::vector<ScriptPart>&
     if (part >= done_) return request.slider_values == slider_values_;
     const auto& [files, sliders] = used_[part];
     const auto was_moved = [&](const auto& slider) {
-        const auto chosen = request.slider_values.find(slider.first);
-        return slider.second.value != (chosen == request.slider_values.end() ? slider.second.initial : chosen->second);
+        const auto& [name, was] = slider;
+        const auto chosen = request.slider_values.find(name);
+        return was.value !=
+               (chosen == request.slider_values.end() ? was.initial : std::clamp(chosen->second, was.from, was.to));
     };
     return std::none_of(files.begin(), files.end(), [&](const fs::path& file) { return changed.contains(file); }) &&
            std::none_of(sliders.begin(), sliders.end(), was_moved);

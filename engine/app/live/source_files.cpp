@@ -53,12 +53,11 @@ SourceFiles::Outcome SourceFiles::save(const SourceText& saved) {
     std::optional<SourceText> there = read(saved.number);
     if (there && there->digest != saved.digest) return {false, *std::move(there)};
     const fs::path& file = files_[saved.number];
+    if (!there && fs::exists(file))
+        throw EnvironmentError(file.string() + ": not saved: it was changed elsewhere and cannot be read as UTF-8");
     if (in_utf8(saved.text) != saved.text)
         throw EnvironmentError(fmt::format("{}: not saved: the text is not UTF-8", file.string()));
-    std::error_code failure;
-    const fs::file_status before = fs::status(file, failure);
     write_file_atomically(file, saved.text);
-    if (!failure && fs::exists(before)) fs::permissions(file, before.permissions(), failure);
     return {true, {saved.number, file.filename(), {}, digest_of(saved.text).hex()}};
 }
 

@@ -35,6 +35,8 @@ class PlainDoc {
   }
 }
 
+/// CodeMirror knows one line end only; a file keeps its own.
+const unix = (text) => text.replace(/\r\n?/g, "\n");
 const isChanged = (source) => source.doc.getValue() !== source.saved;
 
 function showMarks() {
@@ -64,8 +66,9 @@ function add({ number, name, text, digest }) {
   const tab = document.createElement("button");
   tab.setAttribute("role", "tab");
   const mode = name.endsWith(".lua") ? "lua" : "markdown";
-  const doc = mirror ? window.CodeMirror.Doc(text, mode) : new PlainDoc(text);
-  const source = { number, name, digest, saved: text, doc, tab, theirs: null };
+  const plain = unix(text);
+  const doc = mirror ? window.CodeMirror.Doc(plain, mode) : new PlainDoc(plain);
+  const source = { number, name, digest, saved: plain, crlf: text.includes("\r\n"), doc, tab, theirs: null, saves: 0 };
   tab.onclick = () => show(source);
   $("tabs").append(tab);
   sources.set(number, source);
@@ -74,6 +77,7 @@ function add({ number, name, text, digest }) {
 /// The file is another now than the one that was read here.
 function meet(source, theirs) {
   if (theirs.digest === source.digest) return;
+  theirs = { ...theirs, text: unix(theirs.text) };
   if (theirs.text === source.doc.getValue() || !isChanged(source)) {
     const line = source.doc.getCursor().line;
     source.digest = theirs.digest;
@@ -89,12 +93,19 @@ function meet(source, theirs) {
   showMarks();
 }
 
+/// One save of a file at a time: the next says what it was made from only when the one before has been answered.
 async function save(source) {
   if (!source || !isChanged(source)) return;
-  const text = source.doc.getValue();
+  if (source.saving) {
+    source.again = true;
+    return;
+  }
+  source.saving = true;
+  source.again = false;
+  const text = source.doc.getValue(), written = source.crlf ? text.replace(/\n/g, "\r\n") : text;
   try {
     const reply = await fetch("/save", {
-      method: "POST", body: JSON.stringify({ number: source.number, name: source.name, text, digest: source.digest }) });
+      method: "POST", body: JSON.stringify({ number: source.number, name: source.name, text: written, digest: source.digest }) });
     if (reply.status !== 200 && reply.status !== 409) throw new Error(await reply.text());
     const now = await reply.json();
     if (reply.status === 409) {
@@ -108,15 +119,20 @@ async function save(source) {
     $("trouble").textContent = "";
   } catch (error) {
     $("trouble").textContent = `not saved: ${error.message}`;
+    source.again = false;
   }
+  source.saving = false;
+  ++source.saves;
   showMarks();
+  if (source.again && !source.theirs) save(source);
 }
 
-let timer = 0;
 function onChange() {
   showMarks();
-  clearTimeout(timer);
-  if ($("at-once").checked) timer = setTimeout(() => save(open), 300);
+  const source = open;
+  if (!source) return;
+  clearTimeout(source.timer);
+  if ($("at-once").checked) source.timer = setTimeout(() => save(source), 300);
 }
 
 async function begin() {
@@ -164,7 +180,7 @@ async function begin() {
     if ([...sources.values()].some(isChanged)) event.preventDefault();
   });
   document.addEventListener("keydown", (event) => {
-    if ((event.ctrlKey || event.metaKey) && event.key === "s") {
+    if ((event.ctrlKey || event.metaKey) && event.key === "s" && !event.defaultPrevented) {
       event.preventDefault();
       save(open);
     }
@@ -184,10 +200,12 @@ export async function follow(digests, onCursor) {
     return source && (source.digest === digest || source.theirs?.digest === digest);
   });
   if (known) return;
+  const saves = new Map([...sources].map(([number, source]) => [number, source.saves]));
   const reply = await fetch("/sources");
   if (!reply.ok) return;
   for (const text of await reply.json()) {
     const source = sources.get(text.number);
+    if (source && (source.saving || source.saves !== saves.get(text.number))) continue;  // it is older than what was saved
     if (source) meet(source, text);
     else add(text);
   }

@@ -115,7 +115,7 @@ function show(page) {
   if (page.pieces) {
     if (!page.all && page.version > version + 1 || !place(page.pieces, page.html)) return connect();
     $("head").innerHTML = page.head;
-    $("notes").innerHTML = page.notes;
+    $("page:notes").innerHTML = page.notes;
     sliders = page.sliders;
   }
   version = page.version;
@@ -165,19 +165,19 @@ function showPdf(ready) {
   const anew = ready && !pdfReady;
   pdfReady = ready;
   $("view").classList.toggle("ready", ready);
-  if (!pdfShown) return $("pdf").replaceChildren();
-  if (!anew && $("pdf").firstChild) return;
+  if (!pdfShown) return $("page:pdf").replaceChildren();
+  if (!anew && $("page:pdf").firstChild) return;
   const frame = document.createElement("iframe");
   frame.title = "The document as it is printed";
   frame.src = `/document.pdf?version=${version}`;
-  $("pdf").replaceChildren(frame);
+  $("page:pdf").replaceChildren(frame);
 }
 
 $("view").onclick = () => {
   pdfShown = !pdfShown;
   $("view").setAttribute("aria-pressed", String(pdfShown));
-  $("pdf").hidden = !pdfShown;
-  for (const id of ["head", "document", "notes"]) $(id).hidden = pdfShown;
+  $("page:pdf").hidden = !pdfShown;
+  for (const id of ["head", "document", "page:notes"]) $(id).hidden = pdfShown;
   showPdf(pdfReady);
 };
 

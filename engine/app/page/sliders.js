@@ -6,11 +6,12 @@ const waiting = new Map();   // name -> value that is to be sent
 let sent = null;             // {name, value, at}: what the page does not show yet
 const kLongestWait = 3000;   // ms for what was sent to be shown
 
+const exact = (value) => Number(value.toPrecision(12));  // steps are added up without their last digits
 const digits = (value) => Number(value.toPrecision(4));
 
 function valueAt(slider, place) {
   const { from, to, step, logarithmic } = slider;
-  if (step) return Math.min(to, digits(from + step * place));
+  if (step) return Math.min(to, exact(from + step * place));
   const part = place / kPlaces;
   if (place === 0) return from;
   if (place === kPlaces) return to;
@@ -24,7 +25,7 @@ function placeOf(slider, value) {
   return Math.round(part * kPlaces);
 }
 
-const written = (slider, value) => `${digits(value)}${slider.unit ? "\u202f" + slider.unit : ""}`;
+const written = (slider, value) => `${slider.step ? exact(value) : digits(value)}${slider.unit ? "\u202f" + slider.unit : ""}`;
 
 function send() {
   if (sent && performance.now() - sent.at < kLongestWait) return;

@@ -179,7 +179,7 @@ class PlacesOfText {
             if (kind == QPDFTokenizer::tt_string)
                 shown_ += token;
             else if (kind == QPDFTokenizer::tt_integer || kind == QPDFTokenizer::tt_real)
-                numbers_.push_back(std::strtod(token.c_str(), nullptr));
+                note_number(std::strtod(token.c_str(), nullptr));
             else if (kind == QPDFTokenizer::tt_word)
                 obey(token);
         }
@@ -194,7 +194,7 @@ class PlacesOfText {
         } else if (word == "cm" && numbers_.size() >= 6) {
             page_ = product(last_six(), page_);
         } else if (word == "q") {
-            kept_.push_back(page_);
+            if (kept_.size() < kMostKept) kept_.push_back(page_);
         } else if (word == "Q" && !kept_.empty()) {
             page_ = kept_.back();
             kept_.pop_back();
@@ -222,6 +222,13 @@ class PlacesOfText {
         return matrix;
     }
 
+    /// No operator has more than six; a text that is all numbers is kept short.
+    void note_number(double number) {
+        constexpr std::size_t kMostNumbers = 1000;
+        if (numbers_.size() >= kMostNumbers) numbers_.clear();
+        numbers_.push_back(number);
+    }
+
     void move(double x, double y) { line_ = product({1, 0, 0, 1, x, y}, line_); }
 
     void show() {
@@ -237,6 +244,7 @@ class PlacesOfText {
     std::vector<PlacedPiece> pieces_;
     std::vector<double> numbers_;
     std::string shown_;
+    static constexpr std::size_t kMostKept = 10'000;
     std::vector<TextMatrix> kept_;
     TextMatrix page_ = kUnmoved, line_ = kUnmoved;
     double leading_ = 0, size_ = 1;

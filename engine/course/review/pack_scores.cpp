@@ -28,8 +28,11 @@ std::string without_comments(std::string_view text) {
 /// Behind the brace of the first statement "scores = {" or "local scores = {" that begins a line.
 std::size_t begin_of_scores(const std::string& text) {
     constexpr std::string_view kName = "scores", kLocal = "local", kBlank = " \t\r\n";
+    constexpr std::size_t kMostBefore = 200;  // blanks and "local"
+    std::size_t line = 0;                     // begin of the line that holds the name
     for (std::size_t at = text.find(kName); at != std::string::npos; at = text.find(kName, at + 1)) {
-        const std::size_t line = at == 0 ? 0 : text.rfind('\n', at - 1) + 1;  // 0 in the first line, too
+        for (std::size_t end = text.find('\n', line); end < at; end = text.find('\n', line)) line = end + 1;
+        if (at - line > kMostBefore) continue;
         std::string_view before = std::string_view(text).substr(line, at - line);
         const auto word = before.find_first_not_of(kBlank);
         before.remove_prefix(std::min(word, before.size()));

@@ -100,9 +100,10 @@ class CostTaker {
     }
 
     void take(GroupMark& mark, std::optional<double>& from, double points, const std::string& why) const {
-        if (!from || points <= 0) return;
-        from = std::max(0.0, *from - points);
-        if (&from == &mark.work) mark.work_costs += points;
+        const bool work = &from == &mark.work;  // of a talk, students may have points where their group has none
+        if (points <= 0 || (!from && (!work || a_.is_report()))) return;
+        if (from) from = std::max(0.0, *from - points);
+        if (work) mark.work_costs += points;
         mark.costs.push_back(fmt::format("{:g} off for {}", points, why));
     }
 

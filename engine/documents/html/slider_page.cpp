@@ -17,8 +17,9 @@ using nlohmann::json;
 
 constexpr std::size_t kPlacesWithoutSteps = 21, kMostPlaces = 25;
 
-double four_digits(double value) {
-    return std::stod(fmt::format("{:.4g}", value));
+/// Steps are added up without their last digits; places between them are round numbers.
+double with_digits(double value, int digits) {
+    return std::stod(fmt::format("{:.{}g}", value, digits));
 }
 
 /// The chunks of a document as they stand in the page; where `drawn`, pictures with what a printer needs.
@@ -82,11 +83,11 @@ std::vector<double> places_of(const RecordedSlider& slider) {
     for (double i = 0; i < count; ++i) {
         const double part = count > 1 ? i / (count - 1) : 0;
         if (slider.step)
-            values.push_back(four_digits(slider.from + *slider.step * std::round(part * steps)));
+            values.push_back(with_digits(slider.from + *slider.step * std::round(part * steps), 12));
         else if (slider.logarithmic)
-            values.push_back(four_digits(slider.from * std::pow(slider.to / slider.from, part)));
+            values.push_back(with_digits(slider.from * std::pow(slider.to / slider.from, part), 4));
         else
-            values.push_back(four_digits(slider.from + (slider.to - slider.from) * part));
+            values.push_back(with_digits(slider.from + (slider.to - slider.from) * part, 4));
     }
     for (double& value : values) value = std::clamp(value, slider.from, slider.to);
     values.push_back(slider.value);
@@ -152,7 +153,7 @@ std::string page_with_sliders(const std::string& page, const PercentScript& scri
         if (alike && controls.contains(k)) main += controls[k];
     }
     const std::string data = replaced(list.dump(-1, ' ', true, json::error_handler_t::replace), "<", "\\u003c");
-    main += "<script type=\"application/json\" id=\"slider-places\">" + data + "</script>\n";
+    main += "<script type=\"application/json\" class=\"slider-places\">" + data + "</script>\n";
     return page.substr(0, begin + opens.size()) + main + page.substr(end);
 }
 

@@ -120,6 +120,10 @@ int simulate_with_noise(Call& call) {
 /// The structure whose parameters an estimate of coefficients in continuous time holds, of all inputs of one output;
 /// nothing for other estimates.
 std::optional<TransferStructure> structure_of_estimate(const Model& model) {
+    if (model.estimate && !model.polynomial && !model.estimate->of_coefficients)
+        throw InvalidArgument(
+            "the covariance is not that of the model's own coefficients (Integration, hammerstein): nothing can be "
+            "drawn");
     if (!model.G.continuous() || model.process || model.system || !model.estimate->of_coefficients) return std::nullopt;
     Vector theta;
     TransferStructure structure = TransferStructure::of_models(channels_of(model), 1, theta);

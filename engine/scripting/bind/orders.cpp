@@ -159,7 +159,7 @@ int select_structure(Call& call) {
     const OrderChoice choice = choose_order(table.selection, criterion);
     call.print(order_table_text(table.selection, choice));
     const OrderCandidate& candidate = table.selection.candidates[choice.place];
-    give_transfer_estimate(call, "srivc", candidate.estimate);
+    give_transfer_estimate(call, "srivc", candidate.estimate, !candidate.integrator);
     give_figure(call, order_plot(table.selection, criterion, choice));
     return 2;
 }
@@ -212,7 +212,7 @@ void push_search(const Call& call, const IdData& data, const DelaySearch& search
     set_field(call, "poles", search.candidate.poles);
     set_field(call, "zeros", search.candidate.zeros);
     set_field(call, "message", in_lua_words(search.explanation));
-    give_transfer_estimate(call, "srivc", search.candidate.estimate);
+    give_transfer_estimate(call, "srivc", search.candidate.estimate, true);
     lua_setfield(L, -2, "model");
 }
 

@@ -150,9 +150,10 @@ int slider(Call& call) {
     slider.label = options.text("label", name);
     if (slider.step && slider.logarithmic)
         throw InvalidArgument(fmt::format("the slider \"{}\" has log = true: it takes no step", name));
-    const auto chosen = service_or_default<SliderValues>(call).chosen;
-    const auto found = chosen.find(name);
-    slider.value = found == chosen.end() ? slider.initial : found->second;
+    const auto values = service_or_default<SliderValues>(call);
+    const auto found = values.chosen.find(name);
+    slider.value = found == values.chosen.end() ? slider.initial : found->second;
+    if (values.clamped && slider.from < slider.to) slider.value = std::clamp(slider.value, slider.from, slider.to);
     check_range(name, slider);
     recorder.add_slider(name, slider);
     return call.give(slider.value);
@@ -178,7 +179,9 @@ std::string with_unit(double value, const std::string& unit) {
 std::string distance(double guessed, double found, bool french) {
     if (found == 0 || !std::isfinite(found) || !std::isfinite(guessed)) return "";
     const double percent = 100 * std::abs(guessed / found - 1);
-    const std::string shown = percent < 10 ? fmt::format("{:.1g}", percent) : fmt::format("{:.0f}", percent);
+    const std::string shown = percent >= 9.5                    ? fmt::format("{:.0f}", percent)
+                              : percent >= 0.01 || percent == 0 ? fmt::format("{:.1g}", percent)
+                                                                : (french ? "moins de 0.01" : "less than 0.01");
     return fmt::format(fmt::runtime(french ? " (écart de {} %)" : " (off by {} %)"), shown);
 }
 

@@ -100,7 +100,7 @@ int push_candidate(const Call& call, const OrderCandidate& candidate) {
     set_field(call, "undetermined", candidate.undetermined);
     set_field(call, "cancellation", candidate.cancellation);
     set_field(call, "converged", candidate.converged);
-    give_transfer_estimate(call, "srivc", candidate.estimate);
+    give_transfer_estimate(call, "srivc", candidate.estimate, !candidate.integrator);
     lua_setfield(L, -2, "model");
     return 1;
 }

@@ -155,8 +155,10 @@ EstimationReaders transfer_estimation_readers() {
     return kTransferEstimatorsReaders;
 }
 
-int give_transfer_estimate(const Call& call, const char* method, const Fit& estimate) {
-    return give_fit(call, estimate_of(method, estimate), estimate);
+int give_transfer_estimate(const Call& call, const char* method, const Fit& estimate, bool of_coefficients) {
+    Estimate own = estimate_of(method, estimate);
+    own.of_coefficients = of_coefficients;
+    return give_fit(call, std::move(own), estimate);
 }
 
 FunctionEntries transfer_estimator_functions() {

@@ -60,6 +60,7 @@ StatementResult PromptSession::run(const PromptStatement& statement, const std::
     } catch (const std::exception& error) {
         result.error = result.error.empty() ? error.what() : result.error + "; " + error.what();
     }
+    written_.settle();
     return result;
 }
 

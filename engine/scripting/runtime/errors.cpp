@@ -1,4 +1,5 @@
 #include "scripting/runtime/errors.h"
+#include "documents/text_lines.h"
 
 #include <fmt/format.h>
 
@@ -243,10 +244,12 @@ std::string plain_syntax_message(const std::string& message, const std::string& 
             return LocatedMessage{placed.file, line, hint}.joined();
     }
     if (near == "<eof>") {
-        const int last = 1 + static_cast<int>(std::count(source.begin(), source.end(), '\n'));
-        for (int line = 1; line <= last; ++line)
-            if (const std::string hint = colon_block_hint(line_of(source, line)); !hint.empty())
+        int line = 0;
+        for (const std::string& text : lines_of(source)) {
+            ++line;
+            if (const std::string hint = colon_block_hint(text); !hint.empty())
                 return LocatedMessage{placed.file, line, hint}.joined();
+        }
         if (placed.text.find("'end' expected") != std::string::npos && source.find("else if ") != std::string::npos)
             return LocatedMessage{placed.file, placed.line,
                                   "an 'end' is missing: 'else if' opens a second block; write elseif"}

@@ -153,6 +153,8 @@ std::optional<int> line_with_semicolon_rows(const std::string& source) {
     return std::nullopt;
 }
 
+constexpr int kMostLooks = 200;  // each may go through the whole source
+
 std::optional<int> line_with_compared_place(const std::string& source) {
     const std::vector<LuaToken> tokens = lua_tokens(source);
     const auto extreme = [&](std::size_t i) { return tokens[i].is("max") || tokens[i].is("min"); };
@@ -168,8 +170,15 @@ std::optional<int> line_with_compared_place(const std::string& source) {
         }
         return std::pair(i, comma);
     };
-    for (std::size_t i = 0; i + 3 < tokens.size(); ++i) {
+    // A max or min of the script's own gives what its author says.
+    for (std::size_t i = 0; i + 1 < tokens.size(); ++i) {
+        const bool given = extreme(i) && tokens[i + 1].is("=");
+        if (given || (extreme(i + 1) && (tokens[i].is("function") || tokens[i].is("local")))) return std::nullopt;
+    }
+    int looks = 0;
+    for (std::size_t i = 0; i + 3 < tokens.size() && looks < kMostLooks; ++i) {
         if (!tokens[i].is("math") || !tokens[i + 1].is(".") || !extreme(i + 2) || !tokens[i + 3].is("(")) continue;
+        ++looks;
         const std::size_t end = closing(i + 3).first;
         for (std::size_t k = i + 4; k + 1 < end; ++k) {
             if (!extreme(k) || !tokens[k + 1].is("(") || (!tokens[k - 1].is(",") && !tokens[k - 1].is("("))) continue;

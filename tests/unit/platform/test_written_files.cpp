@@ -54,6 +54,29 @@ TEST_F(written_files, of_others_stay) {
     EXPECT_THROW(WrittenFiles("").take(file_), EnvironmentError);
 }
 
+// oracle: the rule: only what a run has written is a run's
+TEST_F(written_files, asked_for_and_not_written_are_nobodys) {
+    { WrittenFiles(ledger_).take(file_); }  // the call then failed
+    write_file_atomically(file_, "by hand");
+    EXPECT_THROW(run("x"), EnvironmentError);
+    { WrittenFiles(ledger_, WrittenFiles::Others::kReplaced).take(file_); }  // allowed, and failed
+    EXPECT_THROW(run("x"), EnvironmentError);
+    EXPECT_EQ(read_file(file_), "by hand");
+}
+
+// oracle: the rule, in a session that goes on after a statement has settled
+TEST_F(written_files, changed_by_hand_during_a_session_stay) {
+    WrittenFiles written(ledger_);
+    written.take(file_);
+    write_file_atomically(file_, "first");
+    written.settle();
+    written.take(file_);
+    write_file_atomically(file_, "second");
+    written.settle();
+    write_file_atomically(file_, "edited");
+    EXPECT_THROW(written.take(file_), EnvironmentError);
+}
+
 // oracle: a run that ends without its destructor, and a ledger of many runs
 TEST_F(written_files, are_known_after_a_killed_run_and_in_a_long_ledger) {
     alignas(WrittenFiles) unsigned char place[sizeof(WrittenFiles)];

@@ -1,4 +1,4 @@
-#include "cli/seed_option.h"
+#include "cli/options/seed_option.h"
 
 #include <charconv>
 #include <iostream>

@@ -1,4 +1,4 @@
-#include "cli/slider_option.h"
+#include "cli/options/slider_option.h"
 
 #include <charconv>
 #include <cmath>
