@@ -294,7 +294,10 @@ ReportResult make_report(const ReportRequest& request) {
             result.figures = renderer.use();
             runs.remember(record);
         });
-        if (format == DocumentFormat::kHtml) add_slider_places(request, record, renderer, calls, workplace.path());
+        if (format == DocumentFormat::kHtml) {
+            const auto read = add_slider_places(request, record, renderer, calls, workplace.path());
+            record.files_read.insert(record.files_read.end(), read.begin(), read.end());
+        }
     } catch (const DocumentError& complaint) {
         if (!result.error) throw;
         throw DocumentError(*result.error + "\nThe report up to there cannot be made: " + complaint.what());

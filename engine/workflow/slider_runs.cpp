@@ -14,9 +14,10 @@
 
 namespace dynlab::inline workflow {
 
-void add_slider_places(const ReportRequest& request, const RunRecord& record, GnuplotRenderer& renderer,
-                       CallCache& calls, const std::filesystem::path& work_folder) {
-    if (record.sliders.empty() || record.error) return;
+std::vector<std::filesystem::path> add_slider_places(const ReportRequest& request, const RunRecord& record,
+                                                     GnuplotRenderer& renderer, CallCache& calls,
+                                                     const std::filesystem::path& work_folder) {
+    if (record.sliders.empty() || record.error) return {};
     const bool french = request.script.header.language == "fr";
     std::deque<RunRecord> records;  // documents point at them
     const auto run_at = [&](const std::string& name, double value) -> const RunRecord& {
@@ -49,6 +50,9 @@ void add_slider_places(const ReportRequest& request, const RunRecord& record, Gn
     std::sort(sliders.begin(), sliders.end(),
               [](const SliderPlaces& a, const SliderPlaces& b) { return a.slider.order < b.slider.order; });
     write_file_atomically(request.output, page_with_sliders(read_file(request.output), request.script, sliders));
+    std::vector<std::filesystem::path> read;
+    for (const RunRecord& there : records) read.insert(read.end(), there.files_read.begin(), there.files_read.end());
+    return read;
 }
 
 }  // namespace dynlab::inline workflow

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <vector>
 
 #include "figures/gnuplot_renderer.h"
 #include "workflow/make_report.h"
@@ -13,7 +14,9 @@ namespace dynlab::inline workflow {
 /// Runs the script of a page once more for every place of its sliders, one slider at a time, and puts what the document
 /// shows there into the page (documents/html/slider_page.h), which needs no server then. `record` is the run the page
 /// was made of, its figures drawn; nothing is done for a run without sliders, or one that failed.
-void add_slider_places(const ReportRequest& request, const RunRecord& record, GnuplotRenderer& renderer,
-                       CallCache& calls, const std::filesystem::path& work_folder);
+/// Gives the files that the further runs read.
+std::vector<std::filesystem::path> add_slider_places(const ReportRequest& request, const RunRecord& record,
+                                                     GnuplotRenderer& renderer, CallCache& calls,
+                                                     const std::filesystem::path& work_folder);
 
 }  // namespace dynlab::inline workflow

@@ -85,6 +85,21 @@ TEST_F(caches, a_slider_that_is_set_makes_another_document) {
     EXPECT_EQ(bench_.dynlab({"run", "a.lua", "--set", "k=much"}).exit_code, 2);
 }
 
+/// What another place of a slider reads is part of what its page was made from.
+TEST_F(caches, data_of_another_place_of_a_slider_make_another_page) {
+    for (const char* name : {"run1.csv", "run2.csv"}) bench_.write(name, "t,u,y\n0,1,5\n1,1,6\n");
+    const std::string cells =
+        "-- %% id=a\nlocal d = load(\"run\" .. slider(\"k\", 1, 1, 2, {step = 1}) .. \".csv\")\nprint(\"first\", "
+        "d.y[1])\n";
+    weave(cells);
+    const std::string before = bench_.read("a.html");
+    weave(cells);
+    EXPECT_TRUE(before == bench_.read("a.html"));
+    bench_.write("run2.csv", "t,u,y\n0,1,77\n1,1,6\n");
+    weave(cells);
+    EXPECT_THAT(bench_.read("a.html"), HasSubstr("77"));
+}
+
 TEST_F(caches, edited_prose_runs_nothing) {
     weave(kStudy + kLate);
     EXPECT_THAT(weave("-- %% [markdown]\n-- Prose.\n" + kStudy + kLate),

@@ -103,6 +103,9 @@ TEST(script_cells, sliders_are_their_own_number_and_are_recorded) {
     EXPECT_EQ(slider.unit, "s");
     EXPECT_EQ(slider.label, "l");
     EXPECT_EQ(slider.cell, "b");
+    EXPECT_EQ(test::printed(
+                  "print(\"run\" .. slider('k', 2, 1, 3, {step = 1}), 'run' .. slider('l', 2, 1, 3, {step = 0.5}))"),
+              "run2\trun2.0\n");
     EXPECT_EQ(record_from_json(to_json(record)).sliders.at("k").to, 10);
     for (const auto& [call, sentence] : std::vector<std::pair<std::string, std::string>>{
              {"slider('k', 3, 10, 1)", "the slider \"k\" must go from a number to a greater one, not from 10 to 1"},

@@ -156,7 +156,9 @@ int slider(Call& call) {
     if (values.clamped && slider.from < slider.to) slider.value = std::clamp(slider.value, slider.from, slider.to);
     check_range(name, slider);
     recorder.add_slider(name, slider);
-    return call.give(slider.value);
+    const auto is_whole = [](double number) { return number == std::floor(number) && std::abs(number) < 1e15; };
+    const bool counts = slider.step && is_whole(*slider.step) && is_whole(slider.from) && is_whole(slider.value);
+    return counts ? call.give_integer(static_cast<Index>(slider.value)) : call.give(slider.value);
 }
 
 constexpr const char* kGuesses = "dynlab guesses";  // in Lua's registry: a table for each name
