@@ -1,0 +1,136 @@
+// Documents that follow the pen, as a reader at the browser meets them: the clock runs from the moment before a file is
+// saved (a program started, a page opened) to the frame in which Chromium has painted what changed.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <fstream>
+#include <stdexcept>
+
+#include "bench/bench.h"
+#include "bench/program_work.h"
+#include "platform/atomic_file.h"
+#include "platform/program_lookup.h"
+#include "support/browser.h"
+#include "support/preview_program.h"
+
+namespace dynlab::bench {
+namespace {
+
+namespace fs = std::filesystem;
+using test::Browser;
+using test::Preview;
+using test::Workbench;
+
+constexpr int kEdits = 11, kOpenings = 5;
+/// Done, and everything of the lesson there.
+const std::string kComplete =
+    "document.getElementById('stop')?.hidden && document.querySelectorAll('.piece[data-state=done]').length > 5 && "
+    "document.querySelectorAll('.piece figure').length > 5";
+
+double now() {
+    return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
+/// From now on the page notes when the expression has become true and what it speaks of is painted.
+std::string watch(const std::string& expression) {
+    return "window.painted = 0; window.watching?.disconnect(); const note = async () => { await Promise.all("
+           "[...document.querySelectorAll('[data-cell=last] img')].map(picture => picture.decode().catch(() => 0)));"
+           "requestAnimationFrame(() => setTimeout(() => { window.painted = Date.now() / 1000; }, 0)); };"
+           "window.watching = new MutationObserver(() => { if (!window.painted && (" +
+           expression +
+           ")) { window.painted = 1; note(); } });"
+           "window.watching.observe(document, {childList: true, subtree: true, attributes: true, characterData: "
+           "true});";
+}
+
+double painted(Browser& browser) {
+    if (!browser.comes("window.painted > 1")) throw std::runtime_error("the page does not show what was saved");
+    return std::stod(browser.evaluate("return window.painted"));
+}
+
+/// Saves what `edit` writes and waits for the page.
+double edit_seconds(Browser& browser, const std::string& expression, const std::function<void()>& edit) {
+    browser.evaluate(watch(expression));
+    const double saved = now();
+    edit();
+    const double seconds = painted(browser) - saved;
+    if (!browser.comes(kComplete)) throw std::runtime_error("the page does not come to rest");
+    return seconds;
+}
+
+/// From starting the program on a document whose calls are all remembered until the page is whole.
+double opening_seconds(Browser& browser, const fs::path& file, const fs::path& cache) {
+    const double started = now();
+    const Preview preview(file, true, {}, cache);
+    browser.open(preview.address());
+    return painted(browser) - started;
+}
+
+/// From opening a file until the first picture of its page.
+double first_paint(Browser& browser, const fs::path& file) {
+    browser.open("file://" + file.string());
+    if (!browser.comes("performance.getEntriesByName('first-contentful-paint').length > 0"))
+        throw std::runtime_error("the page of lesson 4 is never painted");
+    return std::stod(browser.evaluate("return performance.getEntriesByName('first-contentful-paint')[0].startTime")) /
+           1000;
+}
+
+}  // namespace
+
+void measure_live(Report& report) {
+    if (!find_program("chromedriver")) {
+        report.left_out.push_back("documents that follow the pen, in Chromium");
+        return;
+    }
+    const Workbench bench;
+    fs::copy(fs::path(DYNLAB_SOURCE_DIR) / "lessons/04_estimators", bench.path("lesson"), fs::copy_options::recursive);
+    const fs::path file = bench.path("lesson/lesson.lua");
+    const std::string text = read_file(file);
+    const std::size_t words = text.find("-- Three methods estimate");
+    if (words == std::string::npos) throw std::runtime_error("lesson 4 begins with other words");
+    const auto save = [&](int edit) {
+        std::string edited = text;
+        edited.insert(words, edit == 0 ? "" : fmt::format("-- Edit number {}.\n--\n", edit));
+        std::ofstream(file) << edited << "\n-- %% id=last\nplot({1, 2, 3}, {1, 4, 9}, {title = \"The last cell\"})\n";
+    };
+    const auto save_last = [&](int edit) {
+        std::ofstream(file) << text << "\n-- %% id=last\nplot({1, 2, 3}, {1, 4, " << 9 + edit
+                            << "}, {title = \"The last cell\"})\n";
+    };
+
+    save(0);
+    Browser browser;
+    {
+        const Preview preview(file, true, {}, bench.path("cache"));
+        browser.open(preview.address());
+        if (!browser.comes(kComplete, 60)) throw std::runtime_error("lesson 4 is never complete");
+        std::vector<double> prose, last;
+        for (int i = 1; i <= kEdits; ++i) {
+            const std::string shown = fmt::format("document.body.textContent.includes('Edit number {}.')", i);
+            prose.push_back(edit_seconds(browser, shown, [&] { save(i); }));
+        }
+        edit_seconds(browser, "true", [&] { save_last(0); });
+        browser.evaluate("window.drawing = () => document.querySelector('[data-cell=last] figure img')?.src");
+        for (int i = 1; i <= kEdits; ++i) {
+            browser.evaluate("window.before = drawing()");
+            const auto change = [&] { save_last(i); };
+            last.push_back(edit_seconds(browser, "drawing() && drawing() !== window.before", change));
+        }
+        report.results.push_back({"live: an edit of prose (s)", "0.15 s", median(prose), 0.150, 1, 0.080 / 0.150});
+        report.results.push_back(
+            {"live: an edit of the last cell, a plot (s)", "0.3 s", median(last), 0.300, 1, 0.150 / 0.300});
+    }
+    save(0);
+    browser.devtools("Page.addScriptToEvaluateOnNewDocument", "{\"source\": \"" + watch(kComplete) + "\"}");
+    std::vector<double> openings, paints;
+    for (int i = 0; i < kOpenings; ++i) openings.push_back(opening_seconds(browser, file, bench.path("cache")));
+    report.results.push_back({"live: lesson 4 opened, all recalled (s)", "0.6 s", median(openings), 0.600, 1, 0});
+
+    must_succeed(bench.dynlab({"report", "04", "-o", "alone.html"}));
+    for (int i = 0; i < kOpenings; ++i) paints.push_back(first_paint(browser, bench.path("alone.html")));
+    report.results.push_back({"lesson 4 as HTML, first paint (s)", "0.5 s", median(paints), 0.500, 1, 0});
+    report.results.push_back({"lesson 4 as HTML, size (MB)", "3 MB",
+                              static_cast<double>(fs::file_size(bench.path("alone.html"))) / 1e6, 3, 1, 0});
+}
+
+}  // namespace dynlab::bench

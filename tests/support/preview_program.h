@@ -1,0 +1,62 @@
+#pragma once
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "platform/temporary_folder.h"
+
+namespace dynlab::test {
+
+/// The program that serves a document, as a user starts it.
+class Preview {
+  public:
+    /// A cache of its own unless one is named.
+    explicit Preview(const std::filesystem::path& document, bool run = true,
+                     const std::vector<std::string>& options = {}, const std::filesystem::path& cache = {}) {
+        const std::filesystem::path address = out.path() / "address";
+        std::vector<std::string> words = {"dynlab", "preview", document, "--no-browser"};
+        if (run) words.push_back("--run");
+        words.insert(words.end(), options.begin(), options.end());
+        std::vector<char*> pointers;
+        for (std::string& word : words) pointers.push_back(word.data());
+        pointers.push_back(nullptr);
+        process_ = ::fork();
+        if (process_ == 0) {
+            ::setenv("XDG_CACHE_HOME", cache.empty() ? out.path().c_str() : cache.c_str(), 1);
+            ::setenv("DYNLAB_HOME", DYNLAB_SOURCE_DIR, 1);
+            if (!std::freopen(address.c_str(), "w", stdout)) ::_exit(1);
+            ::execv(DYNLAB_PROGRAM, pointers.data());
+            ::_exit(1);
+        }
+        for (int i = 0; i < 1000 && address_.empty(); ++i) {
+            std::ifstream file(address);
+            std::getline(file, address_);
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+    }
+    ~Preview() { end(); }
+    void end() {
+        if (process_ <= 0) return;
+        ::kill(process_, SIGINT);
+        ::waitpid(process_, nullptr, 0);
+        process_ = 0;
+    }
+    const std::string& address() const { return address_; }
+    pid_t process() const { return process_; }
+    TemporaryFolder out;
+
+  private:
+    pid_t process_ = 0;
+    std::string address_;
+};
+
+}  // namespace dynlab::test
