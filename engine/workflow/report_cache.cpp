@@ -39,8 +39,10 @@ std::vector<fs::path> bibliographies(const ReportRequest& request) {
     return files;
 }
 
-std::string entry_of_report(const ReportRequest& request) {
-    EntryName name("reports");
+}  // namespace
+
+std::string name_of_report(const ReportRequest& request, const std::string& kind) {
+    EntryName name(kind);
     name.add(fs::absolute(request.script.file).string());
     name.add(request.script.source);
     name.add(fs::absolute(request.template_file).string());
@@ -56,13 +58,11 @@ std::string entry_of_report(const ReportRequest& request) {
     return name.text();
 }
 
-}  // namespace
-
 ReportCache::ReportCache(const ReportRequest& request, const Cache& cache)
     : cache_(cache),
       output_(fs::absolute(request.output)),
       script_folder_(fs::absolute(request.script.file).parent_path()),
-      entry_(cache.lasting() ? entry_of_report(request) : std::string()) {}
+      entry_(cache.lasting() ? name_of_report(request, "reports") : std::string()) {}
 
 bool ReportCache::unchanged() const {
     const auto known = entry_.empty() ? std::nullopt : cache_.recall(entry_);

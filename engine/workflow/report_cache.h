@@ -7,6 +7,9 @@
 
 namespace dynlab::inline workflow {
 
+/// The name of an entry of this kind: of everything that a document is made from and that is known before its run.
+std::string name_of_report(const ReportRequest& request, const std::string& kind);
+
 /// Knows what a report was made from, so that it is not made again when nothing changed: script, template, all of
 /// report_templates/, seed, program, what the script read, and the output file itself, all by content.
 class ReportCache {

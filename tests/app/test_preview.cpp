@@ -274,6 +274,68 @@ TEST_F(preview_page, is_dark_where_the_desktop_is) {
             << part;
 }
 
+/// A page that was whole is whole at once when the document is opened again, and is that of a run all the same.
+TEST_F(preview_page, is_whole_at_once_when_it_is_opened_again) {
+    const std::string slow = kHead +
+                             "-- %% id=slow\nlocal s = 0 for i = 1, 4e7 do s = s + 1 end\nprint(\"it is \" .. s)\n\n" +
+                             kFirst + kPlot;
+    write(slow);
+    const fs::path cache = folder.path() / "cache";
+    const std::string whole =
+        "document.getElementById('document').innerText.includes('it is 4') && "
+        "document.querySelector('figure .plot')";
+    const std::string at_rest =
+        "document.getElementById('stop').hidden && "
+        "document.querySelectorAll('[data-state=done]').length > 2";
+    std::string first;
+    {
+        const Preview preview(file(), true, {}, cache);
+        Browser browser;
+        browser.open(preview.address());
+        ASSERT_TRUE(browser.comes(whole + " && " + at_rest));
+        first = browser.evaluate(
+            "return document.getElementById('document').innerHTML.replace(/ data-state=\"[a-z]*\"/g, '')");
+    }
+    const Preview preview(file(), true, {}, cache);
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(browser.comes(whole));
+    EXPECT_TRUE(browser.comes("document.querySelectorAll('[data-state=recalled]').length > 2"));
+    browser.evaluate("for (const node of document.querySelectorAll('.piece')) node.seen = true");
+    EXPECT_TRUE(browser.comes(at_rest));
+    EXPECT_EQ(browser.evaluate("return [...document.querySelectorAll('.piece')].filter(n => !n.seen).length"), "0");
+
+    // A change made meanwhile, or while nobody looked, is not hidden by what was remembered.
+    std::string changed = slow;
+    changed.replace(changed.find("x = 20"), 6, "x = 21");
+    write(changed);
+    EXPECT_TRUE(shows(browser, "x is 21"));
+}
+
+TEST_F(preview_page, remembered_pages_are_not_shown_for_other_data) {
+    write("a\n1\n2\n", "numbers.csv");
+    write(kHead +
+          "-- %% id=one\nprint(\"last \" .. load(\"numbers.csv\").a[2])\n\n"
+          "-- %% id=slow\nlocal s = 0 for i = 1, 4e7 do s = s + 1 end\nprint(\"over\")\n");
+    const fs::path cache = folder.path() / "cache";
+    const auto open = [&](const std::string& shown, const std::string& not_shown) {
+        const Preview preview(file(), true, {}, cache);
+        Browser browser;
+        browser.devtools("Page.addScriptToEvaluateOnNewDocument",
+                         R"({"source": "window.ever = ''; new MutationObserver(() => { window.ever += )"
+                         R"(document.body?.textContent; }).observe(document, {childList: true, subtree: true});"})");
+        browser.open(preview.address());
+        EXPECT_TRUE(shows(browser, shown));
+        EXPECT_TRUE(shows(browser, "over"));
+        EXPECT_TRUE(browser.comes("document.getElementById('stop').hidden"));
+        EXPECT_EQ(browser.evaluate("return window.ever.includes('" + shown + "')"), "true");
+        EXPECT_EQ(browser.evaluate("return window.ever.includes('" + not_shown + "')"), "false");
+    };
+    open("last 2", "last 5");
+    write("a\n1\n5\n", "numbers.csv");
+    open("last 5", "last 2");
+}
+
 /// Resident memory of a process, in kB, and how many there are of it and what it started.
 std::pair<long, int> memory_of_family(pid_t first) {
     std::map<pid_t, pid_t> parents;

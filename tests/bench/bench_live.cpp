@@ -24,7 +24,8 @@ using test::Workbench;
 constexpr int kEdits = 11, kOpenings = 5;
 /// Done, and everything of the lesson there.
 const std::string kComplete =
-    "document.getElementById('stop')?.hidden && document.querySelectorAll('.piece[data-state=done]').length > 5 && "
+    "document.getElementById('stop')?.hidden && "
+    "document.querySelectorAll('.piece[data-state=done], .piece[data-state=recalled]').length > 5 && "
     "document.querySelectorAll('.piece figure').length > 5";
 
 double now() {

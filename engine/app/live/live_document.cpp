@@ -76,7 +76,7 @@ void LiveDocument::end() {
 void LiveDocument::work() {
     read_again({});
     while (!end_) {
-        if (page_is_old_) set_page();
+        if (page_is_old_ && !page_is_recalled_) set_page();
         wait_for_something();
         throw_if_interrupted();
         take_orders();
@@ -115,7 +115,10 @@ void LiveDocument::take_orders() {
             if (state.state != "done") state = {"waiting", 0};
         show_states();
     }
-    if (anew) runner_.forget();
+    if (anew) {
+        runner_.forget();
+        page_is_recalled_ = false;
+    }
     if (!stop) read_again({});
 }
 
@@ -141,6 +144,8 @@ void LiveDocument::read_again(const std::set<fs::path>& changed) {
         tell_of_reading_(request_->slider_values);
         page_.ask_whether_to_run(!may_run);
         if (!may_run) return;
+        if (!changed.empty() || !request_->slider_values.empty()) page_is_recalled_ = false;
+        if (!std::exchange(opened_, true)) recall_page();
         const std::size_t first = runner_.run(*request_, figures_.path(), data);
         for (std::size_t i = first; runner_.running() && i < runner_.parts().size(); ++i)
             for (const std::string& cell : runner_.parts()[i].cells) states_[cell] = {"waiting", 0};
@@ -190,7 +195,10 @@ void LiveDocument::take(RunnerNews news) {
         }
         page_is_old_ = true;
     }
-    if (news.kind == "ended" && !shown_.error) settle_sliders();
+    if (news.kind == "ended") {
+        page_is_recalled_ = false;
+        if (!shown_.error) settle_sliders();
+    }
     show_states();
 }
 
@@ -215,6 +223,7 @@ void LiveDocument::show_states() {
         for (const std::string& cell : part.cells)
             if (const auto state = states_.find(cell); state != states_.end()) known.insert(*state);
     states_ = known;
+    if (page_is_recalled_) return;
     page_.set_states(std::move(known), runner_.running());
     tell_();
 }
@@ -240,10 +249,26 @@ void LiveDocument::set_page() {
         const bool unfinished = runner_.running() || shown_.error.has_value() || runner_.parts().empty();
         page_.show(setter_.set(document_source(*request_, shown_), unfinished), request_->script, shown_);
         page_.set_open_answers(missing_answers(request_->script, shown_));
+        if (!unfinished) remember_page();
     } catch (const DocumentError& error) {
         page_.complain(lines_of(error.what()));
     }
     tell_();
+}
+
+/// The whole page at once, where it was whole before; the run that follows is quick and finds what the page has to
+/// tell.
+void LiveDocument::recall_page() {
+    std::optional<PageContent> known = memory_.recall(*request_);
+    if (!known) return;
+    for (auto& [cell, state] : known->states) state.state = "recalled";
+    page_.show(*std::move(known));
+    page_is_recalled_ = true;
+    tell_();
+}
+
+void LiveDocument::remember_page() const {
+    if (request_->slider_values.empty()) memory_.remember(*request_, shown_, page_.content());
 }
 
 }  // namespace dynlab::inline app

@@ -10,6 +10,7 @@
 
 #include "app/live/folder_watch.h"
 #include "app/live/live_page.h"
+#include "app/live/page_memory.h"
 #include "app/live/script_runner.h"
 #include "documents/chunks/chunk_setter.h"
 #include "platform/temporary_folder.h"
@@ -48,6 +49,8 @@ class LiveDocument {
     void take_news();
     void take(RunnerNews news);
     void set_page();
+    void recall_page();
+    void remember_page() const;
     void show_states();
     void settle_sliders();
     void watch_inputs();
@@ -61,6 +64,7 @@ class LiveDocument {
     TemporaryFolder figures_;
     FolderWatch watch_;
     ChunkSetter setter_;
+    PageMemory memory_;
     std::optional<ReportRequest> request_;
     RunRecord shown_;                          ///< what the page shows: of this run, below it of the one before
     std::map<std::string, CellState> states_;  ///< by cell
@@ -69,6 +73,8 @@ class LiveDocument {
     std::set<std::filesystem::path> changed_;                         ///< of them, and not yet looked at
     Clock::time_point last_change_;
     bool page_is_old_ = false;
+    bool opened_ = false;            ///< a first run was allowed
+    bool page_is_recalled_ = false;  ///< it shows a run of before, and stays until this first run has ended
 
     FileDescriptor wake_;
     std::mutex orders_mutex_;

@@ -41,8 +41,7 @@ std::string LivePage::keep_picture(const fs::path& file) {
         return "missing";  // it is being written anew; the version after this has it
     }
     const std::string name = digest_of(bytes).hex() + file.extension().string();
-    Picture& picture = pictures_[name];
-    picture = {media_type(kind_of(file)), std::move(bytes), version_};
+    content_.pictures[name] = {media_type(kind_of(file)), std::move(bytes), version_};
     return name;
 }
 
@@ -70,12 +69,12 @@ void LivePage::show(const SetDocument& document, const PercentScript& script, co
     const std::lock_guard lock(mutex_);
     ++version_;
     changed_ = text_changed_ = true;
-    name_ = script.file.filename().string();
-    head_ = document.head;
-    notes_ = document.notes;
+    content_.name = script.file.filename().string();
+    content_.head = document.head;
+    content_.notes = document.notes;
     complaints_ = document.complaints;
-    sliders_ = record.sliders;
-    pieces_.clear();
+    content_.sliders = record.sliders;
+    content_.pieces.clear();
     fresh_.clear();
     std::map<std::string, std::string> html;
     std::map<std::string, int> copies;
@@ -87,13 +86,29 @@ void LivePage::show(const SetDocument& document, const PercentScript& script, co
         const bool in_script = chunk.chunk.origin.file == script.file;
         const Cell* const cell = in_script ? script.cell_at_line(chunk.chunk.origin.line) : nullptr;
         const bool is_code = cell && cell->kind == Cell::Kind::kCode;
-        pieces_.push_back(
+        content_.pieces.push_back(
             {id, is_code ? cell->id : "", chunk.chunk.origin.file.filename().string(), chunk.chunk.origin.line});
-        if (!html_.contains(id)) fresh_.push_back(id);
+        if (!content_.html.contains(id)) fresh_.push_back(id);
         html[id] = std::move(content);
     }
-    html_ = std::move(html);
-    std::erase_if(pictures_, [&](const auto& entry) { return entry.second.version + kVersionsKept < version_; });
+    content_.html = std::move(html);
+    std::erase_if(content_.pictures,
+                  [&](const auto& entry) { return entry.second.version + kVersionsKept < version_; });
+}
+
+void LivePage::show(PageContent remembered) {
+    const std::lock_guard lock(mutex_);
+    ++version_;
+    changed_ = text_changed_ = true;
+    fresh_.clear();
+    for (const auto& [id, html] : remembered.html) fresh_.push_back(id);
+    for (auto& [name, picture] : remembered.pictures) picture.version = version_;
+    content_ = std::move(remembered);
+}
+
+PageContent LivePage::content() const {
+    const std::lock_guard lock(mutex_);
+    return content_;
 }
 
 void LivePage::complain(const std::vector<std::string>& sentences) {
@@ -105,7 +120,7 @@ void LivePage::complain(const std::vector<std::string>& sentences) {
 
 void LivePage::set_states(std::map<std::string, CellState> states, bool running) {
     const std::lock_guard lock(mutex_);
-    states_ = std::move(states);
+    content_.states = std::move(states);
     running_ = running;
     changed_ = true;
 }
@@ -118,8 +133,8 @@ void LivePage::ask_whether_to_run(bool asking) {
 
 void LivePage::set_open_answers(std::string answers) {
     const std::lock_guard lock(mutex_);
-    changed_ = changed_ || open_answers_ != answers;
-    open_answers_ = std::move(answers);
+    changed_ = changed_ || content_.open_answers != answers;
+    content_.open_answers = std::move(answers);
 }
 
 void LivePage::set_sources(std::map<std::string, std::string> digests) {
@@ -141,25 +156,25 @@ std::string LivePage::json(bool all) const {
                              {"all", all},
                              {"running", running_},
                              {"asking", asking_},
-                             {"name", name_},
+                             {"name", content_.name},
                              {"complaints", complaints_},
-                             {"open_answers", open_answers_},
+                             {"open_answers", content_.open_answers},
                              {"sources", sources_},
                              {"pdf_is_ready", pdf_is_ready_},
                              {"states", ::nlohmann::json::object()}};
-    for (const auto& [cell, state] : states_)
+    for (const auto& [cell, state] : content_.states)
         page["states"][cell] = {{"state", state.state}, {"seconds", state.seconds}};
     if (all || findings_changed_)
         page["findings"] =
             ::nlohmann::json::accept(findings_) ? ::nlohmann::json::parse(findings_) : ::nlohmann::json();
     if (all || text_changed_) {
         ::nlohmann::json& pieces = page["pieces"] = ::nlohmann::json::array();
-        for (const Piece& piece : pieces_) pieces.push_back({piece.id, piece.cell, piece.file, piece.line});
-        page["sliders"] = sliders_json(sliders_);
-        page["head"] = head_;
-        page["notes"] = notes_;
+        for (const PagePiece& piece : content_.pieces) pieces.push_back({piece.id, piece.cell, piece.file, piece.line});
+        page["sliders"] = sliders_json(content_.sliders);
+        page["head"] = content_.head;
+        page["notes"] = content_.notes;
         ::nlohmann::json& html = page["html"] = ::nlohmann::json::object();
-        for (const auto& [id, content] : html_)
+        for (const auto& [id, content] : content_.html)
             if (all || std::find(fresh_.begin(), fresh_.end(), id) != fresh_.end()) html[id] = content;
     }
     return page.dump(-1, ' ', false, ::nlohmann::json::error_handler_t::replace);
@@ -168,7 +183,7 @@ std::string LivePage::json(bool all) const {
 bool LivePage::settled() const {
     const std::lock_guard lock(mutex_);
     const auto any = [this](const char* state) {
-        return std::any_of(states_.begin(), states_.end(),
+        return std::any_of(content_.states.begin(), content_.states.end(),
                            [&](const auto& cell) { return cell.second.state == state; });
     };
     return !running_ && (any("failed") || !any("waiting"));
@@ -190,8 +205,8 @@ std::optional<std::string> LivePage::changes() {
 
 std::optional<std::pair<std::string, std::string>> LivePage::picture(const std::string& name) const {
     const std::lock_guard lock(mutex_);
-    const auto found = pictures_.find(name);
-    if (found == pictures_.end()) return {};
+    const auto found = content_.pictures.find(name);
+    if (found == content_.pictures.end()) return {};
     return std::pair{found->second.type, found->second.bytes};
 }
 

@@ -6,22 +6,19 @@
 #include <string>
 #include <vector>
 
+#include "app/live/page_content.h"
 #include "documents/chunks/chunk_setter.h"
 #include "documents/percent_script.h"
 #include "documents/run_record.h"
 
 namespace dynlab::inline app {
 
-/// How a cell of the script stands.
-struct CellState {
-    std::string state;  ///< "waiting", "running", "done", "failed"
-    double seconds = 0;
-};
-
 /// What a page shows, as it goes to tabs: the whole to one that comes, else what has changed since the version before.
 /// For any thread.
 class LivePage {
   public:
+    /// Makes what was remembered the next version.
+    void show(PageContent remembered);
     /// Makes the next version of a document that was set. Figures are read from their files now.
     void show(const SetDocument& document, const PercentScript& script, const RunRecord& record);
     /// Text above the page: what is wrong. The document stays as it is.
@@ -33,6 +30,7 @@ class LivePage {
     void set_sources(std::map<std::string, std::string> digests);  ///< of the files that the page may change
     void set_work(std::string findings, bool pdf_is_ready);        ///< findings: JSON, or empty
 
+    PageContent content() const;
     bool settled() const;  ///< the run came to its end, or to a mistake; not one that was stopped
 
     /// Everything, JSON.
@@ -43,29 +41,16 @@ class LivePage {
     std::optional<std::pair<std::string, std::string>> picture(const std::string& name) const;
 
   private:
-    struct Piece {
-        std::string id, cell, file;
-        int line = 0;
-    };
-    struct Picture {
-        std::string type, bytes;
-        std::uint64_t version;  ///< in which it was shown last
-    };
     std::string with_pictures(const SetChunk& chunk, const RunRecord& record);
     std::string keep_picture(const std::filesystem::path& file);
     std::string json(bool all) const;
 
     mutable std::mutex mutex_;
-    std::string name_, head_, notes_;
-    std::vector<Piece> pieces_;
-    std::map<std::string, std::string> html_;  ///< of the pieces shown, by id
-    std::vector<std::string> fresh_;           ///< ids that the last version did not have
+    PageContent content_;
+    std::vector<std::string> fresh_;  ///< ids that the last version did not have
     std::vector<std::string> complaints_;
-    std::map<std::string, CellState> states_;
-    std::map<std::string, RecordedSlider> sliders_;
-    std::map<std::string, Picture> pictures_;
     std::map<std::string, std::string> sources_;
-    std::string open_answers_, findings_;
+    std::string findings_;
     bool pdf_is_ready_ = false;
     bool running_ = false, asking_ = false, changed_ = false, text_changed_ = false, findings_changed_ = false;
     std::uint64_t version_ = 0;

@@ -83,7 +83,7 @@ function showStates(page) {
   for (const [cell, { state, seconds: took }] of Object.entries(page.states)) {
     ++total;
     seconds += took;
-    if (state === "done") ++done;
+    if (state === "done" || state === "recalled") ++done;
     if (state === "failed") ++failed;
     if (state === "running") running = cell;
   }

@@ -1,0 +1,22 @@
+#pragma once
+#include <optional>
+
+#include "app/live/page_content.h"
+#include "platform/cache.h"
+#include "workflow/make_report.h"
+
+namespace dynlab::inline app {
+
+/// Keeps the page of a document that has run to its end, so that it is whole at once when it is opened again and
+/// neither script, template nor data have changed.
+class PageMemory {
+  public:
+    std::optional<PageContent> recall(const ReportRequest& request) const;
+    /// Where it cannot be kept, it is not.
+    void remember(const ReportRequest& request, const RunRecord& record, const PageContent& content) const;
+
+  private:
+    Cache cache_;
+};
+
+}  // namespace dynlab::inline app
