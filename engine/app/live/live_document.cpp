@@ -19,6 +19,8 @@ using namespace std::chrono_literals;
 
 /// A file is looked at when it has been left alone for so long: editors write in several steps.
 constexpr auto kQuiet = 30ms;
+/// A page that was recalled runs when the reader has it: the run would take the processors from the browser.
+constexpr auto kRunAfterRecall = 1500ms;
 /// How often Ctrl-C is looked for while nothing happens.
 constexpr int kLookForInterrupt = 1000;
 
@@ -74,6 +76,9 @@ void LiveDocument::end() {
 }
 
 void LiveDocument::work() {
+    std::uint64_t earlier_orders = 0;  // the first reading sees to them
+    while (::read(wake_.get(), &earlier_orders, sizeof earlier_orders) > 0) {
+    }
     read_again({});
     while (!end_) {
         if (page_is_old_ && !page_is_recalled_) set_page();
@@ -86,6 +91,7 @@ void LiveDocument::work() {
             last_change_ = Clock::now();
         }
         if (!changed_.empty() && Clock::now() - last_change_ >= kQuiet) read_again(std::exchange(changed_, {}));
+        if (first_run_ && Clock::now() >= *first_run_) read_again({});
         take_news();
     }
 }
@@ -97,6 +103,7 @@ void LiveDocument::wait_for_something() {
         const auto left = kQuiet - std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - last_change_);
         longest = std::max<int>(0, static_cast<int>(left.count()));
     }
+    if (first_run_) longest = std::min(longest, static_cast<int>(std::chrono::milliseconds(kRunAfterRecall).count()));
     ::poll(waiting, 3, longest);
 }
 
@@ -145,7 +152,11 @@ void LiveDocument::read_again(const std::set<fs::path>& changed) {
         page_.ask_whether_to_run(!may_run);
         if (!may_run) return;
         if (!changed.empty() || !request_->slider_values.empty()) page_is_recalled_ = false;
-        if (!std::exchange(opened_, true)) recall_page();
+        first_run_.reset();
+        if (!std::exchange(opened_, true) && recall_page()) {
+            first_run_ = Clock::now() + kRunAfterRecall;
+            return;
+        }
         const std::size_t first = runner_.run(*request_, figures_.path(), data);
         for (std::size_t i = first; runner_.running() && i < runner_.parts().size(); ++i)
             for (const std::string& cell : runner_.parts()[i].cells) states_[cell] = {"waiting", 0};
@@ -256,15 +267,15 @@ void LiveDocument::set_page() {
     tell_();
 }
 
-/// The whole page at once, where it was whole before; the run that follows is quick and finds what the page has to
-/// tell.
-void LiveDocument::recall_page() {
+/// Shows the whole page at once, where it was whole before.
+bool LiveDocument::recall_page() {
     std::optional<PageContent> known = memory_.recall(*request_);
-    if (!known) return;
+    if (!known) return false;
     for (auto& [cell, state] : known->states) state.state = "recalled";
     page_.show(*std::move(known));
     page_is_recalled_ = true;
     tell_();
+    return true;
 }
 
 void LiveDocument::remember_page() const {

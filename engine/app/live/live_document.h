@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -49,7 +50,7 @@ class LiveDocument {
     void take_news();
     void take(RunnerNews news);
     void set_page();
-    void recall_page();
+    bool recall_page();
     void remember_page() const;
     void show_states();
     void settle_sliders();
@@ -73,7 +74,8 @@ class LiveDocument {
     std::set<std::filesystem::path> changed_;                         ///< of them, and not yet looked at
     Clock::time_point last_change_;
     bool page_is_old_ = false;
-    bool opened_ = false;            ///< a first run was allowed
+    bool opened_ = false;                         ///< a first run was allowed
+    std::optional<Clock::time_point> first_run_;  ///< when it begins, where the page is that of a run before
     bool page_is_recalled_ = false;  ///< it shows a run of before, and stays until this first run has ended
 
     FileDescriptor wake_;
