@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <map>
 
+#include "support/cut_line.h"
 #include "support/preview.h"
 
 namespace test_preview {
@@ -334,6 +335,45 @@ TEST_F(preview_page, remembered_pages_are_not_shown_for_other_data) {
     open("last 2", "last 5");
     write("a\n1\n5\n", "numbers.csv");
     open("last 5", "last 2");
+}
+
+TEST_F(preview_page, takes_up_a_stream_that_was_cut_and_has_lost_nothing) {
+    write(kHead + kFirst + kPlot);
+    const Preview preview(file());
+    const std::size_t colon = preview.address().find(':', 6), slash = preview.address().find('/', colon);
+    CutLine line(std::stoi(preview.address().substr(colon + 1, slash - colon - 1)));
+    Browser browser;
+    browser.open(preview.address().substr(0, colon + 1) + std::to_string(line.port()) +
+                 preview.address().substr(slash));
+    ASSERT_TRUE(shows(browser, "x is 20"));
+    line.cut();
+    EXPECT_TRUE(browser.comes("document.getElementById('state').innerText.includes('no answer')"));
+    std::string changed = kHead + kFirst + kPlot;
+    changed.replace(changed.find("x = 20"), 6, "x = 21");
+    write(changed);
+    EXPECT_FALSE(browser.comes("document.getElementById('document').innerText.includes('x is 21')", 0.5));
+    line.mend();
+    EXPECT_TRUE(shows(browser, "x is 21"));
+    EXPECT_TRUE(browser.comes("!document.getElementById('state').innerText.includes('no answer')"));
+}
+
+/// A lid that is closed: the program stands still, files change, and it wakes up.
+TEST_F(preview_page, wakes_up_with_the_newest_document) {
+    write(kHead + kFirst + kPlot);
+    const Preview preview(file());
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(shows(browser, "x is 20"));
+    ASSERT_EQ(::kill(preview.process(), SIGSTOP), 0);
+    for (const char* value : {"x = 21", "x = 22"}) {
+        std::string changed = kHead + kFirst + kPlot;
+        changed.replace(changed.find("x = 20"), 6, value);
+        write(changed);
+        std::this_thread::sleep_for(300ms);
+    }
+    ASSERT_EQ(::kill(preview.process(), SIGCONT), 0);
+    EXPECT_TRUE(shows(browser, "x is 22"));
+    EXPECT_TRUE(browser.comes("document.getElementById('stop').hidden"));
 }
 
 /// Resident memory of a process, in kB, and how many there are of it and what it started.
