@@ -122,6 +122,26 @@ TEST_F(preview_editing, an_edit_on_both_sides_shows_both) {
     EXPECT_EQ(browser.evaluate("return document.getElementById('conflict').hidden"), "true");
 }
 
+/// A disk that takes nothing (here: the folder is gone) loses nothing: the page says so and keeps the text.
+TEST_F(preview_editing, what_cannot_be_saved_stays_on_the_page) {
+    fs::create_directory(folder.path() / "work");
+    write(kHead + kFirst, "work/analysis.lua");
+    const Preview preview(file("work/analysis.lua"), true, {"--edit"});
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(editor_has(browser, "local x = 20"));
+    type(browser, "\\n-- typed\\n");
+    fs::rename(folder.path() / "work", folder.path() / "away");
+    browser.click("#save");
+    EXPECT_TRUE(browser.comes("document.body.innerText.includes('not saved')"));
+    EXPECT_TRUE(editor_has(browser, "-- typed"));
+    fs::rename(folder.path() / "away", folder.path() / "work");
+    EXPECT_TRUE(browser.comes("!document.getElementById('save').disabled"));
+    browser.click("#save");
+    EXPECT_TRUE(browser.comes("document.getElementById('save').disabled"));
+    EXPECT_THAT(text_of("work/analysis.lua"), HasSubstr("-- typed"));
+}
+
 /// A save that was made from an older text than the file has now is refused even when the page has not heard of it.
 TEST_F(preview_editing, a_late_save_writes_nothing) {
     write(kHead + kFirst);

@@ -1,0 +1,67 @@
+// What `dynlab preview` cannot show: exit code and the whole message.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include "platform/system_call.h"
+#include "support/program.h"
+
+namespace test_preview_refusals {
+using namespace dynlab;
+using namespace dynlab::test;
+namespace fs = std::filesystem;
+
+class preview_refusals : public testing::Test {
+  protected:
+    /// What it says when it ends by itself.
+    std::string refusal(std::vector<std::string> words, int exit_code = 1) const {
+        words.insert(words.begin(), {"preview", "--no-browser"});
+        const ChildResult result = bench.dynlab(words);
+        EXPECT_EQ(result.exit_code, exit_code);
+        EXPECT_EQ(result.output, "");
+        return result.error_output;
+    }
+    Workbench bench;
+};
+
+TEST_F(preview_refusals, files_and_folders) {
+    EXPECT_EQ(refusal({"nothere.lua"}), "dynlab: there is no file or folder nothere.lua\n");
+    fs::create_directory(bench.path("empty"));
+    EXPECT_EQ(
+        refusal({"empty"}),
+        "dynlab: empty has no analysis.lua; a report needs analysis.lua and report.md (dynlab new LESSON DIR makes "
+        "them)\n");
+    bench.write("big.lua", std::string(5'000'000, 'a'));
+    EXPECT_EQ(refusal({"big.lua"}), "dynlab: big.lua: a script or template has at most 4 MB, this file has 5 MB\n");
+    fs::create_directory(bench.path("folder.lua"));
+    EXPECT_THAT(refusal({"folder.lua"}), testing::HasSubstr("folder.lua has no analysis.lua"));
+}
+
+TEST_F(preview_refusals, ports) {
+    bench.write("a.lua", "print(1)\n");
+    const FileDescriptor taken(::socket(AF_INET, SOCK_STREAM, 0));
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t length = sizeof address;
+    ASSERT_EQ(::bind(taken.get(), reinterpret_cast<sockaddr*>(&address), length), 0);
+    ASSERT_EQ(::listen(taken.get(), 1), 0);
+    ASSERT_EQ(::getsockname(taken.get(), reinterpret_cast<sockaddr*>(&address), &length), 0);
+    const std::string port = std::to_string(ntohs(address.sin_port));
+    EXPECT_EQ(refusal({"a.lua", "--port", port}),
+              "dynlab: the port " + port +
+                  " cannot be used: another program has it, or it is not allowed; leave --port out for a free one\n");
+    EXPECT_THAT(refusal({"a.lua", "--port", "99999"}, 2), testing::HasSubstr("99999 not in range 1 to 65535"));
+}
+
+/// Without a browser the address is all one needs; Ctrl-C ends it.
+TEST_F(preview_refusals, a_missing_browser_is_no_reason_to_stop) {
+    bench.write("a.lua", "print(1)\n");
+    bench.hide_program("xdg-open");
+    const ChildResult result = bench.shell("timeout --signal=INT 2 $DYNLAB preview a.lua");
+    EXPECT_THAT(result.output, testing::StartsWith("http://127.0.0.1:"));
+    EXPECT_EQ(result.error_output, "");
+}
+
+}  // namespace test_preview_refusals
