@@ -340,11 +340,9 @@ TEST_F(preview_page, remembered_pages_are_not_shown_for_other_data) {
 TEST_F(preview_page, takes_up_a_stream_that_was_cut_and_has_lost_nothing) {
     write(kHead + kFirst + kPlot);
     const Preview preview(file());
-    const std::size_t colon = preview.address().find(':', 6), slash = preview.address().find('/', colon);
-    CutLine line(std::stoi(preview.address().substr(colon + 1, slash - colon - 1)));
+    CutLine line(preview.address());
     Browser browser;
-    browser.open(preview.address().substr(0, colon + 1) + std::to_string(line.port()) +
-                 preview.address().substr(slash));
+    browser.open(line.address(preview.address()));
     ASSERT_TRUE(shows(browser, "x is 20"));
     line.cut();
     EXPECT_TRUE(browser.comes("document.getElementById('state').innerText.includes('no answer')"));
@@ -376,30 +374,64 @@ TEST_F(preview_page, wakes_up_with_the_newest_document) {
     EXPECT_TRUE(browser.comes("document.getElementById('stop').hidden"));
 }
 
-/// Resident memory of a process, in kB, and how many there are of it and what it started.
-std::pair<long, int> memory_of_family(pid_t first) {
+/// A line of /proc/PID/status, "VmRSS: 1234 kB"; 0 where it is not there.
+long status_of(pid_t process, const std::string& name) {
+    std::ifstream status("/proc/" + std::to_string(process) + "/status");
+    for (std::string line; std::getline(status, line);)
+        if (line.starts_with(name + ":")) return std::stol(line.substr(name.size() + 1));
+    return 0;
+}
+
+/// A process and all that it started, those that ended left out.
+std::vector<pid_t> family_of(pid_t first) {
     std::map<pid_t, pid_t> parents;
-    std::map<pid_t, long> memory;
-    for (const auto& entry : fs::directory_iterator("/proc")) {
-        std::ifstream status(entry.path() / "status");
-        pid_t process = 0, parent = 0;
-        long kilobytes = 0;
-        for (std::string line; std::getline(status, line);) {
-            std::sscanf(line.c_str(), "Pid: %d", &process);
-            std::sscanf(line.c_str(), "PPid: %d", &parent);
-            std::sscanf(line.c_str(), "VmRSS: %ld", &kilobytes);
-        }
-        parents[process] = parent;
-        memory[process] = kilobytes;
-    }
-    std::pair<long, int> sum{0, 0};
-    for (const auto& [process, kilobytes] : memory) {
+    for (const auto& entry : fs::directory_iterator("/proc"))
+        if (const pid_t process = std::atoi(entry.path().filename().c_str()); process > 0)
+            parents[process] = static_cast<pid_t>(status_of(process, "PPid"));
+    std::vector<pid_t> family;
+    for (const auto& [process, parent] : parents) {
         pid_t at = process;
         while (at != first && at > 1 && parents.contains(at)) at = parents[at];
-        if (at == first && kilobytes > 0) ++sum.second;
+        if (at == first && status_of(process, "VmRSS") > 0) family.push_back(process);
     }
-    sum.first = memory[first];
-    return sum;
+    return family;
+}
+
+/// Resident memory of a process, in kB, and how many there are of it and what it started.
+std::pair<long, std::size_t> memory_of_family(pid_t first) {
+    return {status_of(first, "VmRSS"), family_of(first).size()};
+}
+
+/// Processor time of a process and of all that it started, in clock ticks.
+long ticks_of_family(pid_t first) {
+    long ticks = 0;
+    for (const pid_t process : family_of(first)) {
+        std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+        std::string words;
+        std::getline(file, words, ')');
+        long user = 0, system = 0;
+        for (int i = 0; i < 11; ++i) file >> words;
+        file >> user >> system;
+        ticks += user + system;
+    }
+    return ticks;
+}
+
+TEST_F(preview_page, takes_no_processor_time_while_nothing_changes) {
+    write(kHead + kFirst + kPlot);
+    const Preview preview(file());
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(browser.comes("document.getElementById('view').classList.contains('ready')", 30));  // the PDF, the last
+    long before = ticks_of_family(preview.process());
+    ASSERT_GT(before, 0);
+    bool at_rest = false;  // a Pandoc for the next time still starts
+    for (int i = 0; i < 10 && !at_rest; ++i) {
+        std::this_thread::sleep_for(2s);
+        at_rest = ticks_of_family(preview.process()) == before;
+        before = ticks_of_family(preview.process());
+    }
+    EXPECT_TRUE(at_rest);
 }
 
 /// As many saves of text and code as an hour of work has: memory and processes stay what they were.

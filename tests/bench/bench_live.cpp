@@ -12,6 +12,7 @@
 #include "platform/atomic_file.h"
 #include "platform/program_lookup.h"
 #include "support/browser.h"
+#include "support/cut_line.h"
 #include "support/preview_program.h"
 
 namespace dynlab::bench {
@@ -19,6 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::Browser;
+using test::CutLine;
 using test::Preview;
 using test::Workbench;
 
@@ -106,10 +108,22 @@ void measure_live(Report& report) {
         const Preview preview(file, true, {}, bench.path("cache"));
         browser.open(preview.address());
         if (!browser.comes(kComplete, 60)) throw std::runtime_error("lesson 4 is never complete");
-        std::vector<double> prose, last;
+        std::vector<double> prose, last, kilobytes;
         for (int i = 1; i <= kEdits; ++i) {
             const std::string shown = fmt::format("document.body.textContent.includes('Edit number {}.')", i);
             prose.push_back(edit_seconds(browser, shown, [&] { save(i); }));
+        }
+        const CutLine line(preview.address());
+        Browser distant;
+        distant.open(line.address(preview.address()));
+        if (!distant.comes(kComplete, 60)) throw std::runtime_error("lesson 4 is never complete");
+        for (int i = kEdits + 1; i <= 2 * kEdits; ++i) {
+            const std::size_t before = line.bytes_from_server();
+            save(i);
+            const std::string shown = fmt::format("document.body.textContent.includes('Edit number {}.')", i);
+            if (!distant.comes(shown)) throw std::runtime_error("the page does not show what was saved");
+            std::this_thread::sleep_for(std::chrono::milliseconds(500));
+            kilobytes.push_back(static_cast<double>(line.bytes_from_server() - before) / 1000);
         }
         edit_seconds(browser, "true", [&] { save_last(0); });
         browser.evaluate("window.drawing = () => document.querySelector('[data-cell=last] figure img')?.src");
@@ -119,6 +133,7 @@ void measure_live(Report& report) {
             last.push_back(edit_seconds(browser, "drawing() && drawing() !== window.before", change));
         }
         report.results.push_back({"live: an edit of prose (s)", "0.15 s", median(prose), 0.150, 1, 0.080 / 0.150});
+        report.results.push_back({"live: sent for an edit of prose (kB)", "20 kB", median(kilobytes), 20, 1, 0});
         report.results.push_back(
             {"live: an edit of the last cell, a plot (s)", "0.3 s", median(last), 0.300, 1, 0.150 / 0.300});
     }

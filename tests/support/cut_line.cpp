@@ -35,12 +35,14 @@ bool write_whole(int file, const std::string& text) {
 
 }  // namespace
 
-CutLine::CutLine(int port) : server_(port), socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+CutLine::CutLine(const std::string& address)
+    : server_(std::stoi(address.substr(address.find(':', 6) + 1))),
+      socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
     int low = 10;
-    while (low * 10 <= port) low *= 10;
+    while (low * 10 <= server_) low *= 10;
     for (int tried = low + 1; tried < low * 10 && port_ == 0; ++tried) {
-        const sockaddr_in address = address_of(tried);
-        if (tried != port && ::bind(socket_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0)
+        const sockaddr_in own = address_of(tried);
+        if (tried != server_ && ::bind(socket_.get(), reinterpret_cast<const sockaddr*>(&own), sizeof own) == 0)
             port_ = tried;
     }
     constexpr int kWaiting = 16;
@@ -53,6 +55,12 @@ CutLine::~CutLine() {
     cut();
     listener_.join();
     for (std::thread& worker : workers_) worker.join();
+}
+
+std::string CutLine::address(const std::string& of_server) const {
+    std::string address = of_server;
+    replace_all(address, ":" + std::to_string(server_), ":" + std::to_string(port_));
+    return address;
 }
 
 void CutLine::cut() {
@@ -90,7 +98,10 @@ void CutLine::pass_on(Connection& connection) {
             if (!waiting[side].revents) continue;
             const ssize_t count = ::recv(waiting[side].fd, buffer.data(), buffer.size(), 0);
             std::string text(buffer.data(), static_cast<std::size_t>(std::max<ssize_t>(0, count)));
-            if (side == 0) replace_all(text, here, there);
+            if (side == 0)
+                replace_all(text, here, there);
+            else
+                bytes_from_server_ += text.size();
             if (count <= 0 || !write_whole(waiting[1 - side].fd, text)) {
                 ::shutdown(connection.from.get(), SHUT_RDWR);
                 ::shutdown(connection.to.get(), SHUT_RDWR);

@@ -1,5 +1,6 @@
 #pragma once
 #include <atomic>
+#include <cstddef>
 #include <list>
 #include <mutex>
 #include <string>
@@ -9,15 +10,18 @@
 
 namespace dynlab::test {
 
-/// A line between a browser and a server of this machine that can be cut: it listens at a port with as many digits as
-/// the server's and passes everything on, its own port in requests replaced by that of the server.
+/// A line between a browser and a server of this machine that can be cut, and that counts what the server sends: it
+/// listens at a port with as many digits as the server's and passes everything on, its own port in requests replaced by
+/// that of the server.
 class CutLine {
   public:
-    explicit CutLine(int port);  ///< of the server; throws std::runtime_error
+    explicit CutLine(const std::string& address);  ///< of the server; throws std::runtime_error
     ~CutLine();
-    int port() const { return port_; }
+    /// Of a page of the server, by this line.
+    std::string address(const std::string& of_server) const;
     void cut();  ///< ends all connections and takes no new ones
     void mend() { cut_ = false; }
+    std::size_t bytes_from_server() const { return bytes_from_server_; }
 
   private:
     struct Connection {
@@ -28,6 +32,7 @@ class CutLine {
 
     int server_ = 0, port_ = 0;
     FileDescriptor socket_;
+    std::atomic<std::size_t> bytes_from_server_ = 0;
     std::atomic<bool> cut_ = false, over_ = false;
     std::mutex mutex_;
     std::list<Connection> connections_;
