@@ -72,6 +72,20 @@ TEST(feedback, is_titled_after_the_group_and_not_after_the_folder_of_a_platform)
                 HasSubstr("roster.csv, line 2: the language must be en or fr, but \"français\" was given"));
 }
 
+TEST(feedback, of_late_work_tells_the_reason_in_its_language) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    const Workbench& work = bench.bench();
+    work.write("in/late/analysis.lua", std::string(kFrench) + "-- ---\n" + kSolution);
+    work.shell("touch -d '2026-03-03 08:00 UTC' in/late/analysis.lua");
+    work.write("deadlines.csv", "submission,deadline,percent_per_day,most_percent\n*,2026-03-01 18:00,12.5,50\n");
+    const ChildResult graded = bench.grade({"--deadlines", "deadlines.csv", "--timezone", "UTC"});
+    ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
+    EXPECT_THAT(work.read("out/results/late/feedback.md"),
+                HasSubstr("ce qui coûte 0,62 points : reçu le 2026-03-03 08:00 UTC, 1 j 14 h après l'échéance du "
+                          "2026-03-01 18:00 UTC ; chaque jour entamé coûte 12,5 % des points, au plus 50 %."));
+    EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr("1 d 14 h after the deadline of 2026-03-01 18:00 UTC"));
+}
+
 TEST(feedback, of_a_hand_in_that_does_not_count_says_so) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     Workbench& work = bench.bench();

@@ -166,6 +166,13 @@ TEST(gradebook_memory, deadlines_know_grace_zones_and_more_time) {
     work.write("deadlines.csv", "submission,deadline,extra\ngroup-1,,2 d\n");
     EXPECT_THAT(bench.grade({"--deadlines", "deadlines.csv", "--again"}).error_output,
                 HasSubstr("line 2: deadline must be a time"));
+    // Days that do not exist, and the hour that summer time leaves out.
+    for (const char* wrong : {"2026-02-30 18:00", "2026-03-29 02:30"}) {
+        work.write("deadlines.csv", std::string("submission,deadline\n*,") + wrong + "\n");
+        EXPECT_THAT(
+            bench.grade({"--deadlines", "deadlines.csv", "--timezone", "Europe/Paris", "--again"}).error_output,
+            HasSubstr(std::string("line 2: deadline must be a time that there is, but \"") + wrong + "\" was given"));
+    }
 }
 
 // oracle: of two hand-ins the better, or the one that came last

@@ -52,8 +52,9 @@ double distance(const Call& call, bool absolute) {
     }
     const double apart = (given - wanted).cwiseAbs().maxCoeff(), size = wanted.cwiseAbs().maxCoeff();
     if (!given.allFinite()) return std::numeric_limits<double>::infinity();
-    if (absolute) return apart;
-    return apart == 0 ? 0 : apart / size;
+    if (!absolute && size == 0 && apart > 0)
+        throw InvalidArgument("a share of 0 is 0: give how far away an answer may be, {abs = ...}");
+    return absolute || apart == 0 ? apart : apart / size;
 }
 
 /// Whether this check looks at records that students must not learn anything about: how far away an answer is would

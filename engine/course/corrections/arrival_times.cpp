@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
-#include <ctime>
 
 #include "data_io/text_table.h"
 #include "numerics/error.h"
@@ -29,13 +28,10 @@ std::string without_word(const std::string& identifier) {
 
 /// Also as Moodle writes times in English: "Friday, 27 February 2026, 5:30 PM".
 Instant time_in(const std::string& text, const CourseClock& clock) {
-    for (const char* format : {"%A, %d %B %Y, %I:%M %p", "%d %B %Y, %I:%M %p", "%A, %d %B %Y, %H:%M"}) {
-        std::tm time{};
-        const char* const end = ::strptime(text.c_str(), format, &time);
-        if (end == nullptr || *end != '\0') continue;
-        time.tm_isdst = -1;
-        return std::mktime(&time);
-    }
+    const auto read = clock_reading(text, {"%A, %d %B %Y, %I:%M %p", "%d %B %Y, %I:%M %p", "%A, %d %B %Y, %H:%M"});
+    if (read && !read->exists)
+        throw InvalidArgument(fmt::format("the time \"{}\" does not exist in {}", text, clock.zone()));
+    if (read) return read->instant;
     return clock.parse(text, "the time");
 }
 

@@ -22,18 +22,6 @@ namespace fs = std::filesystem;
 constexpr char kForAll[] = "*";
 constexpr double kSecondsOfADay = 86400;
 
-/// Seconds since 1970 of "2026-03-01 18:00[:00]" in local time.
-std::optional<long> instant(const std::string& text) {
-    for (const char* format : {"%Y-%m-%d %H:%M:%S", "%Y-%m-%d %H:%M", "%Y-%m-%dT%H:%M:%S", "%Y-%m-%dT%H:%M"}) {
-        std::tm time{};
-        const char* const end = ::strptime(text.c_str(), format, &time);
-        if (end == nullptr || *end != '\0') continue;
-        time.tm_isdst = -1;
-        return static_cast<long>(std::mktime(&time));
-    }
-    return {};
-}
-
 std::string shown_instant(long instant) {
     const std::time_t seconds = instant;
     std::tm time{};
@@ -89,9 +77,10 @@ class DeadlineTable {
     std::optional<long> time(std::size_t row, const char* column) const {
         const std::string text = cell(row, column);
         if (text.empty()) return {};
-        const std::optional<long> value = instant(text);
+        const std::optional<ClockReading> value = plain_clock_reading(text);
         if (!value) fail(row, column, "a time such as 2026-03-01 18:00");
-        return value;
+        if (!value->exists) fail(row, column, "a time that there is");
+        return static_cast<long>(value->instant);
     }
     std::optional<long> duration(std::size_t row, const char* column) const {
         const std::string text = cell(row, column);
@@ -169,12 +158,31 @@ Deadlines::Lateness Deadlines::of(const Submission& submission, const std::vecto
     const long came = received(submission, also), late = came - rule->deadline;
     if (late <= rule->grace) return {};
     const double days = std::ceil(static_cast<double>(late) / kSecondsOfADay);
-    Lateness lateness{static_cast<double>(late) / 3600, std::min(rule->most_percent, days * rule->percent_per_day)};
-    lateness.reason = fmt::format(
-        "received {}, {} after the deadline of {}; each begun day costs {} % of the points{}", shown_instant(came),
-        duration_text(late), shown_instant(rule->deadline), number_text(rule->percent_per_day, 4),
-        rule->most_percent < 100 ? fmt::format(", at most {} %", number_text(rule->most_percent, 4)) : "");
-    return lateness;
+    return {static_cast<double>(late) / 3600,
+            std::min(rule->most_percent, days * rule->percent_per_day),
+            came,
+            rule->deadline,
+            rule->percent_per_day,
+            rule->most_percent};
+}
+
+std::string Deadlines::Lateness::reason(const std::string& language) const {
+    if (percent == 0 && hours == 0) return "";
+    const bool french = language == "fr";
+    const auto number = [&](double value) {
+        std::string text = number_text(value, 4);
+        if (french) std::replace(text.begin(), text.end(), '.', ',');
+        return text;
+    };
+    std::string duration = duration_text(came - deadline);
+    if (french && came - deadline >= static_cast<long>(kSecondsOfADay)) duration.replace(duration.find('d'), 1, "j");
+    std::string text = fmt::format(
+        fmt::runtime(french ? "reçu le {}, {} après l'échéance du {} ; chaque jour entamé coûte {} % des points"
+                            : "received {}, {} after the deadline of {}; each begun day costs {} % of the points"),
+        shown_instant(came), duration, shown_instant(deadline), number(percent_per_day));
+    if (most_percent < 100)
+        text += fmt::format(fmt::runtime(french ? ", au plus {} %" : ", at most {} %"), number(most_percent));
+    return text;
 }
 
 std::vector<std::string> Deadlines::strays(const std::vector<Submission>& submissions,

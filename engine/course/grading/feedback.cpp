@@ -32,7 +32,7 @@ class FeedbackText {
     std::string result() const {
         std::string text =
             filled(words_.result, escape_(grade_.lesson), points(grade_.earned()), points(grade_.possible()));
-        if (grade_.penalty > 0) text += " " + filled(words_.late, points(grade_.penalty), grade_.lateness);
+        if (grade_.penalty > 0) text += " " + filled(words_.late, points(grade_.penalty), grade_.lateness_told);
         if (!grade_.counts_instead.empty())
             text += "\n\n" + filled(grade_.newest_counts ? words_.newest_counts : words_.better_counts,
                                     escape_(grade_.counts_instead));

@@ -22,12 +22,13 @@ void describe(T& object, V& member) {
 template <Is<Grade> T, class V>
 void describe(T& object, V& member) {
     auto& [submission, lesson, isolation, fingerprint, trouble, unreadable, began, silent, remark, printed, checks,
-           late_hours, penalty, lateness, title, language, counts_instead, newest_counts, log] = object;
+           late_hours, penalty, lateness, lateness_told, title, language, counts_instead, newest_counts, log] = object;
     member("submission", submission), member("lesson", lesson), member("isolation", isolation);
     member("fingerprint", fingerprint), member("trouble", trouble), member("unreadable", unreadable);
     member("began", began), member("silent", silent), member("remark", remark), member("printed", printed);
     member("checks", checks), member("late_hours", late_hours), member("penalty", penalty);
-    member("lateness", lateness), member("title", title), member("language", language);
+    member("lateness", lateness), member("lateness_told", lateness_told);
+    member("title", title), member("language", language);
     member("counts_instead", counts_instead), member("newest_counts", newest_counts);
 }
 

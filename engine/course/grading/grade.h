@@ -29,6 +29,7 @@ struct Grade {
     std::vector<CheckGrade> checks;
     double late_hours = 0, penalty = 0;  ///< penalty in points
     std::string lateness;                ///< why there is a penalty, as Deadlines tells it
+    std::string lateness_told;           ///< the same in the language of the feedback
     std::string title;                   ///< whom the feedback is for: a group or a person
     std::string language;                ///< of the feedback: "fr", else English
     std::string counts_instead;          ///< the hand-in of the same owner that counts; empty where this one does

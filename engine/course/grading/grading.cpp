@@ -235,7 +235,8 @@ class ClassGrader {
         address(submission, *grade);
         const Deadlines::Lateness late = deadlines_.of(submission, names_of_owners(submission));
         grade->late_hours = late.hours;
-        grade->lateness = late.reason;
+        grade->lateness = late.reason("en");
+        grade->lateness_told = late.reason(grade->language);
         finish(submission, *std::move(grade), late.percent, index);
         const std::lock_guard lock(mutex_);
         ++(keep ? outcome_.kept : outcome_.made);

@@ -27,8 +27,9 @@ bool is_one_of(const std::string& word, std::initializer_list<const char*> words
 }
 
 bool is_label(const NameToken& token) {
-    return is_one_of(token.letters, {"student", "students", "id", "number", "nr", "no", "etudiant", "etudiants",
-                                     "etudiante", "numero", "matricule", "author", "author", "group", "groupe"});
+    return is_one_of(token.letters,
+                     {"student", "students", "id", "number", "nr", "no", "etudiant", "etudiants", "etudiante", "numero",
+                      "matricule", "author", "authors", "auteur", "auteure", "auteurs", "group", "groupe"});
 }
 
 /// One try to read a pattern at a token.

@@ -48,22 +48,33 @@ Instant CourseClock::now() {
     return static_cast<Instant>(std::time(nullptr));
 }
 
-Instant CourseClock::parse(const std::string& text, const std::string& what) const {
-    const bool utc = text.ends_with('Z');
-    const std::string reading = utc ? text.substr(0, text.size() - 1) : text;
-    for (const char* format : {"%Y-%m-%d %H:%M:%S", "%Y-%m-%d %H:%M", "%Y-%m-%dT%H:%M:%S", "%Y-%m-%dT%H:%M"}) {
+std::optional<ClockReading> clock_reading(const std::string& text, std::initializer_list<const char*> forms, bool utc) {
+    for (const char* form : forms) {
         std::tm time{};
-        const char* const end = ::strptime(reading.c_str(), format, &time);
+        const char* const end = ::strptime(text.c_str(), form, &time);
         if (end == nullptr || *end != '\0') continue;
         time.tm_isdst = -1;
         std::tm normal = time;
         const Instant instant = utc ? ::timegm(&normal) : std::mktime(&normal);
-        if (same_reading(normal, time)) return instant;
+        return ClockReading{instant, same_reading(normal, time)};
+    }
+    return {};
+}
+
+std::optional<ClockReading> plain_clock_reading(const std::string& text, bool utc) {
+    return clock_reading(text, {"%Y-%m-%d %H:%M:%S", "%Y-%m-%d %H:%M", "%Y-%m-%dT%H:%M:%S", "%Y-%m-%dT%H:%M"}, utc);
+}
+
+Instant CourseClock::parse(const std::string& text, const std::string& what) const {
+    const bool utc = text.ends_with('Z');
+    const auto read = plain_clock_reading(utc ? text.substr(0, text.size() - 1) : text, utc);
+    if (!read)
+        throw InvalidArgument(fmt::format("{} must be a time such as \"2026-03-01 18:00\" ({}), but \"{}\" was given",
+                                          what, zone_, text));
+    if (!read->exists)
         throw InvalidArgument(
             fmt::format("{} \"{}\" does not exist{}", what, text, utc ? "" : fmt::format(" in {}", zone_)));
-    }
-    throw InvalidArgument(
-        fmt::format("{} must be a time such as \"2026-03-01 18:00\" ({}), but \"{}\" was given", what, zone_, text));
+    return read->instant;
 }
 
 std::string CourseClock::show(Instant instant) const {

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <string>
 
@@ -26,6 +27,17 @@ class CourseClock {
   private:
     std::string zone_;
 };
+
+/// What a clock shows, as an instant.
+struct ClockReading {
+    Instant instant = 0;
+    bool exists = true;  ///< false for 30 February, and for what a change to summer time leaves out
+};
+/// A text in one of these forms (of strptime), read in the process's time zone or as UTC; nothing for any other.
+std::optional<ClockReading> clock_reading(const std::string& text, std::initializer_list<const char*> forms,
+                                          bool utc = false);
+/// The forms "2026-03-01 18:00", with seconds, and with a T.
+std::optional<ClockReading> plain_clock_reading(const std::string& text, bool utc = false);
 
 std::string utc_text(Instant instant);  ///< "2026-03-01T17:00:05Z"
 /// "3 d 4 h", "2 h 5 min", "40 s": the two largest units.
