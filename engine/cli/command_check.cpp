@@ -6,6 +6,7 @@
 #include "course/findings/findings_report.h"
 #include "course/findings/folder_check.h"
 #include "platform/error.h"
+#include "platform/program_lookup.h"
 
 namespace dynlab::inline cli {
 namespace {
@@ -43,7 +44,7 @@ int check(const CheckArguments& words) {
     }
     if (!fs::exists(words.subject)) return misuse("there is no file or folder '" + words.subject + "'");
     if (fs::is_directory(words.subject))
-        result = check_folder(words.subject, fs::read_symlink("/proc/self/exe"), wishes);
+        result = check_folder(words.subject, running_program(), wishes);
     else
         result = check_pdf(words.subject, wishes);
     std::cout << (words.as_json ? findings_as_json(result) : findings_in_words(result, in_colour()));

@@ -6,6 +6,7 @@
 #include "course/checks/check_trial.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
+#include "platform/program_lookup.h"
 #include "platform/terminal/terminal_text.h"
 
 namespace dynlab::inline cli {
@@ -22,7 +23,7 @@ int try_them(const ChecksArguments& words) {
     if (!words.folder.empty()) setup.more_checks = words.folder;
     setup.isolation = strongest_isolation();
     setup.timeout = std::chrono::seconds(words.timeout);
-    setup.program = std::filesystem::read_symlink("/proc/self/exe");
+    setup.program = running_program();
     setup.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     if (!words.secret.empty()) setup.secret = read_file(words.secret);
     const CheckTrial trial = try_checks_of(setup);

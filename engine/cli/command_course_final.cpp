@@ -8,6 +8,7 @@
 #include "course/review/final_changes_document.h"
 #include "numerics/number_text.h"
 #include "platform/error.h"
+#include "platform/program_lookup.h"
 #include "platform/terminal/terminal_text.h"
 
 namespace dynlab::inline cli {
@@ -28,7 +29,7 @@ int changes(const CourseArguments& where, const ChangesArguments& words) {
     FinalChangesRequest request;
     request.groups = words.groups;
     request.level = level;
-    request.program = fs::read_symlink("/proc/self/exe");
+    request.program = running_program();
     WorkBar comparing("comparing the versions"), writing("writing the documents");
     request.progress = comparing.progress();
     const std::vector<GroupChanges> all = final_changes(course, assignment, request);

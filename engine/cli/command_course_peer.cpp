@@ -8,6 +8,7 @@
 #include "course/review/peer_review.h"
 #include "course/store/aligned_table.h"
 #include "numerics/number_text.h"
+#include "platform/program_lookup.h"
 #include "platform/terminal/terminal_text.h"
 
 namespace dynlab::inline cli {
@@ -57,7 +58,7 @@ AnonymousCopier anonymous_copier() {
     return [](const CopyRequest& request) {
         AnonymousCopySetup setup;
         for (const Student& student : request.people) setup.names.add(student, student.group == request.group);
-        setup.program = std::filesystem::read_symlink("/proc/self/exe");
+        setup.program = running_program();
         const AnonymousCopy copy =
             anonymous_copy(request.pack.empty() ? request.pdf : request.pack, request.copy, setup);
         CopyOutcome outcome{copy.made, {}, {}};

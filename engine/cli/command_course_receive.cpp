@@ -12,6 +12,7 @@
 #include "numerics/number_text.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
+#include "platform/program_lookup.h"
 #include "platform/terminal/terminal_text.h"
 
 namespace dynlab::inline cli {
@@ -88,7 +89,7 @@ int receive_files(const CourseArguments& where, const ReceiveArguments& words, c
         };
     }
     request.level = words.isolation == "full" ? Isolation::kFull : Isolation::kProcess;
-    request.program = fs::read_symlink("/proc/self/exe");
+    request.program = running_program();
     request.take_as_first = words.first;
     request.checks = !words.no_checks;
     WorkBar bar("looking at the files");

@@ -11,6 +11,7 @@
 #include "numerics/number_text.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
+#include "platform/program_lookup.h"
 #include "platform/terminal/terminal_text.h"
 
 namespace dynlab::inline cli {
@@ -46,7 +47,7 @@ int grade(const GradeArguments& words) {
     request.setup.more_checks = given(words.checks);
     request.setup.isolation = words.isolation == "full" ? Isolation::kFull : Isolation::kProcess;
     request.setup.timeout = std::chrono::seconds(words.timeout);
-    request.setup.program = fs::read_symlink("/proc/self/exe");
+    request.setup.program = running_program();
     if (!words.secret.empty()) {
         request.setup.secret = read_file(words.secret);
         if (request.setup.secret.empty())

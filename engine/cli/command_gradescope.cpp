@@ -6,6 +6,7 @@
 #include "cli/commands.h"
 #include "course/returns/gradescope.h"
 #include "platform/atomic_file.h"
+#include "platform/program_lookup.h"
 
 namespace dynlab::inline cli {
 namespace {
@@ -21,7 +22,7 @@ int make_autograder(const GradescopeArguments& words) {
     if (!words.checks.empty()) request.more_checks = words.checks;
     request.secret = read_file(words.secret);
     request.timeout_seconds = words.timeout;
-    request.program = std::filesystem::read_symlink("/proc/self/exe");
+    request.program = running_program();
     const std::filesystem::path zip = words.output.empty() ? request.lesson.slug + "-autograder.zip" : words.output;
     const std::uintmax_t bytes = write_autograder(request, zip);
     std::cout << fmt::format("{}: {:.1f} MB\n", zip.string(), static_cast<double>(bytes) / 1e6);

@@ -6,6 +6,7 @@
 #include "cli/commands.h"
 #include "course/similarity/class_similarity.h"
 #include "numerics/number_text.h"
+#include "platform/program_lookup.h"
 #include "platform/terminal/terminal_text.h"
 
 namespace dynlab::inline cli {
@@ -25,7 +26,7 @@ int compare(const SimilarArguments& words) {
     request.others.assign(words.others.begin(), words.others.end());
     request.line = words.line / 100;
     request.isolation = strongest_isolation();
-    request.program = std::filesystem::read_symlink("/proc/self/exe");
+    request.program = running_program();
     const SimilarityOutcome outcome = compare_class(request);
     for (const std::string& complaint : outcome.complaints) std::cerr << "dynlab: " << terminal_text(complaint) << '\n';
     std::cout << fmt::format("{} compared: {} above the line\n", counted(outcome.scripts, "script"),

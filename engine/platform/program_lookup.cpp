@@ -52,12 +52,16 @@ fs::path shared_folder_of(const fs::path& program) {
                            "; set DYNLAB_HOME to the folder that holds data, lessons and report_templates");
 }
 
+fs::path running_program() {
+    return fs::read_symlink("/proc/self/exe");
+}
+
 fs::path shared_folder() {
     if (const char* home = std::getenv("DYNLAB_HOME"); home && *home) {
         if (is_folder(fs::path(home) / "data")) return home;
         throw EnvironmentError("DYNLAB_HOME is " + std::string(home) + ", but there is no folder data in it");
     }
-    return shared_folder_of(fs::read_symlink("/proc/self/exe"));
+    return shared_folder_of(running_program());
 }
 
 const std::vector<NeededProgram>& needed_programs() {

@@ -8,6 +8,9 @@ namespace dynlab::inline platform {
 
 std::optional<std::filesystem::path> find_program(const std::string& name);  ///< in PATH, or a path as it is
 
+/// The file of the program that runs.
+std::filesystem::path running_program();
+
 /// Folder with data/, lessons/ and report_templates/: $DYNLAB_HOME, else <prefix>/share/dynlab beside the
 /// running program, else the source tree that holds its build folder. Throws EnvironmentError that lists the
 /// places tried.

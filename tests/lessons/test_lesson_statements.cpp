@@ -12,6 +12,7 @@
 #include "data_io/csv_file.h"
 #include "documents/percent_script.h"
 #include "documents/text_lines.h"
+#include "support/lesson_list.h"
 #include "support/program.h"
 
 namespace dynlab::test {
@@ -51,8 +52,7 @@ std::pair<double, double> cell(const json& record, const std::string& table, int
 }
 
 class lesson_pages : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(all, lesson_pages,
-                         testing::Values("01_process_models", "02_least_squares", "03_workflow", "04_estimators"),
+INSTANTIATE_TEST_SUITE_P(all, lesson_pages, testing::ValuesIn(lesson_slugs(false)),
                          [](const auto& lesson) { return lesson.param; });
 
 std::size_t characters(const std::string& line) {
@@ -75,7 +75,7 @@ TEST_P(lesson_pages, have_no_code_that_wraps) {
 
 // The same for what students are given of the lessons that end with a report of their own form.
 TEST(lesson_sheets, have_no_code_that_wraps) {
-    for (const char* lesson : {"03_crane", "05_thruster"}) {
+    for (const std::string& lesson : lesson_slugs(true)) {
         std::ifstream file(script_of(lesson));
         bool given = true;
         int number = 0;

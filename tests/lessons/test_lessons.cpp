@@ -17,6 +17,7 @@
 #include "numerics/rigs/thruster.h"
 #include "page_ends.h"
 #include "platform/atomic_file.h"
+#include "support/lesson_list.h"
 #include "support/program.h"
 #include "workflow/lesson_catalogue.h"
 
@@ -27,15 +28,8 @@ using testing::Not;
 
 class lessons : public testing::TestWithParam<std::string> {};
 
-/// Folders of lessons; demos/ holds the guided demonstrations.
-std::vector<std::string> slugs() {
-    std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(DYNLAB_SOURCE_DIR "/lessons")) {
-        if (entry.path().filename() != "demos") names.push_back(entry.path().filename());
-    }
-    return names;
-}
-INSTANTIATE_TEST_SUITE_P(all, lessons, testing::ValuesIn(slugs()), [](const auto& lesson) { return lesson.param; });
+INSTANTIATE_TEST_SUITE_P(all, lessons, testing::ValuesIn(lesson_slugs()),
+                         [](const auto& lesson) { return lesson.param; });
 
 std::string text_of_pdf(const Workbench& bench, const std::string& file) {
     const ChildResult text = bench.shell("pdftotext -layout '" + file + "' -");
@@ -338,7 +332,7 @@ TEST(lesson_05_thruster, finds_curve_and_delay_and_a_better_model_than_a_linear_
 
 // Oracle: common English words, and the cells of the lesson.
 TEST(lesson_copies, are_french_throughout_where_french_is_asked_for) {
-    for (const std::string lesson : {"03_crane", "05_thruster"}) {
+    for (const std::string& lesson : lesson_slugs(true)) {
         const Workbench bench;
         ASSERT_EQ(bench.dynlab({"new", lesson, "mine", "--lang", "fr"}).exit_code, 0);
         ASSERT_EQ(bench.dynlab({"new", lesson, "english"}).exit_code, 0);

@@ -7,6 +7,7 @@
 #include "platform/atomic_file.h"
 #include "platform/child_process.h"
 #include "platform/error.h"
+#include "platform/program_lookup.h"
 
 namespace dynlab::inline app {
 namespace {
@@ -18,7 +19,7 @@ constexpr auto kLeftAlone = 1s;
 constexpr auto kLongest = 10min;
 
 std::string this_program() {
-    return fs::read_symlink("/proc/self/exe").string();
+    return running_program().string();
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ struct OutputErrorProducts {
 };
 
 /// A model whose output depends smoothly on parameters: what an output-error method minimises over. Implemented by
-/// each structure (process models, transfer functions); the search below knows nothing else of it.
+/// each structure (process models, transfer functions); the search (fit/output_error.h) knows nothing else of it.
 class OutputErrorModel {
   public:
     virtual ~OutputErrorModel() = default;

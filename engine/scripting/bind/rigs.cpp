@@ -41,7 +41,7 @@ const Rig& rig_of(const Call& call) {
     throw InvalidArgument(fmt::format("there is no experiment '{}'; there are {}", name, fmt::join(names, ", ")));
 }
 
-std::uint32_t small_number(const Options& options, const char* name, Index fallback) {
+std::uint32_t seed_number(const Options& options, const char* name, Index fallback) {
     const Index number = options.size(name, fallback);
     if (number > 0xFFFFFFFF)
         throw InvalidArgument(fmt::format("option '{}' must be a whole number from 0 to 4294967295", name));
@@ -78,8 +78,8 @@ int rig(Call& call) {
     if (call.count() == 0) return give_descriptions(call);
     const Options options(call, 2, {"seed", "specimen"});
     const RigChoice stored;
-    const RigChoice choice{small_number(options, "specimen", stored.specimen),
-                           small_number(options, "seed", stored.seed)};
+    const RigChoice choice{seed_number(options, "specimen", stored.specimen),
+                           seed_number(options, "seed", stored.seed)};
     const Rig& rig = rig_of(call);
     give_values(call, rig.record(choice), rig.name);
     return 1;
@@ -92,7 +92,7 @@ int rig_truth(Call& call) {
     call.at_most(2);
     const Options options(call, 2, {"specimen"});
     const Rig& rig = rig_of(call);
-    const std::uint32_t specimen = small_number(options, "specimen", 0);
+    const std::uint32_t specimen = seed_number(options, "specimen", 0);
     const bool graded = call.context().options.graded;
     give_values(call, rig.truth(graded ? specimen | kOfNobody : specimen), "the truth of " + rig.name);
     return 1;
