@@ -3,10 +3,10 @@ local layout = {}
 
 local words = {
   en = { fig = "Figure", tbl = "Table", eq = "Equation", sec = "Section", note = "Note", warning = "Take care",
-         exercise = "Exercise", references = "References", missing = "is not there: the script stopped before",
+         exercise = "Exercise", references = "References", missing = "is not there yet",
          answer = "Answer", answers = "Answers to the questions", right = "Right.", wrong = "Wrong." },
   fr = { fig = "Figure", tbl = "Tableau", eq = "Équation", sec = "Section", note = "Remarque", warning = "Attention",
-         exercise = "Exercice", references = "Références", missing = "manque : le programme s’est arrêté avant",
+         exercise = "Exercice", references = "Références", missing = "n’est pas encore là",
          answer = "Réponse", answers = "Réponses aux questions", right = "Juste.", wrong = "Faux." },
 }
 

@@ -94,7 +94,7 @@ TEST_F(slots, a_script_that_stopped_leaves_gaps_with_names_and_its_error_first) 
     EXPECT_LT(text.find("analysis.lua:10"), text.find("Fit 93.2"));
     EXPECT_THAT(text, HasSubstr("Fit 93.2, later <strong>[late]</strong>, fig:raw."));
     for (const char* name : {"raw", "models", "end"})
-        EXPECT_THAT(text, HasSubstr("<strong>[" + std::string(name) + " is not there: the script stopped before]"));
+        EXPECT_THAT(text, HasSubstr("<strong>[" + std::string(name) + " is not there yet]"));
 }
 
 TEST_F(slots, an_entry_of_another_kind_is_named_with_its_kind) {

@@ -247,6 +247,7 @@ void LiveDocument::watch_inputs() {
         as_read_[place_of(file)] = file;
         inputs.insert(place_of(file));
     }
+    inputs.insert(place_of(request_->script.file.parent_path() / "group.toml"));  // who hands in: `check` looks at it
     for (const fs::path& file : inputs)
         if (!inputs_.contains(file) && fs::is_directory(file.parent_path())) watch_.add(file.parent_path());
     inputs_ = std::move(inputs);
@@ -259,8 +260,10 @@ void LiveDocument::set_page() {
         watch_inputs();
         const bool unfinished = runner_.running() || shown_.error.has_value() || runner_.parts().empty();
         page_.show(setter_.set(document_source(*request_, shown_), unfinished), request_->script, shown_);
-        page_.set_open_answers(missing_answers(request_->script, shown_));
-        if (!unfinished) remember_page();
+        if (!unfinished) {
+            page_.set_open_answers(missing_answers(request_->script, shown_));
+            remember_page();
+        }
     } catch (const DocumentError& error) {
         page_.complain(lines_of(error.what()));
     }

@@ -86,12 +86,14 @@ void take_orders(WebServer& server, LiveDocument& document, const Permissions& p
     });
 }
 
-/// What a page that edits may read and write: the script, and a template that is the document's own.
+/// What a page that edits may read and write: the script, a template that is the document's own, and who hands in.
 SourceFiles sources_of(const ReportRequest& request) {
     std::vector<fs::path> files = {request.script.file};
     if (fs::weakly_canonical(request.template_file.parent_path()) ==
         fs::weakly_canonical(request.script.file.parent_path()))
         files.push_back(request.template_file);
+    if (const fs::path group = request.script.file.parent_path() / "group.toml"; fs::exists(group))
+        files.push_back(group);
     return SourceFiles(files);
 }
 

@@ -35,6 +35,30 @@ class PlainDoc {
   }
 }
 
+export const kNoAnswer = "dynlab does not answer: start it again and open its new address; your text is still here";
+
+/// Where two texts differ: how many lines are the same at the beginning and at the end.
+function commonLines(a, b) {
+  let first = 0, last = 0;
+  while (first < a.length && first < b.length && a[first] === b[first]) ++first;
+  while (last < a.length - first && last < b.length - first && a[a.length - 1 - last] === b[b.length - 1 - last]) ++last;
+  return { first, last };
+}
+
+/// The line of `to` that is line `line` of `from`, where lines were put in or taken out between.
+function lineIn(to, from, line) {
+  const a = from.split("\n"), b = to.split("\n"), { first } = commonLines(a, b);
+  return line <= first ? line : Math.max(1, line + b.length - a.length);
+}
+
+/// The lines of a text that another has not, with their numbers and a line before and behind.
+function otherLines(text, own) {
+  const a = text.split("\n"), { first, last } = commonLines(a, own.split("\n"));
+  const from = Math.max(0, first - 1), to = Math.min(a.length, a.length - last + 1);
+  return a.slice(from, to).map((line, i) =>
+    `${from + i >= first && from + i < a.length - last ? "›" : " "} ${from + i + 1}  ${line}`).join("\n");
+}
+
 /// CodeMirror knows one line end only; a file keeps its own.
 const unix = (text) => text.replace(/\r\n?/g, "\n");
 const isChanged = (source) => source.doc.getValue() !== source.saved;
@@ -51,7 +75,7 @@ function showMarks() {
   $("conflict").hidden = !theirs;
   if (theirs) {
     $("conflict-name").textContent = open.name;
-    $("theirs").textContent = theirs.text;
+    $("theirs").textContent = otherLines(theirs.text, open.doc.getValue());
   }
 }
 
@@ -65,7 +89,7 @@ function show(source) {
 function add({ number, name, text, digest }) {
   const tab = document.createElement("button");
   tab.setAttribute("role", "tab");
-  const mode = name.endsWith(".lua") ? "lua" : "markdown";
+  const mode = name.endsWith(".lua") ? "lua" : name.endsWith(".md") ? "markdown" : null;
   const plain = unix(text);
   const doc = mirror ? window.CodeMirror.Doc(plain, mode) : new PlainDoc(plain);
   const source = { number, name, digest, saved: plain, crlf: text.includes("\r\n"), doc, tab, theirs: null, saves: 0 };
@@ -106,6 +130,7 @@ async function save(source) {
   try {
     const reply = await fetch("/save", {
       method: "POST", body: JSON.stringify({ number: source.number, name: source.name, text: written, digest: source.digest }) });
+    if (reply.status === 403) throw new TypeError(kNoAnswer);
     if (reply.status !== 200 && reply.status !== 409) throw new Error(await reply.text());
     const now = await reply.json();
     if (reply.status === 409) {
@@ -118,7 +143,7 @@ async function save(source) {
     }
     $("trouble").textContent = "";
   } catch (error) {
-    $("trouble").textContent = `not saved: ${error.message}`;
+    $("trouble").textContent = `not saved: ${error instanceof TypeError ? kNoAnswer : error.message}`;
     source.again = false;
   }
   source.saving = false;
@@ -139,18 +164,28 @@ async function begin() {
   try {
     await loaded("/codemirror.css");
     await loaded("/codemirror.js");
-    await Promise.all(["/codemirror-lua.js", "/codemirror-markdown.js", "/codemirror-search.js"].map(loaded));
+    await Promise.all(["/codemirror-lua.js", "/codemirror-markdown.js", "/codemirror-searchcursor.js", "/codemirror-dialog.js",
+      "/codemirror-dialog.css", "/codemirror-search.js", "/codemirror-continue.js"].map(loaded));
   } catch {
     window.CodeMirror = undefined;
   }
   document.body.classList.add("editing");
   if (window.CodeMirror) {
-    mirror = window.CodeMirror($("code"), { lineNumbers: true, lineWrapping: true, indentUnit: 2, tabSize: 2,
-      extraKeys: { "Ctrl-S": () => save(open), "Cmd-S": () => save(open),
-        Esc: () => $("document").focus(), Tab: (cm) => cm.execCommand("insertSoftTab") } });
+    const keys = { "Ctrl-S": () => save(open), "Cmd-S": () => save(open), Esc: () => $("bar").querySelector("button:not([hidden])").focus() };
+    const typing = { ...keys, Tab: (cm) => cm.execCommand("insertSoftTab"), "Shift-Tab": "indentLess" };
+    const passing = { ...keys, Tab: false, "Shift-Tab": false };  // who comes by the keyboard goes on by it
+    mirror = window.CodeMirror($("code"), { lineNumbers: true, lineWrapping: true, indentUnit: 2, tabSize: 2, extraKeys: passing,
+      continueComments: { key: "Enter", continueLineComment: true } });
     $("field").remove();
-    mirror.on("changes", onChange);
-    mirror.on("cursorActivity", () => { if (mirror.hasFocus()) followCursor(open.name, mirror.getCursor().line + 1); });
+    mirror.on("changes", (cm, changes) => {
+      if (changes.some(({ origin }) => origin !== "setValue")) mirror.setOption("extraKeys", typing);
+      onChange();
+    });
+    mirror.on("mousedown", () => mirror.setOption("extraKeys", typing));
+    mirror.on("blur", () => mirror.setOption("extraKeys", passing));
+    const tell = () => followCursor(open.name, lineIn(open.saved, open.doc.getValue(), mirror.getCursor().line + 1));
+    mirror.on("cursorActivity", () => { if (mirror.hasFocus()) tell(); });
+    mirror.on("focus", tell);
   } else {
     const field = $("field");
     field.hidden = false;
@@ -162,8 +197,9 @@ async function begin() {
   }
   $("save").onclick = () => save(open);
   $("take-theirs").onclick = () => {
-    const { theirs } = open;
+    const { theirs } = open, line = lineIn(theirs.text, open.doc.getValue(), open.doc.getCursor().line + 1);
     open.doc.setValue(theirs.text);
+    open.doc.setCursor(line - 1, 0);
     Object.assign(open, { digest: theirs.digest, saved: theirs.text, theirs: null });
     showMarks();
   };
@@ -217,6 +253,7 @@ export function goTo(file, line) {
   for (const source of sources.values()) {
     if (source.name !== file) continue;
     if (source !== open) show(source);
+    line = lineIn(source.doc.getValue(), source.saved, line);
     source.doc.setCursor(line - 1, 0);
     if (mirror) {
       mirror.scrollIntoView({ line: line - 1, ch: 0 }, 120);

@@ -27,7 +27,8 @@ function heading(text) {
 
 const counted = (number, one, many) => `${number} ${number === 1 ? one : many}`;
 
-export function showFindings(result, openAnswers, goTo) {
+/// `older`: the files have changed since, and are being checked again.
+export function showFindings(result, openAnswers, older, goTo) {
   const findings = result?.findings ?? [];
   const rules = findings.filter(({ severity }) => severity === "rule"), hints = findings.filter(({ severity }) => severity !== "rule");
   const answers = openAnswers ? openAnswers.split(", ") : [];
@@ -39,6 +40,8 @@ export function showFindings(result, openAnswers, goTo) {
   $("show-findings").textContent = words.join(", ");
   $("show-findings").hidden = words.length === 0;
   $("show-findings").classList.toggle("broken", rules.length > 0);
+  $("show-findings").classList.toggle("older", older);
+  $("show-findings").title = older ? "of the files before the last change; they are being checked again" : "";
   const panel = $("findings");
   panel.replaceChildren();
   if (answers.length > 0) {
@@ -59,4 +62,5 @@ $("show-findings").onclick = () => {
   const panel = $("findings");
   panel.hidden = !panel.hidden;
   $("show-findings").setAttribute("aria-expanded", String(!panel.hidden));
+  if (!panel.hidden) panel.focus({ preventScroll: true });
 };

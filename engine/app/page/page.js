@@ -12,7 +12,7 @@ let findings = null;
 
 /// The piece at the top of the window, and how far from there: what must not move.
 function anchor() {
-  const top = $("bar").getBoundingClientRect().bottom;
+  const top = $("top").getBoundingClientRect().bottom;
   for (const node of $("document").children) {
     const box = node.getBoundingClientRect();
     if (box.bottom > top) return { node, index: [...node.parentNode.children].indexOf(node), top: box.top };
@@ -94,16 +94,38 @@ function showStates(page) {
     node.classList.toggle("older", failed > 0 && state === "waiting");
   }
   const words = page.running ? `cell ${Math.min(done + 1, total)} of ${total}${running ? ", " + running : ""}`
-    : failed > 0 ? "stopped at a mistake" : total > 0 ? `${total} cells, ${seconds.toFixed(1)} s` : "";
+    : failed > 0 ? "stopped at a mistake" : done < total ? `stopped: ${done} of ${total} cells were run` : total > 0 ? `${total} cells, ${seconds.toFixed(1)} s` : "";
   $("state").textContent = words;
   $("stop").hidden = !page.running;
+  $("to-mistake").hidden = failed === 0;
+}
+
+$("to-mistake").onclick = () => {
+  const piece = document.querySelector("#document .piece[data-state=failed]");
+  const said = document.querySelector("#document pre.error") ?? piece;
+  said?.scrollIntoView({ block: "center" });
+  const place = placeIn(said?.textContent) ?? (piece && [piece.dataset.file, Number(piece.dataset.line)]);
+  if (place) editor.goTo(...place);
+};
+
+/// The first "analysis.lua:12" of a text: file and line.
+function placeIn(text) {
+  const found = /([^\s/:"]+\.(?:lua|md)):(\d+)/.exec(text ?? "");
+  return found && [found[1], Number(found[2])];
 }
 
 function showComplaints(complaints) {
   $("complaints").hidden = complaints.length === 0;
   $("complaints").replaceChildren(...complaints.map((text) => {
-    const line = document.createElement("p");
-    line.textContent = text;
+    const line = document.createElement("p"), place = placeIn(text);
+    if (place) {
+      const button = document.createElement("button");
+      button.textContent = text;
+      button.onclick = () => goTo(...place);
+      line.append(button);
+    } else {
+      line.textContent = text;
+    }
     return line;
   }));
 }
@@ -121,16 +143,28 @@ function show(page) {
   version = page.version;
   document.title = page.name + (page.name ? " · " : "") + "dynlab";
   $("name").textContent = page.name;
+  if (page.asking && $("question").hidden && document.activeElement === document.body) setTimeout(() => $("allow").focus());
   $("question").hidden = !page.asking;
   showComplaints(page.complaints);
   showStates(page);
   placeSliders(page.running);
   if ("findings" in page) findings = page.findings;
-  showFindings(findings, page.open_answers, goTo);
+  showFindings(findings, page.open_answers, !page.pdf_is_ready, goTo);
   showPdf(page.pdf_is_ready);
   editor.follow(page.sources, showLine);
+  if (marked) mark(pieceAt(...marked));
   hold(held);
+  restorePlace();
 }
+
+/// A page that is loaded again begins where it was left.
+let left = sessionStorage.getItem("dynlab-place");
+function restorePlace() {
+  if (left === null || nodes.size === 0) return;
+  window.scrollTo(0, Number(left));
+  left = null;
+}
+window.addEventListener("pagehide", () => sessionStorage.setItem("dynlab-place", String(window.scrollY)));
 
 /// The last piece of a file that begins at a line or before it.
 function pieceAt(file, line) {
@@ -140,10 +174,18 @@ function pieceAt(file, line) {
   return found;
 }
 
+let marked = null;  // file and line of what is marked
 function mark(piece) {
+  marked = piece && [piece.dataset.file, Number(piece.dataset.line)];
   for (const node of document.querySelectorAll(".chosen")) node.classList.remove("chosen");
   piece?.classList.add("chosen");
   $("place").textContent = piece ? `${piece.dataset.file}:${piece.dataset.line}` : "";
+}
+
+/// Where the page ends to the eye: on narrow screens the editor lies over its lower part.
+function bottomOfView() {
+  const editing = $("editor").getBoundingClientRect();
+  return editing.height > 0 && editing.top > 0 ? editing.top : window.innerHeight;
 }
 
 /// The page follows the cursor of the source: what stands there is brought into the window.
@@ -151,8 +193,8 @@ function showLine(file, line) {
   const piece = pieceAt(file, line);
   mark(piece);
   if (!piece) return;
-  const box = piece.getBoundingClientRect(), top = $("bar").getBoundingClientRect().bottom;
-  if (box.top < top || box.bottom > window.innerHeight) piece.scrollIntoView({ block: "center" });
+  const box = piece.getBoundingClientRect(), top = $("top").getBoundingClientRect().bottom;
+  if (box.top < top || box.bottom > bottomOfView()) piece.scrollIntoView({ block: "center" });
 }
 
 function goTo(file, line) {
@@ -169,16 +211,19 @@ function showPdf(ready) {
   if (!anew && $("page:pdf").firstChild) return;
   const frame = document.createElement("iframe");
   frame.title = "The document as it is printed";
-  frame.src = `/document.pdf?version=${version}`;
+  frame.src = `/document.pdf?version=${version}#navpanes=0&view=FitH`;
   $("page:pdf").replaceChildren(frame);
 }
 
+let scrolled = 0;  // the page, while the PDF is in its place
 $("view").onclick = () => {
   pdfShown = !pdfShown;
+  if (pdfShown) scrolled = window.scrollY;
   $("view").setAttribute("aria-pressed", String(pdfShown));
   $("page:pdf").hidden = !pdfShown;
   for (const id of ["head", "document", "page:notes"]) $(id).hidden = pdfShown;
   showPdf(pdfReady);
+  window.scrollTo(0, pdfShown ? 0 : scrolled);
 };
 
 /// One stream of news; the browser comes again by itself when it is cut, and gets everything then.
@@ -201,15 +246,21 @@ document.addEventListener("visibilitychange", () => {
   source = null;
 });
 
-const order = (path) => fetch(path, { method: "POST" });
+async function order(path) {
+  const reply = await fetch(path, { method: "POST" }).catch(() => null);
+  if (!reply?.ok) $("state").textContent = editor.kNoAnswer;
+  $("document").focus({ preventScroll: true });
+}
 $("stop").onclick = () => order("/stop");
 $("anew").onclick = () => order("/anew");
 $("allow").onclick = () => order("/allow");
 
 $("document").addEventListener("click", (event) => {
-  if (event.target.closest(".slider, a, button, summary, input")) return;
+  if (event.target.closest(".slider, .plot, a, button, summary, input")) return;
   const piece = event.target.closest(".piece");
   mark(piece);
+  const place = placeIn(event.target.closest("pre.error")?.textContent);
+  if (place && window.getSelection().isCollapsed) return editor.goTo(...place);
   if (piece && window.getSelection().isCollapsed) editor.goTo(piece.dataset.file, Number(piece.dataset.line));
 });
 

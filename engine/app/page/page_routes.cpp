@@ -27,7 +27,11 @@ constexpr std::pair<const char*, const char*> kEditorFiles[] = {
     {"/codemirror.css", "codemirror.css"},
     {"/codemirror-lua.js", "mode/lua/lua.js"},
     {"/codemirror-markdown.js", "mode/markdown/markdown.js"},
-    {"/codemirror-search.js", "addon/search/searchcursor.js"}};
+    {"/codemirror-searchcursor.js", "addon/search/searchcursor.js"},
+    {"/codemirror-search.js", "addon/search/search.js"},
+    {"/codemirror-dialog.js", "addon/dialog/dialog.js"},
+    {"/codemirror-dialog.css", "addon/dialog/dialog.css"},
+    {"/codemirror-continue.js", "addon/comment/continuecomment.js"}};
 
 }  // namespace
 
