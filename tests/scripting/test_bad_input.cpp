@@ -258,6 +258,11 @@ TEST(bad_input, unstable_models_are_told) {
     EXPECT_THAT(said("local M = lssvf(iddata(-lsim(tf({1}, {1, -0.2}), u, 0.05), u, 0.05), {1, 1, 0}, 1)\n"
                      "print(M.report.message)"),
                 HasSubstr("The model is unstable: unless the system is unstable, too, srivc with Stable = true"));
+    for (const char* call : {"arx(z, {1, 1, 1})", "iv4(z, {1, 1, 1})", "armax(z, {1, 1, 1, 1})", "oe(z, {1, 1, 1})"})
+        EXPECT_THAT(said("local z = iddata(-lsim(tf({1}, {1, -0.2}), u, 0.05), u, 0.05)\nlocal M = " +
+                         std::string(call) + "\nassert(not stable(M))\nprint(M.report.message)"),
+                    HasSubstr("or sriv, which keeps them inside the circle"))
+            << call;
 }
 
 TEST(bad_input, models_of_the_wrong_kind_are_refused) {

@@ -73,9 +73,9 @@ NestedSolution solution_by_passes(const IdData& data, const TransferStructure& s
         return best;
     }
     for (const Vector& start : starts) {
-        const Vector theta = iterate_srivc(data, structure, start, options).theta;
-        const double loss = simulation_loss(data, structure, theta);
-        if (loss < best.loss) best = {theta, loss, structure};
+        const SrivcSolution passed = iterate_srivc(data, structure, start, options);
+        const double loss = simulation_loss(data, structure, passed);
+        if (loss < best.loss) best = {passed.theta, loss, structure};
     }
     return best;
 }

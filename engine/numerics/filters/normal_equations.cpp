@@ -172,7 +172,7 @@ double output_error_squares(const RegressionRecord& record, const std::vector<Ve
     std::vector<FilterChain> chains{{record.y, no_filter(), record.hold_y}};
     for (std::size_t j = 0; j < record.u.size(); ++j)
         chains.push_back({record.u[j], transfer_system(B[j], A[j]), record.hold, record.delays[j]});
-    if (record.sampling.Ts > 0 && record.y.size() <= kStoredSamples) {
+    if (!(record.sampling.Ts > 0) || record.y.size() <= kStoredSamples) {
         Vector error = record.y;
         for (std::size_t j = 1; j < chains.size(); ++j) error -= chain_outputs(chains[j], record.sampling).col(0);
         return error.squaredNorm();

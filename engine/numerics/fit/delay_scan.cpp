@@ -171,10 +171,10 @@ class DelayCurve {
         if (before < point.loss && options_.fixed.empty()) point = {point.delay, start, before};
         if (!start.allFinite()) return;
         if (!options_.fixed.empty()) return search_from(point, start);
-        const Vector passed =
-            iterate_srivc(data_, structure_, start, options_.limited(kScanPasses, kScanTolerance)).theta;
+        const SrivcSolution passed =
+            iterate_srivc(data_, structure_, start, options_.limited(kScanPasses, kScanTolerance));
         const double after = simulation_loss(data_, structure_, passed);
-        if (after < point.loss) point = {point.delay, passed, after};
+        if (after < point.loss) point = {point.delay, passed.theta, after};
         if (after <= before || !std::isfinite(before)) return;
         search_from(point, start);
     }

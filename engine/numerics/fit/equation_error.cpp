@@ -82,8 +82,7 @@ void report_equation_error(Fit& estimate, const IdData& data) {
 void describe_equation_error(Fit& estimate, const std::string& how, Index equations) {
     estimate.std = estimate.covariance.diagonal().cwiseMax(0).cwiseSqrt();
     warn_of_doubtful_parameters(estimate);
-    if (!estimate.polynomial->noise_model().stable())
-        estimate.warnings.push_back("The model is unstable, so its simulation grows without bound.");
+    warn_of_unstable_polynomials(estimate);
     set_message(estimate, how + " over " + std::to_string(equations) + " equations: fit " +
                               number_text(estimate.prediction_fit_percent, 4) + " % predicting one step, " +
                               number_text(estimate.fit_percent[0], 4) + " % simulating from the recorded past.");

@@ -46,7 +46,10 @@ void make_polynomial(Fit& fit, const PolynomialOrders& orders, double Ts) {
 void warn_of_unstable_polynomials(Fit& fit) {
     for (std::size_t input = 0; input < fit.orders->inputs(); ++input)
         if (!fit.polynomial->transfer_function(input).stable()) {
-            fit.warnings.push_back("The model has a pole outside or on the unit circle.");
+            fit.warnings.push_back(
+                "The model is unstable (a pole lies outside or on the unit circle), so its simulation grows without "
+                "bound: unless the system is unstable, too, take fewer poles, or sriv, which keeps them inside the "
+                "circle.");
             return;
         }
 }

@@ -18,7 +18,7 @@ Fit polynomial_fit(const PolynomialOrders& orders, const VectorView& theta, doub
 /// The same of a search whose parameters begin with those of the orders: their values, covariance and standard errors.
 void make_polynomial(Fit& fit, const PolynomialOrders& orders, double Ts);
 
-/// Warns of a model that is not stable.
+/// Warns of a model that is not stable, and says what helps.
 void warn_of_unstable_polynomials(Fit& fit);
 
 }  // namespace dynlab::inline numerics

@@ -191,6 +191,10 @@ double simulation_loss(const IdData& data, const TransferStructure& structure, c
     return std::isfinite(loss) ? loss : kInfinity;
 }
 
+double simulation_loss(const IdData& data, const TransferStructure& structure, const SrivcSolution& solution) {
+    return solution.loss ? *solution.loss : simulation_loss(data, structure, solution.theta);
+}
+
 void measure_simulation(Fit& fit, const IdData& data) {
     const TransferStructure& structure = fit.structure;
     const double N = static_cast<double>(data.sample_count()), outputs = static_cast<double>(structure.outputs);
@@ -218,6 +222,7 @@ SrivcSolution iterate_srivc(const IdData& data, const TransferStructure& structu
     Groups groups(data, structure, options.hold_y, extras);
     SrivcSolution solution;
     solution.theta = start;
+    std::vector<std::optional<double>> losses;  // after the passes
     double last_change = kInfinity;
     for (int pass = 0; pass < options.max_iterations; ++pass) {
         if (options.cancel && options.cancel()) {
@@ -233,13 +238,19 @@ SrivcSolution iterate_srivc(const IdData& data, const TransferStructure& structu
         Vector next = groups.with_stable_poles(found, solution.mirrored);
         const bool settled =
             change <= options.tolerance || (pass > 0 && change_to_come(change, last_change) <= options.tolerance);
+        std::optional<double> next_loss;
         if (!settled && change > kContractionLimit * last_change) {
-            const double loss = simulation_loss(data, structure, solution.theta);
-            for (int i = 0; i < kMostHalvings && simulation_loss(data, structure, next) > loss; ++i)
+            const double loss = simulation_loss(data, structure, solution);
+            next_loss = simulation_loss(data, structure, next);
+            for (int i = 0; i<kMostHalvings&& * next_loss> loss; ++i) {
                 next = groups.with_stable_poles(0.5 * (next + solution.theta), solution.mirrored);
+                next_loss = simulation_loss(data, structure, next);
+            }
         }
         last_change = change;
         solution.theta = next;
+        solution.loss = next_loss;
+        losses.push_back(next_loss);
         solution.trace.push_back({next, std::numeric_limits<double>::quiet_NaN(), change});
         if (settled) {
             solution.termination = Termination::kConverged;
@@ -247,12 +258,13 @@ SrivcSolution iterate_srivc(const IdData& data, const TransferStructure& structu
             return solution;
         }
     }
-    double best = simulation_loss(data, structure, solution.theta);
-    for (const FitIteration& iteration : solution.trace) {
-        const double loss = simulation_loss(data, structure, iteration.theta);
-        if (loss < best) {
-            best = loss;
-            solution.theta = iteration.theta;
+    solution.loss = simulation_loss(data, structure, solution);
+    for (std::size_t i = 0; i + 1 < losses.size(); ++i) {
+        const Vector& theta = solution.trace[i].theta;
+        const double loss = losses[i] ? *losses[i] : simulation_loss(data, structure, theta);
+        if (loss < *solution.loss) {
+            solution.loss = loss;
+            solution.theta = theta;
         }
     }
     return solution;
@@ -285,13 +297,13 @@ Vector best_cutoff_start(const IdData& data, const TransferStructure& structure,
         const Vector start = lssvf_start(data, structure, lambda, options.hold_y);
         if (!start.allFinite()) continue;
         const SrivcSolution trial = iterate_srivc(data, structure, start, options.limited(kTrialPasses, 1e-3));
-        for (const Vector& theta : {start, trial.theta}) {
-            const double loss = simulation_loss(data, structure, theta);
-            if (loss < best_loss) {
-                best_loss = loss;
-                best = theta;
-            }
-        }
+        const auto consider = [&](const Vector& theta, double loss) {
+            if (!(loss < best_loss)) return;
+            best_loss = loss;
+            best = theta;
+        };
+        consider(start, simulation_loss(data, structure, start));
+        consider(trial.theta, simulation_loss(data, structure, trial));
     }
     if (!best.allFinite())
         throw InvalidArgument("no first estimate could be found: the input does not excite the system enough for " +

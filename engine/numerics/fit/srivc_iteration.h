@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "numerics/criteria/denominator_group.h"
@@ -14,6 +15,7 @@ struct SrivcSolution {
     Termination termination = Termination::kIterationLimit;
     std::vector<FitIteration> trace;  ///< without losses, which would cost a pass each
     bool mirrored = false;            ///< unstable poles were met on the way
+    std::optional<double> loss;       ///< simulation_loss of theta, where the passes had to know it
     /// With SrivcExtras::with_gram, sum z z' of the last pass, each group's block on the diagonal: at the theta
     /// before the last change.
     Matrix gram;
@@ -35,6 +37,8 @@ struct SrivcExtras {
 SrivcSolution iterate_srivc(const IdData& data, const TransferStructure& structure, const Vector& start,
                             const FitOptions& options, const SrivcExtras& extras = {});
 
+/// The loss of a solution, which is not simulated again where it is known.
+double simulation_loss(const IdData& data, const TransferStructure& structure, const SrivcSolution& solution);
 /// Mean square of the simulation error from rest over all outputs; infinite for a model that explodes.
 double simulation_loss(const IdData& data, const TransferStructure& structure, const VectorView& theta);
 

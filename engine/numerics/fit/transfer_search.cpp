@@ -8,6 +8,7 @@
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/operating_points.h"
 #include "numerics/fit/output_error.h"
+#include "numerics/fit/sampled_starts.h"
 #include "numerics/fit/search_starts.h"
 #include "numerics/fit/srivc_iteration.h"
 #include "numerics/fit/transfer_refinement.h"
@@ -194,6 +195,18 @@ Fit without_unheard_inputs(const IdData& record, const TransferStructure& struct
     return fit;
 }
 
+/// The fit, or a better one from the poles of difference equations where its errors tell that something is missing.
+Fit or_from_sampled_starts(const IdData& record, const TransferStructure& structure, Fit best,
+                           const FitOptions& options) {
+    const bool suits = record.regular() && structure.inputs == 1 && structure.outputs == 1 && options.fixed.empty() &&
+                       best.termination != Termination::kCancelled;
+    if (!suits || !errors_follow_input(record, best)) return best;
+    const std::vector<Vector> starts = sampled_starts(record, structure, best, options);
+    if (starts.empty()) return best;
+    Fit other = refine_from(record, structure, best.start, starts, options);
+    return other.loss < best.loss ? other : best;
+}
+
 }  // namespace
 
 Vector start_from_rest(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
@@ -250,6 +263,7 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
         return fits.no_worse(structure, std::move(found), aids.poorer);
     };
     best = search(options, std::move(best));
+    if (aids.start.size() == 0) best = or_from_sampled_starts(record, structure, std::move(best), options);
     const bool unstable = std::any_of(best.models.begin(), best.models.end(), has_unstable_pole);
     if (!options.stable && unstable && best.termination != Termination::kCancelled) {
         FitOptions stable = options;

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "numerics/estimators/oe.h"
+#include "numerics/estimators/sriv.h"
 #include "numerics/fit/polynomial_fit.h"
 #include "support/thrown_message.h"
 #include "support/transfer_cases.h"
@@ -9,6 +11,8 @@ namespace test_polynomial_fit {
 
 using namespace dynlab;
 using namespace dynlab::test;
+using testing::AllOf;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -41,7 +45,26 @@ TEST(polynomial_fit, tells_of_models_that_are_not_stable) {  // oracle: poles wr
     EXPECT_THAT(stable.warnings, IsEmpty());
     Fit unstable = polynomial_fit(PolynomialOrders::arx(1, {1}, {1}), values({-1.5, 1}), 1);
     warn_of_unstable_polynomials(unstable);
-    EXPECT_THAT(unstable.warnings, ElementsAre(HasSubstr("pole outside or on the unit circle")));
+    EXPECT_THAT(unstable.warnings, ElementsAre(AllOf(HasSubstr("outside or on the unit circle"), HasSubstr("sriv"))));
+}
+
+// Oracle: the remedy itself, on little data of a slow stable system whose best difference equation is unstable.
+TEST(polynomial_fit, what_is_told_against_unstable_models_helps) {
+    const Index N = 150;
+    Vector u = Vector::Zero(N);
+    u.segment(10, 40).setOnes();
+    const Vector x = lsim(TransferFunction(values({1}), values({1, 0.003})), u, 0.1);
+    const PolynomialOrders orders = PolynomialOrders::output_error({1}, {1}, {1});
+    int unstable = 0;
+    for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+        const IdData data(Matrix(x + 0.6 * RandomStream(seed).normal(N)), Matrix(u), 0.1);
+        const Fit fit = oe(data, orders);
+        if (fit.polynomial->transfer_function(0).stable()) continue;
+        ++unstable;
+        EXPECT_THAT(fit.warnings, Contains(HasSubstr("or sriv, which keeps them inside the circle"))) << seed;
+        EXPECT_TRUE(sriv(data, orders).polynomial->transfer_function(0).stable()) << seed;
+    }
+    EXPECT_GE(unstable, 3);
 }
 
 }  // namespace test_polynomial_fit

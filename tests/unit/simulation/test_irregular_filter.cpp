@@ -99,4 +99,38 @@ TEST(irregular_filter, extra_instants_change_nothing) {  // oracle: property, sa
     }
 }
 
+// Oracle: the definition, the last sample that has arrived; u(t - delay) itself with straight lines.
+TEST(irregular_filter, a_gain_alone_delays_and_scales) {
+    const Index N = 50;
+    const Vector t = irregular_instants(N), u = RandomStream(9).normal(N);
+    for (const double delay : {0.0, 0.47}) {
+        const auto run = [&](Hold hold) {
+            return Vector(IrregularFilter(Matrix(0, 0), Vector(0), Matrix(1, 0), Vector::Constant(1, 2), hold, delay)
+                              .run(u, t, Vector(0)));
+        };
+        const Vector held = run(Hold::kZoh), straight = run(Hold::kFoh);
+        for (Index k = 0; k < N; ++k) {
+            Index last = -1;
+            while (last + 1 < N && t[last + 1] + delay <= t[k]) ++last;
+            const double part = last < 0 || last + 1 == N ? 0 : (t[k] - delay - t[last]) / (t[last + 1] - t[last]);
+            EXPECT_EQ(held[k], last < 0 ? 0 : 2 * u[last]) << k;
+            const double expected = last < 0 ? 0 : 2 * (u[last] + (part > 0 ? part * (u[last + 1] - u[last]) : 0));
+            EXPECT_NEAR(straight[k], expected, 1e-13) << k;
+        }
+    }
+}
+
+// Oracle: analytic. The input never changes; steps are a millionth to a million times the time constant.
+TEST(irregular_filter, a_constant_input_is_followed_for_ever) {
+    const double pole = 1e3;
+    Vector t(200);
+    t[0] = 0;
+    for (Index k = 1; k < t.size(); ++k) t[k] = t[k - 1] + std::pow(10, -9 + 12 * static_cast<double>(k) / 200);
+    IrregularFilter filter(Matrix::Constant(1, 1, -pole), Vector::Ones(1), Matrix::Ones(1, 1), Vector::Zero(1),
+                           Hold::kZoh);
+    const Matrix y = filter.run(Vector::Ones(200), t, Vector::Constant(1, 3));
+    for (Index k = 0; k < t.size(); ++k)
+        EXPECT_NEAR(y(k, 0), 3 * std::exp(-pole * t[k]) - std::expm1(-pole * t[k]) / pole, 1e-13) << t[k];
+}
+
 }  // namespace test_irregular_filter

@@ -1,0 +1,157 @@
+#include "numerics/fit/sampled_starts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "numerics/criteria/discrete_output.h"
+#include "numerics/criteria/transfer_output.h"
+#include "numerics/fit/delay_scan.h"
+#include "numerics/fit/diagnosis.h"
+#include "numerics/fit/discrete_fit.h"
+#include "numerics/fit/instrument_iteration.h"
+#include "numerics/fit/search_starts.h"
+#include "numerics/fit/srivc_iteration.h"
+#include "numerics/fit/transfer_refinement.h"
+#include "numerics/linalg/decompositions.h"
+#include "numerics/linalg/least_squares.h"
+#include "numerics/linalg/polynomial.h"
+#include "numerics/signals/correlation.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+constexpr Index kLagsOfErrors = 20;
+constexpr double kFarBeyondChance = 4;     // standard deviations of chi-squared
+constexpr double kSingular = 1e-6;         // of the input's power
+constexpr Index kRoomFor = 4;              // delays (samples) in one difference equation
+constexpr Index kMostWindows = 8;          // so many of these, around the delay found
+constexpr Index kWindowSamples = 5'000;    // on which they are compared
+constexpr Index kExactSamples = 20'000;    // on which the chosen ones are fitted
+constexpr double kClearlySmaller = 0.995;  // of the loss found
+constexpr int kPartsOfSample = 4;          // delays that are tried in each sampling interval
+constexpr std::size_t kMostSampledStarts = 3;
+constexpr int kSampledIterations = 10;
+constexpr double kSampledTolerance = 1e-3;
+constexpr double kAlternating = 2;  // rad a sample: where a pole on the negative real axis goes
+
+/// A difference equation's poles in continuous time, and its loss.
+struct SampledModel {
+    Vector A;
+    double loss = kInfinity;
+};
+
+/// Fitted for delays from `late` samples on, with `more` coefficients than one sampling interval needs.
+SampledModel fit_sampled(const IdData& data, const TransferStructure& structure, const StartCondition& condition,
+                         Index late, Index more, const FitOptions& options) {
+    const Index n = structure.poles.front(), m = structure.channels.front().zeros;
+    const Index at_once = data.hold == Hold::kZoh && m < n ? 1 : 0;  // whether the present input has no effect yet
+    const auto orders = PolynomialOrders::output_error({static_cast<int>(n + 2 - at_once + more)},
+                                                       {static_cast<int>(n)}, {static_cast<int>(late + at_once)});
+    const std::vector<SampledExperiment> experiments = sampled_experiments(data);
+    const DiscreteOutput model(orders, condition, experiments);
+    const Vector y = model.target();
+    if (y.size() <= model.parameter_count()) return {};
+    const InstrumentSolution solution = iterate_instruments(model, y, instrument_start(model, y, options.cancel),
+                                                            kSampledIterations, kSampledTolerance, options.cancel);
+    if (!solution.theta.allFinite()) return {};
+    ComplexVector poles = roots(monic(solution.theta.segment(orders.f_start(0), n)));
+    for (Complex& z : poles) {
+        if (z == 0.0) return {};
+        z = z.imag() == 0 && z.real() < 0 ? Complex(-kAlternating) : std::log(z);
+        z /= data.Ts;
+    }
+    return {polynomial_from_roots(poles), solution.loss};
+}
+
+/// theta with these poles and this delay (s), the rest by least squares, and its loss.
+NestedSolution with_linear_part(const IdData& data, const TransferStructure& structure, const StartCondition& condition,
+                                const VectorView& A, double delay) {
+    TransferStructure at = with_fixed_delays(structure);
+    at.channels.front().delay = delay;
+    const TransferOutput model(at, condition, data, 0, shortest_record(data));
+    const Index n = A.size() - 1, rest = model.parameter_count() - n;
+    Vector point = Vector::Zero(model.parameter_count()), output;
+    point.head(n) = A.tail(n).cwiseQuotient(model.seconds().head(n));
+    Matrix sensitivities;
+    model.simulate(point, output, &sensitivities);
+    if (!sensitivities.allFinite()) return {};
+    const Vector y = model.target();
+    const LeastSquares linear = solve_least_squares(sensitivities.rightCols(rest), y);
+    const Index numerator = at.channels.front().zeros + 1;
+    Vector theta(at.parameter_count());
+    theta << A.tail(n), linear.solution.head(numerator).cwiseProduct(model.seconds().segment(n, numerator));
+    const double loss =
+        (y - sensitivities.rightCols(rest) * linear.solution).squaredNorm() / static_cast<double>(y.size());
+    return {structure.free_delays ? with_delays(structure, at, theta) : theta, loss, structure};
+}
+
+}  // namespace
+
+bool errors_follow_input(const IdData& data, const Fit& fit) {
+    const TransferOutput model(fit.structure, fit.start, data, 0, shortest_record(data));
+    const Vector errors = model.target() - model.output_at(search_point(fit, model, model.seconds()));
+    if (!errors.allFinite()) return true;
+    const double delay = fit.structure.delay(fit.theta, 0, 0);
+    const Index lags = kLagsOfErrors + static_cast<Index>(std::ceil(delay / data.mean_step()));
+    Vector with_errors = Vector::Zero(lags), with_itself = Vector::Zero(lags);
+    for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+        const auto own = errors.segment(model.row(e, 0), model.rows(e));
+        if (own.size() <= 2 * lags) return false;
+        const Vector u = data.experiments[e].u.col(0).array() - data.experiments[e].u.col(0).mean();
+        // Entry i pairs u(k + i - lags) with the error at k.
+        with_errors += lagged_products(u, own, lags).head(lags + 1).reverse().head(lags);
+        with_itself += lagged_products(u, u, lags).segment(lags, lags);
+    }
+    Matrix gram(lags, lags);
+    for (Index i = 0; i < lags; ++i)
+        for (Index j = 0; j < lags; ++j) gram(i, j) = with_itself[std::abs(i - j)];
+    gram.diagonal().array() += kSingular * with_itself[0];
+    const double variance = errors.squaredNorm() / static_cast<double>(errors.size());
+    if (!(variance > 0 && with_itself[0] > 0)) return false;
+    const double sum = with_errors.dot(solve_semidefinite(gram, with_errors)) / variance;
+    const double count = static_cast<double>(lags);
+    return sum > count + kFarBeyondChance * std::sqrt(2 * count);
+}
+
+std::vector<Vector> sampled_starts(const IdData& data, const TransferStructure& structure, const Fit& found,
+                                   const FitOptions& options) {
+    const double Ts = data.Ts;
+    const auto samples = [&](double delay) { return static_cast<Index>(std::floor(delay / Ts + 1e-9)); };
+    const Index here = samples(found.structure.delay(found.theta, 0, 0));
+    const IdData part = beginning_of(data, kExactSamples), few = beginning_of(data, kWindowSamples);
+    Index first = here, last = here;
+    if (structure.free_delays) {
+        const DelayRange range = delay_range(data, options);
+        const Index least = samples(range.least), most = samples(range.largest);
+        double smallest = kInfinity;
+        for (Index window = std::max(least, here - kRoomFor * kMostWindows / 2);
+             window <= std::min(most, here + kRoomFor * kMostWindows / 2); window += kRoomFor) {
+            const double loss = fit_sampled(few, structure, found.start, window, kRoomFor - 1, options).loss;
+            if (!(loss < smallest)) continue;
+            smallest = loss;
+            first = window;
+            last = std::min(window + kRoomFor - 1, most);
+        }
+    }
+    std::vector<NestedSolution> all;
+    for (Index late = first; late <= last; ++late) {
+        const SampledModel model = fit_sampled(part, structure, found.start, late, 0, options);
+        if (!(model.loss < kClearlySmaller * found.loss)) continue;
+        NestedSolution best;
+        for (int i = 0; i < (structure.free_delays ? kPartsOfSample : 1); ++i) {
+            const double delay = structure.free_delays
+                                     ? (static_cast<double>(late) + static_cast<double>(i) / kPartsOfSample) * Ts
+                                     : structure.channels.front().delay;
+            NestedSolution one = with_linear_part(part, structure, found.start, model.A, delay);
+            if (one.loss < best.loss) best = std::move(one);
+        }
+        if (best.theta.size() > 0) all.push_back(std::move(best));
+    }
+    std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.loss < b.loss; });
+    std::vector<Vector> starts;
+    for (std::size_t i = 0; i < std::min(kMostSampledStarts, all.size()); ++i) starts.push_back(all[i].theta);
+    return starts;
+}
+
+}  // namespace dynlab::inline numerics
