@@ -23,6 +23,7 @@
 #include "course/hand_ins/staging.h"
 #include "course/store/course_clock.h"
 #include "platform/atomic_file.h"
+#include "platform/atomic_files.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
 #include "platform/locks/abandoned_folders.h"
@@ -50,8 +51,8 @@ class ClassGrader {
         refuse_other_lessons(request);
         if (!request.timezone.empty()) const CourseClock clock(request.timezone);
         if (request.deadlines) deadlines_ = Deadlines(*request.deadlines);
+        outcome_.complaints = rules_.try_solution(request.out / "runs/.worked_solution.cbor", request.regrade);
         read_owners();
-        for (std::string& sentence : rules_.try_solution()) outcome_.complaints.push_back(std::move(sentence));
         for (const std::string& clause : left_out_) outcome_.complaints.push_back(clause + "; it is left out");
         grades_.resize(submissions_.size());
         contents_.resize(submissions_.size());
@@ -167,6 +168,7 @@ class ClassGrader {
     }
 
     fs::path folder_of(const Submission& submission) const { return request_.out / "results" / submission.name; }
+    fs::path memory_of(const Submission& submission) const { return request_.out / "runs" / submission.name; }
 
     /// A submission whose runs are known, to be judged.
     struct Started {
@@ -222,9 +224,7 @@ class ClassGrader {
             return {};
         }
         try {
-            Started started = with_runs(index);
-            started.fingerprint = fingerprint;
-            return started;
+            return with_runs(index, fingerprint);
         } catch (const SubmissionError& error) {
             Grade unreadable = rules_.unreadable(submission.name, error.what());
             unreadable.fingerprint = fingerprint;
@@ -263,15 +263,12 @@ class ClassGrader {
         grade.late_hours = late.hours;
         grade.lateness = late.reason;
         finish(submission, std::move(grade), late.percent, index);
-        {
-            const std::lock_guard lock(mutex_);
-            ++(kept ? outcome_.kept : outcome_.made);
-        }
-        advance(bar);
+        advance(bar, kept ? &outcome_.kept : &outcome_.made);
     }
 
-    void advance(ProgressBar& bar) {
+    void advance(ProgressBar& bar, int* count = nullptr) {
         const std::lock_guard lock(mutex_);
+        if (count != nullptr) ++*count;
         bar.advance(++done_);
     }
 
@@ -322,15 +319,15 @@ class ClassGrader {
     }
 
     /// The runs of before where nothing that they depend on has changed. Throws SubmissionError.
-    Started with_runs(std::size_t index) const {
+    Started with_runs(std::size_t index, const std::string& fingerprint) const {
         const Submission& submission = submissions_[index];
-        const fs::path kept_file = request_.out / "runs" / submission.name / "run.cbor";
+        const fs::path kept_file = memory_of(submission) / "run.cbor";
         const GradingRules::GroupSeed seed = seed_of(submission);
-        const std::string fingerprint = rules_.run_fingerprint(contents_[index], seed);
-        if (auto kept = request_.regrade ? std::nullopt : read_kept_runs(kept_file, fingerprint))
+        const std::string of_runs = rules_.run_fingerprint(contents_[index], seed);
+        if (auto kept = request_.regrade ? std::nullopt : read_kept_runs(kept_file, of_runs))
             return {index,
                     {submission.name, std::move(kept->work), seed, "the runs are those of before\n"},
-                    "",
+                    fingerprint,
                     kept->remark,
                     kept->language};
         const TemporaryFolder work;
@@ -338,8 +335,8 @@ class ClassGrader {
             stage_submission(submission, work.path(), request_.setup.isolation, request_.setup.program);
         std::string log;
         CheckedSubmission checked = rules_.work_in(staged.folder, seed, log);
-        write_kept_runs(kept_file, {fingerprint, checked, staged.remark, staged.language});
-        return {index, {submission.name, std::move(checked), seed, std::move(log)}, "", staged.remark, staged.language};
+        write_kept_runs(kept_file, {of_runs, checked, staged.remark, staged.language});
+        return {index, {submission.name, std::move(checked), seed, log}, fingerprint, staged.remark, staged.language};
     }
 
     /// Marks, penalty and files; the file of results last, as it tells that the work is done.
@@ -355,17 +352,21 @@ class ClassGrader {
         if (written && !request_.regrade) return;
         fs::create_directories(folder);
         try {
-            write_feedback(marked, folder, request_.pdf ? &documents_ : nullptr);
+            const fs::path made = memory_of(submission) / "feedback";
+            if (request_.regrade) fs::remove(made);
+            set_feedback(marked, folder / "feedback.pdf", made, request_.pdf ? &documents_ : nullptr);
         } catch (const EnvironmentError& error) {  // one that cannot be set stops no other, and no mark
             const std::lock_guard lock(mutex_);
             outcome_.complaints.push_back(fmt::format("\"{}\": {}", submission.name, error.what()));
         }
+        std::vector<NewFile> files = {{folder / "feedback.md", feedback_markdown(marked)}};
         if (!grade.log.empty()) {
-            const fs::path log = request_.out / "logs" / submission.name / "log.txt";
-            fs::create_directories(log.parent_path());
-            write_file_atomically(log, terminal_text(grade.log));
+            const fs::path logs = request_.out / "logs" / submission.name;
+            fs::create_directories(logs);
+            files.push_back({logs / "log.txt", terminal_text(grade.log)});
         }
-        write_file_atomically(folder / "results.json", results);
+        files.push_back({folder / "results.json", results});
+        write_files_atomically(files);
     }
 
     /// Results of an earlier run for those that are not wanted now.

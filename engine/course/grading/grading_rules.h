@@ -62,8 +62,9 @@ class GradingRules {
     Grade unreadable(const std::string& name, const std::string& trouble) const;
 
     /// Tries the worked solution. Checks that it does not pass are broken: from now on they are left ungraded. Returns
-    /// a sentence for each.
-    std::vector<std::string> try_solution();
+    /// a sentence for each. The file `memory` keeps what it did (KeptRuns), which is not run again for other checks
+    /// unless `anew`; an empty name keeps nothing.
+    std::vector<std::string> try_solution(const std::filesystem::path& memory = {}, bool anew = false);
 
     /// What the checks say of each of these, their files read once. Throws EnvironmentError where they come to no end.
     std::vector<std::vector<TriedCheck>> tried(const std::vector<CheckedSubmission>& submissions) const;
