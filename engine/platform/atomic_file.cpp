@@ -6,7 +6,7 @@
 
 #include "platform/error.h"
 #include "platform/file_blocks.h"
-#include "platform/replacement_file.h"
+#include "platform/files/replacement_file.h"
 #include "platform/system_call.h"
 
 namespace dynlab::inline platform {

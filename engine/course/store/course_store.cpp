@@ -13,8 +13,8 @@
 #include "course/store/course_schema.h"
 #include "course/store/store_seal.h"
 #include "platform/atomic_file.h"
-#include "platform/atomic_files.h"
 #include "platform/error.h"
+#include "platform/files/atomic_files.h"
 #include "platform/hash.h"
 #include "platform/system_call.h"
 

@@ -20,8 +20,8 @@
 #include "course/store/senders.h"
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
-#include "platform/atomic_files.h"
 #include "platform/error.h"
+#include "platform/files/atomic_files.h"
 #include "platform/hash.h"
 
 namespace dynlab::inline course {

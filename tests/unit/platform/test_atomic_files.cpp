@@ -1,4 +1,4 @@
-#include "platform/atomic_files.h"
+#include "platform/files/atomic_files.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

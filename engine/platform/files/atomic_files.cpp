@@ -1,9 +1,9 @@
-#include "platform/atomic_files.h"
+#include "platform/files/atomic_files.h"
 
 #include <algorithm>
 #include <deque>
 
-#include "platform/replacement_file.h"
+#include "platform/files/replacement_file.h"
 
 namespace dynlab::inline platform {
 

@@ -1,4 +1,4 @@
-#include "platform/replacement_file.h"
+#include "platform/files/replacement_file.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
