@@ -121,7 +121,7 @@ TEST(feedback, is_set_again_only_where_its_text_has_changed) {
     EXPECT_THAT(text(), HasSubstr("Its size – 0 of 1"));
     // Neither one that somebody changed nor a PDF of another text stays.
     work.write("out/results/a/feedback.pdf", "spoilt");
-    grade("return a.x > 42", {"--again"});
+    grade("return a.x >= 42", {"--again"});
     EXPECT_THAT(text(), HasSubstr("Its size – 0 of 1"));
     grade("return a.x > 40", {"--again", "--no-pdf"});
     EXPECT_FALSE(std::filesystem::exists(work.path("out/results/a/feedback.pdf")));
