@@ -7,15 +7,17 @@
 #include "course/review/oral_marks.h"
 #include "course/store/aligned_table.h"
 #include "course/store/course_export.h"
+#include "course/store/graded_work.h"
 #include "course/store/groups.h"
 #include "platform/atomic_file.h"
+#include "platform/temporary_folder.h"
 #include "platform/terminal/terminal_text.h"
 
 namespace dynlab::inline cli {
 namespace {
 
 struct MarkArguments {
-    std::string assignment, file, group, what, reason, at, out, from = ".", stage = "first";
+    std::string assignment, file, group, what, reason, at, out, graded, from = ".", stage = "first";
     double percent = 0;
     bool json = false;
     OralSheetWishes sheet;
@@ -37,11 +39,22 @@ int scores(const CourseArguments& where, const MarkArguments& words) {
     Course course(where.folder);
     const Assignment a = assignment_named(course, words.assignment);
     const Instant now = time_of(course, words.at);
-    const int fresh = words.stage == "final" ? import_final_scores(course, a, words.file, now)
-                      : a.is_report()        ? import_review_scores(course, a, words.file, now)
-                                             : import_oral_scores(course, a, words.file, now);
+    const TemporaryFolder converted;
+    std::filesystem::path file = words.file;
+    std::vector<std::string> left_out;
+    if (!words.graded.empty()) {
+        GradedScores graded = scores_of_gradebook(a, words.stage, file, words.graded);
+        file = converted.path() / file.filename();
+        write_file_atomically(file, graded.csv);
+        left_out = std::move(graded.left_out);
+    }
+    const int fresh = words.stage == "final" ? import_final_scores(course, a, file, now)
+                      : a.is_report()        ? import_review_scores(course, a, file, now)
+                                             : import_oral_scores(course, a, file, now);
     std::cout << fmt::format("{}: {} new scores.\n", a.name, fresh);
-    return kDone;
+    for (const std::string& name : left_out)
+        std::cerr << terminal_text(fmt::format("dynlab: {} is not graded whole; it has no score\n", name));
+    return left_out.empty() ? kDone : kFailed;
 }
 
 int sheet(const CourseArguments& where, const MarkArguments& words) {
@@ -184,6 +197,10 @@ void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action)
                      "final: your own scores of final versions; columns group, criteria")
         ->check(CLI::IsMember({"first", "final"}))
         ->capture_default_str();
+    scored.app
+        ->add_option("--graded", scored.words->graded,
+                     "The CSV is the gradebook.csv of dynlab grade: the share of its points is that of this criterion")
+        ->type_name("CRITERION");
     scored.app->footer(
         "A line a review: reviewer,report,data,... with the reviewing group and the report's\n"
         "pseudonym, as peer show has them; the reviewer \"instructor\" is you. The latest score counts. Scores that "
@@ -191,7 +208,8 @@ void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action)
         "in a review's pack (dynlab new review) are read when it is received.\n"
         "Examples:\n"
         "  dynlab course scores crane scores.csv\n"
-        "  dynlab course scores crane finals.csv --stage final");
+        "  dynlab course scores crane finals.csv --stage final\n"
+        "  dynlab course scores final-talk marks/gradebook.csv --graded script");
 
     CLI::App* oral = course.add_subcommand("oral", "The oral presentation");
     oral->require_subcommand(1);

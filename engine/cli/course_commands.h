@@ -37,7 +37,7 @@ class WorkBar {
 /// final changes: below the command final.
 void add_final_changes(CLI::App& final, CourseArguments& where, Action& action);
 
-/// receive, review receive, final receive, verify, key.
+/// receive, review receive, final receive, work, verify, key.
 void add_receive_commands(CLI::App& course, CourseArguments& where, Action& action);
 
 /// peer assign, peer send, peer show, release.

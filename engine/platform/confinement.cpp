@@ -89,7 +89,7 @@ void allow(scmp_filter_ctx filter, std::initializer_list<int> calls) {
 
 }  // namespace
 
-void confine_process(const ProcessLimits& limits) {
+void limit_process(const ProcessLimits& limits) {
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_CPU, static_cast<rlim_t>(limits.cpu_seconds));
     limit(RLIMIT_FSIZE, limits.file_bytes);
@@ -97,7 +97,16 @@ void confine_process(const ProcessLimits& limits) {
 #ifndef __SANITIZE_ADDRESS__  // the address sanitizer reserves more addresses than any limit leaves
     limit(RLIMIT_AS, limits.memory_bytes);
 #endif
+}
+
+void confine_process(const ProcessLimits& limits) {
+    limit_process(limits);
     refuse_harmful_calls();
+}
+
+void hide_memory() {
+    if (::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0) != 0)
+        throw EnvironmentError("cannot hide the memory of a process: " + system_reason(errno));
 }
 
 void refuse_harmful_calls() {

@@ -17,6 +17,9 @@ struct ProcessLimits {
 /// that are needed are running. Throws EnvironmentError where the kernel refuses.
 void confine_process(const ProcessLimits& limits);
 
+/// The part of it that is limits: of this process, and of each that it starts.
+void limit_process(const ProcessLimits& limits);
+
 /// The part of it that is no limit: only the system calls are given up. The process counts as confined.
 void refuse_harmful_calls();
 
@@ -24,6 +27,10 @@ void refuse_harmful_calls();
 /// and answers on a pipe. What such code needs of files must have been read; Utf8Locale works. Throws EnvironmentError
 /// where the kernel refuses.
 void confine_to_memory();
+
+/// From now on no other process without the machine's rights reads or writes the memory of this one, nor that of its
+/// copies: not even another of the same user.
+void hide_memory();
 
 /// Whether this process gave up starting others.
 bool is_confined();

@@ -13,7 +13,11 @@ using ::testing::HasSubstr;
 constexpr const char* kAnswers = "--   x: number\n";
 constexpr const char* kSolution = "answer('x', 42)\n";
 constexpr const char* kChecks = "check{id = 'x', test = function(a) return near(a.x, 42, {rel = 0.01}) end}\n";
+#ifdef __SANITIZE_ADDRESS__
 constexpr int kTimeout = 3;
+#else
+constexpr int kTimeout = 2;
+#endif
 
 struct Attack {
     const char *name, *script;

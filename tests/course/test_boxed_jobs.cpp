@@ -28,14 +28,14 @@ ChecksJob sample_checks() {
     ChecksJob job;
     job.files = {{"checks.lua", "check{id = 'a'}", true}, {"more.lua", "", false}};
     job.hidden_folder = "/box/hidden";
-    job.specimens = {{"hidden", {{"crane", 4'000'000'001u}}}};
     job.time_ms = 10000;
+    job.most_ms = 60000;
     job.only = 1;
-    job.submission = CheckedSubmission{{{"main", sample_run()}},
-                                       {{"pages", Severity::kHint, 7, "", "Too many pages.", "Cut."}},
-                                       "answer('G', 1)",
-                                       AnswerChange{"G", 1.5}};
-    job.further = {*job.submission};
+    const CheckedSubmission work{{{"main", sample_run()}},
+                                 {{"pages", Severity::kHint, 7, "", "Too many pages.", "Cut."}},
+                                 "answer('G', 1)",
+                                 AnswerChange{"G", 1.5}};
+    job.submissions = {{work, "/box/home-1", {{"hidden", {{"crane", 4'000'000'001u}}}}}, {}};
     job.records = {{"rc", 5, 6}};
     return job;
 }
@@ -57,17 +57,19 @@ TEST(boxed_jobs, come_back) {
     expect_to_come_back(VersionJob{"/box/submission", "/box/made", true});
     const CheckDescription check{"a", "about", "hint", 2, "seed", true, true, "rubric", false};
     const TriedCheck tried{check, 0.5, "no", "why"};
-    expect_to_come_back(CheckResults{{tried}, {{tried}, {}}, {"rc"}, {{{"u", {1, 2}}}}, "error"});
+    expect_to_come_back(
+        CheckResults{{tried}, {{{tried}, "", 0.5}, {{}, "why", 60}}, {"rc"}, {{{"u", {1, 2}}}}, "error"});
     const ChecksJob back = from_cbor<ChecksJob>(cbor_of(sample_checks()));
     EXPECT_EQ(back.hidden_folder, "/box/hidden");
     EXPECT_EQ(back.time_ms, 10000);
+    EXPECT_EQ(back.most_ms, 60000);
     EXPECT_EQ(back.only, 1);
     EXPECT_EQ(back.files.at(0).source, "check{id = 'a'}");
     EXPECT_TRUE(back.files.at(0).visible);
-    EXPECT_EQ(back.specimens.at("hidden").at("crane"), 4'000'000'001u);
-    EXPECT_EQ(back.submission->findings.at(0).severity, Severity::kHint);
-    EXPECT_EQ(back.submission->runs.at("main").error, "analysis.lua:3: no");
-    EXPECT_THAT(back.submission->runs.at("main").figures, ElementsAre("raw", "fit"));
+    EXPECT_EQ(back.submissions.at(0).specimens.at("hidden").at("crane"), 4'000'000'001u);
+    EXPECT_EQ(back.submissions.at(0).work.findings.at(0).severity, Severity::kHint);
+    EXPECT_EQ(back.submissions.at(0).work.runs.at("main").error, "analysis.lua:3: no");
+    EXPECT_THAT(back.submissions.at(0).work.runs.at("main").figures, ElementsAre("raw", "fit"));
 }
 
 TEST(boxed_jobs, texts_from_a_box_are_utf8) {

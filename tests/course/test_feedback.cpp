@@ -112,5 +112,34 @@ TEST(feedback, of_a_hand_in_that_does_not_count_says_so) {
     EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr("3,Ida Rhodes,Zoé Lefèvre_900001_assign"));
 }
 
+// oracle: the file itself, which a new one would replace, and poppler's text of it
+TEST(feedback, is_set_again_only_where_its_text_has_changed) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    Workbench& work = bench.bench();
+    bench.hand_in("a", "answer('x', 41)\n");
+    const auto grade = [&](const std::string& own, const std::vector<std::string>& more) {
+        work.write("own/own.lua", "check{id = 'own', about = 'Its size', test = function(a) " + own + " end}\n");
+        std::vector<std::string> words = {"grade", "in",    "--lesson", "99",          "--checks",
+                                          "own",   "--out", "out",      "--isolation", bench.level()};
+        words.insert(words.end(), more.begin(), more.end());
+        const ChildResult run = work.dynlab(words);
+        EXPECT_EQ(run.exit_code, 0) << run.error_output;
+        return work.shell("stat -c %i out/results/a/feedback.pdf; sha256sum < out/results/a/feedback.pdf").output;
+    };
+    const auto text = [&] { return work.shell("pdftotext out/results/a/feedback.pdf - | tr '\\n' ' '").output; };
+    const std::string first = grade("return a.x > 40", {});
+    EXPECT_THAT(text(), HasSubstr("Its size – 1 of 1"));
+    EXPECT_EQ(grade("return a.x >= 41", {"--again"}), first);
+    const std::string other = grade("return a.x > 41", {"--again"});
+    EXPECT_NE(other, first);
+    EXPECT_THAT(text(), HasSubstr("Its size – 0 of 1"));
+    // Neither one that somebody changed nor a PDF of another text stays.
+    work.write("out/results/a/feedback.pdf", "spoilt");
+    grade("return a.x >= 42", {"--again"});
+    EXPECT_THAT(text(), HasSubstr("Its size – 0 of 1"));
+    grade("return a.x > 40", {"--again", "--no-pdf"});
+    EXPECT_FALSE(std::filesystem::exists(work.path("out/results/a/feedback.pdf")));
+}
+
 }  // namespace test_feedback
 }  // namespace dynlab::test

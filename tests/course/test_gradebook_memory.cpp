@@ -87,6 +87,26 @@ TEST(gradebook_memory, other_checks_need_no_other_run) {
     EXPECT_THAT(work.read("out/logs/loop/log.txt"), HasSubstr("run main"));
 }
 
+// oracle: what is remembered of the worked solution, which the checks do not fit once it is changed
+TEST(gradebook_memory, the_worked_solution_is_run_again_when_it_has_changed) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    const Workbench& work = bench.bench();
+    bench.hand_in("a", kSolution);
+    ASSERT_EQ(bench.grade().exit_code, 0);
+    const auto spoil = [&] {  // which ends in a form of the same length
+        const std::string memory = "out/runs/.worked_solution.cbor";
+        EXPECT_EQ(work.shell("LC_ALL=C grep -c '\"value\":42' " + memory).output, "1\n");
+        work.shell("LC_ALL=C sed -i 's/\"value\":42/\"value\":13/' " + memory);
+    };
+    const std::string broken = "the worked solution does not pass the check \"x\"";
+    spoil();
+    EXPECT_THAT(bench.grade().error_output, HasSubstr(broken));
+    work.write("home/lessons/99_small/lesson.lua", GradingBench::header(kAnswers) + "answer('x', 6*7)\n");
+    EXPECT_THAT(bench.grade().error_output, Not(HasSubstr(broken)));
+    spoil();
+    EXPECT_THAT(bench.grade({"--regrade"}).error_output, Not(HasSubstr(broken)));
+}
+
 // oracle: who is meant
 TEST(gradebook_memory, only_takes_a_name_a_group_an_id_or_a_student) {
     GradingBench bench(kAnswers, kChecks, kSolution);

@@ -156,6 +156,9 @@ TEST(grading, groups_are_held_against_their_own_records) {
     bench.hand_in("others", "answer('K', " + fmt::format("{:.17g}", common) + ")\n");
     work.write("roster.csv", "id,group,seed\n1,group-7,7\n2,group-8,8\n3,others,\n");
     ASSERT_EQ(bench.grade({"--roster", "roster.csv"}).exit_code, 0);
+    // Of twelve, three are judged in one box: these, which come last.
+    for (int i = 1; i <= 9; ++i) bench.hand_in("a" + std::to_string(i), computes);
+    bench.grade({"--roster", "roster.csv", "--jobs", "1", "--regrade"});
     EXPECT_EQ(bench.result("group-7").at("score"), 1);
     EXPECT_EQ(bench.result("group-8").at("score"), 0);
     EXPECT_EQ(bench.result("others").at("score"), 1);
@@ -207,6 +210,21 @@ TEST(grading, marks_depend_on_neither_threads_nor_order) {
         return bench.bench().read("out/gradebook.csv") + bench.bench().read("out/results/s4/results.json");
     };
     EXPECT_EQ(book_with("1"), book_with("4"));
+}
+
+// oracle: what the first of all would get; state that a check keeps would tell of others
+TEST(grading, what_is_judged_in_one_box_sees_nothing_of_the_others) {
+    GradingBench bench(kAnswers,
+                       "seen, others = 0, {}\n"
+                       "check{id = 'first', test = function(a) seen = seen + 1 return seen == 1 end}\n"
+                       "check{id = 'alone', test = function(a) table.insert(others, a.x) return #others == 1 and "
+                       "others[1] < 50 end}\n",
+                       "answer('x', 42)\n");
+    for (int i = 0; i < 12; ++i)
+        bench.hand_in(fmt::format("s{:02}", i), fmt::format("answer('x', {})\n", i == 4 ? 60 : 30 + i));
+    ASSERT_EQ(bench.grade({"--jobs", "1"}).exit_code, 0);
+    for (int i = 0; i < 12; ++i)
+        EXPECT_EQ(points(bench.result(fmt::format("s{:02}", i))), (std::vector<double>{1, i == 4 ? 0.0 : 1.0})) << i;
 }
 
 /// All that a run of grade wrote, but the logs, in which stands how long it took.

@@ -3,6 +3,7 @@
 
 #include <numeric>
 
+#include "course/grading/grading_rules.h"
 #include "course/grading_bench.h"
 
 namespace dynlab::test {
@@ -21,23 +22,25 @@ class own_records_of_many : public ::testing::TestWithParam<GroupsOfLesson> {};
 void expect_full_marks(const GroupsOfLesson& groups) {
     const auto& [lesson, seeds] = groups;
     const Workbench bench;
-    std::string roster = "id,group,seed\n";
+    bench.write("in/analysis.lua", quick_solution_of(lesson));
+    GradingSetup setup;
+    setup.lesson = {lesson, lesson_folder(lesson)};
+    setup.secret = "chosen by a test";
+    setup.isolation = strongest_isolation();
+    setup.program = DYNLAB_PROGRAM;
+    setup.jobs = 2;
+    const GradingRules rules(setup);
+    std::vector<GradingRules::Work> works;
     for (const int seed : seeds) {
-        roster += fmt::format("{0},group-{0},{0}\n", seed);
-        bench.write(fmt::format("in/group-{}/analysis.lua", seed), quick_solution_of(lesson));
+        const auto group = static_cast<std::uint32_t>(seed);
+        std::string log;
+        works.push_back({fmt::format("seed {}", seed), rules.work_in(bench.path("in"), group, log), group, log});
     }
-    bench.write("roster.csv", roster);
-    bench.write("secret", "chosen by a test");
-    const ChildResult graded =
-        bench.dynlab({"grade", "in", "--lesson", lesson, "--out", "out", "--roster", "roster.csv", "--secret", "secret",
-                      "--isolation", GradingBench::level(), "--no-pdf"});
-    ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
-    for (const int seed : seeds) {
-        const auto result = nlohmann::json::parse(bench.read(fmt::format("out/results/group-{}/results.json", seed)));
-        EXPECT_EQ(GradingBench::trouble(result), "") << "seed " << seed;
-        for (const auto& test : result.at("tests"))
-            EXPECT_EQ(test.value("score", -1.0), test.at("max_score"))
-                << "seed " << seed << ", " << test.at("name") << ": " << test.value("output", "");
+    for (const Grade& grade : rules.judged(works)) {
+        EXPECT_EQ(grade.trouble, "") << grade.submission;
+        for (const CheckGrade& check : grade.checks)
+            EXPECT_TRUE(check.graded && check.earned == check.points)
+                << grade.submission << ", " << check.about << ": " << check.message;
     }
 }
 

@@ -1,5 +1,6 @@
 // Loaded before the C library (LD_PRELOAD), to try what a program leaves behind when the machine fails it. The calls
-// that change files, folders aside from pipes and terminals, are counted; FAULT says what happens at which:
+// that change files, folders aside from pipes and terminals, are counted; fsync is none of them, as whoever is killed
+// before it leaves the same behind as who is killed before the change that follows. FAULT says what happens at which:
 //
 //   kill 7    the process is killed before the seventh
 //   full 7    from the seventh on the disk is full
@@ -87,16 +88,6 @@ int ftruncate64(int fd, off64_t size) {
 }
 int ftruncate(int fd, off_t size) {
     return ftruncate64(fd, size);
-}
-int fsync(int fd) {
-    static auto* const call = real<int(int)>("fsync");
-    step();
-    return call(fd);
-}
-int fdatasync(int fd) {
-    static auto* const call = real<int(int)>("fdatasync");
-    step();
-    return call(fd);
 }
 int rename(const char* from, const char* to) noexcept {
     static auto* const call = real<int(const char*, const char*)>("rename");

@@ -3,13 +3,17 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cstdlib>
 
 #include "course/checks/check_functions.h"
 #include "course/checks/check_records.h"
 #include "course/checks/check_session.h"
+#include "course/grading/boxed_work.h"
+#include "course/grading/job_descriptions.h"
 #include "documents/text_lines.h"
 #include "figures/gnuplot_renderer.h"
 #include "platform/confinement.h"
+#include "platform/guarded_call.h"
 #include "scripting/runtime/runtime.h"
 
 namespace dynlab::inline course {
@@ -48,58 +52,116 @@ std::vector<TriedCheck> verdicts(Runtime& runtime, CheckSession& session, std::o
     return all;
 }
 
-/// Says whose work is judged from now on.
-void hand_over(const CheckedSubmission& submission, CheckSession& session) {
-    session.runs = submission.runs;
-    session.findings = submission.findings;
-    session.source = submission.source;
-    session.change.reset();
-    if (submission.change) session.change = {submission.change->name, submission.change->factor};
+constexpr std::uint64_t kMostVerdicts = 4u << 20;  // bytes of what the checks say of one submission
+
+RunOptions options_of_checks(const ChecksJob& job) {
+    RunOptions options;
+    options.time_limit = std::chrono::milliseconds(job.time_ms);
+    return options;
+}
+
+/// The checks that files declare.
+class ReadChecks {
+  public:
+    ReadChecks(const ChecksJob& job, const SubmissionToJudge* submission)
+        : runtime_(options_of_checks(job), renderer_) {
+        session_.hidden_folder = job.hidden_folder;
+        if (submission != nullptr) hand_over(*submission);
+        runtime_.set_service(&session_);
+        for (const auto functions : {check_declarations, check_functions, check_source_functions,
+                                     check_record_functions, verdict_function, record_function})
+            runtime_.add_functions(functions());
+        for (const CheckFile& file : job.files) {
+            session_.visible_file = file.visible;
+            const RunRecord record = runtime_.run_code(file.source, file.name);
+            if (!record.error) continue;
+            error_ = record.error->message;
+            return;
+        }
+    }
+
+    /// A sentence, when a file cannot be read.
+    const std::optional<std::string>& error() const { return error_; }
+
+    std::vector<TriedCheck> tried(std::optional<std::size_t> only) { return verdicts(runtime_, session_, only); }
+
+    /// The checks as they are declared, the rigs, and the records that are wanted of these.
+    CheckResults listed(const std::vector<WantedRecord>& records) {
+        CheckResults results;
+        for (const auto& [name, rig] : session_.rigs) results.rigs.push_back(name);
+        for (const WantedRecord& wanted : records) {
+            const RunRecord record = runtime_.run_code(
+                fmt::format("_record(\"{}\", {}, {})", wanted.rig, wanted.specimen, wanted.seed), wanted.rig);
+            if (record.error) {
+                results.error = record.error->message;
+                return results;
+            }
+            results.records.push_back(std::move(session_.record));
+        }
+        for (const DeclaredCheck& check : session_.checks) results.checks.push_back({check, {}, {}, {}});
+        return results;
+    }
+
+  private:
+    void hand_over(const SubmissionToJudge& submission) {
+        session_.specimens = submission.specimens;
+        session_.runs = submission.work.runs;
+        session_.findings = submission.work.findings;
+        session_.source = submission.work.source;
+        if (const auto& change = submission.work.change) session_.change = {change->name, change->factor};
+    }
+
+    CheckSession session_;
+    GnuplotRenderer renderer_;
+    Runtime runtime_;
+    std::optional<std::string> error_;
+};
+
+/// In a copy of this process.
+JudgedSubmission judged_in_a_copy(const ChecksJob& job, const SubmissionToJudge& submission) {
+    GuardLimits limits;
+    limits.timeout = std::chrono::milliseconds(job.most_ms);
+    limits.memory_bytes = ProcessLimits().memory_bytes;
+    limits.output_bytes = kMostVerdicts;
+    const auto start = std::chrono::steady_clock::now();
+    const ChildResult copy = run_guarded(
+        [&] {
+            ::setenv("DYNLAB_HOME", submission.home.c_str(), 1);
+            JudgedSubmission judged;
+            ReadChecks checks(job, &submission);
+            if (checks.error())
+                judged.reason = *checks.error();
+            else
+                judged.checks = checks.tried(job.only);
+            return cbor_of(judged);
+        },
+        limits);
+    JudgedSubmission judged;
+    judged.reason = reason_of_end(copy, limits.timeout);
+    try {
+        if (judged.reason.empty()) judged = from_cbor<JudgedSubmission>(copy.output, boxed_limits(kMostVerdicts));
+    } catch (const ValueError&) {
+        judged.reason = "its result cannot be read";
+    }
+    judged.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return judged;
 }
 
 }  // namespace
 
 CheckResults try_checks(const ChecksJob& job) {
-    confine_process({});
-    CheckSession session;
-    session.hidden_folder = job.hidden_folder;
-    session.specimens = job.specimens;
-    if (job.submission) hand_over(*job.submission, session);
-    GnuplotRenderer renderer;
-    RunOptions options;
-    options.time_limit = std::chrono::milliseconds(job.time_ms);
-    Runtime runtime(options, renderer);
-    runtime.set_service(&session);
-    for (const auto functions : {check_declarations, check_functions, check_source_functions, check_record_functions,
-                                 verdict_function, record_function})
-        runtime.add_functions(functions());
     CheckResults results;
-    for (const CheckFile& file : job.files) {
-        session.visible_file = file.visible;
-        const RunRecord record = runtime.run_code(file.source, file.name);
-        if (!record.error) continue;
-        results.error = record.error->message;
+    if (job.submissions.empty()) {
+        confine_process({});
+        ReadChecks checks(job, nullptr);
+        if (!checks.error()) return checks.listed(job.records);
+        results.error = checks.error();
         return results;
     }
-    for (const auto& [name, rig] : session.rigs) results.rigs.push_back(name);
-    for (const WantedRecord& wanted : job.records) {
-        const RunRecord record = runtime.run_code(
-            fmt::format("_record(\"{}\", {}, {})", wanted.rig, wanted.specimen, wanted.seed), wanted.rig);
-        if (record.error) {
-            results.error = record.error->message;
-            return results;
-        }
-        results.records.push_back(std::move(session.record));
-    }
-    if (job.submission) {
-        results.checks = verdicts(runtime, session, job.only);
-        for (const CheckedSubmission& submission : job.further) {
-            hand_over(submission, session);
-            results.further.push_back(verdicts(runtime, session, job.only));
-        }
-    } else {
-        for (const DeclaredCheck& check : session.checks) results.checks.push_back({check, {}, {}, {}});
-    }
+    limit_process({});
+    hide_memory();
+    for (const SubmissionToJudge& submission : job.submissions)
+        results.judged.push_back(judged_in_a_copy(job, submission));
     return results;
 }
 

@@ -39,9 +39,23 @@ struct TriedCheck {
     double seconds = 0;                   ///< that it took
 };
 
-struct CheckResults {
+/// A submission that the checks are tried on, with the records of its group.
+struct SubmissionToJudge {
+    CheckedSubmission work;
+    std::filesystem::path home;                  ///< DYNLAB_HOME while it is judged
+    std::map<std::string, Specimens> specimens;  ///< see CheckSession
+};
+
+/// What the checks say of one submission.
+struct JudgedSubmission {
     std::vector<TriedCheck> checks;
-    std::vector<std::vector<TriedCheck>> further;                     ///< of ChecksJob::further, one by one
+    std::string reason;  ///< why there are none: "it took more than 60 s", "it crashed (signal 11)", ...
+    double seconds = 0;  ///< wall clock
+};
+
+struct CheckResults {
+    std::vector<TriedCheck> checks;                                   ///< as they are declared
+    std::vector<JudgedSubmission> judged;                             ///< of ChecksJob::submissions, one by one
     std::vector<std::string> rigs;                                    ///< data sets of the rigs that the files declare
     std::vector<std::map<std::string, std::vector<double>>> records;  ///< of ChecksJob::records, one by one
     std::optional<std::string> error;  ///< a sentence, when a file cannot be read; then there is nothing else
@@ -53,22 +67,23 @@ struct WantedRecord {
     std::uint32_t specimen = 0, seed = 1;
 };
 
-/// Check files to be tried on a submission, or to be listed.
+/// Check files to be tried on submissions, or to be listed.
 struct ChecksJob {
     static constexpr char kWork[] = "checks";
     using Result = CheckResults;
 
     std::vector<CheckFile> files;
-    std::filesystem::path hidden_folder;  ///< holds NAME.mat or NAME.csv
-    std::map<std::string, Specimens> specimens;
-    std::int64_t time_ms = 0;                     ///< most milliseconds for each check
-    std::optional<std::size_t> only;              ///< the number of the one that is wanted; nothing for all
-    std::optional<CheckedSubmission> submission;  ///< nothing to list the checks only
-    std::vector<CheckedSubmission> further;       ///< tried after it, with the same files read once
+    std::filesystem::path hidden_folder;         ///< holds NAME.mat or NAME.csv
+    std::int64_t time_ms = 0;                    ///< most milliseconds for each check
+    std::int64_t most_ms = 0;                    ///< for each submission
+    std::optional<std::size_t> only;             ///< the number of the one that is wanted; nothing for all
+    std::vector<SubmissionToJudge> submissions;  ///< none to list the checks only
     std::vector<WantedRecord> records;
 };
 
-/// Reads the files and tries their checks, in this process, which should be in a box and is confined here.
+/// Reads the files and tries their checks, in this process, which should be in a box. Each submission is judged in a
+/// confined copy of its own, so that none sees another's answers or is harmed by them; without submissions this process
+/// itself is confined.
 CheckResults try_checks(const ChecksJob& job);
 
 }  // namespace dynlab::inline course

@@ -14,6 +14,15 @@ ValueLimits boxed_limits(std::uint64_t bytes) {
     return limits;
 }
 
+std::string reason_of_end(const ChildResult& child, std::chrono::milliseconds timeout) {
+    if (child.timed_out) return fmt::format("it took more than {} s", static_cast<double>(timeout.count()) / 1000);
+    if (child.output_exceeded) return "it gave out too much";
+    if (child.exit_code > 128) return fmt::format("it crashed (signal {})", child.exit_code - 128);
+    if (child.exit_code == 0) return "";
+    return fmt::format("it ended with code {}: {}", child.exit_code,
+                       child.error_output.substr(0, child.error_output.find('\n')));
+}
+
 BoxedResult<std::string> run_boxed_bytes(Box& box, const std::filesystem::path& program, const std::string& work,
                                          const std::string& job, std::chrono::milliseconds timeout,
                                          std::uint64_t output_bytes) {
@@ -26,18 +35,8 @@ BoxedResult<std::string> run_boxed_bytes(Box& box, const std::filesystem::path& 
     BoxedResult<std::string> result;
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     result.timed_out = child.timed_out;
-    if (child.timed_out) {
-        result.reason = fmt::format("it took more than {} s", static_cast<double>(timeout.count()) / 1000);
-    } else if (child.output_exceeded) {
-        result.reason = "it gave out too much";
-    } else if (child.exit_code > 128) {
-        result.reason = fmt::format("it crashed (signal {})", child.exit_code - 128);
-    } else if (child.exit_code != 0) {
-        result.reason = fmt::format("it ended with code {}: {}", child.exit_code,
-                                    child.error_output.substr(0, child.error_output.find('\n')));
-    } else {
-        result.output = child.output;
-    }
+    result.reason = reason_of_end(child, timeout);
+    if (result.reason.empty()) result.output = child.output;
     return result;
 }
 

@@ -19,6 +19,10 @@ struct BoxedResult {
     double seconds = 0;  ///< wall clock, box and start included
 };
 
+/// Why a process that should have done its work in `timeout` has not: "it took more than 10 s", ...; empty where it
+/// has.
+std::string reason_of_end(const ChildResult& child, std::chrono::milliseconds timeout);
+
 /// The bytes of it, as the box wrote them.
 BoxedResult<std::string> run_boxed_bytes(Box& box, const std::filesystem::path& program, const std::string& work,
                                          const std::string& job, std::chrono::milliseconds timeout,

@@ -10,11 +10,16 @@
 #include "documents/run_record.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
+#include "platform/hash.h"
+#include "platform/program_identity.h"
+#include "platform/program_lookup.h"
 
 namespace dynlab::inline course {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr char kTemplate[] = "feedback.md";
 
 using Escape = std::string (*)(const std::string&);
 
@@ -83,12 +88,6 @@ class FeedbackText {
     Escape escape_;
 };
 
-std::string markdown_of(const Grade& grade) {
-    const FeedbackText text(grade, readable_markdown);
-    return fmt::format("# {}\n\n{}\n\n{}\n\n## {}\n\n{}\n{}\n", text.heading(), text.result(), text.trouble(),
-                       text.checks_heading(), text.checks(), text.closing());
-}
-
 RunRecord feedback_record(const FeedbackText& text) {
     RunRecord record;
     record.script = "feedback";
@@ -97,6 +96,13 @@ RunRecord feedback_record(const FeedbackText& text) {
     record.texts["trouble"] = {text.trouble()};
     record.texts["closing"] = {text.closing()};
     return record;
+}
+
+/// A line for all that the PDF is made from, the same text in another form among it, and one for the PDF itself.
+std::string text_and_document(const std::string& markdown, const fs::path& pdf) {
+    const std::string layout = sha256_of_file(shared_folder() / "report_templates" / kTemplate);
+    return fmt::format("{}\n{}\n", sha256_of(program_identity() + "\n" + layout + "\n" + markdown),
+                       sha256_of_file(pdf));
 }
 
 }  // namespace
@@ -138,12 +144,22 @@ std::string escaped_markdown(const std::string& text) {
     return result;
 }
 
-void write_feedback(const Grade& grade, const fs::path& folder, const BoxedDocuments* documents) {
-    write_file_atomically(folder / "feedback.md", markdown_of(grade));
+std::string feedback_markdown(const Grade& grade) {
+    const FeedbackText text(grade, readable_markdown);
+    return fmt::format("# {}\n\n{}\n\n{}\n\n## {}\n\n{}\n{}\n", text.heading(), text.result(), text.trouble(),
+                       text.checks_heading(), text.checks(), text.closing());
+}
+
+void set_feedback(const Grade& grade, const fs::path& pdf, const fs::path& made, const BoxedDocuments* documents) {
+    const std::string markdown = feedback_markdown(grade);
+    if (fs::exists(pdf) && fs::exists(made) && read_file(made) == text_and_document(markdown, pdf)) return;
+    fs::remove(pdf);
     if (!documents) return;
     const FeedbackText text(grade, escaped_markdown);
-    documents->make("feedback.md", feedback_record(text), folder / "feedback.pdf",
+    documents->make(kTemplate, feedback_record(text), pdf,
                     {{"title", text.plain_title()}, {"lang", grade.language == "fr" ? "fr" : "en"}});
+    fs::create_directories(made.parent_path());
+    write_file_atomically(made, text_and_document(markdown, pdf));
 }
 
 }  // namespace dynlab::inline course

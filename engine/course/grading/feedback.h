@@ -14,9 +14,13 @@ std::string escaped_markdown(const std::string& text);
 /// The same for readers of the Markdown itself: only what would change its meaning is escaped.
 std::string readable_markdown(const std::string& text);
 
-/// Writes what the student gets into `folder`: feedback.md, and with `documents` feedback.pdf, set from
-/// report_templates/feedback.md. It is titled after whom it is for and in the language of what was handed in; what
-/// checks say is as their author wrote it. Of hidden checks it has points and hint only.
-void write_feedback(const Grade& grade, const std::filesystem::path& folder, const BoxedDocuments* documents);
+/// What the student gets, as Markdown. It is titled after whom it is for and in the language of what was handed in;
+/// what checks say is as their author wrote it. Of hidden checks it has points and hint only.
+std::string feedback_markdown(const Grade& grade);
+
+/// The same as `pdf`, set from report_templates/feedback.md. The file `made` remembers from what text and to which
+/// bytes it was set: where both are the same it is not set again. Without `documents` a PDF of another text goes.
+void set_feedback(const Grade& grade, const std::filesystem::path& pdf, const std::filesystem::path& made,
+                  const BoxedDocuments* documents);
 
 }  // namespace dynlab::inline course

@@ -5,13 +5,16 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <functional>
 #include <mutex>
 #include <set>
 #include <thread>
+#include <utility>
 
 #include "course/grading/class_results.h"
 #include "course/grading/content_hash.h"
 #include "course/grading/deadlines.h"
+#include "course/grading/earlier_results.h"
 #include "course/grading/feedback.h"
 #include "course/grading/grading_memory.h"
 #include "course/grading/manual_marks.h"
@@ -21,6 +24,7 @@
 #include "course/store/course_clock.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
+#include "platform/files/atomic_files.h"
 #include "platform/interrupt.h"
 #include "platform/locks/abandoned_folders.h"
 #include "platform/locks/file_lock.h"
@@ -42,16 +46,17 @@ class ClassGrader {
           lock_(locked(request)),
           submissions_(submissions_in(opened(request), left_out_, request.out)),
           rules_(request.setup),
-          manual_(prepared(request) / "manual.csv"),
+          manual_(request.out / "manual.csv"),
           documents_(request.setup.isolation, request.setup.program) {
+        refuse_other_lessons(request);
         if (!request.timezone.empty()) const CourseClock clock(request.timezone);
         if (request.deadlines) deadlines_ = Deadlines(*request.deadlines);
+        outcome_.complaints = rules_.try_solution(request.out / "runs/.worked_solution.cbor", request.regrade);
         read_owners();
-        for (std::string& sentence : rules_.try_solution()) outcome_.complaints.push_back(std::move(sentence));
         for (const std::string& clause : left_out_) outcome_.complaints.push_back(clause + "; it is left out");
         grades_.resize(submissions_.size());
         contents_.resize(submissions_.size());
-        remember();
+        remember_inputs(request);
         chosen_ = chosen();
     }
 
@@ -84,31 +89,6 @@ class ClassGrader {
         return lock;
     }
 
-    /// Refuses to put marks of another kind beside those that are there.
-    void remember() {
-        GradingMemory now;
-        now.lesson = request_.setup.lesson.slug;
-        now.lesson_checks = remembered_file(request_.setup.lesson.folder / "checks.lua");
-        now.lesson_checks.name = request_.setup.lesson.slug + "/checks.lua";  // wherever it is installed
-        now.checks = remembered_folder(request_.setup.more_checks);
-        now.secret = remembered_text("--secret", request_.setup.secret);
-        now.roster = remembered_file(request_.roster);
-        now.owners = remembered_file(request_.owners);
-        now.deadlines = remembered_file(request_.deadlines);
-        now.keep = request_.newest_counts ? "newest" : "best";
-        now.timezone = request_.timezone;
-        const std::optional<GradingMemory> then = read_grading_memory(request_.out);
-        if (request_.again && !request_.only.empty())
-            throw EnvironmentError("--again grades all of the class anew; leave --only out");
-        if (then && !request_.again)
-            if (const auto differences = differences_of(*then, now, request_.only.empty()); !differences.empty())
-                throw EnvironmentError(fmt::format(
-                    "the marks in {} were made with other inputs: {}. Give the same again{}, or another --out",
-                    request_.out.string(), fmt::join(differences, ", "),
-                    request_.only.empty() ? ", or --again to grade all with these" : ""));
-        write_grading_memory(request_.out, now);
-    }
-
     /// The folder itself, or what an LMS put into one zip.
     fs::path opened(const GradingRequest& request) {
         if (!fs::is_regular_file(request.submissions)) return request.submissions;
@@ -127,18 +107,6 @@ class ClassGrader {
                 fmt::format("{} is not UTF-8; it was read as Latin-1 (Windows-1252)", request_.roster->string()));
         owners_.emplace(roster_->students());
         if (request_.owners) owners_->read_list(*request_.owners);
-    }
-
-    static const fs::path& prepared(const GradingRequest& request) {
-        const fs::path results = request.out / "results";
-        fs::create_directories(results);
-        for (const auto& entry : fs::directory_iterator(results)) {
-            const std::optional<Grade> grade = earlier(entry.path());
-            if (!grade || grade->lesson == request.setup.lesson.slug) continue;
-            throw EnvironmentError(fmt::format("{} holds the results of lesson {}; name another folder with --out",
-                                               request.out.string(), grade->lesson));
-        }
-        return request.out;
     }
 
     /// What the instructor wrote about nobody, most likely by a slip of the pen.
@@ -200,21 +168,33 @@ class ClassGrader {
     }
 
     fs::path folder_of(const Submission& submission) const { return request_.out / "results" / submission.name; }
+    fs::path memory_of(const Submission& submission) const { return request_.out / "runs" / submission.name; }
+
+    /// A submission whose runs are known, to be judged.
+    struct Started {
+        std::size_t index;
+        GradingRules::Work work;
+        std::string fingerprint, remark, language;
+    };
+
+    /// How many are judged in one box: enough to forget its start, few enough to keep all threads busy.
+    std::size_t judged_together() const {
+        constexpr std::size_t kMost = 16, kSharesOfAThread = 4;
+        const auto threads = static_cast<std::size_t>(std::max(1, request_.setup.jobs));
+        return std::clamp<std::size_t>(chosen_.size() / (kSharesOfAThread * threads), 1, kMost);
+    }
 
     void work(ProgressBar& bar) {
         try {
+            std::vector<Started> waiting;
             for (std::size_t k = next_++; k < chosen_.size() && !stopped_; k = next_++) {
                 throw_if_interrupted();
-                try {
-                    one(chosen_[k]);
-                } catch (const Interrupted&) {
-                    throw;
-                } catch (const std::exception& error) {
-                    leave_ungraded(chosen_[k], error.what());
-                }
-                const std::lock_guard lock(mutex_);
-                bar.advance(++done_);
+                tried(chosen_[k], bar, [&] {
+                    if (std::optional<Started> started = begun(chosen_[k], bar)) waiting.push_back(*std::move(started));
+                });
+                if (waiting.size() >= judged_together()) judge(std::exchange(waiting, {}), bar);
             }
+            judge(std::move(waiting), bar);
         } catch (...) {
             stopped_ = true;
             const std::lock_guard lock(mutex_);
@@ -222,24 +202,75 @@ class ClassGrader {
         }
     }
 
-    void one(std::size_t index) {
+    /// What goes wrong with one submission stops no other.
+    void tried(std::size_t index, ProgressBar& bar, const std::function<void()>& action) {
+        try {
+            action();
+        } catch (const Interrupted&) {
+            throw;
+        } catch (const std::exception& error) {
+            leave_ungraded(index, error.what(), bar);
+        }
+    }
+
+    /// Finishes what is known already or cannot be judged; gives the others.
+    std::optional<Started> begun(std::size_t index, ProgressBar& bar) {
         const Submission& submission = submissions_[index];
         contents_[index] = hash_of_content(submission);
         const std::string fingerprint = rules_.fingerprint(contents_[index], seed_of(submission));
-        std::optional<Grade> grade = request_.regrade ? std::nullopt : earlier(folder_of(submission));
-        const bool keep = grade && grade->fingerprint == fingerprint;
-        if (!keep) {
-            grade = graded(submission, contents_[index]);
-            grade->fingerprint = fingerprint;
+        std::optional<Grade> grade = request_.regrade ? std::nullopt : earlier_grade(folder_of(submission));
+        if (grade && grade->fingerprint == fingerprint) {
+            complete(index, *std::move(grade), true, bar);
+            return {};
         }
-        address(submission, *grade);
+        try {
+            return with_runs(index, fingerprint);
+        } catch (const SubmissionError& error) {
+            Grade unreadable = rules_.unreadable(submission.name, error.what());
+            unreadable.fingerprint = fingerprint;
+            complete(index, std::move(unreadable), false, bar);
+            return {};
+        }
+    }
+
+    void judge(std::vector<Started> started, ProgressBar& bar) {
+        if (started.empty() || stopped_) return;
+        std::vector<GradingRules::Work> works;
+        for (Started& one : started) works.push_back(std::move(one.work));
+        std::vector<Grade> grades;
+        try {
+            grades = rules_.judged(std::move(works));
+        } catch (const Interrupted&) {
+            throw;
+        } catch (const std::exception& error) {
+            for (const Started& one : started) leave_ungraded(one.index, error.what(), bar);
+            return;
+        }
+        for (std::size_t i = 0; i < started.size(); ++i)
+            tried(started[i].index, bar, [&] {
+                Grade& grade = grades[i];
+                grade.fingerprint = started[i].fingerprint;
+                grade.remark = started[i].remark, grade.language = started[i].language;
+                complete(started[i].index, std::move(grade), false, bar);
+            });
+    }
+
+    /// With what the roster and the deadlines say of it.
+    void complete(std::size_t index, Grade grade, bool kept, ProgressBar& bar) {
+        const Submission& submission = submissions_[index];
+        address(submission, grade);
         const Deadlines::Lateness late = deadlines_.of(submission, names_of_owners(submission));
-        grade->late_hours = late.hours;
-        grade->lateness = late.reason("en");
-        grade->lateness_told = late.reason(grade->language);
-        finish(submission, *std::move(grade), late.percent, index);
+        grade.late_hours = late.hours;
+        grade.lateness = late.reason("en");
+        grade.lateness_told = late.reason(grade.language);
+        finish(submission, std::move(grade), late.percent, index);
+        advance(bar, kept ? &outcome_.kept : &outcome_.made);
+    }
+
+    void advance(ProgressBar& bar, int* count = nullptr) {
         const std::lock_guard lock(mutex_);
-        ++(keep ? outcome_.kept : outcome_.made);
+        if (count != nullptr) ++*count;
+        bar.advance(++done_);
     }
 
     /// Whom the feedback is for, and in which language, as far as the outside and the roster tell.
@@ -259,10 +290,11 @@ class ClassGrader {
     void tell_which_counts(const ClassResults& all) {
         const std::vector<std::string> instead = counted_instead(all);
         for (std::size_t i = 0; i < submissions_.size(); ++i) {
-            std::optional<Grade> grade = grades_[i] ? earlier(folder_of(submissions_[i])) : std::nullopt;
-            const bool known = grade && grade->counts_instead == instead[i] &&
-                               (instead[i].empty() || grade->newest_counts == request_.newest_counts);
-            if (!grade || known) continue;
+            const bool known =
+                !grades_[i] || (grades_[i]->counts_instead == instead[i] &&
+                                (instead[i].empty() || grades_[i]->newest_counts == request_.newest_counts));
+            std::optional<Grade> grade = known ? std::nullopt : earlier_grade(folder_of(submissions_[i]));
+            if (!grade) continue;
             grade->counts_instead = instead[i];
             grade->newest_counts = request_.newest_counts;
             const double percent = deadlines_.of(submissions_[i], names_of_owners(submissions_[i])).percent;
@@ -272,7 +304,8 @@ class ClassGrader {
 
     /// What the grader itself cannot do costs nobody points and stops nobody else; nothing is written, so that the next
     /// run tries again.
-    void leave_ungraded(std::size_t index, const std::string& reason) {
+    void leave_ungraded(std::size_t index, const std::string& reason, ProgressBar& bar) {
+        advance(bar);
         const std::string& name = submissions_[index].name;
         Grade grade = rules_.unreadable(name, "");
         grade.unreadable = false;
@@ -286,38 +319,25 @@ class ClassGrader {
         return owners.empty() ? std::nullopt : roster_->students()[owners.front()].seed;
     }
 
-    Grade graded(const Submission& submission, const std::string& content) const {
-        const fs::path kept_file = request_.out / "runs" / submission.name / "run.cbor";
+    /// The runs of before where nothing that they depend on has changed. Throws SubmissionError.
+    Started with_runs(std::size_t index, const std::string& fingerprint) const {
+        const Submission& submission = submissions_[index];
+        const fs::path kept_file = memory_of(submission) / "run.cbor";
         const GradingRules::GroupSeed seed = seed_of(submission);
-        const std::string fingerprint = rules_.run_fingerprint(content, seed);
-        if (const auto kept = request_.regrade ? std::nullopt : read_kept_runs(kept_file, fingerprint)) {
-            Grade grade = rules_.judged(submission.name, kept->work, seed, "the runs are those of before\n");
-            grade.remark = kept->remark, grade.language = kept->language;
-            return grade;
-        }
+        const std::string of_runs = rules_.run_fingerprint(contents_[index], seed);
+        if (auto kept = request_.regrade ? std::nullopt : read_kept_runs(kept_file, of_runs))
+            return {index,
+                    {submission.name, std::move(kept->work), seed, "the runs are those of before\n"},
+                    fingerprint,
+                    kept->remark,
+                    kept->language};
         const TemporaryFolder work;
-        try {
-            const StagedWork staged =
-                stage_submission(submission, work.path(), request_.setup.isolation, request_.setup.program);
-            std::string log;
-            const CheckedSubmission checked = rules_.work_in(staged.folder, seed, log);
-            write_kept_runs(kept_file, {fingerprint, checked, staged.remark, staged.language});
-            Grade grade = rules_.judged(submission.name, checked, seed, log);
-            grade.remark = staged.remark, grade.language = staged.language;
-            return grade;
-        } catch (const SubmissionError& error) {
-            return rules_.unreadable(submission.name, error.what());
-        }
-    }
-
-    static std::optional<Grade> earlier(const fs::path& folder) {
-        const fs::path file = folder / "results.json";
-        if (!fs::exists(file)) return {};
-        try {
-            return from_results_json(read_file(file));
-        } catch (const EnvironmentError&) {
-            return {};
-        }
+        const StagedWork staged =
+            stage_submission(submission, work.path(), request_.setup.isolation, request_.setup.program);
+        std::string log;
+        CheckedSubmission checked = rules_.work_in(staged.folder, seed, log);
+        write_kept_runs(kept_file, {of_runs, checked, staged.remark, staged.language});
+        return {index, {submission.name, std::move(checked), seed, log}, fingerprint, staged.remark, staged.language};
     }
 
     /// Marks, penalty and files; the file of results last, as it tells that the work is done.
@@ -333,24 +353,28 @@ class ClassGrader {
         if (written && !request_.regrade) return;
         fs::create_directories(folder);
         try {
-            write_feedback(marked, folder, request_.pdf ? &documents_ : nullptr);
+            const fs::path made = memory_of(submission) / "feedback";
+            if (request_.regrade) fs::remove(made);
+            set_feedback(marked, folder / "feedback.pdf", made, request_.pdf ? &documents_ : nullptr);
         } catch (const EnvironmentError& error) {  // one that cannot be set stops no other, and no mark
             const std::lock_guard lock(mutex_);
             outcome_.complaints.push_back(fmt::format("\"{}\": {}", submission.name, error.what()));
         }
+        std::vector<NewFile> files = {{folder / "feedback.md", feedback_markdown(marked)}};
         if (!grade.log.empty()) {
-            const fs::path log = request_.out / "logs" / submission.name / "log.txt";
-            fs::create_directories(log.parent_path());
-            write_file_atomically(log, terminal_text(grade.log));
+            const fs::path logs = request_.out / "logs" / submission.name;
+            fs::create_directories(logs);
+            files.push_back({logs / "log.txt", terminal_text(grade.log)});
         }
-        write_file_atomically(folder / "results.json", results);
+        files.push_back({folder / "results.json", results});
+        write_files_atomically(files);
     }
 
     /// Results of an earlier run for those that are not wanted now.
     void take_the_others() {
         for (std::size_t i = 0; i < submissions_.size(); ++i) {
             if (grades_[i]) continue;
-            std::optional<Grade> grade = earlier(folder_of(submissions_[i]));
+            std::optional<Grade> grade = earlier_grade(folder_of(submissions_[i]));
             if (!grade) continue;
             try {
                 contents_[i] = hash_of_content(submissions_[i]);

@@ -84,7 +84,7 @@ void GradingRules::make_records_of_declared_rigs() {
                             (rig + ".mat"));
             specimens_[run][rig] = specimen;
         }
-    const BoxedResult<CheckResults> made = checked({}, {}, {}, std::chrono::seconds(60), wanted);
+    const BoxedResult<CheckResults> made = listed(wanted);
     if (!made.output) throw EnvironmentError("the rigs that the checks declare cannot be run: " + made.reason);
     if (made.output->error) throw EnvironmentError(*made.output->error);
     for (std::size_t k = 0; k < files.size(); ++k) {

@@ -8,6 +8,7 @@
 #include "course/findings/document_findings.h"
 #include "course/findings/findings_report.h"
 #include "course/grading/boxed_work.h"
+#include "course/grading/grading_memory.h"
 #include "course/grading/job_descriptions.h"
 #include "data_io/values/json_values.h"
 #include "numerics/rigs/catalogue.h"
@@ -107,11 +108,11 @@ void GradingRules::read_checks() {
         std::sort(more.begin(), more.end());
         for (const fs::path& file : more) files_.push_back({file.filename().string(), read_text(file), false});
     }
-    const BoxedResult<CheckResults> listed = checked({}, {});
-    if (!listed.output) throw EnvironmentError("the checks cannot be read: " + listed.reason);
-    if (listed.output->error) throw EnvironmentError(*listed.output->error);
-    for (const TriedCheck& one : listed.output->checks) checks_.push_back(one.check);
-    declared_rigs_ = listed.output->rigs;
+    const BoxedResult<CheckResults> read = listed();
+    if (!read.output) throw EnvironmentError("the checks cannot be read: " + read.reason);
+    if (read.output->error) throw EnvironmentError(*read.output->error);
+    for (const TriedCheck& one : read.output->checks) checks_.push_back(one.check);
+    declared_rigs_ = read.output->rigs;
     if (checks_.empty()) throw EnvironmentError(fmt::format("lesson {} declares no check", setup_.lesson.slug));
     for (const CheckDescription& check : checks_) {
         const std::string& rerun = check.rerun;
@@ -197,69 +198,95 @@ Findings GradingRules::findings(const fs::path& folder, const GroupSeed& group_s
     }
 }
 
-BoxedResult<CheckResults> GradingRules::checked(std::optional<CheckedSubmission> submission,
-                                                const GroupSeed& group_seed, std::optional<std::size_t> only,
-                                                std::chrono::milliseconds timeout,
-                                                std::vector<WantedRecord> records) const {
-    const TakenCore core(*free_cores_);
-    Box box(setup_.isolation);
-    box.set_environment("DYNLAB_HOME", add_home(box, kMain, group_seed).string());
-    ChecksJob job;
-    job.files = files_;
-    if (submission) job.hidden_folder = box.add(records_.path() / kHiddenRecords, "/box/hidden");
-    job.specimens = specimens_;
-    if (group_seed) {
-        const std::lock_guard lock(*making_);
-        for (const std::string& name : simulated())
-            for (const char* run : {kMain, kSeedOnly}) job.specimens[run][name] = *group_seed;
-    }
-    job.time_ms = kCheckTime.count();
-    job.only = only;
-    job.submission = std::move(submission);
-    job.records = std::move(records);
-    return run_boxed(box, setup_.program, job, timeout);
-}
-
-std::vector<std::vector<TriedCheck>> GradingRules::tried(const std::vector<CheckedSubmission>& submissions) const {
-    if (submissions.empty()) return {};
+BoxedResult<CheckResults> GradingRules::listed(std::vector<WantedRecord> records) const {
     const TakenCore core(*free_cores_);
     Box box(setup_.isolation);
     box.set_environment("DYNLAB_HOME", add_home(box, kMain, {}).string());
     ChecksJob job;
     job.files = files_;
-    job.hidden_folder = box.add(records_.path() / kHiddenRecords, "/box/hidden");
-    job.specimens = specimens_;
     job.time_ms = kCheckTime.count();
-    job.submission = submissions.front();
-    job.further.assign(submissions.begin() + 1, submissions.end());
-    auto result = run_boxed(box, setup_.program, job, kSingleTime * 10);
-    if (!result.output) throw EnvironmentError("the checks come to no end: " + result.reason);
-    std::vector<std::vector<TriedCheck>> all = std::move(result.output->further);
-    all.insert(all.begin(), std::move(result.output->checks));
+    job.records = std::move(records);
+    return run_boxed(box, setup_.program, job, kSingleTime);
+}
+
+std::map<std::string, Specimens> GradingRules::specimens_of(const GroupSeed& group_seed) const {
+    std::map<std::string, Specimens> all = specimens_;
+    if (!group_seed) return all;
+    const std::lock_guard lock(*making_);
+    for (const std::string& name : simulated())
+        for (const char* run : {kMain, kSeedOnly}) all[run][name] = *group_seed;
     return all;
 }
 
-/// Answers that crash one check, or hold it up, take the others with them; then each is tried in a box of its own, and
-/// only those stay without a verdict that come to no end there.
-std::vector<GradingRules::Tried> GradingRules::verdicts(const CheckedSubmission& submission,
-                                                        const GroupSeed& group_seed, std::string& log) const {
-    const auto usable = [](const BoxedResult<CheckResults>& result, std::size_t count) {
-        return result.output && result.output->checks.size() == count;
-    };
-    const BoxedResult<CheckResults> together = checked(submission, group_seed);
-    log += fmt::format("checks: {:.3f} s in their box{}\n", together.seconds,
-                       together.output ? "" : "; " + together.reason);
-    std::vector<Tried> all;
-    if (usable(together, checks_.size())) {
-        for (const TriedCheck& one : together.output->checks) all.push_back({one, ""});
-        return all;
+/// Each may take `most`.
+BoxedResult<CheckResults> GradingRules::checked(const std::vector<Work>& works, std::chrono::milliseconds most,
+                                                std::optional<std::size_t> only) const {
+    const TakenCore core(*free_cores_);
+    Box box(setup_.isolation);
+    ChecksJob job;
+    job.files = files_;
+    job.hidden_folder = box.add(records_.path() / kHiddenRecords, "/box/hidden");
+    job.time_ms = kCheckTime.count();
+    job.most_ms = most.count();
+    job.only = only;
+    std::map<GroupSeed, fs::path> homes;
+    for (const Work& work : works) {
+        const auto [home, fresh] = homes.try_emplace(work.group_seed);
+        if (fresh)
+            home->second =
+                box.add(data_of(work.group_seed), fmt::format("/box/home-{}/data", homes.size())).parent_path();
+        job.submissions.push_back({work.runs, home->second, specimens_of(work.group_seed)});
     }
+    box.set_environment("DYNLAB_HOME", job.submissions.front().home.string());
+    return run_boxed(box, setup_.program, job, most * static_cast<int>(works.size()) + kStartTime);
+}
+
+std::vector<std::vector<TriedCheck>> GradingRules::tried(const std::vector<CheckedSubmission>& submissions) const {
+    if (submissions.empty()) return {};
+    std::vector<Work> works;
+    for (const CheckedSubmission& submission : submissions) works.push_back({"", submission, {}, ""});
+    auto result = checked(works, kSingleTime);
+    if (!result.output) throw EnvironmentError("the checks come to no end: " + result.reason);
+    std::vector<std::vector<TriedCheck>> all;
+    for (JudgedSubmission& judged : result.output->judged) {
+        if (!judged.reason.empty()) throw EnvironmentError("the checks come to no end: " + judged.reason);
+        all.push_back(std::move(judged.checks));
+    }
+    return all;
+}
+
+/// Each check in a box of its own; only those stay without a verdict that come to no end there.
+std::vector<GradingRules::Tried> GradingRules::verdicts_one_by_one(const Work& work) const {
+    std::vector<Tried> all;
     for (std::size_t k = 0; k < checks_.size(); ++k) {
-        const auto alone = checked(submission, group_seed, k, kSingleTime / static_cast<int>(checks_.size()));
-        if (usable(alone, 1))
-            all.push_back({alone.output->checks.front(), ""});
-        else
+        const auto alone = checked({work}, kSingleTime / static_cast<int>(checks_.size()), k);
+        const bool answered = alone.output && alone.output->judged.size() == 1;
+        if (!answered)
             all.push_back({{}, alone.output ? "its result cannot be read" : alone.reason});
+        else if (const JudgedSubmission& judged = alone.output->judged.front(); judged.checks.size() == 1)
+            all.push_back({judged.checks.front(), ""});
+        else
+            all.push_back({{}, judged.reason.empty() ? "its result cannot be read" : judged.reason});
+    }
+    return all;
+}
+
+/// Answers that crash one check, or hold it up, take the others of their submission with them; then each is tried by
+/// itself.
+std::vector<std::vector<GradingRules::Tried>> GradingRules::verdicts(std::vector<Work>& works) const {
+    const BoxedResult<CheckResults> together = checked(works, kSingleTime);
+    const bool answered = together.output && together.output->judged.size() == works.size();
+    std::vector<std::vector<Tried>> all(works.size());
+    for (std::size_t i = 0; i < works.size(); ++i) {
+        JudgedSubmission judged{{}, together.reason, together.seconds};
+        if (answered) judged = together.output->judged[i];
+        works[i].log += fmt::format("checks: {:.3f} s in their box{}\n", judged.seconds,
+                                    judged.reason.empty() ? "" : "; " + judged.reason);
+        if (judged.checks.size() != checks_.size()) {
+            all[i] = verdicts_one_by_one(works[i]);
+            continue;
+        }
+        for (TriedCheck& one : judged.checks) all[i].push_back({std::move(one), ""});
     }
     return all;
 }
@@ -305,22 +332,28 @@ CheckedSubmission GradingRules::work_in(const fs::path& folder, const GroupSeed&
 
 Grade GradingRules::grade(const std::string& name, const fs::path& folder, const GroupSeed& group_seed) const {
     std::string log;
-    const CheckedSubmission work = work_in(folder, group_seed, log);
-    return judged(name, work, group_seed, log);
+    CheckedSubmission work = work_in(folder, group_seed, log);
+    return judged({{name, std::move(work), group_seed, std::move(log)}}).front();
 }
 
-Grade GradingRules::judged(const std::string& name, const CheckedSubmission& submission, const GroupSeed& group_seed,
-                           std::string log) const {
-    Grade grade = ungraded(name);
-    grade.log = std::move(log);
-    const GradedRun& main = submission.runs.at(kMain);
+std::vector<Grade> GradingRules::judged(std::vector<Work> works) const {
+    std::vector<Grade> grades;
+    if (works.empty()) return grades;
+    const std::vector<std::vector<Tried>> found = verdicts(works);
+    for (std::size_t i = 0; i < works.size(); ++i) grades.push_back(grade_of(std::move(works[i]), found[i]));
+    return grades;
+}
+
+Grade GradingRules::grade_of(Work&& work, const std::vector<Tried>& found) const {
+    Grade grade = ungraded(work.name);
+    grade.log = std::move(work.log);
+    const GradedRun& main = work.runs.runs.at(kMain);
     if (!main.lesson.empty() && !lesson_.empty() && main.lesson != lesson_)
-        return unreadable(name, fmt::format("This is the script of lesson {}, not of {}.", main.lesson, lesson_));
+        return unreadable(work.name, fmt::format("This is the script of lesson {}, not of {}.", main.lesson, lesson_));
     grade.began = main.began;
     grade.silent = main.answers.empty();
     if (main.error) grade.trouble = shortened_trouble(*main.error);
     grade.printed = main.printed;
-    const std::vector<Tried> found = verdicts(submission, group_seed, grade.log);
     for (std::size_t k = 0; k < grade.checks.size(); ++k) {
         CheckGrade& check = grade.checks[k];
         const auto& [verdict, reason] = found.at(k);
@@ -341,13 +374,21 @@ Grade GradingRules::judged(const std::string& name, const CheckedSubmission& sub
     return grade;
 }
 
-std::vector<std::string> GradingRules::try_solution() {
+std::vector<std::string> GradingRules::try_solution(const fs::path& memory, bool anew) {
     const TemporaryFolder work;
     fs::copy_file(setup_.lesson.script(), work.path() / "analysis.lua");
     if (const fs::path report = setup_.lesson.report("en"); fs::exists(report))
         fs::copy_file(report, work.path() / "report.md");
+    std::string log, content = sha256_of_file(work.path() / "analysis.lua");
+    if (fs::exists(work.path() / "report.md")) content += sha256_of_file(work.path() / "report.md");
+    const std::string fingerprint = run_fingerprint(content, {});
+    std::optional<KeptRuns> kept = anew || memory.empty() ? std::nullopt : read_kept_runs(memory, fingerprint);
+    if (!kept) {
+        kept = KeptRuns{fingerprint, work_in(work.path(), {}, log), "", ""};
+        if (!memory.empty()) write_kept_runs(memory, *kept);
+    }
     std::vector<std::string> complaints;
-    const Grade solution = grade("solution", work.path());
+    const Grade solution = judged({{"solution", std::move(kept->work), {}, log}}).front();
     if (!solution.trouble.empty())
         complaints.push_back("the worked solution did not run to its end: " + solution.trouble);
     for (const CheckGrade& check : solution.checks) {

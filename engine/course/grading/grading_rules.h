@@ -46,17 +46,25 @@ class GradingRules {
     /// What the checks are tried on: the runs of the script in `folder`, and findings of its document where a check
     /// asks for them.
     CheckedSubmission work_in(const std::filesystem::path& folder, const GroupSeed& group_seed, std::string& log) const;
-    /// What the checks say of it.
-    Grade judged(const std::string& name, const CheckedSubmission& work, const GroupSeed& group_seed,
-                 std::string log) const;
+    /// Of a submission, to be judged.
+    struct Work {
+        std::string name;
+        CheckedSubmission runs;
+        GroupSeed group_seed;
+        std::string log;
+    };
+    /// What the checks say of each of these. One box serves them all, as its start takes longer than most checks; in it
+    /// each has a process of its own.
+    std::vector<Grade> judged(std::vector<Work> works) const;
     /// Runs and checks the submission whose script stands in `folder`.
     Grade grade(const std::string& name, const std::filesystem::path& folder, const GroupSeed& group_seed = {}) const;
     /// Of a submission in which nothing can be run: no check is graded.
     Grade unreadable(const std::string& name, const std::string& trouble) const;
 
     /// Tries the worked solution. Checks that it does not pass are broken: from now on they are left ungraded. Returns
-    /// a sentence for each.
-    std::vector<std::string> try_solution();
+    /// a sentence for each. The file `memory` keeps what it did (KeptRuns), which is not run again for other checks
+    /// unless `anew`; an empty name keeps nothing.
+    std::vector<std::string> try_solution(const std::filesystem::path& memory = {}, bool anew = false);
 
     /// What the checks say of each of these, their files read once. Throws EnvironmentError where they come to no end.
     std::vector<std::vector<TriedCheck>> tried(const std::vector<CheckedSubmission>& submissions) const;
@@ -80,17 +88,19 @@ class GradingRules {
     std::map<std::string, GradedRun> runs(const std::filesystem::path& folder, const GroupSeed& group_seed,
                                           std::string& log) const;
     Findings findings(const std::filesystem::path& folder, const GroupSeed& group_seed) const;
-    BoxedResult<CheckResults> checked(std::optional<CheckedSubmission> submission, const GroupSeed& group_seed,
-                                      std::optional<std::size_t> only = {},
-                                      std::chrono::milliseconds timeout = std::chrono::seconds(60),
-                                      std::vector<WantedRecord> records = {}) const;
+    /// The checks as they are declared, and these records.
+    BoxedResult<CheckResults> listed(std::vector<WantedRecord> records = {}) const;
+    BoxedResult<CheckResults> checked(const std::vector<Work>& works, std::chrono::milliseconds most,
+                                      std::optional<std::size_t> only = {}) const;
     /// Nothing of a check for which no verdict can be had, and why, instead of one.
     struct Tried {
         std::optional<TriedCheck> result;
         std::string reason;
     };
-    std::vector<Tried> verdicts(const CheckedSubmission& submission, const GroupSeed& group_seed,
-                                std::string& log) const;
+    std::vector<std::vector<Tried>> verdicts(std::vector<Work>& works) const;
+    std::vector<Tried> verdicts_one_by_one(const Work& work) const;
+    Grade grade_of(Work&& work, const std::vector<Tried>& found) const;
+    std::map<std::string, Specimens> specimens_of(const GroupSeed& group_seed) const;
     std::vector<std::string> simulated() const;
     Grade ungraded(const std::string& name) const;
     std::filesystem::path data_of(const GroupSeed& group_seed) const;

@@ -5,13 +5,16 @@
 #include <sys/random.h>
 #include <unistd.h>
 
+#include <map>
 #include <set>
+#include <utility>
 
 #include "course/store/course_key.h"
 #include "course/store/course_schema.h"
 #include "course/store/store_seal.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
+#include "platform/files/atomic_files.h"
 #include "platform/hash.h"
 #include "platform/system_call.h"
 
@@ -153,12 +156,23 @@ fs::path Course::file(const std::string& hash) const {
 }
 
 std::string Course::keep(std::string_view content) const {
-    const std::string hash = sha256_of(content);
-    const fs::path kept = file(hash);
-    if (fs::exists(kept) && sha256_of_file(kept) == hash) return hash;
-    make_folder(kept.parent_path());
-    write_file_atomically(kept, content);
-    return hash;
+    return keep(std::vector<std::string>{std::string(content)}).front();
+}
+
+std::vector<std::string> Course::keep(const std::vector<std::string>& contents) const {
+    std::vector<std::string> hashes;
+    std::map<fs::path, std::string> fresh;
+    for (const std::string& content : contents) {
+        hashes.push_back(sha256_of(content));
+        const fs::path kept = file(hashes.back());
+        if (fresh.contains(kept) || (fs::exists(kept) && sha256_of_file(kept) == hashes.back())) continue;
+        make_folder(kept.parent_path());
+        fresh.emplace(kept, content);
+    }
+    std::vector<NewFile> files;
+    for (auto& [kept, content] : fresh) files.push_back({kept, std::move(content)});
+    write_files_atomically(files);
+    return hashes;
 }
 
 void Course::settle(const std::vector<std::string>& hashes) const {

@@ -35,6 +35,8 @@ class Course {
 
     /// Stores the content of a file, before a transaction; returns its hash. Several threads may do so at once.
     std::string keep(std::string_view content) const;
+    /// The same for several, of which each has its hash; they wait for the disk together.
+    std::vector<std::string> keep(const std::vector<std::string>& contents) const;
     /// Once all are kept, before the transaction: they are there after a power cut too.
     void settle(const std::vector<std::string>& hashes) const;
     /// Within a transaction: the store speaks of this content from now on.

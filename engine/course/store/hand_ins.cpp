@@ -6,6 +6,7 @@
 #include <deque>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "course/corrections/corrections.h"
 #include "course/review/pack_scores.h"
@@ -20,6 +21,7 @@
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
+#include "platform/files/atomic_files.h"
 #include "platform/hash.h"
 
 namespace dynlab::inline course {
@@ -52,6 +54,26 @@ struct Candidate {
     std::map<std::string, double> scores;  ///< of a review's pack, by criterion
 };
 
+/// Makes its folder.
+fs::path place_of(const Course& course, std::int64_t version, const Receipt& receipt) {
+    const fs::path folder = course.folder() / "receipts" / receipt.assignment;
+    fs::create_directories(folder);
+    return folder / fmt::format("{:05}-{}-{}-{}{}.txt", version, receipt.group, receipt.stage, receipt.part,
+                                receipt.correction > 0 ? fmt::format("-corrected-{}", receipt.correction) : "");
+}
+
+void write_receipts(Course& course, const std::vector<Received>& received) {
+    std::vector<NewFile> files;
+    std::set<fs::path> places;  // of a file that came twice there is one version
+    for (const Received& one : received) {
+        const Receipt receipt = receipt_of(course, one.id);
+        const fs::path file = place_of(course, one.id, receipt);
+        if (!fs::exists(file) && places.insert(file).second)
+            files.push_back({file, signed_receipt(receipt, course.signing_key())});
+    }
+    write_files_atomically(files);
+}
+
 class HandInReceiver {
   public:
     HandInReceiver(Course& course, const ReceiveRequest& request)
@@ -75,7 +97,7 @@ class HandInReceiver {
         write();
         outcome_.receipts = course_.folder() / "receipts" / outcome_.assignment.name;
         if (!outcome_.received.empty()) course_.publish_key();
-        for (const Received& received : outcome_.received) write_receipt(course_, received.id);
+        write_receipts(course_, outcome_.received);
         return std::move(outcome_);
     }
 
@@ -257,7 +279,8 @@ class HandInReceiver {
     void keep_all() {
         std::optional<Inspector> inspector;
         if (request_.checks) inspector.emplace(request_.stage == "review" ? everybody() : nullptr);
-        const auto work = [&](std::size_t i) { keep(candidates_[i], inspector); };
+        keep_files();
+        const auto work = [&](std::size_t i) { inspect(candidates_[i], inspector); };
         side_by_side(candidates_.size(), work, request_.progress);
         std::vector<std::string> hashes;
         for (const Candidate& candidate : candidates_) hashes.push_back(candidate.hash);
@@ -268,10 +291,23 @@ class HandInReceiver {
         return std::make_shared<const SoughtNames>(Roster(students_of(course_)));
     }
 
-    void keep(Candidate& candidate, const std::optional<Inspector>& inspector) const {
-        const std::string content = read_file(candidate.file->file);
-        candidate.bytes = static_cast<std::int64_t>(content.size());
-        candidate.hash = course_.keep(content);
+    /// So many at a time as memory holds easily: together they wait for the disk once.
+    void keep_files() {
+        constexpr std::size_t kMostTogether = 32u << 20;
+        std::vector<std::string> contents;
+        std::size_t bytes = 0, from = 0;
+        for (std::size_t i = 0; i < candidates_.size(); ++i) {
+            contents.push_back(read_file(candidates_[i].file->file));
+            candidates_[i].bytes = static_cast<std::int64_t>(contents.back().size());
+            bytes += contents.back().size();
+            if (bytes < kMostTogether && i + 1 < candidates_.size()) continue;
+            for (std::string& hash : course_.keep(std::exchange(contents, {})))
+                candidates_[from++].hash = std::move(hash);
+            bytes = 0;
+        }
+    }
+
+    void inspect(Candidate& candidate, const std::optional<Inspector>& inspector) const {
         if (candidate.unreadable && !inspector)
             candidate.inspection = Inspector(nullptr).inspect(course_.file(candidate.hash), candidate.part);
         else if (inspector && inspector->looks_at(candidate.part))
@@ -400,11 +436,7 @@ class HandInReceiver {
 
 fs::path write_receipt(Course& course, std::int64_t version, std::optional<std::int64_t> correction) {
     const Receipt receipt = receipt_of(course, version, correction);
-    const fs::path folder = course.folder() / "receipts" / receipt.assignment;
-    fs::create_directories(folder);
-    const fs::path file =
-        folder / fmt::format("{:05}-{}-{}-{}{}.txt", version, receipt.group, receipt.stage, receipt.part,
-                             receipt.correction > 0 ? fmt::format("-corrected-{}", receipt.correction) : "");
+    const fs::path file = place_of(course, version, receipt);
     if (!fs::exists(file)) write_file_atomically(file, signed_receipt(receipt, course.signing_key()));
     return file;
 }

@@ -1,0 +1,39 @@
+#pragma once
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+#include "platform/system_call.h"
+
+namespace dynlab::inline platform {
+
+/// What atomic_file.h is made of: a new file beside the destination that replaces it on commit() and is removed when
+/// that is not reached. A device or a pipe cannot be replaced and is written into. All throw EnvironmentError.
+class ReplacementFile {
+  public:
+    explicit ReplacementFile(const std::filesystem::path& file);
+    ~ReplacementFile();
+    ReplacementFile(const ReplacementFile&) = delete;
+    ReplacementFile& operator=(const ReplacementFile&) = delete;
+
+    void append(std::string_view bytes);
+    /// The bytes set out for the disk; commit() waits for them.
+    void begin_to_sync() const;
+    void commit();
+
+  private:
+    void create_beside();
+
+    std::filesystem::path file_, temporary_;
+    FileDescriptor fd_;
+};
+
+[[noreturn]] void fail_to_write(const std::filesystem::path& file, int error_number);
+/// Behind a symbolic link, so that the link itself survives.
+std::filesystem::path destination_of(const std::filesystem::path& file);
+/// Status of what stands at `file` now; nothing when there is none.
+std::optional<struct stat> present_status(const std::filesystem::path& file);
+
+}  // namespace dynlab::inline platform
