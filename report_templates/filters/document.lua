@@ -136,7 +136,7 @@ local function figure(image)
   if not file then return missing_block(name) end
   local alternative = pandoc.utils.stringify(caption)
   if alternative == "" then alternative = name or image.src end
-  if is_numbered(caption, label) then
+  if is_numbered(caption, label) and not image.classes:includes("unnumbered") then
     local shown = number("fig", label)
     caption = layout:numbered_caption("fig", shown, caption)
   end
@@ -585,7 +585,15 @@ local function asked_choice(division)
   return blocks
 end
 
+-- What pages show and paper does not: figures that move or are to be played with. They have no numbers, so that page and
+-- paper count alike.
+local function on_screens(division)
+  if slots.format ~= "html" then return {} end
+  return division:walk { Image = function(image) image.classes:insert("unnumbered"); return image end }.content
+end
+
 local function expand(element)
+  if element.classes[1] == "screen" and #element.classes == 1 then return on_screens(element) end
   if element.classes[1] == "choice" and #element.classes == 1 then return asked_choice(element) end
   if element.classes[1] == "measures" and #element.classes == 1 then return measures(element) end
   if element.classes[1] == "text" and #element.classes == 1 then return text_slot(element) end

@@ -207,7 +207,7 @@ $("anew").onclick = () => order("/anew");
 $("allow").onclick = () => order("/allow");
 
 $("document").addEventListener("click", (event) => {
-  if (event.target.closest(".slider, a, button, summary, input")) return;
+  if (event.target.closest(".slider, .motion, a, button, summary, input")) return;
   const piece = event.target.closest(".piece");
   mark(piece);
   if (piece && window.getSelection().isCollapsed) editor.goTo(piece.dataset.file, Number(piece.dataset.line));
