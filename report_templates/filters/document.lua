@@ -260,7 +260,8 @@ local function check_mathematics(element)
 end
 
 local division_attributes =
-  { table = { name = true }, text = { name = true }, drawing = { name = true }, column = { width = true } }
+  { table = { name = true }, text = { name = true }, drawing = { name = true }, column = { width = true },
+    question = { right = true } }
 
 local function columns(element)
   local list = {}
@@ -354,6 +355,7 @@ local function division(element)
   if class == "block-diagram" then return block_diagram(element) end
   if class == "drawing" then return named_drawing(element) end
   if class == "kept" then return layout:kept(element.content) end
+  if class == "question" then return layout:question(element.content, element.attributes.right or "") end
   if class == "answer" then return layout:folded(element.content, layout.words.answer) end
   if class == "column" then
     report("not-a-column", "column")
@@ -579,6 +581,7 @@ local function asked_choice(division)
   local answer = choice.answered(read, shown, layout.words)
   if slots.format == "html" then
     blocks:insert(pandoc.Div(answer, { class = "answer" }))
+    return pandoc.Div(blocks, { class = "question", right = choice.right_places(read) })
   else
     answers:insert(pandoc.Div(answer, { class = "kept" }))
   end

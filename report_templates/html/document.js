@@ -86,5 +86,6 @@
   for (const code of main.querySelectorAll("pre:not(.output):not(.error)")) addCopyButton(code);
   applyTheme();
   dynlabPlots.enliven(document);
+  dynlabChoices.enliven(document);
   dynlabSliders.begin();
 })();

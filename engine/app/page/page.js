@@ -63,6 +63,7 @@ function place(pieces, html) {
     while (before?.classList.contains("slider")) before = before.nextElementSibling;
   }
   dynlabPlots.enliven(main);
+  dynlabChoices.enliven(main);
   return true;
 }
 
@@ -207,7 +208,7 @@ $("anew").onclick = () => order("/anew");
 $("allow").onclick = () => order("/allow");
 
 $("document").addEventListener("click", (event) => {
-  if (event.target.closest(".slider, .motion, a, button, summary, input")) return;
+  if (event.target.closest(".slider, .motion, .option, a, button, summary, input")) return;
   const piece = event.target.closest(".piece");
   mark(piece);
   if (piece && window.getSelection().isCollapsed) editor.goTo(piece.dataset.file, Number(piece.dataset.line));
