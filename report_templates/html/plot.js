@@ -54,7 +54,7 @@ const dynlabPlots = (() => {
       this.whole.textContent = WORDS.whole;
       this.whole.hidden = this.reading.hidden = true;
       this.whole.onclick = () => { this.reset(); this.box.focus({ preventScroll: true }); };
-      this.box.append(this.canvas, this.over, this.reading, this.whole);
+      this.box.append(this.canvas, this.over, this.reading, this.whole, dynlabTables.button(this.box, this.readable, this.comma));
       for (const panel of this.panels)
         for (const entry of panel.legend) this.box.append(this.button(panel, entry, element("button", "entry")));
     }
