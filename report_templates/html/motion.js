@@ -11,9 +11,12 @@ const dynlabMotion = (() => {
         measured: "measured", simulated: "simulated", stage: "The rig in motion" };
   const RIM = 0.3, LARGER = 1.5, STEP = 0.02, SLOWER = [2, 5, 10];
 
+  const moving = new Set();
+  document.addEventListener("visibilitychange", () => { if (document.hidden) for (const motion of moving) motion.pause(); });
+
   class Motion {
     constructor(plot, data) {
-      Object.assign(this, data, { plot, playing: false, speed: 1 });
+      Object.assign(this, data, { plot, speed: 1 });
       this.size = [data.size[0] + 2 * RIM, data.size[1] + 2 * RIM];
       const kinds = ["measured", "simulated"].filter((kind) => data[kind]);
       this.signals = data.parts.map((_, k) => plot.panels[data.picture + 1 + k]);
@@ -56,24 +59,24 @@ const dynlabMotion = (() => {
       this.tellState();
       new ResizeObserver(() => this.draw()).observe(this.stage);
       new IntersectionObserver(([seen]) => { if (!seen.isIntersecting) this.pause(); }).observe(this.box);
-      document.addEventListener("visibilitychange", () => { if (document.hidden) this.pause(); });
     }
 
+    get playing() { return moving.has(this); }
     tellState() { this.button.textContent = this.playing ? WORDS.pause : WORDS.play; }
     toggle() { if (this.playing) this.pause(); else this.play(); }
     pause() {
-      if (!this.playing) return;
-      this.playing = false;
+      if (!moving.delete(this)) return;
       this.tellState();
       this.tellValues();
     }
     play() {
       if (this.now >= this.last) this.show(this.first);
-      this.playing = true;
+      moving.add(this);
       this.tellState();
+      const run = this.run = {};  // an earlier one that waits for its frame goes on no longer
       let before = null;
       const go = (clock) => {
-        if (!this.playing) return;
+        if (!this.playing || this.run !== run) return;
         if (!this.box.isConnected) return this.pause();
         if (before !== null) this.show(this.now + this.speed * Math.min(clock - before, 250) / 1000);
         before = clock;
@@ -112,6 +115,7 @@ const dynlabMotion = (() => {
         });
         return line;
       }));
+      if (this.playing) return;  // nobody can listen so fast
       const text = spoken.join("; ");
       this.scrubber.setAttribute("aria-valuetext", text);
       this.stage.setAttribute("aria-label", `${WORDS.stage}. ${text}`);

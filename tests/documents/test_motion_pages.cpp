@@ -142,6 +142,23 @@ TEST_F(motion_pages, play_in_real_time_or_slower_and_pause) {
     EXPECT_NEAR(slower[1].get<double>(), 0.1 * slower[0].get<double>(), 0.05);
 }
 
+TEST_F(motion_pages, keep_their_pace_when_the_button_is_pressed_again_and_again) {
+    make();
+    open();
+    browser.evaluate(
+        "for (let i = 0; i < 7; ++i) document.querySelector('.motion button').click();"
+        "window.from = [performance.now(), motion.now]");
+    EXPECT_EQ(value("motion.playing"), true);
+    EXPECT_FALSE(browser.comes("false", 1));
+    const json passed = value("[(performance.now() - from[0]) / 1000, motion.now - from[1]]");
+    EXPECT_NEAR(passed[1].get<double>(), passed[0].get<double>(), 0.3);
+    EXPECT_THAT(value("motion.stage.getAttribute('aria-label')").get<std::string>(), HasSubstr(" 0.000 s"))
+        << "while it moves nothing is read out";
+    browser.click(".motion button");
+    EXPECT_THAT(value("motion.stage.getAttribute('aria-label')").get<std::string>(),
+                testing::Not(HasSubstr(" 0.000 s")));
+}
+
 TEST_F(motion_pages, end_where_the_record_ends_and_begin_anew) {
     make();
     open();
