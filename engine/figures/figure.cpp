@@ -75,6 +75,17 @@ void check_panel(const Panel& panel, const std::string& where) {
                                               arrow.text, arrow.x0, arrow.y0, arrow.x1, arrow.y1));
 }
 
+void check_motion(const Motion& motion, const std::vector<Panel>& panels) {
+    motion.rig.validate();
+    const std::size_t curves = (motion.measured ? 1 : 0) + (motion.simulated ? 1 : 0);
+    for (std::size_t k = 0; k < motion.rig.parts.size(); ++k) {
+        const std::size_t place = motion.picture + 1 + k;
+        if (place >= panels.size() || panels[place].curves.size() < curves)
+            throw InvalidArgument(
+                fmt::format("panel {} must show the {} that moves the rig", place + 1, motion.rig.parts[k].signal));
+    }
+}
+
 }  // namespace
 
 void Figure::validate() const {
@@ -92,6 +103,7 @@ void Figure::validate() const {
             "the height of a figure must lie between 3 and 200 cm, or be 0 to have it chosen, not {}", height_cm));
     for (std::size_t i = 0; i < panels.size(); ++i)
         check_panel(panels[i], numbered_name("panel", i + 1, panels[i].title));
+    if (motion) check_motion(*motion, panels);
 }
 
 }  // namespace dynlab::inline figures

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "figures/moving_rig.h"
 #include "numerics/linalg/types.h"
 
 namespace dynlab::inline figures {
@@ -66,11 +67,13 @@ struct Figure {
     std::vector<Panel> panels;            ///< row by row, at most rows * columns
     std::string title;                    ///< above all panels; documents use captions instead
     double width_cm = 14, height_cm = 0;  ///< height 0: chosen from the rows
+    std::optional<Motion> motion;         ///< what pages show moving above it
 
     Figure() = default;
     explicit Figure(Panel panel) : panels{std::move(panel)} {}
     /// Throws InvalidArgument for curves whose x and y differ in length, no finite sample, too many panels,
-    /// or a range that is empty or not positive on a logarithmic axis; names panel and curve.
+    /// a range that is empty or not positive on a logarithmic axis, or a motion whose panels
+    /// lack curves; names panel and curve.
     void validate() const;
 };
 

@@ -42,6 +42,7 @@ constexpr std::array kTexts = {
     Words{"real axis", "axe réel"},
     Words{"real part", "partie réelle"},
     Words{"simulation", "simulation"},
+    Words{"simulated", "simulé"},
     Words{"smoothed", "lissé"},
     Words{"time", "temps"},
     Words{"true value", "vraie valeur"},

@@ -60,6 +60,7 @@ class PanelScript {
     }
 
     void write_ticks(char name, const Axis& axis, double length) {
+        if (axis.ticks.empty() && axis.minor.empty()) return put("unset {}tics\n", name);  // an empty list: its own
         put("set {}tics out nomirror scale 0.45,0.25 (", name);
         const char* separator = "";
         const auto tick = [&](double value, int level) {

@@ -302,7 +302,8 @@ report.table("sources", {
 
 -- %% [markdown]
 -- **Question 8.** Validate: the simulated outputs against the record that was not used, and the residuals. How does the model do on the
--- pushes of `steps`, and what does the free swing say of the pendulum?
+-- pushes of `steps`, and what does the free swing say of the pendulum? `motion` shows crane and model side by side as they move (on the page of
+-- `dynlab preview analysis.lua`, not in the report).
 
 -- %% id=validation
 -- BEGIN SOLUTION
@@ -354,6 +355,18 @@ for name, tests in pairs{x = x_tests, theta = theta_tests} do
     report.value("coloured_" .. name, tests.outputs[1].outside, "%d")
     report.value("input_p_" .. name, tests.outputs[1].inputs[1].p_value, "%.2f")
     report.value("input_lags_" .. name, tests.outputs[1].inputs[1].outside, "%d")
+end
+-- END SOLUTION
+
+-- %% id=motion
+-- BEGIN SOLUTION
+-- STARTER: -- motion{rig = "crane", t = crane.validation.t, measured = {position = crane.validation.x, angle = crane.validation.theta},
+-- STARTER: --        simulated = {position = ..., angle = ...}}
+do
+    local x, theta = response(against)
+    motion{rig = "crane", t = against.t, instants = {5.5, 12.5, 18.5, 25},
+           measured = {position = against.x - against.x[1], angle = against.theta - mean(against.theta:range(1, rest))},
+           simulated = {position = x, angle = theta}}
 end
 -- END SOLUTION
 

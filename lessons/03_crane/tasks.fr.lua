@@ -54,7 +54,8 @@
 
 -- %% [markdown]
 -- **Question 8.** Validez : les sorties simulées contre l'enregistrement qui n'a pas servi, puis les résidus. Que vaut le modèle sur les
--- poussées de `steps`, et que dit le balancement libre du pendule ?
+-- poussées de `steps`, et que dit le balancement libre du pendule ? `motion` montre la grue et le modèle côte à côte, en mouvement (sur la page de
+-- `dynlab preview analysis.lua`, pas dans le rapport).
 
 -- %% [markdown]
 -- **Question 9.** Un enregistrement est un seul coup de dés. On peut interroger de nouveau la grue de ce cours : `rig("crane", {seed = 2})` répète les cinq

@@ -463,7 +463,7 @@ end
 
 -- %% [markdown]
 -- **Question 8.** Validate both ways: models from the sine chirps on the square chirps, and the other way round. Where, in time and amplitude, does each
--- model fail?
+-- model fail? `motion` shows thruster and model side by side as they move (on the page of `dynlab preview analysis.lua`, not on the slides).
 
 -- %% id=validation
 -- BEGIN SOLUTION
@@ -484,6 +484,16 @@ local lower = piece_of("sine_200", "square", 9, 10.6, say("models from square ch
 upper.legend, lower.xlabel = "above", seconds
 report.figure("validation", figure{rows = 2, width = 14.4, height = 5.9, panels = {upper, lower}},
               say("Validation both ways", "Validation dans les deux sens"))
+-- END SOLUTION
+
+-- %% id=motion
+-- BEGIN SOLUTION
+-- STARTER: -- motion{rig = "thruster", t = thruster.square_300.t, measured = {force = thruster.square_300.force}, simulated = {force = ...}}
+do
+    local r = thruster.square_300
+    motion{rig = "thruster", t = r.t, instants = {0.3, 6.5, 12.5, 18.5}, height = 7,
+           measured = {force = thrust(r)}, simulated = {force = fitted.root.sine.simulate(width(r))}}
+end
 -- END SOLUTION
 
 -- %% [markdown]

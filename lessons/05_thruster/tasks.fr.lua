@@ -58,6 +58,7 @@
 
 -- %% [markdown]
 -- **Question 8.** Validez dans les deux sens : les modèles des sinus sur les carrés, et inversement. Où, en temps et en amplitude, chaque modèle échoue-t-il ?
+-- `motion` montre le propulseur et le modèle côte à côte, en mouvement (sur la page de `dynlab preview analysis.lua`, pas sur les diapositives).
 
 -- %% [markdown]
 -- **Question 9.** On peut interroger de nouveau le propulseur de ce cours : `rig("thruster", {seed = 2})` répète tous les enregistrements avec un autre bruit.

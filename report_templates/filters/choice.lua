@@ -10,7 +10,8 @@
 --     The fit compares with the mean of the measured output.
 --   :::
 -- The question, then a list: each item an option, marked right or wrong, and a paragraph that says why. In HTML the
--- answers stand folded below their question, elsewhere at the end of the document.
+-- options answer when they are chosen (html/choices.js), and without scripts the answers stand folded below their
+-- question; elsewhere they stand at the end of the document.
 local choice = {}
 
 local signs = { ["☐"] = "wrong", ["☒"] = "right" }
@@ -65,6 +66,15 @@ function choice.asked(read, number)
   local blocks = with_number(number, read.question:clone())
   blocks:insert(pandoc.OrderedList(items, { 1, "LowerAlpha", "OneParen" }))
   return blocks
+end
+
+-- The places of the right options, "1 3".
+function choice.right_places(read)
+  local places = {}
+  for place, option in ipairs(read.options) do
+    if option.right then table.insert(places, tostring(place)) end
+  end
+  return table.concat(places, " ")
 end
 
 -- Which options are right, and why each is or is not.

@@ -136,7 +136,7 @@ local function figure(image)
   if not file then return missing_block(name) end
   local alternative = pandoc.utils.stringify(caption)
   if alternative == "" then alternative = name or image.src end
-  if is_numbered(caption, label) then
+  if is_numbered(caption, label) and not image.classes:includes("unnumbered") then
     local shown = number("fig", label)
     caption = layout:numbered_caption("fig", shown, caption)
   end
@@ -260,7 +260,8 @@ local function check_mathematics(element)
 end
 
 local division_attributes =
-  { table = { name = true }, text = { name = true }, drawing = { name = true }, column = { width = true } }
+  { table = { name = true }, text = { name = true }, drawing = { name = true }, column = { width = true },
+    question = { right = true } }
 
 local function columns(element)
   local list = {}
@@ -354,6 +355,7 @@ local function division(element)
   if class == "block-diagram" then return block_diagram(element) end
   if class == "drawing" then return named_drawing(element) end
   if class == "kept" then return layout:kept(element.content) end
+  if class == "question" then return layout:question(element.content, element.attributes.right or "") end
   if class == "answer" then return layout:folded(element.content, layout.words.answer) end
   if class == "column" then
     report("not-a-column", "column")
@@ -579,13 +581,22 @@ local function asked_choice(division)
   local answer = choice.answered(read, shown, layout.words)
   if slots.format == "html" then
     blocks:insert(pandoc.Div(answer, { class = "answer" }))
+    return pandoc.Div(blocks, { class = "question", right = choice.right_places(read) })
   else
     answers:insert(pandoc.Div(answer, { class = "kept" }))
   end
   return blocks
 end
 
+-- What pages show and paper does not: figures that move or are to be played with. They have no numbers, so that page and
+-- paper count alike.
+local function on_screens(division)
+  if slots.format ~= "html" then return {} end
+  return division:walk { Image = function(image) image.classes:insert("unnumbered"); return image end }.content
+end
+
 local function expand(element)
+  if element.classes[1] == "screen" and #element.classes == 1 then return on_screens(element) end
   if element.classes[1] == "choice" and #element.classes == 1 then return asked_choice(element) end
   if element.classes[1] == "measures" and #element.classes == 1 then return measures(element) end
   if element.classes[1] == "text" and #element.classes == 1 then return text_slot(element) end

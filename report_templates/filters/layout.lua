@@ -227,6 +227,12 @@ function layout:folded(blocks, title)
   return within("html", '<details class="answer"><summary>' .. html(title) .. "</summary>", blocks, "</details>")
 end
 
+-- A question with its answer; `right`: the places of the options that are, "1 3".
+function layout:question(blocks, right)
+  if self.format ~= "html" then return pandoc.Div(blocks) end
+  return within("html", '<div class="choice" data-right="' .. right:gsub("[^%d ]", "") .. '">', blocks, "</div>")
+end
+
 -- A list of literature, as Pandoc's citeproc leaves it: entries with hanging first lines.
 function layout:literature(list)
   if self.format ~= "latex" then return list end

@@ -2,8 +2,8 @@
 (() => {
   "use strict";
   const WORDS = document.documentElement.lang.startsWith("fr")
-    ? { contents: "Sommaire", dark: "Sombre", light: "Clair", copy: "Copier", copied: "Copié", code: "Copier ce code" }
-    : { contents: "Contents", dark: "Dark", light: "Light", copy: "Copy", copied: "Copied", code: "Copy this code" };
+    ? { contents: "Sommaire", dark: "Sombre", light: "Clair", copy: "Copier", code: "Copier ce code" }
+    : { contents: "Contents", dark: "Dark", light: "Light", copy: "Copy", code: "Copy this code" };
   const main = document.querySelector("main");
   const make = (name, kind, text = "") => Object.assign(document.createElement(name), { className: kind, textContent: text });
 
@@ -54,26 +54,10 @@
     return details;
   }
 
-  async function copy(text) {
-    try {
-      await navigator.clipboard.writeText(text);
-    } catch {  // not allowed from a file: the way of older browsers
-      const field = make("textarea", "");
-      field.value = text;
-      document.body.append(field);
-      field.select();
-      document.execCommand("copy");
-      field.remove();
-    }
-  }
   function addCopyButton(code) {
-    const box = make("div", "copied-from"), button = make("button", "copy", WORDS.copy);
+    const box = make("div", "copied-from");
+    const button = dynlabTables.copyButton("copy", WORDS.copy, () => code.textContent.replace(/\n$/, ""));
     button.setAttribute("aria-label", WORDS.code);
-    button.onclick = async () => {
-      await copy(code.textContent.replace(/\n$/, ""));
-      button.textContent = WORDS.copied;
-      setTimeout(() => { button.textContent = WORDS.copy; }, 1500);
-    };
     code.before(box);
     box.append(code, button);
   }
@@ -86,5 +70,6 @@
   for (const code of main.querySelectorAll("pre:not(.output):not(.error)")) addCopyButton(code);
   applyTheme();
   dynlabPlots.enliven(document);
+  dynlabChoices.enliven(document);
   dynlabSliders.begin();
 })();

@@ -22,10 +22,12 @@ const dynlabPlots = (() => {
     constructor(picture, figure) {
       Object.assign(this, { picture, size: figure.size, comma: figure.comma, texts: figure.texts });
       this.panels = figure.panels.map((panel) => new Panel(panel));
+      if (figure.motion) this.panels[figure.motion.picture].picture = true;
       this.pointers = new Map();
       this.cursor = null;  // { panel, x, y }: cm
       this.build();
       this.listen();
+      if (figure.motion) this.motion = new dynlabMotion.Motion(this, figure.motion);
       new ResizeObserver(() => {  // told when it leaves the page, and when it comes back
         if (!this.box.isConnected) return plots.delete(this);
         plots.add(this);
@@ -52,7 +54,7 @@ const dynlabPlots = (() => {
       this.whole.textContent = WORDS.whole;
       this.whole.hidden = this.reading.hidden = true;
       this.whole.onclick = () => { this.reset(); this.box.focus({ preventScroll: true }); };
-      this.box.append(this.canvas, this.over, this.reading, this.whole);
+      this.box.append(this.canvas, this.over, this.reading, this.whole, dynlabTables.button(this.box, this.readable, this.comma));
       for (const panel of this.panels)
         for (const entry of panel.legend) this.box.append(this.button(panel, entry, element("button", "entry")));
     }
@@ -81,8 +83,16 @@ const dynlabPlots = (() => {
       new Painter(this.canvas.getContext("2d"), this, this.unit).draw();
       this.whole.hidden = !this.panels.some((panel) => panel.x.moved || panel.y.moved);
       this.drawCursor();
+      this.motion?.refresh();
+    }
+    /// An instant that is shown elsewhere, as a line through the panels over time.
+    showMoment(instant) {
+      this.moment = instant;
+      if (this.unit) this.drawCursor();
     }
 
+    /// Those that show values, not pictures.
+    get readable() { return this.panels.filter((panel) => !panel.picture); }
     partners(panel) { return this.panels.filter((other) => other === panel || other.goesWith(panel)); }
     reset() {
       for (const panel of this.panels) { panel.x.reset(); panel.y.reset(); }
@@ -110,8 +120,8 @@ const dynlabPlots = (() => {
     within(panel, [x, y]) { return [(x - panel.left) / panel.width, (y - panel.bottom) / panel.height]; }
     /// The panel of a place, and which axis alone is meant where it lies beside the numbers.
     panelAt([x, y]) {
-      for (const panel of this.panels) if (panel.holds(x, y)) return [panel, ""];
-      for (const panel of this.panels) {
+      for (const panel of this.readable) if (panel.holds(x, y)) return [panel, ""];
+      for (const panel of this.readable) {
         if (x > panel.left - 1.2 && x < panel.left && y > panel.bottom && y < panel.top) return [panel, "y"];
         if (y > panel.bottom - 1 && y < panel.bottom && x > panel.left && x < panel.right) return [panel, "x"];
       }
@@ -195,7 +205,7 @@ const dynlabPlots = (() => {
 
     key(event) {
       if (event.target !== this.box || event.ctrlKey || event.altKey || event.metaKey) return;
-      const panel = this.cursor?.panel ?? this.panels[0];
+      const panel = this.cursor?.panel ?? this.readable[0];
       const middle = this.cursor ? this.within(panel, [this.cursor.x, this.cursor.y]) : [0.5, 0.5];
       const arrow = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
       if (arrow && event.shiftKey) this.move(panel, 0.1 * arrow[0], 0.1 * arrow[1]);
@@ -209,8 +219,8 @@ const dynlabPlots = (() => {
     }
     /// The cursor goes from sample to sample, at least a pixel, and up and down among panels.
     step(panel, aside, upwards) {
-      const index = this.panels.indexOf(panel);
-      if (upwards) panel = this.panels[clamp(index - upwards, 0, this.panels.length - 1)];
+      const panels = this.readable, index = panels.indexOf(panel);
+      if (upwards) panel = panels[clamp(index - upwards, 0, panels.length - 1)];
       const guide = panel.curves.find((curve) => curve.shown && curve.isFunction);
       let x = this.cursor ? this.cursor.x + aside / this.unit : panel.left + panel.width / 2;
       if (this.cursor && aside && guide) {
@@ -238,7 +248,7 @@ const dynlabPlots = (() => {
       if (guide.covers(value)) value = guide.x[guide.nearest(value, false)];
       const named = this.partners(panel).find((part) => part.x.name) ?? panel;
       lines.push({ name: named.x.name || "x", text: named.x.text(value, this.comma) });
-      for (const part of this.partners(panel))
+      for (const part of this.partners(panel).filter((one) => !one.picture))
         for (const curve of part.curves) {
           if (!curve.shown || !curve.isFunction || !curve.covers(value)) continue;
           const read = curve.at(value);
@@ -268,10 +278,18 @@ const dynlabPlots = (() => {
       return { lines, places: best ? [best] : [], value: null };
     }
 
+    drawMoment(painter) {
+      painter.stroke(painter.colours.text, 0.9);
+      for (const panel of this.panels) {
+        const [at] = panel.place(this.moment, panel.y.low);
+        if (at >= panel.left && at <= panel.right) painter.segment(at, panel.bottom, at, panel.top);
+      }
+    }
     drawCursor() {
       const context = this.over.getContext("2d");
       context.clearRect(0, 0, this.over.width, this.over.height);
       const painter = new Painter(context, this, this.unit);
+      if (this.moment !== undefined) this.drawMoment(painter);
       const boxed = this.pulled && !this.pulled.touch && !this.pulled.move && this.pulled.to !== this.pulled.from;
       if (boxed) {
         const { from, to } = this.pulled;

@@ -126,7 +126,7 @@ const dynlabDrawing = (() => {
   }
 
   /// Colours of the printed figure, and what stands for them on dark paper.
-  function palette(dark) {
+  function palette(dark = isDark()) {
     if (!dark) return { text: "#202020", frame: "#404040", grid: "#dddddd", minor: "#eeeeee", line: "#606060",
                         paper: "#ffffff", of: (colour) => colour };
     const lighter = (colour) => {
@@ -148,7 +148,7 @@ const dynlabDrawing = (() => {
   /// Draws a figure on a canvas whose pixels are CSS pixels.
   class Painter {
     constructor(context, figure, unit) {
-      Object.assign(this, { context, figure, unit, colours: palette(isDark()) });
+      Object.assign(this, { context, figure, unit, colours: palette() });
     }
     X(x) { return clamp(x * this.unit, -1e5, 1e5); }
     Y(y) { return clamp((this.figure.size[1] - y) * this.unit, -1e5, 1e5); }
@@ -403,5 +403,5 @@ const dynlabDrawing = (() => {
       context.globalAlpha = 1;
     }
   }
-  return { Panel, Painter, clamp };
+  return { Panel, Painter, palette, clamp };
 })();

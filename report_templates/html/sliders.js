@@ -20,6 +20,7 @@ const dynlabSliders = (() => {
       else {
         piece.innerHTML = html;
         dynlabPlots.enlivenNow(piece);
+        dynlabChoices.enliven(piece);
       }
     }
   }

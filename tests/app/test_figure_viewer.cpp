@@ -36,6 +36,22 @@ TEST(figure_viewer, shows_figures_as_they_are_made_the_newest_first) {
     EXPECT_TRUE(browser.comes("document.querySelectorAll('img').length === 2"));
 }
 
+TEST(figure_viewer, figures_can_be_read_off_as_in_documents) {
+    FigureViewer viewer;
+    Browser browser;
+    browser.open(viewer.address());
+    viewer.show("figure-1.pdf", figure_titled("First </script><b>"));
+    ASSERT_TRUE(browser.comes("document.querySelector('figure .plot')?.clientWidth > 100"));
+    browser.evaluate(
+        "const plot = document.querySelector('.plot').plot, panel = plot.panels[0]; plot.setCursor({panel, x: "
+        "panel.place(0.5, 0.5)[0], y: panel.place(0.5, 0.5)[1]})");
+    EXPECT_TRUE(browser.comes("/0\\.50/.test(document.querySelector('.reading').innerText)"));
+    browser.evaluate("document.querySelector('.plot .data').click()");
+    EXPECT_EQ(browser.evaluate("return document.querySelectorAll('.samples tbody tr').length"), "5");
+    viewer.show("figure-2.pdf", figure_titled("Second"));
+    EXPECT_TRUE(browser.comes("document.querySelectorAll('figure .plot').length === 2"));
+}
+
 TEST(figure_viewer, forgets_the_oldest) {
     FigureViewer viewer;
     for (int i = 0; i < 103; ++i) viewer.show(std::to_string(i), figure_titled("A figure"));

@@ -126,6 +126,24 @@ TEST_F(html_documents, the_extension_chooses_the_format) {
     EXPECT_THROW(document_format("a.docx"), DocumentError);
 }
 
+TEST_F(html_documents, what_stands_in_screen_blocks_is_shown_by_pages_only_and_counts_nothing) {
+    for (const char* name : {"first", "moving", "last"}) add_figure(name, "Shown", DocumentFormat::kHtml);
+    const std::string text =
+        "![](figure:first)\n\n::: screen\nMove it.\n\n![](figure:moving)\n:::\n\n![](figure:last){#fig:last}\n\nSee "
+        "@fig:last.\n";
+    const std::string page = html(text);
+    EXPECT_THAT(page, HasSubstr("Move it."));
+    EXPECT_THAT(page, HasSubstr("<figcaption>Shown</figcaption>"));
+    EXPECT_THAT(page, HasSubstr("<strong>Figure 2.</strong>"));
+    EXPECT_THAT(page, HasSubstr("<a href=\"#fig:last\">Figure 2</a>"));
+    EXPECT_THAT(page, Not(HasSubstr("Figure 3")));
+    const std::string paper = read(make(text, "out.md"));
+    EXPECT_THAT(paper, Not(HasSubstr("Move it.")));
+    EXPECT_THAT(paper, HasSubstr("Figure"));
+    EXPECT_THAT(refusal("::: screen\n![](figure:moving){#fig:moving}\n:::\n\nSee @fig:moving.\n", "refused.html"),
+                HasSubstr("fig:moving"));
+}
+
 TEST_F(html_documents, the_students_template_renders_without_its_guidance) {
     const std::string sheet = read(std::string(DYNLAB_SOURCE_DIR) + "/report_templates/exercise_sheet.md");
     cells_.append("# Answer\n", "analysis.lua", 2);

@@ -293,6 +293,27 @@ TEST_P(lesson_05_slides, type_no_result_in) {
     expect_no_result_typed_in(report_of("05_thruster", GetParam()), {});
 }
 
+// oracle: the notation of plot_data.h; how it moves is seen in tests/documents
+TEST(lesson_pages, of_crane_and_thruster_show_the_rig_in_motion_and_copies_say_how) {
+    for (const auto& [lesson, parts] : {std::pair{"03_crane", 2}, std::pair{"05_thruster", 1}}) {
+        const Workbench bench;
+        const ChildResult made = bench.dynlab({"report", lesson, "-o", "page.html"});
+        ASSERT_EQ(made.exit_code, 0) << made.error_output;
+        const std::string page = bench.read("page.html");
+        const std::size_t at = page.find("\"motion\":{\"measured\":true");
+        ASSERT_NE(at, std::string::npos) << lesson;
+        EXPECT_EQ(page.find("\"motion\":{\"measured\"", at + 1), std::string::npos) << "one is enough";
+        const std::string moving = page.substr(at, page.find("</script>", at) - at);
+        std::size_t signals = 0;
+        for (std::size_t k = moving.find("\"turns\""); k != std::string::npos; k = moving.find("\"turns\"", k + 1))
+            ++signals;
+        EXPECT_EQ(signals, static_cast<std::size_t>(parts));
+        EXPECT_LT(page.size(), 3u << 20);
+        ASSERT_EQ(bench.dynlab({"new", lesson, "mine"}).exit_code, 0);
+        EXPECT_THAT(bench.read("mine/analysis.lua"), HasSubstr("-- motion{rig = "));
+    }
+}
+
 TEST(lesson_03_crane_copy, has_the_sections_and_no_text_of_the_solution) {
     const Workbench bench;
     ASSERT_EQ(bench.dynlab({"new", "03_crane", "mine"}).exit_code, 0);

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "app/page/page_routes.h"
+#include "documents/html/plot_data.h"
 #include "platform/text_file.h"
 
 namespace dynlab::inline app {
@@ -19,16 +20,21 @@ constexpr std::size_t kMostFigures = 100;
 FigureViewer::FigureViewer(int port) : server_({.port = port}) {
     serve_page_files(server_, "view.html");
     server_.on_stream([this] { return list(); });
-    server_.on_get("/picture/*", [this](const PageRequest& asked) {
+    serve("/picture/*", &Shown::picture, "image/svg+xml");
+    serve("/plot/*", &Shown::plot, "application/json");
+    server_.start();
+}
+
+void FigureViewer::serve(const std::string& path, std::string Shown::*member, const std::string& type) {
+    server_.on_get(path, [this, member, type](const PageRequest& asked) {
         const std::string number = asked.path.substr(asked.path.rfind('/') + 1);
         std::size_t wanted = 0;
         std::from_chars(number.data(), number.data() + number.size(), wanted);
         const std::lock_guard lock(mutex_);
         for (const Shown& shown : shown_)
-            if (shown.number == wanted) return PageReply{shown.picture, "image/svg+xml"};
+            if (shown.number == wanted) return PageReply{shown.*member, type};
         return PageReply{"This figure is no longer shown.", kPlainText, 404};
     });
-    server_.start();
 }
 
 FigureViewer::~FigureViewer() {
@@ -48,9 +54,10 @@ void FigureViewer::show(const std::string& name, const Figure& figure) {
     GnuplotRenderer renderer;
     renderer.draw(figure, file, FigureFormat::kSvg);
     renderer.finish();
+    const std::string plot = plot_data(figure, false);
     {
         const std::lock_guard lock(mutex_);
-        shown_.push_front({++count_, name, read_text(file)});
+        shown_.push_front({++count_, name, read_text(file), plot});
         if (shown_.size() > kMostFigures) shown_.pop_back();
     }
     server_.send("page", list());

@@ -22,8 +22,11 @@ class FigureViewer {
     struct Shown {
         std::size_t number;
         std::string name, picture;
+        std::string plot;  ///< documents/html/plot_data.h
     };
     std::string list() const;
+    /// What the page asks for by its number, as this member of it and of this type.
+    void serve(const std::string& path, std::string Shown::*member, const std::string& type);
 
     TemporaryFolder folder_;
     mutable std::mutex mutex_;

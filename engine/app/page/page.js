@@ -63,6 +63,7 @@ function place(pieces, html) {
     while (before?.classList.contains("slider")) before = before.nextElementSibling;
   }
   dynlabPlots.enliven(main);
+  dynlabChoices.enliven(main);
   return true;
 }
 
@@ -256,7 +257,7 @@ $("anew").onclick = () => order("/anew");
 $("allow").onclick = () => order("/allow");
 
 $("document").addEventListener("click", (event) => {
-  if (event.target.closest(".slider, .plot, a, button, summary, input")) return;
+  if (event.target.closest(".slider, .plot, .motion, .option, a, button, summary, input")) return;
   const piece = event.target.closest(".piece");
   mark(piece);
   const place = placeIn(event.target.closest("pre.error")?.textContent);

@@ -46,7 +46,7 @@ void serve_page_files(WebServer& server, const std::string& first) {
                       [reply](const PageRequest&) { return reply; });
     }
     server.on_get("/plot.js", [](const PageRequest&) {
-        return PageReply{plot_scripts(shared_folder() / "report_templates"), "text/javascript; charset=utf-8"};
+        return PageReply{shown_scripts(shared_folder() / "report_templates"), "text/javascript; charset=utf-8"};
     });
     server.on_get("/document.css", [](const PageRequest&) {
         return PageReply{read_text(shared_folder() / "report_templates/html/document.css"), "text/css; charset=utf-8"};

@@ -2,11 +2,24 @@
 const $ = (id) => document.getElementById(id);
 const shown = new Map();  // number -> element
 
+/// What plot.js draws the figure from takes the picture's place on the screen.
+async function enliven(node, number) {
+  const answer = await fetch(`/plot/${number}`);
+  if (!answer.ok) return;  // forgotten meanwhile
+  const data = document.createElement("script");
+  data.type = "application/json";
+  data.className = "plot-data";
+  data.textContent = await answer.text();
+  node.querySelector("img").after(data);
+  dynlabPlots.enliven(node);
+}
+
 function make({ number, name }) {
   const node = document.createElement("figure"), picture = document.createElement("img"), words = document.createElement("figcaption");
   picture.src = `/picture/${number}`;
   picture.alt = words.textContent = name;
   node.append(picture, words);
+  enliven(node, number);
   return node;
 }
 

@@ -109,7 +109,9 @@ class PlotWriter {
         add_block(page_.title, false);
         for (std::size_t i = 0; i < figure_.panels.size(); ++i)
             panels.push_back(panel_of(figure_.panels[i], page_.panels[i]));
-        return {{"size", {page_.width, page_.height}}, {"comma", comma_}, {"texts", texts_}, {"panels", panels}};
+        json data = {{"size", {page_.width, page_.height}}, {"comma", comma_}, {"texts", texts_}, {"panels", panels}};
+        if (figure_.motion) data["motion"] = motion_of(*figure_.motion);
+        return data;
     }
 
   private:
@@ -191,6 +193,30 @@ class PlotWriter {
                                            value(label.leader_to->x, label.leader_to->y)};
         }
         return labels;
+    }
+
+    static json motion_of(const Motion& motion) {
+        json parts = json::array(), pieces = json::array();
+        for (const RigPart& part : motion.rig.parts)
+            parts.push_back({{"on", part.on},
+                             {"turns", part.turns},
+                             {"x", part.x},
+                             {"y", part.y},
+                             {"by", part.by},
+                             {"at", part.drawn_at}});
+        const auto rounded_length = [](double length) { return std::round(1e3 * length) / 1e3; };
+        for (const RigPiece& piece : motion.rig.pieces) {
+            json points = json::array();
+            for (std::size_t i = 0; i < piece.x.size(); ++i)
+                points.push_back({rounded_length(piece.x[i]), rounded_length(piece.y[i]), piece.part[i]});
+            pieces.push_back({{"points", points}, {piece.filled ? "shade" : "width", piece.look}});
+        }
+        return {{"size", {motion.rig.width, motion.rig.height}},
+                {"parts", parts},
+                {"pieces", pieces},
+                {"picture", motion.picture},
+                {"measured", motion.measured},
+                {"simulated", motion.simulated}};
     }
 
     json panel_of(const Panel& panel, const PanelLayout& layout) {

@@ -55,8 +55,11 @@ std::string plot_element(const std::string& plot) {
     return plot.empty() ? "" : "<script type=\"application/json\" class=\"plot-data\">" + plot + "</script>";
 }
 
-std::string plot_scripts(const fs::path& shared_templates) {
-    return read_file(shared_templates / "html/plot_drawing.js") + read_file(shared_templates / "html/plot.js");
+std::string shown_scripts(const fs::path& shared_templates) {
+    std::string scripts;
+    for (const char* name : {"plot_drawing.js", "motion.js", "plot_table.js", "plot.js", "choices.js"})
+        scripts += read_file(shared_templates / "html" / name);
+    return scripts;
 }
 
 std::string with_inlined_pictures(const std::string& html, const std::vector<PlacedPicture>& pictures) {
@@ -86,7 +89,8 @@ std::string with_inlined_pictures(const std::string& html, const std::vector<Pla
 std::string whole_web_page(const std::string& html, const fs::path& shared_templates,
                            const std::vector<PlacedPicture>& pictures) {
     // They go in here, not in the template: Pandoc takes 0.3 s to read them there.
-    const std::string script = "\n" + plot_scripts(shared_templates) + read_file(shared_templates / "html/sliders.js") +
+    const std::string script = "\n" + shown_scripts(shared_templates) +
+                               read_file(shared_templates / "html/sliders.js") +
                                read_file(shared_templates / "html/document.js");
     std::string page = with_first(html, "script-src 'none'", "script-src " + policy_hash(script));
     page = with_first(std::move(page), "<style></style>",

@@ -25,7 +25,7 @@ std::string with_inlined_pictures(const std::string& html, const std::vector<Pla
 std::string whole_web_page(const std::string& html, const std::filesystem::path& shared_templates,
                            const std::vector<PlacedPicture>& pictures);
 
-/// The scripts of every page that shows figures, in their order.
-std::string plot_scripts(const std::filesystem::path& shared_templates);
+/// The scripts of every page that shows documents, in their order.
+std::string shown_scripts(const std::filesystem::path& shared_templates);
 
 }  // namespace dynlab::inline documents

@@ -3,10 +3,12 @@
 #include <cmath>
 
 #include "figures/gnuplot_renderer.h"
+#include "figures/plots/motion_plot.h"
 #include "numerics/number_text.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/panel_options.h"
+#include "scripting/objects/rig_drawing.h"
 #include "scripting/runtime/output_path.h"
 
 namespace dynlab::inline scripting {
@@ -202,6 +204,63 @@ int subplot(Call& call) {
     return give_figure(call, std::move(figure));
 }
 
+/// The signals of the rig's parts, a column each, from a table with a vector for each.
+Matrix signals_of_parts(const Options& options, const char* name, const RigDrawing& rig, Index count) {
+    if (!options.has(name)) return {};
+    const Call& call = options.call();
+    const int table = options.push(name);
+    if (lua_type(call.state(), table) != LUA_TTABLE)
+        throw InvalidArgument(fmt::format("option '{}' must be a table such as {{{} = y}}, but it is {}", name,
+                                          rig.parts.front().signal, given_text(call.state(), table)));
+    Matrix signals(count, static_cast<Index>(rig.parts.size()));
+    for (std::size_t k = 0; k < rig.parts.size(); ++k) {
+        const RigPart& part = rig.parts[k];
+        if (lua_getfield(call.state(), table, part.signal.c_str()) == LUA_TNIL)
+            throw InvalidArgument(
+                fmt::format("option '{}' lacks the {} ({}), which moves the rig", name, part.signal, part.unit));
+        const Call with_signal(call.state());  // it counts what stands on the stack now
+        if (!with_signal.holds_vector(with_signal.count()))
+            throw InvalidArgument(fmt::format("the {} {} must be a vector, but it is {}", name, part.signal,
+                                              given_text(call.state(), with_signal.count())));
+        const VectorMap signal = with_signal.vector(with_signal.count(), part.signal.c_str());
+        if (signal.size() != count)
+            throw InvalidArgument(fmt::format("the {} {} has {} values, but there are {} instants", name, part.signal,
+                                              signal.size(), count));
+        signals.col(static_cast<Index>(k)) = signal;
+    }
+    return signals;
+}
+
+/// Where scripts are graded there are no drawings: parts without shapes, for the signals that are given.
+RigDrawing rig_without_shapes(const Options& options) {
+    RigDrawing rig;
+    for (const char* name : {"measured", "simulated"}) {
+        if (!options.has(name) || !rig.parts.empty()) continue;
+        lua_State* L = options.call().state();
+        const int table = options.push(name);
+        for (lua_pushnil(L); lua_istable(L, table) && lua_next(L, table) != 0; lua_pop(L, 1))
+            if (lua_type(L, -2) == LUA_TSTRING) rig.parts.emplace_back().signal = lua_tostring(L, -2);
+    }
+    return rig;
+}
+
+/// motion{rig =, t =, measured = {...}, simulated = {...}, instants =, title =, width =, height =}
+int motion(Call& call) {
+    call.at_most(1);
+    const Options options(call, 1, {"rig", "t", "measured", "simulated", "instants", "title", "width", "height"});
+    const bool graded = call.context().options.graded;
+    const RigDrawing rig = graded ? rig_without_shapes(options) : rig_drawing(options.text("rig", ""));
+    MotionRecord record;
+    record.t = options.vector("t");
+    record.measured = signals_of_parts(options, "measured", rig, record.t.size());
+    record.simulated = signals_of_parts(options, "simulated", rig, record.t.size());
+    MotionLook look;
+    if (options.has("instants")) look.instants = options.vector("instants");
+    look.title = options.text("title", "");
+    look.width_cm = options.number("width", look.width_cm), look.height_cm = options.number("height", look.height_cm);
+    return give_figure(call, motion_plot(rig, record, look));
+}
+
 int save(Call& call) {
     call.at_most(2);
     if (call.type(1) == LUA_TSTRING)
@@ -228,6 +287,8 @@ constexpr std::array kFiguresFunctions = {
                   "a figure from its description; or the number of the next figure", guarded<figure>},
     FunctionEntry{"subplot", kFiguresArea, "subplot(rows, columns, {fig1, fig2, ...}) -> fig",
                   "puts the panels of figures into one", guarded<subplot>},
+    FunctionEntry{"motion", kFiguresArea, "motion{rig =, t =, measured = {...}, simulated = {...}} -> fig",
+                  "a rig that moves as its signals say: measured beside simulated", guarded<motion>},
     FunctionEntry{"save", kFiguresArea, "save(fig, path)", "writes a figure as .pdf, .svg or .png", guarded<save>},
 };
 

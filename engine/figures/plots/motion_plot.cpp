@@ -1,0 +1,173 @@
+#include "figures/plots/motion_plot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "figures/figure_layout.h"
+#include "figures/plots/id_plot.h"
+#include "figures/style.h"
+#include "numerics/error.h"
+
+namespace dynlab::inline figures {
+namespace {
+
+constexpr double kRim = 0.3;  // around a drawing, cm of its own: moved parts may leave its frame
+constexpr Index kInstants = 4;
+constexpr double kFirstHeight = 0.5, kNoNumbers = 1e3;  // of the axis of y of pictures, which has no numbers to show
+constexpr double kMeasuredLine = 1.6, kSimulatedLine = 0.8, kFixedLine = 0.4;  // points
+constexpr int kSimulatedColour = 0, kFixedColour = 2;
+
+void check_motion_record(const RigDrawing& rig, const MotionRecord& record) {
+    const Index parts = static_cast<Index>(rig.parts.size()), count = record.t.size();
+    if (count < 2) throw InvalidArgument(fmt::format("a motion needs two instants at least, not {}", count));
+    for (Index i = 1; i < count; ++i)
+        if (!(record.t[i] > record.t[i - 1]))
+            throw InvalidArgument(fmt::format("the instants must rise, but number {} is {} s and number {} is {} s", i,
+                                              record.t[i - 1], i + 1, record.t[i]));
+    if (record.measured.size() == 0 && record.simulated.size() == 0)
+        throw InvalidArgument("a motion needs signals that were measured or simulated");
+    for (const Matrix* signals : {&record.measured, &record.simulated})
+        if (signals->size() > 0 && (signals->rows() != count || signals->cols() != parts))
+            throw InvalidArgument(fmt::format("the signals of a motion must be {} x {}, but they are {} x {}", count,
+                                              parts, signals->rows(), signals->cols()));
+}
+
+Vector spread_instants(const Vector& t) {
+    const double from = t[0], length = t[t.size() - 1] - from;
+    return Vector::NullaryExpr(kInstants, [&](Index k) {
+        return from + length * (static_cast<double>(k) + 0.5) / static_cast<double>(kInstants);
+    });
+}
+
+/// The signals at an instant of the record, straight between samples.
+Vector signals_at(const Vector& t, const Matrix& signals, double instant) {
+    const Index after = std::clamp<Index>(std::upper_bound(t.begin(), t.end(), instant) - t.begin(), 1, t.size() - 1);
+    const double part = (instant - t[after - 1]) / (t[after] - t[after - 1]);
+    return (1 - part) * signals.row(after - 1) + part * signals.row(after);
+}
+
+/// Lines that are drawn in one stroke of the pen each.
+class Strokes {
+  public:
+    void add(const std::vector<double>& x, const std::vector<double>& y) {
+        for (std::size_t i = 0; i < x.size(); ++i) x_.push_back(x[i]), y_.push_back(y[i]);
+        x_.push_back(x.empty() ? 0 : x.back()), y_.push_back(std::numeric_limits<double>::quiet_NaN());
+    }
+    bool empty() const { return x_.empty(); }
+    Curve curve(int colour, double width) const {
+        Curve curve;
+        curve.x = Eigen::Map<const Vector>(x_.data(), static_cast<Index>(x_.size()));
+        curve.y = Eigen::Map<const Vector>(y_.data(), static_cast<Index>(y_.size()));
+        curve.colour = colour, curve.dash = 0, curve.line_width = width;
+        return curve;
+    }
+
+  private:
+    std::vector<double> x_, y_;
+};
+
+/// Where a drawing stands on the panel of pictures: in the middle at `centre` on the axis of time, above `base`.
+struct PicturePlace {
+    double seconds_per_cm, cm_per_cm, width, centre, base;
+
+    void add(const RigPiece& piece, Strokes& strokes) const {
+        RigPiece scaled = piece;
+        for (double& x : scaled.x) x = centre + (x - 0.5 * width) * cm_per_cm * seconds_per_cm;
+        for (double& y : scaled.y) y = base + (y + kRim) * cm_per_cm;
+        strokes.add(scaled.x, scaled.y);
+    }
+};
+
+Panel signal_panel(const RigPart& part, const MotionRecord& record, Index column) {
+    Panel panel;
+    panel.y_label = axis_label(part.signal, part.unit);
+    const auto add = [&](const Matrix& signals, const char* label, int colour, double width) {
+        if (signals.size() == 0) return;
+        Curve curve;
+        curve.x = record.t, curve.y = signals.col(column);
+        curve.label = column == 0 ? label : "";
+        curve.colour = colour, curve.dash = 0, curve.line_width = width;
+        panel.curves.push_back(std::move(curve));
+    };
+    add(record.measured, "measured", style::kGreyColour, kMeasuredLine);
+    add(record.simulated, "simulated", kSimulatedColour, kSimulatedLine);
+    return panel;
+}
+
+/// The panel of pictures, whose frame is `width` x `height` cm; its axis of y counts these cm.
+void draw_pictures(Panel& panel, const RigDrawing& rig, const MotionRecord& record, const Vector& instants,
+                   double width, double height) {
+    const double seconds = record.t[record.t.size() - 1] - record.t[0];
+    double room = width;  // between neighbours
+    for (Index k = 1; k < instants.size(); ++k)
+        room = std::min(room, (instants[k] - instants[k - 1]) / seconds * width);
+    const double scale = std::min(0.97 * room / rig.width, height / (rig.height + 2 * kRim));
+    const double base = kFirstHeight + 0.5 * (height - scale * (rig.height + 2 * kRim));
+    Strokes fixed, measured, simulated;
+    for (const double instant : instants) {
+        const PicturePlace place{seconds / width, scale, rig.width, instant, base};
+        for (const RigPiece& piece : rig.pieces) {
+            if (piece.filled) continue;
+            if (!piece.moves()) {
+                place.add(piece, fixed);
+                continue;
+            }
+            for (const auto& [signals, strokes] :
+                 {std::pair{&record.measured, &measured}, std::pair{&record.simulated, &simulated}})
+                if (signals->size() > 0)
+                    place.add(rig.placed(piece, signals_at(record.t, *signals, instant)), *strokes);
+        }
+    }
+    if (!fixed.empty()) panel.curves.push_back(fixed.curve(kFixedColour, kFixedLine));
+    if (!measured.empty()) panel.curves.push_back(measured.curve(style::kGreyColour, kMeasuredLine));
+    if (!simulated.empty()) panel.curves.push_back(simulated.curve(kSimulatedColour, kSimulatedLine));
+    panel.y_range = {kFirstHeight, kFirstHeight + height};
+}
+
+MotionRecord thinned_motion(const MotionRecord& record) {
+    std::vector<Index> kept;
+    for (Index i = 0; i < record.t.size(); ++i)
+        if (kept.empty() || record.t[i] - record.t[kept.back()] >= (1 - 1e-6) / kMostPictures) kept.push_back(i);
+    MotionRecord result;
+    result.t = record.t(kept);
+    if (record.measured.size() > 0) result.measured = record.measured(kept, Eigen::all);
+    if (record.simulated.size() > 0) result.simulated = record.simulated(kept, Eigen::all);
+    return result;
+}
+
+}  // namespace
+
+Figure motion_plot(const RigDrawing& rig, const MotionRecord& whole, const MotionLook& look) {
+    rig.validate();
+    check_motion_record(rig, whole);
+    const MotionRecord record = thinned_motion(whole);
+    Vector instants = look.instants.size() > 0 ? look.instants : spread_instants(record.t);
+    std::sort(instants.begin(), instants.end());
+    const double first = record.t[0], last = record.t[record.t.size() - 1];
+    for (const double instant : instants)
+        if (!(instant >= first && instant <= last))
+            throw InvalidArgument(fmt::format("the instant {} s lies outside the record, which goes from {} s to {} s",
+                                              instant, first, last));
+    Figure figure;
+    figure.title = look.title, figure.width_cm = look.width_cm, figure.height_cm = look.height_cm;
+    figure.rows = static_cast<int>(rig.parts.size()) + 1;
+    Panel pictures;
+    pictures.x_range = {first, last};
+    pictures.y_range = {kFirstHeight, kFirstHeight + 1};
+    pictures.y_tick_step = kNoNumbers;
+    figure.panels.push_back(pictures);
+    for (std::size_t k = 0; k < rig.parts.size(); ++k) {
+        Panel& panel = figure.panels.emplace_back(signal_panel(rig.parts[k], record, static_cast<Index>(k)));
+        panel.x_range = {first, last};
+        for (const double instant : instants) panel.references.push_back({false, instant, "", 2});
+    }
+    figure.panels.back().x_label = "time (s)";
+    const Rectangle frame = lay_out(figure).panels.front().box;
+    draw_pictures(figure.panels.front(), rig, record, instants, frame.width(), frame.height());
+    figure.motion = Motion{rig, 0, record.measured.size() > 0, record.simulated.size() > 0};
+    return figure;
+}
+
+}  // namespace dynlab::inline figures

@@ -1,0 +1,30 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "figures/figure.h"
+#include "figures/moving_rig.h"
+
+namespace dynlab::inline figures {
+
+/// What moves a rig: its parts' signals, one column a part, at instants t in seconds that rise. Either may be empty.
+struct MotionRecord {
+    Vector t;
+    Matrix measured, simulated;
+};
+
+struct MotionLook {
+    Vector instants;  ///< of the pictures, s; four, evenly spread, unless given
+    std::string title;
+    double width_cm = 14, height_cm = 0;
+};
+
+/// So many samples a second are kept at most, of those nearer to each other the first: what eyes and screens follow.
+inline constexpr double kMostPictures = 50;
+
+/// A rig at some instants, each standing where its instant lies on the axis of time, above the signals that move it;
+/// dotted lines mark the instants. What is measured is grey, behind what is simulated. Throws InvalidArgument for sizes
+/// that do not fit, instants outside the record.
+Figure motion_plot(const RigDrawing& rig, const MotionRecord& record, const MotionLook& look = {});
+
+}  // namespace dynlab::inline figures

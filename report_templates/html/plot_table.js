@@ -1,0 +1,113 @@
+// The samples of a figure as tables, for those who do not see its curves and for other programs: one table for curves
+// over the same abscissas. A page shows some two hundred rows; a copy holds all samples that the page has.
+const dynlabTables = (() => {
+  "use strict";
+  const ROWS = 200;
+  const WORDS = document.documentElement.lang.startsWith("fr")
+    ? { data: "Données", table: "Données de la figure", copy: "Copier en CSV", copied: "Copié", lower: "bas", upper: "haut",
+        rows: (shown, all) => shown === all ? `${all} échantillons` : `${shown} des ${all} échantillons` }
+    : { data: "Data", table: "Data of the figure", copy: "Copy as CSV", copied: "Copied", lower: "lower", upper: "upper",
+        rows: (shown, all) => shown === all ? `${all} samples` : `${shown} of ${all} samples` };
+  const make = (name, kind = "", text = "") => Object.assign(document.createElement(name), { className: kind, textContent: text });
+
+  async function copy(text) {
+    try {
+      await navigator.clipboard.writeText(text);
+    } catch {  // not allowed from a file: the way of older browsers
+      const field = make("textarea");
+      field.value = text;
+      document.body.append(field);
+      field.select();
+      document.execCommand("copy");
+      field.remove();
+    }
+  }
+  function copyButton(kind, word, content) {
+    const button = make("button", kind, word);
+    button.type = "button";
+    button.onclick = async () => {
+      await copy(content());
+      button.textContent = WORDS.copied;
+      setTimeout(() => { button.textContent = word; }, 1500);
+    };
+    return button;
+  }
+
+  const heading = (axis, name = "") => {
+    const words = [name, axis.name].filter(Boolean).join(": ");
+    return words + (axis.measure ? ` (${axis.measure})` : "");
+  };
+  const equal = (a, b) => a === b || a.length === b.length && a.every((value, i) => value === b[i]);
+
+  /// { x, columns: [{ heading, values }] } for each set of abscissas.
+  function tables(panels) {
+    const found = [];
+    for (const panel of panels)
+      for (const curve of panel.curves) {
+        const linked = (table) => table.panel === panel || table.panel.goesWith(panel);
+        let table = found.find((one) => linked(one) && equal(one.x, curve.x));
+        if (!table) {
+          const axis = panels.find((other) => other.x.name && (other === panel || other.goesWith(panel)))?.x ?? panel.x;
+          table = { panel, x: curve.x, columns: [{ heading: heading(axis) || "x", values: curve.x }] };
+          found.push(table);
+        }
+        const band = curve.style === "band";
+        const name = heading(panel.y, curve.label) || "y";
+        table.columns.push({ heading: band ? `${name}, ${WORDS.lower}` : name, values: curve.y });
+        if (band) table.columns.push({ heading: `${name}, ${WORDS.upper}`, values: curve.upper });
+      }
+    return found;
+  }
+
+  const csvText = (text) => /[",\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text;
+  const plain = (value) => value === null || !Number.isFinite(value) ? "" : String(Number(value.toPrecision(7)));
+  function csv({ x, columns }) {
+    const lines = [columns.map((column) => csvText(column.heading)).join(",")];
+    x.forEach((_, i) => lines.push(columns.map((column) => plain(column.values[i])).join(",")));
+    return lines.join("\n") + "\n";
+  }
+
+  function element(table, comma) {
+    const { x, columns } = table, every = Math.max(1, Math.ceil((x.length - 1) / (ROWS - 1)));
+    const box = make("div", "samples"), shown = make("table"), head = make("tr"), body = make("tbody");
+    const kept = [...x.keys()].filter((i) => i % every === 0 || i === x.length - 1);
+    for (const column of columns) head.append(Object.assign(make("th", "", column.heading), { scope: "col" }));
+    for (const i of kept) {
+      const row = make("tr");
+      columns.forEach((column, k) => {
+        const text = plain(column.values[i]).replace("-", "−"), cell = make(k ? "td" : "th", "", comma ? text.replace(".", ",") : text);
+        if (k === 0) cell.scope = "row";
+        row.append(cell);
+      });
+      body.append(row);
+    }
+    const caption = make("caption", "", WORDS.rows(kept.length, x.length)), top = make("thead");
+    top.append(head);
+    shown.append(caption, top, body);
+    const scroll = make("div", "rows");
+    scroll.tabIndex = 0;
+    scroll.setAttribute("role", "region");
+    scroll.setAttribute("aria-label", `${WORDS.table}: ${columns.map((column) => column.heading).join(", ")}`);
+    scroll.append(shown);
+    box.append(copyButton("csv", WORDS.copy, () => csv(table)), scroll);
+    return box;
+  }
+
+  /// The button that opens and closes the tables of a figure; they stand behind `box`.
+  function button(box, panels, comma) {
+    const button = make("button", "data", WORDS.data);
+    let shown = null;
+    button.type = "button";
+    button.setAttribute("aria-expanded", "false");
+    button.onclick = () => {
+      if (shown) shown.remove();
+      shown = shown ? null : make("div", "plot-data-tables");
+      button.setAttribute("aria-expanded", String(shown !== null));
+      if (!shown) return;
+      shown.append(...tables(panels).map((table) => element(table, comma)));
+      box.after(shown);
+    };
+    return button;
+  }
+  return { button, copyButton };
+})();

@@ -1,0 +1,52 @@
+// What a live page offers to learn by: questions that answer, rigs that move. Oracle: the files that the test writes,
+// and what a reader sees.
+#include <gtest/gtest.h>
+
+#include "support/preview.h"
+
+namespace test_preview_learning {
+using namespace dynlab;
+using namespace dynlab::test;
+
+using preview_learning = preview_page;
+
+const std::string kQuestion =
+    "-- %% [markdown]\n-- Some words.\n--\n-- ::: choice\n-- What is two and two?\n--\n-- - [ ] Three.\n--\n"
+    "--   One is missing.\n-- - [x] Four.\n--\n--   Count them.\n-- :::\n\n";
+const std::string kMotion =
+    "-- %% id=moving\nlocal t = linspace(0, 4, 201)\n"
+    "motion{rig = \"thruster\", t = t, measured = {force = 20*sin(t)}, simulated = {force = 18*sin(t)}}\n";
+
+TEST_F(preview_learning, questions_answer_and_stay_answered_while_the_document_changes) {
+    write(kHead + kQuestion + kFirst);
+    const Preview preview(file());
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(browser.comes("document.querySelectorAll('.option').length === 2"));
+    browser.click(".option");
+    const std::string verdict = "document.querySelector('.verdict').innerText === 'Wrong. One is missing.'";
+    EXPECT_TRUE(browser.comes(verdict));
+    EXPECT_EQ(browser.evaluate("return document.querySelectorAll('.chosen').length"), "0") << "no place was chosen";
+    std::string changed = kQuestion;
+    changed.replace(changed.find("Count them"), 10, "Count again");
+    write(kHead + changed + kFirst);
+    ASSERT_TRUE(browser.comes("document.getElementById('document').innerHTML.includes('Count again')"));
+    EXPECT_TRUE(browser.comes(verdict));
+    browser.evaluate("document.querySelectorAll('.option')[1].click()");
+    EXPECT_TRUE(browser.comes("document.querySelectorAll('.verdict')[1].innerText === 'Right. Count again.'"));
+}
+
+TEST_F(preview_learning, rigs_move_above_their_figure) {
+    write(kHead + kFirst + kMotion);
+    const Preview preview(file());
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(browser.comes("document.querySelector('.motion .stage')?.width > 100"));
+    EXPECT_EQ(browser.evaluate("return document.querySelector('.motion').motion.now"), "0");
+    browser.click(".motion button");
+    EXPECT_TRUE(browser.comes("document.querySelector('.motion').motion.now > 0.2"));
+    EXPECT_TRUE(
+        browser.comes("/force: . measured .* N, . simulated .* N/.test(document.querySelector('.motion').innerText)"));
+}
+
+}  // namespace test_preview_learning

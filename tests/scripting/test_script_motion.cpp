@@ -1,0 +1,91 @@
+// Rigs that move, from scripts. Oracle: the drawings as documents show them, and sentences by hand.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "documents/document.h"
+#include "platform/temporary_folder.h"
+#include "platform/text_file.h"
+#include "script_run.h"
+#include "scripting/objects/rig_drawing.h"
+
+namespace test_script_motion {
+using namespace dynlab;
+using dynlab::test::error_of;
+using testing::HasSubstr;
+
+const std::string kRecord = "local t = linspace(0, 2, 201)\nlocal s = {position = 0*t, angle = 0.2*sin(5*t)}\n";
+
+/// A page of the drawing alone.
+std::string page_of(const std::string& name) {
+    const TemporaryFolder folder;
+    std::ofstream(folder.path() / "report.md") << "::: {.drawing name=" << name << "}\n:::\n";
+    DocumentSource source;
+    source.template_file = folder.path() / "report.md";
+    DocumentMaker({.use_cache = false}).make(source, folder.path() / "page.html", DocumentFormat::kHtml, nullptr);
+    return read_text(folder.path() / "page.html");
+}
+
+TEST(script_motion, rigs_are_made_of_the_shapes_of_documents) {
+    for (const char* name : {"crane", "thruster"}) {
+        const RigDrawing rig = rig_drawing(name);
+        const std::string page = page_of(name);
+        Vector drawn(static_cast<Index>(rig.parts.size()));
+        for (std::size_t k = 0; k < rig.parts.size(); ++k) drawn[static_cast<Index>(k)] = rig.parts[k].drawn_at;
+        std::size_t moving = 0;
+        for (const RigPiece& piece : rig.pieces) {
+            const RigPiece there = rig.placed(piece, drawn);
+            std::string points;
+            for (std::size_t i = 0; i < there.x.size(); ++i)
+                points += fmt::format("{}{:.1f},{:.1f}", i ? " " : "", there.x[i] * 96 / 2.54,
+                                      (rig.height - there.y[i]) * 96 / 2.54);
+            EXPECT_THAT(page, HasSubstr("\"" + points + "\"")) << name;
+            moving += piece.moves();
+        }
+        EXPECT_GE(moving, 8u) << name;
+    }
+    EXPECT_EQ(rig_drawing("crane").parts[1].on, 0);
+    EXPECT_EQ(rig_drawing("thruster").parts[0].unit, "N");
+}
+
+TEST(script_motion, keeps_signals_and_rig_in_one_figure) {
+    const RunRecord record = test::run(kRecord +
+                                       "report.figure('m', motion{rig = 'crane', t = t, measured = s,\n"
+                                       "simulated = s, instants = {0.5, 1.5}, title = 'Both', width = 12}, '')");
+    ASSERT_FALSE(record.error) << record.error->message;
+    const Figure& figure = record.figures.at("m").figure;
+    ASSERT_TRUE(figure.motion);
+    EXPECT_EQ(figure.panels[1].y_label, "position (m)");
+    EXPECT_EQ(figure.panels[2].curves.size(), 2u);
+    EXPECT_EQ(figure.panels[1].references.size(), 2u);
+    EXPECT_EQ(figure.title, "Both");
+    EXPECT_EQ(figure.width_cm, 12);
+}
+
+TEST(script_motion, where_scripts_are_graded_needs_no_drawings) {
+    RunOptions graded;
+    graded.graded = true;
+    ::setenv("DYNLAB_HOME", "/nowhere", 1);
+    const RunRecord record = test::run(kRecord + "motion{rig = 'crane', t = t, measured = s}", graded);
+    ::setenv("DYNLAB_HOME", DYNLAB_SOURCE_DIR, 1);
+    EXPECT_FALSE(record.error) << record.error->message;
+}
+
+TEST(script_motion, says_what_is_missing) {
+    const auto told = [](const std::string& options) { return error_of(kRecord + "motion{" + options + "}"); };
+    EXPECT_THAT(told("t = t, measured = s"), HasSubstr("there is no rig '' that moves; there are crane, thruster"));
+    EXPECT_THAT(told("rig = 'suspension', t = t, measured = s"), HasSubstr("no rig 'suspension' that moves"));
+    EXPECT_THAT(told("rig = 'crane', t = t, measured = {angle = s.angle}"),
+                HasSubstr("option 'measured' lacks the position (m), which moves the rig"));
+    EXPECT_THAT(told("rig = 'thruster', t = t, simulated = {force = {1, 2}}"),
+                HasSubstr("the simulated force has 2 values, but there are 201 instants"));
+    EXPECT_THAT(told("rig = 'thruster', t = t, simulated = {force = 'much'}"),
+                HasSubstr("the simulated force must be a vector, but it is"));
+    EXPECT_THAT(told("rig = 'crane', t = t, measured = 3"), HasSubstr("must be a table such as {position = y}"));
+    EXPECT_THAT(told("rig = 'crane', t = t"), HasSubstr("measured or simulated"));
+    EXPECT_THAT(told("rig = 'crane', time = t, measured = s"), HasSubstr("time"));
+}
+
+}  // namespace test_script_motion
