@@ -197,6 +197,11 @@ function layout:missing_block(name)
   return pandoc.Para { pandoc.Strong { pandoc.Str("[" .. name .. " " .. self.words.missing .. "]") } }
 end
 
+-- In the place of what points to nothing, within a line or alone.
+function layout:gap() return pandoc.Strong { pandoc.Str("??") } end
+
+function layout:gap_block(name) return pandoc.Para { pandoc.Strong { pandoc.Str("?? [" .. name .. "]") } } end
+
 -- What a filter returns in a list is not filtered again, but what stands in it is: hence the division around the blocks.
 local function within(format, begin, blocks, finish)
   return pandoc.List { pandoc.RawBlock(format, begin), pandoc.Div(blocks), pandoc.RawBlock(format, finish) }

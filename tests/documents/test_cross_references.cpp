@@ -69,6 +69,28 @@ TEST_F(cross_references, a_dangling_reference_is_an_error_with_line_and_suggesti
     EXPECT_THAT(refusal("See @figure:raw.\n"), HasSubstr("must start with @fig:, @tbl:, @eq: or @sec:"));
 }
 
+TEST_F(cross_references, a_draft_shows_question_marks_where_something_is_missing) {
+    record_.values["fit"] = {93.2, "93.2"};
+    const std::string text =
+        "See @fig:raw and `fti`{.value}, after [@ljung].\n\n![](figure:raw){#fig:new}\n\n::: {.table "
+        "name=models}\n:::\n";
+    const std::string gap = "<strong>?\?</strong>";
+    const auto [gaps, page] = draft(text);
+    EXPECT_THAT(gaps, HasSubstr("report.md:1: the cross reference @fig:raw points to nothing"));
+    EXPECT_THAT(gaps, HasSubstr("report.md:1: the script reported no value \"fti\"; did you mean \"fit\"?"));
+    EXPECT_THAT(gaps, HasSubstr("report.md:1: @ljung cites literature"));
+    EXPECT_THAT(gaps, HasSubstr("report.md:3: the script reported no figure \"raw\""));
+    EXPECT_THAT(gaps, HasSubstr("report.md:5: the script reported no table \"models\""));
+    EXPECT_THAT(page, HasSubstr("See " + gap + " and " + gap + ", after " + gap + "."));
+    EXPECT_THAT(page, HasSubstr("<p><strong>?? [raw]</strong></p>"));
+    EXPECT_THAT(page, HasSubstr("<p><strong>?? [models]</strong></p>"));
+    EXPECT_THAT(refusal(text), HasSubstr("points to nothing")) << "no draft was asked for";
+    EXPECT_THROW(draft("See @fig:raw and $ \\inputt $.\n"), DocumentError) << "what cannot be set";
+    const auto [none, whole] = draft("The fit is `fit`{.value}.\n");
+    EXPECT_EQ(none, "");
+    EXPECT_THAT(whole, Not(HasSubstr(gap)));
+}
+
 TEST_F(cross_references, a_label_used_twice_is_an_error_at_the_second_place) {
     EXPECT_THAT(refusal("$$ x $$ {#eq:m}\n\n$$ y $$ {#eq:m}\n"),
                 HasSubstr("report.md:3: the label \"eq:m\" is used twice"));
