@@ -13,6 +13,7 @@ local tables = dofile(folder .. "/tables.lua").new(layout)
 local diagram = dofile(folder .. "/diagram.lua")
 local drawing = dofile(folder .. "/drawing.lua")
 local choice = dofile(folder .. "/choice.lua")
+local lists = dofile(folder .. "/lists.lua")
 
 local failed = false
 local function clean(text) return (tostring(text):gsub("[%c]", " ")) end
@@ -639,7 +640,7 @@ local function keep_units(inlines)
 end
 
 local function finished(document)
-  local filled = document:walk(check):walk(fill)
+  local filled = document:walk { Para = lists.after_text }:walk(check):walk(fill)
   if slots.format ~= "markdown" then filled = filled:walk { Inlines = keep_units } end
   return filled:walk { Cite = references }
 end

@@ -10,7 +10,8 @@ local words = {
          answer = "Réponse", answers = "Réponses aux questions", right = "Juste.", wrong = "Faux." },
 }
 
-local latex_escapes = { ["\\"] = "\\textbackslash{}", ["{"] = "\\{", ["}"] = "\\}" }
+-- in code; a plain backtick would be copied as a quotation mark
+local latex_escapes = { ["\\"] = "\\textbackslash{}", ["{"] = "\\{", ["}"] = "\\}", ["`"] = "\\textasciigrave{}" }
 local html_escapes = { ["&"] = "&amp;", ["<"] = "&lt;", [">"] = "&gt;", ['"'] = "&quot;" }
 local zero_width_space = "\u{200B}"
 local no_break_space = "\u{A0}"
@@ -177,7 +178,7 @@ function layout:code_block(block)
     end
     local environment = verbatim_environments[class] or "Highlighting"
     return { self:need_for_lines(block.text), pandoc.RawBlock("latex", "\\begin{Shaded}\n\\begin{" .. environment ..
-      "}\n" .. block.text:gsub("[\\{}]", latex_escapes) .. "\n\\end{" .. environment .. "}\n\\end{Shaded}") }
+      "}\n" .. block.text:gsub("[\\{}`]", latex_escapes) .. "\n\\end{" .. environment .. "}\n\\end{Shaded}") }
   elseif self.format == "html" then
     -- Pandoc would look for a language "output" in all its syntax definitions, which takes 0.3 s.
     local class = block.classes[1]
