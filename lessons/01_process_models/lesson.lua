@@ -80,9 +80,9 @@ report.figure("exchanger_paper", paper, "The response on graph paper")
 -- The temperature leaves its resting value at once and with its steepest slope, then approaches a new level without overshoot and
 -- without a turning point (@fig:exchanger_record). That is how a first-order system responds to a step, and no dead time can be seen:
 --
--- $$ G(s) = \frac{K}{1 + T s} . $$ {#eq:first}
+-- $$ G(s) = \frac{K}{1 + T s} . $$ {#eq:solution-first}
 --
--- Two things of the record are *not* in @eq:first: the response starts from a temperature that is not zero, and the valve was not closed
+-- Two things of the record are *not* in @eq:solution-first: the response starts from a temperature that is not zero, and the valve was not closed
 -- before the step. A transfer function describes changes around the working point, so both levels have to be subtracted or estimated.
 -- END SOLUTION
 --
@@ -258,7 +258,7 @@ report.figure("suspension_record", subplot(2, 1, {position, voltage}),
 -- The response starts with zero slope, overshoots its final value and oscillates around it with decreasing amplitude: a second-order system
 -- with a pair of complex poles,
 --
--- $$ G(s) = \frac{K\,\omega_0^2}{s^2 + 2 z \omega_0 s + \omega_0^2}, \qquad 0 < z < 1 . $$ {#eq:second}
+-- $$ G(s) = \frac{K\,\omega_0^2}{s^2 + 2 z \omega_0 s + \omega_0^2}, \qquad 0 < z < 1 . $$ {#eq:solution-second}
 -- END SOLUTION
 --
 -- **Question 6.** Determine the parameters from the figure. The gain follows from @eq:gain. The relative height of the first overshoot,

@@ -95,7 +95,27 @@ local function define(label, shown)
   end
 end
 
+-- Equations of a lesson's solution, {#eq:solution-name}, are counted by themselves as S1, S2, ..., so that those of its
+-- text have the same numbers with and without it.
+local solution_numbers = {}
+local function number_solutions(document)
+  local count = 0
+  document:walk {
+    Str = function(element)
+      local label = element.text:match("^{#(eq:solution%-[%w_.:-]+)}")
+      if label then
+        count = count + 1
+        solution_numbers[label] = "S" .. count
+      end
+    end,
+  }
+end
+
 local function number(kind, label)
+  if solution_numbers[label or ""] then
+    define(label, layout:reference(kind, solution_numbers[label]))
+    return solution_numbers[label]
+  end
   counters[kind] = counters[kind] + 1
   if label then define(label, layout:reference(kind, counters[kind])) end
   return tostring(counters[kind])
@@ -656,6 +676,7 @@ function Pandoc(document)
     document.blocks:insert(pandoc.Header(1, { pandoc.Str(layout.words.answers) }, { class = "unnumbered" }))
     document.blocks:extend(answers)
   end
+  if not slots.chunks then number_solutions(document) end
   document = finished(document)
   for _, key in ipairs { "title", "subtitle", "date" } do
     local value = document.meta[key]

@@ -26,6 +26,15 @@ TEST_F(cross_references, figures_tables_and_equations_are_counted_each_for_itsel
     EXPECT_THAT(text, HasSubstr("id=\"eq:two\""));
 }
 
+TEST_F(cross_references, equations_of_a_solution_are_counted_by_themselves) {
+    const std::string text = html(
+        "$$ a $$ {#eq:one}\n\n$$ b $$ {#eq:solution-two}\n\n$$ c $$ {#eq:three}\n\n$$ d $$ {#eq:solution-four}\n\n"
+        "@eq:solution-two, @eq:three, @eq:solution-four\n");
+    EXPECT_THAT(text, HasSubstr(">Equation S1</a>, <a href=\"#eq:three\">Equation 2</a>, "));
+    EXPECT_THAT(text, HasSubstr(">Equation S2</a>"));
+    EXPECT_THAT(text, HasSubstr("<span class=\"number\">(S2)</span>"));
+}
+
 TEST_F(cross_references, french_documents_use_french_words) {
     add_figure("a", "A", DocumentFormat::kHtml);
     const std::string text = html(

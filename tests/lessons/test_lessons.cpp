@@ -63,6 +63,16 @@ TEST_P(lessons, report_is_whole) {
     if (!slides) expect_full_pages(bench, GetParam() + ".pdf", sections);
 }
 
+TEST_P(lessons, equations_have_the_same_numbers_with_and_without_the_solutions) {
+    bool in_solution = false;
+    for (const std::string& line : lines_of(read_file(DYNLAB_SOURCE_DIR "/lessons/" + GetParam() + "/lesson.lua"))) {
+        if (line.find("BEGIN SOLUTION") != std::string::npos) in_solution = true;
+        if (line.find("END SOLUTION") != std::string::npos) in_solution = false;
+        if (const std::size_t label = line.find("{#eq:"); label != std::string::npos)
+            EXPECT_EQ(line.substr(label).starts_with("{#eq:solution-"), in_solution) << line;
+    }
+}
+
 TEST_P(lessons, starter_runs_and_shows_no_solution) {
     const Workbench bench;
     ASSERT_EQ(bench.dynlab({"new", GetParam(), "mine"}).exit_code, 0);
