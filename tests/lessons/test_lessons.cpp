@@ -241,6 +241,13 @@ TEST(lesson_03_crane, finds_the_crane_and_says_what_the_model_is_worth) {
     EXPECT_LT(number(record, "settling_lqr"), 3);
     EXPECT_LT(number(record, "left_lqr"), number(record, "left_p") / 4);
     EXPECT_LT(number(record, "largest_angle_lqr"), number(record, "largest_angle_p"));
+    // The characteristic polynomial of a loop in controllable form ends in the last gain, the product of its poles.
+    const auto modulus = [&](const char* re, const char* im) {
+        return std::hypot(number(record, re), number(record, im));
+    };
+    EXPECT_NEAR(std::pow(modulus("fast_re", "fast_im") * modulus("slow_re", "slow_im"), 2), number(record, "gain4"),
+                0.01 * number(record, "gain4"));
+    EXPECT_LT(number(record, "start_left"), 0.5 * number(record, "start_error")) << "friction explains the start";
 }
 
 class lesson_03_crane_report : public testing::TestWithParam<const char*> {};
