@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "course/grading/hand_in.h"
 #include "course/grading/roster.h"
+#include "documents/pdf/pdf_layout.h"
 #include "numerics/number_text.h"
 #include "platform/error.h"
 #include "platform/terminal/terminal_text.h"
@@ -22,13 +23,29 @@ struct PackArguments {
     std::optional<std::uint32_t> group_seed;
 };
 
+/// Whether the PDF is a draft, in which ?? stands where something is missing.
+bool is_draft(const fs::path& pdf) {
+    try {
+        for (const PdfPage& page : read_pdf_layout(pdf).pages)
+            for (const PdfWord& word : page.words)
+                if (word.bold && word.text.find("??") != std::string::npos) return true;
+    } catch (const PdfRefusal&) {  // then it was not made here
+    }
+    return false;
+}
+
 /// A report that was not made, or not made again after a change, is easily forgotten: people read the PDF.
 void tell_of_report(const fs::path& folder, const std::string& subject) {
     if (!fs::exists(folder / "report.md")) return;
     std::optional<fs::file_time_type> made;
-    for (const auto& entry : fs::directory_iterator(folder))
-        if (entry.is_regular_file() && entry.path().extension() == ".pdf")
-            made = std::max(made.value_or(entry.last_write_time()), entry.last_write_time());
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        if (!entry.is_regular_file() || entry.path().extension() != ".pdf") continue;
+        made = std::max(made.value_or(entry.last_write_time()), entry.last_write_time());
+        if (is_draft(entry.path()))
+            std::cerr << terminal_text(
+                fmt::format("dynlab: {} is a draft: ?? stands in it; dynlab check {} says what is missing\n",
+                            entry.path().filename().string(), subject));
+    }
     bool older = false;
     for (const char* source : {"report.md", "analysis.lua"})
         older = older || (made && fs::exists(folder / source) && fs::last_write_time(folder / source) > *made);

@@ -56,13 +56,18 @@ ReportResult make_showing_activity(ReportRequest& request) {
 int make_document(ReportRequest request, bool show_timings) {
     const ReportResult result = make_showing_activity(request);
     const std::string file = std::filesystem::absolute(request.output).lexically_normal().string();
-    const char* const state = result.up_to_date ? " (up to date)" : result.error ? " (up to the error)" : "";
+    const char* const state = result.up_to_date      ? " (up to date)"
+                              : result.error         ? " (up to the error)"
+                              : !result.gaps.empty() ? " (a draft: ?? stands where something is missing)"
+                                                     : "";
     if (result.error) std::cerr << "dynlab: " << terminal_text(*result.error) << std::endl;
+    if (!result.gaps.empty())
+        std::cerr << "dynlab: " << terminal_text(fmt::format("{}", fmt::join(result.gaps, "\n"))) << '\n';
     for (const std::string& sentence : result.unplaced)
         std::cerr << "dynlab: note: " << terminal_text(sentence) << '\n';
     std::cout << file << state << '\n';
     if (show_timings) show(result);
-    return result.error ? kFailed : kDone;
+    return result.error || !result.gaps.empty() ? kFailed : kDone;
 }
 
 }  // namespace dynlab::inline cli

@@ -98,6 +98,7 @@ class DocumentBuilder {
         find_latex_brackets(text_.markdown, complaints);
         const std::string bibliography = placed_bibliography(source_, text_, work_.path(), complaints);
         const PandocResult written = run_pandoc(pandoc_job(bibliography), complaints);
+        if (options_.gaps) (complaints.empty() ? *options_.gaps : complaints).add_all(written.gaps);
         std::vector<PlacedPicture> pictures =
             find_picture_files(written.pictures, text_.markdown, source_.template_file, format_, prefix(), complaints);
         complaints.throw_if_any();
@@ -131,6 +132,7 @@ class DocumentBuilder {
         job.work_folder = work_.path();
         job.bibliography = bibliography;
         job.measures = source_.measures;
+        job.draft = options_.gaps != nullptr;
         return job;
     }
 

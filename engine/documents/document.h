@@ -60,6 +60,8 @@ class DocumentMaker {
             {};  ///< the folder of a preamble format that stands ready, in the document's language (no slides)
         std::vector<std::pair<std::string, double>>* timings = nullptr;  ///< seconds of each step, appended
         CachedLatexFormat* begun_format = nullptr;  ///< of latex_layout(), begun before the script ran
+        Complaints* gaps = nullptr;  ///< where given, slots without entry and references to nothing are told here, and
+                                     ///< the document is made with a bold ?? in their places
     };
     explicit DocumentMaker(Options options) : options_(options) {}
 

@@ -224,6 +224,8 @@ FilterMessages read_filter_messages(const std::string& error_output, const Markd
             messages.pictures.push_back({std::stoi(fields[1]), fields[2] == "figure", fields[3]});
         } else if (read_chunk_message(fields, messages.chunks)) {
             continue;
+        } else if (fields[0] == "dynlab:gap" && fields.size() >= 3) {
+            messages.gaps.add(find_in(markdown, fields[2], template_file), sentences.of(fields));
         } else if (fields[0] == "dynlab:error" && fields.size() >= 3) {
             const int occurrence = fields[1] == "duplicate-label" ? 2 : 1;
             complaints.add(find_in(markdown, fields[2], template_file, occurrence), sentences.of(fields));

@@ -30,6 +30,7 @@ struct ChunkMessages {
 struct FilterMessages {
     std::vector<UsedPicture> pictures;
     ChunkMessages chunks;
+    Complaints gaps;  ///< what a draft shows as ??: references and slots with nothing behind them
 };
 
 /// Adds a sentence with its line in the source for every error of the filter and every warning of Pandoc.

@@ -119,7 +119,7 @@ std::string slots_file(const PandocJob& job) {
     return "return {\nformat=" + lua_string(format_name(job.format)) + ",language=" + lua_string(job.language) +
            ",reader=" + lua_string(kReader) + ",numbersections=" + (numbered ? "true" : "false") +
            ",stopped=" + (record.error || job.unfinished ? "true" : "false") +
-           ",\npicture_prefix=" + lua_string(job.picture_prefix) +
+           ",draft=" + (job.draft ? "true" : "false") + ",\npicture_prefix=" + lua_string(job.picture_prefix) +
            ",figure_extension=" + lua_string(figure_extension(job.format)) +
            ",bibliography=" + lua_string(job.bibliography) + ",escaped=" + lua_set(escaped_commands(job.markdown)) +
            ",slides=" + (sets_slides(job) ? "true" : "false") + ",\nvariables=" + variables +
@@ -198,6 +198,7 @@ PandocResult run_pandoc(const PandocJob& job, Complaints& complaints) {
         read_filter_messages(run.error_output, job.markdown, job.template_file, *job.record, found);
     result.pictures = std::move(messages.pictures);
     result.chunks = std::move(messages.chunks);
+    result.gaps = std::move(messages.gaps);
     if (run.exit_code != 0 && found.empty())
         found.add({job.template_file, 0}, "Pandoc stopped with exit code " + std::to_string(run.exit_code));
     if (found.empty() || (job.chunks && run.exit_code == 0)) result.text = std::move(run.output);

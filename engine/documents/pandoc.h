@@ -36,6 +36,7 @@ struct PandocJob {
     std::map<std::string, std::string> measures;             ///< Markdown of each
     std::optional<ChunkSurroundings> chunks = std::nullopt;  ///< then what can be set is set, whatever is wrong
     bool unfinished = false;                                 ///< a slot without an entry says so
+    bool draft = false;               ///< what points to nothing is shown as ?? and is no complaint
     ChildProcess* started = nullptr;  ///< by start_pandoc, for a job of the same format in the same folder
 };
 
@@ -43,6 +44,7 @@ struct PandocResult {
     std::string text;  ///< LaTeX from \begin{document} on, whole HTML, or Markdown
     std::vector<UsedPicture> pictures;
     ChunkMessages chunks;
+    Complaints gaps;  ///< of a draft
 };
 
 /// Adds to `complaints` what filter and Pandoc found; `text` is then empty, unless the job sets chunks.

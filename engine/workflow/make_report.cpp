@@ -288,12 +288,15 @@ ReportResult make_report(const ReportRequest& request) {
         DocumentMaker::Options options;
         options.timings = &result.timings;
         options.begun_format = latex_format ? &*latex_format : nullptr;
+        Complaints gaps;
+        options.gaps = &gaps;
         DocumentMaker(options).make(source, request.output, format, [&] {
             renderer.finish();
             if (recalled) return;
             result.figures = renderer.use();
             runs.remember(record);
         });
+        result.gaps = gaps.sentences();
         if (format == DocumentFormat::kHtml) {
             const auto read = add_slider_places(request, record, renderer, calls, workplace.path());
             record.files_read.insert(record.files_read.end(), read.begin(), read.end());
@@ -302,7 +305,7 @@ ReportResult make_report(const ReportRequest& request) {
         if (!result.error) throw;
         throw DocumentError(*result.error + "\nThe report up to there cannot be made: " + complaint.what());
     }
-    if (!result.error) reports.remember(record);
+    if (!result.error && result.gaps.empty()) reports.remember(record);
     return result;
 }
 

@@ -43,8 +43,9 @@ DocumentSource document_source(const ReportRequest& request, const RunRecord& re
 inline constexpr const char* kRunStep = "run the script";
 
 struct ReportResult {
-    bool up_to_date = false;                              ///< nothing had changed, nothing was made
-    std::optional<std::string> error;                     ///< the script stopped with it; the report says so
+    bool up_to_date = false;           ///< nothing had changed, nothing was made
+    std::optional<std::string> error;  ///< the script stopped with it; the report says so
+    std::vector<std::string> gaps;     ///< sentences about what points to nothing: the report is a draft, with ?? there
     std::vector<std::string> unplaced;                    ///< sentences about what was reported and is not shown
     std::vector<std::pair<std::string, double>> timings;  ///< seconds of each step
     std::vector<std::pair<std::string, double>> cells;    ///< seconds of each code cell, when the script was run
@@ -79,7 +80,8 @@ std::vector<std::string> entries_without_place(const PercentScript& script, cons
 
 /// Runs the script and makes the document; `output` appears whole or stays as it was. With unchanged inputs (script,
 /// template, data, seed, program) and an untouched output nothing is done; with unchanged code and data the script is
-/// not run again. Where the script stops with an error, the report shows what there is, and the error in its place.
+/// not run again. Where the script stops with an error, the report shows what there is, and the error in its place;
+/// where a slot or a reference points to nothing, a bold ?? stands in its place.
 /// Throws DocumentError when no document can be made.
 ReportResult make_report(const ReportRequest& request);
 

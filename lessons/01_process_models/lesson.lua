@@ -80,9 +80,9 @@ report.figure("exchanger_paper", paper, "The response on graph paper")
 -- The temperature leaves its resting value at once and with its steepest slope, then approaches a new level without overshoot and
 -- without a turning point (@fig:exchanger_record). That is how a first-order system responds to a step, and no dead time can be seen:
 --
--- $$ G(s) = \frac{K}{1 + T s} . $$ {#eq:first}
+-- $$ G(s) = \frac{K}{1 + T s} . $$ {#eq:solution-first}
 --
--- Two things of the record are *not* in @eq:first: the response starts from a temperature that is not zero, and the valve was not closed
+-- Two things of the record are *not* in @eq:solution-first: the response starts from a temperature that is not zero, and the valve was not closed
 -- before the step. A transfer function describes changes around the working point, so both levels have to be subtracted or estimated.
 -- END SOLUTION
 --
@@ -249,6 +249,35 @@ local voltage = plot(data2.t, data2.u, before, zeros(2), {0, 0}, {0, 1},
 report.figure("suspension_record", subplot(2, 1, {position, voltage}),
               "The suspension's record")
 
+-- %% id=suspension_paper echo=false
+local top = math.ceil(max(data2.y) + 0.2)
+local paper2 = plot(data2.t, data2.y,
+                    {style = "points", colour = 2, line_width = 0.7, height = 13,
+                     x_range = {0, 1.6}, y_range = {0, top},
+                     xlabel = "time (s)", ylabel = "position (mm)"})
+for step, width in pairs{[1] = 0.15, [5] = 0.45} do
+    local x, y = ruled(0, 1.6, 0.02*step, 0, top, true)
+    paper2:add(x, y, {colour = "grey", dash = 0, line_width = width})
+    x, y = ruled(0, top, 0.2*step, 0, 1.6, false)
+    paper2:add(x, y, {colour = "grey", dash = 0, line_width = width})
+end
+report.figure("suspension_paper", paper2, "The suspension on graph paper")
+
+-- any second-order system with a damping ratio of 0.2, in units of its own
+local wave = range(0, 0.05, 20)
+local height = lsim(tf({1}, {1, 0.4, 1}), ones(#wave), 0.05)
+local peak, at = max(height)
+report.figure("second_order", figure{
+    height = 6, xlabel = "ω_{0} t", ylabel = "(y − y(0)) / (u(∞) − u(0))",
+    x_range = {-1, 20}, y_range = {0, 1.7}, legend = "none",
+    curves = {{x = wave, y = height, colour = 0}},
+    references = {{y = 1.05, dash = 2}, {y = 0.95, dash = 2}, {y = 1, dash = 1}, {x = 0, dash = 1}},
+    annotations = {{x = 17, y = 1.05, text = "5 % band", marker = false}},
+    arrows = {{x0 = wave[at], y0 = 1, x1 = wave[at], y1 = peak, text = "K D_{1}", both_heads = true},
+              {x0 = 0, y0 = 0.3, x1 = wave[at], y1 = 0.3, text = "T_{1}", both_heads = true},
+              {x0 = 12, y0 = 0, x1 = 12, y1 = 1, text = "K", both_heads = true}}},
+    "A second-order step response")
+
 -- %% [markdown]
 -- ![The record of the suspension: position of the mass (above) and voltage of the actuator, a unit step at time zero (below)](figure:suspension_record){#fig:suspension_record}
 --
@@ -258,7 +287,7 @@ report.figure("suspension_record", subplot(2, 1, {position, voltage}),
 -- The response starts with zero slope, overshoots its final value and oscillates around it with decreasing amplitude: a second-order system
 -- with a pair of complex poles,
 --
--- $$ G(s) = \frac{K\,\omega_0^2}{s^2 + 2 z \omega_0 s + \omega_0^2}, \qquad 0 < z < 1 . $$ {#eq:second}
+-- $$ G(s) = \frac{K\,\omega_0^2}{s^2 + 2 z \omega_0 s + \omega_0^2}, \qquad 0 < z < 1 . $$ {#eq:solution-second}
 -- END SOLUTION
 --
 -- **Question 6.** Determine the parameters from the figure. The gain follows from @eq:gain. The relative height of the first overshoot,
@@ -267,7 +296,11 @@ report.figure("suspension_record", subplot(2, 1, {position, voltage}),
 -- $$ D_1 = \frac{y(T_1) - y(\infty)}{y(\infty) - y(0)}, \qquad z = \sqrt{\frac{(\ln D_1)^2}{(\ln D_1)^2 + \pi^2}}, \qquad
 --    \omega_0 = \frac{\pi}{T_1\sqrt{1 - z^2}} , $$ {#eq:overshoot}
 --
--- gives the damping ratio and the undamped natural frequency.
+-- gives the damping ratio and the undamped natural frequency. @fig:second_order shows what is read where, @fig:suspension_paper is to be read on.
+--
+-- ![What is read off the step response of a second-order system, here with $z = 0.2$: the gain $K$ from the two levels, the first overshoot $D_1$ from the height of the first maximum, and the time $T_1$ until it; dotted, the band of ± 5 % in which the response has settled](figure:second_order){#fig:second_order}
+--
+-- ![The beginning of the response of the suspension, sample by sample, on graph paper: small squares are 0.02 s wide and 0.2 mm high, large ones 0.1 s and 1 mm. The voltage steps at time zero.](figure:suspension_paper){#fig:suspension_paper}
 
 -- %% id=suspension_reading
 -- BEGIN SOLUTION

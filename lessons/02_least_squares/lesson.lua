@@ -334,7 +334,7 @@ report.value("dt_miss", max(abs(simulated - record.y)), "%.0e")
 -- $\hat b_1 =$ `b1_dt`{.value} again reproduce the samples when the model is simulated (@fig:dt, largest distance `dt_miss`{.value}). For an input
 -- that is constant between the samples both models describe the same system,
 --
--- $$ a_1 = -e^{-aT_s} , \qquad b_1 = \frac{b}{a}\left(1 - e^{-aT_s}\right) , $$ {#eq:sampled}
+-- $$ a_1 = -e^{-aT_s} , \qquad b_1 = \frac{b}{a}\left(1 - e^{-aT_s}\right) , $$ {#eq:solution-sampled}
 --
 -- which is `a1_from_ct`{.value} and `b1_from_ct`{.value} for the
 -- continuous-time estimates. The continuous-time parameters are easier to interpret: $1/a$ is the time constant, whatever the sampling.
@@ -459,12 +459,12 @@ report.table("law", law)
 -- lies in the regression itself: the noisy output appears in $\Phi$ as well, so $\Phi$ and the equation error are correlated. With white noise on
 -- the output, $\Phi^T\Phi/N$ is larger than that of the exact signals, $R$, by $\sigma^2$ in the place of $y^2$, and the estimates tend to
 --
--- $$ \hat\theta \;\to\; (R + \sigma^2 E)^{-1} R\,\theta , \qquad E = \begin{pmatrix} 1 & 0 \\ 0 & 0 \end{pmatrix} , $$ {#eq:limit}
+-- $$ \hat\theta \;\to\; (R + \sigma^2 E)^{-1} R\,\theta , \qquad E = \begin{pmatrix} 1 & 0 \\ 0 & 0 \end{pmatrix} , $$ {#eq:solution-limit}
 --
 -- which is `mc_limit`{.value} for $a_1$ here.
 --
 -- ::: {.table name=law #tbl:law}
--- Mean, bias and scatter of $\hat a_1$ over 300 records each, and the bias that @eq:limit expects.
+-- Mean, bias and scatter of $\hat a_1$ over 300 records each, and the bias that @eq:solution-limit expects.
 -- :::
 --
 -- @tbl:law shows how both depend on the experiment. The scatter is proportional to $\sigma/\sqrt N$ as long as the noise is small; the bias grows with $\sigma^2$ and does not depend on $N$.

@@ -348,6 +348,7 @@ report.figure("validation", validation_figure,
                   "L'enregistrement de validation, qui n'a pas servi à l'estimation : mesuré, simulé à partir de la seule tension, et l'écart. L'angle est le moins juste là où il est grand."))
 report.value("x_error", 1e3*std(x_error), "%.1f")
 report.value("theta_error", 1e3*std(theta_error), "%.1f")
+report.value("start_error", 1e3*math.abs(mean(x_error:range(rest + 10, rest + 50))), "%.1f")
 
 local residuals_theta, theta_tests = resid(theta_val, model.theta, resting)
 local residuals_x, x_tests = resid(x_val, model.x, resting)
@@ -641,6 +642,7 @@ for k, case in ipairs{{linear, false, 5, say("linear", "linéaire")}, {friction,
 end
 report.table("nonlinear", nonlinear_rows)
 for k, name in ipairs{"linear", "friction", "wide", "physical"} do report.value("left_" .. name, left_in_angle[k], "%.1f") end
+report.value("start_left", 1e3*math.abs(mean((left_over(friction, false, against)):range(rest + 10, rest + 50))), "%.1f")
 report.value("grey_dry", physical.dry/physical.gain, "%.2f")
 report.value("true_dry", truth.dry_voltage, "%.2f")
 report.value("grey_gain", 1e3*physical.gain/physical.viscous, "%.0f")
@@ -716,7 +718,13 @@ end
 report.value("large_x", 100*large.x, "%.0f")
 report.value("large_theta", large.theta, "%.2f")
 report.value("large_u", large.u, "%.0f")
+print(K)
 print(loop_poles)
+for k = 1, 4 do report.value("gain" .. k, K[{1, k}], "%.4g") end
+for name, pole in pairs{fast = loop_poles[1], slow = loop_poles[3]} do
+    report.value(name .. "_re", -pole.re, "%.3g")
+    report.value(name .. "_im", math.abs(pole.im), "%.3g")
+end
 
 local function compared(label, key, more)
     local panel = {ylabel = label, curves = {

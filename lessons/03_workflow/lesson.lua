@@ -847,7 +847,7 @@ report.value("dryer_gain", dcgain(H2), "%.3f")
 -- there, which saves a parameter. With two poles a zero gains nothing. BIC would prefer three poles and a zero (`dryer_bic_31`{.value} against `dryer_bic_20`{.value}); but that search did not converge, and on the second half
 -- its fit is lower, `dryer_val_31`{.value} against `dryer_val_20`{.value} %. The model
 --
--- $$ G(s) = \frac{b_0}{s^2 + a_1 s + a_2}\,e^{-2T_s s} $$ {#eq:dryer}
+-- $$ G(s) = \frac{b_0}{s^2 + a_1 s + a_2}\,e^{-2T_s s} $$ {#eq:solution-dryer}
 --
 -- with $a_1 =$ `dryer_a1`{.value}\ ±\ `dryer_a1_std`{.value}, $a_2 =$ `dryer_a2`{.value}\ ±\ `dryer_a2_std`{.value} and $b_0 =$ `dryer_b0`{.value}\ ±\ `dryer_b0_std`{.value} (robust standard errors) has a gain of `dryer_gain`{.value} and lags of `dryer_slow`{.value} s and
 -- `dryer_fast`{.value} s. It fits the first half with `dryer_fit`{.value} % ($R_T^2 =$ `dryer_rt2`{.value}) and the second with `dryer_val`{.value} %; one pole, $a_1 =$ `dryer1_a1`{.value} and
@@ -895,7 +895,7 @@ report.value("arx_weight", 100*A2.param[3]/A2.param[4], "%.0f")
 -- :::
 --
 -- The coefficient of $u(k-2)$ is `arx_weight`{.value} % of the next one, and one sample more of delay makes the model better with as many parameters
--- (@tbl:dryer_arx). Three samples here are the same delay as two in @eq:dryer, because a held input acts on a sampled output one sample later at the earliest. The noise of
+-- (@tbl:dryer_arx). Three samples here are the same delay as two in @eq:solution-dryer, because a held input acts on a sampled output one sample later at the earliest. The noise of
 -- this plant seems to pass through the air as well, as `arx` supposes; so, unlike in the first example, its model is good: estimated from the first half it
 -- simulates the second with `arx3_half`{.value} %. The `arx3_prediction`{.value} % for one-step prediction says little.
 -- END SOLUTION

@@ -5,7 +5,8 @@ local truth = vector{4, 3, 2}  -- a1, a2, b0 of the lesson's system
 local input = prbs(4, 100)
 local clean = iddata(lsim(tf({2}, {1, 4, 3}), input, 0.01), input, 0.01)
 
--- The Cramér-Rao bound for this experiment; an efficient method's scatter over 200 runs lies within a fifth of it.
+-- The Cramér-Rao bound for this experiment; an efficient method's scatter over 200 runs lies within a fifth of it, and that
+-- of LSSVF, which is biased, a quarter below it.
 local bound = montecarlo{system = tf({2}, {1, 4, 3}), input = input, Ts = 0.01, sigma = 0.2, runs = 2, seed = 1,
                          estimators = {tfsrivc = {2, 0, {TdMax = 0}}}}.tfsrivc.cramer_rao_std
 
@@ -84,7 +85,7 @@ check { id = "final_is_estimated", points = 1, about = "The recommended model ca
     hint = "Hand in the model that the method returned, not one you typed in." }
 
 check { id = "scatter", points = 2, about = "Monte Carlo: the scatter of the recommended method",
-    test = function(a) return near(a.scatter/bound, ones(3), {abs = 0.3, half = 0.5}) end,
+    test = function(a) return near(a.scatter/bound, ones(3), {abs = 0.2, half = 0.5}) end,
     hint = "montecarlo{...} gives the standard deviations of a1, a2 and b0 over its runs." }
 
 check { id = "follows_data", points = 3, rerun = "seed", about = "The results follow the data",

@@ -127,14 +127,14 @@ print(string.format("signal-to-noise ratio: %.1f dB", snr))
 -- BEGIN SOLUTION
 -- The filtered signals obey the same equation, sample by sample,
 --
--- $$ p^2 y_f(t_k) = -a_1\,p\,y_f(t_k) - a_2\,y_f(t_k) + b_0\,u_f(t_k) + \varepsilon(t_k) , $$ {#eq:sample}
+-- $$ p^2 y_f(t_k) = -a_1\,p\,y_f(t_k) - a_2\,y_f(t_k) + b_0\,u_f(t_k) + \varepsilon(t_k) , $$ {#eq:solution-sample}
 --
 -- and stacked over $k = 1, \dots, N$ they become $Y = \Phi\theta + \varepsilon$ with
 --
 -- $$ Y = \begin{pmatrix} p^2 y_f(t_1) \\ \vdots \\ p^2 y_f(t_N) \end{pmatrix}, \quad
 --    \Phi = \begin{pmatrix} -p\,y_f(t_1) & -y_f(t_1) & u_f(t_1) \\ \vdots & \vdots & \vdots \\
 --    -p\,y_f(t_N) & -y_f(t_N) & u_f(t_N) \end{pmatrix}, \quad
---    \theta = \begin{pmatrix} a_1 \\ a_2 \\ b_0 \end{pmatrix} , $$ {#eq:matrices}
+--    \theta = \begin{pmatrix} a_1 \\ a_2 \\ b_0 \end{pmatrix} , $$ {#eq:solution-matrices}
 --
 -- where $Y$ and $\varepsilon$ are columns of $N$ values, $\Phi$ has $N$ rows and 3 columns, and $\theta$ holds 3 values. The sum of squares $\lVert Y - \Phi\theta \rVert^2$ is smallest for $\hat\theta = (\Phi^T\Phi)^{-1}\Phi^T Y$, which a program computes by an
 -- orthogonal factorisation of $\Phi$, without forming an inverse.
@@ -222,9 +222,9 @@ report.table("repetitions", rows)
 --
 -- They are not (@tbl:repetitions), and the errors are systematic: chance would put some estimates above the truth and some below it, but all three
 -- parameters come out too small, in one repetition after the other. Least squares is *biased* here. The noise of $y$ appears on both
--- sides of @eq:sample. For the true parameters the remaining equation error is
+-- sides of @eq:solution-sample. For the true parameters the remaining equation error is
 --
--- $$ \varepsilon(t) = \frac{A(p)}{E(p)}\,e(t) , $$ {#eq:colour}
+-- $$ \varepsilon(t) = \frac{A(p)}{E(p)}\,e(t) , $$ {#eq:solution-colour}
 --
 -- and the columns $p\,y_f$ and $y_f$ of $\Phi$ contain the same $e$, filtered another way. Regressors and error are correlated,
 -- as in the long noisy records at the end of lesson 2, and a longer record would not cure that: the bias depends on the variance of the
@@ -392,7 +392,7 @@ report.figure("colour", weights, "How the filter colours the equation error")
 -- BEGIN SOLUTION
 -- ![How the filter colours the equation error: the magnitude $|A/E|$, by which white measurement noise is multiplied, for three values of $\lambda$ (full: 3 rad/s) and for the best filter, $E = A$, which leaves it white](figure:colour){#fig:colour}
 --
--- The regression treats all samples of $\varepsilon$ alike, which is best when they are white. By @eq:colour $\varepsilon$ is the white
+-- The regression treats all samples of $\varepsilon$ alike, which is best when they are white. By @eq:solution-colour $\varepsilon$ is the white
 -- noise $e$ seen through $A/E$ (@fig:colour). With $\lambda = 0.3$ the slow part of the noise is amplified far above the rest, and the filter's
 -- memory is so long that the record hardly holds more than its transient. With $\lambda = 30$ nearly all of the noise lies at frequencies
 -- where the system no longer responds, and it drowns the information about the slow pole. Of the three, $\lambda = 3$ comes closest to a level line,

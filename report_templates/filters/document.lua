@@ -3,6 +3,7 @@
 -- document may not contain. Everything found is told to the engine on standard error, one line each:
 --   dynlab:use <TAB> number <TAB> figure|image <TAB> name        a picture to be placed under that number
 --   dynlab:error <TAB> code <TAB> text to look for <TAB> details...
+--   dynlab:gap <TAB> the same                                    what a draft shows as ??
 local folder = PANDOC_SCRIPT_FILE:match("^(.*)/") or "."
 local safety = dofile(folder .. "/safety.lua")
 local mathematics = dofile(folder .. "/mathematics.lua")
@@ -12,16 +13,28 @@ local tables = dofile(folder .. "/tables.lua").new(layout)
 local diagram = dofile(folder .. "/diagram.lua")
 local drawing = dofile(folder .. "/drawing.lua")
 local choice = dofile(folder .. "/choice.lua")
+local lists = dofile(folder .. "/lists.lua")
 
 local failed = false
 local function clean(text) return (tostring(text):gsub("[%c]", " ")) end
 
-local function report(code, needle, ...)
-  failed = true
-  local fields = { "dynlab:error", code, clean(needle) }
+local function tell(sign, code, needle, ...)
+  local fields = { sign, code, clean(needle) }
   for _, field in ipairs { ... } do fields[#fields + 1] = clean(field) end
   io.stderr:write(table.concat(fields, "\t"), "\n")
 end
+
+local function report(...)
+  failed = true
+  tell("dynlab:error", ...)
+end
+
+-- What points to nothing. A draft is made all the same.
+local function report_gap(...)
+  if slots.draft then tell("dynlab:gap", ...) else report(...) end
+end
+
+local shows_gaps = slots.draft and not slots.stopped
 
 -- Slots ----------------------------------------------------------------------------------------------------------
 
@@ -32,15 +45,17 @@ local function entry(kind, name, needle)
   if found then return found end
   for _, other in ipairs(kinds) do
     if slots[other][name] then
-      report("wrong-kind", needle, kind, name, other)
+      report_gap("wrong-kind", needle, kind, name, other)
       return nil
     end
   end
-  if not slots.stopped then report("no-entry", needle, kind, name) end
+  if not slots.stopped then report_gap("no-entry", needle, kind, name) end
 end
 
 -- What stands in the place of an entry that is not there, once that was told or the script stopped before it.
-local function missing_block(name) return slots.stopped and layout:missing_block(name) or {} end
+local function missing_block(name)
+  return slots.stopped and layout:missing_block(name) or shows_gaps and layout:gap_block(name) or {}
+end
 
 local pictures = {}
 local picture_count = 0
@@ -80,7 +95,27 @@ local function define(label, shown)
   end
 end
 
+-- Equations of a lesson's solution, {#eq:solution-name}, are counted by themselves as S1, S2, ..., so that those of its
+-- text have the same numbers with and without it.
+local solution_numbers = {}
+local function number_solutions(document)
+  local count = 0
+  document:walk {
+    Str = function(element)
+      local label = element.text:match("^{#(eq:solution%-[%w_.:-]+)}")
+      if label then
+        count = count + 1
+        solution_numbers[label] = "S" .. count
+      end
+    end,
+  }
+end
+
 local function number(kind, label)
+  if solution_numbers[label or ""] then
+    define(label, layout:reference(kind, solution_numbers[label]))
+    return solution_numbers[label]
+  end
   counters[kind] = counters[kind] + 1
   if label then define(label, layout:reference(kind, counters[kind])) end
   return tostring(counters[kind])
@@ -386,7 +421,8 @@ end
 local function code(element)
   if element.classes:includes("value") then
     local found = entry("value", element.text, "`" .. element.text .. "`")
-    return found and printed_value(found) or slots.stopped and layout:missing_word(element.text) or {}
+    return found and printed_value(found) or slots.stopped and layout:missing_word(element.text) or
+      shows_gaps and layout:gap() or {}
   end
   return layout:inline_code(element)
 end
@@ -458,9 +494,9 @@ local function reference(citation)
   local id = citation.id
   local kind = id:match("^(%a+):")
   if kind ~= "sec" and not counters[kind] then
-    report("reference-kind", "@" .. id, id)
+    report_gap("reference-kind", "@" .. id, id)
   elseif not labels[id] then
-    if not slots.stopped then report("dangling", "@" .. id, id) end
+    if not slots.stopped then report_gap("dangling", "@" .. id, id) end
   else
     local shown = labels[id]
     if citation.mode == "SuppressAuthor" then shown = shown:match("\u{A0}(.*)$") or shown end
@@ -469,9 +505,16 @@ local function reference(citation)
   end
 end
 
+local unknown_citations = {}
+
 -- Literature is left to Pandoc's citeproc, which runs next.
 local function references(cite)
-  if not cite.citations[1].id:find(":", 1, true) then return slots.bibliography == "" and cite.content or nil end
+  if not cite.citations[1].id:find(":", 1, true) then
+    for _, citation in ipairs(cite.citations) do
+      if shows_gaps and unknown_citations[citation.id] then return layout:gap() end
+    end
+    return slots.bibliography == "" and cite.content or nil
+  end
   local shown = pandoc.List {}
   for i, citation in ipairs(cite.citations) do
     if i > 1 then shown:extend { pandoc.Str(","), pandoc.Space() } end
@@ -479,7 +522,7 @@ local function references(cite)
       shown:extend(citation.prefix)
       shown:insert(pandoc.Space())
     end
-    shown:insert(reference(citation) or pandoc.Str(citation.id))
+    shown:insert(reference(citation) or shows_gaps and layout:gap() or pandoc.Str(citation.id))
     shown:extend(citation.suffix)
   end
   return shown
@@ -515,11 +558,13 @@ local function check_citations(document)
       if cite.citations[1].id:find(":", 1, true) then return end
       for _, citation in ipairs(cite.citations) do
         local id = citation.id
-        cites_literature = true
+        unknown_citations[id] = not keys[id]
         if slots.bibliography == "" then
-          report("no-bibliography", "@" .. id, id)
+          report_gap("no-bibliography", "@" .. id, id)
         elseif not keys[id] then
-          report("unknown-citation", "@" .. id, id, table.concat(names, " "))
+          report_gap("unknown-citation", "@" .. id, id, table.concat(names, " "))
+        else
+          cites_literature = true
         end
       end
     end,
@@ -626,7 +671,7 @@ local function keep_units(inlines)
 end
 
 local function finished(document)
-  local filled = document:walk(check):walk(fill)
+  local filled = document:walk { Para = lists.after_text }:walk(check):walk(fill)
   if slots.format ~= "markdown" then filled = filled:walk { Inlines = keep_units } end
   return filled:walk { Cite = references }
 end
@@ -642,6 +687,7 @@ function Pandoc(document)
     document.blocks:insert(pandoc.Header(1, { pandoc.Str(layout.words.answers) }, { class = "unnumbered" }))
     document.blocks:extend(answers)
   end
+  if not slots.chunks then number_solutions(document) end
   document = finished(document)
   for _, key in ipairs { "title", "subtitle", "date" } do
     local value = document.meta[key]

@@ -10,7 +10,8 @@ local words = {
          answer = "Réponse", answers = "Réponses aux questions", right = "Juste.", wrong = "Faux." },
 }
 
-local latex_escapes = { ["\\"] = "\\textbackslash{}", ["{"] = "\\{", ["}"] = "\\}" }
+-- in code; a plain backtick would be copied as a quotation mark
+local latex_escapes = { ["\\"] = "\\textbackslash{}", ["{"] = "\\{", ["}"] = "\\}", ["`"] = "\\textasciigrave{}" }
 local html_escapes = { ["&"] = "&amp;", ["<"] = "&lt;", [">"] = "&gt;", ['"'] = "&quot;" }
 local zero_width_space = "\u{200B}"
 local no_break_space = "\u{A0}"
@@ -177,7 +178,7 @@ function layout:code_block(block)
     end
     local environment = verbatim_environments[class] or "Highlighting"
     return { self:need_for_lines(block.text), pandoc.RawBlock("latex", "\\begin{Shaded}\n\\begin{" .. environment ..
-      "}\n" .. block.text:gsub("[\\{}]", latex_escapes) .. "\n\\end{" .. environment .. "}\n\\end{Shaded}") }
+      "}\n" .. block.text:gsub("[\\{}`]", latex_escapes) .. "\n\\end{" .. environment .. "}\n\\end{Shaded}") }
   elseif self.format == "html" then
     -- Pandoc would look for a language "output" in all its syntax definitions, which takes 0.3 s.
     local class = block.classes[1]
@@ -196,6 +197,11 @@ function layout:missing_word(name) return pandoc.Strong { pandoc.Str("[" .. name
 function layout:missing_block(name)
   return pandoc.Para { pandoc.Strong { pandoc.Str("[" .. name .. " " .. self.words.missing .. "]") } }
 end
+
+-- In the place of what points to nothing, within a line or alone.
+function layout:gap() return pandoc.Strong { pandoc.Str("??") } end
+
+function layout:gap_block(name) return pandoc.Para { pandoc.Strong { pandoc.Str("?? [" .. name .. "]") } } end
 
 -- What a filter returns in a list is not filtered again, but what stands in it is: hence the division around the blocks.
 local function within(format, begin, blocks, finish)

@@ -80,6 +80,21 @@ class DocumentTest : public testing::Test {
         return file(output);
     }
 
+    /// The document made as a draft: what is missing in it, a sentence a line, and its HTML.
+    std::pair<std::string, std::string> draft(const std::string& text) {
+        write("report.md", text);
+        DocumentSource source;
+        source.template_file = file("report.md");
+        source.record = &record_;
+        DocumentMaker::Options options;
+        Complaints gaps;
+        options.gaps = &gaps;
+        DocumentMaker(options).make(source, file("draft.html"), DocumentFormat::kHtml, nullptr);
+        std::string sentences;
+        for (const std::string& gap : gaps.sentences()) sentences += gap + "\n";
+        return {replaced(sentences, folder_.path().string() + "/", ""), read(file("draft.html"))};
+    }
+
     /// The message with which making the document fails, the test folder's path taken out; "" when it is made.
     std::string refusal(const std::string& text, const std::string& output = "out.html") {
         try {

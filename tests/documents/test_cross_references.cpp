@@ -26,6 +26,15 @@ TEST_F(cross_references, figures_tables_and_equations_are_counted_each_for_itsel
     EXPECT_THAT(text, HasSubstr("id=\"eq:two\""));
 }
 
+TEST_F(cross_references, equations_of_a_solution_are_counted_by_themselves) {
+    const std::string text = html(
+        "$$ a $$ {#eq:one}\n\n$$ b $$ {#eq:solution-two}\n\n$$ c $$ {#eq:three}\n\n$$ d $$ {#eq:solution-four}\n\n"
+        "@eq:solution-two, @eq:three, @eq:solution-four\n");
+    EXPECT_THAT(text, HasSubstr(">Equation S1</a>, <a href=\"#eq:three\">Equation 2</a>, "));
+    EXPECT_THAT(text, HasSubstr(">Equation S2</a>"));
+    EXPECT_THAT(text, HasSubstr("<span class=\"number\">(S2)</span>"));
+}
+
 TEST_F(cross_references, french_documents_use_french_words) {
     add_figure("a", "A", DocumentFormat::kHtml);
     const std::string text = html(
@@ -67,6 +76,28 @@ TEST_F(cross_references, a_dangling_reference_is_an_error_with_line_and_suggesti
         HasSubstr("report.md:3: the cross reference @eq:modle points to nothing: there is no {#eq:modle}; did you "
                   "mean \"eq:model\"?"));
     EXPECT_THAT(refusal("See @figure:raw.\n"), HasSubstr("must start with @fig:, @tbl:, @eq: or @sec:"));
+}
+
+TEST_F(cross_references, a_draft_shows_question_marks_where_something_is_missing) {
+    record_.values["fit"] = {93.2, "93.2"};
+    const std::string text =
+        "See @fig:raw and `fti`{.value}, after [@ljung].\n\n![](figure:raw){#fig:new}\n\n::: {.table "
+        "name=models}\n:::\n";
+    const std::string gap = "<strong>?\?</strong>";
+    const auto [gaps, page] = draft(text);
+    EXPECT_THAT(gaps, HasSubstr("report.md:1: the cross reference @fig:raw points to nothing"));
+    EXPECT_THAT(gaps, HasSubstr("report.md:1: the script reported no value \"fti\"; did you mean \"fit\"?"));
+    EXPECT_THAT(gaps, HasSubstr("report.md:1: @ljung cites literature"));
+    EXPECT_THAT(gaps, HasSubstr("report.md:3: the script reported no figure \"raw\""));
+    EXPECT_THAT(gaps, HasSubstr("report.md:5: the script reported no table \"models\""));
+    EXPECT_THAT(page, HasSubstr("See " + gap + " and " + gap + ", after " + gap + "."));
+    EXPECT_THAT(page, HasSubstr("<p><strong>?? [raw]</strong></p>"));
+    EXPECT_THAT(page, HasSubstr("<p><strong>?? [models]</strong></p>"));
+    EXPECT_THAT(refusal(text), HasSubstr("points to nothing")) << "no draft was asked for";
+    EXPECT_THROW(draft("See @fig:raw and $ \\inputt $.\n"), DocumentError) << "what cannot be set";
+    const auto [none, whole] = draft("The fit is `fit`{.value}.\n");
+    EXPECT_EQ(none, "");
+    EXPECT_THAT(whole, Not(HasSubstr(gap)));
 }
 
 TEST_F(cross_references, a_label_used_twice_is_an_error_at_the_second_place) {

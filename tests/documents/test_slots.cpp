@@ -10,6 +10,7 @@ namespace test_slots {
 
 using test::inspect_pdf;
 using slots = DocumentTest;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -71,6 +72,15 @@ TEST_F(slots, a_text_is_markdown_with_slots_and_references_of_its_own) {
     record_.texts["end"] = {"All **good**: `fit`{.value}, @eq:m."};
     const std::string text = html("$$ y = x $$ {#eq:m}\n\n::: {.text name=end}\n:::\n");
     EXPECT_THAT(text, HasSubstr("All <strong>good</strong>: 93.2, <a href=\"#eq:m\">Equation 1</a>."));
+}
+
+TEST_F(slots, a_list_may_follow_a_line_of_text_at_once) {
+    const std::string bullets = html("Much:\n- one *x*\n  and more\n- two\n");
+    EXPECT_THAT(bullets, HasSubstr("<p>Much:</p>"));
+    EXPECT_THAT(bullets, ContainsRegex("<li>one <em>x</em>\\s+and more</li>\\s*<li>two</li>\\s*</ul>"));
+    EXPECT_THAT(html("Steps:\n1. one\n2. two\n"), ContainsRegex("<ol[^>]*>\\s*<li>one</li>\\s*<li>two</li>\\s*</ol>"));
+    for (const char* text : {"In the year\n1896. Then\n", "From 3\n– 4 of them\n", "It is $x\n- y$.\n", "a-\nb - c\n"})
+        EXPECT_THAT(html(text), Not(HasSubstr("<li>"))) << text;
 }
 
 TEST_F(slots, an_entry_that_is_missing_is_named_with_the_nearest_name_and_the_line) {

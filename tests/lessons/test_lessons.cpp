@@ -57,6 +57,16 @@ TEST_P(lessons, report_is_whole) {
     if (!slides) expect_full_pages(bench, GetParam() + ".pdf", sections);
 }
 
+TEST_P(lessons, equations_have_the_same_numbers_with_and_without_the_solutions) {
+    bool in_solution = false;
+    for (const std::string& line : lines_of(read_file(DYNLAB_SOURCE_DIR "/lessons/" + GetParam() + "/lesson.lua"))) {
+        if (line.find("BEGIN SOLUTION") != std::string::npos) in_solution = true;
+        if (line.find("END SOLUTION") != std::string::npos) in_solution = false;
+        if (const std::size_t label = line.find("{#eq:"); label != std::string::npos)
+            EXPECT_EQ(line.substr(label).starts_with("{#eq:solution-"), in_solution) << line;
+    }
+}
+
 TEST_P(lessons, starter_runs_and_shows_no_solution) {
     const Workbench bench;
     ASSERT_EQ(bench.dynlab({"new", GetParam(), "mine"}).exit_code, 0);
@@ -225,6 +235,13 @@ TEST(lesson_03_crane, finds_the_crane_and_says_what_the_model_is_worth) {
     EXPECT_LT(number(record, "settling_lqr"), 3);
     EXPECT_LT(number(record, "left_lqr"), number(record, "left_p") / 4);
     EXPECT_LT(number(record, "largest_angle_lqr"), number(record, "largest_angle_p"));
+    // The characteristic polynomial of a loop in controllable form ends in the last gain, the product of its poles.
+    const auto modulus = [&](const char* re, const char* im) {
+        return std::hypot(number(record, re), number(record, im));
+    };
+    EXPECT_NEAR(std::pow(modulus("fast_re", "fast_im") * modulus("slow_re", "slow_im"), 2), number(record, "gain4"),
+                0.01 * number(record, "gain4"));
+    EXPECT_LT(number(record, "start_left"), 0.5 * number(record, "start_error")) << "friction explains the start";
 }
 
 class lesson_03_crane_report : public testing::TestWithParam<const char*> {};

@@ -214,11 +214,11 @@ TEST(program, a_report_gives_the_record_of_its_run_whether_it_was_made_before_or
 TEST(program, code_of_a_pdf_can_be_copied) {  // oracle: the script's own signs
     const Workbench bench;
     bench.write("a.lua",
-                "-- ---\n-- title: T\n-- ---\n-- %%\nx = 3^2\nprint('a ^ b, \u00ea')\n-- %% [markdown]\n-- Now `s^2 "
+                "-- ---\n-- title: T\n-- ---\n-- %%\nx = 3^2\nprint('a ^ b, `\u00ea')\n-- %% [markdown]\n-- Now `s^2 "
                 "\u00ea`.\n");
     ASSERT_EQ(bench.dynlab({"weave", "a.lua", "-o", "a.pdf"}).exit_code, 0);
     EXPECT_THAT(bench.shell("pdftotext -layout a.pdf -").output,
-                AllOf(HasSubstr("x = 3^2"), HasSubstr("print('a ^ b, \u00ea')"), HasSubstr(" a ^ b, \u00ea\n"),
+                AllOf(HasSubstr("x = 3^2"), HasSubstr("print('a ^ b, `\u00ea')"), HasSubstr(" a ^ b, `\u00ea\n"),
                       HasSubstr("Now s^2 \u00ea.")));
 }
 

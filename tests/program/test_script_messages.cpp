@@ -187,5 +187,29 @@ TEST(script_messages, files_of_a_run_lie_beside_its_script) {
     EXPECT_THAT(packed.error_output, IsEmpty());
 }
 
+TEST(script_messages, a_reference_to_nothing_leaves_a_draft) {
+    const Workbench bench;
+    const std::string whole = "---\ntitle: A\n---\n\nThe gain.\n";
+    bench.write("A/analysis.lua", "print(1)\n");
+    bench.write("A/report.md", whole);
+    ASSERT_EQ(bench.dynlab({"report", "A"}).exit_code, 0);
+    bench.write("A/report.md", whole + "\nAs @fig:step shows, `gain`{.value} s.\n");
+    const ChildResult draft = bench.dynlab({"report", "A"});
+    EXPECT_EQ(draft.exit_code, 1);
+    EXPECT_THAT(draft.output, HasSubstr("report.pdf (a draft: ?? stands where something is missing)"));
+    EXPECT_THAT(draft.error_output, HasSubstr("A/report.md:7: the cross reference @fig:step points to nothing"));
+    EXPECT_THAT(draft.error_output, HasSubstr("A/report.md:7: the script reported no value \"gain\""));
+    EXPECT_THAT(bench.shell("pdftotext A/report.pdf -").output, HasSubstr("As ?? shows, ?? s."));
+    EXPECT_EQ(bench.dynlab({"report", "A"}).exit_code, 1) << "a draft is never up to date";
+    EXPECT_THAT(bench.dynlab({"pack", "A"}).error_output, HasSubstr("report.pdf is a draft: ?? stands in it"));
+    const ChildResult checked = bench.dynlab({"check", "A"});
+    EXPECT_EQ(checked.exit_code, 1);
+    EXPECT_THAT(checked.output, HasSubstr("analysis-fails"));
+    EXPECT_THAT(checked.output, HasSubstr("the cross reference @fig:step points to"));
+    bench.write("A/report.md", whole);
+    EXPECT_EQ(bench.dynlab({"report", "A"}).exit_code, 0);
+    EXPECT_THAT(bench.dynlab({"pack", "A"}).error_output, IsEmpty());
+}
+
 }  // namespace test_script_messages
 }  // namespace dynlab::test
