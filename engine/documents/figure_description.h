@@ -16,7 +16,15 @@ constexpr std::array<const char*, 4> names_of(LegendPlace) {
 
 DYNLAB_DESCRIBE(Curve, x, y, y_upper, style, label, colour, dash, line_width, marker)
 DYNLAB_DESCRIBE(ReferenceLine, horizontal, at, label, dash)
-DYNLAB_DESCRIBE(Annotation, x, y, text, marker)
+DYNLAB_DESCRIBE(SliderScale, slider, horizontal, value, values, places)
+
+template <Is<Annotation> T, class V>
+void describe(T& object, V& member) {
+    auto& [x, y, text, marker, scales] = object;
+    member("x", x), member("y", y), member("text", text), member("marker", marker);
+    member.unless_empty("scales", scales);
+}
+
 DYNLAB_DESCRIBE(Arrow, x0, y0, x1, y1, text, both_heads)
 DYNLAB_DESCRIBE(Panel, title, x_label, y_label, log_x, log_y, x_range, y_range, x_tick_step, y_tick_step, equal_axes,
                 legend, curves, references, annotations, arrows)

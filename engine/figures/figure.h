@@ -33,11 +33,21 @@ struct ReferenceLine {
     int dash = 1;
 };
 
+/// How one coordinate of a mark goes with a slider of the script: a page turns the place to which the mark is dragged
+/// into the slider's number.
+struct SliderScale {
+    std::string slider;
+    bool horizontal = true;  ///< the abscissa; else the ordinate
+    double value = 0;        ///< of the slider now
+    Vector values, places;   ///< numbers of the slider, rising, and the coordinate at each: rising or falling
+};
+
 /// A marked reading point with its text, placed so that it stays inside the panel.
 struct Annotation {
     double x = 0, y = 0;
     std::string text;
     bool marker = true;
+    std::vector<SliderScale> scales = {};  ///< at most one a coordinate; on a page the mark is a handle then
 };
 
 struct Arrow {

@@ -298,7 +298,7 @@ ReportResult make_report(const ReportRequest& request) {
         });
         result.gaps = gaps.sentences();
         if (format == DocumentFormat::kHtml) {
-            const auto read = add_slider_places(request, record, renderer, calls, workplace.path());
+            const auto read = add_slider_places(request, record, calls, workplace.path());
             record.files_read.insert(record.files_read.end(), read.begin(), read.end());
         }
     } catch (const DocumentError& complaint) {

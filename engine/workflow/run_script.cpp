@@ -11,9 +11,7 @@
 #include "documents/text_lines.h"
 #include "figures/french_texts.h"
 #include "platform/written_files.h"
-#include "scripting/runtime/report_language.h"
-#include "scripting/runtime/runtime.h"
-#include "scripting/runtime/slider_values.h"
+#include "workflow/script_world.h"
 
 namespace dynlab::inline workflow {
 namespace {
@@ -76,9 +74,7 @@ void check_sliders(const RunRequest& request, const RunRecord& record) {
     }
 }
 
-}  // namespace
-
-RunRecord run_script(const RunRequest& request, GnuplotRenderer& renderer) {
+RunOptions run_options(const RunRequest& request) {
     RunOptions options;
     options.seed = request.seed.value_or(request.script.header.seed);
     const std::filesystem::path folder = request.script.file.parent_path();
@@ -92,13 +88,23 @@ RunRecord run_script(const RunRequest& request, GnuplotRenderer& renderer) {
             if (const auto title = titles.find(id); title != titles.end()) tell(title->second);
         };
     }
-    ReportLanguage language{request.script.header.language};
-    Runtime runtime(options, renderer);
+    return options;
+}
+
+}  // namespace
+
+ScriptWorld::ScriptWorld(const RunRequest& request, GnuplotRenderer& renderer)
+    : language{request.script.header.language},
+      sliders{request.slider_values},
+      runtime(run_options(request), renderer) {
     runtime.set_service(&language);
     if (request.written != nullptr) runtime.set_service(request.written);
-    SliderValues sliders{request.slider_values};
     runtime.set_service(&sliders);
-    RunRecord record = runtime.run(request.script);
+}
+
+RunRecord run_script(const RunRequest& request, GnuplotRenderer& renderer) {
+    ScriptWorld world(request, renderer);
+    RunRecord record = world.runtime.run(request.script);
     if (!record.error) check_sliders(request, record);
     return record;
 }

@@ -2,7 +2,6 @@
 #include <filesystem>
 #include <vector>
 
-#include "figures/gnuplot_renderer.h"
 #include "workflow/make_report.h"
 
 namespace dynlab::inline scripting {
@@ -11,12 +10,12 @@ class CallCache;
 
 namespace dynlab::inline workflow {
 
-/// Runs the script of a page once more for every place of its sliders, one slider at a time, and puts what the document
-/// shows there into the page (documents/html/slider_page.h), which needs no server then. `record` is the run the page
-/// was made of, its figures drawn; nothing is done for a run without sliders, or one that failed.
+/// Runs the script of a page, from the cells that ask for sliders on, once more for every combination of their places,
+/// one cell's sliders at a time, and puts what the document shows there into the page (documents/html/slider_page.h),
+/// which needs no server then. `record` is the run the page was made of, its figures drawn; nothing is done for a run
+/// without sliders, or one that failed.
 /// Gives the files that the further runs read.
 std::vector<std::filesystem::path> add_slider_places(const ReportRequest& request, const RunRecord& record,
-                                                     GnuplotRenderer& renderer, CallCache& calls,
-                                                     const std::filesystem::path& work_folder);
+                                                     CallCache& calls, const std::filesystem::path& work_folder);
 
 }  // namespace dynlab::inline workflow

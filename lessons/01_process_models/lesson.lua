@@ -503,6 +503,78 @@ report.value("sharper", std(T_reading)/std(T_estimate), "%.0f")
 -- END SOLUTION
 
 -- %% [markdown]
+-- # Try it: parameters by hand
+--
+-- On a page (`dynlab preview`, or `dynlab report` with an output that ends in `.html`) the two models below move under your hand: drag the marked points, or
+-- move the sliders under the cells. Which parameter moves which part of the curve? How near to the measurement do you come by eye?
+
+-- %% id=first_order_by_hand
+do
+    local K = slider("K", 0.4, 0.3, 0.6, {step = 0.02, unit = "°C/%"})
+    local T = slider("T", 50, 30, 110, {step = 5, unit = "s"})
+    local rest = mean(exchanger.y:range(1, 30))
+    local change = exchanger.u[#exchanger.u] - exchanger.u[1]
+    local function response(t)                -- the step comes at 60 s
+        local since = (t - 60 + abs(t - 60))/2
+        return rest + K*change*(1 - exp(-since/T))
+    end
+    local misfit = norm(exchanger.y - response(exchanger.t))
+    local name = string.format("model: fit %.1f %%",
+        100*(1 - misfit/norm(exchanger.y - mean(exchanger.y))))
+    local t = linspace(0, 600, 101)
+    local by_hand = plot(t, interp1(exchanger.t, exchanger.y, t), "measured",
+                         t, response(t), name,
+                         {style = {"points", "line"}, colour = {2, 0}, height = 7,
+                          x_range = {0, 600}, y_range = {30, 44},
+                          xlabel = "time (s)", ylabel = "outlet temperature (°C)"})
+    by_hand:handle{x = 560, y = function(K) return rest + K*change end,
+                   y_slider = "K", text = "final level"}
+    by_hand:handle{x = function(T) return 60 + T end, x_slider = "T",
+                   y = function(K) return rest + 0.632*K*change end,
+                   y_slider = "K", text = "63 %"}
+    report.figure("first_by_hand", by_hand, "A first-order model by hand")
+end
+
+-- %% [markdown]
+-- ![The heat exchanger (dots) and a first-order model (line) with the $K$ and $T$ of the cell above: the final level moves with $K$, the point where 63 % of the change are reached with $T$ and $K$.](figure:first_by_hand){#fig:first_by_hand}
+--
+-- In @fig:first_by_hand the gain stretches the curve upwards and the time constant sideways. In @fig:second_by_hand the height of the first peak over the final level depends on the
+-- damping ratio alone, its instant on the natural frequency and, a little, on the damping.
+
+-- %% id=second_order_by_hand
+do
+    local K = slider("K2", 9, 8, 12, {step = 1, unit = "mm/V", label = "K"})
+    local z = slider("z", 0.3, 0.1, 0.4, {step = 0.05})
+    local w0 = slider("omega_0", 11, 10, 16,
+                      {step = 1, unit = "rad/s", label = "ω₀"})
+    local function response(t)
+        local root = math.sqrt(1 - z^2)
+        local swing = cos(w0*root*t) + z/root*sin(w0*root*t)
+        return K*(1 - exp(-z*w0*t)*swing)
+    end
+    local function overshoot(z) return math.exp(-math.pi*z/math.sqrt(1 - z^2)) end
+    local misfit = norm(suspension.y - response(suspension.t))
+    local name = string.format("model: fit %.1f %%",
+        100*(1 - misfit/norm(suspension.y - mean(suspension.y))))
+    local t = linspace(0, 2.5, 101)
+    local by_hand = plot(t, interp1(suspension.t, suspension.y, t), "measured",
+                         t, response(t), name,
+                         {style = {"points", "line"}, colour = {2, 0}, height = 7,
+                          x_range = {0, 2.5}, y_range = {0, 22},
+                          xlabel = "time (s)", ylabel = "position (mm)"})
+    by_hand:handle{x = 2.3, y = function(K) return K end,
+                   y_slider = "K2", text = "final level"}
+    local function peak(w0) return math.pi/(w0*math.sqrt(1 - z^2)) end
+    by_hand:handle{x = peak, x_slider = "omega_0",
+                   y = function(z) return K*(1 + overshoot(z)) end,
+                   y_slider = "z", text = "first peak"}
+    report.figure("second_by_hand", by_hand, "A second-order model by hand")
+end
+
+-- %% [markdown]
+-- ![The suspension (dots) and a second-order model (line) with the $K$, $z$ and $\omega_0$ of the cell above: the final level moves with $K$, the first peak with $z$ (up and down) and $\omega_0$ (sideways).](figure:second_by_hand){#fig:second_by_hand}
+
+-- %% [markdown]
 -- # What was learnt
 --
 -- BEGIN SOLUTION

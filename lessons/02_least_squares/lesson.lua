@@ -472,6 +472,41 @@ report.table("law", law)
 -- END SOLUTION
 
 -- %% [markdown]
+-- # Try it: bias against scatter
+--
+-- On a page (`dynlab preview`, or `dynlab report` with an output that ends in `.html`) the sliders under the next cell move the noise $\sigma$, the number of samples $N$ and the
+-- sampling time $T_s$ of a hundred records of the system $1/(s + 1)$. Which of them moves the bias of $\hat a_1$, and which the scatter?
+
+-- %% id=bias_by_hand
+do
+    local sigma = slider("sigma", 0.3, 0.1, 0.5, {step = 0.1, label = "σ"})
+    local N = slider("N", 400, 100, 1300, {step = 300})
+    local Ts = slider("Ts", 0.2, 0.1, 0.5, {step = 0.1, unit = "s", label = "T_s"})
+    local u = prbs(11, 4):range(1, N)
+    local x = lsim(tf({1}, {1, 1}), u, Ts)
+    local a1, found = -math.exp(-Ts), zeros(100)
+    rng(1)
+    for run = 1, 100 do
+        local y = x + sigma*randn(N)
+        local Phi = matrix{-y:range(1, N - 1), u:range(1, N - 1)}
+        found[run] = lsq(Phi, y:range(2, N)).theta[1]
+    end
+    local bias = mean(found) - a1
+    local bars = histogram(found - a1, {truth = 0,
+                           xlabel = "estimate less true a_{1}"})
+    bars:vline(bias, "mean")
+    bars:set{x_range = {-0.2, 0.8}, height = 6, title =
+             string.format("bias %.3f, scatter %.3f", bias, std(found))}
+    report.figure("bias_by_hand", bars, "Bias and scatter of a hundred estimates")
+end
+
+-- %% [markdown]
+-- ![The errors of a hundred least-squares estimates of $a_1$ for the $\sigma$, $N$ and $T_s$ of the cell above; dashed: zero, and their mean](figure:bias_by_hand){#fig:bias_by_hand}
+--
+-- In @fig:bias_by_hand more samples make the bars narrower and leave their mean where it is; more noise moves both. Faster sampling makes neighbouring values of the
+-- output more alike.
+
+-- %% [markdown]
 -- # What was learnt
 --
 -- BEGIN SOLUTION

@@ -795,6 +795,35 @@ report.table("orders", order_rows)
 -- END SOLUTION
 
 -- %% [markdown]
+-- # Try it: λ by hand
+--
+-- On a page (`dynlab preview`, or `dynlab report` with an output that ends in `.html`) the slider under the next cell, or the marked point of @fig:lambda_by_hand,
+-- moves the cut-off frequency $\lambda$ of the filter. Watch both: how the filter colours the equation error, and what the estimates from sixty records make of it.
+
+-- %% id=lambda_by_hand
+do
+    local lambda = slider("lambda", 3, 0.3, 30,
+                          {log = true, unit = "rad/s", label = "λ"})
+    local colour = (s^2 + 4*s + 3)/(s + lambda)^2
+    local w = 10^linspace(-2, 3, 101)
+    local weight = plot(w, freqresp(colour, w).abs,
+                        {x_log = true, y_log = true, y_range = {1e-3, 1e3},
+                         xlabel = "frequency (rad/s)", ylabel = "weight |A/E|"})
+    weight:hline(1, "E = A")
+    weight:handle{x = function(lambda) return lambda end, x_slider = "lambda",
+                  y = freqresp(colour, {lambda}).abs[1], text = "λ"}
+    local M = montecarlo{system = Go, input = u, Ts = Ts, sigma = 0.2, runs = 60,
+        estimators = {{"lssvf", {2, 1, 0}, lambda, label = "LSSVF"},
+                      {"ivsvf", {2, 1, 0}, lambda, label = "IVSVF"}}}
+    local cloud = M:scatter("a1", "b0"):set{x_range = {0, 8}, y_range = {0, 4}}
+    report.figure("lambda_by_hand", subplot(1, 2, {weight, cloud}):set{height = 7},
+                  "The filter and the estimates")
+end
+
+-- %% [markdown]
+-- ![For the $\lambda$ of the cell above: left, the magnitude $|A/E|$ by which the filter colours the equation error; right, $\hat b_0$ over $\hat a_1$ from sixty records, and the ellipse that would hold 95 % of the estimates of the best unbiased method](figure:lambda_by_hand){#fig:lambda_by_hand}
+
+-- %% [markdown]
 -- # What was learnt
 --
 -- BEGIN SOLUTION

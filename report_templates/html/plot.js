@@ -5,9 +5,9 @@ const dynlabPlots = (() => {
   const { Panel, Painter, clamp } = dynlabDrawing;
   const french = document.documentElement.lang.startsWith("fr");
   const WORDS = french
-    ? { whole: "Figure entière", kind: "figure interactive", curve: "Montrer ou cacher : ",
+    ? { whole: "Figure entière", kind: "figure interactive", curve: "Montrer ou cacher : ", handle: "poignée, à déplacer par les flèches",
         help: "Flèches : lire ; + et − : agrandir, réduire ; Maj et flèches : déplacer ; 0 : figure entière ; Échap : fin" }
-    : { whole: "Whole figure", kind: "interactive figure", curve: "Show or hide: ",
+    : { whole: "Whole figure", kind: "interactive figure", curve: "Show or hide: ", handle: "handle, moved by arrows",
         help: "Arrows: read off; + and −: zoom; Shift and arrows: move; 0: whole figure; Esc: end" };
 
   const plots = new Set();  // those in the page
@@ -17,12 +17,96 @@ const dynlabPlots = (() => {
   document.addEventListener("themechange", drawAll);
   document.fonts?.ready.then(drawAll);
 
+  /// The number of a slider that puts a mark to a place.
+  function numberAt({ values, places }, place) {
+    const last = places.length - 1, rising = places[last] > places[0];
+    const reached = (i) => rising ? places[i] <= place : places[i] >= place;
+    if (!reached(0)) return values[0];
+    let i = 0;
+    while (i < last && reached(i + 1)) ++i;
+    if (i === last) return values[last];
+    return values[i] + (values[i + 1] - values[i]) * (place - places[i]) / (places[i + 1] - places[i]);
+  }
+
+  /// A mark that moves sliders: whoever has these hears "slidermove" with their numbers, or "sliderstep" with the name of
+  /// one and the way it goes. The figure may be exchanged meanwhile: the mark of the same name goes on with the hand.
+  class Handle {
+    static held = null;  // { key, plot, pointer, aside, upwards }: cm from the mark
+    static stepped = { key: "", at: -Infinity };
+
+    constructor(plot, button) {
+      Object.assign(this, { plot, button });
+      button.addEventListener("pointerdown", (event) => this.down(event));
+      button.addEventListener("keydown", (event) => this.step(event));
+      button.setAttribute("aria-roledescription", WORDS.handle);
+    }
+    take(panel, mark) {
+      Object.assign(this, { panel, mark });
+      const names = mark.scales.map((scale) => `${scale.slider} = ${Number(scale.value.toPrecision(4))}`);
+      const name = typeof mark.name === "string" ? mark.name : mark.name.map((piece) => piece.slice(1)).join("");
+      this.key = mark.scales.map((scale) => scale.slider).join(" ") + " " + name;
+      this.button.setAttribute("aria-label", [name, ...names].filter(Boolean).join(", "));
+      this.button.classList.toggle("held", Handle.held?.key === this.key);
+    }
+    get place() { return this.panel.place(this.mark.x, this.mark.y); }
+    draw() {
+      const [x, y] = this.place, [width, height] = this.plot.size;
+      this.button.hidden = !this.panel.holds(x, y);
+      Object.assign(this.button.style, { left: `${100 * x / width}%`, top: `${100 * (height - y) / height}%` });
+      if (Handle.stepped.key !== this.key || performance.now() - Handle.stepped.at > 3000) return;
+      if (document.activeElement === document.body) this.button.focus({ preventScroll: true });
+    }
+    down(event) {
+      if (event.button !== 0) return;
+      event.preventDefault();
+      event.stopPropagation();
+      this.button.focus({ preventScroll: true });
+      const [x, y] = this.plot.place(event), at = this.place;
+      Handle.held = { key: this.key, plot: this.plot, pointer: event.pointerId, aside: x - at[0], upwards: y - at[1] };
+      this.button.classList.add("held");
+      document.documentElement.setPointerCapture(event.pointerId);  // the button may be exchanged
+    }
+    /// The mark that is held, in the figure as it is now.
+    static now() {
+      const boxes = [Handle.held.plot.box, ...document.querySelectorAll("div.plot")];
+      const marks = boxes.filter((box) => box.isConnected).flatMap((box) => box.plot.handles);
+      return marks.find((handle) => handle.key === Handle.held.key);
+    }
+    static move(event) {
+      if (Handle.held?.pointer !== event.pointerId) return;
+      const handle = Handle.now();
+      if (!handle) return;
+      const [x, y] = handle.plot.place(event), { panel } = handle, numbers = {};
+      const [across, up] = handle.plot.within(panel, [x - Handle.held.aside, y - Handle.held.upwards]);
+      for (const scale of handle.mark.scales)
+        numbers[scale.slider] = numberAt(scale, scale.horizontal ? panel.x.value(across) : panel.y.value(up));
+      document.dispatchEvent(new CustomEvent("slidermove", { detail: numbers }));
+    }
+    static end(event) {
+      if (Handle.held?.pointer !== event.pointerId) return;
+      Handle.held = null;
+      for (const button of document.querySelectorAll(".handle.held")) button.classList.remove("held");
+    }
+    step(event) {
+      const way = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 }[event.key];
+      const lying = event.key === "ArrowLeft" || event.key === "ArrowRight";
+      const scale = this.mark.scales.find((one) => one.horizontal === lying);
+      if (!way || !scale || event.ctrlKey || event.altKey || event.metaKey) return;
+      event.preventDefault();
+      event.stopPropagation();
+      Handle.stepped = { key: this.key, at: performance.now() };
+      const by = scale.places[scale.places.length - 1] > scale.places[0] ? way : -way;
+      document.dispatchEvent(new CustomEvent("sliderstep", { detail: { name: scale.slider, by } }));
+    }
+  }
+  document.addEventListener("pointermove", Handle.move);
+  for (const name of ["pointerup", "pointercancel"]) document.addEventListener(name, Handle.end);
+
   /// A figure in the page: its canvas, what is read off, and what hands do.
   class Plot {
     constructor(picture, figure) {
-      Object.assign(this, { picture, size: figure.size, comma: figure.comma, texts: figure.texts });
-      this.panels = figure.panels.map((panel) => new Panel(panel));
-      if (figure.motion) this.panels[figure.motion.picture].picture = true;
+      Object.assign(this, { picture, made: figure, handles: [] });
+      this.take(figure);
       this.pointers = new Map();
       this.cursor = null;  // { panel, x, y }: cm
       this.build();
@@ -33,6 +117,32 @@ const dynlabPlots = (() => {
         plots.add(this);
         this.draw();
       }).observe(this.box);
+    }
+
+    take(figure) {
+      Object.assign(this, { size: figure.size, comma: figure.comma, texts: figure.texts });
+      this.panels = figure.panels.map((panel) => new Panel(panel));
+      if (figure.motion) this.panels[figure.motion.picture].picture = true;
+    }
+    /// The same figure of another run: what was zoomed or hidden stays so.
+    renew(figure) {
+      const before = this.panels;
+      this.take(figure);
+      this.panels.forEach((panel, i) => {
+        const was = before[i];
+        if (!was) return;
+        for (const axis of ["x", "y"])
+          if (was[axis].moved) [panel[axis].low, panel[axis].high] = [was[axis].low, was[axis].high];
+        panel.curves.forEach((curve, k) => { curve.shown = was.curves[k]?.shown ?? true; });
+      });
+      this.cursor = null;
+      this.furnish();
+      if (this.motion) {
+        this.motion.pause();
+        this.motion.box.remove();
+        this.motion = figure.motion && new dynlabMotion.Motion(this, figure.motion);
+      }
+      this.draw();
     }
 
     build() {
@@ -54,9 +164,24 @@ const dynlabPlots = (() => {
       this.whole.textContent = WORDS.whole;
       this.whole.hidden = this.reading.hidden = true;
       this.whole.onclick = () => { this.reset(); this.box.focus({ preventScroll: true }); };
-      this.box.append(this.canvas, this.over, this.reading, this.whole, dynlabTables.button(this.box, this.readable, this.comma));
+      this.box.append(this.canvas, this.over, this.reading, this.whole, dynlabTables.button(this.box, () => this.readable, this.comma));
+      this.furnish();
+    }
+    /// Buttons over the canvas: the legend's entries, and marks that sliders move.
+    furnish() {
+      const button = (kind) => Object.assign(document.createElement("button"), { className: kind, type: "button" });
+      for (const old of this.box.querySelectorAll(".entry")) old.remove();
       for (const panel of this.panels)
-        for (const entry of panel.legend) this.box.append(this.button(panel, entry, element("button", "entry")));
+        for (const entry of panel.legend) this.box.append(this.button(panel, entry, button("entry")));
+      const marks = this.panels.flatMap((panel) => (panel.handles ?? []).map((mark) => ({ panel, mark })));
+      for (const { button } of this.handles.splice(marks.length)) button.remove();
+      marks.forEach(({ panel, mark }, i) => {
+        if (!this.handles[i]) {
+          this.handles[i] = new Handle(this, button("handle"));
+          this.box.append(this.handles[i].button);
+        }
+        this.handles[i].take(panel, mark);
+      });
     }
     button(panel, { curve: index, x, y, width: length }, button) {
       const [width, height] = this.size, curve = panel.curves[index];
@@ -82,6 +207,7 @@ const dynlabPlots = (() => {
       }
       new Painter(this.canvas.getContext("2d"), this, this.unit).draw();
       this.whole.hidden = !this.panels.some((panel) => panel.x.moved || panel.y.moved);
+      for (const handle of this.handles) handle.draw();
       this.drawCursor();
       this.motion?.refresh();
     }

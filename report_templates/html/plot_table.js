@@ -93,7 +93,7 @@ const dynlabTables = (() => {
     return box;
   }
 
-  /// The button that opens and closes the tables of a figure; they stand behind `box`.
+  /// The button that opens and closes the tables of a figure, of the panels as they are then; they stand behind `box`.
   function button(box, panels, comma) {
     const button = make("button", "data", WORDS.data);
     let shown = null;
@@ -104,7 +104,7 @@ const dynlabTables = (() => {
       shown = shown ? null : make("div", "plot-data-tables");
       button.setAttribute("aria-expanded", String(shown !== null));
       if (!shown) return;
-      shown.append(...tables(panels).map((table) => element(table, comma)));
+      shown.append(...tables(panels()).map((table) => element(table, comma)));
       box.after(shown);
     };
     return button;

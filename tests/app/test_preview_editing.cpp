@@ -2,6 +2,9 @@
 // the files afterwards, and what the page says.
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <nlohmann/json.hpp>
+
 #include "platform/text_file.h"
 #include "support/preview.h"
 
@@ -58,6 +61,52 @@ TEST_F(preview_editing, a_slider_runs_what_follows_it) {
     EXPECT_TRUE(shows(browser, "k is 3"));
     write(kHead + kFirst);
     EXPECT_TRUE(browser.comes("!document.querySelector('.slider')"));
+}
+
+const std::string kHandle =
+    "-- %% id=choose\nlocal T = slider(\"T\", 2, 1, 9, {step = 1})\nlocal K = slider(\"K\", 1, 0.5, 4, {step = "
+    "0.5})\n\n"
+    "-- %% id=shown\nprint(\"T \" .. T .. \" K \" .. K)\n"
+    "plot({0, 10}, {K, K}, {x_range = {0, 10}, y_range = {0, 5}}):handle{x = function(T) return T end, x_slider = "
+    "\"T\", y = function(K) return K end, y_slider = \"K\", text = \"end\"}\n";
+
+/// A hand at a mark goes on with it while runs exchange the figure below.
+TEST_F(preview_editing, a_handle_moves_its_sliders_while_it_is_held) {
+    write(kHead + kHandle);
+    const Preview preview(file());
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(shows(browser, "T 2 K 1"));
+    ASSERT_TRUE(browser.comes("document.querySelector('.handle')"));
+    const auto drag = [&](double T, double K) {
+        const nlohmann::json place = nlohmann::json::parse(browser.evaluate(
+            "const plot = document.querySelector('div.plot').plot, panel = plot.panels[0], box = "
+            "plot.box.getBoundingClientRect(), at = ([x, y]) => [box.left + x * plot.unit, box.top + (plot.size[1] - "
+            "y) * "
+            "plot.unit]; const [mark] = panel.handles; return [at(panel.place(mark.x, mark.y)), at(panel.place(" +
+            std::to_string(T) + ", " + std::to_string(K) + "))]"));
+        nlohmann::json actions = nlohmann::json::array();
+        const auto move = [&](double part, int duration) {
+            const auto between = [&](int i) {
+                const double from = place[0][i], to = place[1][i];
+                return static_cast<int>(std::lround(from + part * (to - from)));
+            };
+            actions.push_back({{"type", "pointerMove"}, {"duration", duration}, {"x", between(0)}, {"y", between(1)}});
+        };
+        move(0, 0);
+        actions.push_back({{"type", "pointerDown"}, {"button", 0}});
+        for (int i = 1; i <= 10; ++i) move(0.1 * i, 60);
+        actions.push_back({{"type", "pointerUp"}, {"button", 0}});
+        browser.act(nlohmann::json::array({{{"type", "pointer"}, {"id", "mouse"}, {"actions", actions}}}).dump());
+    };
+    drag(7, 3);
+    EXPECT_TRUE(shows(browser, "T 7 K 3"));
+    const std::string place = browser.evaluate("return document.getElementById('slider-T').value");
+    EXPECT_EQ(place, "\"6\"");
+    EXPECT_TRUE(browser.comes("Math.abs(document.querySelector('div.plot').plot.panels[0].handles[0].y - 3) < 0.1"));
+    EXPECT_EQ(browser.evaluate("return document.querySelectorAll('.held').length"), "0");
+    drag(1, 0.5);
+    EXPECT_TRUE(shows(browser, "T 1 K 0.5"));
 }
 
 /// The last place of a slider that is dragged counts, however many there were.

@@ -35,6 +35,27 @@ TEST(slider_places, are_the_steps_with_both_ends) {
     EXPECT_NE(std::find(many.begin(), many.end(), 333), many.end());
 }
 
+TEST(slider_places, of_one_cell_are_not_too_many_together) {
+    RunRecord record;
+    for (const std::string name : {"a", "b", "c"}) record.sliders[name] = slider_from(0, 100, 1, 50);
+    for (auto& [name, slider] : record.sliders) slider.cell = "one";
+    const std::vector<SliderGroup> three = slider_groups(record);
+    ASSERT_EQ(three.size(), 1u);
+    EXPECT_LE(three[0].combinations().size(), 512u);
+    EXPECT_GE(three[0].combinations().size(), 343u);
+    for (const PlacedSlider& slider : three[0].sliders) {
+        EXPECT_EQ(slider.values.front(), 0);
+        EXPECT_EQ(slider.values.back(), 100);
+        EXPECT_EQ(slider.values[slider.shown], 50);
+    }
+    record.sliders["c"].cell = "another", record.sliders["c"].order = 7;
+    const std::vector<SliderGroup> two = slider_groups(record);
+    ASSERT_EQ(two.size(), 2u);
+    EXPECT_EQ(two[1].cell, "another");
+    EXPECT_GE(two[1].combinations().size(), 25u);
+    EXPECT_EQ(two[0].combinations()[1], (std::vector<std::size_t>{0, 1}));  // the last slider is the quickest
+}
+
 TEST(slider_places, are_spread_evenly_or_over_the_logarithm_without_steps) {
     RecordedSlider slider = slider_from(0.1, 10, {}, 1);
     const std::vector<double> even = places_of(slider);
@@ -59,22 +80,37 @@ class slider_pages : public testing::Test {
     }
     void write(const std::string& name, const std::string& text) const { std::ofstream(folder_.path() / name) << text; }
 
-    /// The run with k and a slider b: y = k x, the gain k + 100 b.
-    DocumentSource document(double k, double b) {
+    /// The run with k and c of one cell and b of another: y = k x, the gain k + 10 c + 100 b, and a mark at
+    /// (0.2 + 0.3 c, k), which moves both.
+    DocumentSource document(double k, double c, double b) {
         RunRecord& record = records_.emplace_back();
         record.script = "analysis.lua";
-        const std::string gain = json(k + 100 * b).dump();
-        record.values["gain"] = {k + 100 * b, gain};
+        record.sliders = {
+            {"k", slider_from(1, 3, 1, k)}, {"c", slider_from(0, 2, 1, c)}, {"b", slider_from(0, 1, 1, b)}};
+        record.sliders["k"].unit = "V", record.sliders["k"].label = "gain k";
+        for (const auto& [name, place] : {std::pair<std::string, std::size_t>{"k", 0}, {"c", 1}, {"b", 2}})
+            record.sliders[name].order = place, record.sliders[name].cell = place < 2 ? "ask" : "draw";
+        const double gain = k + 10 * c + 100 * b;
+        record.values["gain"] = {gain, says_gain_ ? json(gain).dump() : "large"};
         Panel panel;
-        panel.x_range = {0, 1}, panel.y_range = {0, 3};
+        panel.x_range = {0, 1}, panel.y_range = {0, 4};
         panel.curves.emplace_back();
         panel.curves[0].x = Vector::LinSpaced(11, 0, 1);
         panel.curves[0].y = k * panel.curves[0].x;
+        const Vector of_k = Vector::LinSpaced(21, 1, 3), of_c = Vector::LinSpaced(21, 0, 2);
+        panel.annotations.push_back(
+            {0.2 + 0.3 * c,
+             k,
+             "end",
+             true,
+             {{"c", true, c, of_c, (0.2 + 0.3 * of_c.array()).matrix()}, {"k", false, k, of_k, of_k}}});
         RecordedFigure& figure = record.figures["draw-figure-1"];
         figure.caption = "A line";
         figure.file = folder_.path() / "drawn.svg";
         figure.plot = plot_data(Figure(panel), false);
-        record.outputs["draw"] = {{"k is " + json(k).dump() + "\n", std::nullopt}, {"", "draw-figure-1"}};
+        record.outputs["draw"] = {{says_gain_ ? "k is " + json(k).dump() + "\n" : "", std::nullopt},
+                                  {"", "draw-figure-1"}};
+        if (k == 3 && says_more_) record.outputs["draw"].push_back({"It is large.\n", std::nullopt});
         DocumentSource source;
         source.template_file = folder_.path() / "report.md";
         source.record = &record;
@@ -82,16 +118,19 @@ class slider_pages : public testing::Test {
         return source;
     }
     void open() {
-        RecordedSlider k = slider_from(1, 3, 1, 2), b = slider_from(0, 1, 1, 0);
-        k.cell = b.cell = "ask", k.label = "gain k", k.unit = "V", b.label = "b", b.order = 1;
-        const std::vector<SliderPlaces> sliders = {
-            {"k", k, {1, 2, 3}, {document(1, 0), document(2, 0), document(3, 0)}, 1},
-            {"b", b, {0, 1}, {document(2, 0), document(2, 1)}, 0}};
+        const DocumentSource run = document(2, 0, 0);
+        const std::vector<SliderGroup> groups = slider_groups(*run.record);
+        ASSERT_EQ(groups.size(), 2u);
         const fs::path page = folder_.path() / "page.html";
-        DocumentMaker({.use_cache = false}).make(sliders[0].documents[1], page, DocumentFormat::kHtml, nullptr);
-        write_file_atomically(page, page_with_sliders(read_file(page), script_, sliders));
+        DocumentMaker({.use_cache = false}).make(run, page, DocumentFormat::kHtml, nullptr);
+        SliderPage made(run, script_, groups);
+        for (double k : {1, 2, 3})
+            for (double c : {0, 1, 2})
+                if (k != 2 || c != 0) made.add(0, document(k, c, 0));
+        made.add(1, document(2, 0, 1));
+        write_file_atomically(page, made.page(read_file(page)));
         browser.open("file://" + page.string());
-        ASSERT_TRUE(browser.comes("document.querySelectorAll('.slider input').length === 2"));
+        ASSERT_TRUE(browser.comes("document.querySelectorAll('.slider input').length === 3"));
         ASSERT_TRUE(browser.comes("document.querySelector('div.plot')"));
     }
     json value(const std::string& expression) { return json::parse(browser.evaluate("return " + expression)); }
@@ -104,6 +143,46 @@ class slider_pages : public testing::Test {
     }
     double slope() { return value("document.querySelector('div.plot').plot.panels[0].curves[0].y[10]"); }
 
+    /// The middle of the handle, in pixels of the window.
+    std::pair<int, int> handle() {
+        const json at = value(
+            "(() => { const handle = document.querySelector('.handle'); handle.scrollIntoView({block: 'center'}); "
+            "const box "
+            "= handle.getBoundingClientRect(); return [box.left + box.width / 2, box.top + box.height / 2] })()");
+        return {static_cast<int>(at[0].get<double>()), static_cast<int>(at[1].get<double>())};
+    }
+    /// What a hand does that takes the handle to other places, each with what is to be true then.
+    void drag(const std::string& kind, const std::vector<std::pair<double, double>>& places) {
+        const auto [x, y] = handle();
+        const json scale = value(
+            "(() => { const { plot } = document.querySelector('div.plot'), panel = plot.panels[0]; "
+            "return [plot.unit * panel.width, plot.unit * panel.height / 4] })()");
+        const auto move = [&](double across, double up) {
+            return json{{"type", "pointerMove"},
+                        {"duration", 20},
+                        {"x", static_cast<int>(x + across * scale[0].get<double>())},
+                        {"y", static_cast<int>(y - up * scale[1].get<double>())}};
+        };
+        json actions = {move(0, 0), {{"type", "pointerDown"}, {"button", 0}}};
+        for (const auto& [across, up] : places) actions.push_back(move(across, up));
+        actions.push_back({{"type", "pointerUp"}, {"button", 0}});
+        browser.act(
+            json::array(
+                {{{"type", "pointer"}, {"id", kind}, {"parameters", {{"pointerType", kind}}}, {"actions", actions}}})
+                .dump());
+    }
+    std::string place(const std::string& name) {
+        return value("document.querySelector('.slider:has(#slider-" + name + ") output').textContent");
+    }
+    void press(const std::string& key) {
+        browser.act(
+            json::array({{{"type", "key"},
+                          {"id", "keys"},
+                          {"actions", {{{"type", "keyDown"}, {"value", key}}, {{"type", "keyUp"}, {"value", key}}}}}})
+                .dump());
+    }
+
+    bool says_gain_ = true, says_more_ = false;
     TemporaryFolder folder_;
     PercentScript script_;
     std::deque<RunRecord> records_;
@@ -128,7 +207,21 @@ TEST_F(slider_pages, show_what_the_document_says_at_the_place) {
     EXPECT_EQ(slope(), 2);
 }
 
-TEST_F(slider_pages, one_is_moved_at_a_time_and_the_way_back_is_a_button) {
+TEST_F(slider_pages, those_of_one_cell_are_moved_together) {
+    open();
+    move("k", 0);
+    EXPECT_TRUE(shows("The gain is 1."));
+    move("c", 2);
+    EXPECT_TRUE(shows("The gain is 21."));
+    EXPECT_EQ(slope(), 1);
+    move("k", 2);
+    EXPECT_TRUE(shows("The gain is 23."));
+    move("c", 0);
+    move("k", 1);
+    EXPECT_TRUE(shows("The gain is 2."));
+}
+
+TEST_F(slider_pages, those_of_other_cells_go_back_and_the_way_back_is_a_button) {
     open();
     move("k", 0);
     EXPECT_TRUE(shows("The gain is 1."));
@@ -138,6 +231,89 @@ TEST_F(slider_pages, one_is_moved_at_a_time_and_the_way_back_is_a_button) {
     browser.click(".slider:has(#slider-b) button");
     EXPECT_TRUE(shows("The gain is 2."));
     EXPECT_EQ(value("document.querySelector('.slider:has(#slider-b) button').hidden"), true);
+}
+
+TEST_F(slider_pages, a_place_may_say_more_than_another) {
+    says_more_ = true;
+    open();
+    EXPECT_FALSE(shows("It is large."));
+    move("k", 2);
+    EXPECT_TRUE(shows("It is large."));
+    EXPECT_TRUE(shows("Words that stay."));
+    EXPECT_EQ(slope(), 3);
+    EXPECT_EQ(value("document.querySelectorAll('div.plot').length"), 1);
+    move("k", 1);
+    EXPECT_EQ(value("document.querySelector('main').innerText.includes('It is large.')"), false);
+    EXPECT_EQ(value("document.querySelectorAll('div.plot').length"), 1);
+    EXPECT_EQ(slope(), 2);
+}
+
+TEST_F(slider_pages, a_hand_takes_a_handle_to_the_nearest_places) {
+    open();
+    EXPECT_EQ(value("document.querySelectorAll('.handle').length"), 1);
+    drag("mouse", {{0.1, 0.1}, {0.27, 1.1}});
+    EXPECT_EQ(place("k"), "3\u202fV");
+    EXPECT_EQ(place("c"), "1");
+    EXPECT_EQ(slope(), 3);
+    EXPECT_TRUE(shows("The gain is 13."));
+    EXPECT_EQ(value("document.querySelectorAll('.held').length"), 0);
+    drag("mouse", {{-0.1, -1}, {0.9, -3}});  // beyond all ends, then let go
+    EXPECT_EQ(place("k"), "1\u202fV");
+    EXPECT_EQ(place("c"), "2");
+    drag("touch", {{-0.3, 0}, {-0.3, 0.9}});
+    EXPECT_EQ(place("k"), "2\u202fV");
+    EXPECT_EQ(place("c"), "1");
+    // It moves no more when nobody holds it.
+    browser.act(json::array({{{"type", "pointer"},
+                              {"id", "mouse"},
+                              {"actions", {{{"type", "pointerMove"}, {"duration", 0}, {"x", 300}, {"y", 300}}}}}})
+                    .dump());
+    EXPECT_EQ(place("c"), "1");
+}
+
+TEST_F(slider_pages, a_handle_is_found_where_the_figure_was_zoomed) {
+    says_gain_ = false;
+    open();
+    browser.evaluate(
+        "const { plot } = document.querySelector('div.plot'); plot.zoom(plot.panels[0], [0, 0.5], [0.25, 0.75])");
+    const json before = value("document.querySelector('div.plot').plot.panels[0].y.high");
+    drag("mouse", {{0.1, 0.1}, {0.6, 2.1}});  // twice as far for the eye
+    EXPECT_EQ(place("k"), "3\u202fV");
+    EXPECT_EQ(place("c"), "1");
+    EXPECT_EQ(value("document.querySelector('div.plot').plot.panels[0].y.high"), before);
+}
+
+TEST_F(slider_pages, keys_move_a_handle_step_by_step) {
+    open();
+    browser.evaluate("document.querySelector('.handle').focus()");
+    press("\uE013");  // up
+    EXPECT_EQ(place("k"), "3\u202fV");
+    press("\uE014");  // right
+    press("\uE014");
+    press("\uE014");  // there is no further place
+    EXPECT_EQ(place("c"), "2");
+    press("\uE012");  // left
+    EXPECT_EQ(place("c"), "1");
+    EXPECT_EQ(value("document.activeElement.className"), "handle");
+    EXPECT_EQ(value("document.activeElement.getAttribute('aria-label')"), "end, c = 1, k = 3");
+}
+
+/// Figures without other words cost what is drawn otherwise, not the page's pictures and texts anew.
+TEST_F(slider_pages, of_a_figure_only_what_differs_is_kept) {
+    says_gain_ = false;
+    open();
+    const json kept = value("JSON.parse(document.querySelector('.slider-places').textContent)[0].pieces");
+    ASSERT_EQ(kept.size(), 1u);
+    const json places = kept.front();
+    ASSERT_EQ(places.size(), 9u);
+    EXPECT_TRUE(places[3].is_null());  // that of the run
+    EXPECT_EQ(places[0][0]["panels"]["0"]["curves"]["0"]["y"][0][10], 1);
+    EXPECT_FALSE(places[0][0]["panels"]["0"]["curves"]["0"].contains("x"));
+    EXPECT_FALSE(places[0][0]["panels"]["0"].contains("box"));
+    EXPECT_FALSE(places[4][0]["panels"]["0"].contains("curves"));  // c moves the mark alone
+    move("c", 2);
+    EXPECT_NEAR(value("document.querySelector('div.plot').plot.panels[0].marks[0][0]"), 0.8, 1e-9);
+    EXPECT_EQ(slope(), 2);
 }
 
 TEST_F(slider_pages, controls_stand_behind_their_cell_and_are_not_printed) {

@@ -1,6 +1,8 @@
 // Oracle: the attribution rules written in the script itself (cell ids and what each cell prints and draws).
 #include <gtest/gtest.h>
 
+#include "data_io/values/cbor_values.h"
+#include "documents/figure_description.h"
 #include "documents/percent_script.h"
 #include "script_run.h"
 
@@ -87,6 +89,49 @@ TEST(script_cells, report_values_tables_and_texts) {
     EXPECT_EQ(record.tables.at("models").header, (std::vector<std::string>{"Model", "Fit"}));
     EXPECT_EQ(record.tables.at("models").rows[0], (std::vector<std::string>{"P1", "93.25"}));
     EXPECT_EQ(record.texts.at("note").markdown, "*good*");
+}
+
+TEST(script_cells, handles_tell_where_the_numbers_of_sliders_put_them) {
+    const RunRecord record = run_script(
+        "-- %% id=a\nlocal T = slider('T', 2, 1, 4, {log = true})\nlocal K = slider('K', 3, 0, 10)\n"
+        "local f = plot({1, 2}, {1, 2})\n"
+        "f:handle{x = function(T) return 10/T end, x_slider = 'T', y = function(K) return 0.632*K end, y_slider = 'K', "
+        "text = '63 %'}\nreport.figure('f', f)\n");
+    ASSERT_FALSE(record.error) << record.error->message;
+    const Annotation& handle = record.figures.at("f").figure.panels[0].annotations.at(0);
+    EXPECT_EQ(handle.x, 5);
+    EXPECT_DOUBLE_EQ(handle.y, 0.632 * 3);
+    EXPECT_EQ(handle.text, "63 %");
+    ASSERT_EQ(handle.scales.size(), 2u);
+    const SliderScale& along = handle.scales[0];
+    EXPECT_EQ(along.slider, "T");
+    EXPECT_TRUE(along.horizontal);
+    EXPECT_EQ(along.value, 2);
+    EXPECT_EQ(along.values[0], 1);
+    EXPECT_NEAR(along.values[10], 2, 1e-12);  // the middle of its logarithm
+    EXPECT_EQ(along.values[20], 4);
+    for (Index i = 0; i < along.values.size(); ++i) EXPECT_DOUBLE_EQ(along.places[i], 10 / along.values[i]);
+    EXPECT_FALSE(handle.scales[1].horizontal);
+    EXPECT_DOUBLE_EQ(handle.scales[1].places[20], 6.32);
+    const Figure again = from_cbor<Figure>(cbor_of(record.figures.at("f").figure));  // as caches keep it
+    ASSERT_EQ(again.panels.at(0).annotations.at(0).scales.size(), 2u);
+    EXPECT_EQ(again.panels[0].annotations[0].scales[0].places, along.places);
+}
+
+TEST(script_cells, handles_that_cannot_move_say_why) {
+    const std::string begin = "local k = slider('k', 1, -1, 2)\nlocal f = plot({1, 2}, {1, 2})\nf:handle";
+    for (const auto& [call, sentence] : std::vector<std::pair<std::string, std::string>>{
+             {"{x = 1, y = 2}", "a handle moves a slider: x or y must be a function of its number"},
+             {"{x = 1}", "a handle needs y = number, or y = function(number of the slider) and y_slider = \"NAME\""},
+             {"{x = 1, x_slider = 'k', y = 1}", "a handle needs x = number, or x = function"},
+             {"{x = abs, y = 1}", "'x' is a function: x_slider = \"NAME\" must say of which slider"},
+             {"{x = abs, x_slider = 'l', y = 1}", "the script has not asked for a slider \"l\" yet"},
+             {"{x = math.abs, x_slider = 'k', y = 1}",
+              "the function 'x' of the handle must rise or fall all the way as the slider \"k\" goes from -1 to 2"},
+             {"{x = print, x_slider = 'k', y = 1}", "must give a number, but for -1 it gave nil"},
+             {"{x = math.log, x_slider = 'k', y = 1}", "must rise or fall"},
+             {"{y = function(k) return k.a end, y_slider = 'k', x = 1}", "is a number, so it has no fields"}})
+        EXPECT_THAT(test::error_of(begin + call), testing::HasSubstr(sentence)) << call;
 }
 
 TEST(script_cells, sliders_are_their_own_number_and_are_recorded) {

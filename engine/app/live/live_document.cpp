@@ -64,9 +64,9 @@ void LiveDocument::run_anew() {
     wake();
 }
 
-void LiveDocument::set_slider(const std::string& name, double value) {
+void LiveDocument::set_sliders(const std::map<std::string, double>& values) {
     const std::lock_guard lock(orders_mutex_);
-    sliders_[name] = value;
+    for (const auto& [name, value] : values) sliders_[name] = value;
     wake();
 }
 

@@ -37,8 +37,8 @@ class LiveDocument {
 
     void allow_runs();
     void stop_run();
-    void run_anew();  ///< from the first cell
-    void set_slider(const std::string& name, double value);
+    void run_anew();                                                ///< from the first cell
+    void set_sliders(const std::map<std::string, double>& values);  ///< by their names
     void end();
 
   private:

@@ -60,12 +60,11 @@ void serve_page(WebServer& server, LivePage& page) {
     });
 }
 
-/// What a page says when a slider was moved.
+/// What a page says when sliders were moved.
 struct SliderOrder {
-    std::string name;
-    double value = 0;
+    std::map<std::string, double> values;  ///< by their names
 };
-DYNLAB_DESCRIBE(SliderOrder, name, value)
+DYNLAB_DESCRIBE(SliderOrder, values)
 
 PageReply done() {
     return {"", kPlainText, 204};
@@ -75,8 +74,7 @@ void take_orders(WebServer& server, LiveDocument& document, const Permissions& p
     server.on_post("/stop", [&](const PageRequest&) { return document.stop_run(), done(); });
     server.on_post("/anew", [&](const PageRequest&) { return document.run_anew(), done(); });
     server.on_post("/slider", [&](const PageRequest& asked) {
-        const auto order = from_json<SliderOrder>(asked.body);
-        document.set_slider(order.name, order.value);
+        document.set_sliders(from_json<SliderOrder>(asked.body).values);
         return done();
     });
     server.on_post("/allow", [&](const PageRequest&) {

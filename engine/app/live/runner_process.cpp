@@ -4,7 +4,6 @@
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
-#include <tbb/global_control.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -21,6 +20,7 @@
 #include "scripting/runtime/report_language.h"
 #include "scripting/runtime/runtime.h"
 #include "scripting/runtime/slider_values.h"
+#include "workflow/process_copy.h"
 #include "workflow/run_script.h"
 
 namespace dynlab::inline app {
@@ -69,8 +69,7 @@ class RunnerProcess {
     enum class Side { kStays, kGoesOn };
 
     Side split() {
-        tbb::task_scheduler_handle threads{tbb::attach{}};
-        tbb::finalize(threads, std::nothrow);
+        end_worker_threads();
         while (::waitpid(-1, nullptr, WNOHANG) > 0) {
         }
         auto [here, there] = Channel::pair();

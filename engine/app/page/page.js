@@ -38,7 +38,7 @@ function element(id, html) {
 
 function place(pieces, html) {
   const main = $("document");
-  const first = nodes.size === 0;
+  const first = nodes.size === 0, added = [];
   const wanted = new Set(pieces.map(([id]) => id));
   for (const node of main.querySelectorAll(".piece.fresh")) node.classList.remove("fresh");
   for (const [id, node] of nodes) {
@@ -53,6 +53,7 @@ function place(pieces, html) {
       if (!(id in html)) return false;
       node = element(id, html[id]);
       if (!first) node.classList.add("fresh");
+      if (!first) added.push(node);
       nodes.set(id, node);
     }
     node.dataset.cell = cell;
@@ -62,6 +63,7 @@ function place(pieces, html) {
     else main.insertBefore(node, before);
     while (before?.classList.contains("slider")) before = before.nextElementSibling;
   }
+  for (const node of added) dynlabPlots.enlivenNow(node);  // at once: a hand may be at a handle
   dynlabPlots.enliven(main);
   dynlabChoices.enliven(main);
   return true;

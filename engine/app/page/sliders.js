@@ -3,7 +3,7 @@
 const kPlaces = 1000;  // of a slider without steps
 const controls = new Map();  // name -> {node, input, output, slider}
 const waiting = new Map();   // name -> value that is to be sent
-let sent = null;             // {name, value, at}: what the page does not show yet
+let sent = null;             // {values, at}: what the page does not show yet, by the sliders' names
 const kLongestWait = 3000;   // ms for what was sent to be shown
 
 const exact = (value) => Number(value.toPrecision(12));  // steps are added up without their last digits
@@ -28,23 +28,45 @@ function placeOf(slider, value) {
 const written = (slider, value) => `${slider.step ? exact(value) : digits(value)}${slider.unit ? "\u202f" + slider.unit : ""}`;
 
 function send() {
-  if (sent && performance.now() - sent.at < kLongestWait) return;
-  const next = waiting.entries().next();
-  if (next.done) return;
-  const [name, value] = next.value;
-  waiting.delete(name);
-  sent = { name, value, at: performance.now() };
-  fetch("/slider", { method: "POST", body: JSON.stringify({ name, value }) }).catch(() => { sent = null; });
+  if (sent && performance.now() - sent.at < kLongestWait || waiting.size === 0) return;
+  sent = { values: Object.fromEntries(waiting), at: performance.now() };
+  waiting.clear();
+  fetch("/slider", { method: "POST", body: JSON.stringify({ values: sent.values }) }).catch(() => { sent = null; });
   setTimeout(send, kLongestWait + 1);
 }
 
-function choose(control, value) {
+function note(control, value) {
   control.output.textContent = written(control.slider, value);
   control.input.setAttribute("aria-valuetext", control.output.textContent);
   control.reset.hidden = value === control.slider.initial;
   waiting.set(control.slider.name, value);
+}
+
+function choose(control, value) {
+  note(control, value);
   send();
 }
+
+function moveTo(control, place) {
+  const { input, slider } = control;
+  input.value = place;
+  note(control, valueAt(slider, Number(input.value)));
+}
+
+/// What a figure's handle asks for: numbers by the sliders' names, or a step of one.
+document.addEventListener("slidermove", ({ detail }) => {
+  for (const [name, value] of Object.entries(detail)) {
+    const control = controls.get(name);
+    if (control) moveTo(control, placeOf(control.slider, value));
+  }
+  send();
+});
+document.addEventListener("sliderstep", ({ detail: { name, by } }) => {
+  const control = controls.get(name);
+  if (!control) return;
+  moveTo(control, Number(control.input.value) + by * (control.slider.step ? 1 : kPlaces / 50));
+  send();
+});
 
 function make(slider) {
   const node = document.createElement("div");
@@ -73,7 +95,7 @@ function update(control, slider) {
   control.label.textContent = slider.label;
   control.input.min = 0;
   control.input.max = slider.step ? Math.round((slider.to - slider.from) / slider.step) : kPlaces;
-  if (waiting.has(slider.name) || sent?.name === slider.name) return;  // the hand is ahead of the page
+  if (waiting.has(slider.name) || sent && slider.name in sent.values) return;  // the hand is ahead of the page
   control.input.value = placeOf(slider, slider.value);
   control.output.textContent = written(slider, slider.value);
   control.input.setAttribute("aria-valuetext", control.output.textContent);
@@ -82,7 +104,8 @@ function update(control, slider) {
 
 /// What the page shows now; gives the controls of each cell.
 export function controlsByCell(sliders, running) {
-  if (sent && !running && sliders.some((slider) => slider.name === sent.name && slider.value === sent.value)) sent = null;
+  const numbers = Object.fromEntries(sliders.map((slider) => [slider.name, slider.value]));
+  if (sent && !running && Object.entries(sent.values).every(([name, value]) => numbers[name] === value)) sent = null;
   const byCell = new Map();
   for (const slider of sliders) {
     if (!controls.has(slider.name)) controls.set(slider.name, make(slider));

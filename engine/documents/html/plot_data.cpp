@@ -219,6 +219,23 @@ class PlotWriter {
                 {"simulated", motion.simulated}};
     }
 
+    /// Marks that sliders move: where a slider's numbers put them, and the other way round.
+    static json handles_of(const Panel& panel, const PanelLayout& layout) {
+        json handles = json::array();
+        for (const Annotation& mark : panel.annotations) {
+            if (mark.scales.empty()) continue;
+            json scales = json::array();
+            for (const SliderScale& scale : mark.scales)
+                scales.push_back({{"slider", scale.slider},
+                                  {"horizontal", scale.horizontal},
+                                  {"value", scale.value},
+                                  {"values", std::vector<double>(scale.values.begin(), scale.values.end())},
+                                  {"places", rounded_values(scale.places, scale.horizontal ? layout.x : layout.y)}});
+            handles.push_back({{"x", mark.x}, {"y", mark.y}, {"name", pieces_of(mark.text)}, {"scales", scales}});
+        }
+        return handles;
+    }
+
     json panel_of(const Panel& panel, const PanelLayout& layout) {
         add_block(layout.title, false);
         add_block(layout.x_label, false);
@@ -241,6 +258,7 @@ class PlotWriter {
                 {"curves", curves_of(panel, layout)},
                 {"lines", lines},
                 {"marks", marks},
+                {"handles", handles_of(panel, layout)},
                 {"arrows", arrows},
                 {"labels", labels_of(panel, layout)},
                 {"legend", legend_of(layout)}};

@@ -15,32 +15,105 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kPlacesWithoutSteps = 21, kMostPlaces = 25;
+constexpr std::size_t kPlacesWithoutSteps = 21, kMostCombinations = 450;
 
 /// Steps are added up without their last digits; places between them are round numbers.
 double with_digits(double value, int digits) {
     return std::stod(fmt::format("{:.{}g}", value, digits));
 }
 
-/// The chunks of a document as they stand in the page; where `drawn`, pictures with what a printer needs.
-std::vector<std::string> pieces_at(ChunkSetter& setter, const DocumentSource& source, bool drawn,
-                                   std::vector<SetChunk>* chunks = nullptr) {
-    SetDocument document = setter.set(source, false);
-    std::vector<std::string> pieces;
+/// A chunk as it stands in the page, what its figures are drawn from apart.
+struct Piece {
+    std::string html;
+    std::vector<std::string> figures, plots;  ///< their names, and what documents/html/plot_data.h says of each
+    std::string with_plots;                   ///< the whole of it
+};
+
+/// The chunks of a document; where `drawn`, pictures with what a printer needs.
+std::vector<Piece> placed_pieces(const SetDocument& document, const RunRecord& record, bool drawn) {
+    std::vector<Piece> pieces;
     for (const SetChunk& chunk : document.chunks) {
+        Piece piece;
         std::vector<PlacedPicture> pictures;
         for (const SetPicture& picture : chunk.pictures) {
-            const auto figure = source.record->figures.find(picture.name);
+            const auto figure = record.figures.find(picture.name);
             if (!picture.is_figure)
                 pictures.push_back({picture.file, picture.written_name, {}});
-            else if (figure != source.record->figures.end())
+            else if (figure != record.figures.end()) {
                 pictures.push_back({drawn ? figure->second.file : "", picture.written_name, figure->second.plot});
+                if (figure->second.plot.empty()) continue;
+                piece.figures.push_back(picture.name);
+                piece.plots.push_back(figure->second.plot);
+            }
         }
-        pieces.push_back(with_inlined_pictures(chunk.html, pictures));
+        piece.with_plots = with_inlined_pictures(chunk.html, pictures);
+        for (PlacedPicture& picture : pictures) picture.plot.clear();
+        piece.html = with_inlined_pictures(chunk.html, pictures);
+        pieces.push_back(std::move(piece));
     }
-    if (!document.notes.empty()) pieces.push_back(document.notes);
-    if (chunks) *chunks = std::move(document.chunks);
+    if (!document.notes.empty()) pieces.push_back({document.notes, {}, {}, document.notes});
     return pieces;
+}
+
+/// What of `to` is not as in `from`: of objects, and of lists of as many objects or lists, the members that differ by
+/// their names or places; anything else as a whole, in a list of its own.
+json difference(const json& from, const json& to) {
+    const auto keyed = [](const json& value) {
+        return value.is_object() || (value.is_array() && !value.empty() && value[0].is_structured());
+    };
+    if (!keyed(from) || from.type() != to.type() || from.size() != to.size()) return json::array({to});
+    json members = json::object();
+    for (const auto& [key, value] : from.items()) {
+        if (to.is_object() && !to.contains(key)) return json::array({to});
+        const json& there = to.is_object() ? to[key] : to[std::stoul(key)];
+        if (there != value) members[key] = difference(value, there);
+    }
+    return members;
+}
+
+/// What a page keeps of a piece elsewhere: null where it is the same, its HTML where that is another, else for each of
+/// its figures what is drawn otherwise.
+json kept_of(const Piece& own, const Piece& there) {
+    if (own.html != there.html || own.plots.size() != there.plots.size()) return there.with_plots;
+    if (own.plots == there.plots) return {};
+    json figures = json::array();
+    for (std::size_t i = 0; i < own.plots.size(); ++i)
+        figures.push_back(own.plots[i] == there.plots[i]
+                              ? json()
+                              : difference(json::parse(own.plots[i]), json::parse(there.plots[i])));
+    return figures;
+}
+
+/// Of every piece of `own` what stands there instead. Where there are more or fewer, those that differ between equal
+/// ones before and behind stand together.
+std::vector<json> kept_of(const std::vector<Piece>& own, const std::vector<Piece>& there) {
+    const std::size_t n = own.size(), m = there.size(), fewer = std::min(n, m);
+    std::vector<json> kept(n);
+    std::size_t before = 0, behind = 0;
+    if (n == m) before = n;
+    while (n != m && before + 1 < fewer && own[before].html == there[before].html) ++before;
+    while (n != m && before + behind + 1 < fewer && own[n - 1 - behind].html == there[m - 1 - behind].html) ++behind;
+    for (std::size_t i = 0; i < before; ++i) kept[i] = kept_of(own[i], there[i]);
+    for (std::size_t i = 1; i <= behind; ++i) kept[n - i] = kept_of(own[n - i], there[m - i]);
+    if (n == m) return kept;
+    std::string between;
+    for (std::size_t i = before; i < m - behind; ++i) between += there[i].with_plots + "\n";
+    for (std::size_t i = before; i < n - behind; ++i) kept[i] = i == before ? between : "";
+    return kept;
+}
+
+/// All that a document shows of a run but its figures' curves.
+std::string words_of(const DocumentSource& source) {
+    std::string words = source.cells.text;
+    const RunRecord& record = *source.record;
+    for (const auto& [name, value] : record.values) words += name + "\n" + value.text + "\n";
+    for (const auto& [name, text] : record.texts) words += name + "\n" + text.markdown + "\n";
+    for (const auto& [name, figure] : record.figures) words += name + "\n" + figure.caption + "\n";
+    for (const auto& [name, table] : record.tables) {
+        words += name + "\n" + fmt::format("{}", fmt::join(table.header, "\n"));
+        for (const auto& row : table.rows) words += fmt::format("\n{}", fmt::join(row, "\n"));
+    }
+    return words;
 }
 
 /// Where the controls of a cell stand: behind this chunk, the cell's last or the last of what comes before it.
@@ -68,18 +141,26 @@ std::string before_chunks(std::string main) {
     return kept;
 }
 
-std::string as_one(const std::vector<std::string>& pieces) {
-    std::string html;
-    for (const std::string& piece : pieces) html += piece + "\n";
-    return html;
-}
-
 }  // namespace
 
-std::vector<double> places_of(const RecordedSlider& slider) {
+std::vector<std::vector<std::size_t>> SliderGroup::combinations() const {
+    std::vector<std::vector<std::size_t>> all = {{}};
+    for (const PlacedSlider& slider : sliders) {
+        std::vector<std::vector<std::size_t>> longer;
+        for (const std::vector<std::size_t>& places : all)
+            for (std::size_t i = 0; i < slider.values.size(); ++i) {
+                longer.push_back(places);
+                longer.back().push_back(i);
+            }
+        all = std::move(longer);
+    }
+    return all;
+}
+
+std::vector<double> places_of(const RecordedSlider& slider, std::size_t most) {
     std::vector<double> values;
     const double steps = slider.step ? std::floor((slider.to - slider.from) / *slider.step + 1e-9) : 0;
-    const auto count = slider.step ? std::min<double>(steps + 1, kMostPlaces) : double{kPlacesWithoutSteps};
+    const double count = std::min<double>(slider.step ? steps + 1 : double{kPlacesWithoutSteps}, double(most));
     for (double i = 0; i < count; ++i) {
         const double part = count > 1 ? i / (count - 1) : 0;
         if (slider.step)
@@ -96,65 +177,116 @@ std::vector<double> places_of(const RecordedSlider& slider) {
     return values;
 }
 
-std::string page_with_sliders(const std::string& page, const PercentScript& script,
-                              const std::vector<SliderPlaces>& sliders) {
-    const std::string opens = "<main>\n", closes = "</main>";
-    const std::size_t begin = page.find(opens), end = page.rfind(closes);
-    if (sliders.empty() || begin == std::string::npos || end == std::string::npos) return page;
+std::vector<SliderGroup> slider_groups(const RunRecord& record) {
+    std::vector<PlacedSlider> all;
+    for (const auto& [name, slider] : record.sliders) all.push_back({name, slider, places_of(slider)});
+    std::sort(all.begin(), all.end(),
+              [](const PlacedSlider& a, const PlacedSlider& b) { return a.slider.order < b.slider.order; });
+    std::vector<SliderGroup> groups;
+    for (PlacedSlider& slider : all) {
+        const auto same_cell = [&](const SliderGroup& group) { return group.cell == slider.slider.cell; };
+        auto group = std::find_if(groups.begin(), groups.end(), same_cell);
+        if (group == groups.end()) group = groups.insert(groups.end(), {slider.slider.cell, {}});
+        group->sliders.push_back(std::move(slider));
+    }
+    for (SliderGroup& group : groups) {
+        double combinations = 1;
+        for (const PlacedSlider& slider : group.sliders) combinations *= static_cast<double>(slider.values.size());
+        const double most = std::pow(kMostCombinations, 1 / static_cast<double>(group.sliders.size()));
+        for (PlacedSlider& slider : group.sliders) {
+            if (combinations > kMostCombinations)
+                slider.values = places_of(slider.slider, std::max<std::size_t>(2, static_cast<std::size_t>(most)));
+            const auto own = std::find(slider.values.begin(), slider.values.end(), slider.slider.value);
+            slider.shown = static_cast<std::size_t>(own - slider.values.begin());
+        }
+    }
+    return groups;
+}
+
+/// What is known of the page so far.
+struct SliderPage::Parts {
+    struct Group : SliderGroup {
+        std::vector<std::vector<json>> kept;  ///< for each combination what each piece is there
+        std::size_t combination_count = 1, shown = 0;
+    };
+    std::vector<Group> groups;
     ChunkSetter setter;
-    std::vector<SetChunk> chunks;
-    std::vector<std::string> shown = pieces_at(setter, sliders[0].documents[sliders[0].shown], true, &chunks);
-    std::vector<std::vector<std::vector<std::string>>> places(sliders.size());
-    bool alike = true;
-    for (std::size_t s = 0; s < sliders.size(); ++s)
-        for (std::size_t i = 0; i < sliders[s].values.size(); ++i) {
-            const bool own = i == sliders[s].shown;
-            places[s].push_back(own ? shown : pieces_at(setter, sliders[s].documents[i], false));
-            alike = alike && places[s].back().size() == shown.size();
+    std::vector<Piece> drawn, own;      ///< of the run, as a printer needs it and as its places are compared with
+    std::vector<std::size_t> controls;  ///< behind which piece those of each group stand
+    std::string words;
+};
+
+SliderPage::SliderPage(const DocumentSource& run, const PercentScript& script, std::vector<SliderGroup> groups)
+    : parts_(std::make_unique<Parts>()) {
+    const SetDocument document = parts_->setter.set(run, false);
+    parts_->drawn = placed_pieces(document, *run.record, true);
+    parts_->own = placed_pieces(document, *run.record, false);
+    parts_->words = words_of(run);
+    for (SliderGroup& given : groups) {
+        parts_->controls.push_back(chunk_before_control(document.chunks, script, given.cell));
+        Parts::Group& group = parts_->groups.emplace_back();
+        static_cast<SliderGroup&>(group) = std::move(given);
+        for (const PlacedSlider& slider : group.sliders) {
+            group.shown = group.shown * slider.values.size() + slider.shown;
+            group.combination_count *= slider.values.size();
         }
-    // Behind which piece the controls stand, and what of the pieces differs from place to place.
-    std::map<std::size_t, std::string> controls;
+        if (group.shown == 0) group.kept.emplace_back(parts_->own.size());
+    }
+}
+
+SliderPage::~SliderPage() = default;
+
+void SliderPage::add(std::size_t number, const DocumentSource& there) {
+    Parts::Group& group = parts_->groups[number];
+    const RunRecord& record = *there.record;
+    if (words_of(there) == parts_->words) {
+        std::vector<json> kept;
+        for (const Piece& own : parts_->own) {
+            Piece moved{own.html, own.figures, {}, {}};
+            for (const std::string& figure : own.figures) moved.plots.push_back(record.figures.at(figure).plot);
+            kept.push_back(kept_of(own, moved));
+        }
+        group.kept.push_back(std::move(kept));
+    } else {
+        group.kept.push_back(kept_of(parts_->own, placed_pieces(parts_->setter.set(there, false), record, false)));
+    }
+    if (group.kept.size() == group.shown) group.kept.emplace_back(parts_->own.size());
+}
+
+std::string SliderPage::page(const std::string& made) const {
+    const std::string opens = "<main>\n", closes = "</main>";
+    const std::size_t begin = made.find(opens), end = made.rfind(closes);
+    if (begin == std::string::npos || end == std::string::npos) return made;
     json list = json::array();
-    for (std::size_t s = 0; s < sliders.size(); ++s) {
-        const SliderPlaces& slider = sliders[s];
-        controls[chunk_before_control(chunks, script, slider.slider.cell)] +=
-            fmt::format("<div class=\"slider\" data-number=\"{}\"></div>\n", s);
-        json pieces = json::object();
-        // At their own place all sliders show the same: its chunks are those that the same setter gives undrawn.
-        const std::vector<std::string> same = pieces_at(setter, slider.documents[slider.shown], false);
-        for (std::size_t k = 0; k < (alike ? shown.size() : 1); ++k) {
-            json html = json::array();
-            bool differs = false;
-            for (std::size_t i = 0; i < slider.values.size(); ++i) {
-                const std::string& there = alike ? places[s][i][k] : as_one(places[s][i]);
-                const bool equal = i == slider.shown || there == (alike ? same[k] : as_one(same));
-                html.push_back(equal ? json() : json(there));
-                differs = differs || !equal;
-            }
-            if (differs) pieces[std::to_string(k)] = html;
+    std::map<std::size_t, std::string> controls;
+    for (std::size_t g = 0; g < parts_->groups.size(); ++g) {
+        const Parts::Group& group = parts_->groups[g];
+        json sliders = json::array(), pieces = json::object();
+        for (const PlacedSlider& slider : group.sliders) {
+            controls[parts_->controls[g]] +=
+                fmt::format("<div class=\"slider\" data-group=\"{}\" data-number=\"{}\"></div>\n", g, sliders.size());
+            sliders.push_back({{"name", slider.name},
+                               {"label", slider.slider.label},
+                               {"unit", slider.slider.unit},
+                               {"values", slider.values},
+                               {"shown", slider.shown}});
         }
-        list.push_back({{"name", slider.name},
-                        {"label", slider.slider.label},
-                        {"unit", slider.slider.unit},
-                        {"values", slider.values},
-                        {"shown", slider.shown},
-                        {"pieces", pieces}});
+        for (std::size_t k = 0; k < parts_->own.size(); ++k) {
+            json places = json::array();
+            for (const std::vector<json>& kept : group.kept) places.push_back(kept[k]);
+            if (std::any_of(places.begin(), places.end(), [](const json& place) { return !place.is_null(); }))
+                pieces[std::to_string(k)] = std::move(places);
+        }
+        list.push_back({{"sliders", sliders}, {"pieces", pieces}});
     }
-    if (!alike) {
-        std::string all;
-        for (const auto& [chunk, control] : controls) all += control;
-        controls = {{0, all}};
-        shown = {as_one(shown)};
-    }
-    std::string main = before_chunks(page.substr(begin + opens.size(), end - begin - opens.size()));
-    if (!alike) main += controls[0];
-    for (std::size_t k = 0; k < shown.size(); ++k) {
-        main += fmt::format("<div class=\"piece\" id=\"piece-{}\">\n{}\n</div>\n", k, shown[k]);
-        if (alike && controls.contains(k)) main += controls[k];
+    std::string main = before_chunks(made.substr(begin + opens.size(), end - begin - opens.size()));
+    for (std::size_t k = 0; k < parts_->drawn.size(); ++k) {
+        main += fmt::format("<div class=\"piece\" id=\"piece-{}\">\n{}\n</div>\n", k, parts_->drawn[k].with_plots);
+        if (controls.contains(k)) main += controls[k];
     }
     const std::string data = replaced(list.dump(-1, ' ', true, json::error_handler_t::replace), "<", "\\u003c");
     main += "<script type=\"application/json\" class=\"slider-places\">" + data + "</script>\n";
-    return page.substr(0, begin + opens.size()) + main + page.substr(end);
+    return made.substr(0, begin + opens.size()) + main + made.substr(end);
 }
 
 }  // namespace dynlab::inline documents

@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -7,24 +8,47 @@
 
 namespace dynlab::inline documents {
 
-/// A slider of a page that nobody serves: the document at each of its places, the others where the run had them.
-struct SliderPlaces {
+/// A slider of a page that nobody serves.
+struct PlacedSlider {
     std::string name;
     RecordedSlider slider;
-    std::vector<double> values;             ///< rising
-    std::vector<DocumentSource> documents;  ///< beside them; their records' figures need not be drawn
-    std::size_t shown = 0;                  ///< the place of the run itself, whose figures are drawn
+    std::vector<double> values;  ///< its places, rising
+    std::size_t shown = 0;       ///< the place of the run that the page was made of
+};
+
+/// The sliders that one cell asks for: they are moved together, and there is a document for each combination.
+struct SliderGroup {
+    std::string cell;
+    std::vector<PlacedSlider> sliders;
+
+    /// The combinations, that of the run among them: places of the sliders, those of the last one the quickest.
+    std::vector<std::vector<std::size_t>> combinations() const;
 };
 
 /// The numbers at which a slider is tried: its steps, else 21 evenly spread (over the logarithm where it says so), at
-/// most 25, always with its ends and with the number that the run had.
-std::vector<double> places_of(const RecordedSlider& slider);
+/// most so many, always with its ends and with the number that the run had.
+std::vector<double> places_of(const RecordedSlider& slider, std::size_t most = 25);
 
-/// The page that DocumentMaker made of the run with its sliders: behind the cell that asks for it a control, and what
-/// the document shows at its places, for report_templates/html/sliders.js. What differs is told in chunks
-/// (documents/chunks), or as a whole where a place has more of them than another. Throws DocumentError for a place
-/// whose document cannot be set.
-std::string page_with_sliders(const std::string& page, const PercentScript& script,
-                              const std::vector<SliderPlaces>& sliders);
+/// The sliders of a run cell by cell, in the order of the script: as many places as places_of gives, fewer where a
+/// cell's combinations would be more than 450 or so.
+std::vector<SliderGroup> slider_groups(const RunRecord& record);
+
+/// The page that DocumentMaker made of a run with sliders: behind the cells that ask for them controls, and what the
+/// document shows at their places, for report_templates/html/sliders.js. What differs is told in chunks
+/// (documents/chunks), of figures only what is drawn otherwise.
+class SliderPage {
+  public:
+    /// `run` is what the page was made of, its figures drawn. Throws DocumentError where it cannot be set.
+    SliderPage(const DocumentSource& run, const PercentScript& script, std::vector<SliderGroup> groups);
+    ~SliderPage();
+    /// The document at the next combination of the group, the run's own left out; its figures need not be drawn. Throws
+    /// DocumentError where it cannot be set.
+    void add(std::size_t group, const DocumentSource& there);
+    std::string page(const std::string& made) const;
+
+  private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
 
 }  // namespace dynlab::inline documents

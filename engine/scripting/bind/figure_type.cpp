@@ -1,4 +1,5 @@
 #include <array>
+#include <cmath>
 
 #include "numerics/number_text.h"
 #include "scripting/arguments/table_fields.h"
@@ -46,8 +47,94 @@ int add_curve(Call& call) {
 /// fig:mark(x, y, text, panel)
 int add_mark(Call& call) {
     call.at_most(5);
-    const Annotation mark{call.number(2, "x"), call.number(3, "y"), call.given(4) ? call.text(4, "text") : "", true};
-    panel_argument(call, 5).annotations.push_back(mark);
+    Annotation mark{call.number(2, "x"), call.number(3, "y"), call.given(4) ? call.text(4, "text") : "", true};
+    panel_argument(call, 5).annotations.push_back(std::move(mark));
+    return give_self(call);
+}
+
+constexpr Index kScaleNumbers = 21;
+
+/// Numbers of a slider, from end to end, evenly or over the logarithm.
+Vector slider_numbers(const RecordedSlider& slider) {
+    if (!slider.logarithmic) return Vector::LinSpaced(kScaleNumbers, slider.from, slider.to);
+    Vector numbers =
+        Vector::LinSpaced(kScaleNumbers, std::log(slider.from), std::log(slider.to)).array().exp().matrix();
+    numbers[0] = slider.from, numbers[kScaleNumbers - 1] = slider.to;
+    return numbers;
+}
+
+/// What the script's function on top of the stack gives for a slider's number; it stays there.
+double place_at(const Call& call, double number, const char* coordinate) {
+    lua_State* L = call.state();
+    lua_pushvalue(L, -1);
+    lua_pushnumber(L, number);
+    lua_call(L, 1, 1);
+    if (lua_type(L, -1) != LUA_TNUMBER)
+        throw InvalidArgument(fmt::format("the function '{}' of the handle must give a number, but for {} it gave {}",
+                                          coordinate, number_text(number), given_text(L, lua_gettop(L))));
+    const double place = lua_tonumber(L, -1);
+    lua_pop(L, 1);
+    return place;
+}
+
+const RecordedSlider& slider_of_handle(const Options& options, const std::string& coordinate) {
+    const std::string key = coordinate + "_slider", name = options.text(key.c_str(), "");
+    const auto& sliders = options.call().context().recorder.record().sliders;
+    const auto found = sliders.find(name);
+    if (found != sliders.end()) return found->second;
+    if (name.empty())
+        throw InvalidArgument(
+            fmt::format("'{}' is a function: {} = \"NAME\" must say of which slider", coordinate, key));
+    throw InvalidArgument(
+        fmt::format("the script has not asked for a slider \"{}\" yet: slider(\"{}\", ...) must "
+                    "stand before the handle",
+                    name, name));
+}
+
+/// A coordinate of a handle: a number, or a function of the slider that is named beside it.
+double handle_coordinate(const Options& options, const char* coordinate, bool horizontal, Annotation& handle) {
+    const Call& call = options.call();
+    const std::string key = std::string(coordinate) + "_slider";
+    const int given = options.push(coordinate);
+    const bool is_function = lua_type(call.state(), given) == LUA_TFUNCTION;
+    if (!is_function) {
+        lua_settop(call.state(), given - 1);
+        const auto number = options.optional_number(coordinate);
+        if (!number || options.has(key.c_str()))
+            throw InvalidArgument(
+                fmt::format("a handle needs {} = number, or {} = function(number of the slider) and "
+                            "{} = \"NAME\"",
+                            coordinate, coordinate, key));
+        return *number;
+    }
+    const RecordedSlider& slider = slider_of_handle(options, coordinate);
+    SliderScale scale{options.text(key.c_str(), ""), horizontal, slider.value, slider_numbers(slider), {}};
+    scale.places.resize(scale.values.size());
+    for (Index i = 0; i < scale.values.size(); ++i) scale.places[i] = place_at(call, scale.values[i], coordinate);
+    const double here = place_at(call, slider.value, coordinate);
+    lua_settop(call.state(), given - 1);
+    const Vector steps = scale.places.tail(kScaleNumbers - 1) - scale.places.head(kScaleNumbers - 1);
+    if (!scale.places.allFinite() || !((steps.array() > 0).all() || (steps.array() < 0).all()))
+        throw InvalidArgument(
+            fmt::format("the function '{}' of the handle must rise or fall all the way as the slider "
+                        "\"{}\" goes from {} to {}",
+                        coordinate, scale.slider, number_text(slider.from), number_text(slider.to)));
+    handle.scales.push_back(std::move(scale));
+    return here;
+}
+
+/// fig:handle{x = function or number, x_slider =, y =, y_slider =, text =, panel =}
+int add_handle(Call& call) {
+    call.at_most(2);
+    const Options options(call, 2, {"x", "x_slider", "y", "y_slider", "text", "panel"});
+    Annotation handle;
+    handle.x = handle_coordinate(options, "x", true, handle);
+    handle.y = handle_coordinate(options, "y", false, handle);
+    handle.text = options.text("text", "");
+    if (handle.scales.empty())
+        throw InvalidArgument("a handle moves a slider: x or y must be a function of its number (fig:mark otherwise)");
+    panel_of(figure_self(call), options.size("panel", 1)).annotations.push_back(std::move(handle));
+    figure_self(call).validate();
     return give_self(call);
 }
 
@@ -121,6 +208,7 @@ constexpr std::array kFigureTypeFields = {Member{"panels", guarded<panel_count>}
                                           Member{"curves", guarded<list_of_curves>}};
 constexpr std::array kFigureTypeMethods = {Member{"add", guarded<add_curve>},
                                            Member{"mark", guarded<add_mark>},
+                                           Member{"handle", guarded<add_handle>},
                                            Member{"hline", guarded<add_reference<true>>},
                                            Member{"vline", guarded<add_reference<false>>},
                                            Member{"arrow", guarded<add_arrow>},

@@ -1,0 +1,118 @@
+#include "workflow/branched_runs.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "data_io/values/cbor_values.h"
+#include "documents/figure_description.h"
+#include "documents/html/plot_data.h"
+#include "documents/record_description.h"
+#include "figures/french_texts.h"
+#include "platform/error.h"
+#include "platform/interrupt.h"
+#include "platform/process_group.h"
+#include "scripting/runtime/script_parts.h"
+#include "workflow/process_copy.h"
+#include "workflow/script_world.h"
+
+namespace dynlab::inline workflow {
+namespace {
+
+/// Records go through the pipe behind their length.
+[[noreturn]] void send_record(int pipe, const std::string& bytes) {
+    const std::uint64_t size = bytes.size();
+    const bool sent = write_all(pipe, reinterpret_cast<const char*>(&size), sizeof size) &&
+                      write_all(pipe, bytes.data(), bytes.size());
+    ::_exit(sent ? 0 : 1);
+}
+
+void read_whole(int pipe, char* bytes, std::size_t size) {
+    while (size > 0) {
+        const ssize_t count = ::read(pipe, bytes, size);
+        throw_if_interrupted();
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) throw EnvironmentError("a process that ran the script for a slider has ended");
+        bytes += count;
+        size -= static_cast<std::size_t>(count);
+    }
+}
+
+RunRecord received_record(int pipe) {
+    std::uint64_t size = 0;
+    read_whole(pipe, reinterpret_cast<char*>(&size), sizeof size);
+    std::string bytes(size, '\0');
+    read_whole(pipe, bytes.data(), bytes.size());
+    return from_cbor<RunRecord>(bytes);
+}
+
+/// The script's world in a process of its own, from its beginning to the last choice.
+class BranchingRun {
+  public:
+    BranchingRun(const RunRequest& request, int pipe)
+        : request_(request), pipe_(pipe), world_(request, renderer_), parts_(script_parts(request.script)) {}
+
+    void serve(const std::string& cell, const std::vector<SliderNumbers>& choices) {
+        const auto holds = [&](const ScriptPart& part) {
+            return std::find(part.cells.begin(), part.cells.end(), cell) != part.cells.end();
+        };
+        const auto first = std::find_if(parts_.begin(), parts_.end(), holds);
+        world_.runtime.begin_parts(request_.script);
+        for (auto part = parts_.begin(); part != first; ++part) {
+            const RunRecord record = world_.runtime.run_part(request_.script, *part);
+            if (part + 1 != first) continue;
+            for (const auto& [name, figure] : record.figures) before_[name] = cbor_of(figure.figure);
+        }
+        for (const SliderNumbers& choice : choices) {
+            ProcessCopy copy;
+            if (copy.is_copy()) send_record(pipe_, cbor_of(record_of(choice, first)));
+            copy.wait();
+        }
+    }
+
+  private:
+    RunRecord record_of(const SliderNumbers& choice, std::vector<ScriptPart>::const_iterator first) {
+        world_.sliders.chosen = choice;
+        RunRecord record;
+        for (auto part = first; part != parts_.end() && !record.error; ++part)
+            record = world_.runtime.run_part(request_.script, *part);
+        const bool french = request_.script.header.language == "fr";
+        std::erase_if(record.figures, [&](const auto& entry) {
+            const auto was = before_.find(entry.first);
+            return was != before_.end() && was->second == cbor_of(entry.second.figure);
+        });
+        for (auto& [name, figure] : record.figures) {
+            figure.plot = plot_data(french ? in_french(figure.figure) : figure.figure, french);
+            figure.figure = Figure(Panel());
+        }
+        return record;
+    }
+
+    const RunRequest& request_;
+    int pipe_;
+    GnuplotRenderer renderer_;  // what scripts save for a place is nobody's
+    ScriptWorld world_;
+    std::vector<ScriptPart> parts_;
+    std::map<std::string, std::string> before_;  ///< figures made before the cell
+};
+
+}  // namespace
+
+void run_from_cell(const RunRequest& request, const std::string& cell, const std::vector<SliderNumbers>& choices,
+                   const std::function<void(RunRecord&&)>& take) {
+    Pipe records;
+    ProcessCopy copy;
+    if (copy.is_copy()) {
+        try {
+            records.read_end.close();
+            BranchingRun(request, records.write_end.get()).serve(cell, choices);
+        } catch (...) {
+            ::_exit(1);
+        }
+        ::_exit(0);
+    }
+    records.write_end.close();
+    for (std::size_t i = 0; i < choices.size(); ++i) take(received_record(records.read_end.get()));
+}
+
+}  // namespace dynlab::inline workflow
