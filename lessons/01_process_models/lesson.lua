@@ -536,7 +536,7 @@ do
 end
 
 -- %% [markdown]
--- ![The heat exchanger (dots) and a first-order model (line) with the $K$ and $T$ of the cell above: the final level moves with $K$, the point where 63 % of the change are reached with $T$ and $K$.](figure:first_by_hand){#fig:first_by_hand}
+-- ![The heat exchanger (dots) and a first-order model (line) with the $K$ and $T$ of the cell above: the final level moves with $K$, the point where 63 % of the change is reached with $T$ and $K$.](figure:first_by_hand){#fig:first_by_hand}
 --
 -- In @fig:first_by_hand the gain stretches the curve upwards and the time constant sideways. In @fig:second_by_hand the height of the first peak over the final level depends on the
 -- damping ratio alone, its instant on the natural frequency and, a little, on the damping.

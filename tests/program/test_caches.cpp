@@ -100,6 +100,24 @@ TEST_F(caches, data_of_another_place_of_a_slider_make_another_page) {
     EXPECT_THAT(bench_.read("a.html"), HasSubstr("77"));
 }
 
+/// Every combination of a cell's sliders goes on from what ran before it, random numbers among that.
+TEST_F(caches, places_of_sliders_go_on_from_the_same_state) {
+    weave(
+        "-- %% id=a\nlocal before = rand()\nprint(string.format(\"once %.9f\", before))\n-- %% id=b\nlocal k, l = "
+        "slider(\"k\", 1, 1, 2, {step = 1}), slider(\"l\", 10, 10, 30, {step = 10})\n-- %% id=c\n"
+        "print(string.format(\"%d times %.9f then %.9f\", k*l, before, rand()))\nbefore = 0\n");
+    const std::string page = bench_.read("a.html");
+    const auto behind = [&](const std::string& words) {
+        const auto at = page.find(words);
+        EXPECT_NE(at, page.npos) << words;
+        return at == page.npos ? "" : page.substr(at + words.size(), 9);  // its digits
+    };
+    const std::string once = behind("once 0."), then = behind("10 times 0." + once + " then 0.");
+    EXPECT_NE(once, then);
+    for (const char* product : {"10", "20", "30", "40", "60"})
+        EXPECT_THAT(page, HasSubstr(product + (" times 0." + once) + " then 0." + then));
+}
+
 TEST_F(caches, edited_prose_runs_nothing) {
     weave(kStudy + kLate);
     EXPECT_THAT(weave("-- %% [markdown]\n-- Prose.\n" + kStudy + kLate),
