@@ -11,6 +11,14 @@
 #include "documents/text_lines.h"
 
 namespace dynlab::inline documents {
+
+/// A chunk as it stands in the page, what its figures are drawn from apart.
+struct SliderPiece {
+    std::string html;
+    std::vector<std::string> figures, plots;  ///< their names, and what documents/html/plot_data.h says of each
+    std::string with_plots;                   ///< the whole of it
+};
+
 namespace {
 
 using nlohmann::json;
@@ -22,18 +30,11 @@ double with_digits(double value, int digits) {
     return std::stod(fmt::format("{:.{}g}", value, digits));
 }
 
-/// A chunk as it stands in the page, what its figures are drawn from apart.
-struct Piece {
-    std::string html;
-    std::vector<std::string> figures, plots;  ///< their names, and what documents/html/plot_data.h says of each
-    std::string with_plots;                   ///< the whole of it
-};
-
 /// The chunks of a document; where `drawn`, pictures with what a printer needs.
-std::vector<Piece> placed_pieces(const SetDocument& document, const RunRecord& record, bool drawn) {
-    std::vector<Piece> pieces;
+std::vector<SliderPiece> placed_pieces(const SetDocument& document, const RunRecord& record, bool drawn) {
+    std::vector<SliderPiece> pieces;
     for (const SetChunk& chunk : document.chunks) {
-        Piece piece;
+        SliderPiece piece;
         std::vector<PlacedPicture> pictures;
         for (const SetPicture& picture : chunk.pictures) {
             const auto figure = record.figures.find(picture.name);
@@ -73,7 +74,7 @@ json difference(const json& from, const json& to) {
 
 /// What a page keeps of a piece elsewhere: null where it is the same, its HTML where that is another, else for each of
 /// its figures what is drawn otherwise.
-json kept_of(const Piece& own, const Piece& there) {
+json kept_of(const SliderPiece& own, const SliderPiece& there) {
     if (own.html != there.html || own.plots.size() != there.plots.size()) return there.with_plots;
     if (own.plots == there.plots) return {};
     json figures = json::array();
@@ -86,7 +87,7 @@ json kept_of(const Piece& own, const Piece& there) {
 
 /// Of every piece of `own` what stands there instead. Where there are more or fewer, those that differ between equal
 /// ones before and behind stand together.
-std::vector<json> kept_of(const std::vector<Piece>& own, const std::vector<Piece>& there) {
+std::vector<json> kept_of(const std::vector<SliderPiece>& own, const std::vector<SliderPiece>& there) {
     const std::size_t n = own.size(), m = there.size(), fewer = std::min(n, m);
     std::vector<json> kept(n);
     std::size_t before = 0, behind = 0;
@@ -211,8 +212,8 @@ struct SliderPage::Parts {
     };
     std::vector<Group> groups;
     ChunkSetter setter;
-    std::vector<Piece> drawn, own;      ///< of the run, as a printer needs it and as its places are compared with
-    std::vector<std::size_t> controls;  ///< behind which piece those of each group stand
+    std::vector<SliderPiece> drawn, own;  ///< of the run, as a printer needs it and as its places are compared with
+    std::vector<std::size_t> controls;    ///< behind which piece those of each group stand
     std::string words;
 };
 
@@ -241,8 +242,8 @@ void SliderPage::add(std::size_t number, const DocumentSource& there) {
     const RunRecord& record = *there.record;
     if (words_of(there) == parts_->words) {
         std::vector<json> kept;
-        for (const Piece& own : parts_->own) {
-            Piece moved{own.html, own.figures, {}, {}};
+        for (const SliderPiece& own : parts_->own) {
+            SliderPiece moved{own.html, own.figures, {}, {}};
             for (const std::string& figure : own.figures) moved.plots.push_back(record.figures.at(figure).plot);
             kept.push_back(kept_of(own, moved));
         }
