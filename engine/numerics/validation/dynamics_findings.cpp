@@ -16,6 +16,8 @@ constexpr double kNoisy = 10;             // dB below which noise is a concern
 constexpr double kSlow = 6, kFast = 400;  // sampling frequency over bandwidth
 constexpr double kBandPass = 0.1;         // steady gain over peak
 constexpr double kOffset = 0.1;           // of the output's standard deviation
+constexpr double kOffsetAtRest = 0.02;    // of the output's standard deviation
+constexpr Index kFewestAtRest = 20;       // samples
 constexpr double kVisibleStart = 0.05;    // of the output's standard deviation
 constexpr double kAboveError = 2;         // standard deviations of the error
 constexpr double kIntegrates = 0.5;       // of the simulated movement
@@ -59,6 +61,25 @@ TransferFunction part_of_pole(const TransferFunction& G, double pole) {
             others *= pole - p;
     for (const double b : G.num()) numerator = numerator * pole + b;
     return TransferFunction(Vector{{(numerator / others).real()}}, Vector{{1.0, -pole}}, 0, G.delay());
+}
+
+/// Samples at the beginning during which the input stays at zero.
+Index samples_at_rest(const VectorView& u) {
+    Index count = 0;
+    while (count < u.size() && u[count] == 0) ++count;
+    return count;
+}
+
+/// Where the output stands while the input stays at zero at the beginning: flat, and beyond what single samples leave
+/// open.
+std::optional<double> level_at_rest(const FittedRecord& fit) {
+    const Index count = samples_at_rest(fit.u());
+    if (count < kFewestAtRest) return std::nullopt;
+    const Vector y = fit.y().head(count);
+    const double level = y.mean(), noise = spread(y);
+    const bool flat = std::abs(y.head(count / 2).mean() - y.tail(count / 2).mean()) <= noise;
+    if (!flat || std::abs(level) < kAboveError * noise) return std::nullopt;
+    return level;
 }
 
 bool excludes_zero(const VectorView& u) {
@@ -106,7 +127,18 @@ void find_dead_time(const FittedRecord& fit, RecordFindings& findings) {
 void find_offset(const FittedRecord& fit, RecordFindings& findings) {
     const double deviation = fit.deviation(), offset = fit.simulation.offset;
     const double least = std::max(kOffset * deviation, 3 * fit.disturbance);
-    if (!fit.simulation.start.offset || std::abs(offset) < least) return;
+    if (!fit.simulation.start.offset || std::abs(offset) < least) {
+        const std::optional<double> level = level_at_rest(fit);
+        if (level && std::abs(*level) >= std::max(kOffsetAtRest * deviation, 3 * fit.disturbance))
+            findings.push_back(about(fit, "offset", Weight::kNote,
+                                     fit.output() + " stands at about " + fit.with_unit(*level, 2) +
+                                         " during the first " + std::to_string(samples_at_rest(fit.u())) +
+                                         " samples, while " + fit.input() +
+                                         " is zero: data:detrend(\"start\") or `offset` = \"estimate\" takes this "
+                                         "small offset off.",
+                                     *level));
+        return;
+    }
     const std::string& unit = fit.data.output_units.front();
     const std::string level = rounded_text(offset, deviation / 5) + (unit.empty() ? "" : " " + unit);
     const std::string seen = excludes_zero(fit.u())

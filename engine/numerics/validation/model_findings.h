@@ -21,7 +21,8 @@ void find_disturbance(FittedRecord& fit, RecordFindings& findings);
 void find_noise(const FittedRecord& fit, RecordFindings& findings);
 /// "dead_time", when it is longer than a sample and than four standard errors.
 void find_dead_time(const FittedRecord& fit, RecordFindings& findings);
-/// "offset", chosen by BIC (compare) and more than a tenth of the output's standard deviation.
+/// "offset", chosen by BIC (compare) and more than a tenth of the output's standard deviation; or, as a note, a smaller
+/// one on which the output stands while the input stays at zero at the beginning.
 void find_offset(const FittedRecord& fit, RecordFindings& findings);
 /// "running_start": a free motion, chosen by BIC (compare), that stands out from the error and is worth 5 % of the
 /// output's standard deviation; or only the first of 24 sections does not follow the model (behind a dead time the

@@ -7,6 +7,8 @@ namespace dynlab::inline numerics {
 
 namespace {
 
+constexpr double kMostlyExplained = 50;  // per cent of fit
+
 /// What the errors still hold of the answer to the input.
 std::string missing_part(const ModelStanding& model) {
     if (!model.doubts.remedy.empty()) return model.doubts.remedy;
@@ -43,6 +45,11 @@ std::string model_verdict(const ModelStanding& model) {
     if (model.of_predictions)
         return "The dynamics are described, but not the disturbance: try another order of its noise model, and until "
                "then robust standard errors.";
+    if (model.fit_percent < kMostlyExplained)
+        return "The input explains no more than the model says (fit " + number_text(model.fit_percent, 3) +
+               " %). The rest is more than half of the output: a coloured disturbance, for which robust standard "
+               "errors "
+               "or a method with a noise model are in place, another input, or a nonlinearity.";
     return "The dynamics are described; the disturbance is coloured, so that robust standard errors or a method with a "
            "noise model are in place.";
 }

@@ -24,7 +24,8 @@ struct ModelStanding {
 };
 
 /// What all of it says together, in a sentence or two. An unstable model is never called good, nor is one that explains
-/// little (explains_little in fit/diagnosis.h), however white its errors; a cause that is known is named in the place
+/// little (explains_little in fit/diagnosis.h), however white its errors; of less than half of the output no dynamics
+/// are called described where the errors are coloured; a cause that is known is named in the place
 /// of missing poles.
 std::string model_verdict(const ModelStanding& model);
 

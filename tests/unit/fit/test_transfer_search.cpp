@@ -12,6 +12,7 @@
 #include "numerics/fit/srivc_iteration.h"
 #include "numerics/fit/transfer_search.h"
 #include "numerics/signals/random.h"
+#include "support/search_corpus.h"
 #include "support/thrown_message.h"
 #include "support/transfer_cases.h"
 
@@ -158,6 +159,20 @@ TEST(transfer_search, begins_at_a_start_or_a_delay_that_is_given) {
         const Fit fit = search_transfer("test", data, structure, {}, aids);
         EXPECT_LT(relative_difference(fit.theta, unasked.theta), 1e-4);
         EXPECT_EQ(fit.delay_grid.size(), 0);
+    }
+}
+
+// Oracle: the search that begins at the least delay alone. On these records the scan, which goes from neighbour to
+// neighbour, misses where it leads to.
+TEST(transfer_search, the_solution_for_the_least_delay_is_never_lost) {
+    for (const std::uint32_t seed : {40'019U, 40'301U}) {
+        const SearchCase one = search_case(seed, 1000);
+        TransferStructure structure = TransferStructure::single(one.poles, one.zeros);
+        structure.free_delays = true;
+        SearchAids least;
+        least.delays = {0};
+        const Fit begun = search_transfer("test", one.data, structure, {}, least);
+        EXPECT_LE(search_transfer("test", one.data, structure, {}).loss, begun.loss * (1 + 1e-4)) << seed;
     }
 }
 

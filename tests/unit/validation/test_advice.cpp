@@ -403,7 +403,22 @@ TEST(advice, a_crane_at_rest_does_not_begin_in_a_movement) {  // oracle: a secon
             if (crane.name != "estimation" && crane.name != "validation") continue;
             const Advice advice = advise(IdData(Matrix(crane.theta), Matrix(crane.u), experiments.Ts));
             EXPECT_FALSE(advice.has("running_start")) << crane.name << seed << codes(advice);
+            ASSERT_TRUE(advice.has("offset")) << crane.name << seed << codes(advice);
+            EXPECT_NEAR(advice.find("offset")->value, 0.012, 0.001) << crane.name << seed;
+            EXPECT_EQ(advice.find("offset")->weight, Weight::kNote) << crane.name << seed;
         }
+}
+
+TEST(advice, a_rest_without_an_offset_is_no_offset) {  // oracle: noise about zero, and a drift, put in
+    Record r = record(21);
+    r.u.head(60).setZero();
+    const Vector x = lsim(TransferFunction(Vector{{1.0}}, Vector{{1.0, 1.0}}), r.u, kTs);
+    const Vector noise = 0.02 * RandomStream(22).normal(x.size());
+    EXPECT_FALSE(advise(IdData(Matrix(x + noise), Matrix(r.u), kTs)).has("offset"));
+    const Vector shifted = (x + noise).array() + 0.06;
+    const Advice advice = advise(IdData(Matrix(shifted), Matrix(r.u), kTs));
+    ASSERT_TRUE(advice.has("offset")) << codes(advice);
+    EXPECT_NEAR(advice.find("offset")->value, 0.06, 0.01);
 }
 
 TEST(advice, long_records_keep_their_dynamics) {  // oracle: known noise, a pole of a tenth of the record's rate

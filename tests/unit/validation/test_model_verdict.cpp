@@ -30,6 +30,9 @@ TEST(model_verdict, the_gravest_comes_first) {
     EXPECT_THAT(model_verdict({.white = false, .doubts = {.undetermined = "b0"}}), HasSubstr("hardly determine b0"));
     EXPECT_THAT(model_verdict({.white = false}), HasSubstr("the disturbance is coloured"));
     EXPECT_THAT(model_verdict({.white = false, .tested = false}), HasSubstr("cannot tell which"));
+    EXPECT_THAT(
+        model_verdict({.fit_percent = 38, .white = false}),
+        testing::AllOf(Not(HasSubstr("dynamics are described")), HasSubstr("(fit 38 %)"), HasSubstr("nonlinearity")));
 }
 
 TEST(model_verdict, known_causes_come_before_missing_dynamics) {
