@@ -5,7 +5,7 @@ namespace dynlab::inline cli {
 
 void add_sheet(CLI::App& app, Action& action) {
     auto lesson = std::make_shared<std::string>();
-    auto output = std::make_shared<std::string>();
+    auto output = std::make_shared<std::string>(), language = std::make_shared<std::string>();
     auto talk = std::make_shared<bool>(false), answers = std::make_shared<bool>(false);
     CLI::App* command = app.add_subcommand("sheet", "Make the task sheet of a lesson, without its solutions");
     command->add_option("LESSON", *lesson, "The lesson's number or name, or its folder")->required();
@@ -15,10 +15,15 @@ void add_sheet(CLI::App& app, Action& action) {
     CLI::Option* questions =
         command->add_flag("--talk", *talk, "Instead: questions that a talk on the lesson may meet (NN_name_talk.pdf)");
     command->add_flag("--answers", *answers, "With the model answers, for whoever asks")->needs(questions);
-    command->footer("Examples:  dynlab sheet 02     dynlab sheet 05 --talk --answers");
-    command->callback([lesson, output, talk, answers, &action] {
-        action = [lesson, output, talk, answers] {
-            return make_document(*talk ? talk_sheet_of(*lesson, *answers, *output) : sheet_of(*lesson, *output), false);
+    command->add_option("--lang", *language, "Language of the tasks, where the lesson has several")
+        ->check(CLI::IsMember({"en", "fr"}))
+        ->excludes(questions);
+    command->footer(
+        "Examples:  dynlab sheet 02     dynlab sheet 03_crane --lang fr     dynlab sheet 05 --talk --answers");
+    command->callback([lesson, output, language, talk, answers, &action] {
+        action = [lesson, output, language, talk, answers] {
+            return make_document(
+                *talk ? talk_sheet_of(*lesson, *answers, *output) : sheet_of(*lesson, *output, *language), false);
         };
     });
 }

@@ -63,7 +63,7 @@ int main(int argc, char** argv) {
     keep_freed_memory();
     CLI::App app{kAbout, "dynlab"};
     app.set_version_flag("--version", "dynlab " DYNLAB_VERSION);
-    app.set_help_flag("-h,--help", "Show this text, or a command's: dynlab run --help");
+    app.set_help_flag("-h,--help", "Show this text");
     app.require_subcommand(0, 1);
     bool view = false;
     app.add_flag("--view", view, "Show the prompt's figures in the browser as they are made");
@@ -75,7 +75,8 @@ int main(int argc, char** argv) {
           add_new,    add_check,  add_lessons,  add_demo,       add_help,      add_doctor,  add_pack,   add_verify,
           add_bundle, add_checks, add_grade,    add_gradescope, add_hand_back, add_similar, add_course, add_boxed})
         add(app, action);
-    app.footer(kFooter);  // commands made before have no part in it
+    app.footer(kFooter);  // commands made before have no part in it, nor in the next
+    app.set_help_flag("-h,--help", "Show this text, or a command's: dynlab run --help");
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -62,6 +62,7 @@ std::string without_solutions(const std::string& source, const std::filesystem::
     std::string result;
     int begun = 0;  // line of the open BEGIN SOLUTION, 0 outside
     bool in_text = false, hidden = false;
+    bool asked = false;  // "YOUR CODE HERE" was the last that was said
     int number = 0;
     const auto fail = [&](int line, const std::string& what) {
         throw DocumentError(name.string() + ":" + std::to_string(line) + ": " + what);
@@ -71,13 +72,15 @@ std::string without_solutions(const std::string& source, const std::filesystem::
         if (is_cell_marker(line)) {
             if (begun) fail(begun, "this solution is not closed with \"-- END SOLUTION\" in its cell");
             in_text = is_text_cell_marker(line);
+            asked = asked && !in_text;
             hidden = line.find("echo=false") != std::string_view::npos;
         }
         switch (solution_line(line, name, number)) {
             case SolutionLine::kBegin:
                 if (begun) fail(number, "a solution begins inside the solution of line " + std::to_string(begun));
                 begun = number;
-                if (hidden) break;
+                if (hidden || (asked && !in_text)) break;
+                asked = !in_text;
                 result += std::string(indentation_of(line)) + (in_text ? "-- *Your answer:*" : "-- YOUR CODE HERE");
                 result += end_of(line);
                 break;
@@ -87,10 +90,13 @@ std::string without_solutions(const std::string& source, const std::filesystem::
                 break;
             case SolutionLine::kStarter:
                 if (!begun) fail(number, "\"-- STARTER:\" stands outside a solution");
+                asked = false;
                 result += starter_text(line, in_text);
                 break;
             case SolutionLine::kNone:
-                if (!begun) result += line;
+                if (begun) break;
+                asked = asked && (is_cell_marker(line) || is_blank(line));
+                result += line;
         }
     }
     if (begun) fail(begun, "this solution is not closed with \"-- END SOLUTION\" in its cell");

@@ -22,7 +22,8 @@ enum class SolutionLine { kNone, kBegin, kEnd, kStarter };
 SolutionLine solution_line(std::string_view line, const std::filesystem::path& file, int number);
 
 /// The script without its solutions, everything else byte for byte; in a code cell with echo=false nothing takes the
-/// place of a solution, since such cells hold only what the report needs. Throws DocumentError with file and line for
+/// place of a solution, since such cells hold only what the report needs, and solutions of code with nothing between
+/// them are asked for once. Throws DocumentError with file and line for
 /// markers that do not pair up within one cell, or a STARTER line outside a solution.
 std::string without_solutions(const std::string& source, const std::filesystem::path& name = "script.lua");
 

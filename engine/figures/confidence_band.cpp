@@ -23,6 +23,7 @@ void add_confidence_band(Panel& panel, std::size_t line, const Vector& half_widt
     band.style = CurveStyle::kBand;
     band.x = centre.x;
     band.colour = centre.colour;
+    band.dash = centre.dash;
     const auto width =
         half_width.array().isFinite().select(half_width.array(), std::numeric_limits<double>::quiet_NaN());
     band.y = centre.y.array() - width;
@@ -49,8 +50,7 @@ void limit_to_readable(Panel& panel, std::size_t lines, double least_room) {
 }
 
 void fix_colours(Panel& panel) {
-    for (std::size_t i = 0; i < panel.curves.size(); ++i)
-        if (!panel.curves[i].colour) panel.curves[i].colour = static_cast<int>(i) % style::kGreyColour;
+    for (std::size_t i = 0; i < panel.curves.size(); ++i) style::fix_look(panel.curves[i], static_cast<int>(i));
 }
 
 void choose_phase_axis(Panel& phase) {

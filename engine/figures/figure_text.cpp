@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <regex>
 
 #include "figures/style.h"
 #include "platform/utf8.h"
@@ -104,6 +105,21 @@ std::vector<TextPiece> text_pieces(std::string_view utf8) {
         i = close;
     }
     return pieces;
+}
+
+std::string with_marked_indices(const std::string& text) {
+    static const std::regex index(
+        R"((^|[^A-Za-z0-9_])([A-Za-z]_|(?:[A-Za-z]*|[0-9]+)\^-?)([A-Za-z0-9]{1,2})(?![A-Za-z0-9_{]))");
+    std::string marked;
+    auto rest = text.begin();
+    for (std::sregex_iterator found(text.begin(), text.end(), index), end; found != end; ++found) {
+        const std::smatch& part = *found;
+        std::string base = part[2], script = part[3];
+        if (base.ends_with('-')) base.pop_back(), script = "−" + script;
+        marked.append(rest, part[0].first).append(part[1]).append(base).append("{" + script + "}");
+        rest = part[0].second;
+    }
+    return marked.append(rest, text.end());
 }
 
 double text_width(std::string_view utf8, double size) {

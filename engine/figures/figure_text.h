@@ -18,6 +18,10 @@ struct TextPiece {
 /// an ellipsis. Raised and lowered Unicode digits become raised and lowered pieces.
 std::vector<TextPiece> text_pieces(std::string_view utf8);
 
+/// Indices and exponents that people write without braces, marked with them: t_1, x_k, G_c, y^2, s^-1, m/s^2. An index
+/// belongs to a single letter, so that names such as time_ms stay.
+std::string with_marked_indices(const std::string& text);
+
 /// Width in cm when set at `size` points in the text font.
 double text_width(std::string_view utf8, double size);
 

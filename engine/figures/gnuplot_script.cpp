@@ -217,6 +217,11 @@ class PanelScript {
                             else
                                 put("{:.4f} {:.4f} {:.4f}\n", traces.lower[i].x, traces.lower[i].y, traces.upper[i].y);
                     });
+        if (!traces.lower.empty() && several_bands())
+            for (const Trace* edge : {&traces.lower, &traces.upper})
+                element(
+                    fmt::format("u 1:2 w lines lw {:.3f} lc rgb '{}' dt {}", kBandEdgeWidth, look.colour, look.dash),
+                    [&] { put_trace(*edge); });
         if (!traces.bars.empty())
             element(fmt::format("u 1:2:3:4:5:6 w boxxyerror lw 0.3 lc rgb '{}' fs {} border lc rgb 'white'",
                                 look.colour, fill(curve.style)),
@@ -235,6 +240,12 @@ class PanelScript {
                                 draws_points(curve.style) ? look.point_type : 7,
                                 draws_points(curve.style) ? marker_size(curve) : 0.25, marker_line(curve), look.colour),
                     [&] { put_trace(traces.points); });
+    }
+
+    /// Then their greys alone would not tell them apart.
+    bool several_bands() const {
+        const auto is_band = [](const Curve& curve) { return curve.style == CurveStyle::kBand; };
+        return std::count_if(panel_.curves.begin(), panel_.curves.end(), is_band) > 1;
     }
 
     void write_curves() {

@@ -11,8 +11,8 @@ constexpr std::array kPalette = {"#0072B2", "#E69F00", "#202020", "#009E73", "#8
 constexpr std::array kDashOfColour = {0, 1, 3, 2, 4, 5, 6, 7, 0};
 /// Filled circle, square, triangle, diamond, the same four open, cross, plus, asterisk.
 constexpr std::array kPointTypes = {7, 5, 9, 13, 6, 4, 8, 12, 2, 1, 3};
-/// The markers of curves: filled and open ones in turn.
-constexpr std::array kMarkerOfColour = {0, 5, 2, 7, 4, 1, 6, 3, 0};
+/// The markers of curves; in clouds of small points a diamond looks like a circle, plus and asterisk do not.
+constexpr std::array kMarkerOfColour = {0, 5, 2, 9, 1, 4, 10, 6, 0};
 
 template <class List>
 auto pick(const List& list, int index) {
@@ -33,6 +33,15 @@ CurveLook look_of(const Curve& curve, int index) {
     const int round = curve.colour ? 0 : index / kGreyColour;  // the ninth curve has the first one's colour alone
     return {pick(kPalette, colour), dash_pattern(curve.dash.value_or(pick(kDashOfColour, colour) + round)),
             pick(kPointTypes, curve.marker.value_or(pick(kMarkerOfColour, colour + round)))};
+}
+
+void fix_look(Curve& curve, int index) {
+    const int colour = index % kGreyColour, round = index / kGreyColour;
+    if (curve.colour) return;
+    curve.colour = colour;
+    if (round == 0) return;
+    if (!curve.dash) curve.dash = pick(kDashOfColour, colour) + round;
+    if (!curve.marker) curve.marker = pick(kMarkerOfColour, colour + round);
 }
 
 double marker_size(const Curve& curve) {

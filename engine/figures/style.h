@@ -22,6 +22,7 @@ inline constexpr const char* kFrameColour = "#404040";
 inline constexpr const char* kGridColour = "#dddddd";
 inline constexpr const char* kReferenceColour = "#606060";
 inline constexpr const char* kAnnotationColour = "#202020";
+inline constexpr double kBandEdgeWidth = 0.4;  ///< where bands have to be told apart
 inline constexpr double kFrameWidth = 0.45, kGridWidth = 0.3, kReferenceWidth = 0.55, kArrowWidth = 0.5;
 
 /// Places in the marker list with a meaning of their own.
@@ -41,6 +42,8 @@ struct CurveLook {
 /// Colours after Okabe and Ito (2008), ordered so that neighbours differ in luminance and stay apart for colour-blind
 /// readers and in grey print; dash pattern and marker change with the colour, and again where the colours repeat.
 CurveLook look_of(const Curve& curve, int index);
+/// Gives a curve the look of the one with this index wherever it may stand, unless its colour was chosen.
+void fix_look(Curve& curve, int index);
 std::string dash_pattern(int dash);
 /// Size and line of a curve's markers, in gnuplot's units of size and in points: a wide line makes markers larger
 /// rather than bolder.

@@ -19,7 +19,11 @@ struct Lesson {
     }
     /// Questions to check oneself by, with answers: the last section of the sheet and of the woven lesson; may be
     /// absent.
-    std::filesystem::path self_check() const { return folder / "self_check.md"; }
+    std::filesystem::path self_check(const std::string& language = "en") const {
+        return folder / (language == "en" ? "self_check.md" : "self_check." + language + ".md");
+    }
+    /// Title and text cells in another language; no such file for lessons in English alone.
+    std::filesystem::path tasks(const std::string& language) const { return folder / ("tasks." + language + ".lua"); }
     /// Questions that a talk on the lesson may meet, with model answers: for instructors only; may be absent.
     std::filesystem::path talk_questions() const { return folder / "talk.md"; }
     /// Of lessons that end with a report of its own form: the worked solution's; no such file for others.

@@ -23,6 +23,7 @@
 #include "workflow/run_cache.h"
 #include "workflow/run_script.h"
 #include "workflow/slider_runs.h"
+#include "workflow/student_copy.h"
 
 namespace dynlab::inline workflow {
 namespace {
@@ -85,7 +86,7 @@ ReportRequest report_of_folder(const fs::path& folder, const fs::path& output) {
 
 /// The questions that the lesson's readers check themselves by, where there are some.
 void add_self_check(const Lesson& lesson, ReportRequest& request) {
-    const fs::path file = lesson.self_check();
+    const fs::path file = lesson.self_check(request.script.header.language);
     if (fs::is_regular_file(file)) request.last_section.append(read_text(file), file, 1);
 }
 
@@ -184,7 +185,7 @@ DocumentSource document_source(const ReportRequest& request, const RunRecord& re
     DocumentSource source = template_of(request);
     source.record = &record;
     source.bibliography = bibliography_of(request.script);
-    source.measures = measures_for_documents();
+    source.measures = measures_for_documents(request.script.header.language);
     if (request.shows == ReportRequest::Shows::kCells) source.cells = weave_cells(request.script, record);
     if (request.shows == ReportRequest::Shows::kText) source.cells = weave_cells(text_of(request.script), record);
     source.cells.text += request.last_section.text;
@@ -193,10 +194,14 @@ DocumentSource document_source(const ReportRequest& request, const RunRecord& re
     return source;
 }
 
-ReportRequest sheet_of(const std::string& name, const fs::path& output) {
+ReportRequest sheet_of(const std::string& name, const fs::path& output, const std::string& language) {
     const Lesson lesson = find_lesson(name);
-    const std::string master = read_percent_script(lesson.script()).source;
-    const PercentScript tasks = parse_percent_script(without_solutions(master, lesson.script()), lesson.script());
+    const PercentScript master = lesson_script(lesson, language);
+    if (!language.empty() && master.header.language != language)
+        throw EnvironmentError("lesson " + lesson.slug + " has no tasks in the language \"" + language + "\" (" +
+                               lesson.tasks(language).filename().string() + ")");
+    const PercentScript tasks =
+        parse_percent_script(without_solutions(master.source, lesson.script()), lesson.script());
     ReportRequest request = report_of_script(tasks, output.empty() ? fs::path(lesson.slug + "_sheet.pdf") : output);
     request.of_lesson = true;
     add_self_check(lesson, request);

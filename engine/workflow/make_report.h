@@ -60,8 +60,10 @@ struct ReportResult {
 ReportRequest report_of(const std::string& lesson_or_folder, const std::filesystem::path& output = {},
                         const std::string& language = {});
 /// The task sheet of a lesson: its text, data and code without the solutions, as students get it, with the places for
-/// their answers. Without `output` it goes to the current folder: 02_least_squares_sheet.pdf.
-ReportRequest sheet_of(const std::string& lesson, const std::filesystem::path& output = {});
+/// their answers, in `language` unless empty. Without `output` it goes to the current folder:
+/// 02_least_squares_sheet.pdf. Throws EnvironmentError for a lesson without tasks in that language.
+ReportRequest sheet_of(const std::string& lesson, const std::filesystem::path& output = {},
+                       const std::string& language = {});
 /// The questions that a talk on the lesson may meet (its talk.md: a heading `# Question?` each, then the answer), with
 /// the model answers for whoever asks; 05_thruster_talk.pdf unless given. Slots in the answers are filled from a run of
 /// the worked solution. Throws EnvironmentError for a lesson without such questions.

@@ -4,14 +4,18 @@
 #include <cctype>
 
 #include "documents/text_lines.h"
+#include "platform/program_lookup.h"
+#include "platform/text_file.h"
 #include "scripting/runtime/help.h"
 
 namespace dynlab::inline workflow {
 
-std::map<std::string, std::string> measures_for_documents() {
+std::map<std::string, std::string> measures_for_documents(const std::string& language) {
+    const std::string source = language == "fr" ? read_text(shared_folder() / "report_templates/measures.fr.md")
+                                                : std::string(find_help_page("measures")->text);
     std::map<std::string, std::string> measures;
     std::string* current = nullptr;
-    for (const std::string& line : lines_of(find_help_page("measures")->text)) {
+    for (const std::string& line : lines_of(source)) {
         const std::size_t colon = line.find(": ");
         if (line.starts_with("## ") && colon != std::string::npos) {
             std::string key = line.substr(3, colon - 3);

@@ -33,36 +33,6 @@ fs::path template_file(const std::string& name, const std::string& language) {
     return fs::is_regular_file(own) ? own : folder / (name + ".md");
 }
 
-/// The lesson's script with the header's title, subtitle and language and the text cells of tasks.LANGUAGE.lua, where
-/// the lesson has it: cell by cell in their order.
-PercentScript script_in(const Lesson& lesson, const std::string& language) {
-    const PercentScript script = read_percent_script(lesson.script());
-    const fs::path file = lesson.folder / ("tasks." + language + ".lua");
-    if (language == script.header.language || !fs::is_regular_file(file)) return script;
-    const PercentScript tasks = read_percent_script(file);
-    std::string source = script.source;
-    put(source, "-- title: " + script.header.title, "-- title: " + tasks.header.title);
-    put(source, "-- subtitle: " + script.header.subtitle, "-- subtitle: " + tasks.header.subtitle);
-    put(source, "-- language: " + script.header.language, "-- language: " + tasks.header.language);
-    std::vector<std::string> lines = lines_of(source);
-    std::vector<const Cell*> texts;
-    for (const Cell& cell : script.cells)
-        if (cell.kind == Cell::Kind::kText) texts.push_back(&cell);
-    if (texts.size() != tasks.cells.size())
-        throw DocumentError(file.string() + " has " + std::to_string(tasks.cells.size()) +
-                            " cells, but the lesson has " + std::to_string(texts.size()) + " cells of text");
-    for (std::size_t i = texts.size(); i-- > 0;) {
-        const auto first = lines.begin() + texts[i]->first_line - 1;
-        const auto after = lines.erase(first, lines.begin() + texts[i]->last_line());
-        std::vector<std::string> text = lines_of(tasks.cells[i].content);
-        for (std::string& line : text) line.insert(0, line.empty() ? "--" : "-- ");
-        lines.insert(after, text.begin(), text.end());
-    }
-    source.clear();
-    for (const std::string& line : lines) source += line + "\n";
-    return parse_percent_script(source, script.file);
-}
-
 /// The template's text with the lesson's title and language in its header.
 std::string report_for(const ScriptHeader& header, const fs::path& file, const std::string& language) {
     std::string text = read_text(file);
@@ -74,7 +44,7 @@ std::string report_for(const ScriptHeader& header, const fs::path& file, const s
 
 void fill_lesson(const fs::path& folder, const Lesson& lesson, const std::optional<std::uint32_t>& group_seed,
                  const std::string& language) {
-    const PercentScript script = script_in(lesson, language);
+    const PercentScript script = lesson_script(lesson, language);
     write_file_atomically(folder / "analysis.lua", without_solutions(script.source, script.file));
     const std::string form = script.header.template_name == "lesson" ? "exercise_sheet" : script.header.template_name;
     write_file_atomically(folder / "report.md", report_for(script.header, template_file(form, language), language));
@@ -119,6 +89,34 @@ void make_folder(const fs::path& folder, const Fill& fill) {
 }
 
 }  // namespace
+
+PercentScript lesson_script(const Lesson& lesson, const std::string& language) {
+    const PercentScript script = read_percent_script(lesson.script());
+    const fs::path file = lesson.tasks(language);
+    if (language == script.header.language || !fs::is_regular_file(file)) return script;
+    const PercentScript tasks = read_percent_script(file);
+    std::string source = script.source;
+    put(source, "-- title: " + script.header.title, "-- title: " + tasks.header.title);
+    put(source, "-- subtitle: " + script.header.subtitle, "-- subtitle: " + tasks.header.subtitle);
+    put(source, "-- language: " + script.header.language, "-- language: " + tasks.header.language);
+    std::vector<std::string> lines = lines_of(source);
+    std::vector<const Cell*> texts;
+    for (const Cell& cell : script.cells)
+        if (cell.kind == Cell::Kind::kText) texts.push_back(&cell);
+    if (texts.size() != tasks.cells.size())
+        throw DocumentError(file.string() + " has " + std::to_string(tasks.cells.size()) +
+                            " cells, but the lesson has " + std::to_string(texts.size()) + " cells of text");
+    for (std::size_t i = texts.size(); i-- > 0;) {
+        const auto first = lines.begin() + texts[i]->first_line - 1;
+        const auto after = lines.erase(first, lines.begin() + texts[i]->last_line());
+        std::vector<std::string> text = lines_of(tasks.cells[i].content);
+        for (std::string& line : text) line.insert(0, line.empty() ? "--" : "-- ");
+        lines.insert(after, text.begin(), text.end());
+    }
+    source.clear();
+    for (const std::string& line : lines) source += line + "\n";
+    return parse_percent_script(source, script.file);
+}
 
 void make_student_copy(const Lesson& lesson, const fs::path& folder, std::optional<std::uint32_t> group_seed,
                        const std::string& language) {

@@ -17,6 +17,10 @@ namespace dynlab::inline workflow {
 void make_student_copy(const Lesson& lesson, const std::filesystem::path& folder,
                        std::optional<std::uint32_t> group_seed = {}, const std::string& language = {});
 
+/// The lesson's script with the header's title, subtitle and language and the text cells of tasks.LANGUAGE.lua, where
+/// the lesson has it: cell by cell in their order. Throws DocumentError when their numbers differ.
+PercentScript lesson_script(const Lesson& lesson, const std::string& language);
+
 /// Makes a folder for the review of a classmate's report: report.md with the five questions, analysis.lua for scores,
 /// group.toml. Otherwise as make_student_copy.
 void make_review_folder(const std::filesystem::path& folder, const std::string& language = {});

@@ -339,6 +339,18 @@ const dynlabDrawing = (() => {
         corners.filter(([x, y]) => Number.isFinite(x) && Number.isFinite(y))
           .forEach(([x, y], i) => context[i ? "lineTo" : "moveTo"](this.X(x), this.Y(y)));
         context.fill();
+        if (panel.curves.filter((other) => other.style === "band").length < 2) continue;
+        context.globalAlpha = 1;
+        const half = corners.length / 2;
+        this.stroke(colour, 0.4, curve.dash);
+        for (const edge of [corners.slice(0, half), corners.slice(half)]) {
+          context.beginPath();
+          edge.filter(([x, y]) => Number.isFinite(x) && Number.isFinite(y))
+            .forEach(([x, y], i) => context[i ? "lineTo" : "moveTo"](this.X(x), this.Y(y)));
+          context.stroke();
+        }
+        context.globalAlpha = 0.22;
+        context.fillStyle = colour;
       }
       context.globalAlpha = 1;
     }

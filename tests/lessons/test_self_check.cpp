@@ -9,6 +9,7 @@
 #include "platform/text_file.h"
 #include "support/program.h"
 #include "workflow/lesson_catalogue.h"
+#include "workflow/measures.h"
 
 namespace dynlab::test {
 namespace test_self_check {
@@ -56,6 +57,48 @@ TEST(self_check, is_the_end_of_the_sheet_and_no_part_of_the_copy) {
     EXPECT_EQ(count(bench.read("sheet.html"), "<details"), 5u);
     ASSERT_EQ(bench.dynlab({"new", "05", "mine"}).exit_code, 0);
     EXPECT_THAT(bench.read("mine/analysis.lua"), Not(HasSubstr("choice")));
+}
+
+TEST(self_check, and_tasks_are_french_where_french_is_asked_for) {
+    const Workbench bench;
+    for (const Lesson& lesson : {find_lesson("03_crane"), find_lesson("05")}) {
+        SCOPED_TRACE(lesson.slug);
+        const ChildResult made = bench.dynlab({"sheet", lesson.slug, "--lang", "fr", "-o", "sheet.pdf"});
+        ASSERT_EQ(made.exit_code, 0) << made.error_output;
+        const std::string text = bench.shell("pdftotext -layout sheet.pdf -").output;
+        EXPECT_THAT(text,
+                    AllOf(HasSubstr("Cinq questions"), HasSubstr("Réponses aux questions"), HasSubstr("Question 10.")));
+        for (const char* word : {" is ", " are ", " your ", " what ", " with ", " which "})
+            EXPECT_THAT(text, Not(HasSubstr(word)));
+        // The same answers are right, option by option.
+        const auto signs = [&](const std::string& language) {
+            const std::string questions = read_text(lesson.self_check(language));
+            std::string found;
+            for (std::size_t at = questions.find("\n- ["); at != std::string::npos;
+                 at = questions.find("\n- [", at + 1))
+                found += questions[at + 4];
+            return found;
+        };
+        EXPECT_EQ(signs("fr"), signs("en"));
+        EXPECT_EQ(count(signs("fr"), "x"), 5u);
+    }
+    const ChildResult refused = bench.dynlab({"sheet", "02", "--lang", "fr"});
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_THAT(refused.error_output, HasSubstr("has no tasks in the language \"fr\""));
+}
+
+TEST(measures, have_the_same_formulas_in_french) {
+    const auto english = measures_for_documents("en"), french = measures_for_documents("fr");
+    EXPECT_GE(english.size(), 9u);
+    ASSERT_EQ(french.size(), english.size());
+    const std::regex formula(R"(\$\$[^$]+\$\$)");
+    for (const auto& [name, text] : english) {
+        ASSERT_TRUE(french.contains(name)) << name;
+        std::smatch here, there;
+        ASSERT_TRUE(std::regex_search(text, here, formula) && std::regex_search(french.at(name), there, formula));
+        EXPECT_EQ(here.str(), there.str());
+        EXPECT_NE(text, french.at(name));
+    }
 }
 
 // oracle: the file of the lesson, and the values that its run reported

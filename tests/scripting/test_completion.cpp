@@ -9,6 +9,7 @@
 
 namespace dynlab::test {
 namespace test_completion {
+using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -33,6 +34,14 @@ class Session {
     std::string printed_;
     PromptSession prompt_{"dynlab_out", [this](const std::string& text) { printed_ += text; }};
 };
+
+TEST(completion, offers_the_fields_that_the_object_has) {
+    Session session({"G = tf({1}, {1, 2})", "P = idproc('P1D', {Kp = 2, Tp1 = 3, Td = 1})"});
+    EXPECT_THAT(session.names("G."), AllOf(Contains("den"), Contains("Ts")));
+    EXPECT_THAT(session.names("G."), Not(Contains("Tp1")));
+    EXPECT_THAT(session.names("G."), Not(Contains("covariance")));
+    EXPECT_THAT(session.names("P."), AllOf(Contains("Kp"), Contains("Td"), Not(Contains("Tp2"))));
+}
 
 TEST(completion, offers_variables_functions_and_words_of_lua) {
     Session session({"speed_of_motor = 1", "local speed_limit = 2"});

@@ -134,7 +134,7 @@ TEST(script_vectors, sums_do_not_depend_on_the_place_in_memory) {
 TEST(script_vectors, are_summed_up) {
     EXPECT_EQ(
         printed("local v = {4, 1, 3}\nprint(sum(v), mean(v), var(v), std{1, 3}^2, norm{3, 4}, dot({1, 2}, {3, 4}))"),
-        "8\t2.6666666666667\t2.3333333333333\t2\t5\t11\n");
+        "8\t2.666667\t2.333333\t2\t5\t11\n");
     EXPECT_EQ(
         printed("print(min{4, 1, 3})\nprint(max{4, 1, 3})\nprint(max({1, 5}, 3), min(2, 1), max({1, 5}, {2, 4}))"),
         "1\t2\n4\t1\n[3 5]\t1\t[2 5]\n");
@@ -150,7 +150,7 @@ TEST(script_vectors, are_summed_up) {
 
 TEST(script_vectors, form_matrices) {
     EXPECT_EQ(printed("local A = matrix{{1, 2}, {3, 4}}\nprint(A*A)\nprint(A:times(A))\nprint(A:t(), A*vector{1, 1})"),
-              " 7  10\n15  22\n1   4\n9  16\n1  3\n2  4\t[3 7]\n");
+              " 7  10\n15  22\n\n1   4\n9  16\n\n1  3\n2  4\t[3 7]\n");
     EXPECT_EQ(printed("local A = matrix{vector{1, 2}, vector{3, 4}}\nprint(A[{1, 2}], A:at(2, 1), A:row(1), A:col(1), "
                       "A.rows, A.columns)\n"
                       "A[{1, 2}] = 9\nA:set(2, 2, 8)\nprint(A)"),

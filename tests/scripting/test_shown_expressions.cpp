@@ -46,6 +46,16 @@ TEST(shown_expressions, leave_mistakes_as_they_are) {
         EXPECT_EQ(with_shown_expressions(code), code);
 }
 
+TEST(shown_expressions, calls_that_only_compute_are_shown_with_the_names_of_their_results) {
+    EXPECT_EQ(printed("local G = tf({1}, {1, 2})\ndamp(G)\npole(G)\ndcgain(G);\n"),
+              "{T = [0.5], wn = [2], zeta = [1]}\n[-2]\n");
+    EXPECT_EQ(printed("for k = 1, 2 do\n  mean({k, k + 2})\nend\nlocal m =\n  mean({5})\nprint(\n  m)"), "2\n3\n5\n");
+    const char* unchanged[] = {
+        "local x =\n  mean({1})", "f{\n  mean({1}),\n  2}", "return\n  mean({1})", "mean({1}).x = 2", "mean {1, 2}",
+        "local p = pole(G)",      "x = y +\n  mean({1})"};
+    for (const char* code : unchanged) EXPECT_EQ(with_shown_calls(code), code);
+}
+
 TEST(shown_expressions, show_figures_too) {
     const RunRecord record = run("local fig = plot({1, 2, 3})\nfig");
     ASSERT_FALSE(record.error) << record.error->message;

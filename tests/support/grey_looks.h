@@ -27,7 +27,10 @@ inline Figure line_in_the_look_of(const Panel& panel, int shown) {
         Curve curve = panel.curves[i];
         curve.x = Vector::LinSpaced(12, 0, 1);
         curve.y = Vector::Constant(12, static_cast<int>(i) == shown ? 0.5 : -9.0);
-        if (curve.style == CurveStyle::kBand) curve.y_upper = curve.y;
+        if (curve.style == CurveStyle::kBand) {
+            curve.y_upper = curve.y;
+            if (static_cast<int>(i) == shown) curve.y.array() -= 0.2, curve.y_upper.array() += 0.2;
+        }
         lone.curves.push_back(std::move(curve));
     }
     return Figure(std::move(lone));
@@ -53,22 +56,27 @@ inline double distance(const std::vector<int>& a, const std::vector<int>& b) {
     return sum;
 }
 
-/// The looks of a panel's named curves, but its bands, in grey.
+/// The looks of a panel's named curves, but its bands, or of its bands' edges, in grey.
 class GreyLooks {
   public:
-    explicit GreyLooks(const Panel& panel) {
+    enum class Of { kNamedCurves, kBands };
+    explicit GreyLooks(const Panel& panel, Of of = Of::kNamedCurves) {
         GnuplotRenderer renderer;
         const auto file = [this](int i) { return folder_.path() / (std::to_string(i) + ".pdf"); };
         std::vector<int> named;
         for (int i = 0; i < static_cast<int>(panel.curves.size()); ++i) {
             const Curve& curve = panel.curves[static_cast<std::size_t>(i)];
-            if (!curve.label.empty() && curve.style != CurveStyle::kBand) named.push_back(i);
+            const bool band = curve.style == CurveStyle::kBand;
+            if (of == Of::kBands ? band : !curve.label.empty() && !band) named.push_back(i);
         }
         if (named.size() < 2) named.clear();  // nothing to be told apart
         named.push_back(-1);
         for (const int i : named) renderer.draw(line_in_the_look_of(panel, i), file(i), FigureFormat::kPdf);
         renderer.finish();
         for (const int i : named) drawn_.push_back(darkness(file(i)));
+        if (of == Of::kBands)
+            for (std::vector<int>& points : drawn_)
+                for (int& point : points) point = point > kDarkestFill ? point : 0;
     }
     std::size_t size() const { return drawn_.size() - 1; }
     /// 0 for equal looks, 2 for marks that nowhere meet.
@@ -78,6 +86,7 @@ class GreyLooks {
     }
 
   private:
+    static constexpr int kDarkestFill = 70;  ///< of a band
     TemporaryFolder folder_;
     std::vector<std::vector<int>> drawn_;
 };

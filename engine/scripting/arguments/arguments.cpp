@@ -215,6 +215,13 @@ void Call::print(const std::string& text) const {
     if (context.options.print) context.options.print(text);
 }
 
+void Call::print_lines(const std::string& text) const {
+    const bool block = text.find('\n') < text.size() - 1;
+    Recorder& recorder = context().recorder;
+    print(block && recorder.ends_in_block() ? '\n' + text : text);
+    if (block) recorder.note_block();
+}
+
 int Call::give(double value) const {
     return lua_pushnumber(state_, value), 1;
 }

@@ -42,6 +42,8 @@ class Call {
 
     std::function<bool()> cancel() const;       ///< for long work of the core: true after Ctrl-C or the time limit
     void print(const std::string& text) const;  ///< into the record, and live
+    /// Whole lines; between two blocks of several comes an empty one.
+    void print_lines(const std::string& text) const;
 
     int give(double value) const;
     int give_integer(Index value) const;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "numerics/number_text.h"
 #include "numerics/validation/advice.h"
 #include "scripting/arguments/option_words.h"
 #include "scripting/arguments/table_fields.h"
@@ -39,6 +40,14 @@ std::string text_of(const Advice& advice, std::size_t experiments) {
     return text;
 }
 
+/// print(advice(data)): the sentences have been printed, so that this only says what the table holds.
+int advice_to_text(lua_State* L) {
+    const std::string text = fmt::format("({}: a[1].message, ..., a.clean and a.discard of a = advice(data))",
+                                         counted(lua_rawlen(L, 1), "finding"));
+    lua_pushlstring(L, text.data(), text.size());
+    return 1;
+}
+
 int give_advice(Call& call) {
     call.at_most(1);
     const IdData& data = object_argument<IdData>(call, 1, "data");
@@ -47,6 +56,10 @@ int give_advice(Call& call) {
     give_list(call, advice.findings, [&](const RecordFinding& finding) { push_finding(call, finding); });
     set_field(call, "clean", advice.clean());
     set_segments(call, "discard", advice.discard);
+    lua_createtable(call.state(), 0, 1);
+    lua_pushcfunction(call.state(), advice_to_text);
+    lua_setfield(call.state(), -2, "__tostring");
+    lua_setmetatable(call.state(), -2);
     return 1;
 }
 

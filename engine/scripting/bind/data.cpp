@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <utility>
 
 #include "data_io/dataset_index.h"
 #include "figures/plots/id_plot.h"
@@ -162,6 +163,12 @@ void check_names(const IdData& data) {
                     fmt::format("the name '{}' names two channels: give each its own InputName or OutputName", name));
 }
 
+/// Once in a run: time constants come out in samples where seconds are meant.
+void tell_sampling_time(const Call& call) {
+    if (std::exchange(call.context().told_sampling_time, true)) return;
+    call.print("iddata: no sampling time was given, so one sample a second is taken; write iddata(y, u, Ts)\n");
+}
+
 int make_iddata(Call& call) {
     call.at_most(4);
     const Options options(call, 4,
@@ -176,6 +183,7 @@ int make_iddata(Call& call) {
     const Matrix u = signals(call, 2, "u", y.rows());
     IdData data = options.has("SamplingInstants") ? IdData(y, u, options.vector("SamplingInstants"))
                                                   : IdData(y, u, call.number_or(3, "Ts", 1));
+    if (!options.has("SamplingInstants") && !call.given(3)) tell_sampling_time(call);
     data.hold = options.choice("InterSample", {"zoh", "foh"}, 0) == 0 ? Hold::kZoh : Hold::kFoh;
     set_texts(options, "InputName", data.input_names, u.cols());
     set_texts(options, "OutputName", data.output_names, y.cols());

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "figures/figure_text.h"
 #include "figures/gnuplot_renderer.h"
 #include "figures/plots/motion_plot.h"
 #include "numerics/number_text.h"
@@ -56,7 +57,7 @@ void read_curve_lists(const Options& options, std::vector<Curve>& curves) {
             fmt::format("option 'label' has {} texts, but there are {} curves", lists.labels.size(), curves.size()));
     for (std::size_t i = 0; i < curves.size(); ++i) {
         Curve& curve = curves[i];
-        if (i < lists.labels.size()) curve.label = lists.labels[i];
+        if (i < lists.labels.size()) curve.label = with_marked_indices(lists.labels[i]);
         if (auto style = value_for(lists.styles, i, curves.size(), "style")) curve.style = parse_curve_style(*style);
         if (auto dash = value_for(lists.dashes, i, curves.size(), "dash")) curve.dash = place_of_look(*dash, "dash");
         if (auto colour = value_for(lists.colours, i, curves.size(), "colour")) curve.colour = *colour;

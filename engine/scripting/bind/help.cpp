@@ -32,9 +32,9 @@ int show(Call& call) {
         if (const FigurePointer* figure = to_object<FigurePointer>(L, i))
             call.context().recorder.show_figure(*figure);
         else
-            line += (line.empty() ? "" : "\t") + value_text(L, i);
+            line += (line.empty() ? "" : "\t") + text_for_reading(L, i);
     }
-    if (!line.empty()) call.print(line + '\n');
+    if (!line.empty()) call.print_lines(line + '\n');
     return 0;
 }
 

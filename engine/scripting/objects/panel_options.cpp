@@ -5,6 +5,8 @@
 #include <cmath>
 #include <functional>
 
+#include "figures/figure_text.h"
+
 namespace dynlab::inline scripting {
 namespace {
 
@@ -39,7 +41,7 @@ ReferenceLine read_reference(const Call& call, int index) {
     ReferenceLine line;
     line.horizontal = options.has("y");
     line.at = line.horizontal ? options.number("y", 0) : options.number("x", 0);
-    line.label = options.text("label", "");
+    line.label = with_marked_indices(options.text("label", ""));
     line.dash = static_cast<int>(options.size("dash", line.dash));
     return line;
 }
@@ -143,15 +145,15 @@ Curve read_curve(const Call& call, int index) {
         curve.y_upper = options.vector("y_upper");
         curve.style = CurveStyle::kBand;
     }
-    curve.label = options.text("label", "");
+    curve.label = with_marked_indices(options.text("label", ""));
     read_curve_look(options, curve);
     return curve;
 }
 
 void read_panel_options(const Call& call, const Options& options, Panel& panel) {
-    panel.title = options.text("title", panel.title);
-    panel.x_label = options.text("xlabel", panel.x_label);
-    panel.y_label = options.text("ylabel", panel.y_label);
+    panel.title = with_marked_indices(options.text("title", panel.title));
+    panel.x_label = with_marked_indices(options.text("xlabel", panel.x_label));
+    panel.y_label = with_marked_indices(options.text("ylabel", panel.y_label));
     if (options.has("x_range")) panel.x_range = options.range("x_range");
     if (options.has("y_range")) panel.y_range = options.range("y_range");
     panel.log_x = options.flag("x_log", panel.log_x);

@@ -16,5 +16,7 @@ std::string complex_vector_text(const ComplexVector& v);
 /// Text of any Lua value: whole numbers without ".0", tables as {1, 2, name = "x"}, objects by their own form. Equal
 /// values give equal text in every run (no addresses).
 std::string value_text(lua_State* L, int index);
+/// The same for reading, as print shows it: numbers with seven digits, tables that one line does not hold in lines.
+std::string text_for_reading(lua_State* L, int index);
 
 }  // namespace dynlab::inline scripting

@@ -100,8 +100,12 @@ std::vector<std::string> member_names(lua_State* L, MemberKind kind) {
     std::vector<std::string> names;
     const int top = lua_gettop(L);
     if (const ObjectType* type = object_type(L, -1)) {
-        for (const Member& member : kind == MemberKind::kField ? type->fields : type->methods)
-            names.emplace_back(member.name);
+        const int object = lua_gettop(L);
+        for (const Member& member : kind == MemberKind::kField ? type->fields : type->methods) {
+            lua_pushvalue(L, object);
+            if (kind == MemberKind::kMethod || step_into_object(L, member.name)) names.emplace_back(member.name);
+            lua_settop(L, object);
+        }
         return names;
     }
     lua_pushvalue(L, -1);

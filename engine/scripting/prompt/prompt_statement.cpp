@@ -146,7 +146,8 @@ PromptStatement read_statement(const std::string& source) {
     const std::string expression = "return " + without_habit(source, tokens).value_or(source);
     const Syntax as_expression = syntax_of(expression);
     if (as_expression == Syntax::kRight) {
-        statement.code = expression;
+        const std::string named = with_shown_calls(source);
+        statement.code = named.starts_with("do ") ? named : expression;
         return statement;
     }
     const Syntax as_chunk = syntax_of(source);

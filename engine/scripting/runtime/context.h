@@ -38,6 +38,7 @@ struct RuntimeContext {
     lua_Debug main_chunk{};  ///< activation record of the running main chunk
     bool main_chunk_known = false;
     bool running = false;
+    bool told_sampling_time = false;      ///< that iddata took 1 s
     StopReason stop = StopReason::kNone;  ///< once set, every protected call passes the stop on
     std::optional<std::chrono::steady_clock::time_point> deadline;
     std::string* printed_by_call = nullptr;  ///< also gets what is printed, while a call is watched

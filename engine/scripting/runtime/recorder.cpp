@@ -60,6 +60,12 @@ void Recorder::print(const std::string& text) {
     pieces.back().printed += text;
 }
 
+bool Recorder::ends_in_block() {
+    note_time();
+    const auto& pieces = pieces_[timed_cell_];
+    return !pieces.empty() && !pieces.back().figure && block_end_ == std::pair(timed_cell_, printed_bytes_);
+}
+
 void Recorder::add_figure(const FigurePointer& figure) {
     note_time();
     figure->order = ++figures_made_;

@@ -39,6 +39,10 @@ class Recorder {
     RunRecord finish();
 
     void print(const std::string& text);
+    void note_block() {
+        block_end_ = {timed_cell_, printed_bytes_};
+    }                                              ///< several lines that belong together were printed
+    bool ends_in_block();                          ///< they are the last that the cell has printed
     void add_figure(const FigurePointer& figure);  ///< just made
     /// Captures a figure again that was made or used earlier; one that the cell captures already is left as it is.
     void show_figure(const FigurePointer& figure);
@@ -78,6 +82,7 @@ class Recorder {
     std::vector<std::weak_ptr<ScriptFigure>> numbered_;
     std::optional<long long> next_number_;
     std::size_t printed_bytes_ = 0;
+    std::pair<std::string, std::size_t> block_end_;  ///< cell and bytes printed
     std::size_t figures_made_ = 0;
     std::string timed_cell_;
     std::chrono::steady_clock::time_point timed_since_;

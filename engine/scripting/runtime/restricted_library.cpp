@@ -78,8 +78,8 @@ int script_setmetatable(lua_State* L) {
 
 int script_print(lua_State* L) {
     std::string line;
-    for (int i = 1; i <= lua_gettop(L); ++i) line += (i == 1 ? "" : "\t") + value_text(L, i);
-    Call(L).print(line + '\n');
+    for (int i = 1; i <= lua_gettop(L); ++i) line += (i == 1 ? "" : "\t") + text_for_reading(L, i);
+    Call(L).print_lines(line + '\n');
     return 0;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <lua.hpp>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -110,9 +111,7 @@ std::optional<std::string> rewritten(LuaReader& reader, const std::string& code,
     return std::nullopt;
 }
 
-}  // namespace
-
-std::string with_shown_expressions(const std::string& source) {
+std::string with_shown_values(const std::string& source) {
     LuaReader reader;
     std::string code = source;
     std::size_t reached = 0;
@@ -135,6 +134,89 @@ std::string with_shown_expressions(const std::string& source) {
         code = std::move(*next);
     }
     return source;
+}
+
+/// Functions that only compute, and the names of what they give where that is more than one value.
+const std::map<std::string_view, std::string_view> kShownCalls = {{"damp", "wn, zeta, T"},
+                                                                  {"margin", "Gm, Pm, Wcg, Wcp, Dm"},
+                                                                  {"pole", ""},
+                                                                  {"zero", ""},
+                                                                  {"dcgain", ""},
+                                                                  {"bandwidth", ""},
+                                                                  {"stable", ""},
+                                                                  {"fit", ""},
+                                                                  {"mean", ""},
+                                                                  {"median", ""},
+                                                                  {"std", ""},
+                                                                  {"var", ""},
+                                                                  {"sum", ""},
+                                                                  {"norm", ""},
+                                                                  {"det", ""},
+                                                                  {"eig", ""},
+                                                                  {"inv", ""},
+                                                                  {"polyfit", ""}};
+
+std::vector<std::string> listed_names(const std::string& list) {
+    std::vector<std::string> names;
+    for (const LuaToken& token : lua_tokens(list))
+        if (token.kind == LuaToken::Kind::kName) names.emplace_back(token.text);
+    return names;
+}
+
+/// Whether what stands before can be the end of a statement, or the beginning of a block.
+bool begins_statement(const std::string& code, const std::vector<LuaToken>& tokens, std::size_t i) {
+    if (!begins_line(code, tokens, i)) return false;
+    if (i == 0) return true;
+    const LuaToken& before = tokens[i - 1];
+    for (const std::string_view word :
+         {")", "]", "}", ";", "end", "then", "do", "else", "repeat", "nil", "true", "false"})
+        if (before.is(word)) return true;
+    return before.kind == LuaToken::Kind::kName || before.kind == LuaToken::Kind::kNumber ||
+           before.kind == LuaToken::Kind::kString;
+}
+
+/// The bracket that closes NAME(...).
+std::optional<std::size_t> end_of_call(const std::vector<LuaToken>& tokens, std::size_t name) {
+    if (name + 1 >= tokens.size() || !tokens[name + 1].is("(")) return std::nullopt;
+    int depth = 0;
+    for (std::size_t i = name + 1; i < tokens.size(); ++i) {
+        if (tokens[i].is("(") || tokens[i].is("{") || tokens[i].is("[")) ++depth;
+        if ((tokens[i].is(")") || tokens[i].is("}") || tokens[i].is("]")) && --depth == 0) return i;
+    }
+    return std::nullopt;
+}
+
+bool next_begins_statement(const std::string& code, const std::vector<LuaToken>& tokens, std::size_t next) {
+    if (next >= tokens.size()) return true;
+    for (const std::string_view word : {"end", "else", "elseif", "until"})
+        if (tokens[next].is(word)) return true;
+    const bool word = tokens[next].kind == LuaToken::Kind::kName || tokens[next].kind == LuaToken::Kind::kKeyword;
+    return word && begins_line(code, tokens, next) && !tokens[next].is("and") && !tokens[next].is("or");
+}
+
+}  // namespace
+
+std::string with_shown_calls(const std::string& source) {
+    const std::vector<LuaToken> tokens = lua_tokens(source);
+    std::string code = source;
+    for (std::size_t first = tokens.size(); first-- > 0;) {
+        const auto names = kShownCalls.find(tokens[first].text);
+        if (names == kShownCalls.end() || !begins_statement(source, tokens, first)) continue;
+        const std::optional<std::size_t> last = end_of_call(tokens, first);
+        if (!last || !next_begins_statement(source, tokens, *last + 1)) continue;
+        const std::size_t begin = tokens[first].begin, length = tokens[*last].end() - begin;
+        const std::string call = code.substr(begin, length), all(names->second);
+        std::string fields;
+        for (const std::string& name : listed_names(all)) fields += name + " = " + name + ", ";
+        code.replace(begin, length,
+                     all.empty() ? "dynlab.show(" + call + ")"
+                                 : "do local " + all + " = " + call + " dynlab.show({" + fields + "}) end");
+    }
+    return LuaReader().error_of(code) ? source : code;
+}
+
+std::string with_shown_expressions(const std::string& source) {
+    return with_shown_calls(with_shown_values(source));
 }
 
 std::optional<int> line_with_semicolon_rows(const std::string& source) {

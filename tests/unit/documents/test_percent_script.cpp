@@ -131,6 +131,15 @@ TEST(percent_script, the_students_copy_differs_in_the_solutions_only) {
         "-- %%\r\nlocal u = 1  \n    -- YOUR CODE HERE\n    local K = 1\nprint(K)\n-- %% [markdown]\n-- Why?\n--\n"
         "-- *Your answer:*\n\nlast line");
     EXPECT_EQ(without_solutions("x = 1\r\n\r\n"), "x = 1\r\n\r\n");
+    const std::string solution = "-- BEGIN SOLUTION\ny = 1\n-- END SOLUTION\n", asked = "-- YOUR CODE HERE\n";
+    EXPECT_EQ(without_solutions("-- %%\n" + solution + "\n-- %% id=b\n" + solution),
+              "-- %%\n" + asked + "\n-- %% id=b\n")
+        << "asked for once";
+    for (const std::string between :
+         {"z = 2\n", "-- %% [markdown]\n-- Why?\n-- %%\n", "-- BEGIN SOLUTION\n-- STARTER: z = 2\n-- END SOLUTION\n"}) {
+        const std::string seen = between.starts_with("-- BEGIN") ? "z = 2\n" : between;
+        EXPECT_EQ(without_solutions(solution + between + solution), asked + seen + asked);
+    }
     EXPECT_EQ(without_solutions(""), "");
     EXPECT_THROW(without_solutions("-- STARTER: x = 1\n"), DocumentError);
 }

@@ -25,6 +25,15 @@ TEST(figure_text, braces_raise_and_lower) {
     EXPECT_EQ(gnuplot_text("x_{never closed"), "'x\\_\\{never closed'");
 }
 
+TEST(figure_text, indices_and_exponents_need_no_braces) {
+    const std::pair<const char*, const char*> texts[] = {
+        {"t_1 (s)", "t_{1} (s)"}, {"y^2", "y^{2}"},           {"of x_k and G_c", "of x_{k} and G_{c}"},
+        {"m/s^2", "m/s^{2}"},     {"rad s^-1", "rad s^{−1}"}, {"10^3", "10^{3}"},
+        {"(a+b)^2", "(a+b)^{2}"}, {"x_{max}", "x_{max}"},     {"time_ms", "time_ms"},
+        {"my_y_2", "my_y_2"},     {"a_test", "a_test"},       {"2 ^ 3", "2 ^ 3"}};
+    for (const auto& [written, marked] : texts) EXPECT_EQ(with_marked_indices(written), marked);
+}
+
 TEST(figure_text, bytes_that_are_not_utf8_become_question_marks) {
     EXPECT_EQ(gnuplot_text("a\xC3"), "'a?'");
     EXPECT_EQ(gnuplot_text("\xED\xA0\x80"),

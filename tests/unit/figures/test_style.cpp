@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "figures/confidence_band.h"
 #include "figures/figure_layout.h"
 #include "figures/plots/bode_plot.h"
 #include "figures/plots/compare_plot.h"
@@ -166,6 +167,36 @@ TEST(style, no_two_of_nine_curves_look_alike_in_grey) {
     ASSERT_EQ(looks.size(), 9u);
     for (std::size_t i = 0; i < 9; ++i)
         for (std::size_t k = 0; k < i; ++k) EXPECT_GT(looks.difference(i, k), test::kSeenInGrey) << i << " and " << k;
+}
+
+TEST(style, scatters_of_six_methods_are_told_apart_in_grey) {
+    const test::GreyLooks looks(monte_carlo_scatter(study(6), "a1", "b0").panels[0]);
+    ASSERT_EQ(looks.size(), 8u);  // with the ellipse and the true value
+    for (std::size_t i = 0; i < looks.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k) EXPECT_GT(looks.difference(i, k), test::kSeenInGrey) << i << " and " << k;
+}
+
+TEST(style, bands_of_six_models_are_told_apart_in_grey) {
+    Panel panel;
+    for (int i = 0; i < 6; ++i) {
+        Curve line;
+        line.x = line.y = Vector::LinSpaced(12, 0, 1);
+        line.colour = i;
+        panel.curves.push_back(line);
+    }
+    for (std::size_t i = 0; i < 6; ++i) add_confidence_band(panel, i, Vector::Constant(12, 0.1), 0.95);
+    const test::GreyLooks looks(panel, test::GreyLooks::Of::kBands);
+    ASSERT_EQ(looks.size(), 6u);
+    for (std::size_t i = 0; i < looks.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k) EXPECT_GT(looks.difference(i, k), test::kSeenInGrey) << i << " and " << k;
+}
+
+TEST(style, the_ninth_model_does_not_look_like_the_first) {
+    for (const Panel& panel : bode_plot(models(9)).panels) {
+        const auto look = [&](std::size_t i) { return style::look_of(panel.curves[i], static_cast<int>(i)); };
+        EXPECT_EQ(look(0).colour, look(8).colour);
+        EXPECT_NE(look(0).dash, look(8).dash);
+    }
 }
 
 // A filled circle and an open square.
