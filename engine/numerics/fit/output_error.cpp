@@ -123,9 +123,10 @@ class Search {
         return (next - theta_).cwiseAbs().cwiseQuotient(size).maxCoeff();
     }
 
-    // The sums at `next`, unless its errors are larger.
+    // The sums at `next`, unless its errors are larger. Steps behind one that was taken mostly are taken, too: only
+    // behind others the output is looked at by itself first.
     std::optional<OutputErrorProducts> products_below(double squares, const Vector& next) const {
-        if (!model_.products_come_cheap()) {
+        if (!model_.products_come_cheap() && !last_was_taken_) {
             if (!((y_ - model_.output_at(next)).squaredNorm() <= squares)) return std::nullopt;
             return model_.products(next, y_);
         }
@@ -146,11 +147,13 @@ class Search {
                     theta_ = next;
                     set_products(*sums);
                     damping_ = std::max(kLeastDamping, damping_ / 10);
+                    last_was_taken_ = true;
                     return change;
                 }
                 if (change <= 1e-3 * options_.tolerance) return change;
             }
             damping_ = std::max(kFirstDamping, damping_ * 8);
+            last_was_taken_ = false;
         }
         return -1;
     }
@@ -161,6 +164,7 @@ class Search {
     double spread_ = 0, rounding_ = 0, square_sum_ = 0, damping_ = kFirstDamping;
     Vector theta_, scale_, descent_;
     Matrix gram_;  // of the sensitivities with their columns scaled to norm one
+    bool last_was_taken_ = true;
     std::vector<bool> held_;
     std::vector<FitIteration> trace_;
 };
