@@ -365,7 +365,7 @@ end
 -- STARTER: --        simulated = {position = ..., angle = ...}}
 do
     local x, theta = response(against)
-    motion{rig = "crane", t = against.t, instants = {5.5, 12.5, 18.5, 25},
+    motion{rig = "crane", t = against.t,
            measured = {position = against.x - against.x[1], angle = against.theta - mean(against.theta:range(1, rest))},
            simulated = {position = x, angle = theta}}
 end
