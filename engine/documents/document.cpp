@@ -98,9 +98,10 @@ class DocumentBuilder {
         find_latex_brackets(text_.markdown, complaints);
         const std::string bibliography = placed_bibliography(source_, text_, work_.path(), complaints);
         const PandocResult written = run_pandoc(pandoc_job(bibliography), complaints);
-        if (options_.gaps) (complaints.empty() ? *options_.gaps : complaints).add_all(written.gaps);
         std::vector<PlacedPicture> pictures =
             find_picture_files(written.pictures, text_.markdown, source_.template_file, format_, prefix(), complaints);
+        // A document that cannot be made tells its gaps together with what stands in its way.
+        if (options_.gaps) (complaints.empty() ? *options_.gaps : complaints).add_all(written.gaps);
         complaints.throw_if_any();
         watch.note("pandoc");
         if (wait_for_figures) wait_for_figures();

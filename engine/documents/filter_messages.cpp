@@ -1,5 +1,6 @@
 #include "documents/filter_messages.h"
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <set>
@@ -149,8 +150,10 @@ class Sentences {
             const std::size_t end = markdown_.text.find_first_of("} \n", at);
             labels.push_back(markdown_.text.substr(at + 2, end == std::string::npos ? end : end - at - 2));
         }
-        return "the cross reference @" + label + " points to nothing: there is no {#" + label + "}" +
-               suggestion(label, labels);
+        const std::string nothing = "the cross reference @" + label + " points to nothing: ";
+        if (std::find(labels.begin(), labels.end(), label) != labels.end())
+            return nothing + "{#" + label + "} names nothing that is shown";
+        return nothing + "there is no {#" + label + "}" + suggestion(label, labels);
     }
 
     static std::string unknown_class(const std::string& code, const std::string& name, const std::string& text) {

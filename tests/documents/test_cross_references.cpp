@@ -95,6 +95,9 @@ TEST_F(cross_references, a_draft_shows_question_marks_where_something_is_missing
     EXPECT_THAT(page, HasSubstr("<p><strong>?? [models]</strong></p>"));
     EXPECT_THAT(refusal(text), HasSubstr("points to nothing")) << "no draft was asked for";
     EXPECT_THROW(draft("See @fig:raw and $ \\inputt $.\n"), DocumentError) << "what cannot be set";
+    const std::string missing = draft("See @fig:raw.\n\n![](figure:raw){#fig:raw}\n").first;
+    EXPECT_THAT(missing, HasSubstr("report.md:1: the cross reference @fig:raw points to nothing: {#fig:raw} names "
+                                   "nothing that is shown"));
     const auto [none, whole] = draft("The fit is `fit`{.value}.\n");
     EXPECT_EQ(none, "");
     EXPECT_THAT(whole, Not(HasSubstr(gap)));

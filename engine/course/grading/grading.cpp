@@ -117,7 +117,9 @@ class ClassGrader {
         for (const CheckDescription& check : rules_.checks()) checks[check.id] = check.points;
         for (std::string& sentence : manual_.strays(names, checks)) outcome_.complaints.push_back(std::move(sentence));
         std::vector<std::string> known;
-        for (std::size_t i = 0; roster_ && i < roster_->students().size(); ++i) add_names_of(i, known);
+        if (roster_)
+            for (const Student& student : roster_->students())
+                for (const std::string& name : known_names_of(student)) known.push_back(name);
         for (const std::string& name : deadlines_.strays(submissions_, known))
             outcome_.complaints.push_back(fmt::format("the deadline of \"{}\": there is no such submission", name));
         if (!owners_) return;
@@ -153,17 +155,12 @@ class ClassGrader {
         return !owners.empty() && owners == owners_->find(submission).students;
     }
 
-    void add_names_of(std::size_t student, std::vector<std::string>& names) const {
-        const Student& s = roster_->students()[student];
-        for (const std::string& name : {s.group, s.id, s.name})
-            if (!name.empty()) names.push_back(name);
-    }
-
     /// By what else than its own name a submission is known.
     std::vector<std::string> names_of_owners(const Submission& submission) const {
         std::vector<std::string> names;
         if (owners_)
-            for (const std::size_t student : owners_->find(submission).students) add_names_of(student, names);
+            for (const std::size_t student : owners_->find(submission).students)
+                for (const std::string& name : known_names_of(roster_->students()[student])) names.push_back(name);
         return names;
     }
 

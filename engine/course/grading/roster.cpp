@@ -72,6 +72,13 @@ std::string digits_at_end(const std::string& text) {
 
 }  // namespace
 
+std::vector<std::string> known_names_of(const Student& student) {
+    std::vector<std::string> names;
+    for (const std::string& name : {student.group, student.id, student.name})
+        if (!name.empty()) names.push_back(name);
+    return names;
+}
+
 Roster::Roster(const std::filesystem::path& file) {
     TextTable table = read_text_table(file);
     converted_ = table.converted;

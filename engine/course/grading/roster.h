@@ -20,6 +20,9 @@ struct Student {
     std::string language{};                   ///< "en" or "fr"; empty where the roster does not tell
 };
 
+/// Group, id and name, of which an instructor may use each for what the student hands in; those that are known.
+std::vector<std::string> known_names_of(const Student& student);
+
 /// The students of a course. The file has a column `id`, and optionally `name`, `group`, `seed`, `email` (or `mail`),
 /// `moodle`, `canvas` and `language` (en or fr); others are not read. The columns that Moodle (list of participants,
 /// grading worksheet) and Canvas (gradebook) export are known by their own names, in English, French and German: first
