@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <regex>
 
 #include "cli/commands.h"
 #include "course/grading/hand_in.h"
@@ -25,10 +26,12 @@ struct PackArguments {
 
 /// Whether the PDF is a draft, in which ?? stands where something is missing.
 bool is_draft(const fs::path& pdf) {
+    static const std::regex kGap(
+        R"([(\[]?\?\?[)\],.;:]*)");  // nothing else than what may stand beside it in a sentence
     try {
         for (const PdfPage& page : read_pdf_layout(pdf).pages)
             for (const PdfWord& word : page.words)
-                if (word.bold && word.text.find("??") != std::string::npos) return true;
+                if (word.bold && std::regex_match(word.text, kGap)) return true;
     } catch (const PdfRefusal&) {  // then it was not made here
     }
     return false;

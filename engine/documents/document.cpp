@@ -103,6 +103,8 @@ class DocumentBuilder {
         // A document that cannot be made tells its gaps together with what stands in its way.
         if (options_.gaps) (complaints.empty() ? *options_.gaps : complaints).add_all(written.gaps);
         complaints.throw_if_any();
+        if (options_.pictures)
+            for (const PlacedPicture& picture : pictures) options_.pictures->push_back(picture.file);
         watch.note("pandoc");
         if (wait_for_figures) wait_for_figures();
         const auto figures = find_figures(written.pictures, text_.markdown, source_.template_file, *record_, format_,

@@ -62,6 +62,7 @@ class DocumentMaker {
         CachedLatexFormat* begun_format = nullptr;  ///< of latex_layout(), begun before the script ran
         Complaints* gaps = nullptr;  ///< where given, slots without entry and references to nothing are told here, and
                                      ///< the document is made with a bold ?? in their places
+        std::vector<std::filesystem::path>* pictures = nullptr;  ///< files of pictures that the text shows, appended
     };
     explicit DocumentMaker(Options options) : options_(options) {}
 

@@ -18,7 +18,7 @@ struct UsedPicture {
 };
 
 /// How many figures, tables, equations and sections of each level have been counted at one place of a document.
-using Counts = std::array<int, 9>;
+using Counts = std::array<int, 10>;
 
 /// What is told of the pieces of a document that is set in chunks, by their numbers.
 struct ChunkMessages {

@@ -33,9 +33,9 @@ bool keep_only(int output, int error_output) {
     return true;
 }
 
-[[noreturn]] void do_guarded_work(const std::function<std::string()>& work, std::uint64_t memory_bytes) {
+[[noreturn]] void do_guarded_work(const std::function<std::string()>& work, std::uint64_t memory_bytes, bool one_task) {
     limit_memory(memory_bytes);
-    guarded_copy = true;
+    guarded_copy = one_task;
     try {
         refuse_harmful_calls();
         const std::string result = work();
@@ -73,7 +73,7 @@ ChildResult run_guarded(const std::function<std::string()>& work, const GuardLim
         if (!become_group_leader(parent) || !keep_only(output.write_end.get(), error_output.write_end.get())) {
             ::_exit(127);
         }
-        do_guarded_work(work, memory_bytes);
+        do_guarded_work(work, memory_bytes, limits.one_task);
     }
     output.write_end.close();
     error_output.write_end.close();

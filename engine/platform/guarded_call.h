@@ -12,6 +12,7 @@ namespace dynlab::inline platform {
 struct GuardLimits {
     std::chrono::milliseconds timeout{3000};
     std::uint64_t memory_bytes = 2ull << 30, output_bytes = 2ull << 30;
+    bool one_task = true;  ///< nothing else is done in the copy, which may confine itself to what the task needs
 };
 
 /// Runs `work` in a forked copy of this process, so that code which may crash, hang or eat memory on hostile
@@ -23,7 +24,7 @@ struct GuardLimits {
 /// Throws EnvironmentError and Interrupted like run_child.
 ChildResult run_guarded(const std::function<std::string()>& work, const GuardLimits& limits);
 
-/// Whether this process is such a copy: it may give up more, for nothing but `work` is done in it.
+/// Whether this process is such a copy for one task: it may give up more, for nothing but `work` is done in it.
 bool is_guarded_copy();
 
 }  // namespace dynlab::inline platform

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <new>
+#include <set>
 
 #include "platform/file_blocks.h"
 
@@ -89,6 +90,16 @@ Digest digest_of(std::string_view bytes) {
 }
 Digest digest_of_file(const std::filesystem::path& file) {
     return DigestStream().add_file(file).digest();
+}
+
+Digest digest_of_folder(const std::filesystem::path& folder) {
+    std::set<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+        if (entry.is_regular_file()) files.insert(entry.path());
+    DigestStream digest;
+    for (const auto& file : files)
+        digest.add_part(file.lexically_relative(folder).string()).add_part(digest_of_file(file).hex());
+    return digest.digest();
 }
 
 }  // namespace dynlab::inline platform

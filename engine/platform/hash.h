@@ -55,5 +55,7 @@ class DigestStream {
 
 Digest digest_of(std::string_view bytes);
 Digest digest_of_file(const std::filesystem::path& file);  ///< throws EnvironmentError
+/// Names and contents of all files in it and below. Throws EnvironmentError and std::filesystem::filesystem_error.
+Digest digest_of_folder(const std::filesystem::path& folder);
 
 }  // namespace dynlab::inline platform

@@ -20,11 +20,10 @@ namespace dynlab::inline workflow {
 namespace {
 
 /// Records go through the pipe behind their length.
-[[noreturn]] void send_record(int pipe, const std::string& bytes) {
+bool send_record(int pipe, const std::string& bytes) {
     const std::uint64_t size = bytes.size();
-    const bool sent = write_all(pipe, reinterpret_cast<const char*>(&size), sizeof size) &&
-                      write_all(pipe, bytes.data(), bytes.size());
-    ::_exit(sent ? 0 : 1);
+    return write_all(pipe, reinterpret_cast<const char*>(&size), sizeof size) &&
+           write_all(pipe, bytes.data(), bytes.size());
 }
 
 void read_whole(int pipe, char* bytes, std::size_t size) {
@@ -63,26 +62,40 @@ class BranchingRun {
             if (part + 1 != first) continue;
             for (const auto& [name, figure] : record.figures) before_[name] = cbor_of(figure.figure);
         }
-        for (const SliderNumbers& choice : choices) {
-            ProcessCopy copy;
-            if (copy.is_copy()) send_record(pipe_, cbor_of(record_of(choice, first)));
-            copy.wait();
-        }
+        for (const SliderNumbers& choice : choices)
+            if (!send_record(pipe_, sent_by_a_copy(choice, first))) ::_exit(1);
     }
 
   private:
+    /// What the copy has to say; where it ends before it has said all, that.
+    std::string sent_by_a_copy(const SliderNumbers& choice, std::vector<ScriptPart>::const_iterator first) {
+        Pipe own;
+        ProcessCopy copy;
+        if (copy.is_copy()) {
+            own.read_end.close();
+            ::_exit(send_record(own.write_end.get(), cbor_of(record_of(choice, first))) ? 0 : 1);
+        }
+        own.write_end.close();
+        RunRecord record;
+        try {
+            record = received_record(own.read_end.get());
+        } catch (const EnvironmentError&) {
+            record.error = RecordedError{"the script ended the process that ran it"};
+        }
+        copy.wait();
+        return cbor_of(record);
+    }
+
     RunRecord record_of(const SliderNumbers& choice, std::vector<ScriptPart>::const_iterator first) {
         world_.sliders.chosen = choice;
         RunRecord record;
         for (auto part = first; part != parts_.end() && !record.error; ++part)
             record = world_.runtime.run_part(request_.script, *part);
         const bool french = request_.script.header.language == "fr";
-        std::erase_if(record.figures, [&](const auto& entry) {
-            const auto was = before_.find(entry.first);
-            return was != before_.end() && was->second == cbor_of(entry.second.figure);
-        });
         for (auto& [name, figure] : record.figures) {
-            figure.plot = plot_data(french ? in_french(figure.figure) : figure.figure, french);
+            const auto was = before_.find(name);
+            const bool unchanged = was != before_.end() && was->second == cbor_of(figure.figure);
+            if (!unchanged) figure.plot = plot_data(french ? in_french(figure.figure) : figure.figure, french);
             figure.figure = Figure(Panel());
         }
         return record;

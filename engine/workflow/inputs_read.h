@@ -7,8 +7,8 @@
 
 namespace dynlab::inline workflow {
 
-/// What a run read: the data files, by content, and which data files lie beside them and beside the script, since
-/// `load` may prefer a new one. From path to a digest.
+/// What a run, and the document of it, read: data files and pictures, by content, and which data files lie beside them
+/// and beside the script, since `load` may prefer a new one. From path to a digest.
 using InputsRead = std::map<std::string, std::string>;
 
 InputsRead inputs_read(const RunRecord& record, const std::filesystem::path& script_folder);

@@ -295,6 +295,8 @@ ReportResult make_report(const ReportRequest& request) {
         options.begun_format = latex_format ? &*latex_format : nullptr;
         Complaints gaps;
         options.gaps = &gaps;
+        std::vector<fs::path> pictures;
+        options.pictures = &pictures;
         DocumentMaker(options).make(source, request.output, format, [&] {
             renderer.finish();
             if (recalled) return;
@@ -302,6 +304,7 @@ ReportResult make_report(const ReportRequest& request) {
             runs.remember(record);
         });
         result.gaps = gaps.sentences();
+        record.files_read.insert(record.files_read.end(), pictures.begin(), pictures.end());
         if (format == DocumentFormat::kHtml) {
             const auto read = add_slider_places(request, record, calls, workplace.path());
             record.files_read.insert(record.files_read.end(), read.begin(), read.end());

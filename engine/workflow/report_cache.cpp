@@ -1,6 +1,5 @@
 #include "workflow/report_cache.h"
 
-#include <algorithm>
 #include <vector>
 
 #include "data_io/values/cbor_values.h"
@@ -16,15 +15,6 @@ namespace fs = std::filesystem;
 
 /// The hash of the output, and what the run read.
 using ReportFacts = std::pair<std::string, InputsRead>;
-
-std::vector<fs::path> template_files() {
-    std::vector<fs::path> files;
-    for (const auto& entry : fs::recursive_directory_iterator(shared_folder() / "report_templates")) {
-        if (entry.is_regular_file()) files.push_back(entry.path());
-    }
-    std::sort(files.begin(), files.end());
-    return files;
-}
 
 std::string digest_or_nothing(const fs::path& file) {
     return fs::is_regular_file(file) ? digest_of_file(file).hex() : std::string();
@@ -54,7 +44,7 @@ std::string name_of_report(const ReportRequest& request, const std::string& kind
     name.add(std::to_string(request.seed));
     name.add(cbor_of(request.slider_values));
     name.add(fs::absolute(request.output).string());
-    for (const fs::path& file : template_files()) name.add(digest_of_file(file).hex());
+    name.add(digest_of_folder(shared_folder() / "report_templates").hex());
     return name.text();
 }
 

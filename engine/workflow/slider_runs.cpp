@@ -57,8 +57,8 @@ std::vector<std::filesystem::path> add_slider_places(const ReportRequest& reques
             if (request.step)
                 request.step(
                     fmt::format("slider {}, place {} of {}", joined_names(groups[g]), ++number, places.size()));
-            for (const auto& [name, figure] : record.figures)
-                there.figures.try_emplace(name, RecordedFigure{{}, figure.caption, {}, figure.order, figure.plot});
+            for (auto& [name, figure] : there.figures)
+                if (figure.plot.empty()) figure.plot = record.figures.at(name).plot;
             page.add(g, document_source(request, there));
             read.insert(there.files_read.begin(), there.files_read.end());
         });

@@ -538,7 +538,7 @@ end
 -- %% [markdown]
 -- ![The heat exchanger (dots) and a first-order model (line) with the $K$ and $T$ of the cell above: the final level moves with $K$, the point where 63 % of the change is reached with $T$ and $K$.](figure:first_by_hand){#fig:first_by_hand}
 --
--- In @fig:first_by_hand the gain stretches the curve upwards and the time constant sideways. In @fig:second_by_hand the height of the first peak over the final level depends on the
+-- In @fig:first_by_hand the gain stretches the curve upwards and the time constant sideways. In @fig:second_by_hand the first peak, as a share of the final level, depends on the
 -- damping ratio alone, its instant on the natural frequency and, a little, on the damping.
 
 -- %% id=second_order_by_hand

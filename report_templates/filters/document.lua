@@ -78,7 +78,9 @@ local checked_inlines  -- Markdown to inlines, safely; defined below, with the c
 
 -- Numbers and labels ---------------------------------------------------------------------------------------------
 
-local counters = { fig = 0, tbl = 0, eq = 0 }
+-- Equations of a lesson's solution, {#eq:solution-name}, are counted by themselves as S1, S2, ..., so that those of its
+-- text have the same numbers with and without it.
+local counters = { fig = 0, tbl = 0, eq = 0, ["eq:solution"] = 0 }
 local section_numbers = { 0, 0, 0, 0, 0, 0 }
 local labels = {}  -- label -> what a reference to it shows
 local chunk        -- the number of the chunk that is being set, of a document that is set in chunks
@@ -95,30 +97,13 @@ local function define(label, shown)
   end
 end
 
--- Equations of a lesson's solution, {#eq:solution-name}, are counted by themselves as S1, S2, ..., so that those of its
--- text have the same numbers with and without it.
-local solution_numbers = {}
-local function number_solutions(document)
-  local count = 0
-  document:walk {
-    Str = function(element)
-      local label = element.text:match("^{#(eq:solution%-[%w_.:-]+)}")
-      if label then
-        count = count + 1
-        solution_numbers[label] = "S" .. count
-      end
-    end,
-  }
-end
-
 local function number(kind, label)
-  if solution_numbers[label or ""] then
-    define(label, layout:reference(kind, solution_numbers[label]))
-    return solution_numbers[label]
-  end
-  counters[kind] = counters[kind] + 1
-  if label then define(label, layout:reference(kind, counters[kind])) end
-  return tostring(counters[kind])
+  local of_solution = (label or ""):find("^eq:solution%-") ~= nil
+  local counter = of_solution and "eq:solution" or kind
+  counters[counter] = counters[counter] + 1
+  local shown = (of_solution and "S" or "") .. counters[counter]
+  if label then define(label, layout:reference(kind, shown)) end
+  return shown
 end
 
 local function label_of(identifier, kind)
@@ -318,7 +303,8 @@ end
 -- Chunks: pieces of a document that a page replaces one by one. What is counted when one begins is told, so that it can
 -- be set alone another time with the same numbers.
 local function tell_count(what, number)
-  local fields = { "dynlab:" .. what, number, counters.fig, counters.tbl, counters.eq }
+  local fields = { "dynlab:" .. what, number, counters.fig, counters.tbl, counters.eq,
+    counters["eq:solution"] }
   for _, section in ipairs(section_numbers) do fields[#fields + 1] = section end
   io.stderr:write(table.concat(fields, "\t"), "\n")
 end
@@ -328,8 +314,8 @@ local function begin_chunk(element)
   chunk = element.attributes.number
   local count = slots.chunks.counts[chunk]
   if count then
-    counters.fig, counters.tbl, counters.eq = count[1], count[2], count[3]
-    section_numbers = { table.unpack(count, 4) }
+    counters.fig, counters.tbl, counters.eq, counters["eq:solution"] = count[1], count[2], count[3], count[4]
+    section_numbers = { table.unpack(count, 5) }
   end
   tell_count("chunk", chunk)
   return pandoc.Div(element.content, pandoc.Attr("chunk-" .. chunk))
@@ -687,7 +673,6 @@ function Pandoc(document)
     document.blocks:insert(pandoc.Header(1, { pandoc.Str(layout.words.answers) }, { class = "unnumbered" }))
     document.blocks:extend(answers)
   end
-  if not slots.chunks then number_solutions(document) end
   document = finished(document)
   for _, key in ipairs { "title", "subtitle", "date" } do
     local value = document.meta[key]

@@ -31,13 +31,16 @@ function lists.after_text(paragraph)
   end
   if not first then return nil end
   local bullets = sign_at(inlines, first) == "-"
+  local function begins_item(i)
+    local sign = sign_at(inlines, i)
+    return sign and (sign == "-") == bullets
+  end
   local text, items, item = pandoc.List { table.unpack(inlines, 1, first - 2) }, pandoc.List {}, nil
   for i = first, #inlines do
-    local sign = sign_at(inlines, i)
-    if sign and (sign == "-") == bullets then
+    if begins_item(i) then
       item = pandoc.List {}
       items:insert(item)
-    elseif not (sign_at(inlines, i + 1) and is_break(inlines[i])) and not (#item == 0 and is_space(inlines[i])) then
+    elseif not (begins_item(i + 1) and is_break(inlines[i])) and not (#item == 0 and is_space(inlines[i])) then
       item:insert(inlines[i])
     end
   end

@@ -1,4 +1,5 @@
 #include <gmock/gmock.h>
+#include <matio.h>
 
 #include "course/grading_bench.h"
 
@@ -145,6 +146,49 @@ TEST(checks_of_ones_own, rerun_on_records_in_files) {
     // Another record is another class: nothing that was made with the old one is kept.
     bench.bench().write("own/rerun/rc.csv", "u,y\n1,5\n2,10\n3,15\n");
     EXPECT_THAT(bench.grade({"--checks", "own", "--again"}).output, HasSubstr("2 graded now"));
+}
+
+/// A vector u of one number in the format of MATLAB 7.3, which is HDF5.
+void write_newer_matlab_file(const std::filesystem::path& file, double u) {
+    std::filesystem::create_directories(file.parent_path());
+    const std::unique_ptr<mat_t, int (*)(mat_t*)> mat(Mat_CreateVer(file.c_str(), nullptr, MAT_FT_MAT73), Mat_Close);
+    ASSERT_TRUE(mat);
+    std::array<std::size_t, 2> size{1, 1};
+    const std::unique_ptr<matvar_t, void (*)(matvar_t*)> variable(
+        Mat_VarCreate("u", MAT_C_DOUBLE, MAT_T_DOUBLE, 2, size.data(), &u, 0), Mat_VarFree);
+    ASSERT_EQ(Mat_VarWrite(mat.get(), variable.get(), MAT_COMPRESSION_NONE), 0);
+}
+
+// oracle: the numbers that were written; such files are read by a library that is confined to memory
+TEST(checks_of_ones_own, read_several_hidden_records_of_the_newer_matlab_format) {
+    GradingBench bench(kGain, kNearTwo, kComputes);
+    add_record(bench, "u,y\n1,2\n2,4\n3,6\n");
+    write_newer_matlab_file(bench.bench().path("own/hidden/one.mat"), 3);
+    write_newer_matlab_file(bench.bench().path("own/hidden/two.mat"), 4);
+    bench.bench().write("own/more.lua",
+                        "check{id = 'sum', test = function(a) return near(hidden('one').u + hidden('two').u, 7) end}\n"
+                        "check{id = 'again', test = function(a) return near(hidden('one').u, 3) end}\n");
+    bench.hand_in("computes", kComputes);
+    const ChildResult graded = bench.grade({"--checks", "own"});
+    ASSERT_EQ(graded.exit_code, 0) << graded.output << graded.error_output;
+    EXPECT_EQ(bench.result("computes").at("score"), 3) << bench.result("computes").dump();
+}
+
+// oracle: arithmetic
+TEST(checks_of_ones_own, zeros_differ_from_other_numbers_and_have_no_share) {
+    GradingBench bench(kAnswers,
+                       "check{id = 'differ', test = function(a) return differs(a.x, 0) end}\n"
+                       "check{id = 'same', test = function(a) return differs(0, a.x - 40) end}\n"
+                       "check{id = 'share', test = function(a) return near(a.x - 42, 0) end}\n",
+                       kSolution);
+    bench.hand_in("right", kSolution);
+    bench.hand_in("off", "answer('x', 43)\n");
+    bench.grade();
+    EXPECT_EQ(earned(bench.result("right"), 0), 1);
+    EXPECT_EQ(earned(bench.result("off"), 0), 1);
+    EXPECT_EQ(earned(bench.result("off"), 1), 1);
+    EXPECT_EQ(earned(bench.result("off"), 2), 0);
+    EXPECT_THAT(said(bench.result("off"), 2), HasSubstr("{abs = ...}"));
 }
 
 // oracle: the law by which the rig in the file makes its records

@@ -124,7 +124,7 @@ TEST(feedback, is_set_again_only_where_its_text_has_changed) {
         words.insert(words.end(), more.begin(), more.end());
         const ChildResult run = work.dynlab(words);
         EXPECT_EQ(run.exit_code, 0) << run.error_output;
-        return work.shell("stat -c %i out/results/a/feedback.pdf; sha256sum < out/results/a/feedback.pdf").output;
+        return work.shell("stat -c '%i %y' out/results/a/feedback.pdf; sha256sum < out/results/a/feedback.pdf").output;
     };
     const auto text = [&] { return work.shell("pdftotext out/results/a/feedback.pdf - | tr '\\n' ' '").output; };
     const std::string first = grade("return a.x > 40", {});

@@ -227,6 +227,21 @@ TEST(grading, what_is_judged_in_one_box_sees_nothing_of_the_others) {
         EXPECT_EQ(points(bench.result(fmt::format("s{:02}", i))), (std::vector<double>{1, i == 4 ? 0.0 : 1.0})) << i;
 }
 
+// oracle: what each would get by itself
+TEST(grading, a_check_that_comes_to_no_end_costs_nobody_else) {
+    GradingBench bench(kAnswers,
+                       "check{id = 'x', test = function(a)\n"
+                       "  if a.x == 1 then local t = {} while true do t[#t + 1] = zeros(1000000) end end\n"
+                       "  return near(a.x, 42) end}\n"
+                       "check{id = 'other', test = function(a) return a.x > 0 end}\n",
+                       "answer('x', 42)\n");
+    for (int i = 0; i < 12; ++i)
+        bench.hand_in(fmt::format("s{:02}", i), fmt::format("answer('x', {})\n", i == 4 ? 1 : 42));
+    bench.grade({"--jobs", "1"});
+    for (int i = 0; i < 12; ++i)
+        EXPECT_EQ(points(bench.result(fmt::format("s{:02}", i))), (std::vector<double>{i == 4 ? 0.0 : 1.0, 1})) << i;
+}
+
 /// All that a run of grade wrote, but the logs, in which stands how long it took.
 std::map<std::string, std::string> files_of(GradingBench& bench) {
     std::map<std::string, std::string> files;

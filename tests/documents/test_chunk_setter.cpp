@@ -94,6 +94,16 @@ TEST_F(chunk_setter, numbers_stay_right_when_figures_come_and_go) {
                               "![What is seen](figure:step){#fig:one}\n\n![](figure:bode)\n\n"));
 }
 
+TEST_F(chunk_setter, equations_of_solutions_are_counted_as_in_the_whole) {
+    const std::string text =
+        "# One\n\n$$ a $$ {#eq:solution-a}\n\n# Two\n\n$$ b $$ {#eq:b}\n\n# Three\n\n"
+        "$$ c $$ {#eq:solution-c}\n\n@eq:solution-c follows @eq:b.\n";
+    expect_as_at_once(text);
+    expect_as_at_once(changed(text, "follows", "stands behind"));
+    EXPECT_LT(setter_.chunks_set(), 3u);
+    EXPECT_THAT(joined(set(text)), HasSubstr("(S2)"));
+}
+
 TEST_F(chunk_setter, references_follow_labels) {
     set(kText);
     const std::string renamed = changed(kText, "{#eq:three}", "{#eq:other}");

@@ -79,6 +79,8 @@ TEST_F(slots, a_list_may_follow_a_line_of_text_at_once) {
     EXPECT_THAT(bullets, HasSubstr("<p>Much:</p>"));
     EXPECT_THAT(bullets, ContainsRegex("<li>one <em>x</em>\\s+and more</li>\\s*<li>two</li>\\s*</ul>"));
     EXPECT_THAT(html("Steps:\n1. one\n2. two\n"), ContainsRegex("<ol[^>]*>\\s*<li>one</li>\\s*<li>two</li>\\s*</ol>"));
+    EXPECT_THAT(html("Steps:\n1. one\n- sub\n2. two\n"), ContainsRegex("<li>one\\s+- sub</li>\\s*<li>two</li>"));
+    EXPECT_THAT(html("Seen:\n- in\n2010. It\n"), ContainsRegex("<li>in\\s+2010. It</li>"));
     for (const char* text : {"In the year\n1896. Then\n", "From 3\n– 4 of them\n", "It is $x\n- y$.\n", "a-\nb - c\n"})
         EXPECT_THAT(html(text), Not(HasSubstr("<li>"))) << text;
 }

@@ -118,6 +118,35 @@ TEST_F(caches, places_of_sliders_go_on_from_the_same_state) {
         EXPECT_THAT(page, HasSubstr(product + (" times 0." + once) + " then 0." + then));
 }
 
+/// A figure belongs to the place at which it was made, an error to the place where it happens.
+TEST_F(caches, places_of_sliders_show_what_was_made_there) {
+    weave(
+        "-- %% id=a\nlocal k = slider(\"k\", 3, 1, 4, {step = 1})\nif k == 2 then error(\"two is too few\") end\n"
+        "if k > 2 then report.figure(\"loop\", plot({1, 2}, {k, 70 + k}, \"loop\"), \"The loop\") end\n"
+        "print(\"k is \" .. k)\n"
+        "-- %% [markdown]\n-- ![The loop.](figure:loop)\n");
+    const std::string page = bench_.read("a.html");
+    const auto data = page.find("class=\"slider-places\">");
+    ASSERT_NE(data, page.npos);
+    const std::string places = page.substr(data);
+    EXPECT_THAT(places, AllOf(HasSubstr("two is too few"), HasSubstr("74")));
+    const std::string gap = "?? [loop]";
+    EXPECT_NE(places.find(gap, places.find(gap) + 1), places.npos) << "the run's own curve belongs to no other place";
+}
+
+/// A picture of the text is part of what its page was made from.
+TEST_F(caches, another_picture_makes_another_document) {
+    const auto with_picture = [&](const std::string& words) {
+        bench_.write("rig.svg",
+                     "<svg xmlns='http://www.w3.org/2000/svg' width='1' height='1'><desc>" + words + "</desc></svg>");
+        weave("-- %% [markdown]\n-- ![The rig.](rig.svg)\n");
+        return bench_.read("a.html");
+    };
+    const std::string first = with_picture("first");
+    EXPECT_FALSE(first == with_picture("second"));
+    EXPECT_TRUE(first == with_picture("first"));
+}
+
 TEST_F(caches, edited_prose_runs_nothing) {
     weave(kStudy + kLate);
     EXPECT_THAT(weave("-- %% [markdown]\n-- Prose.\n" + kStudy + kLate),

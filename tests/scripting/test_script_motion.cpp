@@ -64,13 +64,15 @@ TEST(script_motion, keeps_signals_and_rig_in_one_figure) {
     EXPECT_EQ(figure.width_cm, 12);
 }
 
-TEST(script_motion, where_scripts_are_graded_needs_no_drawings) {
+TEST(script_motion, where_scripts_are_graded_draws_nothing_and_stops_nothing) {
     RunOptions graded;
     graded.graded = true;
     ::setenv("DYNLAB_HOME", "/nowhere", 1);
-    const RunRecord record = test::run(kRecord + "motion{rig = 'crane', t = t, measured = s}", graded);
+    for (const char* options : {"measured = s", "measured = t", "measured = {angle = t, more = t}, simulated = s"}) {
+        const RunRecord record = test::run(kRecord + "motion{rig = 'crane', t = t, " + options + "}", graded);
+        EXPECT_FALSE(record.error) << options << ": " << record.error->message;
+    }
     ::setenv("DYNLAB_HOME", DYNLAB_SOURCE_DIR, 1);
-    EXPECT_FALSE(record.error) << record.error->message;
 }
 
 TEST(script_motion, says_what_is_missing) {

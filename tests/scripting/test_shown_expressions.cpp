@@ -56,6 +56,14 @@ TEST(shown_expressions, calls_that_only_compute_are_shown_with_the_names_of_thei
     for (const char* code : unchanged) EXPECT_EQ(with_shown_calls(code), code);
 }
 
+TEST(shown_expressions, functions_of_the_script_s_own_are_not_taken_for_those_that_only_compute) {
+    for (const char* code :
+         {"local function damp(x)\n  return x\nend\ndamp(2)", "fit = function(x) return x end\nfit(2)",
+          "local a, sum = 1, print\nsum(2)", "function mean(x) return x end\nmean(2)"})
+        EXPECT_EQ(with_shown_calls(code), code);
+    EXPECT_EQ(printed("local r = {fit = 1, sum = 2}\nsum({1, 2})"), "3\n");
+}
+
 TEST(shown_expressions, show_figures_too) {
     const RunRecord record = run("local fig = plot({1, 2, 3})\nfig");
     ASSERT_FALSE(record.error) << record.error->message;

@@ -38,24 +38,30 @@ std::string percent_of_share(double share) {
 // ---------------------------------------------------------------------------------------------------------------------
 // Helpers that explain themselves
 
-/// Largest distance of a number or vector from what is wanted, relative to the largest wanted value unless `absolute`.
-double distance(const Call& call, bool absolute) {
-    Vector given, wanted;
-    if (call.type(1) == LUA_TNUMBER && call.type(2) == LUA_TNUMBER) {
-        given = Vector::Constant(1, lua_tonumber(call.state(), 1));
-        wanted = Vector::Constant(1, lua_tonumber(call.state(), 2));
-    } else {
-        given = call.vector(1, "x");
-        wanted = call.vector(2, "wanted");
-        if (given.size() != wanted.size()) return std::numeric_limits<double>::infinity();
-        if (wanted.size() == 0) return 0;
+/// The numbers or vectors that are compared; arguments 1 and 2.
+struct Compared {
+    explicit Compared(const Call& call) {
+        if (call.type(1) == LUA_TNUMBER && call.type(2) == LUA_TNUMBER) {
+            given = Vector::Constant(1, lua_tonumber(call.state(), 1));
+            wanted = Vector::Constant(1, lua_tonumber(call.state(), 2));
+        } else {
+            given = call.vector(1, "x");
+            wanted = call.vector(2, "wanted");
+        }
     }
-    const double apart = (given - wanted).cwiseAbs().maxCoeff(), size = wanted.cwiseAbs().maxCoeff();
-    if (!given.allFinite()) return std::numeric_limits<double>::infinity();
-    if (!absolute && size == 0 && apart > 0)
-        throw InvalidArgument("a share of 0 is 0: give how far away an answer may be, {abs = ...}");
-    return absolute || apart == 0 ? apart : apart / size;
-}
+
+    bool comparable() const { return given.size() == wanted.size() && given.allFinite(); }
+
+    /// The largest, relative to the largest wanted value unless `absolute`; infinite where there is none.
+    double distance(bool absolute) const {
+        if (!comparable()) return std::numeric_limits<double>::infinity();
+        if (wanted.size() == 0) return 0;
+        const double apart = (given - wanted).cwiseAbs().maxCoeff(), size = wanted.cwiseAbs().maxCoeff();
+        return absolute || apart == 0 ? apart : apart / size;
+    }
+
+    Vector given, wanted;
+};
 
 /// Whether this check looks at records that students must not learn anything about: how far away an answer is would
 /// tell the truth to whoever hands in twice.
@@ -74,9 +80,12 @@ int near(Call& call) {
     const double most = absolute ? options.number("abs", 0) : options.number("rel", 0.05);
     const double half = options.number("half", most);  // this far away earns half the points
     if (!(most >= 0) || !(half >= most)) throw InvalidArgument("the tolerance must not be negative, nor half below it");
-    const double apart = distance(call, absolute);
+    const Compared compared(call);
+    const double apart = compared.distance(absolute);
     const auto measured = [&](double x) { return absolute ? number_text(x, 3) : percent_of_share(x); };
     if (apart <= most) return give_judgement(call, 1, "");
+    if (!absolute && compared.comparable() && compared.wanted.isZero(0))
+        throw InvalidArgument("a share of 0 is 0: give how far away an answer may be, {abs = ...}");
     if (!std::isfinite(apart)) return give_judgement(call, 0, "It is not a finite number, or not as many as wanted.");
     if (on_secret_record(call))
         return give_judgement(call, apart <= half ? 0.5 : 0, "On a record that you have not seen, it is too far away.");
@@ -156,7 +165,7 @@ int any_of(Call& call) {
 int differs(Call& call) {
     call.at_most(2);
     constexpr double kEqualityTolerance = 1e-9;
-    if (distance(call, false) > kEqualityTolerance) return give_judgement(call, 1, "");
+    if (Compared(call).distance(false) > kEqualityTolerance) return give_judgement(call, 1, "");
     return give_judgement(call, 0, "It is the same on another record: it must be computed from the data.");
 }
 

@@ -123,6 +123,7 @@ JudgedSubmission judged_in_a_copy(const ChecksJob& job, const SubmissionToJudge&
     limits.timeout = std::chrono::milliseconds(job.most_ms);
     limits.memory_bytes = ProcessLimits().memory_bytes;
     limits.output_bytes = kMostVerdicts;
+    limits.one_task = false;  // checks read files of several kinds
     const auto start = std::chrono::steady_clock::now();
     const ChildResult copy = run_guarded(
         [&] {

@@ -100,7 +100,7 @@ RunRecord feedback_record(const FeedbackText& text) {
 
 /// A line for all that the PDF is made from, the same text in another form among it, and one for the PDF itself.
 std::string text_and_document(const std::string& markdown, const fs::path& pdf) {
-    const std::string layout = sha256_of_file(shared_folder() / "report_templates" / kTemplate);
+    const std::string layout = digest_of_folder(shared_folder() / "report_templates").hex();
     return fmt::format("{}\n{}\n", sha256_of(program_identity() + "\n" + layout + "\n" + markdown),
                        sha256_of_file(pdf));
 }

@@ -233,14 +233,15 @@ class ClassGrader {
     void judge(std::vector<Started> started, ProgressBar& bar) {
         if (started.empty() || stopped_) return;
         std::vector<GradingRules::Work> works;
-        for (Started& one : started) works.push_back(std::move(one.work));
+        for (const Started& one : started) works.push_back(one.work);
         std::vector<Grade> grades;
         try {
             grades = rules_.judged(std::move(works));
         } catch (const Interrupted&) {
             throw;
-        } catch (const std::exception& error) {
-            for (const Started& one : started) leave_ungraded(one.index, error.what(), bar);
+        } catch (const std::exception& error) {  // of one of them: the others are judged without it
+            if (started.size() == 1) return leave_ungraded(started[0].index, error.what(), bar);
+            for (Started& one : started) judge({std::move(one)}, bar);
             return;
         }
         for (std::size_t i = 0; i < started.size(); ++i)

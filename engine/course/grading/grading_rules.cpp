@@ -26,6 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr char kSeedOnly[] = "seed";
 constexpr char kMain[] = "main";
+constexpr char kDocumentFails[] = "document-fails";               // a finding
 constexpr auto kCheckTime = std::chrono::milliseconds(10000);     // of one check
 constexpr auto kSingleTime = std::chrono::milliseconds(60000);    // of all, where each needs a box of its own
 constexpr auto kDocumentTime = std::chrono::milliseconds(15000);  // beyond the script's own
@@ -75,6 +76,14 @@ std::string hash_of_parts(const std::vector<std::string>& parts) {
                     "declare, or taken from rerun/NAME.csv in the folder of the checks; the seed is changed with "
                     "\"seed\"",
                     check, rerun, fmt::join(names, ", ")));
+}
+
+/// Whether nothing stood in the way that may be gone another time, such as a busy machine.
+bool went_well(const CheckedSubmission& work) {
+    const auto failed = [](const auto& run) { return run.second.error.has_value(); };
+    const auto fails = [](const Finding& finding) { return finding.id == kDocumentFails; };
+    return std::none_of(work.runs.begin(), work.runs.end(), failed) &&
+           std::none_of(work.findings.begin(), work.findings.end(), fails);
 }
 
 }  // namespace
@@ -194,7 +203,7 @@ Findings GradingRules::findings(const fs::path& folder, const GroupSeed& group_s
         return findings_from_json(child.output).findings;
     } catch (const EnvironmentError&) {
         const char* const what = child.timed_out ? "The report takes too long." : "The report cannot be made.";
-        return {{"document-fails", Severity::kRule, 0, "", what, ""}};
+        return {{kDocumentFails, Severity::kRule, 0, "", what, ""}};
     }
 }
 
@@ -385,7 +394,7 @@ std::vector<std::string> GradingRules::try_solution(const fs::path& memory, bool
     std::optional<KeptRuns> kept = anew || memory.empty() ? std::nullopt : read_kept_runs(memory, fingerprint);
     if (!kept) {
         kept = KeptRuns{fingerprint, work_in(work.path(), {}, log), "", ""};
-        if (!memory.empty()) write_kept_runs(memory, *kept);
+        if (!memory.empty() && went_well(kept->work)) write_kept_runs(memory, *kept);
     }
     std::vector<std::string> complaints;
     const Grade solution = judged({{"solution", std::move(kept->work), {}, log}}).front();

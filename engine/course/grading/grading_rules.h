@@ -66,7 +66,7 @@ class GradingRules {
     /// unless `anew`; an empty name keeps nothing.
     std::vector<std::string> try_solution(const std::filesystem::path& memory = {}, bool anew = false);
 
-    /// What the checks say of each of these, their files read once. Throws EnvironmentError where they come to no end.
+    /// What the checks say of each of these. Throws EnvironmentError where they come to no end.
     std::vector<std::vector<TriedCheck>> tried(const std::vector<CheckedSubmission>& submissions) const;
 
     /// Of all that a submission's marks depend on, and of what its runs do, which other checks may leave as it is.
@@ -118,7 +118,8 @@ class GradingRules {
     std::map<std::string, Specimens> specimens_;                 ///< of hidden records and reruns (CheckSession)
     std::set<std::string> reruns_, broken_;
     std::vector<std::string> declared_rigs_;
-    std::string own_records_;  ///< hashes of the records in the instructor's folder, and of those of the lesson
+    std::string
+        own_records_;  ///< hashes of the data sets that scripts find, and of the records in the instructor's folder
     bool document_ = false;
     std::unique_ptr<std::counting_semaphore<>> free_cores_;  ///< for what runs in boxes
     TemporaryFolder records_;

@@ -99,11 +99,12 @@ using KnownChunk = ChunkSetter::Memory::KnownChunk;
 /// One document to be set, next to what is known of the one before.
 class ChunkJob {
   public:
-    ChunkJob(const DocumentSource& source, bool unfinished, ChunkSetter::Memory& memory)
+    ChunkJob(const DocumentSource& source, bool unfinished, bool draft, ChunkSetter::Memory& memory)
         : source_(source),
           text_(prepared_text(source)),
           record_(*source.record),
           unfinished_(unfinished),
+          draft_(draft),
           memory_(memory) {
         for (Chunk& chunk : chunks_of(text_.markdown)) {
             DigestStream digest;
@@ -218,6 +219,7 @@ class ChunkJob {
         job.bibliography = bibliography_;
         job.measures = source_.measures;
         job.unfinished = unfinished_ || record_.error;
+        job.draft = draft_;
         job.chunks.emplace();
         return job;
     }
@@ -314,7 +316,7 @@ class ChunkJob {
     const DocumentSource& source_;
     const PreparedText text_;
     const RunRecord& record_;
-    const bool unfinished_;
+    const bool unfinished_, draft_;
     ChunkSetter::Memory& memory_;
     std::string whole_;
     bool whole_document_ = false;
@@ -327,11 +329,11 @@ class ChunkJob {
 
 }  // namespace
 
-ChunkSetter::ChunkSetter() : memory_(std::make_unique<Memory>()) {}
+ChunkSetter::ChunkSetter(bool drafts) : drafts_(drafts), memory_(std::make_unique<Memory>()) {}
 ChunkSetter::~ChunkSetter() = default;
 
 SetDocument ChunkSetter::set(const DocumentSource& source, bool unfinished) {
-    ChunkJob job(source, unfinished, *memory_);
+    ChunkJob job(source, unfinished, drafts_, *memory_);
     SetDocument document = job.set(chunks_set_);
     job.warm_up();
     return document;

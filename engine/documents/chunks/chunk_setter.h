@@ -37,7 +37,8 @@ struct SetDocument {
 /// moves them, all of it is set. What is wrong is told; the rest is set all the same.
 class ChunkSetter {
   public:
-    ChunkSetter();
+    /// What points to nothing is shown as a bold ?? where the documents are `drafts`, and is no complaint.
+    explicit ChunkSetter(bool drafts = false);
     ~ChunkSetter();
     /// Slots that the record does not fill say so where the record is `unfinished`. Throws DocumentError where Pandoc
     /// gives nothing and for what prepared_text refuses, MissingProgram for pandoc.
@@ -47,6 +48,7 @@ class ChunkSetter {
     struct Memory;
 
   private:
+    bool drafts_;
     std::unique_ptr<Memory> memory_;
     std::size_t chunks_set_ = 0;
 };

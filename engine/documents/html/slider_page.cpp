@@ -211,7 +211,7 @@ struct SliderPage::Parts {
         std::size_t combination_count = 1, shown = 0;
     };
     std::vector<Group> groups;
-    ChunkSetter setter;
+    ChunkSetter setter{true};
     std::vector<SliderPiece> drawn, own;  ///< of the run, as a printer needs it and as its places are compared with
     std::vector<std::size_t> controls;    ///< behind which piece those of each group stand
     std::string words;

@@ -129,7 +129,9 @@ void draw_pictures(Panel& panel, const RigDrawing& rig, const MotionRecord& reco
 MotionRecord thinned_motion(const MotionRecord& record) {
     std::vector<Index> kept;
     for (Index i = 0; i < record.t.size(); ++i)
-        if (kept.empty() || record.t[i] - record.t[kept.back()] >= (1 - 1e-6) / kMostPictures) kept.push_back(i);
+        if (kept.empty() || i + 1 == record.t.size() ||
+            record.t[i] - record.t[kept.back()] >= (1 - 1e-6) / kMostPictures)
+            kept.push_back(i);
     MotionRecord result;
     result.t = record.t(kept);
     if (record.measured.size() > 0) result.measured = record.measured(kept, Eigen::all);
@@ -150,6 +152,8 @@ Figure motion_plot(const RigDrawing& rig, const MotionRecord& whole, const Motio
         if (!(instant >= first && instant <= last))
             throw InvalidArgument(fmt::format("the instant {} s lies outside the record, which goes from {} s to {} s",
                                               instant, first, last));
+    if (const auto twice = std::adjacent_find(instants.begin(), instants.end()); twice != instants.end())
+        throw InvalidArgument(fmt::format("the instant {} s stands in the list twice", *twice));
     Figure figure;
     figure.title = look.title, figure.width_cm = look.width_cm, figure.height_cm = look.height_cm;
     figure.rows = static_cast<int>(rig.parts.size()) + 1;

@@ -21,7 +21,8 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kLagsOfErrors = 20;
+constexpr Index kLagsOfErrors = 20;        // beyond the delay
+constexpr Index kMostLags = 200;           // the last ones, where the delay is long
 constexpr double kFarBeyondChance = 4;     // standard deviations of chi-squared
 constexpr double kSingular = 1e-6;         // of the input's power
 constexpr Index kRoomFor = 4;              // delays (samples) in one difference equation
@@ -93,14 +94,15 @@ bool errors_follow_input(const IdData& data, const Fit& fit) {
     const Vector errors = model.target() - model.output_at(search_point(fit, model, model.seconds()));
     if (!errors.allFinite()) return true;
     const double delay = fit.structure.delay(fit.theta, 0, 0);
-    const Index lags = kLagsOfErrors + static_cast<Index>(std::ceil(delay / data.mean_step()));
+    const Index most = kLagsOfErrors + static_cast<Index>(std::ceil(delay / data.mean_step()));
+    const Index lags = std::min(most, kMostLags);
     Vector with_errors = Vector::Zero(lags), with_itself = Vector::Zero(lags);
     for (std::size_t e = 0; e < data.experiments.size(); ++e) {
         const auto own = errors.segment(model.row(e, 0), model.rows(e));
-        if (own.size() <= 2 * lags) return false;
+        if (own.size() <= 2 * most) return false;
         const Vector u = data.experiments[e].u.col(0).array() - data.experiments[e].u.col(0).mean();
-        // Entry i pairs u(k + i - lags) with the error at k.
-        with_errors += lagged_products(u, own, lags).head(lags + 1).reverse().head(lags);
+        // Entry i pairs u(k + i - most) with the error at k.
+        with_errors += lagged_products(u, own, most).segment(1, lags).reverse();
         with_itself += lagged_products(u, u, lags).segment(lags, lags);
     }
     Matrix gram(lags, lags);

@@ -9,8 +9,9 @@ namespace dynlab::inline numerics {
 // of the sampled signals tell little of what happens between the samples, and searches that begin with them miss the
 // best model. A difference equation needs no filter: its poles lead back to continuous time (the indirect way).
 
-/// Whether the errors of a fit of one input and one output follow the input of up to 20 samples before (and its delay):
-/// the sum over these lags that is chi-squared distributed for white errors which do not is far beyond chance.
+/// Whether the errors of a fit of one input and one output follow the input of up to 20 samples before (and its delay,
+/// the last 200 lags of these): the sum over these lags that is chi-squared distributed for white errors which do not
+/// is far beyond chance.
 bool errors_follow_input(const IdData& data, const Fit& fit);
 
 /// theta of the structure (one input, one output, regular sampling), with its delay where it is free, best first, at

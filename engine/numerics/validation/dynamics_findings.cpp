@@ -135,7 +135,7 @@ void find_offset(const FittedRecord& fit, RecordFindings& findings) {
                                          " during the first " + std::to_string(samples_at_rest(fit.u())) +
                                          " samples, while " + fit.input() +
                                          " is zero: data:detrend(\"start\") or `offset` = \"estimate\" takes this "
-                                         "small offset off.",
+                                         "offset off.",
                                      *level));
         return;
     }

@@ -47,9 +47,9 @@ std::string model_verdict(const ModelStanding& model) {
                "then robust standard errors.";
     if (model.fit_percent < kMostlyExplained)
         return "The input explains no more than the model says (fit " + number_text(model.fit_percent, 3) +
-               " %). The rest is more than half of the output: a coloured disturbance, for which robust standard "
-               "errors "
-               "or a method with a noise model are in place, another input, or a nonlinearity.";
+               " %). What is left has more than half of the output's standard deviation: a coloured disturbance, for "
+               "which robust standard errors or a method with a noise model are in place, another input, or a "
+               "nonlinearity.";
     return "The dynamics are described; the disturbance is coloured, so that robust standard errors or a method with a "
            "noise model are in place.";
 }

@@ -194,6 +194,20 @@ bool next_begins_statement(const std::string& code, const std::vector<LuaToken>&
     return word && begins_line(code, tokens, next) && !tokens[next].is("and") && !tokens[next].is("or");
 }
 
+/// Whether the script gives this name a meaning of its own.
+bool defines(const std::string& code, const std::vector<LuaToken>& tokens, std::string_view name) {
+    for (std::size_t i = 0; i < tokens.size(); ++i) {
+        if (tokens[i].text != name) continue;
+        if (i > 0 && tokens[i - 1].is("function")) return true;
+        std::size_t first = i;  // of a list of names
+        while (first > 1 && tokens[first - 1].is(",") && tokens[first - 2].kind == LuaToken::Kind::kName) first -= 2;
+        if (first > 0 && (tokens[first - 1].is("local") || tokens[first - 1].is("for"))) return true;
+        const bool assigned = i + 1 < tokens.size() && (tokens[i + 1].is("=") || tokens[i + 1].is(","));
+        if (assigned && begins_statement(code, tokens, first)) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 std::string with_shown_calls(const std::string& source) {
@@ -202,6 +216,7 @@ std::string with_shown_calls(const std::string& source) {
     for (std::size_t first = tokens.size(); first-- > 0;) {
         const auto names = kShownCalls.find(tokens[first].text);
         if (names == kShownCalls.end() || !begins_statement(source, tokens, first)) continue;
+        if (defines(source, tokens, names->first)) continue;
         const std::optional<std::size_t> last = end_of_call(tokens, first);
         if (!last || !next_begins_statement(source, tokens, *last + 1)) continue;
         const std::size_t begin = tokens[first].begin, length = tokens[*last].end() - begin;

@@ -99,6 +99,13 @@ TEST(motion_plot, keeps_fifty_samples_a_second) {
     EXPECT_EQ(motion_plot(crane(), record(101, 0.02)).panels[1].references.size(), 4u);
 }
 
+TEST(motion_plot, goes_to_the_end_of_its_record_however_short) {
+    const Figure figure = motion_plot(crane(), record(3, 0.005));
+    EXPECT_EQ(figure.panels[1].curves[0].x, (Vector{{0.0, 0.01}}));
+    const Vector late{{9.99}};
+    EXPECT_NEAR(motion_plot(crane(), record(2000, 0.005), at(late)).panels[1].curves[0].x.tail(1)[0], 9.995, 1e-12);
+}
+
 TEST(motion_plot, one_side_alone_will_do) {
     MotionRecord alone = record(101, 0.1);
     alone.measured.resize(0, 0);
@@ -129,6 +136,8 @@ TEST(motion_plot, says_what_does_not_fit) {
     narrow.measured = narrow.measured.leftCols(1).eval();
     EXPECT_THAT(refusal(crane(), narrow), HasSubstr("10 x 2, but they are 10 x 1"));
     EXPECT_THAT(refusal(crane(), record(10, 0.1), at(Vector{{2.0}})), HasSubstr("goes from 0 s to 0.9"));
+    EXPECT_THAT(refusal(crane(), record(10, 0.1), at(Vector{{0.5, 0.2, 0.5}})),
+                HasSubstr("0.5 s stands in the list twice"));
     RigDrawing wrong = crane();
     wrong.parts[1].on = 1;
     EXPECT_THAT(refusal(wrong, record(10, 0.1)), HasSubstr("carried by one before it"));

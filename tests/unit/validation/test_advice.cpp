@@ -409,7 +409,7 @@ TEST(advice, a_crane_at_rest_does_not_begin_in_a_movement) {  // oracle: a secon
         }
 }
 
-TEST(advice, a_rest_without_an_offset_is_no_offset) {  // oracle: noise about zero, and a drift, put in
+TEST(advice, a_rest_without_an_offset_is_no_offset) {  // oracle: noise about zero, a level, a slope, put in
     Record r = record(21);
     r.u.head(60).setZero();
     const Vector x = lsim(TransferFunction(Vector{{1.0}}, Vector{{1.0, 1.0}}), r.u, kTs);
@@ -419,6 +419,8 @@ TEST(advice, a_rest_without_an_offset_is_no_offset) {  // oracle: noise about ze
     const Advice advice = advise(IdData(Matrix(shifted), Matrix(r.u), kTs));
     ASSERT_TRUE(advice.has("offset")) << codes(advice);
     EXPECT_NEAR(advice.find("offset")->value, 0.06, 0.01);
+    const Vector rising = x + noise + Vector::LinSpaced(x.size(), 0, 0.12 * static_cast<double>(x.size()) / 60);
+    EXPECT_FALSE(advise(IdData(Matrix(rising), Matrix(r.u), kTs)).has("offset"));
 }
 
 TEST(advice, long_records_keep_their_dynamics) {  // oracle: known noise, a pole of a tenth of the record's rate
