@@ -10,6 +10,7 @@
 #include "data_io/tables/unit_text.h"
 #include "data_io/workbook.h"
 #include "platform/error.h"
+#include "platform/text/small_letters.h"
 
 namespace dynlab::inline data_io {
 namespace {
@@ -19,11 +20,6 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 4> kTableEndings = {".csv", ".tsv", ".txt", ".dat"};
 constexpr std::string_view kMatEnding = ".mat", kWorkbookEnding = ".xlsx";
 constexpr double kStepTolerance = 1e-3;  // relative; instants are often rounded when they are written
-
-std::string in_lower_case(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-}
 
 bool is_table(const std::string& ending) {
     return std::find(kTableEndings.begin(), kTableEndings.end(), ending) != kTableEndings.end();
@@ -137,19 +133,19 @@ std::optional<double> seconds_of_ending(const std::string& name) {
 }
 
 bool is_called_time(const std::string& name) {
-    const std::string begin = in_lower_case(seconds_of_ending(name) ? name.substr(0, name.rfind('_')) : name);
+    const std::string begin = in_small_letters(seconds_of_ending(name) ? name.substr(0, name.rfind('_')) : name);
     return begin == "t" || begin == "time";
 }
 
 }  // namespace
 
 bool is_data_file(const fs::path& file) {
-    const std::string ending = in_lower_case(file.extension().string());
+    const std::string ending = ending_of(file);
     return ending == kMatEnding || ending == kWorkbookEnding || is_table(ending);
 }
 
 LoadedData read_data_file(const fs::path& file, bool guarded, const ImportOptions& options) {
-    const std::string ending = in_lower_case(file.extension().string());
+    const std::string ending = ending_of(file);
     LoadedData data;
     if (ending == kMatEnding)
         data = variables_of_mat(file, guarded, options);

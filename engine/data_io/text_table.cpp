@@ -9,6 +9,7 @@
 #include "data_io/tables/number_cell.h"
 #include "platform/error.h"
 #include "platform/text/foreign_text.h"
+#include "platform/text/small_letters.h"
 #include "platform/text_file.h"
 
 namespace dynlab::inline data_io {
@@ -54,8 +55,8 @@ class Reader {
     }
 
     void take_header(TextTable& table, const std::vector<std::string>& row, int line) const {
-        for (std::string name : row) {
-            std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+        for (const std::string& cell : row) {
+            std::string name = in_small_letters(cell);
             if (table.column(name)) fail(line, fmt::format("there are two columns \"{}\"", name));
             table.names.push_back(std::move(name));
         }

@@ -6,6 +6,7 @@
 #include "documents/html/web_page.h"
 #include "documents/pandoc.h"
 #include "platform/atomic_file.h"
+#include "platform/text/small_letters.h"
 
 namespace dynlab::inline documents {
 namespace {
@@ -63,12 +64,12 @@ std::vector<PlacedPicture> find_picture_files(const std::vector<UsedPicture>& pi
             complaints.add(where, shown + "lies outside the folder of this file; copy it into the folder");
         else if (!fs::is_regular_file(file))
             complaints.add(where, shown + "does not exist in " + fs::absolute(folder).lexically_normal().string());
-        else if (!format_holds(format, kind_of(path)))
+        else if (!format_holds(format, ending_of(path)))
             complaints.add(where,
                            shown + "is of a kind this output cannot hold; " +
                                (format == DocumentFormat::kPdf ? "use .pdf, .png or .jpg" : "use .svg, .png or .jpg"));
         else
-            found.push_back({file, prefix + std::to_string(picture.number) + kind_of(path), {}});
+            found.push_back({file, prefix + std::to_string(picture.number) + ending_of(path), {}});
     }
     return found;
 }

@@ -1,23 +1,16 @@
 #include "documents/solutions.h"
 
-#include <algorithm>
-#include <cctype>
 #include <optional>
 
 #include "documents/cell_marker.h"
 #include "documents/error.h"
 #include "documents/text_lines.h"
+#include "platform/text/small_letters.h"
 
 namespace dynlab::inline documents {
 namespace {
 
 const std::string_view kStarterSign = "STARTER:";
-
-std::string lower_case(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
 
 /// The text of a line that is nothing but a comment.
 std::optional<std::string> comment_of(std::string_view line) {
@@ -50,7 +43,7 @@ SolutionLine solution_line(std::string_view line, const std::filesystem::path& f
     if (*comment == "BEGIN SOLUTION") return SolutionLine::kBegin;
     if (*comment == "END SOLUTION") return SolutionLine::kEnd;
     if (comment->starts_with(kStarterSign)) return SolutionLine::kStarter;
-    const std::string lower = lower_case(*comment);
+    const std::string lower = in_small_letters(*comment);
     for (const char* marker : {"begin solution", "end solution", "begin the solution", "end of solution"})
         if (lower.starts_with(marker) && lower.size() <= std::string_view(marker).size() + 2)
             throw DocumentError(file.string() + ":" + std::to_string(number) + ": \"" + trimmed(line) +

@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <atomic>
-#include <cctype>
 #include <cerrno>
 #include <fstream>
 #include <string>
@@ -17,13 +15,12 @@
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/system_call.h"
+#include "platform/text/small_letters.h"
 
 namespace dynlab::inline figures {
 
 FigureFormat figure_format(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = ending_of(file);
     if (extension == ".pdf") return FigureFormat::kPdf;
     if (extension == ".svg") return FigureFormat::kSvg;
     if (extension == ".png") return FigureFormat::kPng;

@@ -1,15 +1,10 @@
 #include "platform/spelling.h"
+#include "platform/text/small_letters.h"
 
 #include <algorithm>
-#include <cctype>
 
 namespace dynlab::inline platform {
 namespace {
-
-std::string lower_case(std::string text) {
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-}
 
 /// Optimal string alignment distance: insert, delete, replace a letter or swap two neighbours, one each.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
@@ -36,7 +31,7 @@ std::optional<std::string> nearest_word(const std::string& word, const std::vect
     std::optional<std::string> nearest;
     std::size_t least = 0;
     for (const std::string& candidate : candidates) {
-        const std::size_t distance = edit_distance(lower_case(word), lower_case(candidate));
+        const std::size_t distance = edit_distance(in_small_letters(word), in_small_letters(candidate));
         if (3 * distance > std::max(word.size(), candidate.size())) continue;
         if (!nearest || distance < least) nearest = candidate, least = distance;
     }

@@ -1,10 +1,8 @@
 #include "workflow/measures.h"
 
-#include <algorithm>
-#include <cctype>
-
 #include "documents/text_lines.h"
 #include "platform/program_lookup.h"
+#include "platform/text/small_letters.h"
 #include "platform/text_file.h"
 #include "scripting/runtime/help.h"
 
@@ -18,8 +16,7 @@ std::map<std::string, std::string> measures_for_documents(const std::string& lan
     for (const std::string& line : lines_of(source)) {
         const std::size_t colon = line.find(": ");
         if (line.starts_with("## ") && colon != std::string::npos) {
-            std::string key = line.substr(3, colon - 3);
-            std::transform(key.begin(), key.end(), key.begin(), [](unsigned char c) { return std::tolower(c); });
+            const std::string key = in_small_letters(line.substr(3, colon - 3));
             current = &measures[key];
             *current = "### " + line.substr(colon + 2) + " {.unnumbered}\n";
         } else if (current) {

@@ -9,6 +9,7 @@
 #include "documents/html/web_page.h"
 #include "documents/record_description.h"
 #include "platform/hash.h"
+#include "platform/text/small_letters.h"
 #include "platform/text_file.h"
 
 namespace dynlab::inline app {
@@ -41,7 +42,7 @@ std::string LivePage::keep_picture(const fs::path& file) {
         return "missing";  // it is being written anew; the version after this has it
     }
     const std::string name = digest_of(bytes).hex() + file.extension().string();
-    content_.pictures[name] = {media_type(kind_of(file)), std::move(bytes), version_};
+    content_.pictures[name] = {media_type(ending_of(file)), std::move(bytes), version_};
     return name;
 }
 

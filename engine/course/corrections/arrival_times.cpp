@@ -2,23 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <chrono>
 
 #include "data_io/text_table.h"
 #include "numerics/error.h"
 #include "platform/error.h"
+#include "platform/text/small_letters.h"
 
 namespace dynlab::inline course {
 namespace {
 
 constexpr Instant kYear2000 = 946684800;
-
-std::string in_small_letters(std::string text) {
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-}
 
 /// "Participant 900010" is the number in the names of Moodle's folders.
 std::string without_word(const std::string& identifier) {

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "course/names/plain_words.h"
+#include "platform/text/small_letters.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -49,8 +50,7 @@ Finding leftover(const char* id, int page, const std::string& what, const std::s
 
 void check_line(const TextLine& line, Findings& findings) {
     const std::string text = line.text();
-    std::string lower = text;
-    std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string lower = in_small_letters(text);
     for (const Sign& sign : kSigns) {
         if (lower.find(sign.text) == std::string::npos) continue;
         findings.push_back(

@@ -13,6 +13,7 @@
 #include "course/hand_ins/owners.h"
 #include "platform/error.h"
 #include "platform/text/foreign_text.h"
+#include "platform/text/small_letters.h"
 #include "platform/text_file.h"
 
 namespace dynlab::inline course {
@@ -50,9 +51,7 @@ std::string name_of_entry(const fs::path& entry) {
 bool can_be_work(const std::string& name) {
     static const std::set<std::string> kEndings = {".lua",   ".pdf", ".rar", ".7z", ".docx", ".doc",
                                                    ".ipynb", ".odt", ".m",   ".py", ".gz",   ".bz2"};
-    std::string ending = fs::path(name).extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-    return kEndings.contains(ending);
+    return kEndings.contains(ending_of(name));
 }
 
 /// What Moodle makes for a text typed into its form, beside the files.
@@ -209,8 +208,7 @@ class SubmissionReader {
 }  // namespace
 
 std::optional<std::string> archive_stem(const std::string& name) {
-    std::string lower = name;
-    std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string lower = in_small_letters(name);
     for (const std::string ending : {".tar.gz", ".tar.xz", ".tar.bz2", ".tgz", ".tar", ".zip"})
         if (lower.ends_with(ending) && lower.size() > ending.size()) return name.substr(0, name.size() - ending.size());
     return {};

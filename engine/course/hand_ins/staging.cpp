@@ -10,6 +10,7 @@
 #include "course/hand_ins/owners.h"
 #include "course/hand_ins/work_language.h"
 #include "platform/text/foreign_text.h"
+#include "platform/text/small_letters.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -48,11 +49,6 @@ std::vector<fs::path> files_below(const fs::path& folder) {
 
 std::string shown_place(const fs::path& file, const fs::path& from) {
     return utf8_of_name(file.lexically_relative(from).string());
-}
-
-std::string lower_case_of(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
 }
 
 /// A name without its numbers, and the last of these: versions of one work have equal words.
@@ -182,7 +178,7 @@ class Stager {
         std::vector<std::string> near, others;
         for (const auto& entry : fs::directory_iterator(to_))
             for (const fs::path& file : files_below(entry.path())) {
-                const std::string name = shown_place(file, entry.path()), lower = lower_case_of(name);
+                const std::string name = shown_place(file, entry.path()), lower = in_small_letters(name);
                 const bool script = lower.ends_with(".lua") || lower.find(".lua.") != std::string::npos;
                 (script ? near : others).push_back(fmt::format("\"{}\"", name));
             }
@@ -205,7 +201,7 @@ class Stager {
     static std::string closed_kinds(const std::vector<std::string>& names) {
         for (const std::string kind : {".rar", ".7z"})
             for (const std::string& name : names)
-                if (lower_case_of(name).ends_with(kind + "\""))
+                if (in_small_letters(name).ends_with(kind + "\""))
                     return fmt::format(" ({} archives cannot be opened here; zip and tar can)", kind);
         return "";
     }

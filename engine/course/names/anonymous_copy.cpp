@@ -14,6 +14,7 @@
 #include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
 #include "platform/terminal/terminal_text.h"
+#include "platform/text/small_letters.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -30,9 +31,7 @@ std::uint64_t bytes_below(const fs::path& folder) {
 }
 
 bool is_pdf(const fs::path& file) {
-    std::string ending = file.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-    return ending == ".pdf";
+    return ending_of(file) == ".pdf";
 }
 
 /// report.pdf in the folder or below, else the only PDF.

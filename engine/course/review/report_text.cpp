@@ -7,6 +7,7 @@
 #include "course/names/plain_words.h"
 #include "course/review/text_blocks.h"
 #include "documents/text_lines.h"
+#include "platform/text/small_letters.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -224,8 +225,7 @@ bool is_abbreviation(const std::string& word) {
     static const std::set<std::string> known = {"fig.",    "figs.", "eq.",  "eqs.", "e.g.", "i.e.", "cf.",  "vs.",
                                                 "no.",     "resp.", "sec.", "ex.",  "p.",   "pp.",  "tab.", "al.",
                                                 "approx.", "min.",  "max.", "env.", "réf.", "ref.", "dr.",  "éq."};
-    std::string lower = word;
-    std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+    std::string lower = in_small_letters(word);
     while (lower.starts_with('(')) lower.erase(0, 1);
     return known.contains(lower);
 }

@@ -1,19 +1,12 @@
 #include "course/review/score_sheet.h"
+#include "platform/text/small_letters.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 namespace dynlab::inline course {
-namespace {
-
-/// As the table's reader gives names of columns.
-std::string column_name(std::string name) {
-    for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return name;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 std::optional<double> percent_of(const std::vector<Criterion>& criteria, const CriterionPoints& points) {
     double sum = 0, most = 0;
@@ -34,8 +27,8 @@ ScoreSheet::ScoreSheet(const Assignment& assignment, const std::filesystem::path
     bool any = false;
     for (const Criterion& c : assignment.criteria) {
         criteria.push_back(c.name);
-        any = any || has(column_name(c.name));
-        others.insert(column_name(c.name));
+        any = any || has(in_small_letters(c.name));
+        others.insert(in_small_letters(c.name));
     }
     for (const std::string& name : table_.names)
         if (!others.contains(name)) unknown.push_back(name);
@@ -50,7 +43,7 @@ std::string ScoreSheet::cell(std::size_t row, const std::string& name) const {
 }
 
 std::string ScoreSheet::points_cell(std::size_t row, std::size_t criterion) const {
-    return cell(row, column_name(assignment_.criteria[criterion].name));
+    return cell(row, in_small_letters(assignment_.criteria[criterion].name));
 }
 
 std::optional<double> ScoreSheet::points(std::size_t row, std::size_t criterion) const {

@@ -1,12 +1,12 @@
 #include "course/store/file_kind.h"
 
-#include <cctype>
 #include <fstream>
 #include <set>
 
 #include "course/grading/submission.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
+#include "platform/text/small_letters.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -38,10 +38,8 @@ std::string kind_of_file(const std::string& name, std::string_view content) {
                          begins("BZh") || content.substr(0, 262).ends_with("ustar");
     if (archive && archive_stem(name)) return "pack";
     if (name.ends_with(".lua") && content.find('\0') == std::string_view::npos) return "script";
-    std::string ending = fs::path(name).extension();
-    for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     static const std::set<std::string> written = {".docx", ".doc", ".odt", ".rtf", ".pages", ".pptx", ".ppt", ".odp"};
-    return written.contains(ending) ? "text" : "";
+    return written.contains(ending_of(name)) ? "text" : "";
 }
 
 std::string kind_of_file_at(const std::string& name, const fs::path& file) {

@@ -1,4 +1,5 @@
 #include "data_io/tables/number_cell.h"
+#include "platform/text/small_letters.h"
 
 #include <fmt/format.h>
 
@@ -19,8 +20,7 @@ bool means_missing(std::string_view cell) {
     if (cell.empty()) return true;
     constexpr std::size_t kLongest = 8;
     if (cell.size() > kLongest) return false;
-    std::string word(cell);
-    std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string word = in_small_letters(std::string(cell));
     return std::find(kMissingWords.begin(), kMissingWords.end(), word) != kMissingWords.end();
 }
 

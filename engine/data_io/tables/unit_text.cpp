@@ -4,6 +4,7 @@
 #include <array>
 
 #include "data_io/tables/number_cell.h"
+#include "platform/text/small_letters.h"
 
 namespace dynlab::inline data_io {
 namespace {
@@ -57,8 +58,7 @@ bool is_one_of(const Names& names, std::string_view text) {
 
 bool is_symbol(std::string_view text) {
     if (is_one_of(kWords, text) || seconds_of(text)) return true;
-    std::string lower(text);
-    std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string lower = in_small_letters(std::string(text));
     if (lower.size() > 3 && is_one_of(kWords, lower)) return true;  // Volts
     return std::any_of(kPrefixes.begin(), kPrefixes.end(), [text](std::string_view prefix) {
         return text.starts_with(prefix) && is_one_of(kSymbols, text.substr(prefix.size()));

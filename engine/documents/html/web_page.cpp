@@ -2,11 +2,11 @@
 
 #include <sodium.h>
 
-#include <cctype>
 #include <map>
 
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
+#include "platform/text/small_letters.h"
 
 namespace dynlab::inline documents {
 namespace {
@@ -37,12 +37,6 @@ std::string with_first(std::string page, const std::string& from, const std::str
 }
 
 }  // namespace
-
-std::string kind_of(const fs::path& picture) {
-    std::string extension = picture.extension().string();
-    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return extension;
-}
 
 std::string media_type(const std::string& extension) {
     static const std::map<std::string, std::string> types = {
@@ -78,7 +72,7 @@ std::string with_inlined_pictures(const std::string& html, const std::vector<Pla
             continue;
         }
         const fs::path& file = picture->second->file;
-        const std::string type = file.empty() ? "" : media_type(kind_of(file));
+        const std::string type = file.empty() ? "" : media_type(ending_of(file));
         result += file.empty() ? "data:," : "data:" + type + ";base64," + base64(read_file(file));
         result.append(html, end, at - end);
         result += plot_element(picture->second->plot);

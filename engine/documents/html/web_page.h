@@ -9,8 +9,6 @@ namespace dynlab::inline documents {
 
 /// "image/svg+xml" for ".svg"; empty for what browsers do not show.
 std::string media_type(const std::string& extension);
-/// The extension in small letters, ".jpg": telephones write .JPG.
-std::string kind_of(const std::filesystem::path& picture);
 
 /// What follows the picture of a figure in a page, for plot.js to draw it from; empty without a plot.
 std::string plot_element(const std::string& plot);

@@ -6,7 +6,6 @@
 #include <poppler/cpp/poppler-page.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <memory>
@@ -15,6 +14,7 @@
 #include "documents/pdf/guarded_pdf.h"
 #include "documents/pdf/plain_streams.h"
 #include "documents/work_file.h"
+#include "platform/text/small_letters.h"
 
 namespace dynlab::inline documents {
 
@@ -65,15 +65,10 @@ bool contains_any(const std::string& text, std::initializer_list<const char*> pa
                        [&](const char* part) { return text.find(part) != std::string::npos; });
 }
 
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-}
-
 PdfWord word_of(const poppler::text_box& box) {
     const poppler::rectf at = box.bbox();
     const poppler::byte_array bytes = box.text().to_utf8();
-    const std::string font = lower(box.get_font_name());
+    const std::string font = in_small_letters(box.get_font_name());
     return {at.left(),
             at.top(),
             at.right(),

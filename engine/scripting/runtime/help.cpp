@@ -9,6 +9,7 @@
 #include "documents/text_lines.h"
 #include "numerics/error.h"
 #include "platform/spelling.h"
+#include "platform/text/small_letters.h"
 #include "scripting/runtime/help_layout.h"
 #include "scripting/runtime/matlab_hints.h"
 
@@ -43,13 +44,6 @@ std::string help_row(const std::string& name, const std::string& summary, std::s
     return fmt::format("  {:<18} {}\n", name, filled(summary, width, kSummaryColumn));
 }
 
-std::string in_lower_case(std::string_view text) {
-    std::string lower(text);
-    std::transform(lower.begin(), lower.end(), lower.begin(),
-                   [](unsigned char c) { return c < 128 ? static_cast<char>(std::tolower(c)) : static_cast<char>(c); });
-    return lower;
-}
-
 /// Where a word of the text begins with `word`, both in lower case.
 bool begins_a_word(const std::string& text, const std::string& word) {
     for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
@@ -64,12 +58,12 @@ struct Found {
 
 std::vector<Found> pages_about(const std::string& asked, const FunctionList& functions) {
     std::vector<Found> found;
-    const std::string word = in_lower_case(asked);
+    const std::string word = in_small_letters(asked);
     const auto look = [&](const std::string& name, const std::string& summary, std::string_view text) {
-        const int rank = begins_a_word(in_lower_case(name), word)      ? 0
-                         : begins_a_word(in_lower_case(summary), word) ? 1
-                         : begins_a_word(in_lower_case(text), word)    ? 2
-                                                                       : 3;
+        const int rank = begins_a_word(in_small_letters(name), word)                ? 0
+                         : begins_a_word(in_small_letters(summary), word)           ? 1
+                         : begins_a_word(in_small_letters(std::string(text)), word) ? 2
+                                                                                    : 3;
         if (rank < 3) found.push_back({rank, name, summary});
     };
     for (const FunctionEntry* entry : functions) {
