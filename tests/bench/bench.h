@@ -33,5 +33,6 @@ void measure_course(Report& report);
 void measure_live(Report& report);  ///< needs Chromium and its driver
 void measure_lua(Report& report);
 void measure_searches(Report& report);
+void measure_advice(Report& report);
 
 }  // namespace dynlab::bench

@@ -6,6 +6,7 @@
 
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"
+#include "numerics/fit/sampled_starts.h"
 #include "numerics/fit/search_starts.h"
 #include "numerics/fit/srivc_iteration.h"
 #include "numerics/fit/transfer_search.h"
@@ -21,6 +22,7 @@ constexpr int kComparedPasses = 4;
 constexpr Index kFewestToCompare = 4;  // parameters: smaller models were not seen to end in bad minima
 constexpr double kComparedTolerance = 1e-3, kNoGain = 1e-3;
 constexpr double kPoorFit = 20;          // per cent: where little is explained, the passes easily miss the best
+constexpr double kFineFit = 99.9;        // per cent: nothing is missing that were worth a search
 constexpr double kGramTolerance = 1e-6;  // relative change of theta; standard errors change by some 20 times as much
 
 /// (sum Z'Z/noise variance)^-1 of each denominator group; `last_gram` is sum Z'Z of the last pass, or empty.
@@ -152,6 +154,16 @@ bool gains_nothing(const Fit& estimate, const IdData& data, const FitOptions& op
     return !NestedSearch(record, solve).better_starts(estimate.structure, (1 + kNoGain) * loss).empty();
 }
 
+/// Whether the errors follow the input: what is missing may be within reach of the structure.
+bool leaves_dynamics(const Fit& estimate, const IdData& data) {
+    const TransferStructure& structure = estimate.structure;
+    if (structure.inputs > 1 || structure.outputs > 1 || estimate.theta.size() < kFewestToCompare) return false;
+    if (estimate.fit_percent[0] > kFineFit) return false;
+    return data.sample_count() <= 2 * kComparedSamples
+               ? errors_follow_input(data, estimate)
+               : errors_follow_input(beginning_of(data, kComparedSamples), estimate);
+}
+
 }  // namespace
 
 Fit srivc(const IdData& data, const TransferStructure& structure, const FitOptions& options, const SearchAids& aids) {
@@ -162,7 +174,9 @@ Fit srivc(const IdData& data, const TransferStructure& structure, const FitOptio
     if (estimate.termination == Termination::kCancelled) return estimate;
     const bool settled = estimate.termination == Termination::kConverged;
     const bool poor = !(estimate.fit_percent.minCoeff() > kPoorFit);
-    if (!settled || poor || gains_nothing(estimate, data, options, aids.poorer))
+    const bool alone = aids.poorer.empty();
+    if (!settled || poor || (alone && leaves_dynamics(estimate, data)) ||
+        gains_nothing(estimate, data, options, aids.poorer))
         return better_by_search(std::move(estimate), data, options, aids);
     check_transient("srivc", data, estimate, estimate.theta.size());
     return estimate;

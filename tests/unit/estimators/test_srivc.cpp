@@ -118,6 +118,20 @@ TEST(srivc, superfluous_poles_do_not_spoil_the_model) {
     }
 }
 
+// oracle: nested models
+TEST(srivc, passes_that_settle_in_a_bad_minimum_are_seen_by_their_errors) {
+    const TransferFunction G(values({-6400, 1600}), values({1, 5, 408, 416, 1600}));
+    constexpr double kTs = 0.05;
+    const Vector u = prbs(8, 3), x = lsim(G, u, kTs);
+    for (std::uint32_t seed = 1; seed <= 3; ++seed) {
+        const Vector y = x + 0.35 * RandomStream(seed).normal(x.size());
+        const IdData data{Matrix(y), Matrix(u), kTs};
+        const Fit two = srivc(data, TransferStructure::single(2, 0)),
+                  three = srivc(data, TransferStructure::single(3, 0));
+        EXPECT_LE(three.loss, two.loss) << seed;
+    }
+}
+
 TEST(srivc, stops_when_asked_to_and_still_gives_a_model) {  // oracle: definition of the callback
     const IdData data = course_record(0.2, 14);
     FitOptions options;
