@@ -23,6 +23,7 @@ namespace {
 
 constexpr Index kLagsOfErrors = 20;
 constexpr double kFarBeyondChance = 4;     // standard deviations of chi-squared
+constexpr double kFastChanges = 0.1;       // squares of the errors' differences, of their own
 constexpr double kSingular = 1e-6;         // of the input's power
 constexpr Index kRoomFor = 4;              // delays (samples) in one difference equation
 constexpr Index kMostWindows = 8;          // so many of these, around the delay found
@@ -88,10 +89,16 @@ NestedSolution with_linear_part(const IdData& data, const TransferStructure& str
 
 }  // namespace
 
-bool errors_follow_input(const IdData& data, const Fit& fit) {
+bool fast_errors_follow_input(const IdData& data, const Fit& fit) {
     const TransferOutput model(fit.structure, fit.start, data, 0, shortest_record(data));
     const Vector errors = model.target() - model.output_at(search_point(fit, model, model.seconds()));
     if (!errors.allFinite()) return true;
+    double changes = 0;
+    for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+        const auto own = errors.segment(model.row(e, 0), model.rows(e));
+        changes += (own.tail(own.size() - 1) - own.head(own.size() - 1)).squaredNorm();
+    }
+    if (changes < kFastChanges * errors.squaredNorm()) return false;
     const double delay = fit.structure.delay(fit.theta, 0, 0);
     const Index lags = kLagsOfErrors + static_cast<Index>(std::ceil(delay / data.mean_step()));
     Vector with_errors = Vector::Zero(lags), with_itself = Vector::Zero(lags);
