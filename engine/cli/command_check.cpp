@@ -5,6 +5,9 @@
 #include "cli/terminal_colour.h"
 #include "course/findings/findings_report.h"
 #include "course/findings/folder_check.h"
+#include "course/hand_ins/work_language.h"
+#include "documents/error.h"
+#include "documents/percent_script.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
 
@@ -27,6 +30,19 @@ std::shared_ptr<const SoughtNames> sought_by(const CheckArguments& words) {
     return names;
 }
 
+/// Findings of French work are told in French.
+SentenceCatalogue sentences_for(const fs::path& subject, const CheckResult& result) {
+    const bool folder = fs::is_directory(subject);
+    if ((folder ? language_of_work(subject) : result.language) != "fr") return {};
+    std::string lesson;
+    try {
+        if (folder) lesson = read_percent_script(subject / "analysis.lua").header.lesson;
+    } catch (const DocumentError&) {
+        // A script that cannot be read is a finding of its own.
+    }
+    return french_sentences(lesson);
+}
+
 int check(const CheckArguments& words) {
     CheckOptions wishes;
     CheckResult result;
@@ -47,7 +63,8 @@ int check(const CheckArguments& words) {
         result = check_folder(words.subject, running_program(), wishes);
     else
         result = check_pdf(words.subject, wishes);
-    std::cout << (words.as_json ? findings_as_json(result) : findings_in_words(result, in_colour()));
+    std::cout << (words.as_json ? findings_as_json(result)
+                                : findings_in_words(result, in_colour(), sentences_for(words.subject, result)));
     return result.passed() ? kDone : kFailed;
 }
 

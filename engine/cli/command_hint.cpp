@@ -20,6 +20,38 @@ struct HintArguments {
     bool next = false, all = false;
 };
 
+/// What stands around the hints.
+struct HintWords {
+    const char *lesson, *question, *listed, *first, *hint, *more, *last;
+};
+constexpr HintWords kEnglishHintWords = {
+    "Lesson {}\n\n",
+    "Lesson {}, question {}\n",
+    "question {:>2}   {} hints, {} seen\n",
+    "\nThe first one of a question:  dynlab hint {} {}\n",
+    "\nHint {} of {}\n",
+    "\n{} more:  dynlab hint {} {} --next\n",
+    "\nThis is the last one. The worked solution:  dynlab report {}\n",
+};
+constexpr HintWords kFrenchHintWords = {
+    "Leçon {}\n\n",
+    "Leçon {}, question {}\n",
+    "question {:>2}   {} indices, {} déjà vus\n",
+    "\nLe premier d'une question :  dynlab hint {} {}\n",
+    "\nIndice {} sur {}\n",
+    "\nEncore {} :  dynlab hint {} {} --next\n",
+    "\nC'est le dernier. Le corrigé :  dynlab report {} --lang fr\n",
+};
+const HintWords& hint_words(const Lesson& lesson, const std::string& language) {
+    return language == "fr" && std::filesystem::is_regular_file(lesson.hints(language)) ? kFrenchHintWords
+                                                                                        : kEnglishHintWords;
+}
+
+template <class... Values>
+void say(const char* words, const Values&... values) {
+    std::cout << fmt::format(fmt::runtime(words), values...);
+}
+
 /// The lesson that is named, or that the copy in this folder is of, whose report also tells the language.
 Lesson lesson_to_help(HintArguments& words) {
     const std::filesystem::path folder = words.lesson;
@@ -41,19 +73,20 @@ Hints hints_of(const Lesson& lesson, const std::string& language) {
     throw EnvironmentError("lesson " + lesson.slug + " has no hints (" + lesson.hints("en").string() + ")");
 }
 
-int list_hints(const Lesson& lesson, const Hints& hints, const std::string& name) {
-    std::cout << "Lesson " << lesson.slug << "\n\n";
+int list_hints(const Lesson& lesson, const Hints& hints, const std::string& name, const HintWords& words) {
+    say(words.lesson, lesson.slug);
     for (const auto& [question, stages] : hints)
-        std::cout << fmt::format("question {:>2}   {} hints, {} seen\n", question, stages.size(),
-                                 std::min(HintsSeen(lesson.slug, question).count(), stages.size()));
-    std::cout << "\nThe first one of a question:  dynlab hint " << name << " " << hints.begin()->first << '\n';
+        say(words.listed, question, stages.size(), std::min(HintsSeen(lesson.slug, question).count(), stages.size()));
+    say(words.first, name, hints.begin()->first);
     return kDone;
 }
 
-void show_stages(const std::vector<std::string>& stages, std::size_t shown) {
+void show_stages(const std::vector<std::string>& stages, std::size_t shown, const HintWords& words) {
     const std::size_t width = terminal_width();
-    for (std::size_t i = 0; i < shown; ++i)
-        std::cout << "\nHint " << i + 1 << " of " << stages.size() << '\n' << laid_out(stages[i], width);
+    for (std::size_t i = 0; i < shown; ++i) {
+        say(words.hint, i + 1, stages.size());
+        std::cout << laid_out(stages[i], width);
+    }
 }
 
 int give_hint(HintArguments words) {
@@ -61,7 +94,8 @@ int give_hint(HintArguments words) {
     const Lesson lesson = lesson_to_help(words);
     const Hints hints = hints_of(lesson, words.language);
     if (hints.empty()) throw EnvironmentError("the hints of lesson " + lesson.slug + " are empty");
-    if (words.question == 0) return list_hints(lesson, hints, name);
+    const HintWords& sentences = hint_words(lesson, words.language);
+    if (words.question == 0) return list_hints(lesson, hints, name, sentences);
     const auto found = hints.find(words.question);
     if (found == hints.end())
         throw EnvironmentError(fmt::format("lesson {} has no hints for question {}; it has some for {} to {}",
@@ -74,13 +108,13 @@ int give_hint(HintArguments words) {
     const std::size_t shown = words.all    ? stages.size()
                               : words.next ? std::min(before + 1, stages.size())
                                            : std::max<std::size_t>(before, 1);
-    std::cout << "Lesson " << lesson.slug << ", question " << words.question << '\n';
-    show_stages(stages, shown);
+    say(sentences.question, lesson.slug, words.question);
+    show_stages(stages, shown, sentences);
     seen.remember(std::max(shown, before));
     if (const std::size_t left = stages.size() - shown; left > 0)
-        std::cout << fmt::format("\n{} more:  dynlab hint {} {} --next\n", left, name, words.question);
+        say(sentences.more, left, name, words.question);
     else
-        std::cout << "\nThis is the last one. The worked solution:  dynlab report " << lesson.slug << '\n';
+        say(sentences.last, lesson.slug);
     return kDone;
 }
 

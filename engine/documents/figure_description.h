@@ -10,8 +10,8 @@ constexpr std::array<const char*, 7> names_of(CurveStyle) {
     return {"line", "points", "line_points", "stairs", "stems", "bars", "band"};
 }
 
-constexpr std::array<const char*, 4> names_of(LegendPlace) {
-    return {"automatic", "above", "right", "none"};
+constexpr std::array<const char*, 5> names_of(LegendPlace) {
+    return {"automatic", "above", "right", "none", "direct"};
 }
 
 DYNLAB_DESCRIBE(Curve, x, y, y_upper, style, label, colour, dash, line_width, marker)

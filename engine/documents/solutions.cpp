@@ -51,11 +51,17 @@ SolutionLine solution_line(std::string_view line, const std::filesystem::path& f
     return SolutionLine::kNone;
 }
 
-std::string without_solutions(const std::string& source, const std::filesystem::path& name) {
+AnswerMarks answer_marks(std::string_view language) {
+    if (language == "fr") return {"-- VOTRE CODE ICI", "-- *Votre réponse :*"};
+    return {"-- YOUR CODE HERE", "-- *Your answer:*"};
+}
+
+std::string without_solutions(const std::string& source, const std::filesystem::path& name, std::string_view language) {
+    const AnswerMarks marks = answer_marks(language);
     std::string result;
     int begun = 0;  // line of the open BEGIN SOLUTION, 0 outside
     bool in_text = false, hidden = false;
-    bool asked = false;  // "YOUR CODE HERE" was the last that was said
+    bool asked = false;  // the mark of code was the last that was said
     int number = 0;
     const auto fail = [&](int line, const std::string& what) {
         throw DocumentError(name.string() + ":" + std::to_string(line) + ": " + what);
@@ -74,7 +80,8 @@ std::string without_solutions(const std::string& source, const std::filesystem::
                 begun = number;
                 if (hidden || (asked && !in_text)) break;
                 asked = !in_text;
-                result += std::string(indentation_of(line)) + (in_text ? "-- *Your answer:*" : "-- YOUR CODE HERE");
+                result += indentation_of(line);
+                result += in_text ? marks.text : marks.code;
                 result += end_of(line);
                 break;
             case SolutionLine::kEnd:

@@ -13,18 +13,25 @@ namespace dynlab::inline documents {
 ///     -- END SOLUTION
 ///
 /// encloses what a student must find. The student's copy keeps the cell with `-- YOUR CODE HERE` (in a text cell
-/// `-- *Your answer:*`) in place of the solution, followed by the STARTER lines without their sign: code in a code
-/// cell, text in a text cell. Documents never show markers or STARTER lines.
+/// `-- *Your answer:*`; both in the copy's language) in place of the solution, followed by the STARTER lines without
+/// their sign: code in a code cell, text in a text cell. Documents never show markers or STARTER lines.
 enum class SolutionLine { kNone, kBegin, kEnd, kStarter };
 
 /// What a line of a script is. Throws DocumentError for a line that is nearly a marker (wrong case, plural), which
 /// would otherwise give the solution away.
 SolutionLine solution_line(std::string_view line, const std::filesystem::path& file, int number);
 
+/// The lines that ask for an answer, in French for "fr".
+struct AnswerMarks {
+    std::string_view code, text;
+};
+AnswerMarks answer_marks(std::string_view language);
+
 /// The script without its solutions, everything else byte for byte; in a code cell with echo=false nothing takes the
 /// place of a solution, since such cells hold only what the report needs, and solutions of code with nothing between
 /// them are asked for once. Throws DocumentError with file and line for
 /// markers that do not pair up within one cell, or a STARTER line outside a solution.
-std::string without_solutions(const std::string& source, const std::filesystem::path& name = "script.lua");
+std::string without_solutions(const std::string& source, const std::filesystem::path& name = "script.lua",
+                              std::string_view language = "en");
 
 }  // namespace dynlab::inline documents

@@ -56,7 +56,9 @@ struct Arrow {
     bool both_heads = false;
 };
 
-enum class LegendPlace { kAutomatic, kAbove, kRight, kNone };  ///< outside the curves, always
+/// Outside the curves, always; kDirect: each name beside its curve where all find a place that is clear, else
+/// automatic.
+enum class LegendPlace { kAutomatic, kAbove, kRight, kNone, kDirect };
 
 struct Panel {
     std::string title, x_label, y_label;

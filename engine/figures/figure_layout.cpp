@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "figures/label_placement.h"
 #include "figures/panel_axes.h"
 #include "figures/style.h"
 
@@ -52,11 +53,9 @@ class LayoutWork {
     FigureLayout run() {
         const double cell = figure_.width_cm / figure_.columns;
         for (PanelLayout& panel : panels_) panel.box = {0, 0, 0.8 * cell, default_frame_height(0.8 * cell)};
-        for (int round = 0; round < 3; ++round) {
-            for (std::size_t i = 0; i < panels_.size(); ++i) fill_panel(i);
-            hide_shared_numbers();
-            place_frames();
-        }
+        for (const Panel& panel : figure_.panels) direct_.push_back(panel.legend == LegendPlace::kDirect);
+        settle();
+        if (needs_legends()) settle();
         for (std::size_t i = 0; i < panels_.size(); ++i) place_texts(i);
         FigureLayout layout{figure_.width_cm, height_, title_, panels_};
         layout.title.x = 0.5 * figure_.width_cm;
@@ -67,6 +66,22 @@ class LayoutWork {
   private:
     std::size_t row_of(std::size_t i) const { return i / static_cast<std::size_t>(figure_.columns); }
     std::size_t column_of(std::size_t i) const { return i % static_cast<std::size_t>(figure_.columns); }
+
+    void settle() {
+        for (int round = 0; round < 3; ++round) {
+            for (std::size_t i = 0; i < panels_.size(); ++i) fill_panel(i);
+            hide_shared_numbers();
+            place_frames();
+        }
+    }
+
+    /// Panels whose curves cannot be named beside them get a legend after all; whether there are any.
+    bool needs_legends() {
+        bool any = false;
+        for (std::size_t i = 0; i < panels_.size(); ++i)
+            if (direct_[i] && !names_find_places(figure_.panels[i], panels_[i])) direct_[i] = false, any = true;
+        return any;
+    }
 
     double default_frame_height(double frame_width) const {
         const bool equal = std::any_of(figure_.panels.begin(), figure_.panels.end(),
@@ -93,7 +108,7 @@ class LayoutWork {
         out.y_label.text = fitted(panel.y_label, out.box.height() + 0.4, kTextSize);
         title_.text = fitted(figure_.title, figure_.width_cm - 2 * kEdge, kTitleSize);
         out.legend.clear();
-        if (panel.legend == LegendPlace::kNone) return;
+        if (panel.legend == LegendPlace::kNone || direct_[i]) return;
         const double beside = column_margins_.empty() ? 0 : column_margins_[column_of(i)].left;
         out.legend = legend_entries(panel, out.box.width() + beside);
         if (legend_at_right(panel, out.legend)) {
@@ -211,6 +226,7 @@ class LayoutWork {
 
     const Figure& figure_;
     std::vector<PanelLayout> panels_;
+    std::vector<bool> direct_;  // names stand beside the curves
     std::vector<Margins> column_margins_, row_margins_;
     CentredText title_;
     double height_ = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "figures/style.h"
 
@@ -11,6 +12,8 @@ namespace {
 constexpr double kCell = 0.04;        // cm
 constexpr double kHalfHeight = 0.17;  // of a line of text
 constexpr double kMarkerRadius = 0.08;
+constexpr double kNameGap = 0.1;        // between a curve and its name
+constexpr double kClearlyNearer = 0.3;  // cm by which other curves must be further away than the named one
 
 /// Which parts of a frame are taken, on a fine grid.
 class Occupancy {
@@ -75,6 +78,36 @@ class Occupancy {
     std::vector<int> weight_;
 };
 
+/// What is drawn of a curve within its frame, as points at most 0.1 cm apart.
+std::vector<PagePoint> visible_points(const CurveTraces& curve, double width, double height) {
+    std::vector<PagePoint> points;
+    const auto add = [&](PagePoint p) {
+        if (p.x < 0 || p.x > width || p.y < 0 || p.y > height) return;
+        if (points.empty() || std::hypot(p.x - points.back().x, p.y - points.back().y) > kCell) points.push_back(p);
+    };
+    for (const PagePoint& p : curve.points)
+        if (!p.gap()) add(p);
+    for (std::size_t i = 1; i < curve.line.size(); ++i) {
+        const PagePoint &a = curve.line[i - 1], &b = curve.line[i];
+        if (a.gap() || b.gap()) continue;
+        const double length = std::min(std::hypot(b.x - a.x, b.y - a.y), 10 * (width + height));
+        const int steps = std::max(1, static_cast<int>(std::ceil(length / 0.1)));
+        for (int k = 0; k <= steps; ++k) {
+            const double along = static_cast<double>(k) / steps;
+            add({a.x + along * (b.x - a.x), a.y + along * (b.y - a.y)});
+        }
+    }
+    return points;
+}
+
+double distance(const Rectangle& box, const std::vector<PagePoint>& points) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const PagePoint& p : points)
+        least = std::min(
+            least, std::hypot(p.x - std::clamp(p.x, box.left, box.right), p.y - std::clamp(p.y, box.bottom, box.top)));
+    return least;
+}
+
 class Placement {
   public:
     Placement(const Panel& panel, const PanelLayout& layout, const std::vector<CurveTraces>& curves)
@@ -91,6 +124,8 @@ class Placement {
         for (const Arrow& arrow : panel.arrows) taken_.add_segment(at(arrow.x0, arrow.y0), at(arrow.x1, arrow.y1), 3);
         for (const Annotation& mark : panel.annotations)
             if (mark.marker) take_marker(at(mark.x, mark.y), 4);
+        if (panel.legend != LegendPlace::kDirect || !layout.legend.empty()) return;
+        for (const CurveTraces& curve : curves) visible_.push_back(visible_points(curve, width_, height_));
     }
 
     std::vector<PlacedLabel> run() {
@@ -99,10 +134,13 @@ class Placement {
             if (!arrow.text.empty()) place_arrow_text(arrow);
         for (const Annotation& mark : panel_.annotations)
             if (!mark.text.empty()) place_mark_text(mark);
+        for (std::size_t i = 0; i < visible_.size(); ++i)
+            if (!panel_.curves[i].label.empty() && !place_name(i)) all_named_ = false;
         for (const ReferenceLine& line : panel_.references)
             if (!line.label.empty()) place_reference_label(line);
         return labels_;
     }
+    bool all_named() const { return all_named_; }
 
   private:
     struct Candidate {
@@ -217,10 +255,46 @@ class Placement {
         labels_.push_back({line.label, middle.x, middle.y, {}, {}});
     }
 
+    /// The name of a curve at one of its points, rather near its end; false where there is no room.
+    bool place_name(std::size_t curve) {
+        const std::vector<PagePoint>& line = visible_[curve];
+        const double half_width = 0.5 * text_width(panel_.curves[curve].label, style::kTextSize);
+        Rectangle best{};
+        double least = -1;
+        for (std::size_t k = 0; k < line.size(); k += std::max<std::size_t>(1, line.size() / 60))
+            for (const int dx : {0, 1, -1})
+                for (const int dy : {1, -1, 0}) {
+                    const double x = line[k].x + dx * (half_width + kNameGap);
+                    const double y = line[k].y + dy * (kHalfHeight + kNameGap);
+                    const Rectangle box{x - half_width, y - kHalfHeight, x + half_width, y + kHalfHeight};
+                    const double cost = 0.1 * (width_ - x) + 0.2 * std::abs(dx) + 0.1 * (dy == 0);
+                    if ((least >= 0 && cost >= least) || !is_clear(box, curve)) continue;
+                    least = cost;
+                    best = box;
+                }
+        if (least < 0) return false;
+        taken_.add_box(best, 6);
+        labels_.push_back(
+            {panel_.curves[curve].label, 0.5 * (best.left + best.right), 0.5 * (best.bottom + best.top), {}, {}});
+        return true;
+    }
+
+    bool is_clear(const Rectangle& box, std::size_t curve) const {
+        const double rim = 0.05;
+        if (box.left < rim || box.right > width_ - rim || box.bottom < rim || box.top > height_ - rim) return false;
+        if (taken_.covered(box) > 0) return false;
+        const double own = distance(box, visible_[curve]);
+        for (std::size_t i = 0; i < visible_.size(); ++i)
+            if (i != curve && distance(box, visible_[i]) < own + kClearlyNearer) return false;
+        return true;
+    }
+
     const Panel& panel_;
     const PanelLayout& layout_;
     double width_, height_;
     Occupancy taken_;
+    std::vector<std::vector<PagePoint>> visible_;  ///< of each curve, where names stand beside them
+    bool all_named_ = true;
     std::vector<PlacedLabel> labels_;
 };
 
@@ -229,6 +303,14 @@ class Placement {
 std::vector<PlacedLabel> place_labels(const Panel& panel, const PanelLayout& layout,
                                       const std::vector<CurveTraces>& curves) {
     return Placement(panel, layout, curves).run();
+}
+
+bool names_find_places(const Panel& panel, const PanelLayout& layout) {
+    std::vector<CurveTraces> curves;
+    for (const Curve& curve : panel.curves) curves.push_back(traces_of(curve, layout));
+    Placement placement(panel, layout, curves);
+    placement.run();
+    return placement.all_named();
 }
 
 }  // namespace dynlab::inline figures

@@ -16,8 +16,13 @@ struct PlacedLabel {
 };
 
 /// Finds places for the texts of references, arrows and marks where they stay inside the frame and cover as little
-/// as possible of curves, markers, lines and each other.
+/// as possible of curves, markers, lines and each other. Where the panel wants names beside its curves and the layout
+/// has no legend, those as well.
 std::vector<PlacedLabel> place_labels(const Panel& panel, const PanelLayout& layout,
                                       const std::vector<CurveTraces>& curves);
+
+/// Whether every named curve has room for its name where this covers nothing and is clearly nearer to its own
+/// curve than to any other. False for bands and bars, which have no line to stand at.
+bool names_find_places(const Panel& panel, const PanelLayout& layout);
 
 }  // namespace dynlab::inline figures

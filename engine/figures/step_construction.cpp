@@ -30,6 +30,8 @@ class Construction {
             line_of(input_.t, input_.y, "measured", smooth ? style::kGreyColour : 0, 0, smooth ? 0.6 : 0.9));
         if (smooth) panel_.curves.push_back(line_of(input_.t, input_.smoothed, "smoothed", 0, 0, 1.1));
         panel_.references = {{true, input_.final, "final value", 1}, {true, input_.initial, "initial value", 1}};
+        const double first = input_.t[0], last = input_.t[input_.t.size() - 1], aside = last - 0.15 * (last - first);
+        panel_.arrows.push_back({aside, input_.initial, aside, input_.final, "K Δu", true});
         int part = 0;
         for (const StepConstruction::Reading& reading : input_.readings) {
             if (reading.name == "settling")

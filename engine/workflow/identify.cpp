@@ -73,7 +73,7 @@ present(G{s})
 
 constexpr const char* kFit = R"(
 -- %% [markdown]
--- ## How well it predicts
+-- ## How well it simulates
 --
 -- The model is simulated on the input alone. A fit of 100 % means equal curves, 0 % that the mean of the output
 -- would do as well; noise keeps every honest fit below 100 %.{remark}

@@ -200,8 +200,8 @@ ReportRequest sheet_of(const std::string& name, const fs::path& output, const st
     if (!language.empty() && master.header.language != language)
         throw EnvironmentError("lesson " + lesson.slug + " has no tasks in the language \"" + language + "\" (" +
                                lesson.tasks(language).filename().string() + ")");
-    const PercentScript tasks =
-        parse_percent_script(without_solutions(master.source, lesson.script()), lesson.script());
+    const PercentScript tasks = parse_percent_script(
+        without_solutions(master.source, lesson.script(), master.header.language), lesson.script());
     ReportRequest request = report_of_script(tasks, output.empty() ? fs::path(lesson.slug + "_sheet.pdf") : output);
     request.of_lesson = true;
     add_self_check(lesson, request);

@@ -21,6 +21,14 @@ constexpr const char* kGroupFile = R"(# Your group. Nothing in this file is ever
 members = []        # for example ["Ada Lovelace", "Rudolf Kalman"]
 seed = {}            # of the random numbers your group works with
 )";
+constexpr const char* kFrenchGroupFile = R"(# Votre groupe. Rien de ce fichier ne paraît jamais dans un rapport.
+members = []        # par exemple ["Ada Lovelace", "Rudolf Kalman"]
+seed = {}            # la graine des nombres aléatoires de votre groupe
+)";
+
+std::string group_file(std::uint32_t seed, const std::string& language) {
+    return fmt::format(fmt::runtime(language == "fr" ? kFrenchGroupFile : kGroupFile), seed);
+}
 
 void put(std::string& text, const std::string& slot, const std::string& value) {
     const auto at = text.find(slot);
@@ -45,12 +53,14 @@ std::string report_for(const ScriptHeader& header, const fs::path& file, const s
 void fill_lesson(const fs::path& folder, const Lesson& lesson, const std::optional<std::uint32_t>& group_seed,
                  const std::string& language) {
     const PercentScript script = lesson_script(lesson, language);
-    write_file_atomically(folder / "analysis.lua", without_solutions(script.source, script.file));
+    write_file_atomically(folder / "analysis.lua",
+                          without_solutions(script.source, script.file, script.header.language));
     const std::string form = script.header.template_name == "lesson" ? "exercise_sheet" : script.header.template_name;
     write_file_atomically(folder / "report.md", report_for(script.header, template_file(form, language), language));
     if (const fs::path literature = bibliography_of(script); !literature.empty())
         write_file_atomically(folder / literature.filename(), read_text(literature));
-    write_file_atomically(folder / "group.toml", fmt::format(kGroupFile, group_seed.value_or(script.header.seed)));
+    write_file_atomically(folder / "group.toml",
+                          group_file(group_seed.value_or(script.header.seed), script.header.language));
     const std::vector<std::string> own = group_seed ? simulated_data_of(lesson) : std::vector<std::string>();
     if (has_own_data(lesson)) copy_own_data(lesson, folder / "data");
     if (!own.empty())
@@ -62,7 +72,7 @@ void fill_lesson(const fs::path& folder, const Lesson& lesson, const std::option
 void fill_review(const fs::path& folder, const std::string& language) {
     write_file_atomically(folder / "report.md", read_text(template_file("peer_review", language)));
     write_file_atomically(folder / "analysis.lua", read_text(shared_folder() / "report_templates" / "peer_review.lua"));
-    write_file_atomically(folder / "group.toml", fmt::format(kGroupFile, 1));
+    write_file_atomically(folder / "group.toml", group_file(1, language));
 }
 
 /// Built under another name beside it, then renamed: an interrupted copy leaves no half folder that looks finished.

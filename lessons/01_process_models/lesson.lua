@@ -18,7 +18,7 @@
 -- A step is the simplest experiment one can make with a process: move the input from one level to another, wait, and record. The shape of
 -- the response suggests a model, and a ruler and a pencil are enough to read its parameters. This lesson does it for two processes,
 -- a heat exchanger and a mechanical suspension, first by hand on the figure and then by optimisation on all the samples, and asks
--- what is gained by the second. At the end it adds a dead time, and repeats the experiment two hundred times.
+-- what is gained by the second. At the end it adds a dead time, repeats the experiment two hundred times, and moves to another operating point.
 --
 -- Both records are simulated, with the noise and the rounding of real sensors. That is why the experiment can be repeated, and why the true
 -- parameters can be looked up when everything is done.
@@ -58,7 +58,7 @@ local function ruled(from, to, step, low, high, upright)
 end
 
 local paper = plot(exchanger.t, exchanger.y,
-                   {style = "points", colour = 2, line_width = 0.7, height = 13,
+                   {style = "points", marker = 0, colour = 2, line_width = 0.7, height = 13,
                     x_range = {0, 600}, y_range = {30, 42},
                     xlabel = "time (s)", ylabel = "outlet temperature (°C)"})
 for step, width in pairs{[1] = 0.15, [5] = 0.45} do
@@ -131,7 +131,7 @@ report.value("T_raw", last_outside/3, "%.0f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![Reading the gain and the 5 % settling time: the measured and the smoothed response, the levels before the step and at the end, the band of ±5 % of the change, and the time $T_r$ from the step until the smoothed response enters it for good](figure:exchanger_construction){#fig:exchanger_construction}
+-- ![Reading the gain and the 5 % settling time: the measured and the smoothed response, the levels before the step and at the end, which are $K\,\Delta u$ apart, the band of ±5 % of the change, and the time $T_r$ from the step until the smoothed response enters it for good](figure:exchanger_construction){#fig:exchanger_construction}
 --
 -- @fig:exchanger_construction shows the construction. The levels before the step and at the end are averages, because single samples are noisy. The
 -- reading is $K =$ `K_read`{.value}\ °C/% and, from $T_r =$ `Tr_read`{.value}\ s (the instant `instant_read`{.value}\ s of the record), $T =$ `T_read`{.value}\ s. Without
@@ -152,8 +152,8 @@ local function test_figure(G, data, u0, label)
     local t, y = data.t, simulated(G, data, u0)
     local some = linspace(t[1], t[#t], #t//5 + 1)
     local above = plot(some, interp1(t, data.y, some), "measured", t, y, "model",
-                       {style = {"points", "line"}, colour = {2, 0},
-                        ylabel = label})
+                       {style = {"points", "line"}, marker = 0,
+                        colour = {2, 0}, ylabel = label})
     local below = plot(t, data.y - y, {xlabel = "time (s)", ylabel = "error"})
     return subplot(2, 1, {above, below}):set{height = 8.5}
 end
@@ -252,7 +252,7 @@ report.figure("suspension_record", subplot(2, 1, {position, voltage}),
 -- %% id=suspension_paper echo=false
 local top = math.ceil(max(data2.y) + 0.2)
 local paper2 = plot(data2.t, data2.y,
-                    {style = "points", colour = 2, line_width = 0.7, height = 13,
+                    {style = "points", marker = 0, colour = 2, line_width = 0.7, height = 13,
                      x_range = {0, 1.6}, y_range = {0, top},
                      xlabel = "time (s)", ylabel = "position (mm)"})
 for step, width in pairs{[1] = 0.15, [5] = 0.45} do
@@ -402,8 +402,9 @@ local t, u0 = data_far.t, exchanger.u[1]
 local far_figure = plot(t, y_far, "measured",
                         t, simulated(G1D, data_far, u0), "with a dead time",
                         t, simulated(G1F, data_far, u0), "without",
-                        {style = {"points", "line", "line"}, colour = {2, 0, 1},
-                         dash = {0, 0, 2}, x_range = {40, 200}, height = 6,
+                        {style = {"points", "line", "line"}, marker = 0,
+                         colour = {2, 0, 1}, dash = {0, 0, 2},
+                         x_range = {40, 200}, height = 6,
                          xlabel = "time (s)", ylabel = "temperature (°C)"})
 report.figure("dead_time", far_figure, "A heat exchanger with a dead time")
 -- END SOLUTION
@@ -445,7 +446,7 @@ report.value("T_extra", 20/3, "%.0f")
 -- # How exact is a reading?
 --
 -- **Question 10.** `rig("heat_exchanger", {seed = k})` repeats the first experiment with other noise. Read and estimate two hundred records. How large is the
--- error of the reading? Are the standard errors of the estimate right? Look up the truth now: `rig_truth("heat_exchanger")`.
+-- error of the reading? Are the standard errors of the estimate right? Look up the truth now with `rig_truth`.
 --
 -- Guess first: how many times further than the estimates do the readings scatter? `outcome` prints the guess beside what you find.
 
@@ -503,6 +504,57 @@ report.value("sharper", std(T_reading)/std(T_estimate), "%.0f")
 -- END SOLUTION
 
 -- %% [markdown]
+-- # Another operating point
+--
+-- **Question 11.** Where the losses to the room are neglected, the heat balance of the vessel is
+--
+-- $$ C\,\frac{\mathrm{d}y}{\mathrm{d}t} = \dot m\,c\,(y_\text{in} - y) + \frac{P}{100}\,u , $$ {#eq:balance}
+--
+-- with the heat capacity $C$ of the vessel, the flow $\dot m$ (kg/s) of water of specific heat $c$ that enters at $y_\text{in}$, and the power $P$ of the open valve.
+-- What becomes of $K$, $T$ and $K/T$ when the same step is made from 50 % to 70 %, and what when the flow is halved? Simulate the second case over the same 600 s
+-- and read it. Why does the reading fail now, and the estimate not?
+
+-- %% id=half_flow
+-- BEGIN SOLUTION
+local K, T = 2*G1.Kp, 2*G1.Tp1    -- at half the flow
+local entering = mean(exchanger.y:range(1, 30)) - G1.Kp*u0
+local risen = lsim(tf({K}, {T, 1}), change, Ts)
+local y_half = entering + K*u0 + risen + 0.1*randn(#change)
+local data_half = iddata(y_half, exchanger.u, Ts)
+local read_half = step_first_order(data_half)
+local G1_half = procsrivc(data_half, "P1", steady)
+-- END SOLUTION
+
+-- %% id=half_flow_report echo=false
+-- BEGIN SOLUTION
+-- STARTER: -- Not printed: report.value, report.figure and report.table for the text below.
+local function of_flow(name, K, T) return {name, string.format("%.2f", K), string.format("%.0f", T), string.format("%.4f", K/T)} end
+report.table("half_flow", {
+    {"flow", "$K$ (°C/%)", "$T$ (s)", "$K/T$ (°C/(% s))"},
+    of_flow("as recorded, estimated", G1.Kp, G1.Tp1),
+    of_flow("half, by the balance", K, T),
+    of_flow("half, read off 600 s", read_half.K, read_half.T),
+    of_flow("half, estimated", G1_half.Kp, G1_half.Tp1),
+})
+report.value("half_periods", 540/T, "%.1f")
+report.value("half_missing", 100*math.exp(-540/T), "%.0f")
+-- END SOLUTION
+
+-- %% [markdown]
+-- BEGIN SOLUTION
+-- Compared with @eq:solution-first, @eq:balance has $K = P/(100\,\dot m\,c)$ and $T = C/(\dot m\,c)$. The balance is linear in $u$: from 50 % to 70 % the temperature moves on a
+-- higher level, but by the same amount and as fast. It is not linear in $\dot m$, which multiplies $y$: at half the flow $K$ and $T$ are doubled, and $K/T = P/(100\,C)$ stays,
+-- because the slope just after the step is a matter of power and heat capacity alone. A model holds for the operating point at which it was found.
+--
+-- ::: {.table name=half_flow #tbl:half_flow}
+-- The heat exchanger with the flow of the record and with half of it.
+-- :::
+--
+-- The record now ends `half_periods`{.value} time constants after the step, with `half_missing`{.value} % of the change still to come. The reading takes the last samples for the final level, so its gain and its time
+-- constant are too small (@tbl:half_flow); the estimate needs no final level, since the curvature of the response tells where it is going.
+-- END SOLUTION
+
+-- %% [markdown]
 -- # Try it: parameters by hand
 --
 -- On a page (`dynlab preview`, or `dynlab report` with an output that ends in `.html`) the two models below move under your hand: drag the marked points, or
@@ -524,7 +576,8 @@ do
     local t = linspace(0, 600, 101)
     local by_hand = plot(t, interp1(exchanger.t, exchanger.y, t), "measured",
                          t, response(t), name,
-                         {style = {"points", "line"}, colour = {2, 0}, height = 7,
+                         {style = {"points", "line"}, marker = 0,
+                          colour = {2, 0}, height = 7,
                           x_range = {0, 600}, y_range = {30, 44},
                           xlabel = "time (s)", ylabel = "outlet temperature (°C)"})
     by_hand:handle{x = 560, y = function(K) return rest + K*change end,
@@ -559,7 +612,8 @@ do
     local t = linspace(0, 2.5, 101)
     local by_hand = plot(t, interp1(suspension.t, suspension.y, t), "measured",
                          t, response(t), name,
-                         {style = {"points", "line"}, colour = {2, 0}, height = 7,
+                         {style = {"points", "line"}, marker = 0,
+                          colour = {2, 0}, height = 7,
                           x_range = {0, 2.5}, y_range = {0, 22},
                           xlabel = "time (s)", ylabel = "position (mm)"})
     by_hand:handle{x = 2.3, y = function(K) return K end,
@@ -589,11 +643,11 @@ end
 -- # What you hand in
 --
 -- ::: {.note}
--- Where this lesson is graded, `answer(name, value)` hands your results in; `dynlab check .` tells what is missing. What you read off the figures may
+-- Where this lesson is graded, `answer(name, value)` hands your results in; `dynlab check` tells what is missing. What you read off the figures may
 -- be typed in as you read it: `settling_time`, $T_r$ in seconds after the step; `exchanger_reading`, the vector $K$, $T$; `overshoot`, $D_1$ as a
 -- ratio; `suspension_reading`, the vector $K$, $z$, $\omega_0$. The two estimated models, `G_exchanger` and `G_suspension`, are to be computed from the
 -- record, because your script will be run on records of other exchangers and suspensions as well. Hand over the figures that compare your
--- readings with the measurements by `report.figure("exchanger_test", fig, "caption")`, and the other as `suspension_test`.
+-- readings with the measurements by `report.figure`, under the names `exchanger_test` and `suspension_test`.
 -- :::
 
 -- %% id=hand_in

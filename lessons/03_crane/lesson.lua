@@ -175,8 +175,9 @@ local function remark(row)
     if not row.converged then return say("not settled", "non stabilisé") end
     if row.cancellation then return say("zero cancels pole", "zéro sur pôle") end
     if #row.undetermined > 0 then
-        if #row.undetermined > 3 then return #row.undetermined .. say(" uncertain", " incertains") end
-        return table.concat(row.undetermined, ", ") .. say(" uncertain", " incertains")
+        local several = #row.undetermined > 1 and "s" or ""
+        local which = #row.undetermined > 3 and #row.undetermined or table.concat(row.undetermined, ", ")
+        return which .. say(" uncertain", " incertain" .. several)
     end
     return ""
 end
@@ -334,7 +335,8 @@ local function against_model(record, height, with_differences)
         return panel
     end
     local x_error, theta_error = measured_x - x, measured_theta - theta
-    local panels = {pair(metres, measured_x, x), pair(radians, measured_theta, theta, {legend = "none"})}
+    local panels = {pair(with_differences and metres or "x (m)", measured_x, x),
+                    pair(with_differences and radians or "θ (rad)", measured_theta, theta, {legend = "none"})}
     if with_differences then
         table.insert(panels, 2, difference(say("error (mm)", "écart (mm)"), 1e3*x_error))
         table.insert(panels, difference(say("error (mrad)", "écart (mrad)"), 1e3*theta_error))
@@ -361,7 +363,8 @@ end
 
 -- %% id=motion
 -- BEGIN SOLUTION
--- STARTER: -- motion{rig = "crane", t = crane.validation.t, measured = {position = crane.validation.x, angle = crane.validation.theta},
+-- STARTER: -- motion{rig = "crane", t = crane.validation.t,
+-- STARTER: --        measured = {position = crane.validation.x, angle = crane.validation.theta},
 -- STARTER: --        simulated = {position = ..., angle = ...}}
 do
     local x, theta = response(against)
@@ -433,7 +436,8 @@ report.value("free_moved", 1e3*(max(swing.x) - min(swing.x)), "%.1f")
 -- %% id=repetition_guess
 -- BEGIN SOLUTION
 -- STARTER: guess(say("angle: mean fit", "angle : adéquation moyenne"), nil, "%")
-guess(say("angle: mean fit", "angle : adéquation moyenne"), 96, "%")
+local guessed = 96
+guess(say("angle: mean fit", "angle : adéquation moyenne"), guessed, "%")
 -- END SOLUTION
 
 -- %% id=repetition
@@ -497,6 +501,7 @@ add(say("pendulum of the position's zeros (rad/s)", "pendule, zéros de la posit
 report.table("repetition", repeated_rows)
 outcome(say("angle: mean fit", "angle : adéquation moyenne"), mean(vector(study.theta)))
 report.value("repetitions", repetitions, "%d")
+report.value("guessed_theta", guessed, "%d")
 report.value("expected_theta", mean(vector(study.theta)), "%.0f")
 report.value("expected_theta_std", std(vector(study.theta)), "%.1f")
 report.value("most_theta", max(vector(study.theta)), "%.1f")

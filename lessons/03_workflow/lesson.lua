@@ -433,7 +433,8 @@ end
 local low, low_val = volts(heat.y, heat.u), volts(heat.y_val, heat.u_val)
 local high = volts(heat.y_high, heat.u_high)
 local two_records = idplot(low, high, {labels = {"about 4 V", "about 7 V"}})
-report.figure("heat_record", two_records:set{height = 7}, "Two of the records")
+report.figure("heat_record", two_records:set{height = 7, legend = "direct"},
+              "Two of the records")
 
 -- %% [markdown]
 -- ![Two of the three records: temperature (above) and heater voltage (below)](figure:heat_record){#fig:heat_record}
@@ -543,7 +544,7 @@ report.value("heat2_high", fit(w_records[3], G2), "%.0f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![Two models, both estimated about 4 V, on the record about 7 V: measured temperature (grey), model from the voltage (dashed) and from the power (full). Both simulated curves are shifted to the mean of the measured one, so that only the shape is compared; therefore that from the voltage does not begin at zero.](figure:heat_high){#fig:heat_high}
+-- ![Two models, both estimated about 4 V, on the record about 7 V: measured temperature (black), model from the voltage (dotted) and from the power (full). Both simulated curves are shifted to the mean of the measured one, so that only the shape is compared; therefore that from the voltage does not begin at zero.](figure:heat_high){#fig:heat_high}
 --
 -- A resistor turns $u^2/R$ into heat, so the power is the natural input, and this knowledge costs no parameter. The model that was
 -- estimated about 4 V now reaches `heat2_high`{.value} % about 7 V (@fig:heat_high). But on its own record the fit has fallen to
@@ -569,7 +570,7 @@ local function left_over(data)
 end
 local drift = plot(t, left_over(low), "4 V", t, left_over(low_val), "4 V again",
                    t, left_over(high), "7 V",
-                   {height = 5, dash = {0, 1, 2},
+                   {height = 5, dash = {0, 1, 2}, legend = "direct",
                     xlabel = "time (s)", ylabel = "error (°C)"})
 report.figure("heat_drift", drift, "Smoothed errors of the second model")
 -- END SOLUTION
@@ -751,7 +752,7 @@ local dryer = load("hairdryer")
 local raw = iddata(dryer.y, dryer.u, dryer.Ts,
                    {InputName = "heating", InputUnit = "V",
                     OutputName = "thermocouple", OutputUnit = "V"})
-report.figure("dryer_record", idplot(raw:range(1, 250)):set{height = 6.5},
+report.figure("dryer_record", idplot(raw:range(1, 251)):set{height = 6.5},
               "The hair dryer")
 
 -- %% [markdown]

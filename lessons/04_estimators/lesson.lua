@@ -382,9 +382,8 @@ end
 local weights = plot(w, colour(0.3), "λ = 0.3", w, colour(3), "λ = 3",
                      w, colour(30), "λ = 30", w, ones(#w), "E = A",
                      {x_log = true, y_log = true, height = 5.5, dash = {1, 0, 2, 3},
-                      xlabel = "frequency (rad/s)", ylabel = "weight |A/E|"})
-weights:mark(0.05, 30, "λ = 0.3"):mark(0.05, 0.36, "λ = 3")
-weights:mark(0.05, 0.0037, "λ = 30")
+                      xlabel = "frequency (rad/s)", ylabel = "weight |A/E|",
+                      legend = "direct"})
 report.figure("colour", weights, "How the filter colours the equation error")
 -- END SOLUTION
 
@@ -842,7 +841,7 @@ end
 -- # What you hand in
 --
 -- ::: {.note}
--- Where this lesson is graded, `answer(name, value)` hands your results in, and `dynlab check .` tells what is missing: `own_without_noise` and
+-- Where this lesson is graded, `answer(name, value)` hands your results in, and `dynlab check` tells what is missing: `own_without_noise` and
 -- `own`, what your own LSSVF finds in the record without and with noise, $a_1$, $a_2$, $b_0$ each; `record`, the data with noise; `G_lssvf` and
 -- `G_ivsvf`, the library's models of it for $\lambda = 3$; `G_final`, the model you would recommend; and `scatter`, the standard deviations of
 -- $a_1$, $a_2$ and $b_0$ that your Monte Carlo study found for the recommended method.

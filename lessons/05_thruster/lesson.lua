@@ -128,7 +128,8 @@ report.value("snr_rest", 20*math.log(std(thrust(thruster.sine_300))/std(rest_rea
 -- %% id=switchings_guess
 -- BEGIN SOLUTION
 -- STARTER: guess(say("time without an answer", "temps sans réponse"), nil, "ms")
-guess(say("time without an answer", "temps sans réponse"), 20, "ms")
+local guessed = 20
+guess(say("time without an answer", "temps sans réponse"), guessed, "ms")
 -- END SOLUTION
 
 -- %% id=switchings
@@ -168,6 +169,7 @@ end
 -- BEGIN SOLUTION
 report.value("switchings", switchings, "%d")
 report.value("onset", onset, "%.0f")
+report.value("guessed", guessed, "%d")
 report.value("ring_frequency", response.w[peak]/(2*math.pi), "%.1f")
 report.value("band", band, "%d")
 report.figure("switching", figure{width = 14.4, height = 4.6, columns = 2, panels = {
@@ -488,7 +490,8 @@ report.figure("validation", figure{rows = 2, width = 14.4, height = 5.9, panels 
 
 -- %% id=motion
 -- BEGIN SOLUTION
--- STARTER: -- motion{rig = "thruster", t = thruster.square_300.t, measured = {force = thruster.square_300.force}, simulated = {force = ...}}
+-- STARTER: -- motion{rig = "thruster", t = thruster.square_300.t,
+-- STARTER: --        measured = {force = thruster.square_300.force}, simulated = {force = ...}}
 do
     local r = thruster.square_300
     motion{rig = "thruster", t = r.t, instants = {0.3, 6.5, 12.5, 18.5}, height = 7,

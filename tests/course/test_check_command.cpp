@@ -138,6 +138,9 @@ TEST(check_command, open_questions_and_missing_answers_are_found_by_line_and_nam
     EXPECT_EQ(json.at("findings").at(0).at("place"), "analysis.lua:9");
     EXPECT_EQ(json.at("findings").at(1).at("id"), "answer-missing");
     EXPECT_THAT(json.at("findings").at(1).at("what").get<std::string>(), HasSubstr("\"gain\" (number)"));
+    make_folder(bench, std::string(kAnalysis) + "-- VOTRE CODE ICI\n");
+    const auto french = nlohmann::json::parse(bench.dynlab({"check", "mine", "--json"}).output);
+    EXPECT_EQ(french.at("findings").at(0).at("id"), "answer-open") << french.dump(1);
 }
 
 // oracle: the worked solution has all points, and percent instead of a ratio lose those of their check

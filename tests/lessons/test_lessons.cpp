@@ -376,14 +376,14 @@ TEST(lesson_copies, are_french_throughout_where_french_is_asked_for) {
         ASSERT_EQ(bench.dynlab({"new", lesson, "mine", "--lang", "fr"}).exit_code, 0);
         ASSERT_EQ(bench.dynlab({"new", lesson, "english"}).exit_code, 0);
         const std::string script = bench.read("mine/analysis.lua"), report = bench.read("mine/report.md");
-        for (const std::string& text : {script, report})
-            for (const char* word : {" is ", " are ", " your ", " what ", " with ", " which "})
+        for (const std::string& text : {script, report, bench.read("mine/group.toml")})
+            for (const char* word : {" is ", " are ", " your ", " what ", " with ", " which ", "YOUR", "Your"})
                 EXPECT_THAT(text, Not(HasSubstr(word))) << lesson;
         EXPECT_THAT(script, HasSubstr("-- language: fr\n"));
         EXPECT_THAT(report, HasSubstr("title: \"Identification d'un"));
         EXPECT_THAT(report, HasSubstr("\n# Données brutes"));
         const auto marks = [](const std::string& text) {
-            const std::regex mark("-- %%|YOUR CODE HERE|[*][*]Question \\d+");
+            const std::regex mark("-- %%|YOUR CODE HERE|VOTRE CODE ICI|[*][*]Question \\d+");
             return std::distance(std::sregex_iterator(text.begin(), text.end(), mark), std::sregex_iterator());
         };
         EXPECT_EQ(marks(script), marks(bench.read("english/analysis.lua"))) << "as many cells and questions";

@@ -38,14 +38,11 @@ std::string wrapped(const std::string& sentence, const std::string& first) {
     return result + line + "\n";
 }
 
-std::string location_of(const Finding& finding) {
-    if (!finding.place.empty()) return finding.place;
-    return finding.page > 0 ? fmt::format("page {}", finding.page) : "";
-}
-
 class Writer {
   public:
-    explicit Writer(bool in_colour) : in_colour_(in_colour) {}
+    Writer(bool in_colour, const SentenceCatalogue& sentences) : in_colour_(in_colour), sentences_(sentences) {}
+
+    std::string told(const std::string& sentence) const { return sentences_.translated(sentence); }
 
     std::string styled(const char* style, const std::string& text) const {
         return in_colour_ ? style + text + kPlain : text;
@@ -64,7 +61,7 @@ class Writer {
                 .second.push_back(&finding);
         }
         if (count == 0) return "";
-        std::string text = "\n" + styled(style, fmt::format("{} ({})", title, count)) + "\n";
+        std::string text = "\n" + styled(style, fmt::format("{} ({})", told(title), count)) + "\n";
         for (const auto& [id, findings] : kinds) text += "\n  " + styled(kBold, id) + "\n" + all_of(findings);
         return text;
     }
@@ -73,15 +70,22 @@ class Writer {
         std::string text;
         for (std::size_t i = 0; i < findings.size(); ++i) {
             const std::string location = location_of(*findings[i]);
-            text += wrapped(printable((location.empty() ? "" : location + ": ") + findings[i]->what, 2000), "    ");
+            text +=
+                wrapped(printable((location.empty() ? "" : location + ": ") + told(findings[i]->what), 2000), "    ");
             const bool last = i + 1 == findings.size() || findings[i + 1]->remedy != findings[i]->remedy;
-            if (last) text += styled(kFaint, wrapped(printable(findings[i]->remedy, 2000), "    -> "));
+            if (last) text += styled(kFaint, wrapped(printable(told(findings[i]->remedy), 2000), "    -> "));
         }
         return text;
     }
 
   private:
+    std::string location_of(const Finding& finding) const {
+        if (!finding.place.empty()) return finding.place;
+        return finding.page > 0 ? told(fmt::format("page {}", finding.page)) : "";
+    }
+
     bool in_colour_;
+    const SentenceCatalogue& sentences_;
 };
 
 /// The outcome with nothing in its texts that a terminal would obey, and none of them too long.
@@ -96,21 +100,23 @@ CheckResult printable_result(CheckResult result) {
 
 }  // namespace
 
-std::string findings_in_words(const CheckResult& result, bool in_colour) {
-    const Writer writer(in_colour);
+std::string findings_in_words(const CheckResult& result, bool in_colour, const SentenceCatalogue& sentences) {
+    const Writer writer(in_colour, sentences);
     const std::string as = result.template_name.empty() ? "" : " as " + printable(result.template_name);
+    std::vector<std::string> parts;
+    for (const std::string& part : result.checked) parts.push_back(writer.told(part));
     const std::string checked =
-        fmt::format("checked{}{}{}", as, result.checked.empty() ? "" : ": ", fmt::join(result.checked, ", "));
+        fmt::format("{}{}{}", writer.told("checked" + as), parts.empty() ? "" : ": ", fmt::join(parts, ", "));
     const std::string subject = printable(result.subject);
     if (result.findings.empty())
-        return fmt::format("{}: {}; {}.\n", subject, writer.styled(kGreen, "nothing to mend"), checked);
+        return fmt::format("{}: {}; {}.\n", subject, writer.styled(kGreen, writer.told("nothing to mend")), checked);
     const auto rules = std::count_if(result.findings.begin(), result.findings.end(),
                                      [](const Finding& finding) { return finding.severity == Severity::kRule; });
     std::string text =
         fmt::format("{}{}\n", writer.styled(kBold, subject), result.checked.empty() ? "" : ": " + checked);
     text += writer.group(result, Severity::kRule, kRed, "Rules broken");
     text += writer.group(result, Severity::kHint, kYellow, "Hints");
-    if (rules == 0) text += "\n" + writer.styled(kGreen, "No rule is broken.") + "\n";
+    if (rules == 0) text += "\n" + writer.styled(kGreen, writer.told("No rule is broken.")) + "\n";
     return text;
 }
 

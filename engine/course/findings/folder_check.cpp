@@ -14,6 +14,7 @@
 #include "data_io/dataset_index.h"
 #include "documents/error.h"
 #include "documents/percent_script.h"
+#include "documents/solutions.h"
 #include "documents/template_file.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
@@ -187,11 +188,13 @@ class FolderCheck {
         for (const std::string& line : lines_of(script.source)) {
             ++number;
             const std::string text = trimmed(line);
-            const bool code = text == "-- YOUR CODE HERE";
-            if (!code && text != "-- *Your answer:*") continue;
-            add("answer-open", Severity::kRule, fmt::format("analysis.lua:{}", number),
-                fmt::format("The line \"{}\" is still there.", code ? "YOUR CODE HERE" : "Your answer:"),
-                "Write your own there and take the line out.");
+            for (const char* language : {"en", "fr"}) {
+                const AnswerMarks marks = answer_marks(language);
+                if (text != marks.code && text != marks.text) continue;
+                add("answer-open", Severity::kRule, fmt::format("analysis.lua:{}", number),
+                    fmt::format("The line \"{}\" is still there.", text.substr(3)),
+                    "Write your own there and take the line out.");
+            }
         }
     }
 
@@ -249,8 +252,8 @@ class FolderCheck {
         for (const CheckGrade& check : grade.checks) {
             if (check.by_hand || check.earned >= check.points) continue;
             add("check-failed", Severity::kHint, "",
-                fmt::format("{}: {} of {} points. {}", check.about, points_text(check.earned),
-                            points_text(check.points), check.message),
+                fmt::format("{} of {} points for \"{}\". {}", points_text(check.earned), points_text(check.points),
+                            check.about, check.message),
                 check.hint.empty() ? "See checks.lua of the lesson." : check.hint);
         }
     }

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <string_view>
 
+#include "course/findings/sentence_catalogue.h"
 #include "course/grading/feedback_words.h"
 #include "documents/run_record.h"
 #include "documents/text_lines.h"
@@ -27,7 +28,9 @@ using Escape = std::string (*)(const std::string&);
 class FeedbackText {
   public:
     FeedbackText(const Grade& grade, Escape escape)
-        : grade_(grade), words_(feedback_words(grade.language)), escape_(escape) {}
+        : grade_(grade), words_(feedback_words(grade.language)), escape_(escape) {
+        if (grade.language == "fr") sentences_ = french_sentences(grade.lesson);
+    }
 
     std::string heading() const { return filled(words_.title, escape_(title())); }
     std::string title() const { return grade_.title.empty() ? grade_.submission : grade_.title; }
@@ -75,16 +78,19 @@ class FeedbackText {
     /// A list item.
     std::string item_of(const CheckGrade& check) const {
         std::string item = fmt::format(
-            "- **{}** – {}", escape_(check.about),
+            "- **{}** – {}", told(check.about),
             check.graded ? filled(words_.of, points(check.earned), points(check.points)) : words_.not_graded);
-        if (check.visible && !check.message.empty()) item += "\\\n  " + escape_(check.message);
+        if (check.visible && !check.message.empty()) item += "\\\n  " + told(check.message);
         if (check.earned < check.points && check.graded && !check.hint.empty())
-            item += "\\\n  *" + escape_(check.hint) + "*";
+            item += "\\\n  *" + told(check.hint) + "*";
         return item + "\n";
     }
 
+    std::string told(const std::string& sentence) const { return escape_(sentences_.translated(sentence)); }
+
     const Grade& grade_;
     const FeedbackWords& words_;
+    SentenceCatalogue sentences_;
     Escape escape_;
 };
 

@@ -34,7 +34,7 @@ Figure time_response_figure(const std::vector<NamedModel>& models, const Vector&
     const double end = t.size() > 0 ? 0 : longest_window(models);
     Panel panel;
     panel.x_label = "time (s)";
-    panel.y_label = "Amplitude";
+    panel.y_label = "amplitude";
     for (const NamedModel& model : models) {
         const TimeResponse result = response(model.G, instants(model.G, t, end));
         Curve curve;

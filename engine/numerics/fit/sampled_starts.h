@@ -14,6 +14,11 @@ namespace dynlab::inline numerics {
 /// is far beyond chance.
 bool errors_follow_input(const IdData& data, const Fit& fit);
 
+/// Whether they do so and change from sample to sample as what such a pole leaves does: the squares of the errors'
+/// differences are a tenth or more of their own (for a sine of w radians a sample they are 2 (1 - cos w)). Slow errors,
+/// such as those of a linear model of a nonlinear system, are nothing that a difference equation would mend.
+bool fast_errors_follow_input(const IdData& data, const Fit& fit);
+
 /// theta of the structure (one input, one output, regular sampling), with its delay where it is free, best first, at
 /// most three: the poles those of difference equations z^-l B(z)/F(z) that were fitted to the output error
 /// (fit/instrument_iteration.h), numerator, initial values and offset by least squares, for a free delay at four points

@@ -200,7 +200,7 @@ Fit or_from_sampled_starts(const IdData& record, const TransferStructure& struct
                            const FitOptions& options) {
     const bool suits = record.regular() && structure.inputs == 1 && structure.outputs == 1 && options.fixed.empty() &&
                        best.termination != Termination::kCancelled;
-    if (!suits || !errors_follow_input(record, best)) return best;
+    if (!suits || !fast_errors_follow_input(record, best)) return best;
     const std::vector<Vector> starts = sampled_starts(record, structure, best, options);
     if (starts.empty()) return best;
     Fit other = refine_from(record, structure, best.start, starts, options);

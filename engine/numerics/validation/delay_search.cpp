@@ -76,9 +76,17 @@ std::string orders_of(const OrderCandidate& candidate) {
     return structure_text(bare);
 }
 
+/// The value down to the second digit of its error, with five digits at most.
+std::string text_to_error(double value, double error) {
+    constexpr int kMostDigits = 5;
+    if (!(error > 0 && std::isfinite(error) && value != 0)) return number_text(value, kMostDigits);
+    const double digits = std::floor(std::log10(std::abs(value))) - std::floor(std::log10(error)) + 2;
+    return number_text(value, static_cast<int>(std::clamp(digits, 1.0, static_cast<double>(kMostDigits))));
+}
+
 std::string explanation_of(const DelaySearch& search, const IdData& data) {
-    std::string text = "The delay is " + number_text(search.delay) + " s";
-    if (data.regular()) text += " (" + number_text(search.delay / data.Ts, 4) + " samples)";
+    std::string text = "The delay is " + text_to_error(search.delay, search.std) + " s";
+    if (data.regular()) text += " (" + text_to_error(search.delay / data.Ts, search.std / data.Ts) + " samples)";
     if (std::isfinite(search.std)) text += ", standard error " + number_text(search.std, 2) + " s";
     text += ", in a model with " + orders_of(search.candidate) + " that fits " +
             number_text(search.candidate.fit_percent, 4) + " %.";

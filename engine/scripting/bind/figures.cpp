@@ -18,7 +18,7 @@ namespace {
 /// Options of plot that hold one value for all curves or one per curve.
 struct CurveLists {
     std::vector<std::string> labels, styles;
-    std::vector<double> dashes;
+    std::vector<double> dashes, markers;
     std::vector<int> colours;
 };
 
@@ -51,7 +51,7 @@ const T* value_for(const std::vector<T>& values, std::size_t i, std::size_t coun
 
 void read_curve_lists(const Options& options, std::vector<Curve>& curves) {
     const CurveLists lists{options.texts("label"), options.texts("style"), numbers(options, "dash"),
-                           colours_of(options)};
+                           numbers(options, "marker"), colours_of(options)};
     if (lists.labels.size() > curves.size())
         throw InvalidArgument(
             fmt::format("option 'label' has {} texts, but there are {} curves", lists.labels.size(), curves.size()));
@@ -60,6 +60,8 @@ void read_curve_lists(const Options& options, std::vector<Curve>& curves) {
         if (i < lists.labels.size()) curve.label = with_marked_indices(lists.labels[i]);
         if (auto style = value_for(lists.styles, i, curves.size(), "style")) curve.style = parse_curve_style(*style);
         if (auto dash = value_for(lists.dashes, i, curves.size(), "dash")) curve.dash = place_of_look(*dash, "dash");
+        if (auto marker = value_for(lists.markers, i, curves.size(), "marker"))
+            curve.marker = place_of_look(*marker, "marker");
         if (auto colour = value_for(lists.colours, i, curves.size(), "colour")) curve.colour = *colour;
         curve.line_width = options.number("line_width", curve.line_width);
     }
@@ -136,7 +138,7 @@ int plot(Call& call) {
     const Options options(call, with_options ? call.count() : call.count() + 1,
                           {"title",      "xlabel", "ylabel", "x_range",    "y_range",     "x_log",  "y_log",
                            "equal_axes", "legend", "curves", "references", "annotations", "arrows", "label",
-                           "style",      "dash",   "colour", "line_width", "width",       "height"});
+                           "style",      "dash",   "marker", "colour",     "line_width",  "width",  "height"});
     read_curve_lists(options, panel.curves);
     panel.log_x = kLogX;
     panel.log_y = kLogY;

@@ -159,8 +159,8 @@ void read_panel_options(const Call& call, const Options& options, Panel& panel) 
     panel.log_x = options.flag("x_log", panel.log_x);
     panel.log_y = options.flag("y_log", panel.log_y);
     panel.equal_axes = options.flag("equal_axes", panel.equal_axes);
-    panel.legend = static_cast<LegendPlace>(
-        options.choice("legend", {"automatic", "above", "right", "none"}, static_cast<std::size_t>(panel.legend)));
+    panel.legend = static_cast<LegendPlace>(options.choice("legend", {"automatic", "above", "right", "none", "direct"},
+                                                           static_cast<std::size_t>(panel.legend)));
     for_each_entry(call, options, "curves", [&](int entry) { panel.curves.push_back(read_curve(call, entry)); });
     for_each_entry(call, options, "references",
                    [&](int entry) { panel.references.push_back(read_reference(call, entry)); });

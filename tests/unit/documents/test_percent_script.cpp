@@ -131,6 +131,10 @@ TEST(percent_script, the_students_copy_differs_in_the_solutions_only) {
         "-- %%\r\nlocal u = 1  \n    -- YOUR CODE HERE\n    local K = 1\nprint(K)\n-- %% [markdown]\n-- Why?\n--\n"
         "-- *Your answer:*\n\nlast line");
     EXPECT_EQ(without_solutions("x = 1\r\n\r\n"), "x = 1\r\n\r\n");
+    EXPECT_EQ(without_solutions("-- %%\n-- BEGIN SOLUTION\ny = 1\n-- END SOLUTION\n-- %% [markdown]\n-- BEGIN "
+                                "SOLUTION\n-- Car.\n-- END SOLUTION\n",
+                                "a.lua", "fr"),
+              "-- %%\n-- VOTRE CODE ICI\n-- %% [markdown]\n-- *Votre réponse :*\n");
     const std::string solution = "-- BEGIN SOLUTION\ny = 1\n-- END SOLUTION\n", asked = "-- YOUR CODE HERE\n";
     EXPECT_EQ(without_solutions("-- %%\n" + solution + "\n-- %% id=b\n" + solution),
               "-- %%\n" + asked + "\n-- %% id=b\n")

@@ -75,8 +75,13 @@ TEST(step_construction, draws_the_band_of_the_change_and_times_from_the_step) {
     const Curve& band = curve_called(figure, "±5 % band");
     EXPECT_NEAR(band.y[0], 29.5, 1e-12);
     EXPECT_NEAR(band.y_upper[0], 30.5, 1e-12);
-    ASSERT_EQ(figure.panels[0].arrows.size(), 1u);
-    EXPECT_THAT(figure.panels[0].arrows[0].text, HasSubstr("= 15 s"));
+    ASSERT_EQ(figure.panels[0].arrows.size(), 2u);
+    const Arrow &gain = figure.panels[0].arrows[0], &time = figure.panels[0].arrows[1];
+    EXPECT_EQ(gain.text, "K Δu");
+    EXPECT_EQ(gain.x0, gain.x1);
+    EXPECT_EQ(gain.y1 - gain.y0, 10) << "from level to level";
+    EXPECT_THAT(time.text, HasSubstr("= 15 s"));
+    EXPECT_NEAR(time.x1 - time.x0, 15, 1e-12);
 }
 
 }  // namespace test_standard_plots

@@ -67,11 +67,25 @@ TEST(sampled_starts, errors_follow_the_input_where_something_is_missed) {
     int false_alarms = 0;
     for (std::uint32_t seed = 1; seed <= 50; ++seed) {
         const IdData data = slowly_sampled_record(1, seed);
-        false_alarms += errors_follow_input(data, fit_from(data, with_free_delay(3, 1), true_values())) ? 1 : 0;
+        false_alarms += fast_errors_follow_input(data, fit_from(data, with_free_delay(3, 1), true_values())) ? 1 : 0;
         const Fit poorer = fit_from(data, with_free_delay(1, 0), values({2, 4, 2.25 * kTs}));
-        EXPECT_TRUE(errors_follow_input(data, poorer)) << seed;
+        EXPECT_TRUE(fast_errors_follow_input(data, poorer)) << seed;
     }
     EXPECT_LE(false_alarms, 1);
+}
+
+// Oracle: differences of a sine of w radians a sample are 2 sin(w/2) as large, so that of 0.25 and of 0.4 radians the
+// squares are 0.06 and 0.16 of its own.
+TEST(sampled_starts, slow_errors_are_not_theirs) {
+    for (const double turn : {0.25, 0.4}) {
+        const Vector u = (Vector::LinSpaced(2000, 0, 1999) * turn).array().sin();
+        const Vector response = lsim(TransferFunction(values({2}), values({1, 4}), 0), u, 0.01);
+        const IdData data(Matrix(response), Matrix(u), 0.01);
+        const Fit poor = fit_from(data, TransferStructure::single(1, 0), values({4, 2}));
+        Fit none = poor;
+        none.theta[1] = 0;  // the whole output is an error then
+        EXPECT_EQ(fast_errors_follow_input(data, none), turn > 0.3) << turn;
+    }
 }
 
 // Oracle: the noise of random systems to whose best model no filtered start leads.

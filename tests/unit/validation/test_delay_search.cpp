@@ -43,6 +43,12 @@ TEST(delay_search, delays_between_samples_are_found) {  // oracle: the simulated
     EXPECT_NEAR(search.delay, 0.437, 4 * search.std);
     EXPECT_LT(search.std, 0.02);
     EXPECT_THAT(search.explanation, HasSubstr("samples), standard error"));
+    // told to the second digit of its error: no further from the value than half of that digit, and no digit more
+    const std::string told = search.explanation.substr(std::string("The delay is ").size());
+    const std::string number = told.substr(0, told.find(' '));
+    const double digit = std::pow(10, std::floor(std::log10(search.std)) - 1);
+    EXPECT_LE(std::abs(std::stod(number) - search.delay), 0.501 * digit) << search.explanation;
+    EXPECT_LE(number.size(), 2 + static_cast<std::size_t>(std::lround(-std::log10(digit)))) << search.explanation;
 }
 
 TEST(delay_search, curve_is_the_loss_of_the_best_model_at_each_delay) {  // oracle: srivc with that delay fixed

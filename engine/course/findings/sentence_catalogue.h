@@ -1,0 +1,46 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dynlab::inline course {
+
+/// Sentences of another language for those that are told to students. Its files hold pairs of lines: a sentence as
+/// the program or a lesson's checks.lua writes it, with {} for what changes, and below it, indented, the other
+/// language's, with as many {} in the same order. Lines that begin with # are remarks.
+class SentenceCatalogue {
+  public:
+    /// Adds the pairs of a file. Throws EnvironmentError with file and line for what is no pair.
+    void add(const std::filesystem::path& file);
+
+    /// The text, sentence by sentence, in the other language: of several entries that fit, the one with most letters
+    /// of its own; a sentence that none fits stays. What stands for {} is looked up as well, and decimal
+    /// points of numbers become commas.
+    std::string translated(std::string_view text) const;
+
+    /// Whether an entry is this sentence.
+    bool knows(std::string_view sentence) const;
+
+  private:
+    struct Entry {
+        std::vector<std::string> from, to;  ///< the pieces between the {}
+        std::size_t letters = 0;
+    };
+    struct Fit {
+        const Entry* entry;
+        std::vector<std::string_view> between;
+        std::size_t end;
+    };
+    static std::optional<Fit> fit(const Entry& entry, std::string_view text);
+    std::optional<Fit> fitting(std::string_view text) const;
+    std::string written(const Fit& found) const;
+
+    std::vector<Entry> entries_;
+};
+
+/// French: report_templates/sentences.fr.txt, and checks.fr.txt of the lesson where it is installed and has one.
+SentenceCatalogue french_sentences(const std::string& lesson = "");
+
+}  // namespace dynlab::inline course
