@@ -31,7 +31,7 @@ const dynlabPlots = (() => {
   /// A mark that moves sliders: whoever has these hears "slidermove" with their numbers, or "sliderstep" with the name of
   /// one and the way it goes. The figure may be exchanged meanwhile: the mark of the same name goes on with the hand.
   class Handle {
-    static held = null;  // { key, plot, pointer, aside, upwards }: cm from the mark
+    static held = null;  // { name, key, plot, pointer, aside, upwards }: cm from the mark
     static stepped = { key: "", at: -Infinity };
 
     constructor(plot, button) {
@@ -40,20 +40,26 @@ const dynlabPlots = (() => {
       button.addEventListener("keydown", (event) => this.step(event));
       button.setAttribute("aria-roledescription", WORDS.handle);
     }
-    take(panel, mark) {
+    take(panel, mark, earlier) {
       Object.assign(this, { panel, mark });
       const names = mark.scales.map((scale) => `${scale.slider} = ${Number(scale.value.toPrecision(4))}`);
       const name = typeof mark.name === "string" ? mark.name : mark.name.map((piece) => piece.slice(1)).join("");
-      this.key = mark.scales.map((scale) => scale.slider).join(" ") + " " + name;
+      this.name = mark.scales.map((scale) => scale.slider).join(" ") + " " + name;
+      this.number = earlier.filter((handle) => handle.name === this.name).length;
       this.button.setAttribute("aria-label", [name, ...names].filter(Boolean).join(", "));
       this.button.classList.toggle("held", Handle.held?.key === this.key);
     }
     get place() { return this.panel.place(this.mark.x, this.mark.y); }
+    /// Names the mark in the page, whatever run its figure is of: which figure, which of its marks of one name.
+    get key() {
+      const figures = [...document.querySelectorAll("script.plot-data")];
+      return `${figures.indexOf(this.plot.picture.nextElementSibling)} ${this.number} ${this.name}`;
+    }
     draw() {
       const [x, y] = this.place, [width, height] = this.plot.size;
       this.button.hidden = !this.panel.holds(x, y);
       Object.assign(this.button.style, { left: `${100 * x / width}%`, top: `${100 * (height - y) / height}%` });
-      if (Handle.stepped.key !== this.key || performance.now() - Handle.stepped.at > 3000) return;
+      if (performance.now() - Handle.stepped.at > 3000 || Handle.stepped.key !== this.key) return;
       if (document.activeElement === document.body) this.button.focus({ preventScroll: true });
     }
     down(event) {
@@ -62,15 +68,17 @@ const dynlabPlots = (() => {
       event.stopPropagation();
       this.button.focus({ preventScroll: true });
       const [x, y] = this.plot.place(event), at = this.place;
-      Handle.held = { key: this.key, plot: this.plot, pointer: event.pointerId, aside: x - at[0], upwards: y - at[1] };
+      const { name, key, plot } = this;
+      Handle.held = { name, key, plot, pointer: event.pointerId, aside: x - at[0], upwards: y - at[1] };
       this.button.classList.add("held");
       document.documentElement.setPointerCapture(event.pointerId);  // the button may be exchanged
     }
     /// The mark that is held, in the figure as it is now.
     static now() {
-      const boxes = [Handle.held.plot.box, ...document.querySelectorAll("div.plot")];
+      const { name, key, plot } = Handle.held, boxes = [plot.box, ...document.querySelectorAll("div.plot")];
       const marks = boxes.filter((box) => box.isConnected).flatMap((box) => box.plot.handles);
-      return marks.find((handle) => handle.key === Handle.held.key);
+      const same = marks.filter((handle) => handle.name === name);
+      return same.find((handle) => handle.key === key) ?? same[0];  // figures may have come before it
     }
     static move(event) {
       if (Handle.held?.pointer !== event.pointerId) return;
@@ -105,7 +113,7 @@ const dynlabPlots = (() => {
   /// A figure in the page: its canvas, what is read off, and what hands do.
   class Plot {
     constructor(picture, figure) {
-      Object.assign(this, { picture, made: figure, handles: [] });
+      Object.assign(this, { picture, made: figure, entries: [], handles: [] });
       this.take(figure);
       this.pointers = new Map();
       this.cursor = null;  // { panel, x, y }: cm
@@ -136,7 +144,9 @@ const dynlabPlots = (() => {
         panel.curves.forEach((curve, k) => { curve.shown = was.curves[k]?.shown ?? true; });
       });
       this.cursor = null;
+      this.shape();
       this.furnish();
+      this.data.renew();
       if (this.motion) {
         this.motion.pause();
         this.motion.box.remove();
@@ -147,12 +157,10 @@ const dynlabPlots = (() => {
 
     build() {
       const element = (name, kind) => Object.assign(document.createElement(name), { className: kind });
-      const [width, height] = this.size.map((length) => Math.round(length / 2.54 * 96));  // as the picture's own
       this.box = element("div", "plot");
       this.box.plot = this;
       this.box.tabIndex = 0;
-      this.box.style.aspectRatio = `${width} / ${height}`;
-      this.box.style.width = this.picture.style.width || `${width}px`;
+      this.shape();
       this.box.setAttribute("role", "application");
       this.box.setAttribute("aria-roledescription", WORDS.kind);
       this.box.setAttribute("aria-label", [this.picture.alt, WORDS.help].filter(Boolean).join(". "));
@@ -164,37 +172,44 @@ const dynlabPlots = (() => {
       this.whole.textContent = WORDS.whole;
       this.whole.hidden = this.reading.hidden = true;
       this.whole.onclick = () => { this.reset(); this.box.focus({ preventScroll: true }); };
-      this.box.append(this.canvas, this.over, this.reading, this.whole, dynlabTables.button(this.box, () => this.readable, this.comma));
+      this.data = dynlabTables.button(this.box, () => this.readable, this.comma);
+      this.box.append(this.canvas, this.over, this.reading, this.whole, this.data);
       this.furnish();
+    }
+    /// The room that the figure takes, as the picture's own.
+    shape() {
+      const [width, height] = this.size.map((length) => Math.round(length / 2.54 * 96));
+      this.box.style.aspectRatio = `${width} / ${height}`;
+      this.box.style.width = this.picture.style.width || `${width}px`;
     }
     /// Buttons over the canvas: the legend's entries, and marks that sliders move.
     furnish() {
-      const button = (kind) => Object.assign(document.createElement("button"), { className: kind, type: "button" });
-      for (const old of this.box.querySelectorAll(".entry")) old.remove();
-      for (const panel of this.panels)
-        for (const entry of panel.legend) this.box.append(this.button(panel, entry, button("entry")));
+      const button = (kind) => {
+        const made = Object.assign(document.createElement("button"), { className: kind, type: "button" });
+        this.box.append(made);
+        return made;
+      };
+      const entries = this.panels.flatMap((panel) => panel.legend.map((entry) => ({ panel, entry })));
+      for (const old of this.entries.splice(entries.length)) old.remove();
+      entries.forEach(({ panel, entry }, i) => this.furnishEntry(this.entries[i] ??= button("entry"), panel, entry));
       const marks = this.panels.flatMap((panel) => (panel.handles ?? []).map((mark) => ({ panel, mark })));
       for (const { button } of this.handles.splice(marks.length)) button.remove();
       marks.forEach(({ panel, mark }, i) => {
-        if (!this.handles[i]) {
-          this.handles[i] = new Handle(this, button("handle"));
-          this.box.append(this.handles[i].button);
-        }
-        this.handles[i].take(panel, mark);
+        this.handles[i] ??= new Handle(this, button("handle"));
+        this.handles[i].take(panel, mark, this.handles.slice(0, i));
       });
     }
-    button(panel, { curve: index, x, y, width: length }, button) {
+    furnishEntry(button, panel, { curve: index, x, y, width: length }) {
       const [width, height] = this.size, curve = panel.curves[index];
       Object.assign(button.style, { left: `${100 * x / width}%`, top: `${100 * (height - y - 0.21) / height}%`,
                                     width: `${100 * length / width}%`, height: `${100 * 0.42 / height}%` });
       button.setAttribute("aria-label", WORDS.curve + curve.label);
-      button.setAttribute("aria-pressed", "true");
+      button.setAttribute("aria-pressed", String(curve.shown));
       button.onclick = () => {
         curve.shown = !curve.shown;
         button.setAttribute("aria-pressed", String(curve.shown));
         this.draw();
       };
-      return button;
     }
 
     draw() {

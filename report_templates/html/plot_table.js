@@ -1,13 +1,16 @@
 // The samples of a figure as tables, for those who do not see its curves and for other programs: one table for curves
-// over the same abscissas. A page shows some two hundred rows; a copy holds all samples that the page has.
+// over the same abscissas. A page shows some two hundred rows; a copy holds all samples that the page has, and says
+// where these are fewer than the figure was made from.
 const dynlabTables = (() => {
   "use strict";
   const ROWS = 200;
   const WORDS = document.documentElement.lang.startsWith("fr")
     ? { data: "Données", table: "Données de la figure", copy: "Copier en CSV", copied: "Copié", lower: "bas", upper: "haut",
-        rows: (shown, all) => shown === all ? `${all} échantillons` : `${shown} des ${all} échantillons` }
+        rows: (shown, all) => shown === all ? `${all} échantillons` : `${shown} des ${all} échantillons`,
+        thinned: (kept, all) => `éclaircis : ${kept} des ${all} échantillons`, seen: (shown) => `, dont ${shown} affichés` }
     : { data: "Data", table: "Data of the figure", copy: "Copy as CSV", copied: "Copied", lower: "lower", upper: "upper",
-        rows: (shown, all) => shown === all ? `${all} samples` : `${shown} of ${all} samples` };
+        rows: (shown, all) => shown === all ? `${all} samples` : `${shown} of ${all} samples`,
+        thinned: (kept, all) => `thinned: ${kept} of ${all} samples`, seen: (shown) => `, ${shown} of them shown` };
   const make = (name, kind = "", text = "") => Object.assign(document.createElement(name), { className: kind, textContent: text });
 
   async function copy(text) {
@@ -39,16 +42,17 @@ const dynlabTables = (() => {
   };
   const equal = (a, b) => a === b || a.length === b.length && a.every((value, i) => value === b[i]);
 
-  /// { x, columns: [{ heading, values }] } for each set of abscissas.
+  /// { x, samples, columns: [{ heading, values }] } for each set of abscissas, which stand for so many samples.
   function tables(panels) {
     const found = [];
     for (const panel of panels)
       for (const curve of panel.curves) {
         const linked = (table) => table.panel === panel || table.panel.goesWith(panel);
-        let table = found.find((one) => linked(one) && equal(one.x, curve.x));
+        const samples = curve.samples ?? curve.x.length;
+        let table = found.find((one) => linked(one) && one.samples === samples && equal(one.x, curve.x));
         if (!table) {
           const axis = panels.find((other) => other.x.name && (other === panel || other.goesWith(panel)))?.x ?? panel.x;
-          table = { panel, x: curve.x, columns: [{ heading: heading(axis) || "x", values: curve.x }] };
+          table = { panel, x: curve.x, samples, columns: [{ heading: heading(axis) || "x", values: curve.x }] };
           found.push(table);
         }
         const band = curve.style === "band";
@@ -61,14 +65,15 @@ const dynlabTables = (() => {
 
   const csvText = (text) => /[",\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text;
   const plain = (value) => value === null || !Number.isFinite(value) ? "" : String(Number(value.toPrecision(7)));
-  function csv({ x, columns }) {
-    const lines = [columns.map((column) => csvText(column.heading)).join(",")];
+  function csv({ x, samples, columns }) {
+    const lines = samples > x.length ? [`# ${WORDS.thinned(x.length, samples)}`] : [];
+    lines.push(columns.map((column) => csvText(column.heading)).join(","));
     x.forEach((_, i) => lines.push(columns.map((column) => plain(column.values[i])).join(",")));
     return lines.join("\n") + "\n";
   }
 
   function element(table, comma) {
-    const { x, columns } = table, every = Math.max(1, Math.ceil((x.length - 1) / (ROWS - 1)));
+    const { x, samples, columns } = table, every = Math.max(1, Math.ceil((x.length - 1) / (ROWS - 1)));
     const box = make("div", "samples"), shown = make("table"), head = make("tr"), body = make("tbody");
     const kept = [...x.keys()].filter((i) => i % every === 0 || i === x.length - 1);
     for (const column of columns) head.append(Object.assign(make("th", "", column.heading), { scope: "col" }));
@@ -81,7 +86,9 @@ const dynlabTables = (() => {
       });
       body.append(row);
     }
-    const caption = make("caption", "", WORDS.rows(kept.length, x.length)), top = make("thead");
+    const words = samples === x.length ? WORDS.rows(kept.length, x.length)
+      : WORDS.thinned(x.length, samples) + (kept.length === x.length ? "" : WORDS.seen(kept.length));
+    const caption = make("caption", "", words), top = make("thead");
     top.append(head);
     shown.append(caption, top, body);
     const scroll = make("div", "rows");
@@ -94,9 +101,11 @@ const dynlabTables = (() => {
   }
 
   /// The button that opens and closes the tables of a figure, of the panels as they are then; they stand behind `box`.
+  /// `renew` of it is called when the panels are others.
   function button(box, panels, comma) {
     const button = make("button", "data", WORDS.data);
     let shown = null;
+    const fill = () => shown.replaceChildren(...tables(panels()).map((table) => element(table, comma)));
     button.type = "button";
     button.setAttribute("aria-expanded", "false");
     button.onclick = () => {
@@ -104,8 +113,14 @@ const dynlabTables = (() => {
       shown = shown ? null : make("div", "plot-data-tables");
       button.setAttribute("aria-expanded", String(shown !== null));
       if (!shown) return;
-      shown.append(...tables(panels()).map((table) => element(table, comma)));
+      fill();
       box.after(shown);
+    };
+    button.renew = () => {
+      if (!shown) return;
+      const places = () => [...shown.querySelectorAll(".rows")], scrolled = places().map((rows) => rows.scrollTop);
+      fill();
+      places().forEach((rows, i) => { rows.scrollTop = scrolled[i] ?? 0; });
     };
     return button;
   }

@@ -96,6 +96,29 @@ TEST_F(page_tables, are_copied_whole_and_shown_thinned) {
     EXPECT_TRUE(browser.comes("document.querySelector('.samples .csv').innerText === 'Copied'"));
 }
 
+/// Oracle: as many rows as the curve on the page has points.
+TEST_F(page_tables, of_very_long_records_say_that_they_are_thinned) {
+    Figure figure = two_panels(20001);
+    figure.panels[0].curves[0].y = figure.panels[0].curves[0].x.array().sin();
+    figure.panels[0].curves.resize(1);
+    figure.panels[0].curves.push_back(curve_of(Vector{{0.0, 10000.0}}, Vector{{1.0, 1.0}}, "level"));
+    open(figure);
+    browser.evaluate("document.querySelector('.plot .data').click()");
+    const int kept = value("document.querySelector('.plot').plot.panels[0].curves[0].x.length");
+    ASSERT_LT(kept, 4100);
+    const int seen = static_cast<int>(rows().size()) - 1;
+    EXPECT_EQ(value("document.querySelectorAll('.samples caption')[0].innerText"),
+              fmt::format("thinned: {} of 20001 samples, {} of them shown", kept, seen));
+    EXPECT_EQ(value("document.querySelectorAll('.samples caption')[1].innerText"), "2 samples");
+    browser.evaluate(
+        "Object.defineProperty(navigator, 'clipboard', {value: {writeText: text => { window.copied = text; }}});"
+        "document.querySelector('.samples .csv').click()");
+    ASSERT_TRUE(browser.comes("window.copied !== undefined"));
+    const std::string csv = value("copied");
+    EXPECT_TRUE(csv.starts_with(fmt::format("# thinned: {} of 20001 samples\ntime (s),", kept))) << csv.substr(0, 200);
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), kept + 2);
+}
+
 TEST_F(page_tables, tell_curves_of_other_abscissas_apart_and_both_edges_of_bands) {
     Panel panel;
     panel.x_label = "x", panel.y_label = "y (V)";

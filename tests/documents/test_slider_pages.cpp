@@ -97,6 +97,7 @@ class slider_pages : public testing::Test {
         panel.curves.emplace_back();
         panel.curves[0].x = Vector::LinSpaced(11, 0, 1);
         panel.curves[0].y = k * panel.curves[0].x;
+        if (has_legend_) panel.curves[0].label = "line", panel.title = k == 3 ? "Steep\nindeed" : "";
         const Vector of_k = Vector::LinSpaced(21, 1, 3), of_c = Vector::LinSpaced(21, 0, 2);
         panel.annotations.push_back(
             {0.2 + 0.3 * c,
@@ -108,8 +109,13 @@ class slider_pages : public testing::Test {
         figure.caption = "A line";
         figure.file = folder_.path() / "drawn.svg";
         figure.plot = plot_data(Figure(panel), false);
+        if (draws_twice_) {
+            record.figures["draw-figure-2"] = figure;
+            record.figures["draw-figure-2"].caption = "A line again, gain " + json(k).dump();
+        }
         record.outputs["draw"] = {{says_gain_ ? "k is " + json(k).dump() + "\n" : "", std::nullopt},
                                   {"", "draw-figure-1"}};
+        if (draws_twice_) record.outputs["draw"].push_back({"", "draw-figure-2"});
         if (k == 3 && says_more_) record.outputs["draw"].push_back({"It is large.\n", std::nullopt});
         DocumentSource source;
         source.template_file = folder_.path() / "report.md";
@@ -143,17 +149,18 @@ class slider_pages : public testing::Test {
     }
     double slope() { return value("document.querySelector('div.plot').plot.panels[0].curves[0].y[10]"); }
 
-    /// The middle of the handle, in pixels of the window.
-    std::pair<int, int> handle() {
-        const json at = value(
-            "(() => { const handle = document.querySelector('.handle'); handle.scrollIntoView({block: 'center'}); "
-            "const box "
-            "= handle.getBoundingClientRect(); return [box.left + box.width / 2, box.top + box.height / 2] })()");
+    /// The middle of a handle, in pixels of the window.
+    std::pair<int, int> handle(int number) {
+        const json at =
+            value("(() => { const handle = document.querySelectorAll('.handle')[" + std::to_string(number) +
+                  "]; handle.scrollIntoView({block: 'center'}); "
+                  "const box "
+                  "= handle.getBoundingClientRect(); return [box.left + box.width / 2, box.top + box.height / 2] })()");
         return {static_cast<int>(at[0].get<double>()), static_cast<int>(at[1].get<double>())};
     }
-    /// What a hand does that takes the handle to other places, each with what is to be true then.
-    void drag(const std::string& kind, const std::vector<std::pair<double, double>>& places) {
-        const auto [x, y] = handle();
+    /// What a hand does that takes a handle to other places, each with what is to be true then.
+    void drag(const std::string& kind, const std::vector<std::pair<double, double>>& places, int number = 0) {
+        const auto [x, y] = handle(number);
         const json scale = value(
             "(() => { const { plot } = document.querySelector('div.plot'), panel = plot.panels[0]; "
             "return [plot.unit * panel.width, plot.unit * panel.height / 4] })()");
@@ -182,7 +189,7 @@ class slider_pages : public testing::Test {
                 .dump());
     }
 
-    bool says_gain_ = true, says_more_ = false;
+    bool says_gain_ = true, says_more_ = false, draws_twice_ = false, has_legend_ = false;
     TemporaryFolder folder_;
     PercentScript script_;
     std::deque<RunRecord> records_;
@@ -296,6 +303,71 @@ TEST_F(slider_pages, keys_move_a_handle_step_by_step) {
     EXPECT_EQ(place("c"), "1");
     EXPECT_EQ(value("document.activeElement.className"), "handle");
     EXPECT_EQ(value("document.activeElement.getAttribute('aria-label')"), "end, c = 1, k = 3");
+}
+
+/// Marks of one name in two figures, whose text is another at each place: the hand keeps the one it took.
+TEST_F(slider_pages, a_hand_keeps_the_handle_of_its_figure) {
+    draws_twice_ = true;
+    open();
+    ASSERT_TRUE(browser.comes("document.querySelectorAll('.handle').length === 2"));
+    drag("mouse", {{0, 0.6}, {0, 0.8}, {0, 1}}, 1);
+    EXPECT_TRUE(shows("A line again, gain 3"));
+    EXPECT_EQ(place("k"), "3\u202fV");
+    browser.evaluate("document.querySelectorAll('.handle')[1].focus()");
+    press("\uE015");  // down
+    EXPECT_TRUE(shows("A line again, gain 2"));
+    EXPECT_EQ(value("[...document.querySelectorAll('.handle')].indexOf(document.activeElement)"), 1);
+}
+
+TEST_F(slider_pages, open_tables_show_the_samples_of_the_place) {
+    open();
+    browser.click(".plot .data");
+    const std::string last = "document.querySelector('.samples tbody tr:last-child').innerText";
+    EXPECT_EQ(value(last), "1\t2");
+    move("k", 2);
+    EXPECT_EQ(value(last), "1\t3");
+    browser.evaluate(
+        "Object.defineProperty(navigator, 'clipboard', {value: {writeText: text => { window.copied = text; }}});"
+        "document.querySelector('.samples .csv').click()");
+    ASSERT_TRUE(browser.comes("window.copied !== undefined"));
+    EXPECT_TRUE(value("copied.endsWith('\\n1,3\\n')")) << value("copied");
+    browser.click(".plot .data");
+    EXPECT_EQ(value("document.querySelectorAll('.samples').length"), 0);
+    move("k", 0);
+    EXPECT_EQ(value("document.querySelectorAll('.samples').length"), 0);
+}
+
+TEST_F(slider_pages, hidden_curves_stay_so_and_their_buttons_say_it) {
+    says_gain_ = false, has_legend_ = true;
+    open();
+    browser.evaluate("document.querySelector('.entry').focus()");
+    press(" ");
+    const std::string entry = "document.querySelector('.entry')";
+    ASSERT_EQ(value(entry + ".getAttribute('aria-pressed')"), "false");
+    move("k", 0);
+    EXPECT_EQ(value("document.querySelector('div.plot').plot.panels[0].curves[0].shown"), false);
+    EXPECT_EQ(value(entry + ".getAttribute('aria-pressed')"), "false");
+    EXPECT_EQ(value("document.activeElement === " + entry), true);
+    press(" ");
+    EXPECT_EQ(value("document.querySelector('div.plot').plot.panels[0].curves[0].shown"), true);
+    EXPECT_EQ(value(entry + ".getAttribute('aria-pressed')"), "true");
+}
+
+/// A place whose title is longer has a higher figure: a centimetre stays a centimetre both ways.
+TEST_F(slider_pages, figures_take_the_room_of_the_place) {
+    says_gain_ = false, has_legend_ = true;
+    open();
+    const std::string off =
+        "(plot => Math.abs(plot.box.offsetHeight / plot.box.offsetWidth - plot.size[1] / plot.size[0]))"
+        "(document.querySelector('div.plot').plot)";
+    const double height = value("document.querySelector('div.plot').plot.size[1]");
+    EXPECT_LT(value(off), 0.003);
+    move("k", 2);
+    ASSERT_GT(value("document.querySelector('div.plot').plot.size[1]").get<double>(), height + 0.3);
+    EXPECT_LT(value(off), 0.003);
+    move("k", 1);
+    EXPECT_EQ(value("document.querySelector('div.plot').plot.size[1]"), height);
+    EXPECT_LT(value(off), 0.003);
 }
 
 /// Figures without other words cost what is drawn otherwise, not the page's pictures and texts anew.

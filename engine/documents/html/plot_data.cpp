@@ -150,6 +150,7 @@ class PlotWriter {
                      {"edge", style::marker_line(curve)},
                      {"x", abscissas(curve.x, layout.x)},
                      {"y", rounded_values(curve.y, layout.y)}};
+        if (curve.x.size() != whole.x.size()) data["samples"] = whole.x.size();
         if (curve.style == CurveStyle::kBand) data["upper"] = rounded_values(curve.y_upper, layout.y);
         return data;
     }

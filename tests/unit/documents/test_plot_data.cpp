@@ -78,6 +78,8 @@ TEST(plot_data, long_records_keep_the_extremes_of_every_column) {
     EXPECT_LT(text.size(), 100'000u);
     const json panel = json::parse(text)["panels"][0], curve = panel["curves"][0];
     ASSERT_LE(curve["y"].size(), 4004u);
+    EXPECT_EQ(curve.value("samples", Index{0}), count);
+    EXPECT_FALSE(first_curve(figure_of(Vector::LinSpaced(4000, 0, 1), Vector::Random(4000))).contains("samples"));
     std::map<long, std::pair<double, double>> all, kept;
     const auto include = [](auto& extremes, double at, double value) {
         auto [place, fresh] = extremes.try_emplace(std::lround(std::floor(at / 50 * 1000)), value, value);
