@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <csignal>
 #include <optional>
+#include <regex>
 #include <thread>
 
 #include "course/findings/leftover_findings.h"
@@ -31,6 +32,7 @@ namespace fs = std::filesystem;
 
 constexpr int kMissingProgramCode = 3;  ///< dynlab's exit code when pandoc or the like is not installed
 constexpr std::uint64_t kMostCheckOutput = 16u << 20, kLargestMade = 200u << 20;
+constexpr std::size_t kLongestStart = 200;  ///< of a line, where a question's number is looked for
 constexpr char kInBox[] = "/box/submission";
 
 /// One folder's check: a clean copy, what runs in it, and what is found.
@@ -182,15 +184,37 @@ class FolderCheck {
                            [](const Finding& finding) { return finding.id == "file-outside"; });
     }
 
+    /// Lines that a student's own take the place of: a question that has several is one finding.
     void check_blanks(const PercentScript& script) {
+        struct Blanks {
+            std::string question;  ///< "Question 4"; empty above the first
+            int line;              ///< of the first
+            bool code, words;
+        };
+        static const std::regex kQuestion("\\*\\*(Question [0-9]{1,4})\\b");
+        std::vector<Blanks> found;
+        std::string question;
         int number = 0;
         for (const std::string& line : lines_of(script.source)) {
             ++number;
+            const std::string begin = line.substr(0, kLongestStart);
+            if (std::smatch asked; std::regex_search(begin, asked, kQuestion)) question = asked[1];
             const std::string text = trimmed(line);
-            const bool code = text == "-- YOUR CODE HERE";
-            if (!code && text != "-- *Your answer:*") continue;
-            add("answer-open", Severity::kRule, fmt::format("analysis.lua:{}", number),
-                fmt::format("The line \"{}\" is still there.", code ? "YOUR CODE HERE" : "Your answer:"),
+            if (text.starts_with("-- #")) question.clear();  // a heading: what follows belongs to none
+            const bool code = text == "-- YOUR CODE HERE", words = text == "-- *Your answer:*";
+            if (!code && !words) continue;
+            if (found.empty() || question.empty() || found.back().question != question)
+                found.push_back({question, number, false, false});
+            found.back().code = found.back().code || code;
+            found.back().words = found.back().words || words;
+        }
+        for (const auto& [asked, line, code, words] : found) {
+            const char* const lines = !words  ? "the line \"YOUR CODE HERE\" is"
+                                      : !code ? "the line \"Your answer:\" is"
+                                              : "the lines \"YOUR CODE HERE\" and \"Your answer:\" are";
+            add("answer-open", Severity::kRule, fmt::format("analysis.lua:{}", line),
+                asked.empty() ? fmt::format("T{} still there.", lines + 1)
+                              : fmt::format("{} is open: {} still there.", asked, lines),
                 "Write your own there and take the line out.");
         }
     }
