@@ -143,6 +143,22 @@ TEST(check_command, open_questions_and_missing_answers_are_found_by_line_and_nam
     EXPECT_EQ(french.at("findings").at(0).at("id"), "answer-open") << french.dump(1);
 }
 
+// oracle: the questions as they are numbered here
+TEST(check_command, a_question_with_several_blanks_is_one_finding) {
+    const Workbench bench;
+    make_folder(bench, std::string("-- %% [markdown]\n-- **Question 1.** How?\n\n-- %%\n") + kAnalysis +
+                           "-- YOUR CODE HERE\n\n-- %% [markdown]\n-- *Your answer:*\n--\n-- **Question 2.** Why?\n--\n"
+                           "-- *Your answer:*\n--\n-- # Learnt\n--\n-- *Your answer:*\n");
+    const auto json = nlohmann::json::parse(bench.dynlab({"check", "mine", "--json"}).output);
+    std::vector<std::string> told;
+    for (const auto& finding : json.at("findings"))
+        if (finding.at("id") == "answer-open") told.push_back(finding.at("what"));
+    EXPECT_THAT(told,
+                ElementsAre("Question 1 is open: the lines \"YOUR CODE HERE\" and \"Your answer:\" are still there.",
+                            "Question 2 is open: the line \"Your answer:\" is still there.",
+                            "The line \"Your answer:\" is still there."));
+}
+
 // oracle: the worked solution has all points, and percent instead of a ratio lose those of their check
 TEST(check_command, tells_what_the_checks_of_the_lesson_say) {
     const Workbench bench;

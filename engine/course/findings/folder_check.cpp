@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <csignal>
 #include <optional>
+#include <regex>
 #include <thread>
 
 #include "course/findings/leftover_findings.h"
@@ -32,6 +33,7 @@ namespace fs = std::filesystem;
 
 constexpr int kMissingProgramCode = 3;  ///< dynlab's exit code when pandoc or the like is not installed
 constexpr std::uint64_t kMostCheckOutput = 16u << 20, kLargestMade = 200u << 20;
+constexpr std::size_t kLongestStart = 200;  ///< of a line, where a question's number is looked for
 constexpr char kInBox[] = "/box/submission";
 
 /// One folder's check: a clean copy, what runs in it, and what is found.
@@ -183,18 +185,46 @@ class FolderCheck {
                            [](const Finding& finding) { return finding.id == "file-outside"; });
     }
 
+    /// "Your answer:" of the line "-- *Your answer:*".
+    static std::string shown_mark(std::string mark) {
+        std::erase_if(mark, [](char c) { return c == '*' || c == '-'; });
+        return trimmed(mark);
+    }
+
+    /// Lines that a student's own take the place of: a question that has several is one finding.
     void check_blanks(const PercentScript& script) {
+        struct Blanks {
+            std::string question;     ///< "Question 4"; empty above the first
+            int line;                 ///< of the first
+            std::string code, words;  ///< the marks that stand there
+        };
+        static const std::regex kQuestion("\\*\\*(Question [0-9]{1,4})\\b");
+        std::vector<Blanks> found;
+        std::string question;
         int number = 0;
         for (const std::string& line : lines_of(script.source)) {
             ++number;
+            const std::string begin = line.substr(0, kLongestStart);
+            if (std::smatch asked; std::regex_search(begin, asked, kQuestion)) question = asked[1];
             const std::string text = trimmed(line);
+            if (text.starts_with("-- #")) question.clear();  // a heading: what follows belongs to none
             for (const char* language : {"en", "fr"}) {
                 const AnswerMarks marks = answer_marks(language);
                 if (text != marks.code && text != marks.text) continue;
-                add("answer-open", Severity::kRule, fmt::format("analysis.lua:{}", number),
-                    fmt::format("The line \"{}\" is still there.", text.substr(3)),
-                    "Write your own there and take the line out.");
+                if (found.empty() || question.empty() || found.back().question != question)
+                    found.push_back({question, number, "", ""});
+                (text == marks.code ? found.back().code : found.back().words) = shown_mark(text);
             }
+        }
+        for (const Blanks& blanks : found) {
+            const auto& [asked, line, code, words] = blanks;
+            const std::string& one = code.empty() ? words : code;
+            const bool both = !code.empty() && !words.empty();
+            add("answer-open", Severity::kRule, fmt::format("analysis.lua:{}", line),
+                asked.empty() ? fmt::format("The line \"{}\" is still there.", one)
+                : both ? fmt::format("{} is open: the lines \"{}\" and \"{}\" are still there.", asked, code, words)
+                       : fmt::format("{} is open: the line \"{}\" is still there.", asked, one),
+                "Write your own there and take the line out.");
         }
     }
 
