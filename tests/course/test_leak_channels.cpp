@@ -1,6 +1,9 @@
 // Names in places of a PDF that no reader of its text meets. Oracle: what was put where (ISO 32000-1; ITU-T T.81).
+#include <ft2build.h>
 #include <gmock/gmock.h>
+#include FT_FREETYPE_H
 
+#include <cctype>
 #include <cmath>
 
 #include "course/names/anonymous_copy.h"
@@ -23,12 +26,18 @@ class leak_channels : public LeakCorpus {
 
     /// One page of this content, with a font F1 and a form that is not shown.
     std::vector<std::string> found_in(const std::string& content, const std::string& font = kPlainFont,
-                                      const std::string& form = "0 0 m 9 9 l S") {
-        write("own.pdf",
-              pdf_of({"<</Type/Catalog/Pages 2 0 R>>", "<</Type/Pages/Kids[3 0 R]/Count 1>>",
-                      "<</Type/Page/Parent 2 0 R/MediaBox[0 0 595 842]/Contents 4 0 R/Resources<</Font<</F1 "
-                      "5 0 R>>/XObject<</X0 6 0 R>>>>>>",
-                      stream_of(content), font, stream_of(form, "/Type/XObject/Subtype/Form/BBox[0 0 9 9]")}));
+                                      const std::string& form = "0 0 m 9 9 l S",
+                                      const std::vector<std::string>& more = {}) {
+        std::vector<std::string> objects = {
+            "<</Type/Catalog/Pages 2 0 R>>",
+            "<</Type/Pages/Kids[3 0 R]/Count 1>>",
+            "<</Type/Page/Parent 2 0 R/MediaBox[0 0 595 842]/Contents 4 0 R/Resources<</Font<</F1 "
+            "5 0 R>>/XObject<</X0 6 0 R>>>>>>",
+            stream_of(content),
+            font,
+            stream_of(form, "/Type/XObject/Subtype/Form/BBox[0 0 9 9]")};
+        objects.insert(objects.end(), more.begin(), more.end());
+        write("own.pdf", pdf_of(objects));
         return found(file("own.pdf"));
     }
 };
@@ -113,6 +122,79 @@ TEST_F(leak_channels, fonts_that_tell_no_letters_are_told) {
     };
     EXPECT_THAT(found_in("BT /F1 12 Tf 72 700 Td <0102> Tj ET", drawn("/g31/g32")), ElementsAre("not-searched 0"));
     EXPECT_THAT(found_in("BT /F1 12 Tf 72 700 Td <0102> Tj ET", drawn("/A/eacute")), IsEmpty());
+}
+
+/// A font of two-byte codes with the whole of a font's file in it, its objects from 7 on.
+struct WholeFont {
+    std::string file, descendant, key, entries;
+    bool numbered = false;  ///< codes are not glyphs but three more
+};
+
+/// What is found where `text` is drawn and `told` is what the font's table says of it.
+class DrawnText {
+  public:
+    DrawnText(const WholeFont& font, const std::string& text, const std::string& told) {
+        FT_Library library = nullptr;
+        FT_Face face = nullptr;
+        EXPECT_EQ(FT_Init_FreeType(&library), 0);
+        EXPECT_EQ(FT_New_Face(library, font.file.c_str(), 0, &face), 0) << font.file;
+        for (std::size_t i = 0; i < text.size(); ++i) {
+            char code[8], line[24];
+            const unsigned glyph = FT_Get_Char_Index(face, static_cast<unsigned char>(text[i]));
+            std::snprintf(code, sizeof code, "%04X", glyph + (font.numbered ? 3 : 0));
+            std::snprintf(line, sizeof line, "<%s> <%04X>\n", code, static_cast<unsigned char>(told[i]));
+            codes += code;
+            lines += line;
+        }
+        FT_Done_FreeType(library);
+    }
+    std::string codes, lines;
+};
+
+TEST_F(leak_channels, a_table_that_lies_of_its_letters) {
+    const std::string dejavu = "/usr/share/fonts/truetype/dejavu/DejaVuSansMono-Bold.ttf",
+                      modern = "/usr/share/texmf/fonts/opentype/public/lm/lmsans10-bold.otf";
+    const std::vector<WholeFont> fonts = {
+        {dejavu, "CIDFontType2", "FontFile2", "/CIDToGIDMap 9 0 R", true},
+        {modern, "CIDFontType0", "FontFile3", ""},
+        {"/usr/share/texmf/fonts/opentype/public/lm/lmsans10-oblique.otf", "CIDFontType0", "FontFile3", ""}};
+    std::string numbers(6, '\0');  // of codes 0 to 2: no glyph
+    for (unsigned glyph = 0; glyph < 3000; ++glyph) {
+        numbers += static_cast<char>(glyph >> 8);
+        numbers += static_cast<char>(glyph & 0xFF);
+    }
+    const auto lie = [](std::string text) {  // each letter is told to be the next but two, which is a truth of none
+        for (char& c : text)
+            if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+                c = static_cast<char>(std::isdigit(static_cast<unsigned char>(c)) ? 'a' + (c - '0')
+                                      : std::tolower(c) > 'w'                     ? c - 23
+                                                                                  : c + 3);
+        return text;
+    };
+    for (const WholeFont& font : fonts) {
+        const auto found_of = [&](const std::string& text, const std::string& told) {
+            const DrawnText drawn(font, text, told);
+            const std::string map =
+                "begincmap 1 begincodespacerange <0000> <FFFF> endcodespacerange\n100 beginbfchar\n" + drawn.lines +
+                "endbfchar endcmap";
+            const std::string entries = font.key == "FontFile3" ? "/Subtype/OpenType" : "";
+            return found_in("BT /F1 12 Tf 72 700 Td <" + drawn.codes + "> Tj ET",
+                            "<</Type/Font/Subtype/Type0/BaseFont/Own/Encoding/Identity-H/ToUnicode 7 0 R/"
+                            "DescendantFonts[<</Type/Font/Subtype/" +
+                                font.descendant +
+                                "/BaseFont/Own/CIDSystemInfo<</Registry(Adobe)/Ordering(Identity)/Supplement 0>>/"
+                                "FontDescriptor<</Type/FontDescriptor/FontName/Own/Flags 4/" +
+                                font.key + " 8 0 R>>" + font.entries + ">>]>>",
+                            "0 0 m 9 9 l S", {stream_of(map), stream_of(read(font.file), entries), stream_of(numbers)});
+        };
+        const std::string honest = "The gain of the crane is known from 3 records";
+        const std::string named = "made by Zoe Brandtner", numbered = "as 20214711 says";
+        EXPECT_THAT(found_of(honest, lie(honest)), IsEmpty()) << font.file;
+        EXPECT_THAT(found_of(named, lie(named)), Contains("name-hidden 1")) << font.file;
+        if (font.numbered) continue;  // a large font: once is enough
+        EXPECT_THAT(found_of(honest, honest), IsEmpty()) << font.file;
+        EXPECT_THAT(found_of(numbered, lie(numbered)), Contains("name-hidden 1")) << font.file;
+    }
 }
 
 TEST_F(leak_channels, names_of_fonts_and_soft_hyphens) {

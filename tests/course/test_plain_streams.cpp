@@ -6,6 +6,7 @@
 
 #include <random>
 
+#include "documents/pdf/content_paths.h"
 #include "leak_corpus.h"
 
 namespace dynlab {
@@ -66,6 +67,104 @@ TEST_F(plain_streams, packed_objects_and_plain_tables_read_the_same) {
     expect_plain_and_equal(by_qpdf(packed, {"--object-streams=generate"}));  // whose table holds differences
     expect_plain_and_equal(by_qpdf(packed, {"--object-streams=disable"}));
     expect_plain_and_equal(by_qpdf(packed, {"--linearize"}));
+}
+
+// oracle: the operators of ISO 32000-1, annex A, by hand
+TEST_F(plain_streams, paths_are_left_out_and_nothing_else) {
+    const std::map<std::string, std::string> cases = {
+        {"1 0 0 1 5 5 cm 1 2 m 3 4 l S BT /F1 12 Tf 7 0 Td (a) Tj ET",
+         "1 0 0 1 5 5 cm    BT /F1 12 Tf 7 0 Td (a) Tj ET"},
+        {"q 0 0 9 9 re W* n 1 g f* Q", "q    1 g  Q"},
+        {"-1.5 +.5 m % 1 2 l\n.3 -4 l h b*", " % 1 2 l\n  "},
+        {"1 2 m BT(1 2 m \\) 3 4 l S) Tj (a(b) 1 2 m) Tj", " BT(1 2 m \\) 3 4 l S) Tj (a(b) 1 2 m) Tj"},
+        {"1 2 m BT <31 20 6D> Tj [(a)-250(b m)]TJ ET 3 4 l", " BT <31 20 6D> Tj [(a)-250(b m)]TJ ET "},
+        {"/m 1 Tf /f BMC EMC << /l 1 >> gs 1 2 m", "/m 1 Tf /f BMC EMC << /l 1 >> gs "},
+        {"1 2 m BI /W 1 ID 3 4 l EI 5 6 l S", " BI /W 1 ID 3 4 l EI 5 6 l S"},
+        {"1 2 mm 3 4 l2 m2 5 6 m 5", "1 2 mm 3 4 l2 m2  5"},
+        {"1 2 m(never ended 1 2 m", "(never ended 1 2 m"},
+        {"1 2 m<31 1 2 m", "<31 1 2 m"},
+        {"1 2 m BT(a)Tj ET 3 4 l BT[(b)]TJ ET", " BT(a)Tj ET  BT[(b)]TJ ET"},
+        {"", ""}};
+    for (const auto& [content, rest] : cases) EXPECT_EQ(without_paths(content), rest) << content;
+    for (const std::string faulty : {"1 2 m (a) f", "1 2 m 1 2 3 l", "1 2 m l", "1 2 m null h", "1 2 m [ 3 4 l ] TJ",
+                                     "1 2 m ]", "1 2 m << /a [ >>", "1 2 m >", "1 2 m )", "1 2 m }",
+                                     "1 2 m BT 1 2 l ET", "1 2 m (a) Tj", "1 2 m [(a)] TJ", "1 2 m BT ET (a) '"})
+        EXPECT_EQ(without_paths(faulty), faulty);
+}
+
+// oracle: what poppler reads in the file as it was
+TEST_F(plain_streams, pages_of_any_operators_read_the_same) {
+    const std::vector<std::string> drawing = {
+        "1 20 m", "-3.5 300 l", ".5 0 1 2 3 4 c", "9 9 40 40 re",   "5 5 6 6 v", "h", "S",    "f*",
+        "W n",    "B*",         "1 2 m 3 4 l S",  "1 0 0 1 3 3 cm", "q",         "Q", ".3 g", "1 0 0 rg",
+        "/a gs",  "%m l\n",     "<31 20 6D> pop", "(1 2 m) pop",    "2 w"};
+    const std::vector<std::string> writing = {
+        "(a)Tj",           "(two) Tj",  "T*",        "3 0 Td",    "0 -9 TD", "1 0 0 1 50 700 Tm",
+        "[(k)-400(l)]TJ",  "<41> Tj",   "(x\\)) Tj", "((y)m) Tj", "12 TL",   "2 Tr",
+        "(1 2 m 3 4 l)Tj", "%3 0 Td\n", "/Span BMC", "EMC"};
+    const std::vector<std::string> faults = {"l",
+                                             "4 re",
+                                             "1 2",
+                                             "true",
+                                             ")",
+                                             ">",
+                                             "[",
+                                             "]",
+                                             "<<",
+                                             ">>",
+                                             "null",
+                                             "/a",
+                                             "BI /W 1 /H 1 /BPC 8 /CS /G ID m EI",
+                                             "Do",
+                                             "d",
+                                             "1 2 m",
+                                             "(b)Tj",
+                                             "BT",
+                                             "ET"};
+    std::mt19937 random(11);
+    int shorter = 0;
+    for (int file = 0; file < 6; ++file) {
+        constexpr int kPages = 30;
+        std::string kids;
+        std::vector<std::string> objects = {"<</Type/Catalog/Pages 2 0 R>>", "",
+                                            "<</Type/Font/Subtype/Type1/BaseFont/Helvetica>>"};
+        for (int page = 0; page < kPages; ++page) {
+            std::string content = "BT /F1 12 Tf 14 TL 1 0 0 1 50 600 Tm (begun) Tj ET\n";
+            for (int i = 0; i < 60; ++i) {
+                const bool writes = i / 6 % 2 == 0;
+                if (i % 6 == 0)
+                    content += writes ? " BT /F1 9 Tf 1 0 0 1 50 " + std::to_string(40 + 9 * i) + " Tm " : " ET ";
+                const std::vector<std::string>& some = random() % 80 == 0 ? faults : writes ? writing : drawing;
+                content += some[random() % some.size()] + (random() % 4 == 0 ? "\n" : " ");
+            }
+            content += " ET BT /F1 12 Tf 1 0 0 1 90 90 Tm (ended) Tj ET";
+            shorter += without_paths(content).size() < content.size();
+            const std::string number = std::to_string(objects.size() + 1);
+            kids += number + " 0 R ";
+            objects.push_back(
+                "<</Type/Page/Parent 2 0 R/MediaBox[0 0 595 842]/Resources<</Font<</F1 3 0 R>>>>/Contents " +
+                std::to_string(objects.size() + 2) + " 0 R>>");
+            objects.push_back(stream_of(content));
+        }
+        objects[1] = "<</Type/Pages/Kids[" + kids + "]/Count " + std::to_string(kPages) + ">>";
+        const std::string pdf = by_qpdf(pdf_of(objects), {"--compress-streams=y"});
+        const std::string plain = with_plain_streams(pdf);
+        EXPECT_NE(plain, pdf);
+        EXPECT_EQ(boxes_of(plain), boxes_of(pdf)) << file;
+    }
+    EXPECT_GT(shorter, 100);
+}
+
+TEST_F(plain_streams, figures_read_the_same) {
+    run({"gnuplot", "-e",
+         "set terminal pdfcairo; set output 'figure.pdf'; set xlabel 'time t in s'; set title 'Curves'; set samples "
+         "500; plot sin(x) title 'measured', cos(x) with points title 'made'"});
+    const std::string pdf =
+        read(latex("\\usepackage{graphicx}", std::string(kProse) + "\\includegraphics{figure.pdf}\\newpage " + kProse));
+    const std::string plain = with_plain_streams(pdf);
+    EXPECT_THAT(boxes_of(pdf), HasSubstr("measured"));
+    EXPECT_EQ(boxes_of(plain), boxes_of(pdf));
+    EXPECT_LT(plain.size(), by_qpdf(pdf, {"--stream-data=uncompress"}).size());
 }
 
 TEST_F(plain_streams, unusual_files_stay_as_they_are) {

@@ -9,6 +9,7 @@
 #include <set>
 #include <tuple>
 
+#include "course/names/drawn_letters.h"
 #include "course/names/pdf_places.h"
 #include "course/names/plain_words.h"
 #include "data_io/values/cbor_values.h"
@@ -179,9 +180,10 @@ class NameSearch {
     }
 
     SearchedObjects searched_objects(const fs::path& file) const {
-        const std::string answer =
-            work_on_pdf_objects(file, limits_.objects,
-                                [this](QPDF& pdf, const std::string& bytes) { return cbor_of(found_in(pdf, bytes)); });
+        const KnownFonts& known = known_fonts();  // the process that searches reads no files
+        const std::string answer = work_on_pdf_objects(file, limits_.objects, [&](QPDF& pdf, const std::string& bytes) {
+            return cbor_of(found_in(pdf, bytes, known));
+        });
         try {
             return from_cbor<SearchedObjects>(answer);
         } catch (const ValueError&) {
@@ -189,10 +191,10 @@ class NameSearch {
         }
     }
 
-    SearchedObjects found_in(QPDF& pdf, const std::string& bytes) const {
+    SearchedObjects found_in(QPDF& pdf, const std::string& bytes, const KnownFonts& known) const {
         SearchedObjects read;
         read.trouble = visit_places(
-            pdf, bytes, limits_.objects.bytes_inside,
+            pdf, bytes, limits_.objects.bytes_inside, known,
             [&](const PlacedText& placed) {
                 const std::vector<NameHit> hits = sought_.find(placed.text, placed.manner);
                 for (const NameHit& hit : hits)

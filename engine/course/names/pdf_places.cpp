@@ -10,6 +10,7 @@
 
 #include "course/names/byte_text.h"
 #include "course/names/content_text.h"
+#include "course/names/drawn_letters.h"
 #include "course/names/jpeg_parts.h"
 #include "documents/pdf/inflate.h"
 #include "documents/pdf/pdf_objects.h"
@@ -99,9 +100,9 @@ bool is_of_font(const std::string& key) {
 
 class Places {
   public:
-    Places(QPDF& pdf, const std::string& file, std::uint64_t most, const PlaceVisitor& visit,
+    Places(QPDF& pdf, const std::string& file, std::uint64_t most, const KnownFonts& known, const PlaceVisitor& visit,
            const NestedVisitor& nested)
-        : file_(file), most_(most), visit_(visit), nested_(nested) {
+        : file_(file), most_(most), drawn_(known), visit_(visit), nested_(nested) {
         int number = 0;
         for (const Object& page : pdf.getAllPages()) mark(page, ++number, 0);
         all_ = pdf.getAllObjects();
@@ -152,7 +153,10 @@ class Places {
             for (const Object& entry : value.getArrayAsVector()) note_kinds(entry, depth + 1);
         value = dictionary_in(value);
         if (!value.isDictionary()) return;
-        if (text_of(value, "/Type") == "Font") note_font(value);
+        if (text_of(value, "/Type") == "Font") {
+            note_font(value);
+            note_drawn_letters(value);
+        }
         for (auto& [key, entry] : value.getDictAsMap()) {
             if (key.starts_with("/FontFile")) fonts_.insert(entry.getObjGen());
             if (key == "/EF" && entry.isDictionary())
@@ -175,15 +179,42 @@ class Places {
         if (const CodeMap map = code_map_of_glyphs(glyphs); !map.text.empty()) note_map(map);
     }
 
+    /// What a font of two-byte codes is made of (ISO 32000-1, 9.7.4).
+    static Object descendant_of(Object font) {
+        const Object inner = font.getKey("/DescendantFonts");
+        const bool has_one = Object(inner).isArray() && Object(inner).getArrayNItems() > 0;
+        return has_one ? Object(inner).getArrayItem(0) : inner;
+    }
+
+    /// What such a font's table tells of its letters need not be what a reader sees.
+    void note_drawn_letters(Object font) {
+        if (text_of(font, "/Subtype") != "Type0" || !text_of(font, "/Encoding").starts_with("Identity")) return;
+        Object inner = descendant_of(font);
+        Object description = inner.isDictionary() ? inner.getKey("/FontDescriptor") : inner;
+        if (!description.isDictionary()) return;
+        const Object table = font.getKey("/ToUnicode"), order = inner.getKey("/CIDToGIDMap");
+        const CodeMap told = Object(table).isStream() ? code_map(content_of(table)) : CodeMap();
+        GlyphCodes codes;
+        if (Object(order).isStream()) {
+            const std::string bytes = content_of(order);
+            for (std::size_t i = 0; i + 1 < bytes.size(); i += 2)
+                codes.glyphs.push_back(static_cast<std::uint16_t>(static_cast<unsigned char>(bytes[i]) << 8 |
+                                                                  static_cast<unsigned char>(bytes[i + 1])));
+        }
+        for (const char* key : {"/FontFile2", "/FontFile3"}) {
+            const Object file = description.getKey(key);
+            if (!Object(file).isStream()) continue;
+            for (CodeMap& map : drawn_.read(content_of(file), codes, told)) note_map(std::move(map));
+        }
+    }
+
     /// A font whose codes no table explains shows what nobody can read but on paper.
     void note_font(Object font) {
         const std::string kind = text_of(font, "/Subtype");
         if (font.hasKey("/ToUnicode") || (kind != "Type0" && kind != "Type3")) return;
         bool readable = false;
         if (kind == "Type0") {
-            const Object inner = font.getKey("/DescendantFonts");
-            const bool has_one = Object(inner).isArray() && Object(inner).getArrayNItems() > 0;
-            const Object first = has_one ? Object(inner).getArrayItem(0) : inner;
+            const Object first = descendant_of(font);
             const Object system = Object(first).isDictionary() ? Object(first).getKey("/CIDSystemInfo") : first;
             const std::string script = Object(system).isDictionary() ? text_of(system, "/Ordering") : "";
             readable = !text_of(font, "/Encoding").starts_with("Identity") || (!script.empty() && script != "Identity");
@@ -325,6 +356,7 @@ class Places {
 
     const std::string& file_;
     const std::uint64_t most_;
+    DrawnLetters drawn_;
     const PlaceVisitor& visit_;
     const NestedVisitor& nested_;
     std::vector<Object> all_;
@@ -338,9 +370,9 @@ class Places {
 
 }  // namespace
 
-std::string visit_places(QPDF& pdf, const std::string& file, std::uint64_t most, const PlaceVisitor& visit,
-                         const NestedVisitor& nested) {
-    Places places(pdf, file, most, visit, nested);
+std::string visit_places(QPDF& pdf, const std::string& file, std::uint64_t most, const KnownFonts& known,
+                         const PlaceVisitor& visit, const NestedVisitor& nested) {
+    Places places(pdf, file, most, known, visit, nested);
     places.visit_all();
     return places.trouble();
 }

@@ -9,6 +9,8 @@ class QPDF;
 
 namespace dynlab::inline course {
 
+struct KnownFonts;
+
 /// Where in a PDF something stands.
 enum class PdfPlace {
     kText,        ///< what is printed, seen or not
@@ -39,10 +41,12 @@ using PlaceVisitor = std::function<void(const PlacedText&)>;
 using NestedVisitor = std::function<void(const std::string& name, const std::string& bytes)>;
 
 /// Everything in a PDF that may hold a name, besides what poppler reads on its pages. `file` the bytes themselves, for
-/// what no object holds. Meant for work_on_pdf_objects. Returns a sentence when something was not looked at, as it is
-/// too much: a stream of more than `most` bytes, too many fonts whose codes a content might be written in; else "".
-std::string visit_places(QPDF& pdf, const std::string& file, std::uint64_t most, const PlaceVisitor& visit,
-                         const NestedVisitor& nested);
+/// what no object holds. Meant for work_on_pdf_objects. Fonts of two-byte codes that draw other letters than
+/// they tell are read by what they draw, too, as `known` fonts draw it. Returns a sentence when something was not
+/// looked at, as it is too much: a stream of more than `most` bytes, too many fonts whose codes a content might be
+/// written in; else "".
+std::string visit_places(QPDF& pdf, const std::string& file, std::uint64_t most, const KnownFonts& known,
+                         const PlaceVisitor& visit, const NestedVisitor& nested);
 
 /// Changes the PDF so that poppler reads what lies outside of the pages and in layers that are off.
 void show_everything(QPDF& pdf);

@@ -5,10 +5,15 @@
 #include <sys/random.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <exception>
+#include <limits>
 #include <map>
 #include <set>
+#include <thread>
 #include <utility>
 
+#include "course/review/side_by_side.h"
 #include "course/store/course_key.h"
 #include "course/store/course_schema.h"
 #include "course/store/store_seal.h"
@@ -179,6 +184,57 @@ void Course::settle(const std::vector<std::string>& hashes) const {
     std::set<fs::path> folders = {folder_ / "files"};
     for (const std::string& hash : hashes) folders.insert(file(hash).parent_path());
     for (const fs::path& folder : folders) sync_folder(folder);
+}
+
+void Course::keep_files(const std::vector<fs::path>& files,
+                        const std::function<void(std::size_t, const KeptFile&)>& look,
+                        const std::function<void(std::size_t, std::size_t)>& progress) const {
+    constexpr std::size_t kGivenUp = std::numeric_limits<std::size_t>::max();
+    std::vector<KeptFile> kept(files.size());
+    std::atomic<std::size_t> done = 0;  // of them
+    const auto tell = [&done](std::size_t now) {
+        done = now;
+        done.notify_all();
+    };
+    std::exception_ptr failure;
+    {
+        const std::jthread keeper([&] {
+            try {
+                keep_in_batches(files, kept, tell);
+            } catch (...) {
+                failure = std::current_exception();
+                tell(kGivenUp);
+            }
+        });
+        const auto work = [&](std::size_t i) {
+            std::size_t now = done;
+            for (; now <= i; now = done) done.wait(now);
+            if (now != kGivenUp) look(i, kept[i]);
+        };
+        side_by_side(files.size(), work, progress);
+    }
+    if (failure) std::rethrow_exception(failure);
+    std::vector<std::string> hashes;
+    for (const KeptFile& file : kept) hashes.push_back(file.hash);
+    settle(hashes);
+}
+
+/// So many at a time that they wait for the disk together.
+void Course::keep_in_batches(const std::vector<fs::path>& files, std::vector<KeptFile>& kept,
+                             const std::function<void(std::size_t)>& tell) const {
+    constexpr std::int64_t kMostTogether = 8 << 20;
+    std::vector<std::string> contents;
+    std::int64_t bytes = 0;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        contents.push_back(read_file(files[i]));
+        kept[i].bytes = static_cast<std::int64_t>(contents.back().size());
+        bytes += kept[i].bytes;
+        if (bytes < kMostTogether && i + 1 < files.size()) continue;
+        std::size_t next = i + 1 - contents.size();
+        for (std::string& hash : keep(std::exchange(contents, {}))) kept[next++].hash = std::move(hash);
+        bytes = 0;
+        tell(next);
+    }
 }
 
 void Course::record_file(const std::string& hash, std::int64_t bytes, Instant at) {

@@ -1,5 +1,7 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,6 +11,11 @@
 #include "platform/signature.h"
 
 namespace dynlab::inline course {
+
+struct KeptFile {
+    std::string hash;
+    std::int64_t bytes = 0;
+};
 
 /// A course on disk: course.db, the handed-in files under their hashes below files/, the secret course.key, which signs
 /// receipts and seals, and course.pub, by which anybody verifies them. Only their owner can read them. Nothing is
@@ -39,6 +46,11 @@ class Course {
     std::vector<std::string> keep(const std::vector<std::string>& contents) const;
     /// Once all are kept, before the transaction: they are there after a power cut too.
     void settle(const std::vector<std::string>& hashes) const;
+    /// Stores files and settles them. look(i, kept) hears of each as soon as it is stored, on all cores, while the disk
+    /// is busy with the next ones; `progress` in the calling thread. What either throws is thrown on.
+    void keep_files(const std::vector<std::filesystem::path>& files,
+                    const std::function<void(std::size_t, const KeptFile&)>& look,
+                    const std::function<void(std::size_t done, std::size_t total)>& progress = {}) const;
     /// Within a transaction: the store speaks of this content from now on.
     void record_file(const std::string& hash, std::int64_t bytes, Instant at);
     std::filesystem::path file(const std::string& hash) const;
@@ -47,6 +59,8 @@ class Course {
 
   private:
     std::string setting(const char* key);
+    void keep_in_batches(const std::vector<std::filesystem::path>& files, std::vector<KeptFile>& kept,
+                         const std::function<void(std::size_t)>& tell) const;
 
     std::filesystem::path folder_;
     Database database_;

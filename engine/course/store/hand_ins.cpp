@@ -279,32 +279,17 @@ class HandInReceiver {
     void keep_all() {
         std::optional<Inspector> inspector;
         if (request_.checks) inspector.emplace(request_.stage == "review" ? everybody() : nullptr);
-        keep_files();
-        const auto work = [&](std::size_t i) { inspect(candidates_[i], inspector); };
-        side_by_side(candidates_.size(), work, request_.progress);
-        std::vector<std::string> hashes;
-        for (const Candidate& candidate : candidates_) hashes.push_back(candidate.hash);
-        course_.settle(hashes);
+        std::vector<fs::path> files;
+        for (const Candidate& candidate : candidates_) files.push_back(candidate.file->file);
+        const auto look = [&](std::size_t i, const KeptFile& kept) {
+            candidates_[i].hash = kept.hash, candidates_[i].bytes = kept.bytes;
+            inspect(candidates_[i], inspector);
+        };
+        course_.keep_files(files, look, request_.progress);
     }
 
     std::shared_ptr<const SoughtNames> everybody() const {
         return std::make_shared<const SoughtNames>(Roster(students_of(course_)));
-    }
-
-    /// So many at a time as memory holds easily: together they wait for the disk once.
-    void keep_files() {
-        constexpr std::size_t kMostTogether = 32u << 20;
-        std::vector<std::string> contents;
-        std::size_t bytes = 0, from = 0;
-        for (std::size_t i = 0; i < candidates_.size(); ++i) {
-            contents.push_back(read_file(candidates_[i].file->file));
-            candidates_[i].bytes = static_cast<std::int64_t>(contents.back().size());
-            bytes += contents.back().size();
-            if (bytes < kMostTogether && i + 1 < candidates_.size()) continue;
-            for (std::string& hash : course_.keep(std::exchange(contents, {})))
-                candidates_[from++].hash = std::move(hash);
-            bytes = 0;
-        }
     }
 
     void inspect(Candidate& candidate, const std::optional<Inspector>& inspector) const {

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <qpdf/QPDF.hh>
 #include <qpdf/QPDFWriter.hh>
+#include <set>
 
+#include "documents/pdf/content_paths.h"
 #include "documents/pdf/pdf_objects.h"
 
 namespace dynlab::inline documents {
@@ -21,14 +23,29 @@ bool is_left_alone(QPDFObjectHandle stream) {
            std::any_of(std::begin(kUnread), std::end(kUnread), is_of_type);
 }
 
+/// Streams that are the whole content of a page, and forms.
+std::set<QPDFObjGen> whole_contents(QPDF& pdf, std::vector<QPDFObjectHandle>& objects) {
+    std::set<QPDFObjGen> contents;
+    for (QPDFObjectHandle& object : objects) {
+        if (object.isStream() && object.getDict().isDictionaryOfType("", "/Form")) contents.insert(object.getObjGen());
+    }
+    for (QPDFObjectHandle page : pdf.getAllPages())
+        if (QPDFObjectHandle content = page.getKey("/Contents"); content.isStream())
+            contents.insert(content.getObjGen());
+    return contents;
+}
+
 void write_out_streams(QPDF& pdf) {
     std::uint64_t left = kMostInside;
-    for (QPDFObjectHandle object : pdf.getAllObjects()) {
+    std::vector<QPDFObjectHandle> objects = pdf.getAllObjects();
+    const std::set<QPDFObjGen> contents = whole_contents(pdf, objects);
+    for (QPDFObjectHandle& object : objects) {
         if (!object.isStream() || is_left_alone(object)) continue;
         try {
-            const StreamContent content = stream_content(object, left);
+            StreamContent content = stream_content(object, left);
             if (!content.decoded) continue;
             left -= content.bytes.size();
+            if (contents.contains(object.getObjGen())) content.bytes = without_paths(content.bytes);
             object.replaceStreamData(content.bytes, QPDFObjectHandle::newNull(), QPDFObjectHandle::newNull());
         } catch (const PdfRefusal&) {
             // It stays as it is.
@@ -48,6 +65,8 @@ std::string with_plain_streams(std::string bytes) {
             writer.setStreamDataMode(qpdf_s_preserve);
             writer.setObjectStreamMode(qpdf_o_disable);
             writer.setNewlineBeforeEndstream(true);
+            writer.setDeterministicID(false);  // which would be computed from all that is written
+            writer.setStaticID(true);
         });
         return pdf.anyWarnings() ? bytes : plain;
     } catch (const std::exception&) {

@@ -1,0 +1,41 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "course/names/content_text.h"
+
+namespace dynlab::inline course {
+
+/// Fonts whose letters are known, as bytes: what letters look like. They come with the packages dynlab needs; those
+/// that are not installed are left out.
+struct KnownFonts {
+    std::vector<std::string> files;
+};
+const KnownFonts& known_fonts();  ///< read once
+
+/// How the codes of a font lead to its glyphs.
+struct GlyphCodes {
+    std::vector<std::uint16_t> glyphs;  ///< by code; empty: codes are glyphs, or what the font itself numbers them by
+};
+
+/// What fonts of two-byte codes show, where their outlines are clearly those of other letters than their tables say.
+class DrawnLetters {
+  public:
+    explicit DrawnLetters(const KnownFonts& known);
+    ~DrawnLetters();
+
+    /// The `told` map of a font with the letters that it draws instead, and one with digits instead, as a 0 may be an
+    /// O. Each outline, stretched to a square, is held against the Latin letters and the digits of the known fonts;
+    /// what is like none of them there, such as letters with accents, stays as told. Empty where everything is as told,
+    /// or where the font (TrueType, OpenType or CFF, as PDFs embed them) cannot be read.
+    std::vector<CodeMap> read(const std::string& font_file, const GlyphCodes& codes, const CodeMap& told);
+
+  private:
+    struct Letters;
+    const KnownFonts& known_;
+    std::unique_ptr<Letters> letters_;  ///< of the known fonts, once they are asked for
+};
+
+}  // namespace dynlab::inline course
