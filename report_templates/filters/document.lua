@@ -42,14 +42,14 @@ local kinds = { "value", "table", "figure", "text" }
 
 local function entry(kind, name, needle)
   local found = slots[kind][name]
-  if found then return found end
+  if found or slots.stopped then return found end  -- what is not there may come
   for _, other in ipairs(kinds) do
     if slots[other][name] then
       report_gap("wrong-kind", needle, kind, name, other)
       return nil
     end
   end
-  if not slots.stopped then report_gap("no-entry", needle, kind, name) end
+  report_gap("no-entry", needle, kind, name)
 end
 
 -- What stands in the place of an entry that is not there, once that was told or the script stopped before it.

@@ -182,54 +182,6 @@ TEST_F(preview_page, a_stranger_s_document_is_shown_and_runs_only_when_told) {
     EXPECT_TRUE(browser.comes("document.getElementById('question').hidden"));
 }
 
-TEST_F(preview_page, follows_files_that_editors_replace_and_that_come_back) {
-    write(kHead + kFirst);
-    const Preview preview(file());
-    Browser browser;
-    browser.open(preview.address());
-    ASSERT_TRUE(shows(browser, "x is 20"));
-    std::string changed = kHead + kFirst;
-    changed.replace(changed.find("x = 20"), 6, "x = 33");
-    write(changed, ".analysis.lua.new");
-    fs::rename(file(".analysis.lua.new"), file());
-    EXPECT_TRUE(shows(browser, "x is 33"));
-    fs::remove(file());
-    EXPECT_TRUE(browser.comes("!document.getElementById('complaints').hidden"));
-    EXPECT_TRUE(shows(browser, "x is 33"));
-    write(kHead + kFirst);
-    EXPECT_TRUE(shows(browser, "x is 20"));
-    EXPECT_TRUE(browser.comes("document.getElementById('complaints').hidden"));
-}
-
-TEST_F(preview_page, follows_data_and_template_of_a_report) {
-    write("t,u,y\n0,1,5\n1,1,6\n", "d.csv");
-    write(kHead + "-- %% id=data\nlocal d = load(\"d.csv\")\nreport.value(\"first\", d.y[1], \"%g\")\n");
-    write("---\ntitle: My report\n---\n\nIt begins at `first`{.value}.\n", "report.md");
-    const Preview preview(folder.path());
-    Browser browser;
-    browser.open(preview.address());
-    ASSERT_TRUE(shows(browser, "It begins at 5."));
-    write("t,u,y\n0,1,7\n1,1,6\n", "d.csv");
-    EXPECT_TRUE(shows(browser, "It begins at 7."));
-    write("---\ntitle: My report\n---\n\nThe first is `first`{.value}.\n", "report.md");
-    EXPECT_TRUE(shows(browser, "The first is 7."));
-}
-
-TEST_F(preview_page, the_last_of_many_saves_is_shown) {
-    write(kHead + kFirst);
-    const Preview preview(file());
-    Browser browser;
-    browser.open(preview.address());
-    ASSERT_TRUE(shows(browser, "x is 20"));
-    for (int i = 0; i < 1000; ++i) {
-        write(kHead + "-- %% [markdown]\n-- Save number " + std::to_string(i) +
-              ".\n\n-- %% id=one\nlocal x = " + std::to_string(i) + "\nprint(\"x is \" .. x)\n");
-        if (i % 10 == 0) std::this_thread::sleep_for(5ms);
-    }
-    EXPECT_TRUE(shows(browser, "Save number 999."));
-    EXPECT_TRUE(shows(browser, "x is 999"));
-}
-
 TEST_F(preview_page, tabs_come_and_go_and_the_end_is_told) {
     write(kHead + kFirst);
     Preview preview(file());

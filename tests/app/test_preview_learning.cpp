@@ -2,6 +2,7 @@
 // and what a reader sees.
 #include <gtest/gtest.h>
 
+#include "platform/text_file.h"
 #include "support/preview.h"
 
 namespace test_preview_learning {
@@ -34,6 +35,25 @@ TEST_F(preview_learning, questions_answer_and_stay_answered_while_the_document_c
     EXPECT_TRUE(browser.comes(verdict));
     browser.evaluate("document.querySelectorAll('.option')[1].click()");
     EXPECT_TRUE(browser.comes("document.querySelectorAll('.verdict')[1].innerText === 'Right. Count again.'"));
+}
+
+/// As a lesson has them: behind its literature.
+TEST_F(preview_learning, questions_below_the_literature_answer_too) {
+    write("@book{ljung, author = {Ljung, Lennart}, title = {A book}, year = {1999}}\n", "references.bib");
+    write(
+        "-- ---\n-- title: A document\n-- bibliography: references.bib\n-- ---\n\n-- %% [markdown]\n-- After "
+        "[@ljung].\n--\n"
+        "-- ::: references\n-- :::\n--\n-- # Check yourself\n\n" +
+        kQuestion);
+    const Preview preview(file());
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(browser.comes("document.querySelectorAll('.option').length === 2"));
+    browser.click(".option");
+    EXPECT_TRUE(browser.comes("document.querySelector('.verdict').innerText === 'Wrong. One is missing.'"));
+    write(read_text(file()) + kFirst);
+    ASSERT_TRUE(browser.comes("document.body.innerText.includes('Words at the beginning.')"));
+    EXPECT_TRUE(browser.comes("document.querySelector('.verdict').innerText === 'Wrong. One is missing.'"));
 }
 
 TEST_F(preview_learning, rigs_move_above_their_figure) {

@@ -21,6 +21,7 @@ class web_server : public testing::Test {
     web_server() : server({.port = 0, .largest_body = 1000, .most_streams = 3}) {
         server.on_get("/", [](const PageRequest&) { return PageReply{"the page"}; });
         server.on_get("/picture/*", [](const PageRequest& asked) { return PageReply{asked.path}; });
+        server.on_get("/long", [](const PageRequest&) { return PageReply{std::string(300000, 'x')}; });
         server.on_get("/fails", [](const PageRequest&) -> PageReply { throw EnvironmentError("the disk is full"); });
         server.on_post("/order", [this](const PageRequest& asked) {
             ++orders;
@@ -144,6 +145,20 @@ TEST_F(web_server, says_why_something_failed) {
     ASSERT_TRUE(reply);
     EXPECT_EQ(reply->status, 500);
     EXPECT_EQ(reply->body, "the disk is full");
+}
+
+/// Within the machine nothing is worth the time that compressing takes, whatever a browser offers.
+TEST_F(web_server, sends_things_as_they_are) {
+    auto browser = client();
+    browser.set_decompress(false);
+    auto headers = ours();
+    headers.emplace("Accept-Encoding", "gzip, deflate, br");
+    for (const std::string path : {"/", "/long"}) {
+        const auto reply = browser.Get(path, headers);
+        ASSERT_TRUE(reply);
+        EXPECT_EQ(reply->get_header_value("Content-Encoding"), "");
+        EXPECT_EQ(reply->body, path == "/" ? "the page" : std::string(300000, 'x'));
+    }
 }
 
 TEST_F(web_server, a_port_that_is_taken_is_told) {

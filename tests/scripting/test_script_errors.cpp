@@ -15,7 +15,7 @@ using dynlab::test::printed;
 using dynlab::test::run;
 
 struct Expected {
-    const char* code;
+    std::string code;
     const char* sentence;
 };
 
@@ -154,9 +154,27 @@ TEST(script_errors, hint_at_lua_where_a_line_is_matlab) {
         {"local s = 1 + ...\n 2", "lesson.lua:2: '2' cannot stand here"},
         {"for k = 1:10\nend", "lesson.lua:1: ',' is missing before ':'; a loop is written: for k = 1, N do ... end"},
         {"local x = A\\b", "lesson.lua:1: '\\' cannot stand here; A\\b is written solve(A, b)"},
-        {"if true then\nprint(1)\n", "lesson.lua:3: the 'if' of line 1 has no 'end'"},
-        {"for i = 1, 2 do print(1)", "lesson.lua:1: an 'end' is missing at the end of the script"},
-        {"for i = 1, 2 do\nprint(1)", "lesson.lua:2: the 'for' of line 1 has no 'end'"},
+        {"if true then\nprint(1)\n", "lesson.lua:1: the 'if' of line 1 has no 'end'"},
+        {"for i = 1, 2 do print(1)", "lesson.lua:1: the 'for' of line 1 has no 'end'"},
+        {"for i = 1, 2 do\nprint(1)", "lesson.lua:1: the 'for' of line 1 has no 'end'"},
+    });
+}
+
+// Lua finds out at the end of the script; what must be mended stands further up.
+TEST(script_errors, name_the_line_where_something_is_missing) {
+    const std::string below = "\n-- %% [markdown]\n-- Words, else if not.\n\n-- %%\nlocal z = 1\nprint(z)\n";
+    check({
+        {"local x = 1\nfor i = 1, 3 do\n  x = x + i\n" + below, "lesson.lua:2: the 'for' of line 2 has no 'end'"},
+        {"local function f(x)\n  if x > 1 then\n    return 1\nend\n" + below,
+         "lesson.lua:2: the 'if' of line 2 has no 'end'"},
+        {"local function f(x)\n  while x > 1 do\n    x = x/2\n  return x\nend\nlocal y = f(3)\n" + below,
+         "lesson.lua:2: the 'while' of line 2 has no 'end'"},
+        {"if 1 > 2 then\n  print(1)\nelse if 2 > 1 then\n  print(2)\nend\n" + below,
+         "lesson.lua:3: an 'end' is missing: 'else if' opens a second block; write elseif"},
+        {"for i = 1, 2 do if i > 1 then print(i) end\n" + below, "lesson.lua:1: the 'for' of line 1 has no 'end'"},
+        {"local x = 1 +\n" + below, "lesson.lua:1: this statement goes on, but the cell ends here"},
+        {"local v = {1, 2,\n" + below, "lesson.lua:1: this statement goes on, but the cell ends here"},
+        {"print(1 +\n2,\n3 3)\n" + below, "lesson.lua:3: the '(' of line 1 is not closed: ')' is missing"},
     });
 }
 

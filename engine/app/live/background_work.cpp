@@ -65,6 +65,42 @@ BackgroundWork::Pdf BackgroundWork::pdf() {
     return pdf_version_ == version_ ? pdf_ : Pdf{{}, "dynlab is ending"};
 }
 
+bool BackgroundWork::hands_in() const {
+    return is_folder_ && fs::exists(fs::path(document_) / "report.md");
+}
+
+BackgroundWork::Made BackgroundWork::make_report() {
+    return make({this_program(), "report", document_});
+}
+
+BackgroundWork::Made BackgroundWork::make_pack() {
+    const fs::path folder = fs::canonical(document_);
+    return make({this_program(), "pack", document_, "-o", folder.string() + ".zip"});
+}
+
+BackgroundWork::Made BackgroundWork::make(std::vector<std::string> command) {
+    const std::lock_guard one(making_);
+    ChildOptions child;
+    child.command = std::move(command);
+    child.timeout = kLongest;
+    child.give_up = [this] {
+        const std::lock_guard guard(mutex_);
+        return end_;
+    };
+    Made made;
+    try {
+        const ChildResult result = run_child(child, "dynlab");
+        made = {result.exit_code == 0, result.output + result.error_output};
+        if (result.timed_out) made.words += "it took longer than ten minutes\n";
+    } catch (const std::exception& error) {
+        made.words = error.what();
+    }
+    const std::lock_guard lock(mutex_);
+    findings_version_ = 0;  // they speak of what lies in the folder
+    changed_.notify_all();
+    return made;
+}
+
 std::string BackgroundWork::findings() {
     const std::lock_guard lock(mutex_);
     return findings_;

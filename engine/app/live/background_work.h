@@ -8,13 +8,15 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "platform/temporary_folder.h"
 
 namespace dynlab::inline app {
 
-/// What is made of a document while nobody types: its PDF, and for a folder the findings of `dynlab check`. Processes
-/// of the program make them; what is under way when the document changes is given up.
+/// What is made of a document while nobody types: its PDF, and for a folder the findings of `dynlab check`; and what a
+/// reader asks for. Processes of the program make them; of the former, what is under way when the document changes is
+/// given up.
 class BackgroundWork {
   public:
     explicit BackgroundWork(std::string document);
@@ -32,6 +34,16 @@ class BackgroundWork {
         std::string error;  ///< then why
     };
     Pdf pdf();  ///< of the document as it is now; waits until it is made
+
+    /// What is made only when somebody asks, as `dynlab report` and `dynlab pack` do.
+    struct Made {
+        bool done = false;
+        std::string words;  ///< what the command says, for a reader
+    };
+    bool hands_in() const;  ///< whether the document is a folder with a report
+    Made make_report();     ///< into the folder, as the script says, wherever sliders were moved to
+    Made make_pack();       ///< FOLDER.zip beside it
+
     /// JSON as `dynlab check --json` prints it; empty before it was made, and for a single script.
     std::string findings();
     bool pdf_is_ready();
@@ -40,6 +52,7 @@ class BackgroundWork {
     using Clock = std::chrono::steady_clock;
     enum class Task { kNone, kPdf, kFindings };
     void work();
+    Made make(std::vector<std::string> command);
     Task next_task(Clock::time_point now) const;
     void do_task(Task task, std::unique_lock<std::mutex>& lock);
     Pdf made_pdf(const std::map<std::string, double>& slider_values, const std::function<bool()>& give_up);
@@ -58,6 +71,7 @@ class BackgroundWork {
     std::string findings_;
     int waiting_for_pdf_ = 0;
     bool wanted_ = false, end_ = false;
+    std::mutex making_;
     std::thread thread_;
 };
 

@@ -8,6 +8,7 @@
 #include "documents/error.h"
 #include "documents/text_lines.h"
 #include "platform/error.h"
+#include "platform/hash.h"
 #include "platform/interrupt.h"
 #include "workflow/run_script.h"
 
@@ -28,6 +29,12 @@ fs::path place_of(const fs::path& file) {
     std::error_code failure;
     const fs::path found = fs::weakly_canonical(fs::absolute(file), failure);
     return failure ? file : found;
+}
+
+/// Empty where it cannot be read.
+std::string digest_of_picture(const fs::path& file) {
+    std::error_code failure;
+    return fs::is_regular_file(file, failure) ? digest_of_file(file).hex() : std::string();
 }
 
 /// Entries of the run before stay until this one gives its own.
@@ -119,7 +126,7 @@ void LiveDocument::take_orders() {
     if (stop && runner_.running()) {
         runner_.stop();
         for (auto& [cell, state] : states_)
-            if (state.state != "done") state = {"waiting", 0};
+            if (state.state != "done") state = {"waiting", 0, 0};
         show_states();
     }
     if (anew) {
@@ -130,7 +137,14 @@ void LiveDocument::take_orders() {
 }
 
 bool LiveDocument::is_ours(const fs::path& changed) const {
-    return inputs_.contains(changed);
+    // A script may draw the picture that its document shows: the same picture again is no change.
+    if (const auto picture = pictures_.find(changed); picture != pictures_.end())
+        return digest_of_picture(changed) != picture->second;
+    const fs::path folder = changed.parent_path();
+    const bool literature = changed.extension() == ".bib" && request_ &&
+                            (folder == place_of(request_->template_file).parent_path() ||
+                             folder == place_of(request_->script.file).parent_path());
+    return literature || inputs_.contains(changed);
 }
 
 /// Reads script and template again and runs what has changed.
@@ -159,7 +173,7 @@ void LiveDocument::read_again(const std::set<fs::path>& changed) {
         }
         const std::size_t first = runner_.run(*request_, figures_.path(), data);
         for (std::size_t i = first; runner_.running() && i < runner_.parts().size(); ++i)
-            for (const std::string& cell : runner_.parts()[i].cells) states_[cell] = {"waiting", 0};
+            for (const std::string& cell : runner_.parts()[i].cells) states_[cell] = {"waiting", 0, 0};
         show_states();
     } catch (const DocumentError& error) {
         page_.complain(lines_of(error.what()));
@@ -184,11 +198,11 @@ void LiveDocument::take(RunnerNews news) {
         if (part >= parts.size()) return;
         for (const std::string& cell : parts[part].cells) states_[cell] = state;
     };
-    if (news.kind == "begun") {
-        set_state(news.part, {"running", 0});
+    if (news.kind == "begun" || news.kind == "progress") {
+        set_state(news.part, {"running", 0, news.progress});
     } else if (news.kind == "done" || (news.kind == "ended" && news.record.error)) {
         const bool failed = news.record.error.has_value();
-        set_state(news.part, {failed ? "failed" : "done", news.seconds});
+        set_state(news.part, {failed ? "failed" : "done", news.seconds, 0});
         if (news.kind == "ended") {  // the process died: nothing but that is known
             shown_.error = news.record.error;
         } else {
@@ -247,7 +261,11 @@ void LiveDocument::watch_inputs() {
         as_read_[place_of(file)] = file;
         inputs.insert(place_of(file));
     }
-    inputs.insert(place_of(request_->script.file.parent_path() / "group.toml"));  // who hands in: `check` looks at it
+    const fs::path folder = request_->script.file.parent_path();
+    for (const char* name : {"group.toml", "checks.lua"}) inputs.insert(place_of(folder / name));  // `check` reads them
+    if (const fs::path literature = bibliography_of(request_->script); !literature.empty())
+        inputs.insert(place_of(literature));
+    for (const auto& [file, digest] : pictures_) inputs.insert(file);
     for (const fs::path& file : inputs)
         if (!inputs_.contains(file) && fs::is_directory(file.parent_path())) watch_.add(file.parent_path());
     inputs_ = std::move(inputs);
@@ -257,9 +275,15 @@ void LiveDocument::set_page() {
     page_is_old_ = false;
     if (!request_) return;
     try {
-        watch_inputs();
         const bool unfinished = runner_.running() || shown_.error.has_value() || runner_.parts().empty();
-        page_.show(setter_.set(document_source(*request_, shown_), unfinished), request_->script, shown_);
+        const SetDocument document = setter_.set(document_source(*request_, shown_), unfinished);
+        page_.show(document, request_->script, shown_);
+        pictures_.clear();
+        for (const SetChunk& chunk : document.chunks)
+            for (const SetPicture& picture : chunk.pictures)
+                if (!picture.is_figure && !picture.file.empty())
+                    pictures_[place_of(picture.file)] = digest_of_picture(picture.file);
+        watch_inputs();
         if (!unfinished) {
             page_.set_open_answers(missing_answers(request_->script, shown_));
             remember_page();

@@ -19,7 +19,8 @@
 
 namespace dynlab::inline app {
 
-/// A document that follows its script, its template, the data it reads and the pictures it shows. One thread works
+/// A document that follows its script, its template, the data it reads, the pictures it shows and its literature. One
+/// thread works
 /// (`work`); orders come from others.
 class LiveDocument {
   public:
@@ -70,6 +71,7 @@ class LiveDocument {
     RunRecord shown_;                          ///< what the page shows: of this run, below it of the one before
     std::map<std::string, CellState> states_;  ///< by cell
     std::set<std::filesystem::path> inputs_;   ///< canonical files that the document is made of
+    std::map<std::filesystem::path, std::string> pictures_;  ///< of the page, not figures: canonical file -> digest
     std::map<std::filesystem::path, std::filesystem::path> as_read_;  ///< canonical data file -> as the script read it
     std::set<std::filesystem::path> changed_;                         ///< of them, and not yet looked at
     Clock::time_point last_change_;

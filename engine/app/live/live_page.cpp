@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -92,9 +93,31 @@ void LivePage::show(const SetDocument& document, const PercentScript& script, co
         if (!content_.html.contains(id)) fresh_.push_back(id);
         html[id] = std::move(content);
     }
+    add_unseen_cells(script, html);
     content_.html = std::move(html);
     std::erase_if(content_.pictures,
                   [&](const auto& entry) { return entry.second.version + kVersionsKept < version_; });
+}
+
+/// Code that is not printed and printed nothing has a piece of its own, without HTML, so that a reader can go to it. Of
+/// documents that show their script.
+void LivePage::add_unseen_cells(const PercentScript& script, std::map<std::string, std::string>& html) {
+    std::vector<PagePiece>& pieces = content_.pieces;
+    const std::string name = script.file.filename().string();
+    const auto in_script = [&](const PagePiece& piece) { return piece.file == name; };
+    if (std::none_of(pieces.begin(), pieces.end(), in_script)) return;
+    for (const Cell& cell : script.cells) {
+        if (cell.kind != Cell::Kind::kCode) continue;
+        if (std::any_of(pieces.begin(), pieces.end(), [&](const PagePiece& piece) { return piece.cell == cell.id; }))
+            continue;
+        const auto before = [&](const PagePiece& piece) { return in_script(piece) && piece.line <= cell.first_line; };
+        const auto last = std::find_if(pieces.rbegin(), pieces.rend(), before);
+        const auto place = last != pieces.rend() ? last.base() : std::find_if(pieces.begin(), pieces.end(), in_script);
+        const std::string id = fmt::format("unseen-{}", cell.id);
+        if (!content_.html.contains(id)) fresh_.push_back(id);
+        html[id] = "";
+        pieces.insert(place, {id, cell.id, name, cell.first_line});
+    }
 }
 
 void LivePage::show(PageContent remembered) {
@@ -144,6 +167,12 @@ void LivePage::set_sources(std::map<std::string, std::string> digests) {
     sources_ = std::move(digests);
 }
 
+void LivePage::set_hands_in(bool hands_in) {
+    const std::lock_guard lock(mutex_);
+    changed_ = changed_ || hands_in_ != hands_in;
+    hands_in_ = hands_in;
+}
+
 void LivePage::set_work(std::string findings, bool pdf_is_ready) {
     const std::lock_guard lock(mutex_);
     changed_ = changed_ || findings_ != findings || pdf_is_ready_ != pdf_is_ready;
@@ -162,9 +191,10 @@ std::string LivePage::json(bool all) const {
                              {"open_answers", content_.open_answers},
                              {"sources", sources_},
                              {"pdf_is_ready", pdf_is_ready_},
+                             {"hands_in", hands_in_},
                              {"states", ::nlohmann::json::object()}};
     for (const auto& [cell, state] : content_.states)
-        page["states"][cell] = {{"state", state.state}, {"seconds", state.seconds}};
+        page["states"][cell] = {{"state", state.state}, {"seconds", state.seconds}, {"progress", state.progress}};
     if (all || findings_changed_)
         page["findings"] =
             ::nlohmann::json::accept(findings_) ? ::nlohmann::json::parse(findings_) : ::nlohmann::json();

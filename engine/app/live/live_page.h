@@ -28,6 +28,7 @@ class LivePage {
     /// Answers that the script does not give yet, "G1 (model), gain (number)".
     void set_open_answers(std::string answers);
     void set_sources(std::map<std::string, std::string> digests);  ///< of the files that the page may change
+    void set_hands_in(bool hands_in);                              ///< whether report and zip can be asked for
     void set_work(std::string findings, bool pdf_is_ready);        ///< findings: JSON, or empty
 
     PageContent content() const;
@@ -41,6 +42,7 @@ class LivePage {
     std::optional<std::pair<std::string, std::string>> picture(const std::string& name) const;
 
   private:
+    void add_unseen_cells(const PercentScript& script, std::map<std::string, std::string>& html);
     std::string with_pictures(const SetChunk& chunk, const RunRecord& record);
     std::string keep_picture(const std::filesystem::path& file);
     std::string json(bool all) const;
@@ -51,7 +53,7 @@ class LivePage {
     std::vector<std::string> complaints_;
     std::map<std::string, std::string> sources_;
     std::string findings_;
-    bool pdf_is_ready_ = false;
+    bool pdf_is_ready_ = false, hands_in_ = false;
     bool running_ = false, asking_ = false, changed_ = false, text_changed_ = false, findings_changed_ = false;
     std::uint64_t version_ = 0;
 };

@@ -12,10 +12,11 @@ namespace dynlab::inline app {
 
 /// How a cell of the script stands.
 struct CellState {
-    std::string state;  ///< "waiting", "running", "done", "recalled", "failed"
-    double seconds = 0;
+    std::string state;    ///< "waiting", "running", "done", "recalled", "failed"
+    double seconds = 0;   ///< that it took
+    double progress = 0;  ///< of something long in a cell that runs, from 0 to 1
 };
-DYNLAB_DESCRIBE(CellState, state, seconds)
+DYNLAB_DESCRIBE(CellState, state, seconds, progress)
 
 /// A part of a page, and the line of the source that it comes from.
 struct PagePiece {

@@ -95,6 +95,37 @@ SourceFiles sources_of(const ReportRequest& request) {
     return SourceFiles(files);
 }
 
+/// How something that was asked for went.
+struct MadeReply {
+    bool done = false;
+    std::string words;
+};
+DYNLAB_DESCRIBE(MadeReply, done, words)
+
+PageReply not_allowed() {
+    constexpr int kForbidden = 403;
+    return {"This document has not been allowed to run: say so on the page.", kPlainText, kForbidden};
+}
+
+/// What was made in the background, and what is made now to hand in.
+void serve_work(WebServer& server, BackgroundWork& background, const Permissions& permissions) {
+    server.on_get("/document.pdf", [&](const PageRequest&) {
+        if (!permissions.granted()) return not_allowed();
+        const BackgroundWork::Pdf pdf = background.pdf();
+        return pdf.bytes.empty() ? PageReply{pdf.error, kPlainText, 500} : PageReply{pdf.bytes, "application/pdf"};
+    });
+    if (!background.hands_in()) return;
+    const auto makes = [&](BackgroundWork::Made (BackgroundWork::*make)()) {
+        return [&, make](const PageRequest&) {
+            if (!permissions.granted()) return not_allowed();
+            const auto [done, words] = (background.*make)();
+            return PageReply{json_of(MadeReply{done, words}), "application/json"};
+        };
+    };
+    server.on_post("/report", makes(&BackgroundWork::make_report));
+    server.on_post("/pack", makes(&BackgroundWork::make_pack));
+}
+
 void serve_sources(WebServer& server, SourceFiles& sources, LivePage& page) {
     constexpr const char* kJson = "application/json";
     server.on_get("/sources", [&](const PageRequest&) { return PageReply{json_of(sources.read()), kJson}; });
@@ -173,13 +204,8 @@ void preview(const PreviewOptions& options) {
         page.set_work(background.findings(), background.pdf_is_ready());
         send_changes();
     });
-    server.on_get("/document.pdf", [&](const PageRequest&) {
-        constexpr int kForbidden = 403;
-        if (!permissions.granted())
-            return PageReply{"This document has not been allowed to run: say so on the page.", kPlainText, kForbidden};
-        const BackgroundWork::Pdf pdf = background.pdf();
-        return pdf.bytes.empty() ? PageReply{pdf.error, kPlainText, 500} : PageReply{pdf.bytes, "application/pdf"};
-    });
+    serve_work(server, background, permissions);
+    page.set_hands_in(background.hands_in());
     server.on_stream([&] { return look_for_readers(), page.whole(); });
     document.on_reading([&](const std::map<std::string, double>& slider_values) {
         background.document_changed(slider_values);

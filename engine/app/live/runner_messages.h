@@ -20,16 +20,18 @@ struct RunOrder {
 
 /// What it tells.
 struct RunnerNews {
-    /// "split": a process goes on from here, its line comes with the message; "begun": a part begins; "done": it is
-    /// over, `record` has everything up to here; "ended": all parts are over, or one failed.
+    /// "split": a process goes on from here, its line comes with the message; "begun": a part begins; "progress": of
+    /// something long in it, so much; "done": it is over, `record` has everything up to here; "ended": all parts are
+    /// over, or one failed.
     std::string kind;
     std::size_t part = 0;
     std::int64_t process = 0;  ///< number of the process that goes on
     double seconds = 0;        ///< the part took
+    double progress = 0;       ///< from 0 to 1
     RunRecord record = {};
 };
 
 DYNLAB_DESCRIBE(RunOrder, file, source, from, seed, figure_folder, slider_values)
-DYNLAB_DESCRIBE(RunnerNews, kind, part, process, seconds, record)
+DYNLAB_DESCRIBE(RunnerNews, kind, part, process, seconds, progress, record)
 
 }  // namespace dynlab::inline app

@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <map>
 #include <memory>
@@ -16,6 +17,7 @@
 #include "figures/french_texts.h"
 #include "figures/gnuplot_renderer.h"
 #include "platform/cache.h"
+#include "platform/terminal/progress.h"
 #include "scripting/memoized_calls/call_cache.h"
 #include "scripting/runtime/report_language.h"
 #include "scripting/runtime/runtime.h"
@@ -101,6 +103,10 @@ class RunnerProcess {
         for (std::size_t i = order.from; i < parts.size(); ++i) {
             last = i;
             tell({.kind = "begun", .part = i});
+            ProgressBar::tell_instead([this, i](std::size_t done, std::size_t total) {
+                const double part = total == 0 ? 0 : static_cast<double>(std::min(done, total)) / double(total);
+                tell({.kind = "progress", .part = i, .progress = part});
+            });
             const Clock::time_point start = Clock::now();
             RunRecord record = world_->runtime.run_part(script, parts[i]);
             const double seconds = seconds_since(start);

@@ -160,6 +160,14 @@ function onChange() {
   if ($("at-once").checked) source.timer = setTimeout(() => save(source), 300);
 }
 
+export const hasUnsaved = () => [...sources.values()].some(isChanged);
+
+/// Whether every file has its text then.
+export async function saveAll() {
+  await Promise.all([...sources.values()].map(save));
+  return !hasUnsaved();
+}
+
 async function begin() {
   try {
     await loaded("/codemirror.css");
@@ -213,7 +221,7 @@ async function begin() {
     onChange();
   };
   window.addEventListener("beforeunload", (event) => {
-    if ([...sources.values()].some(isChanged)) event.preventDefault();
+    if (hasUnsaved()) event.preventDefault();
   });
   document.addEventListener("keydown", (event) => {
     if ((event.ctrlKey || event.metaKey) && event.key === "s" && !event.defaultPrevented) {

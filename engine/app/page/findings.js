@@ -1,61 +1,96 @@
-// What `dynlab check` finds in the folder, and which answers are open, in a panel beside the document.
+// What `dynlab check` finds in the folder, and which answers are open, in a panel beside the document. What is said of
+// one thing is counted once: an answer that is not given stands among the open ones only, and what the lesson's checks
+// take points for stands with the points.
 const $ = (id) => document.getElementById(id);
+const make = (name, text = "", kind = "") => Object.assign(document.createElement(name), { textContent: text, className: kind });
 
-function item({ severity, place, page, what, remedy }, goTo) {
-  const node = document.createElement("li");
-  node.className = severity;
-  const sentence = document.createElement("p");
-  sentence.textContent = what;
-  node.append(sentence);
-  const where = place || (page ? `page ${page}` : "");
+function button(text, onclick) {
+  return Object.assign(make("button", text), { onclick });
+}
+
+/// Where a finding leads to: a line of a file, the beginning of one, or a page of the PDF.
+function placeOf({ place, page }, { goTo, goToPage }) {
   const line = /([^\s/:]+):(\d+)$/.exec(place ?? "");
-  if (line) {
-    const button = document.createElement("button");
-    button.textContent = where;
-    button.onclick = () => goTo(line[1], Number(line[2]));
-    node.append(button);
-  } else if (where) {
-    node.append(Object.assign(document.createElement("span"), { className: "faint", textContent: where }));
-  }
-  if (remedy) node.append(Object.assign(document.createElement("p"), { className: "faint", textContent: remedy }));
+  if (line) return button(place, () => goTo(line[1], Number(line[2])));
+  if (/^[^\s/:]+\.(lua|md|toml)$/.test(place ?? "")) return button(place, () => goTo(place, 1));
+  if (page || /\.pdf$/.test(place ?? "")) return button(place || `page ${page}`, () => goToPage(page || 1));
+  return place ? make("span", place, "faint") : null;
+}
+
+function item(finding, ways) {
+  const node = make("li", "", finding.severity), place = placeOf(finding, ways);
+  node.append(make("p", finding.what));
+  if (place) node.append(place);
+  if (finding.remedy) node.append(make("p", finding.remedy, "faint"));
   return node;
 }
 
-function heading(text) {
-  return Object.assign(document.createElement("h2"), { textContent: text });
+/// "gain (number)": the name is a button that leads to where the document speaks of it.
+function answer(text, { goToName }) {
+  const node = make("li"), [name] = text.split(" ");
+  node.append(button(name, () => goToName(name)), text.slice(name.length));
+  return node;
 }
 
 const counted = (number, one, many) => `${number} ${number === 1 ? one : many}`;
 
-/// `older`: the files have changed since, and are being checked again.
-export function showFindings(result, openAnswers, older, goTo) {
-  const findings = result?.findings ?? [];
-  const rules = findings.filter(({ severity }) => severity === "rule"), hints = findings.filter(({ severity }) => severity !== "rule");
+/// "3 of 20 points", where the lesson has checks.
+function pointsIn(checked) {
+  for (const text of checked ?? []) {
+    const found = /^checks of lesson .*: ([\d.]+ of [\d.]+ points)$/.exec(text);
+    if (found) return found[1];
+  }
+  return "";
+}
+
+/// `older`: the files have changed since, and are being checked again. `ways` lead to places: goTo(file, line),
+/// goToPage(number), goToName(name of an answer).
+export function showFindings(result, openAnswers, older, ways) {
   const answers = openAnswers ? openAnswers.split(", ") : [];
+  const isOpen = ({ id, what }) => id === "answer-missing" && answers.some((text) => what.includes(`"${text.split(" ")[0]}"`));
+  const findings = (result?.findings ?? []).filter((finding) => !isOpen(finding));
+  const rules = findings.filter(({ severity }) => severity === "rule");
+  const lost = findings.filter(({ id }) => id === "check-failed");
+  const hints = findings.filter((finding) => !rules.includes(finding) && !lost.includes(finding));
+  const points = pointsIn(result?.checked);
   const words = [];
   if (answers.length > 0) words.push(counted(answers.length, "answer open", "answers open"));
   if (rules.length > 0) words.push(counted(rules.length, "rule broken", "rules broken"));
   if (hints.length > 0) words.push(counted(hints.length, "hint", "hints"));
+  if (points) words.push(points);
   if (words.length === 0 && result) words.push("checked");
-  $("show-findings").textContent = words.join(", ");
-  $("show-findings").hidden = words.length === 0;
-  $("show-findings").classList.toggle("broken", rules.length > 0);
-  $("show-findings").classList.toggle("older", older);
-  $("show-findings").title = older ? "of the files before the last change; they are being checked again" : "";
-  const panel = $("findings");
-  panel.replaceChildren();
-  if (answers.length > 0) {
-    const list = document.createElement("ul");
-    list.append(...answers.map((text) => Object.assign(document.createElement("li"), { textContent: text })));
-    panel.append(heading("Answers that are not given yet"), list);
+  const told = words.join(", "), shown = $("show-findings");
+  if (shown.textContent !== told) shown.textContent = told;
+  shown.hidden = words.length === 0;
+  shown.classList.toggle("broken", rules.length > 0);
+  shown.classList.toggle("older", older);
+  shown.title = older ? "of the files before the last change; they are being checked again" : "";
+  fill($("findings"), { answers, rules, lost, hints, points }, ways);
+}
+
+let filled = "";  // what the panel shows: who reads in it is not disturbed by what is the same
+function fill(panel, content, ways) {
+  const text = JSON.stringify(content);
+  if (text === filled) return;
+  filled = text;
+  const { answers, rules, lost, hints, points } = content, parts = [];
+  const add = (title, nodes) => {
+    if (nodes.length === 0) return;
+    const list = make("ul");
+    list.append(...nodes);
+    parts.push(make("h2", title), list);
+  };
+  add("Answers that are not given yet", answers.map((one) => answer(one, ways)));
+  add("To be mended", rules.map((one) => item(one, ways)));
+  add("Hints", hints.map((one) => item(one, ways)));
+  if (points) parts.push(make("h2", `Checks of the lesson: ${points}`));
+  if (lost.length > 0) {
+    const list = make("ul");
+    list.append(...lost.map((one) => item(one, ways)));
+    parts.push(list);
   }
-  for (const [title, some] of [["To be mended", rules], ["Hints", hints]]) {
-    if (some.length === 0) continue;
-    const list = document.createElement("ul");
-    list.append(...some.map((finding) => item(finding, goTo)));
-    panel.append(heading(title), list);
-  }
-  if (panel.children.length === 0) panel.append(Object.assign(document.createElement("p"), { textContent: "dynlab check finds nothing to mend." }));
+  if (answers.length + rules.length + lost.length + hints.length === 0) parts.push(make("p", "dynlab check finds nothing to mend."));
+  panel.replaceChildren(...parts);
 }
 
 $("show-findings").onclick = () => {

@@ -2,6 +2,7 @@
 import { controlsByCell } from "/sliders.js";
 import * as editor from "/editor.js";
 import { showFindings } from "/findings.js";
+import "/hand_in.js";
 
 const $ = (id) => document.getElementById(id);
 const nodes = new Map();  // id of a piece -> its element
@@ -28,11 +29,17 @@ function hold(held) {
   if (node) window.scrollBy(0, node.getBoundingClientRect().top - held.top);
 }
 
-function element(id, html) {
+function element(id, html, cell) {
   const node = document.createElement("div");
   node.className = "piece";
   node.id = id;
   node.innerHTML = html;
+  if (html === "") {  // code that is not printed; shown where it can be changed
+    node.classList.add("unseen");
+    const button = Object.assign(document.createElement("button"), { textContent: `${cell}: code that is not printed` });
+    button.onclick = () => goTo(node.dataset.file, Number(node.dataset.line));
+    node.append(button);
+  }
   return node;
 }
 
@@ -51,7 +58,7 @@ function place(pieces, html) {
     let node = nodes.get(id);
     if (!node) {
       if (!(id in html)) return false;
-      node = element(id, html[id]);
+      node = element(id, html[id], cell);
       if (!first) node.classList.add("fresh");
       if (!first) added.push(node);
       nodes.set(id, node);
@@ -69,6 +76,15 @@ function place(pieces, html) {
   return true;
 }
 
+/// What stands above and below the pieces: notes, literature, and what follows it.
+const filled = new Map();  // element -> its HTML
+function fill(element, html) {
+  if (filled.get(element) === html) return;
+  filled.set(element, html);
+  element.innerHTML = html;
+  dynlabChoices.enliven(element);
+}
+
 /// Behind the code of the cell that asks for them.
 function placeSliders(running) {
   for (const [cell, controls] of controlsByCell(sliders, running)) {
@@ -82,21 +98,22 @@ function placeSliders(running) {
 }
 
 function showStates(page) {
-  let done = 0, failed = 0, total = 0, seconds = 0, running = "";
-  for (const [cell, { state, seconds: took }] of Object.entries(page.states)) {
+  let done = 0, failed = 0, total = 0, seconds = 0, running = "", share = 0;
+  for (const [cell, { state, seconds: took, progress }] of Object.entries(page.states)) {
     ++total;
     seconds += took;
     if (state === "done" || state === "recalled") ++done;
     if (state === "failed") ++failed;
-    if (state === "running") running = cell;
+    if (state === "running") [running, share] = [cell, progress];
   }
   for (const node of nodes.values()) {
     const state = page.states[node.dataset.cell]?.state;
     if (state) node.dataset.state = state;
     else delete node.dataset.state;
+    node.style.setProperty("--done", page.states[node.dataset.cell]?.progress || 1);
     node.classList.toggle("older", failed > 0 && state === "waiting");
   }
-  const words = page.running ? `cell ${Math.min(done + 1, total)} of ${total}${running ? ", " + running : ""}`
+  const words = page.running ? `cell ${Math.min(done + 1, total)} of ${total}${running ? ", " + running : ""}${share > 0 ? `, ${Math.floor(100 * share)} %` : ""}`
     : failed > 0 ? "stopped at a mistake" : done < total ? `stopped: ${done} of ${total} cells were run` : total > 0 ? `${total} cells, ${seconds.toFixed(1)} s` : "";
   $("state").textContent = words;
   $("stop").hidden = !page.running;
@@ -139,8 +156,8 @@ function show(page) {
   const held = anchor();
   if (page.pieces) {
     if (!page.all && page.version > version + 1 || !place(page.pieces, page.html)) return connect();
-    $("head").innerHTML = page.head;
-    $("page:notes").innerHTML = page.notes;
+    fill($("head"), page.head);
+    fill($("page:notes"), page.notes);
     sliders = page.sliders;
   }
   version = page.version;
@@ -152,8 +169,9 @@ function show(page) {
   showStates(page);
   placeSliders(page.running);
   if ("findings" in page) findings = page.findings;
-  showFindings(findings, page.open_answers, !page.pdf_is_ready, goTo);
+  showFindings(findings, page.open_answers, !page.pdf_is_ready, { goTo, goToPage, goToName });
   showPdf(page.pdf_is_ready);
+  $("show-hand-in").hidden = !page.hands_in || page.asking;
   editor.follow(page.sources, showLine);
   if (marked) mark(pieceAt(...marked));
   hold(held);
@@ -172,8 +190,11 @@ window.addEventListener("pagehide", () => sessionStorage.setItem("dynlab-place",
 /// The last piece of a file that begins at a line or before it.
 function pieceAt(file, line) {
   let found = null;
-  for (const node of $("document").children)
+  const editing = document.body.classList.contains("editing");
+  for (const node of $("document").children) {
+    if (node.classList.contains("unseen") && !editing) continue;
     if (node.dataset.file === file && Number(node.dataset.line) <= line) found = node;
+  }
   return found;
 }
 
@@ -201,20 +222,35 @@ function showLine(file, line) {
 }
 
 function goTo(file, line) {
+  if (pdfShown) $("view").click();
   if (!editor.goTo(file, line)) showLine(file, line);
+}
+
+/// Where the document speaks of an answer, or hands it in.
+function goToName(name) {
+  const isOf = ({ textContent }) => textContent === name || textContent.includes(`answer("${name}"`);
+  const code = [...$("document").querySelectorAll("code")].find(isOf);
+  const piece = code?.closest(".piece");
+  if (piece) goTo(piece.dataset.file, Number(piece.dataset.line));
+}
+
+/// A page of the printed document.
+function goToPage(number) {
+  if (!pdfShown) $("view").click();
+  showPdf(pdfReady, number);
 }
 
 /// The printed document in place of the page; a new one when there is one.
 let pdfShown = false, pdfReady = false;
-function showPdf(ready) {
+function showPdf(ready, page = 0) {
   const anew = ready && !pdfReady;
   pdfReady = ready;
   $("view").classList.toggle("ready", ready);
   if (!pdfShown) return $("page:pdf").replaceChildren();
-  if (!anew && $("page:pdf").firstChild) return;
+  if (!anew && !page && $("page:pdf").firstChild) return;
   const frame = document.createElement("iframe");
   frame.title = "The document as it is printed";
-  frame.src = `/document.pdf?version=${version}#navpanes=0&view=FitH`;
+  frame.src = `/document.pdf?version=${version}#${page ? `page=${page}&` : ""}navpanes=0&view=FitH`;
   $("page:pdf").replaceChildren(frame);
 }
 

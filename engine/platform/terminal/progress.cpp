@@ -25,7 +25,16 @@ std::string time_left(double seconds) {
     return whole < 90 ? fmt::format("{} s left", whole) : fmt::format("{} min left", (whole + 59) / 60);
 }
 
+ProgressBar::Listener& bar_listener() {
+    static ProgressBar::Listener listener;
+    return listener;
+}
+
 }  // namespace
+
+void ProgressBar::tell_instead(Listener listener) {
+    bar_listener() = std::move(listener);
+}
 
 std::string progress_line(const std::string& what, std::size_t done, std::size_t total, double seconds_so_far) {
     std::string line = what;
@@ -49,7 +58,11 @@ ProgressBar::ProgressBar(std::string what, std::size_t total)
       last_shown_(start_) {}
 
 ProgressBar::~ProgressBar() {
-    if (visible_ && !ActivityLine::show_bar({})) clear_terminal_line();
+    if (!visible_) return;
+    if (bar_listener())
+        bar_listener()(0, 0);
+    else if (!ActivityLine::show_bar({}))
+        clear_terminal_line();
 }
 
 void ProgressBar::advance(std::size_t done) {
@@ -63,11 +76,12 @@ void ProgressBar::message(const std::string& text) {
 }
 
 void ProgressBar::show_now_and_then() {
-    if (!on_terminal_) return;
+    if (!on_terminal_ && !bar_listener()) return;
     const auto now = Clock::now();
     if (now - start_ < kQuietStart || (visible_ && now - last_shown_ < kBetweenShows)) return;
     last_shown_ = now;
     visible_ = true;
+    if (bar_listener()) return bar_listener()(done_, total_);
     const double seconds = std::chrono::duration<double>(now - start_).count();
     const std::string bar = progress_line(what_, done_, total_, seconds);
     if (!ActivityLine::show_bar(bar)) show_terminal_line(bar);

@@ -1,6 +1,7 @@
 #pragma once
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <string>
 
 namespace dynlab::inline platform {
@@ -12,6 +13,11 @@ std::string progress_line(const std::string& what, std::size_t done, std::size_t
 /// silent otherwise. Appears after 0.3 s.
 class ProgressBar {
   public:
+    /// In a process whose work is shown elsewhere: from now on all bars tell `listener` instead, as often as they would
+    /// be drawn, and at their end that 0 of 0 are done. It is called by whoever advances a bar.
+    using Listener = std::function<void(std::size_t done, std::size_t total)>;
+    static void tell_instead(Listener listener);
+
     ProgressBar(std::string what, std::size_t total);
     ~ProgressBar();  ///< clears the line
     ProgressBar(const ProgressBar&) = delete;

@@ -11,6 +11,7 @@
 
 #include "scripting/runtime/context.h"
 #include "scripting/runtime/matlab_hints.h"
+#include "scripting/runtime/unfinished_code.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -164,8 +165,6 @@ std::string plain_sentence(const std::string& text) {
 std::string syntax_sentence(const std::string& text, const std::string& near) {
     if (auto opened = between(text, "'end' expected (to close '", "' at line "))
         return fmt::format("the '{}' of line {} has no 'end'", *opened, *between(text, "at line ", ")"));
-    if (near == "<eof>" && text.find("'end' expected") != std::string::npos)
-        return "an 'end' is missing at the end of the script";
     if (auto closing = between(text, "", " expected (to close '"))
         return fmt::format("the '{}' of line {} is not closed: {} is missing",
                            *between(text, "(to close '", "' at line "), *between(text, "at line ", ")"), *closing);
@@ -188,6 +187,15 @@ std::string syntax_sentence(const std::string& text, const std::string& near) {
     if (auto wanted = between(text, "", " expected")) return fmt::format("{} is missing before '{}'", *wanted, near);
     if (!near.empty()) return fmt::format("'{}' cannot stand here", near);
     return text;
+}
+
+/// Lua finds out at the end of the script; the reader looks where the block begins.
+LocatedMessage missing_end(const LocatedMessage& placed, const std::string& source) {
+    const auto block = block_without_end(source);
+    if (!block) return {placed.file, placed.line, "an 'end' is missing at the end of the script"};
+    if (block->else_if > 0)
+        return {placed.file, block->else_if, "an 'end' is missing: 'else if' opens a second block; write elseif"};
+    return {placed.file, block->line, fmt::format("the '{}' of line {} has no 'end'", block->word, block->line)};
 }
 
 }  // namespace
@@ -243,6 +251,9 @@ std::string plain_syntax_message(const std::string& message, const std::string& 
         if (const std::string hint = lone_word_hint(line_of(source, line)); !hint.empty())
             return LocatedMessage{placed.file, line, hint}.joined();
     }
+    if (const auto line = line_cut_off(source, placed.line); line && near != "end") {
+        return LocatedMessage{placed.file, *line, "this statement goes on, but the cell ends here"}.joined();
+    }
     if (near == "<eof>") {
         int line = 0;
         for (const std::string& text : lines_of(source)) {
@@ -250,10 +261,7 @@ std::string plain_syntax_message(const std::string& message, const std::string& 
             if (const std::string hint = colon_block_hint(text); !hint.empty())
                 return LocatedMessage{placed.file, line, hint}.joined();
         }
-        if (placed.text.find("'end' expected") != std::string::npos && source.find("else if ") != std::string::npos)
-            return LocatedMessage{placed.file, placed.line,
-                                  "an 'end' is missing: 'else if' opens a second block; write elseif"}
-                .joined();
+        if (placed.text.find("'end' expected") != std::string::npos) return missing_end(placed, source).joined();
     }
     const std::string wrong = line_of(source, placed.line);
     if (starts_with(near, "<\\"))
