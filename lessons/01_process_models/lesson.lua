@@ -403,7 +403,7 @@ local far_figure = plot(t, y_far, "measured",
                         t, simulated(G1D, data_far, u0), "with a dead time",
                         t, simulated(G1F, data_far, u0), "without",
                         {style = {"points", "line", "line"}, marker = 0,
-                         colour = {2, 0, 1}, dash = {0, 0, 2},
+                         colour = {2, 0, 1}, dash = {0, 0, 1},
                          x_range = {40, 200}, height = 6,
                          xlabel = "time (s)", ylabel = "temperature (°C)"})
 report.figure("dead_time", far_figure, "A heat exchanger with a dead time")
