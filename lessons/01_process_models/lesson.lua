@@ -28,7 +28,7 @@
 -- ## The record
 --
 -- In the simulated heat exchanger water flows through a heated vessel; the input $u$ is the opening of the heating valve and the output $y$ the temperature of the
--- water at the outlet (@fig:heat_exchanger). The process is at rest at a working point when the valve is opened a little further, 60 s after the record begins.
+-- water at the outlet (@fig:heat_exchanger). The process is at rest at a working point when the valve is opened a little further, 60 s after the record begins (@fig:exchanger_record).
 --
 -- ::: {.drawing name=heat_exchanger}
 -- The heat exchanger: the valve is opened by $u$, and the temperature $y$ is measured where the water leaves the vessel {#fig:heat_exchanger}
@@ -227,7 +227,7 @@ report.value("K_any_ratio", G1_free.std[1]/G1.std[1], "%.1f")
 -- ## The record
 --
 -- The second process, simulated as well, is a mass on a spring with a damper, pushed by an electric actuator. The input is a unit step of the
--- actuator's voltage at time zero, the output the position of the mass (@fig:suspension).
+-- actuator's voltage at time zero, the output the position of the mass (@fig:suspension, @fig:suspension_record).
 --
 -- ::: {.drawing name=suspension}
 -- The suspension: the voltage $u$ makes the actuator push, and the position $y$ of the mass is measured {#fig:suspension}
@@ -403,7 +403,7 @@ local far_figure = plot(t, y_far, "measured",
                         t, simulated(G1D, data_far, u0), "with a dead time",
                         t, simulated(G1F, data_far, u0), "without",
                         {style = {"points", "line", "line"}, marker = 0,
-                         colour = {2, 0, 1}, dash = {0, 0, 2},
+                         colour = {2, 0, 1}, dash = {0, 0, 1},
                          x_range = {40, 200}, height = 6,
                          xlabel = "time (s)", ylabel = "temperature (°C)"})
 report.figure("dead_time", far_figure, "A heat exchanger with a dead time")

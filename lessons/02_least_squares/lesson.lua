@@ -42,7 +42,7 @@ report.figure("times", plot(year, time, {style = "points", height = 6,
 -- %% [markdown]
 -- ![Winning times of the men's 100 m at the Olympic Games. Each point is one race; the gaps are the Games that were not held.](figure:times){#fig:times}
 --
--- **Question 1.** Describe what you see. Where does a straight line look reasonable, and where not?
+-- **Question 1.** Describe what you see in @fig:times. Where does a straight line look reasonable, and where not?
 --
 -- BEGIN SOLUTION
 -- The times fall (@fig:times), fast at first and then slowly. The first value, 12.0 s in 1896, stands far above all others: one race, a
@@ -238,7 +238,7 @@ report.value("miss", actual - paris.value, "%.2f")
 --
 -- ## The data
 --
--- The second record is the simulated response of a first-order system at rest to a unit step, at four instants, together with its time derivative. Both
+-- The second record is the simulated response of a first-order system at rest to a unit step, at four instants (@fig:samples), together with its time derivative. Both
 -- are given twice: exact, and with white noise of standard deviation 0.05.
 
 -- %% id=step

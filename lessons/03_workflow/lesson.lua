@@ -73,7 +73,7 @@ report.table("workflow", {
 --
 -- ## Experiment and data
 --
--- The first record comes from a simulated system, sampled every 0.05 s from rest; its output carries white noise. The input is a
+-- The first record (@fig:linear_record) comes from a simulated system, sampled every 0.05 s from rest; its output carries white noise. The input is a
 -- pseudo-random binary sequence of 127 bits of 0.4 s. A second record was made with another sequence; it is put away for validation.
 
 -- %% id=linear_data
@@ -421,7 +421,7 @@ report.value("linear_true_val", fit(val, truth), "%.1f")
 -- :::
 --
 -- In this simulated rig (@fig:heat_rig) air is blown over an electric heater and through a tube; the input is the heater's voltage, the output the temperature at the
--- end of the tube, one sample a second. There are two records about 4 V, for estimation and validation, and one about 7 V. Each
+-- end of the tube, one sample a second. There are two records about 4 V, for estimation and validation, and one about 7 V (@fig:heat_record). Each
 -- begins with a minute of rest; then a binary sequence of ±1 V follows, with bits of 15 s.
 
 -- %% id=heat_data
@@ -745,7 +745,7 @@ report.value("heat_poles", W.best.poles, "%d")
 -- ## Experiment and data
 --
 -- The third record is real: the heating of a hair dryer was switched at random between two voltages, and a thermocouple measured the air at the
--- outlet, 1000 samples every 0.08 s. Nobody knows the truth, and you have no second experiment.
+-- outlet, 1000 samples every 0.08 s (@fig:dryer_record). Nobody knows the truth, and you have no second experiment.
 
 -- %% id=dryer_data
 local dryer = load("hairdryer")

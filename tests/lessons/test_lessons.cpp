@@ -12,11 +12,13 @@
 
 #include "data_io/csv_file.h"
 #include "documents/document_rules.h"
+#include "documents/solutions.h"
 #include "documents/text_lines.h"
 #include "numerics/rigs/crane.h"
 #include "numerics/rigs/thruster.h"
 #include "page_ends.h"
 #include "platform/atomic_file.h"
+#include "platform/text_file.h"
 #include "support/lesson_list.h"
 #include "support/program.h"
 #include "workflow/lesson_catalogue.h"
@@ -388,6 +390,18 @@ TEST(lesson_copies, are_french_throughout_where_french_is_asked_for) {
         };
         EXPECT_EQ(marks(script), marks(bench.read("english/analysis.lua"))) << "as many cells and questions";
         EXPECT_EQ(bench.dynlab({"report", "mine"}).exit_code, 0);
+    }
+}
+
+// Oracle: the labels of figures and tables, and their references, as they are written.
+TEST(lesson_copies, mention_what_they_show) {
+    for (const Lesson& lesson : dynlab::lessons()) {
+        const std::string copy = without_solutions(read_text(lesson.script()), lesson.script());
+        const std::regex label(R"re(\{#((?:fig|tbl):\w+)|#(tbl:\w+)\})re");
+        for (std::sregex_iterator at(copy.begin(), copy.end(), label), end; at != end; ++at) {
+            const std::string name = (*at)[1].matched ? (*at)[1].str() : (*at)[2].str();
+            EXPECT_TRUE(std::regex_search(copy, std::regex("@" + name + "\\b"))) << lesson.slug << ' ' << name;
+        }
     }
 }
 
