@@ -28,11 +28,11 @@ std::string state_of(const fs::path& path) {
 
 }  // namespace
 
-InputsRead inputs_read(const RunRecord& record, const fs::path& script_folder) {
+InputsRead inputs_read(const std::vector<fs::path>& files, const fs::path& script_folder) {
     InputsRead inputs;
     const auto add = [&inputs](const fs::path& path) { inputs[fs::absolute(path).string()] = state_of(path); };
     add(script_folder.empty() ? "." : script_folder);
-    for (const fs::path& file : record.files_read) {
+    for (const fs::path& file : files) {
         add(file);
         add(fs::absolute(file).parent_path());
     }

@@ -2,8 +2,8 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
-#include "documents/run_record.h"
 
 namespace dynlab::inline workflow {
 
@@ -11,7 +11,7 @@ namespace dynlab::inline workflow {
 /// and beside the script, since `load` may prefer a new one. From path to a digest.
 using InputsRead = std::map<std::string, std::string>;
 
-InputsRead inputs_read(const RunRecord& record, const std::filesystem::path& script_folder);
+InputsRead inputs_read(const std::vector<std::filesystem::path>& files, const std::filesystem::path& script_folder);
 /// Whether all of it is there as it was.
 bool unchanged(const InputsRead& inputs);
 

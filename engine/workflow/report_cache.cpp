@@ -31,11 +31,11 @@ std::vector<fs::path> bibliographies(const ReportRequest& request) {
 
 }  // namespace
 
-std::string name_of_report(const ReportRequest& request, const std::string& kind) {
-    EntryName name(kind);
-    name.add(fs::absolute(request.script.file).string());
+std::string digest_of_origins(const ReportRequest& request) {
+    EntryName name("origins");
+    name.add(fs::absolute(request.script.file).lexically_normal().string());
     name.add(request.script.source);
-    name.add(fs::absolute(request.template_file).string());
+    name.add(fs::absolute(request.template_file).lexically_normal().string());
     name.add(digest_of_file(request.template_file).hex());
     for (const auto& [key, value] : request.metadata) name.add(key).add(value);
     for (const fs::path& file : bibliographies(request)) name.add(digest_or_nothing(file));
@@ -43,7 +43,6 @@ std::string name_of_report(const ReportRequest& request, const std::string& kind
     name.add(std::to_string(static_cast<int>(request.shows)));
     name.add(std::to_string(request.seed));
     name.add(cbor_of(request.slider_values));
-    name.add(fs::absolute(request.output).string());
     name.add(digest_of_folder(shared_folder() / "report_templates").hex());
     return name.text();
 }
@@ -52,7 +51,8 @@ ReportCache::ReportCache(const ReportRequest& request, const Cache& cache)
     : cache_(cache),
       output_(fs::absolute(request.output)),
       script_folder_(fs::absolute(request.script.file).parent_path()),
-      entry_(cache.lasting() ? name_of_report(request, "reports") : std::string()) {}
+      entry_(cache.lasting() ? EntryName("reports").add(digest_of_origins(request)).add(output_.string()).text()
+                             : std::string()) {}
 
 bool ReportCache::unchanged() const {
     const auto known = entry_.empty() ? std::nullopt : cache_.recall(entry_);
@@ -67,7 +67,7 @@ bool ReportCache::unchanged() const {
 
 void ReportCache::remember(const RunRecord& record) const {
     if (entry_.empty()) return;
-    cache_.remember(entry_, cbor_of(ReportFacts{digest_or_nothing(output_), inputs_read(record, script_folder_)}));
+    cache_.remember(entry_, cbor_of(ReportFacts{digest_or_nothing(output_), inputs_read(record.files_read, script_folder_)}));
 }
 
 }  // namespace dynlab::inline workflow

@@ -7,8 +7,10 @@
 
 namespace dynlab::inline workflow {
 
-/// The name of an entry of this kind: of everything that a document is made from and that is known before its run.
-std::string name_of_report(const ReportRequest& request, const std::string& kind);
+/// A digest of everything that a document is made from and that is known before its run: script, template, all of
+/// report_templates/, seed, sliders, program. Where it is written to is not part of it. Throws EnvironmentError for a
+/// file that cannot be read.
+std::string digest_of_origins(const ReportRequest& request);
 
 /// Knows what a report was made from, so that it is not made again when nothing changed: script, template, all of
 /// report_templates/, seed, program, what the script read, and the output file itself, all by content.

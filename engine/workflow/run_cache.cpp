@@ -82,7 +82,7 @@ void RunCache::remember(const RunRecord& record) const {
 }
 
 void RunCache::keep(const RunRecord& record) const {
-    const InputsRead inputs = inputs_read(record, script_.parent_path());
+    const InputsRead inputs = inputs_read(record.files_read, script_.parent_path());
     const fs::path folder = cache_.prepare();
     for (const auto& [name, figure] : record.figures) fs::copy_file(figure.file, folder / figure.file.filename());
     write_file_atomically(folder / kRecord, cbor_of(record));

@@ -171,7 +171,13 @@ TEST_F(preview_page, a_stranger_s_document_is_shown_and_runs_only_when_told) {
     browser.open(preview.address());
     ASSERT_TRUE(shows(browser, "Words at the beginning."));
     EXPECT_TRUE(browser.comes("!document.getElementById('question').hidden"));
+    EXPECT_TRUE(browser.comes("document.activeElement.id === 'question'"));
+    // Who was typing when the page came has not said yes.
+    browser.act(R"([{"type": "key", "id": "keys", "actions": [{"type": "keyDown", "value": " "}, )"
+                R"({"type": "keyUp", "value": " "}, {"type": "keyDown", "value": "\uE007"}, )"
+                R"({"type": "keyUp", "value": "\uE007"}]}])");
     std::this_thread::sleep_for(300ms);
+    EXPECT_EQ(browser.evaluate("return document.getElementById('question').hidden"), "false");
     EXPECT_EQ(browser.evaluate("return document.getElementById('document').innerText.includes('x is 20')"), "false");
     // The printed document runs it, too.
     browser.evaluate("fetch('/document.pdf').then(async r => { window.refused = r.status + await r.text() })");
@@ -225,68 +231,6 @@ TEST_F(preview_page, is_dark_where_the_desktop_is) {
                                    "'); return [b(n, 'backgroundColor') < 150, b(n, 'color') > 450]"),
                   "[true,true]")
             << part;
-}
-
-/// A page that was whole is whole at once when the document is opened again, and is that of a run all the same.
-TEST_F(preview_page, is_whole_at_once_when_it_is_opened_again) {
-    const std::string slow = kHead +
-                             "-- %% id=slow\nlocal s = 0 for i = 1, 4e7 do s = s + 1 end\nprint(\"it is \" .. s)\n\n" +
-                             kFirst + kPlot;
-    write(slow);
-    const fs::path cache = folder.path() / "cache";
-    const std::string whole =
-        "document.getElementById('document').innerText.includes('it is 4') && "
-        "document.querySelector('figure .plot')";
-    const std::string at_rest =
-        "document.getElementById('stop').hidden && "
-        "document.querySelectorAll('[data-state=done]').length > 2";
-    std::string first;
-    {
-        const Preview preview(file(), true, {}, cache);
-        Browser browser;
-        browser.open(preview.address());
-        ASSERT_TRUE(browser.comes(whole + " && " + at_rest));
-        first = browser.evaluate(
-            "return document.getElementById('document').innerHTML.replace(/ data-state=\"[a-z]*\"/g, '')");
-    }
-    const Preview preview(file(), true, {}, cache);
-    Browser browser;
-    browser.open(preview.address());
-    ASSERT_TRUE(browser.comes(whole));
-    EXPECT_TRUE(browser.comes("document.querySelectorAll('[data-state=recalled]').length > 2"));
-    browser.evaluate("for (const node of document.querySelectorAll('.piece')) node.seen = true");
-    EXPECT_TRUE(browser.comes(at_rest));
-    EXPECT_EQ(browser.evaluate("return [...document.querySelectorAll('.piece')].filter(n => !n.seen).length"), "0");
-
-    // A change made meanwhile, or while nobody looked, is not hidden by what was remembered.
-    std::string changed = slow;
-    changed.replace(changed.find("x = 20"), 6, "x = 21");
-    write(changed);
-    EXPECT_TRUE(shows(browser, "x is 21"));
-}
-
-TEST_F(preview_page, remembered_pages_are_not_shown_for_other_data) {
-    write("a\n1\n2\n", "numbers.csv");
-    write(kHead +
-          "-- %% id=one\nprint(\"last \" .. load(\"numbers.csv\").a[2])\n\n"
-          "-- %% id=slow\nlocal s = 0 for i = 1, 4e7 do s = s + 1 end\nprint(\"over\")\n");
-    const fs::path cache = folder.path() / "cache";
-    const auto open = [&](const std::string& shown, const std::string& not_shown) {
-        const Preview preview(file(), true, {}, cache);
-        Browser browser;
-        browser.devtools("Page.addScriptToEvaluateOnNewDocument",
-                         R"({"source": "window.ever = ''; new MutationObserver(() => { window.ever += )"
-                         R"(document.body?.textContent; }).observe(document, {childList: true, subtree: true});"})");
-        browser.open(preview.address());
-        EXPECT_TRUE(shows(browser, shown));
-        EXPECT_TRUE(shows(browser, "over"));
-        EXPECT_TRUE(browser.comes("document.getElementById('stop').hidden"));
-        EXPECT_EQ(browser.evaluate("return window.ever.includes('" + shown + "')"), "true");
-        EXPECT_EQ(browser.evaluate("return window.ever.includes('" + not_shown + "')"), "false");
-    };
-    open("last 2", "last 5");
-    write("a\n1\n5\n", "numbers.csv");
-    open("last 5", "last 2");
 }
 
 TEST_F(preview_page, takes_up_a_stream_that_was_cut_and_has_lost_nothing) {

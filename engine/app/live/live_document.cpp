@@ -22,8 +22,10 @@ using namespace std::chrono_literals;
 constexpr auto kQuiet = 30ms;
 /// A page that was recalled runs when the reader has it: the run would take the processors from the browser.
 constexpr auto kRunAfterRecall = 1500ms;
+/// A page is kept for the next time when nothing has changed for so long: that takes disk and processor.
+constexpr auto kKeepAfter = 3s;
 /// How often Ctrl-C is looked for while nothing happens.
-constexpr int kLookForInterrupt = 1000;
+constexpr auto kLookForInterrupt = 1s;
 
 fs::path place_of(const fs::path& file) {
     std::error_code failure;
@@ -83,6 +85,16 @@ void LiveDocument::end() {
 }
 
 void LiveDocument::work() {
+    try {
+        follow();
+    } catch (...) {
+        remember_page();
+        throw;
+    }
+    remember_page();
+}
+
+void LiveDocument::follow() {
     std::uint64_t earlier_orders = 0;  // the first reading sees to them
     while (::read(wake_.get(), &earlier_orders, sizeof earlier_orders) > 0) {
     }
@@ -96,22 +108,24 @@ void LiveDocument::work() {
             if (!is_ours(file)) continue;
             changed_.insert(file);
             last_change_ = Clock::now();
+            remember_.reset();
         }
         if (!changed_.empty() && Clock::now() - last_change_ >= kQuiet) read_again(std::exchange(changed_, {}));
-        if (first_run_ && Clock::now() >= *first_run_) read_again({});
+        if (first_run_ && Clock::now() >= *first_run_) or_complain([this] { run({}); });
+        if (remember_ && Clock::now() >= *remember_) remember_page();
         take_news();
     }
 }
 
 void LiveDocument::wait_for_something() {
     pollfd waiting[3] = {{watch_.descriptor(), POLLIN, 0}, {wake_.get(), POLLIN, 0}, {runner_.descriptor(), POLLIN, 0}};
-    int longest = kLookForInterrupt;
-    if (!changed_.empty()) {
-        const auto left = kQuiet - std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - last_change_);
-        longest = std::max<int>(0, static_cast<int>(left.count()));
-    }
-    if (first_run_) longest = std::min(longest, static_cast<int>(std::chrono::milliseconds(kRunAfterRecall).count()));
-    ::poll(waiting, 3, longest);
+    const Clock::time_point now = Clock::now();
+    Clock::time_point until = now + kLookForInterrupt;
+    if (!changed_.empty()) until = std::min(until, last_change_ + kQuiet);
+    for (const auto& instant : {first_run_, remember_})
+        if (instant) until = std::min(until, *instant);
+    const auto longest = std::chrono::ceil<std::chrono::milliseconds>(until - now).count();
+    ::poll(waiting, 3, std::max(0, static_cast<int>(longest)));
 }
 
 void LiveDocument::take_orders() {
@@ -147,9 +161,23 @@ bool LiveDocument::is_ours(const fs::path& changed) const {
     return literature || inputs_.contains(changed);
 }
 
+/// What is wrong is said on the page.
+void LiveDocument::or_complain(const std::function<void()>& act) {
+    try {
+        act();
+    } catch (const DocumentError& error) {
+        page_.complain(lines_of(error.what()));
+        tell_();
+    } catch (const EnvironmentError& error) {
+        page_.complain({error.what()});
+        tell_();
+    }
+}
+
 /// Reads script and template again and runs what has changed.
 void LiveDocument::read_again(const std::set<fs::path>& changed) {
-    try {
+    remember_.reset();
+    or_complain([&] {
         request_ = read_();
         std::set<fs::path> data;
         for (const fs::path& file : changed)
@@ -171,17 +199,16 @@ void LiveDocument::read_again(const std::set<fs::path>& changed) {
             first_run_ = Clock::now() + kRunAfterRecall;
             return;
         }
-        const std::size_t first = runner_.run(*request_, figures_.path(), data);
-        for (std::size_t i = first; runner_.running() && i < runner_.parts().size(); ++i)
-            for (const std::string& cell : runner_.parts()[i].cells) states_[cell] = {"waiting", 0, 0};
-        show_states();
-    } catch (const DocumentError& error) {
-        page_.complain(lines_of(error.what()));
-        tell_();
-    } catch (const EnvironmentError& error) {
-        page_.complain({error.what()});
-        tell_();
-    }
+        run(data);
+    });
+}
+
+void LiveDocument::run(const std::set<fs::path>& changed_data) {
+    first_run_.reset();
+    const std::size_t first = runner_.run(*request_, figures_.path(), changed_data);
+    for (std::size_t i = first; runner_.running() && i < runner_.parts().size(); ++i)
+        for (const std::string& cell : runner_.parts()[i].cells) states_[cell] = {"waiting", 0, 0};
+    show_states();
 }
 
 void LiveDocument::take_news() {
@@ -219,9 +246,11 @@ void LiveDocument::take(RunnerNews news) {
             }
         }
         page_is_old_ = true;
+        if (page_is_recalled_) watch_inputs();  // else set_page does
     }
     if (news.kind == "ended") {
         page_is_recalled_ = false;
+        page_is_old_ = page_is_old_ || page_is_unfinished_;
         if (!shown_.error) settle_sliders();
     }
     show_states();
@@ -248,8 +277,10 @@ void LiveDocument::show_states() {
         for (const std::string& cell : part.cells)
             if (const auto state = states_.find(cell); state != states_.end()) known.insert(*state);
     states_ = known;
-    if (page_is_recalled_) return;
-    page_.set_states(std::move(known), runner_.running());
+    if (page_is_recalled_)
+        page_.set_running(runner_.running());
+    else
+        page_.set_states(std::move(known), runner_.running());
     tell_();
 }
 
@@ -273,10 +304,11 @@ void LiveDocument::watch_inputs() {
 
 void LiveDocument::set_page() {
     page_is_old_ = false;
+    remember_.reset();
     if (!request_) return;
     try {
-        const bool unfinished = runner_.running() || shown_.error.has_value() || runner_.parts().empty();
-        const SetDocument document = setter_.set(document_source(*request_, shown_), unfinished);
+        page_is_unfinished_ = runner_.running() || shown_.error.has_value() || runner_.parts().empty();
+        const SetDocument document = setter_.set(document_source(*request_, shown_), page_is_unfinished_);
         page_.show(document, request_->script, shown_);
         pictures_.clear();
         for (const SetChunk& chunk : document.chunks)
@@ -284,9 +316,9 @@ void LiveDocument::set_page() {
                 if (!picture.is_figure && !picture.file.empty())
                     pictures_[place_of(picture.file)] = digest_of_picture(picture.file);
         watch_inputs();
-        if (!unfinished) {
+        if (!page_is_unfinished_) {
             page_.set_open_answers(missing_answers(request_->script, shown_));
-            remember_page();
+            if (request_->slider_values.empty()) remember_ = Clock::now() + kKeepAfter;
         }
     } catch (const DocumentError& error) {
         page_.complain(lines_of(error.what()));
@@ -305,8 +337,18 @@ bool LiveDocument::recall_page() {
     return true;
 }
 
-void LiveDocument::remember_page() const {
-    if (request_->slider_values.empty()) memory_.remember(*request_, shown_, page_.content());
+/// Keeps the page for the next time, unless something has changed since it was set.
+void LiveDocument::remember_page() {
+    if (!std::exchange(remember_, std::nullopt)) return;
+    for (const fs::path& file : watch_.changes()) {
+        if (!is_ours(file)) continue;
+        changed_.insert(file);
+        last_change_ = Clock::now();
+    }
+    if (!changed_.empty()) return;
+    std::vector<fs::path> files = shown_.files_read;
+    for (const auto& [picture, digest] : pictures_) files.push_back(picture);
+    memory_.remember(*request_, files, page_.content());
 }
 
 }  // namespace dynlab::inline app

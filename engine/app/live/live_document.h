@@ -44,15 +44,18 @@ class LiveDocument {
 
   private:
     using Clock = std::chrono::steady_clock;
+    void follow();
     void wait_for_something();
     void take_orders();
     bool is_ours(const std::filesystem::path& changed) const;
+    void or_complain(const std::function<void()>& act);
     void read_again(const std::set<std::filesystem::path>& changed);
+    void run(const std::set<std::filesystem::path>& changed_data);
     void take_news();
     void take(RunnerNews news);
     void set_page();
     bool recall_page();
-    void remember_page() const;
+    void remember_page();
     void show_states();
     void settle_sliders();
     void watch_inputs();
@@ -76,6 +79,8 @@ class LiveDocument {
     std::set<std::filesystem::path> changed_;                         ///< of them, and not yet looked at
     Clock::time_point last_change_;
     bool page_is_old_ = false;
+    bool page_is_unfinished_ = false;             ///< it was set while the run was under way
+    std::optional<Clock::time_point> remember_;   ///< when the page is kept for the next time, where it is whole
     bool opened_ = false;                         ///< a first run was allowed
     std::optional<Clock::time_point> first_run_;  ///< when it begins, where the page is that of a run before
     bool page_is_recalled_ = false;  ///< it shows a run of before, and stays until this first run has ended

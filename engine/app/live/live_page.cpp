@@ -71,10 +71,11 @@ void LivePage::show(const SetDocument& document, const PercentScript& script, co
     const std::lock_guard lock(mutex_);
     ++version_;
     changed_ = text_changed_ = true;
+    recalled_ = false;
     content_.name = script.file.filename().string();
     content_.head = document.head;
     content_.notes = document.notes;
-    complaints_ = document.complaints;
+    content_.complaints = document.complaints;
     content_.sliders = record.sliders;
     content_.pieces.clear();
     fresh_.clear();
@@ -123,7 +124,7 @@ void LivePage::add_unseen_cells(const PercentScript& script, std::map<std::strin
 void LivePage::show(PageContent remembered) {
     const std::lock_guard lock(mutex_);
     ++version_;
-    changed_ = text_changed_ = true;
+    changed_ = text_changed_ = recalled_ = true;
     fresh_.clear();
     for (const auto& [id, html] : remembered.html) fresh_.push_back(id);
     for (auto& [name, picture] : remembered.pictures) picture.version = version_;
@@ -132,13 +133,15 @@ void LivePage::show(PageContent remembered) {
 
 PageContent LivePage::content() const {
     const std::lock_guard lock(mutex_);
-    return content_;
+    PageContent content = content_;
+    std::erase_if(content.pictures, [&](const auto& entry) { return entry.second.version != version_; });
+    return content;
 }
 
 void LivePage::complain(const std::vector<std::string>& sentences) {
     const std::lock_guard lock(mutex_);
-    if (complaints_ == sentences) return;
-    complaints_ = sentences;
+    if (content_.complaints == sentences) return;
+    content_.complaints = sentences;
     changed_ = true;
 }
 
@@ -147,6 +150,12 @@ void LivePage::set_states(std::map<std::string, CellState> states, bool running)
     content_.states = std::move(states);
     running_ = running;
     changed_ = true;
+}
+
+void LivePage::set_running(bool running) {
+    const std::lock_guard lock(mutex_);
+    changed_ = changed_ || running_ != running;
+    running_ = running;
 }
 
 void LivePage::ask_whether_to_run(bool asking) {
@@ -185,9 +194,10 @@ std::string LivePage::json(bool all) const {
     ::nlohmann::json page = {{"version", version_},
                              {"all", all},
                              {"running", running_},
+                             {"recalled", recalled_},
                              {"asking", asking_},
                              {"name", content_.name},
-                             {"complaints", complaints_},
+                             {"complaints", content_.complaints},
                              {"open_answers", content_.open_answers},
                              {"sources", sources_},
                              {"pdf_is_ready", pdf_is_ready_},
@@ -217,7 +227,7 @@ bool LivePage::settled() const {
         return std::any_of(content_.states.begin(), content_.states.end(),
                            [&](const auto& cell) { return cell.second.state == state; });
     };
-    return !running_ && (any("failed") || !any("waiting"));
+    return !running_ && !recalled_ && (any("failed") || !any("waiting"));
 }
 
 std::string LivePage::whole() const {

@@ -17,13 +17,14 @@ namespace dynlab::inline app {
 /// For any thread.
 class LivePage {
   public:
-    /// Makes what was remembered the next version.
+    /// Makes what was remembered the next version: recalled, until a document is shown.
     void show(PageContent remembered);
     /// Makes the next version of a document that was set. Figures are read from their files now.
     void show(const SetDocument& document, const PercentScript& script, const RunRecord& record);
     /// Text above the page: what is wrong. The document stays as it is.
     void complain(const std::vector<std::string>& sentences);
     void set_states(std::map<std::string, CellState> states, bool running);
+    void set_running(bool running);
     void ask_whether_to_run(bool asking);
     /// Answers that the script does not give yet, "G1 (model), gain (number)".
     void set_open_answers(std::string answers);
@@ -31,8 +32,8 @@ class LivePage {
     void set_hands_in(bool hands_in);                              ///< whether report and zip can be asked for
     void set_work(std::string findings, bool pdf_is_ready);        ///< findings: JSON, or empty
 
-    PageContent content() const;
-    bool settled() const;  ///< the run came to its end, or to a mistake; not one that was stopped
+    PageContent content() const;  ///< of the last version alone
+    bool settled() const;  ///< the run came to its end, or to a mistake; not one that was stopped, nor one of before
 
     /// Everything, JSON.
     std::string whole() const;
@@ -50,11 +51,11 @@ class LivePage {
     mutable std::mutex mutex_;
     PageContent content_;
     std::vector<std::string> fresh_;  ///< ids that the last version did not have
-    std::vector<std::string> complaints_;
     std::map<std::string, std::string> sources_;
     std::string findings_;
     bool pdf_is_ready_ = false, hands_in_ = false;
-    bool running_ = false, asking_ = false, changed_ = false, text_changed_ = false, findings_changed_ = false;
+    bool running_ = false, recalled_ = false, asking_ = false;
+    bool changed_ = false, text_changed_ = false, findings_changed_ = false;
     std::uint64_t version_ = 0;
 };
 

@@ -39,8 +39,9 @@ struct PageContent {
     std::map<std::string, PagePicture> pictures;
     std::map<std::string, CellState> states;
     std::map<std::string, RecordedSlider> sliders;
-    std::string open_answers;  ///< "G1 (model), gain (number)"
+    std::string open_answers;             ///< "G1 (model), gain (number)"
+    std::vector<std::string> complaints;  ///< what is wrong
 };
-DYNLAB_DESCRIBE(PageContent, name, head, notes, pieces, html, pictures, states, sliders, open_answers)
+DYNLAB_DESCRIBE(PageContent, name, head, notes, pieces, html, pictures, states, sliders, open_answers, complaints)
 
 }  // namespace dynlab::inline app

@@ -8,12 +8,13 @@
 namespace dynlab::inline app {
 
 /// Keeps the page of a document that has run to its end, so that it is whole at once when it is opened again and
-/// neither script, template nor data have changed.
+/// neither script, template nor data have changed: of each document the last page. It never throws; what cannot be kept
+/// is not, and nothing is recalled where that cannot be told.
 class PageMemory {
   public:
     std::optional<PageContent> recall(const ReportRequest& request) const;
-    /// Where it cannot be kept, it is not.
-    void remember(const ReportRequest& request, const RunRecord& record, const PageContent& content) const;
+    void remember(const ReportRequest& request, const std::vector<std::filesystem::path>& files,
+                  const PageContent& content) const;
 
   private:
     Cache cache_;

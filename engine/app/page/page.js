@@ -113,7 +113,8 @@ function showStates(page) {
     node.style.setProperty("--done", page.states[node.dataset.cell]?.progress || 1);
     node.classList.toggle("older", failed > 0 && state === "waiting");
   }
-  const words = page.running ? `cell ${Math.min(done + 1, total)} of ${total}${running ? ", " + running : ""}${share > 0 ? `, ${Math.floor(100 * share)} %` : ""}`
+  const words = page.recalled ? `of the run before${page.running ? "; running again" : ""}`
+    : page.running ? `cell ${Math.min(done + 1, total)} of ${total}${running ? ", " + running : ""}${share > 0 ? `, ${Math.floor(100 * share)} %` : ""}`
     : failed > 0 ? "stopped at a mistake" : done < total ? `stopped: ${done} of ${total} cells were run` : total > 0 ? `${total} cells, ${seconds.toFixed(1)} s` : "";
   $("state").textContent = words;
   $("stop").hidden = !page.running;
@@ -163,7 +164,7 @@ function show(page) {
   version = page.version;
   document.title = page.name + (page.name ? " · " : "") + "dynlab";
   $("name").textContent = page.name;
-  if (page.asking && $("question").hidden && document.activeElement === document.body) setTimeout(() => $("allow").focus());
+  if (page.asking && $("question").hidden && document.activeElement === document.body) setTimeout(() => $("question").focus());
   $("question").hidden = !page.asking;
   showComplaints(page.complaints);
   showStates(page);

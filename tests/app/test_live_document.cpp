@@ -1,0 +1,72 @@
+// A document that follows its files, without a browser. Oracle: the files that the test writes, and the order in which
+// a reader is to be told of things.
+#include "app/live/live_document.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "platform/temporary_folder.h"
+
+namespace test_live_document {
+using namespace dynlab;
+using nlohmann::json;
+using testing::ElementsAre;
+using namespace std::chrono_literals;
+
+class live_document : public testing::Test {
+  protected:
+    live_document() {
+        ::setenv("XDG_CACHE_HOME", (folder.path() / "cache").c_str(), 1);
+        ::setenv("DYNLAB_HOME", DYNLAB_SOURCE_DIR, 1);
+        std::ofstream(folder.path() / "analysis.lua") << "-- %% id=one\nprint(\"it is \" .. 3 + 4)\n";
+    }
+    ~live_document() override { ::unsetenv("XDG_CACHE_HOME"); }
+
+    /// Shows the document until its run is over; notes what a reader is told.
+    void open() {
+        readings = 0, told.clear();
+        std::atomic<bool> over = false;
+        ScriptRunner runner;
+        LivePage page;
+        const auto read = [this] {
+            return report_of_script(read_percent_script((folder.path() / "analysis.lua").string()), "preview.html");
+        };
+        LiveDocument document(read, runner, page);
+        document.on_reading([this](const auto&) { ++readings; });
+        document.on_change([&] {
+            const json shown = json::parse(page.whole());
+            const std::string whose = shown["recalled"] == true ? "of before" : "own";
+            const std::string what = page.settled() ? "settled" : shown["running"] == true ? "running" : "waiting";
+            if (told.empty() || told.back() != whose + ", " + what) told.push_back(whose + ", " + what);
+            over = page.settled() && shown["html"].dump().find("it is 7") != std::string::npos;
+        });
+        document.allow_runs();
+        const std::jthread reader([&] {
+            for (int i = 0; i < 600 && !over; ++i) std::this_thread::sleep_for(50ms);
+            std::this_thread::sleep_for(300ms);  // nothing more is told then
+            document.end();
+        });
+        document.work();
+    }
+
+    TemporaryFolder folder;
+    int readings = 0;
+    std::vector<std::string> told;
+};
+
+/// What is made beside the page waits for the end of the run, and is told of the document once.
+TEST_F(live_document, of_before_is_shown_until_its_run_is_over_and_read_once) {
+    open();
+    ASSERT_FALSE(told.empty());
+    EXPECT_EQ(told.back(), "own, settled");
+    open();
+    EXPECT_THAT(told, ElementsAre("of before, waiting", "of before, running", "of before, waiting", "own, settled"));
+    EXPECT_EQ(readings, 1);
+}
+
+}  // namespace test_live_document

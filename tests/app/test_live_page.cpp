@@ -1,0 +1,66 @@
+// What a page shows of a document, without a browser. Oracle: the documents that the test made up.
+#include "app/live/live_page.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "platform/temporary_folder.h"
+
+namespace test_live_page {
+using namespace dynlab;
+using nlohmann::json;
+
+class live_page : public testing::Test {
+  protected:
+    /// A document of one picture.
+    SetDocument document(const std::string& picture) const {
+        const auto file = folder.path() / "picture.svg";
+        std::ofstream(file) << picture;
+        SetChunk chunk;
+        chunk.html = "<img src=\"@picture@\">";
+        chunk.pictures.push_back({"@picture@", false, "", file});
+        SetDocument set;
+        set.chunks = {chunk};
+        set.complaints = {"analysis.lua:3: no such figure"};
+        return set;
+    }
+    json whole() const { return json::parse(page.whole()); }
+
+    TemporaryFolder folder;
+    PercentScript script = parse_percent_script("print(1)\n", "analysis.lua");
+    LivePage page;
+};
+
+TEST_F(live_page, is_not_settled_while_it_is_that_of_the_run_before) {
+    page.show(document("<svg>1</svg>"), script, {});
+    page.set_states({{"one", {"done", 1}}}, false);
+    EXPECT_TRUE(page.settled());
+    EXPECT_EQ(whole()["recalled"], false);
+    page.show(page.content());
+    EXPECT_FALSE(page.settled());
+    EXPECT_EQ(whole()["recalled"], true);
+    page.set_running(true);
+    EXPECT_EQ(whole()["running"], true);
+    page.set_running(false);
+    EXPECT_FALSE(page.settled());
+    page.show(document("<svg>1</svg>"), script, {});
+    EXPECT_TRUE(page.settled());
+    EXPECT_EQ(whole()["recalled"], false);
+}
+
+TEST_F(live_page, content_has_what_is_wrong_and_the_pictures_that_are_shown_now) {
+    for (const char* picture : {"<svg>1</svg>", "<svg>2</svg>", "<svg>3</svg>"})
+        page.show(document(picture), script, {});
+    const PageContent content = page.content();
+    ASSERT_EQ(content.pictures.size(), 1u);
+    EXPECT_EQ(content.pictures.begin()->second.bytes, "<svg>3</svg>");
+    LivePage again;
+    again.show(content);
+    const json shown = json::parse(again.whole());
+    EXPECT_EQ(shown["complaints"], json({"analysis.lua:3: no such figure"}));
+    EXPECT_TRUE(again.picture(content.pictures.begin()->first));
+}
+
+}  // namespace test_live_page

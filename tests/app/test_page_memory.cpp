@@ -1,0 +1,102 @@
+// What is kept of a document's page. Oracle: the page that the test made up, and the files that it changes.
+#include "app/live/page_memory.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "platform/temporary_folder.h"
+
+namespace test_page_memory {
+using namespace dynlab;
+namespace fs = std::filesystem;
+
+class page_memory : public testing::Test {
+  protected:
+    page_memory() {
+        ::setenv("XDG_CACHE_HOME", (folder.path() / "cache").c_str(), 1);
+        ::setenv("DYNLAB_HOME", DYNLAB_SOURCE_DIR, 1);
+        memory.emplace();
+        write("report.md", "---\ntitle: A report\n---\n\n::: {.cells}\n:::\n");
+        write("d.csv", "a\n1\n2\n");
+        set_script("-- %% id=one\nprint(1)\n");
+        request.template_file = folder.path() / "report.md";
+        request.output = "preview.html";
+        record.files_read = {(folder.path() / "d.csv").string()};
+        page.name = "analysis.lua", page.html["p1"] = "<p>one</p>", page.complaints = {"no such figure"};
+    }
+    ~page_memory() override { ::unsetenv("XDG_CACHE_HOME"); }
+    void write(const std::string& name, const std::string& text) const { std::ofstream(folder.path() / name) << text; }
+    void set_script(const std::string& source) {
+        request.script = parse_percent_script(source, folder.path() / "analysis.lua");
+    }
+    bool knows() const { return memory->recall(request).has_value(); }
+    std::ptrdiff_t entries() const {
+        return std::distance(fs::directory_iterator(Cache().root() / "pages"), fs::directory_iterator());
+    }
+
+    TemporaryFolder folder;
+    std::optional<PageMemory> memory;
+    ReportRequest request;
+    RunRecord record;
+    PageContent page;
+};
+
+TEST_F(page_memory, gives_back_the_page_wherever_it_is_opened_from) {
+    EXPECT_FALSE(knows());
+    memory->remember(request, record, page);
+    request.output = "/elsewhere/preview.html";
+    request.template_file = folder.path() / "." / "report.md";
+    const auto known = memory->recall(request);
+    ASSERT_TRUE(known);
+    EXPECT_EQ(known->name, page.name);
+    EXPECT_EQ(known->html, page.html);
+    EXPECT_EQ(known->complaints, page.complaints);
+}
+
+TEST_F(page_memory, knows_nothing_of_other_scripts_templates_seeds_and_data) {
+    memory->remember(request, record, page);
+    ASSERT_TRUE(knows());
+    request.seed = 2;
+    EXPECT_FALSE(knows());
+    request.seed = 1;
+    write("report.md", "---\ntitle: Another report\n---\n\n::: {.cells}\n:::\n");
+    EXPECT_FALSE(knows());
+    write("report.md", "---\ntitle: A report\n---\n\n::: {.cells}\n:::\n");
+    EXPECT_TRUE(knows());
+    write("d.csv", "a\n1\n3\n");
+    EXPECT_FALSE(knows());
+    write("d.csv", "a\n1\n2\n");
+    set_script("-- %% id=one\nprint(2)\n");
+    EXPECT_FALSE(knows());
+}
+
+TEST_F(page_memory, keeps_one_page_of_a_document) {
+    memory->remember(request, record, page);
+    set_script("-- %% id=one\nprint(2)\n");
+    memory->remember(request, record, page);
+    EXPECT_TRUE(knows());
+    EXPECT_EQ(entries(), 1);
+    set_script("-- %% id=one\nprint(1)\n");
+    EXPECT_FALSE(knows());
+}
+
+/// What `cat` says of such files: a folder that may not be read, a symbolic link to itself, nothing there.
+TEST_F(page_memory, does_without_where_files_cannot_be_read) {
+    memory->remember(request, record, page);
+    fs::remove(folder.path() / "d.csv");
+    fs::create_symlink("d.csv", folder.path() / "d.csv");
+    EXPECT_NO_THROW(EXPECT_FALSE(knows()));
+    EXPECT_NO_THROW(memory->remember(request, record, page));
+    fs::remove(folder.path() / "d.csv");
+    write("d.csv", "a\n1\n2\n");
+    memory->remember(request, record, page);
+    ASSERT_TRUE(knows());
+    fs::rename(folder.path() / "report.md", folder.path() / "away.md");
+    EXPECT_NO_THROW(EXPECT_FALSE(knows()));
+    EXPECT_NO_THROW(memory->remember(request, record, page));
+    fs::rename(folder.path() / "away.md", folder.path() / "report.md");
+    EXPECT_TRUE(knows());
+}
+
+}  // namespace test_page_memory

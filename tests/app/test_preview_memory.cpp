@@ -1,0 +1,146 @@
+// Pages that are whole at once when a document is opened again. Oracle: the page as it was the first time, and the
+// files that the test writes.
+#include <gtest/gtest.h>
+
+#include "support/preview.h"
+
+namespace test_preview_memory {
+using namespace dynlab;
+using namespace dynlab::test;
+namespace fs = std::filesystem;
+
+using preview_memory = preview_page;
+
+/// All that a page ever showed is kept in it.
+void keep_what_is_shown(Browser& browser) {
+    browser.devtools("Page.addScriptToEvaluateOnNewDocument",
+                     R"({"source": "window.ever = ''; new MutationObserver(() => { window.ever += )"
+                     R"(document.body?.textContent; }).observe(document, {childList: true, subtree: true});"})");
+}
+
+/// A page that was whole is whole at once when the document is opened again, and is that of a run all the same.
+TEST_F(preview_memory, is_whole_at_once_when_it_is_opened_again) {
+    const std::string slow = kHead +
+                             "-- %% id=slow\nlocal s = 0 for i = 1, 1e8 do s = s + 1 end\nprint(\"it is \" .. s)\n\n" +
+                             kFirst + kPlot;
+    write(slow);
+    const fs::path cache = folder.path() / "cache";
+    const std::string whole =
+        "document.getElementById('document').innerText.includes('it is 1') && "
+        "document.querySelector('figure .plot')";
+    const std::string at_rest =
+        "document.getElementById('stop').hidden && "
+        "document.querySelectorAll('[data-state=done]').length > 2";
+    const std::string pieces = "return [...document.querySelectorAll('.piece')].map(n => n.id + n.innerHTML).join()";
+    std::string first;
+    {
+        const Preview preview(file(), true, {}, cache);
+        Browser browser;
+        browser.open(preview.address());
+        ASSERT_TRUE(browser.comes(whole + " && " + at_rest));
+        first = browser.evaluate(pieces);
+    }
+    Browser browser;  // the page is of before for a second or two
+    const Preview preview(file(), true, {}, cache);
+    browser.open(preview.address());
+    ASSERT_TRUE(browser.comes(whole));
+    EXPECT_TRUE(browser.comes("document.querySelectorAll('[data-state=recalled]').length > 2"));
+    EXPECT_EQ(browser.evaluate(pieces), first);
+    EXPECT_TRUE(browser.comes("document.getElementById('state').innerText.startsWith('of the run before')"));
+    EXPECT_TRUE(
+        browser.comes("!document.getElementById('stop').hidden && "
+                      "document.getElementById('state').innerText === 'of the run before; running again' && "
+                      "document.querySelectorAll('[data-state=recalled]').length > 2"));
+    browser.evaluate("for (const node of document.querySelectorAll('.piece')) node.seen = true");
+    EXPECT_TRUE(browser.comes(at_rest));
+    EXPECT_EQ(browser.evaluate("return [...document.querySelectorAll('.piece')].filter(n => !n.seen).length"), "0");
+
+    std::string changed = slow;
+    changed.replace(changed.find("x = 20"), 6, "x = 21");
+    write(changed);
+    EXPECT_TRUE(shows(browser, "x is 21"));
+    EXPECT_TRUE(browser.comes("!document.getElementById('state').innerText.includes('before')"));
+}
+
+/// Changes made while the page is that of the run before, or while nobody looked, are not hidden by it.
+TEST_F(preview_memory, remembered_pages_do_not_hide_changes) {
+    const auto written = [&](const std::string& x) {
+        write(kHead + "-- %% id=slow\nlocal s = 0 for i = 1, 1e8 do s = s + 1 end\nprint(\"it is \" .. s)\n\n" +
+              "-- %% id=one\nlocal x = " + x + "\nprint(\"x is \" .. x)\n");
+    };
+    const fs::path cache = folder.path() / "cache";
+    const std::string at_rest = "document.getElementById('stop').hidden";
+    written("20");
+    {
+        const Preview preview(file(), true, {}, cache);
+        Browser browser;
+        browser.open(preview.address());
+        ASSERT_TRUE(shows(browser, "x is 20"));
+        ASSERT_TRUE(browser.comes(at_rest));
+    }
+    {
+        Browser browser;
+        const Preview preview(file(), true, {}, cache);
+        browser.open(preview.address());
+        ASSERT_TRUE(browser.comes("document.querySelectorAll('[data-state=recalled]').length === 2"));
+        written("21");
+        EXPECT_TRUE(shows(browser, "x is 21"));
+        EXPECT_EQ(browser.evaluate("return document.getElementById('document').innerText.includes('x is 20')"),
+                  "false");
+        EXPECT_TRUE(browser.comes(at_rest));
+    }
+    written("22");
+    Browser browser;  // the page is of before for a second or two
+    const Preview preview(file(), true, {}, cache);
+    keep_what_is_shown(browser);
+    browser.open(preview.address());
+    EXPECT_TRUE(shows(browser, "x is 22"));
+    EXPECT_EQ(browser.evaluate("return /x is 2[01]/.test(window.ever)"), "false");
+}
+
+TEST_F(preview_memory, a_run_behind_a_remembered_page_can_be_stopped) {
+    write(kHead + kFirst + "-- %% id=slow\nlocal s = 0 for i = 1, 3e8 do s = s + 1 end\nprint(\"ov\" .. \"er\")\n");
+    const fs::path cache = folder.path() / "cache";
+    {
+        const Preview preview(file(), true, {}, cache);
+        Browser browser;
+        browser.open(preview.address());
+        ASSERT_TRUE(
+            browser.comes("document.getElementById('document').innerText.includes('over') && "
+                          "document.getElementById('stop').hidden",
+                          60));
+    }
+    Browser browser;  // the page is of before for a second or two
+    const Preview preview(file(), true, {}, cache);
+    browser.open(preview.address());
+    ASSERT_TRUE(browser.comes("!document.getElementById('stop').hidden"));
+    EXPECT_TRUE(shows(browser, "over"));
+    browser.click("#stop");
+    EXPECT_TRUE(browser.comes("document.getElementById('stop').hidden"));
+    EXPECT_EQ(browser.evaluate("return document.getElementById('state').innerText"), "\"of the run before\"");
+    EXPECT_TRUE(shows(browser, "over"));
+}
+
+TEST_F(preview_memory, remembered_pages_are_not_shown_for_other_data) {
+    write("a\n1\n2\n", "numbers.csv");
+    write(kHead +
+          "-- %% id=one\nprint(\"last \" .. load(\"numbers.csv\").a[2])\n\n"
+          "-- %% id=slow\nlocal s = 0 for i = 1, 4e7 do s = s + 1 end\nprint(\"ov\" .. \"er\")\n");
+    const fs::path cache = folder.path() / "cache";
+    const auto open = [&](const std::string& shown, const std::string& not_shown) {
+        const Preview preview(file(), true, {}, cache);
+        Browser browser;
+        keep_what_is_shown(browser);
+        browser.open(preview.address());
+        EXPECT_TRUE(shows(browser, shown));
+        EXPECT_TRUE(shows(browser, "over"));
+        EXPECT_TRUE(browser.comes("document.getElementById('stop').hidden"));
+        EXPECT_EQ(browser.evaluate("return window.ever.includes('" + shown + "')"), "true");
+        EXPECT_EQ(browser.evaluate("return window.ever.includes('" + not_shown + "')"), "false");
+    };
+    open("last 2", "last 5");
+    write("a\n1\n5\n", "numbers.csv");
+    open("last 5", "last 2");
+}
+
+}  // namespace test_preview_memory
