@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-
 namespace dynlab::inline workflow {
 
 /// What a run, and the document of it, read: data files and pictures, by content, and which data files lie beside them

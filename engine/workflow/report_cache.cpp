@@ -1,5 +1,6 @@
 #include "workflow/report_cache.h"
 
+
 #include <vector>
 
 #include "data_io/values/cbor_values.h"
@@ -67,7 +68,8 @@ bool ReportCache::unchanged() const {
 
 void ReportCache::remember(const RunRecord& record) const {
     if (entry_.empty()) return;
-    cache_.remember(entry_, cbor_of(ReportFacts{digest_or_nothing(output_), inputs_read(record.files_read, script_folder_)}));
+    cache_.remember(entry_,
+                    cbor_of(ReportFacts{digest_or_nothing(output_), inputs_read(record.files_read, script_folder_)}));
 }
 
 }  // namespace dynlab::inline workflow
