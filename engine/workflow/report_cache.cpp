@@ -1,6 +1,5 @@
 #include "workflow/report_cache.h"
 
-
 #include <vector>
 
 #include "data_io/values/cbor_values.h"
