@@ -22,7 +22,7 @@ class page_memory : public testing::Test {
         set_script("-- %% id=one\nprint(1)\n");
         request.template_file = folder.path() / "report.md";
         request.output = "preview.html";
-        record.files_read = {(folder.path() / "d.csv").string()};
+        files = {folder.path() / "d.csv"};
         page.name = "analysis.lua", page.html["p1"] = "<p>one</p>", page.complaints = {"no such figure"};
     }
     ~page_memory() override { ::unsetenv("XDG_CACHE_HOME"); }
@@ -38,13 +38,13 @@ class page_memory : public testing::Test {
     TemporaryFolder folder;
     std::optional<PageMemory> memory;
     ReportRequest request;
-    RunRecord record;
+    std::vector<fs::path> files;
     PageContent page;
 };
 
 TEST_F(page_memory, gives_back_the_page_wherever_it_is_opened_from) {
     EXPECT_FALSE(knows());
-    memory->remember(request, record, page);
+    memory->remember(request, files, page);
     request.output = "/elsewhere/preview.html";
     request.template_file = folder.path() / "." / "report.md";
     const auto known = memory->recall(request);
@@ -55,7 +55,7 @@ TEST_F(page_memory, gives_back_the_page_wherever_it_is_opened_from) {
 }
 
 TEST_F(page_memory, knows_nothing_of_other_scripts_templates_seeds_and_data) {
-    memory->remember(request, record, page);
+    memory->remember(request, files, page);
     ASSERT_TRUE(knows());
     request.seed = 2;
     EXPECT_FALSE(knows());
@@ -72,9 +72,9 @@ TEST_F(page_memory, knows_nothing_of_other_scripts_templates_seeds_and_data) {
 }
 
 TEST_F(page_memory, keeps_one_page_of_a_document) {
-    memory->remember(request, record, page);
+    memory->remember(request, files, page);
     set_script("-- %% id=one\nprint(2)\n");
-    memory->remember(request, record, page);
+    memory->remember(request, files, page);
     EXPECT_TRUE(knows());
     EXPECT_EQ(entries(), 1);
     set_script("-- %% id=one\nprint(1)\n");
@@ -83,18 +83,18 @@ TEST_F(page_memory, keeps_one_page_of_a_document) {
 
 /// What `cat` says of such files: a folder that may not be read, a symbolic link to itself, nothing there.
 TEST_F(page_memory, does_without_where_files_cannot_be_read) {
-    memory->remember(request, record, page);
+    memory->remember(request, files, page);
     fs::remove(folder.path() / "d.csv");
     fs::create_symlink("d.csv", folder.path() / "d.csv");
     EXPECT_NO_THROW(EXPECT_FALSE(knows()));
-    EXPECT_NO_THROW(memory->remember(request, record, page));
+    EXPECT_NO_THROW(memory->remember(request, files, page));
     fs::remove(folder.path() / "d.csv");
     write("d.csv", "a\n1\n2\n");
-    memory->remember(request, record, page);
+    memory->remember(request, files, page);
     ASSERT_TRUE(knows());
     fs::rename(folder.path() / "report.md", folder.path() / "away.md");
     EXPECT_NO_THROW(EXPECT_FALSE(knows()));
-    EXPECT_NO_THROW(memory->remember(request, record, page));
+    EXPECT_NO_THROW(memory->remember(request, files, page));
     fs::rename(folder.path() / "away.md", folder.path() / "report.md");
     EXPECT_TRUE(knows());
 }
