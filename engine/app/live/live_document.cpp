@@ -103,6 +103,7 @@ void LiveDocument::follow() {
         if (page_is_old_ && !page_is_recalled_) set_page();
         wait_for_something();
         throw_if_interrupted();
+        if (end_) break;
         take_orders();
         for (const fs::path& file : watch_.changes()) {
             if (!is_ours(file)) continue;
