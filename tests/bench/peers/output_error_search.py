@@ -7,7 +7,8 @@ default settings. For each of these structures this program minimises the simula
 nothing of dynlab's answers: the poles (and the delay) are searched by scipy's least_squares, the numerator and a free
 start follow by linear least squares in each step (variable projection, Golub and Pereyra 1973). Poles are those of
 quadratics s^2 + a s + b with a, b > 0, which all stable polynomials are products of, and of one s + a where their number
-is odd. Inputs are held, simulation is exact at the samples, delays may lie between these.
+is odd. Inputs are held, simulation is exact at the samples, delays may lie between these. Models that swing faster than
+half the sampling frequency do not count.
 
 Prints the structures whose fit is lower than here by more than 0.05 points, and a line for every record.
 """
@@ -120,10 +121,15 @@ class Search:
         x = np.clip(x, np.array(lower) + 1e-9, np.array(upper) - 1e-9)
         return least_squares(self.residual, x, bounds=(lower, upper), max_nfev=steps, x_scale="jac", xtol=1e-10, ftol=1e-10)
 
+    def swings_beyond_samples(self, x):
+        """Poles above half the sampling frequency fit by what the samples do not show."""
+        return bool((np.abs(poles_of(x, self.n)[1].imag) > np.pi / self.Ts).any())
+
     def best_fit(self, generator):
         rough = [self.refined(self.random_start(generator), FIRST_STEPS) for _ in range(STARTS)]
         rough.sort(key=lambda found: found.cost)
-        cost = min(self.refined(found.x, LAST_STEPS).cost for found in rough[:POLISHED])
+        ends = [self.refined(found.x, LAST_STEPS) for found in rough[:POLISHED]]
+        cost = min((end.cost for end in ends if not self.swings_beyond_samples(end.x)), default=np.inf)
         return 100 * (1 - np.sqrt(2 * cost) / np.linalg.norm(self.y - self.y.mean()))
 
 
