@@ -70,7 +70,7 @@ TEST_F(preview_following, follows_pictures_and_literature) {
 
 /// While a run is on its way, what it has not given yet is no mistake of the text.
 TEST_F(preview_following, what_a_run_still_gives_is_not_complained_of) {
-    const std::string slow = "local s = 0 for i = 1, 4e7 do s = s + i end\n";
+    const std::string slow = "local s = 0 for i = 1, 3e8 do s = s + i end\n";
     write(kHead + "-- %% id=first\nreport.figure(\"both\", plot({1, 2}, {1, 4}), \"A figure\")\n" + slow +
           "\n-- %% id=second\n" + slow + "report.table(\"both\", {{\"a\"}, {\"1.5\"}})\n\n-- %% [markdown]\n" +
           "-- ![A figure](figure:both){#fig:both}\n--\n-- ::: {.table name=both #tbl:both}\n-- A table.\n-- :::\n--\n"
@@ -106,7 +106,7 @@ TEST_F(preview_following, a_long_call_shows_how_far_it_is) {
     write(kHead +
           "-- %% id=study\nlocal M = montecarlo{system = tf({2}, {1, 4, 3}), input = prbs(4, 100), Ts = 0.01, sigma = "
           "0.2, "
-          "runs = 20000, estimators = {{\"lssvf\", {2, 1, 0}, 3}}}\n");
+          "runs = 400000, estimators = {{\"lssvf\", {2, 1, 0}, 3}}}\n");
     const Preview preview(file());
     Browser browser;
     browser.open(preview.address());

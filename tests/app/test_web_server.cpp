@@ -67,6 +67,16 @@ TEST_F(web_server, lets_in_who_has_the_address) {
     EXPECT_EQ(page->body, "the page");
 }
 
+/// 127.0.0.2 leads to this machine, too, as its addresses in a network do.
+TEST_F(web_server, listens_at_one_address_of_this_machine_alone) {
+    ASSERT_EQ(status("/", ours()), 200);
+    for (const char* address : {"127.0.0.2", "::1"}) {
+        httplib::Client elsewhere(address, server.port());
+        elsewhere.set_connection_timeout(5, 0);
+        EXPECT_FALSE(elsewhere.Get("/", ours())) << address;
+    }
+}
+
 TEST_F(web_server, gives_nothing_to_others) {
     EXPECT_EQ(status("/", {}), 403);
     EXPECT_EQ(status("/events", {}), 403);

@@ -400,6 +400,7 @@ TEST(lesson_copies, mention_what_they_show) {
         const std::regex label(R"re(\{#((?:fig|tbl):\w+)|#(tbl:\w+)\})re");
         for (std::sregex_iterator at(copy.begin(), copy.end(), label), end; at != end; ++at) {
             const std::string name = (*at)[1].matched ? (*at)[1].str() : (*at)[2].str();
+            if (name == "tbl:name" || name == "fig:name") continue;  // how labels are written, at the beginning
             EXPECT_TRUE(std::regex_search(copy, std::regex("@" + name + "\\b"))) << lesson.slug << ' ' << name;
         }
     }
