@@ -65,7 +65,7 @@ TEST_F(preview_memory, is_whole_at_once_when_it_is_opened_again) {
 /// Changes made while the page is that of the run before, or while nobody looked, are not hidden by it.
 TEST_F(preview_memory, remembered_pages_do_not_hide_changes) {
     const auto written = [&](const std::string& x) {
-        write(kHead + "-- %% id=slow\nlocal s = 0 for i = 1, 3e8 do s = s + 1 end\nprint(\"it is \" .. s)\n\n" +
+        write(kHead + "-- %% id=slow\nlocal s = 0 for i = 1, 1e8 do s = s + 1 end\nprint(\"it is \" .. s)\n\n" +
               "-- %% id=one\nlocal x = " + x + "\nprint(\"x is \" .. x)\n");
     };
     const fs::path cache = folder.path() / "cache";
