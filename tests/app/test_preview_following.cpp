@@ -70,24 +70,24 @@ TEST_F(preview_following, follows_pictures_and_literature) {
 
 /// While a run is on its way, what it has not given yet is no mistake of the text.
 TEST_F(preview_following, what_a_run_still_gives_is_not_complained_of) {
-    const std::string slow = "local s = 0 for i = 1, 1e8 do s = s + i end\n";
-    write(kHead + "-- %% id=first\nreport.figure(\"both\", plot({1, 2}, {1, 4}), \"A figure\")\n" + slow +
-          "\n-- %% id=second\n" + slow + "report.table(\"both\", {{\"a\"}, {\"1.5\"}})\n\n-- %% [markdown]\n" +
-          "-- ![A figure](figure:both){#fig:both}\n--\n-- ::: {.table name=both #tbl:both}\n-- A table.\n-- :::\n--\n"
-          "-- See @fig:both and @tbl:both.\n");
+    const std::string slow = "local s = 0 for i = 1, 2e7 do s = s + i end\n";
+    write(kHead);
     const Preview preview(file());
     Browser browser;
     browser.devtools(
         "Page.addScriptToEvaluateOnNewDocument",
-        R"({"source": "window.ever = ''; new MutationObserver(() => { window.ever += )"
-        R"(document.getElementById('complaints')?.textContent ?? ''; }).observe(document, {childList: true, )"
-        R"(subtree: true});"})");
+        R"({"source": "window.ever = ''; window.half = false; new MutationObserver(() => { window.ever += )"
+        R"(document.getElementById('complaints')?.textContent ?? ''; window.half ||= !!document.querySelector( )"
+        R"('[data-cell=second][data-state=running]') && !!document.querySelector('figure .plot') && )"
+        R"(!document.querySelector('td'); }).observe(document, {childList: true, attributes: true, subtree: true});"})");
     browser.open(preview.address());
-    ASSERT_TRUE(
-        browser.comes("document.querySelector('[data-cell=second]')?.dataset.state === 'running' && "
-                      "document.querySelector('figure .plot')",
-                      30));
-    ASSERT_TRUE(browser.comes("document.querySelector('td')?.innerText === '1.5'", 30));
+    ASSERT_TRUE(browser.comes("document.getElementById('stop').hidden"));
+    write(kHead + "-- %% id=first\nreport.figure(\"both\", plot({1, 2}, {1, 4}), \"A figure\")\n" + slow +
+          "\n-- %% id=second\n" + slow + "report.table(\"both\", {{\"a\"}, {\"1.5\"}})\n\n-- %% [markdown]\n" +
+          "-- ![A figure](figure:both){#fig:both}\n--\n-- ::: {.table name=both #tbl:both}\n-- A table.\n-- :::\n--\n"
+          "-- See @fig:both and @tbl:both.\n");
+    ASSERT_TRUE(browser.comes("document.querySelector('td')?.innerText === '1.5'"));
+    EXPECT_EQ(browser.evaluate("return window.half"), "true");
     EXPECT_EQ(browser.evaluate("return window.ever"), "\"\"");
 }
 
@@ -104,13 +104,15 @@ TEST_F(preview_following, a_run_of_an_older_text_is_given_up) {
 }
 
 TEST_F(preview_following, a_long_call_shows_how_far_it_is) {
+    write(kHead);
+    const Preview preview(file());
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(browser.comes("document.getElementById('stop').hidden"));
     write(kHead +
           "-- %% id=study\nlocal M = montecarlo{system = tf({2}, {1, 4, 3}), input = prbs(4, 100), Ts = 0.01, sigma = "
           "0.2, "
           "runs = 400000, estimators = {{\"lssvf\", {2, 1, 0}, 3}}}\n");
-    const Preview preview(file());
-    Browser browser;
-    browser.open(preview.address());
     const std::string share = "Number(document.querySelector('[data-cell=study]')?.style.getPropertyValue('--done'))";
     ASSERT_TRUE(
         browser.comes("document.querySelector('[data-state=running]') && " + share + " > 0.001 && " + share + " < 1"));

@@ -21,12 +21,12 @@ void keep_what_is_shown(Browser& browser) {
 /// A page that was whole is whole at once when the document is opened again, and is that of a run all the same.
 TEST_F(preview_memory, is_whole_at_once_when_it_is_opened_again) {
     const std::string slow = kHead +
-                             "-- %% id=slow\nlocal s = 0 for i = 1, 1e8 do s = s + 1 end\nprint(\"it is \" .. s)\n\n" +
+                             "-- %% id=slow\nlocal s = 0 for i = 1, 5e7 do s = s + 1 end\nprint(\"it is \" .. s)\n\n" +
                              kFirst + kPlot;
     write(slow);
     const fs::path cache = folder.path() / "cache";
     const std::string whole =
-        "document.getElementById('document').innerText.includes('it is 1') && "
+        "document.getElementById('document').innerText.includes('it is 5') && "
         "document.querySelector('figure .plot')";
     const std::string at_rest =
         "document.getElementById('stop').hidden && "
@@ -40,8 +40,9 @@ TEST_F(preview_memory, is_whole_at_once_when_it_is_opened_again) {
         ASSERT_TRUE(browser.comes(whole + " && " + at_rest));
         first = browser.evaluate(pieces);
     }
-    Browser browser;  // the page is of before for a second or two
     const Preview preview(file(), true, {}, cache);
+    preview.hold();
+    Browser browser;
     browser.open(preview.address());
     ASSERT_TRUE(browser.comes(whole));
     EXPECT_TRUE(browser.comes("document.querySelectorAll('[data-state=recalled]').length > 2"));
@@ -52,6 +53,7 @@ TEST_F(preview_memory, is_whole_at_once_when_it_is_opened_again) {
                       "document.getElementById('state').innerText === 'of the run before; running again' && "
                       "document.querySelectorAll('[data-state=recalled]').length > 2"));
     browser.evaluate("for (const node of document.querySelectorAll('.piece')) node.seen = true");
+    preview.go_on();
     EXPECT_TRUE(browser.comes(at_rest));
     EXPECT_EQ(browser.evaluate("return [...document.querySelectorAll('.piece')].filter(n => !n.seen).length"), "0");
 
@@ -65,7 +67,7 @@ TEST_F(preview_memory, is_whole_at_once_when_it_is_opened_again) {
 /// Changes made while the page is that of the run before, or while nobody looked, are not hidden by it.
 TEST_F(preview_memory, remembered_pages_do_not_hide_changes) {
     const auto written = [&](const std::string& x) {
-        write(kHead + "-- %% id=slow\nlocal s = 0 for i = 1, 1e8 do s = s + 1 end\nprint(\"it is \" .. s)\n\n" +
+        write(kHead + "-- %% id=slow\nlocal s = 0 for i = 1, 5e7 do s = s + 1 end\nprint(\"it is \" .. s)\n\n" +
               "-- %% id=one\nlocal x = " + x + "\nprint(\"x is \" .. x)\n");
     };
     const fs::path cache = folder.path() / "cache";
@@ -79,27 +81,31 @@ TEST_F(preview_memory, remembered_pages_do_not_hide_changes) {
         ASSERT_TRUE(browser.comes(at_rest));
     }
     {
-        Browser browser;
         const Preview preview(file(), true, {}, cache);
+        preview.hold();
+        Browser browser;
         browser.open(preview.address());
         ASSERT_TRUE(browser.comes("document.getElementById('state').innerText.includes('of the run before')"));
         written("21");
+        preview.go_on();
         EXPECT_TRUE(shows(browser, "x is 21"));
         EXPECT_EQ(browser.evaluate("return document.getElementById('document').innerText.includes('x is 20')"),
                   "false");
         EXPECT_TRUE(browser.comes(at_rest));
     }
     written("22");
-    Browser browser;  // the page is of before for a second or two
     const Preview preview(file(), true, {}, cache);
+    preview.hold();
+    Browser browser;
     keep_what_is_shown(browser);
     browser.open(preview.address());
+    preview.go_on();
     EXPECT_TRUE(shows(browser, "x is 22"));
     EXPECT_EQ(browser.evaluate("return /x is 2[01]/.test(window.ever)"), "false");
 }
 
 TEST_F(preview_memory, a_run_behind_a_remembered_page_can_be_stopped) {
-    write(kHead + kFirst + "-- %% id=slow\nlocal s = 0 for i = 1, 3e8 do s = s + 1 end\nprint(\"ov\" .. \"er\")\n");
+    write(kHead + kFirst + "-- %% id=slow\nlocal s = 0 for i = 1, 5e7 do s = s + 1 end\nprint(\"ov\" .. \"er\")\n");
     const fs::path cache = folder.path() / "cache";
     {
         const Preview preview(file(), true, {}, cache);
@@ -110,12 +116,14 @@ TEST_F(preview_memory, a_run_behind_a_remembered_page_can_be_stopped) {
                           "document.getElementById('stop').hidden",
                           60));
     }
-    Browser browser;  // the page is of before for a second or two
     const Preview preview(file(), true, {}, cache);
+    preview.hold();
+    Browser browser;
     browser.open(preview.address());
     ASSERT_TRUE(browser.comes("!document.getElementById('stop').hidden"));
     EXPECT_TRUE(shows(browser, "over"));
     browser.click("#stop");
+    preview.go_on();
     EXPECT_TRUE(browser.comes("document.getElementById('stop').hidden"));
     EXPECT_EQ(browser.evaluate("return document.getElementById('state').innerText"), "\"of the run before\"");
     EXPECT_TRUE(shows(browser, "over"));

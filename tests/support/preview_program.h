@@ -50,11 +50,36 @@ class Preview {
         ::waitpid(process_, nullptr, 0);
         process_ = 0;
     }
+    /// The processes that run scripts stand still until `go_on`, however long a browser takes meanwhile.
+    void hold() const {
+        for (std::size_t held = 0;; held = runners().size()) {
+            for (const pid_t runner : runners()) ::kill(runner, SIGSTOP);
+            if (runners().size() == held) return;
+        }
+    }
+    void go_on() const {
+        for (const pid_t runner : runners()) ::kill(runner, SIGCONT);
+    }
     const std::string& address() const { return address_; }
     pid_t process() const { return process_; }
     TemporaryFolder out;
 
   private:
+    /// All that come from the program's process, the eldest first.
+    std::vector<pid_t> runners() const {
+        std::vector<pid_t> all = {process_};
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            std::error_code gone;
+            for (const auto& thread :
+                 std::filesystem::directory_iterator("/proc/" + std::to_string(all[i]) + "/task", gone)) {
+                std::ifstream children(thread.path() / "children");
+                for (pid_t child = 0; children >> child;) all.push_back(child);
+            }
+        }
+        all.erase(all.begin());
+        return all;
+    }
+
     pid_t process_ = 0;
     std::string address_;
 };

@@ -20,8 +20,7 @@
 namespace dynlab::inline app {
 
 /// A document that follows its script, its template, the data it reads, the pictures it shows and its literature. One
-/// thread works
-/// (`work`); orders come from others.
+/// thread works (`work`); orders come from others.
 class LiveDocument {
   public:
     /// `read` gives the document as it is now, and may throw; `runner` was made before the program had threads.

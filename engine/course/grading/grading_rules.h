@@ -118,8 +118,7 @@ class GradingRules {
     std::map<std::string, Specimens> specimens_;                 ///< of hidden records and reruns (CheckSession)
     std::set<std::string> reruns_, broken_;
     std::vector<std::string> declared_rigs_;
-    std::string
-        own_records_;  ///< hashes of the data sets that scripts find, and of the records in the instructor's folder
+    std::string own_records_;  ///< hashes of all data sets that scripts find, and of the instructor's records
     bool document_ = false;
     std::unique_ptr<std::counting_semaphore<>> free_cores_;  ///< for what runs in boxes
     TemporaryFolder records_;

@@ -6,8 +6,6 @@
 #include <algorithm>
 
 namespace dynlab::inline course {
-namespace {}  // namespace
-
 std::optional<double> percent_of(const std::vector<Criterion>& criteria, const CriterionPoints& points) {
     double sum = 0, most = 0;
     for (std::size_t c = 0; c < criteria.size(); ++c)
