@@ -1,5 +1,5 @@
 #pragma once
-#include "numerics/fit/transfer_search.h"
+#include "numerics/fit/search_aids.h"
 
 namespace dynlab::inline numerics {
 
@@ -20,8 +20,15 @@ namespace dynlab::inline numerics {
 /// as well where the passes do not settle, and its end is given if it lies lower. Non-convergence and doubtful results
 /// are told in `warnings`. Throws InvalidArgument for unsuitable data (check_transfer_data) or options. References:
 /// Young and Jakeman (1980); Young, Garnier and Gilson in Garnier and Wang (2008), chapter 4.
-/// `aids`: what is known already (fit/transfer_search.h).
+/// `aids`: what is known already.
 Fit srivc(const IdData& data, const TransferStructure& structure, const FitOptions& options = {},
           const SearchAids& aids = {});
+
+/// The passes alone, from their first estimate to where they settle or end. Throws InvalidArgument for unsuitable data.
+Fit srivc_by_passes(const IdData& data, const TransferStructure& structure, const FitOptions& options);
+
+/// Whether they give the whole answer: fixed delays, a start from rest without offset, one denominator for each output,
+/// no fixed parameters and no weights.
+bool srivc_passes_suffice(const TransferStructure& structure, const FitOptions& options);
 
 }  // namespace dynlab::inline numerics

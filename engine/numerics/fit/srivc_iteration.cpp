@@ -11,8 +11,10 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr int kCutoffs = 8;       // frequencies that best_cutoff_start tries
-constexpr int kTrialPasses = 4;   // passes after each of them
+constexpr int kCutoffs = 8;              // frequencies that best_cutoff_start tries
+constexpr int kTrialPasses = 4;          // passes after each of them
+constexpr Index kTrialSamples = 50'000;  // the start for a longer record is found on its beginning
+constexpr double kTrialTolerance = 1e-4;
 constexpr int kMostHalvings = 3;  // of a pass that raises the loss
 constexpr double kContractionLimit = 0.7;
 constexpr double kLeastContraction = 0.05;  // no pass is taken to leave a smaller part of the change before it
@@ -314,6 +316,18 @@ Vector best_cutoff_start(const IdData& data, const TransferStructure& structure,
 Vector first_estimate(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
     if (!options.lambda) return best_cutoff_start(data, structure, options);
     return lssvf_start(data, structure, *options.lambda, options.hold_y);
+}
+
+Vector start_from_rest(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
+    const auto start_of = [&](const IdData& record) {
+        const Vector theta = first_estimate(record, structure, options);
+        return theta.allFinite() ? theta : best_cutoff_start(record, structure, options);
+    };
+    if (data.sample_count() <= 2 * kTrialSamples) return start_of(data);
+    const IdData beginning = beginning_of(data, kTrialSamples);
+    const SrivcSolution trial = iterate_srivc(beginning, structure, start_of(beginning),
+                                              options.limited(options.max_iterations, kTrialTolerance));
+    return trial.termination == Termination::kConverged ? trial.theta : start_of(data);
 }
 
 }  // namespace dynlab::inline numerics

@@ -59,4 +59,8 @@ Vector best_cutoff_start(const IdData& data, const TransferStructure& structure,
 /// theta where a search begins: options.lambda's first estimate or the best of several cut-off frequencies.
 Vector first_estimate(const IdData& data, const TransferStructure& structure, const FitOptions& options);
 
+/// A start from rest for fixed delays: the first estimate at options.lambda or at the best of several cut-off
+/// frequencies, on the beginning of a long record.
+Vector start_from_rest(const IdData& data, const TransferStructure& structure, const FitOptions& options);
+
 }  // namespace dynlab::inline numerics

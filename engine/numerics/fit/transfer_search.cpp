@@ -18,8 +18,6 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kTrialSamples = 50'000;  // the start for a longer record is found on its beginning
-constexpr double kTrialTolerance = 1e-4;
 constexpr Index kNestedSamples = 100'000;  // poorer structures of longer records are not fitted
 constexpr double kClearly = 1.02;          // times the loss of an unstable model: less is no evidence for one
 
@@ -208,18 +206,6 @@ Fit or_from_sampled_starts(const IdData& record, const TransferStructure& struct
 }
 
 }  // namespace
-
-Vector start_from_rest(const IdData& data, const TransferStructure& structure, const FitOptions& options) {
-    const auto start_of = [&](const IdData& record) {
-        const Vector theta = first_estimate(record, structure, options);
-        return theta.allFinite() ? theta : best_cutoff_start(record, structure, options);
-    };
-    if (data.sample_count() <= 2 * kTrialSamples) return start_of(data);
-    const IdData beginning = beginning_of(data, kTrialSamples);
-    const SrivcSolution trial = iterate_srivc(beginning, structure, start_of(beginning),
-                                              options.limited(options.max_iterations, kTrialTolerance));
-    return trial.termination == Termination::kConverged ? trial.theta : start_of(data);
-}
 
 Fit search_transfer(const char* method, const IdData& data, const TransferStructure& structure, const FitOptions& given,
                     const SearchAids& aids) {

@@ -1,17 +1,7 @@
 #pragma once
-#include <vector>
-
-#include "numerics/fit/fit.h"
+#include "numerics/fit/search_aids.h"
 
 namespace dynlab::inline numerics {
-
-/// What is known before a search.
-struct SearchAids {
-    /// theta where the search begins, with the delays where they are free; found unless given.
-    Vector start = {};
-    std::vector<double> delays = {};      ///< s, of each channel: where the search for free ones begins
-    std::vector<const Fit*> poorer = {};  ///< of poorer structures under the same options; they are not fitted again
-};
 
 /// Output-error estimate under all options: offsets and operating points, start conditions tried where they are
 /// "auto" (smallest BIC), delays looked for on a grid when the structure has them free (delay_scan.h); the best
@@ -24,9 +14,5 @@ struct SearchAids {
 /// structure.
 Fit search_transfer(const char* method, const IdData& data, const TransferStructure& structure,
                     const FitOptions& options, const SearchAids& aids = {});
-
-/// A start from rest for fixed delays: the first estimate at options.lambda or at the best of several cut-off
-/// frequencies, on the beginning of a long record.
-Vector start_from_rest(const IdData& data, const TransferStructure& structure, const FitOptions& options);
 
 }  // namespace dynlab::inline numerics
