@@ -74,11 +74,11 @@ function keptLines(a, b) {
 function otherLines(text, own) {
   const theirs = text.split("\n"), mine = own.split("\n"), kept = keptLines(theirs, mine);
   const near = theirs.map((_, i) => !kept[i] || kept[i - 1] === false || kept[i + 1] === false);
-  const lines = [];
+  const lines = [], width = String(theirs.length).length;
   for (const [i, line] of theirs.entries()) {
     if (!near[i]) continue;
     if (lines.length > 0 && !near[i - 1]) lines.push("  …");
-    lines.push(`${kept[i] ? " " : "›"} ${i + 1}  ${line}`);
+    lines.push(`${kept[i] ? " " : "›"} ${String(i + 1).padStart(width)}  ${line}`);
   }
   if (lines.length > 0) return lines.join("\n");
   const { first } = commonLines(theirs, mine);
