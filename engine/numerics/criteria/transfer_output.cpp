@@ -192,6 +192,15 @@ bool TransferOutput::usable(const Vector& theta) const {
     return true;
 }
 
+void TransferOutput::keep_stable() {
+    constexpr double kLeastCoefficient = 1e-9;
+    stable_only_ = true;
+    // Necessary for stable poles, and bounds can be followed where rejected points cannot.
+    for (std::size_t d = 0; d < structure_.poles.size(); ++d)
+        lower_.segment(structure_.denominator_start(static_cast<Index>(d)), structure_.poles[d])
+            .setConstant(kLeastCoefficient);
+}
+
 void TransferOutput::fix(const std::map<std::string, double>& values) {
     const std::vector<std::string> names = structure_.parameter_names();
     for (const auto& [name, value] : values) {

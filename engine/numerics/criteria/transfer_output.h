@@ -42,7 +42,7 @@ class TransferOutput : public OutputErrorModel {
     void simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const override;
 
     /// Unstable models count as unusable, as those that grow beyond all bounds do.
-    void keep_stable() { stable_only_ = true; }
+    void keep_stable();
     /// Holds parameters of the structure at values (s), by name. Throws InvalidArgument for a name that it lacks.
     void fix(const std::map<std::string, double>& values);
     /// The samples of the first seconds of each experiment do not count: their rows are zero, in target() too.

@@ -13,7 +13,6 @@
 #include "numerics/fit/srivc_iteration.h"
 #include "numerics/fit/transfer_refinement.h"
 #include "numerics/linalg/decompositions.h"
-#include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/polynomial.h"
 #include "numerics/signals/correlation.h"
 
@@ -66,28 +65,6 @@ SampledModel fit_sampled(const IdData& data, const TransferStructure& structure,
     return {polynomial_from_roots(poles), solution.loss};
 }
 
-/// theta with these poles and this delay (s), the rest by least squares, and its loss.
-NestedSolution with_linear_part(const IdData& data, const TransferStructure& structure, const StartCondition& condition,
-                                const VectorView& A, double delay) {
-    TransferStructure at = with_fixed_delays(structure);
-    at.channels.front().delay = delay;
-    const TransferOutput model(at, condition, data, 0, shortest_record(data));
-    const Index n = A.size() - 1, rest = model.parameter_count() - n;
-    Vector point = Vector::Zero(model.parameter_count()), output;
-    point.head(n) = A.tail(n).cwiseQuotient(model.seconds().head(n));
-    Matrix sensitivities;
-    model.simulate(point, output, &sensitivities);
-    if (!sensitivities.allFinite()) return {};
-    const Vector y = model.target();
-    const LeastSquares linear = solve_least_squares(sensitivities.rightCols(rest), y);
-    const Index numerator = at.channels.front().zeros + 1;
-    Vector theta(at.parameter_count());
-    theta << A.tail(n), linear.solution.head(numerator).cwiseProduct(model.seconds().segment(n, numerator));
-    const double loss =
-        (y - sensitivities.rightCols(rest) * linear.solution).squaredNorm() / static_cast<double>(y.size());
-    return {structure.free_delays ? with_delays(structure, at, theta) : theta, loss, structure};
-}
-
 /// The errors of a fit, experiment by experiment.
 struct FitErrors {
     FitErrors(const IdData& data, const Fit& fit) : model(fit.structure, fit.start, data, 0, shortest_record(data)) {
@@ -99,6 +76,11 @@ struct FitErrors {
     TransferOutput model;
     Vector all;
 };
+
+bool is_far_beyond_chance(double chi_squared, Index freedom) {
+    const double count = static_cast<double>(freedom);
+    return chi_squared > count + kFarBeyondChance * std::sqrt(2 * count);
+}
 
 bool follow_input(const FitErrors& errors, const IdData& data, double delay) {
     const Index most = kLagsOfErrors + static_cast<Index>(std::ceil(delay / data.mean_step()));
@@ -119,8 +101,7 @@ bool follow_input(const FitErrors& errors, const IdData& data, double delay) {
     const double variance = errors.all.squaredNorm() / static_cast<double>(errors.all.size());
     if (!(variance > 0 && with_itself[0] > 0)) return false;
     const double sum = with_errors.dot(solve_semidefinite(gram, with_errors)) / variance;
-    const double count = static_cast<double>(lags);
-    return sum > count + kFarBeyondChance * std::sqrt(2 * count);
+    return is_far_beyond_chance(sum, lags);
 }
 
 bool change_quickly(const FitErrors& errors, std::size_t experiments) {
@@ -143,6 +124,19 @@ bool fast_errors_follow_input(const IdData& data, const Fit& fit) {
     const FitErrors errors(data, fit);
     return !errors.all.allFinite() || (change_quickly(errors, data.experiments.size()) &&
                                        follow_input(errors, data, fit.structure.delay(fit.theta, 0, 0)));
+}
+
+bool errors_are_coloured(const IdData& data, const Fit& fit) {
+    const FitErrors errors(data, fit);
+    if (!errors.all.allFinite()) return true;
+    Vector products = Vector::Zero(kLagsOfErrors + 1);
+    for (std::size_t e = 0; e < data.experiments.size(); ++e) {
+        const Vector own = errors.of(e);
+        if (own.size() <= 2 * kLagsOfErrors) return false;
+        products += lagged_products(own, own, kLagsOfErrors).tail(kLagsOfErrors + 1);
+    }
+    const double sum = static_cast<double>(errors.all.size()) * products.tail(kLagsOfErrors).squaredNorm();
+    return is_far_beyond_chance(sum / (products[0] * products[0]), kLagsOfErrors);
 }
 
 std::vector<Vector> sampled_starts(const IdData& data, const TransferStructure& structure, const Fit& found,

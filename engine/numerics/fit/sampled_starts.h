@@ -19,6 +19,9 @@ bool errors_follow_input(const IdData& data, const Fit& fit);
 /// such as those of a linear model of a nonlinear system, are nothing that a difference equation would mend.
 bool fast_errors_follow_input(const IdData& data, const Fit& fit);
 
+/// Whether the errors follow themselves: their autocorrelations of 20 lags (Box and Pierce 1970) are far beyond chance.
+bool errors_are_coloured(const IdData& data, const Fit& fit);
+
 /// theta of the structure (one input, one output, regular sampling), with its delay where it is free, best first, at
 /// most three: the poles those of difference equations z^-l B(z)/F(z) that were fitted to the output error
 /// (fit/instrument_iteration.h), numerator, initial values and offset by least squares, for a free delay at four points

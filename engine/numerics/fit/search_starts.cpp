@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numerics/criteria/transfer_output.h"
 #include "numerics/fit/delay_scan.h"
+#include "numerics/fit/diagnosis.h"
+#include "numerics/fit/srivc_iteration.h"
+#include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/polynomial.h"
 
 namespace dynlab::inline numerics {
@@ -14,6 +18,11 @@ constexpr double kWorse = 1e-9;             // relative; smaller differences are
 constexpr double kGained = 1e-4;            // relative; less is no reason for a richer structure
 constexpr double kAddedRoots[] = {5, 100};  // over the mean sampling time
 constexpr double kApart = 1.5;              // of one added root to the next
+constexpr int kPlaces = 12;                 // to which poles are moved
+constexpr double kSlowestPlace = 0.1;       // rad in the longest record
+constexpr double kMovedDamping = 0.1;
+constexpr std::size_t kMostExchanged = 4;
+constexpr Index kPlacedSamples = 10'000;  // on which the places are compared
 
 bool fewer_poles(TransferStructure& structure) {
     bool any = false;
@@ -37,6 +46,49 @@ bool fewer_zeros(TransferStructure& structure) {
         any = true;
     }
     return any;
+}
+
+/// Frequencies to which poles may be moved, rad/s, up to a radian a sample.
+std::vector<double> places_of_poles(const IdData& data) {
+    const double fastest = 1 / data.mean_step();
+    double slowest = fastest;
+    for (std::size_t e = 0; e < data.experiments.size(); ++e)
+        slowest = std::min(slowest, kSlowestPlace / data.duration(e));
+    std::vector<double> places;
+    for (int i = 0; i < kPlaces; ++i)
+        places.push_back(slowest * std::pow(fastest / slowest, static_cast<double>(i) / (kPlaces - 1)));
+    return places;
+}
+
+/// Whether a polynomial with real coefficients has these roots.
+bool has_whole_pairs(const ComplexVector& roots) {
+    return std::abs(roots.sum().imag()) <= 1e-9 * roots.cwiseAbs().sum();
+}
+
+/// What is left of poles in order of frequency, and what takes the place of the others: one pole, or a pair.
+struct PoleExchange {
+    Vector kept;
+    bool pair;
+};
+
+std::vector<PoleExchange> pole_exchanges(const ComplexVector& poles) {
+    const Index n = poles.size();
+    std::vector<PoleExchange> all;
+    const auto add = [&](const ComplexVector& kept, bool pair) {
+        if (has_whole_pairs(kept)) all.push_back({polynomial_from_roots(kept), pair});
+    };
+    for (Index i = 0; i < n; ++i) {
+        ComplexVector kept(n - 1);
+        kept << poles.head(i), poles.tail(n - 1 - i);
+        add(kept, false);
+    }
+    if (n >= 2) add(poles.tail(n - 2), true);
+    if (n > 2) add(poles.head(n - 2), true);
+    return all;
+}
+
+Vector moved_factor(bool pair, double w) {
+    return pair ? Vector{{1.0, 2 * kMovedDamping * w, w * w}} : Vector{{1.0, w}};
 }
 
 /// p times (s + root).
@@ -148,6 +200,52 @@ const NestedSolution& NestedSearch::best(const TransferStructure& structure) {
     for (const TransferStructure& poorer : poorer_structures(structure))
         if (const NestedSolution& less = best(poorer); (1 - kGained) * less.loss <= solution.loss) solution = less;
     return found_.emplace(std::move(key), std::move(solution)).first->second;
+}
+
+NestedSolution with_linear_part(const IdData& data, const TransferStructure& structure, const StartCondition& condition,
+                                const VectorView& A, double delay) {
+    TransferStructure at = with_fixed_delays(structure);
+    at.channels.front().delay = delay;
+    const TransferOutput model(at, condition, data, 0, shortest_record(data));
+    const Index n = A.size() - 1, rest = model.parameter_count() - n;
+    Vector point = Vector::Zero(model.parameter_count()), output;
+    point.head(n) = A.tail(n).cwiseQuotient(model.seconds().head(n));
+    Matrix sensitivities;
+    model.simulate(point, output, &sensitivities);
+    if (!sensitivities.allFinite()) return {};
+    const Vector y = model.target();
+    const LeastSquares linear = solve_least_squares(sensitivities.rightCols(rest), y);
+    const Index numerator = at.channels.front().zeros + 1;
+    Vector theta(at.parameter_count());
+    theta << A.tail(n), linear.solution.head(numerator).cwiseProduct(model.seconds().segment(n, numerator));
+    const double loss =
+        (y - sensitivities.rightCols(rest) * linear.solution).squaredNorm() / static_cast<double>(y.size());
+    return {structure.free_delays ? with_delays(structure, at, theta) : theta, loss, structure};
+}
+
+std::vector<Vector> exchanged_poles(const IdData& data, const TransferStructure& structure, const Fit& found) {
+    const double delay = structure.delay(found.theta, 0, 0);
+    ComplexVector poles = roots(structure.denominator(found.theta, 0, 0));
+    std::stable_sort(poles.begin(), poles.end(), [](Complex a, Complex b) { return std::abs(a) < std::abs(b); });
+    const IdData part = beginning_of(data, kPlacedSamples);
+    const std::vector<double> places = places_of_poles(part);
+    std::vector<NestedSolution> all;
+    for (const PoleExchange& exchange : pole_exchanges(poles)) {
+        std::vector<NestedSolution> tried;
+        for (const double w : places) {
+            const Vector A = multiply(exchange.kept, moved_factor(exchange.pair, w));
+            tried.push_back(with_linear_part(part, structure, found.start, A, delay));
+        }
+        for (std::size_t i = 0; i < tried.size(); ++i) {
+            const bool valley = tried[i].loss < kInfinity && (i == 0 || tried[i].loss < tried[i - 1].loss) &&
+                                (i + 1 == tried.size() || tried[i].loss <= tried[i + 1].loss);
+            if (valley) all.push_back(tried[i]);
+        }
+    }
+    std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.loss < b.loss; });
+    std::vector<Vector> starts;
+    for (std::size_t i = 0; i < std::min(kMostExchanged, all.size()); ++i) starts.push_back(all[i].theta);
+    return starts;
 }
 
 }  // namespace dynlab::inline numerics

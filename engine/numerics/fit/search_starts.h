@@ -8,7 +8,7 @@
 namespace dynlab::inline numerics {
 
 // Where a joint search for the smallest simulation error begins, besides its own starts: at solutions of poorer
-// structures.
+// structures, and at those found with poles exchanged for others.
 
 /// The structures that are a step poorer than one with fixed delays: a pole less in every denominator that has two, a
 /// zero less in every channel that has one, or both. Their models are limits of models of the structure.
@@ -63,5 +63,16 @@ class NestedSearch {
     AddedRoots added_;
     std::map<std::vector<int>, NestedSolution> found_;  // by poles and zeros
 };
+
+/// theta with the poles of the monic A and this delay (s; where it is free), for one input and one output: numerator,
+/// initial values and offset by least squares, and the loss. No theta where the simulation explodes.
+NestedSolution with_linear_part(const IdData& data, const TransferStructure& structure, const StartCondition& condition,
+                                const VectorView& A, double delay);
+
+/// theta of models of one input and one output in which one or two poles of `found`, a fit of the structure, have
+/// changed places: a real one for others, the two slowest or the two fastest for a pair of damping 0.1, each at twelve
+/// frequencies over the band that the record can show. The rest follows by least squares. Of each exchange the valleys
+/// of the loss over the frequency count; best first, at most four.
+std::vector<Vector> exchanged_poles(const IdData& data, const TransferStructure& structure, const Fit& found);
 
 }  // namespace dynlab::inline numerics

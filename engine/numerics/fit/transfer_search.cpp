@@ -193,14 +193,28 @@ Fit without_unheard_inputs(const IdData& record, const TransferStructure& struct
     return fit;
 }
 
-/// The fit, or a better one from the poles of difference equations where its errors tell that something is missing.
-Fit or_from_sampled_starts(const IdData& record, const TransferStructure& structure, Fit best,
+/// A search that has not settled goes on.
+Fit settled(const IdData& record, const TransferStructure& structure, Fit fit, const FitOptions& options) {
+    if (!options.goes_on || fit.termination != Termination::kIterationLimit) return fit;
+    return continued(fit, refine_output_error(record, structure, fit.start, fit.theta,
+                                              options.limited(kLastIterations, options.tolerance)));
+}
+
+/// The fit, or a better one where its errors tell that something is missing: from models with other poles, and from
+/// those of difference equations where the errors change quickly.
+Fit or_from_further_starts(const IdData& record, const TransferStructure& structure, Fit best,
                            const FitOptions& options) {
-    const bool suits = record.regular() && structure.inputs == 1 && structure.outputs == 1 && options.fixed.empty() &&
+    const bool suits = structure.inputs == 1 && structure.outputs == 1 && options.fixed.empty() &&
                        best.termination != Termination::kCancelled;
-    if (!suits || !fast_errors_follow_input(record, best)) return best;
-    const std::vector<Vector> starts = sampled_starts(record, structure, best, options);
+    if (!suits) return best;
+    std::vector<Vector> starts;
+    if (record.regular() && fast_errors_follow_input(record, best))
+        starts = sampled_starts(record, structure, best, options);
+    if (record.sample_count() <= kNestedSamples &&
+        (errors_are_coloured(record, best) || errors_follow_input(record, best)))
+        for (Vector& start : exchanged_poles(record, structure, best)) starts.push_back(std::move(start));
     if (starts.empty()) return best;
+    best = settled(record, structure, std::move(best), options);
     Fit other = refine_from(record, structure, best.start, starts, options);
     return other.loss < best.loss ? other : best;
 }
@@ -249,21 +263,23 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
         return fits.no_worse(structure, std::move(found), aids.poorer);
     };
     best = search(options, std::move(best));
-    if (aids.start.size() == 0) best = or_from_sampled_starts(record, structure, std::move(best), options);
+    const auto further = [&](const FitOptions& how, Fit found) {
+        return aids.start.size() > 0 ? found : or_from_further_starts(record, structure, std::move(found), how);
+    };
+    const Vector first_end = best.theta;
+    best = further(options, std::move(best));
     const bool unstable = std::any_of(best.models.begin(), best.models.end(), has_unstable_pole);
     if (!options.stable && unstable && best.termination != Termination::kCancelled) {
         FitOptions stable = options;
         stable.stable = true;
-        starts.push_back(best.theta);
-        if (Fit other = search(stable, {}); other.loss <= kClearly * best.loss) {
+        starts.insert(starts.end(), {first_end, best.theta});
+        if (Fit other = further(stable, search(stable, {})); other.loss <= kClearly * best.loss) {
             add_warning(other, "An unstable model has a loss " + number_text(100 * (1 - best.loss / other.loss), 2) +
                                    " % smaller, which is no evidence for it: `stable` = false gives it.");
             best = std::move(other);
         }
     }
-    if (options.goes_on && best.termination == Termination::kIterationLimit)
-        best = continued(best, refine_output_error(record, structure, chosen, best.theta,
-                                                   options.limited(kLastIterations, options.tolerance)));
+    best = settled(record, structure, std::move(best), options);
     best = without_unheard_inputs(record, structure, std::move(best), options);
     if (remove) add_operating_points(best, centred.removed);
     best.delay_grid = scan.delays;

@@ -7,11 +7,11 @@ namespace dynlab::inline numerics {
 /// "auto" (smallest BIC), delays looked for on a grid when the structure has them free (delay_scan.h); the best
 /// starts are refined jointly (transfer_refinement.h). The solution of a single output of up to 100,000
 /// samples is no worse than those that the same search finds for poorer structures (search_starts.h) and, where an
-/// initial state is estimated, for the zero state. Where the errors still follow the input, regularly sampled records
-/// of one input and one output are also searched from the poles of difference equations (sampled_starts.h). Where the
-/// options do not say, an unstable model is given only if it lowers the loss by 2 % and more. `method` begins messages
-/// of errors. Throws InvalidArgument as fit_output_error(), and for fixed parameters or weights that do not suit the
-/// structure.
+/// initial state is estimated, for the zero state. Where errors of one input and one output follow the input or
+/// themselves, the search is repeated with poles exchanged (search_starts.h) and, where they are fast and sampling is
+/// regular, from the poles of difference equations (sampled_starts.h). Where the options do not say, an unstable model
+/// is given only if it lowers the loss by 2 % and more. `method` begins messages of errors. Throws InvalidArgument as
+/// fit_output_error(), and for fixed parameters or weights that do not suit the structure.
 Fit search_transfer(const char* method, const IdData& data, const TransferStructure& structure,
                     const FitOptions& options, const SearchAids& aids = {});
 

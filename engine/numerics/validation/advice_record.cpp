@@ -175,9 +175,16 @@ bool has_slow_pole(const FittedRecord& fit, double turns) {
     return std::any_of(poles.begin(), poles.end(), [&](Complex p) { return std::abs(p) * duration < turns; });
 }
 
+/// The input moves the model alone: with a slow pole, a free motion from before the record is as good as a straight
+/// line.
+bool explains_from_rest(const FittedRecord& fit, double percent) {
+    if (fit.simulation.start.state == InitialState::kZero) return fit.simulation.fit_percent > percent;
+    return compare(fit.data, fit.model(), {InitialState::kZero, Offset::kEstimate}).fit_percent > percent;
+}
+
 /// What moves for so long is not seen behind a high-pass filter.
 bool is_integrator(const FittedRecord& fit) {
-    return has_slow_pole(fit, 1) && fit.simulation.fit_percent > 80;
+    return has_slow_pole(fit, 1) && explains_from_rest(fit, 80);
 }
 
 /// The window had not everything in it that the record has: a chirp begins slowly.

@@ -51,8 +51,9 @@ struct FittedRecord {
 /// window, from up to 16000 samples. Where its error wanders, where it explains less than half, has a very slow or
 /// unstable pole, or needs a free motion from before the record, a second one is fitted to input and output behind the
 /// same high-pass filter, which slow disturbances hardly pass, and taken unless it explains these worse by more than 5
-/// %. An integrator that explains 80 % is not doubted: it is not seen behind the filter either; nor is a model taken
-/// that explains the whole record worse than -50 %. Nothing when nothing can be fitted, or when cancelled.
+/// %. An integrator that explains 80 % from rest and a constant is not doubted: it is not seen behind the filter either
+/// (a free motion of it, though, is what a drift looks like); nor is a model taken that explains the whole record worse
+/// than -50 %. Nothing when nothing can be fitted, or when cancelled.
 std::optional<FittedRecord> fitted_record(const IdData& data, const std::function<bool()>& cancel);
 
 /// How far a signal wanders: the variance of its means over 20 parts of the record against what its correlation inside

@@ -88,6 +88,23 @@ TEST(sampled_starts, slow_errors_are_not_theirs) {
     }
 }
 
+// Oracle: white noise, and the same behind a filter with a pole at 0.5. Four standard deviations as above.
+TEST(sampled_starts, coloured_errors_are_told_from_white_ones) {
+    int false_alarms = 0;
+    for (std::uint32_t seed = 1; seed <= 50; ++seed) {
+        IdData data = slowly_sampled_record(0, 1);
+        const Fit fit = fit_from(data, with_free_delay(3, 1), true_values());
+        const Vector clean = data.experiments.front().y.col(0);
+        Vector noise = RandomStream(seed).normal(clean.size());
+        data.experiments.front().y = Matrix(clean + noise);
+        false_alarms += errors_are_coloured(data, fit) ? 1 : 0;
+        for (Index k = 1; k < noise.size(); ++k) noise[k] += 0.5 * noise[k - 1];
+        data.experiments.front().y = Matrix(clean + noise);
+        EXPECT_TRUE(errors_are_coloured(data, fit)) << seed;
+    }
+    EXPECT_LE(false_alarms, 1);
+}
+
 // Oracle: the noise of random systems to whose best model no filtered start leads.
 TEST(sampled_starts, slowly_sampled_systems_are_found_from_default_settings) {
     for (const std::uint32_t seed : {10'298U, 20'048U, 20'159U}) {

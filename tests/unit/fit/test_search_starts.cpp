@@ -5,7 +5,9 @@
 
 #include <cmath>
 
+#include "numerics/fit/transfer_refinement.h"
 #include "numerics/fit/transfer_search.h"
+#include "numerics/linalg/polynomial.h"
 #include "support/transfer_cases.h"
 
 namespace test_search_starts {
@@ -81,6 +83,52 @@ TEST(search_starts, richer_structures_never_fit_worse) {
                     }
             }
     }
+}
+
+// Oracle: the simulated system, whose numerator, free start and constant are linear in the output.
+TEST(search_starts, the_linear_part_follows_from_the_poles) {
+    const Vector u = prbs(8, 5), den = values({1, 0.8, 9}), num = values({2, 5});
+    const TransferFunction G(num, den, 0, 0.3);
+    const IdData whole{Matrix(lsim(G, u, 0.1)), Matrix(u), 0.1};
+    const auto fixed = TransferStructure::single(2, 1, 0.3);
+    const NestedSolution at_rest = with_linear_part(whole, fixed, {InitialState::kZero, false}, den, 0.3);
+    EXPECT_LT(relative_difference(at_rest.theta, values({0.8, 9, 2, 5})), 1e-8);
+    EXPECT_LT(at_rest.loss, 1e-16);
+    auto free = TransferStructure::single(2, 1);
+    free.free_delays = true;
+    IdData cut = whole.range(101, u.size());
+    cut.experiments.front().y.array() += 7;
+    const NestedSolution running = with_linear_part(cut, free, {InitialState::kEstimate, true}, den, 0.3);
+    EXPECT_LT(relative_difference(running.theta, values({0.8, 9, 2, 5, 0.3})), 0.1);
+}
+
+// Oracle: the simulated systems; in the fits one pole, or two, are far from where they belong.
+TEST(search_starts, exchanged_poles_lead_to_the_system) {
+    const Vector u = prbs(9, 7);
+    const auto least_loss_from = [&](const Vector& den, const Vector& wrong) {
+        const int n = static_cast<int>(den.size()) - 1;
+        const IdData data{Matrix(lsim(TransferFunction(values({1}), den), u, 0.1)), Matrix(u), 0.1};
+        Fit found;
+        found.structure = TransferStructure::single(n, 0);
+        found.start = {InitialState::kZero, false};
+        found.theta.resize(n + 1);
+        found.theta << wrong.tail(n), 1;
+        const std::vector<Vector> starts = exchanged_poles(data, found.structure, found);
+        EXPECT_LE(starts.size(), 4u);
+        double least = kInfinity, before = 0;
+        for (const Vector& start : starts) {
+            const Vector A = monic(start.head(n));
+            const double loss = with_linear_part(data, found.structure, found.start, A, 0).loss;
+            EXPECT_GE(loss, before) << "best first";
+            before = loss;
+            least = std::min(least, refine_output_error(data, found.structure, found.start, start, {}).loss);
+        }
+        return least;
+    };
+    const Vector swing = values({1, 0.1, 1.2});
+    EXPECT_LT(least_loss_from(values({1, 0.5}), values({1, 40})), 1e-12);
+    EXPECT_LT(least_loss_from(swing, values({1, 5, 4})), 1e-12);
+    EXPECT_LT(least_loss_from(multiply(swing, values({1, 3})), multiply(values({1, 30}), values({1, 7, 12}))), 1e-12);
 }
 
 }  // namespace test_search_starts

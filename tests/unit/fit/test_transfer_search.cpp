@@ -233,4 +233,54 @@ TEST(transfer_search, a_pole_more_fits_no_worse_where_the_poorer_model_is_found_
     EXPECT_LE(four.loss, three.loss * (1 + 1e-6));
 }
 
+// Oracle: all models of one pole from 0.01 to 1000 rad/s, each with its best gain, from rest. The systems swing, so
+// that the loss of one pole has a second minimum at a slow one.
+TEST(transfer_search, one_pole_for_a_swing_is_the_best_one_pole) {
+    constexpr double kTs = 0.02;
+    const Vector u = prbs(7, 12);
+    const std::vector<TransferFunction> systems{{values({1, 0}), values({1, 0.3, 25})},
+                                                {values({-1, 0}), values({1, 10.2, 27, 250})},
+                                                {values({1, 0}), values({1, 4, 29, 100})}};
+    for (const TransferFunction& G : systems) {
+        const Vector x = lsim(G, u, kTs);
+        const double size = std::sqrt((x.array() - x.mean()).square().mean());
+        const Vector y = x + 0.05 * size * RandomStream(1).normal(x.size());
+        double least = kInfinity;
+        for (int k = -32; k <= 48; ++k) {
+            const Vector one = lsim(TransferFunction(values({1}), values({1, std::pow(10, k / 16.0)})), u, kTs);
+            least = std::min(least, (y - one * (one.dot(y) / one.squaredNorm())).squaredNorm());
+        }
+        for (const InitialState state : {InitialState::kZero, InitialState::kEstimate}) {
+            FitOptions options;
+            options.initial_state = state;
+            const Fit fit =
+                search_transfer("test", IdData(Matrix(y), Matrix(u), kTs), TransferStructure::single(1, 0), options);
+            EXPECT_LE(fit.loss * static_cast<double>(y.size()), 1.001 * least) << G.den().transpose();
+        }
+    }
+}
+
+// Oracle: the losses of undamped and damped pairs of poles on a fine grid. The system is unstable, so that
+// the best stable model lies on the bound.
+TEST(transfer_search, the_best_stable_model_may_lie_on_the_bound) {
+    constexpr double kTs = 0.1;
+    const Vector u = prbs(8, 6).head(800);
+    const TransferFunction G(values({1}), values({1, -0.02, 0.04}));
+    const Vector x = lsim(G, u, kTs);
+    const Vector y = x + 0.05 * x.cwiseAbs().maxCoeff() * RandomStream(3).normal(x.size());
+    double least = kInfinity;
+    for (int i = 0; i <= 200; ++i)
+        for (const double damping : {0.0, 1e-4, 1e-3, 1e-2, 0.1}) {
+            const double w = 0.01 * std::pow(100.0, i / 200.0);
+            const Vector one = lsim(TransferFunction(values({1}), values({1, 2 * damping * w, w * w})), u, kTs);
+            least = std::min(least, (y - one * (one.dot(y) / one.squaredNorm())).squaredNorm());
+        }
+    FitOptions options;
+    options.stable = true;
+    const Fit fit =
+        search_transfer("test", IdData(Matrix(y), Matrix(u), kTs), TransferStructure::single(2, 0), options);
+    EXPECT_TRUE(fit.models[0].stable());
+    EXPECT_LE(fit.loss * static_cast<double>(y.size()), 1.001 * least);
+}
+
 }  // namespace test_transfer_search

@@ -336,6 +336,16 @@ TEST(advice, drift_is_told_with_its_size) {  // oracle: the line put in
     EXPECT_FALSE(advice.has("low_snr"));
 }
 
+TEST(advice, a_drift_that_a_slow_pole_could_run_out_from_is_told) {  // oracle: the lines put in
+    for (const double rise : {-2.0, 1.0}) {
+        Record r = record(21);
+        r.y += Vector::LinSpaced(1000, 0, rise);
+        const Advice advice = advise(r.data());
+        ASSERT_TRUE(advice.has("drift")) << codes(advice);
+        EXPECT_NEAR(advice.find("drift")->value, rise, 0.2);
+    }
+}
+
 TEST(advice, a_random_walk_is_told) {  // oracle: sums of seeded normal numbers
     Record r = record(18);
     double walk = 0;
