@@ -1,7 +1,11 @@
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 #include <atomic>
+#include <chrono>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include "numerics/linalg/side_by_side.h"
@@ -24,15 +28,17 @@ TEST(side_by_side, does_each_piece_once_also_within_another) {  // oracle: count
 
 TEST(side_by_side, a_waiting_thread_takes_up_no_other_piece) {  // oracle: a thread's own mark, set during its piece
     static thread_local bool busy = false;
+    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 8);  // also with fewer cores
+    tbb::task_arena arena(8);
     std::atomic<int> interrupted = 0;
-    side_by_side(40, [&](std::size_t) {
+    const auto piece = [&](std::size_t) {
         if (busy) ++interrupted;
         busy = true;
-        std::atomic<long> sum = 0;
-        side_by_side(20, [&](std::size_t j) { sum += static_cast<long>(j); });
-        EXPECT_EQ(sum, 190);
+        // Long enough for another thread to take up one of them, and for this one to wait for it.
+        side_by_side(3, [](std::size_t) { std::this_thread::sleep_for(std::chrono::milliseconds(1)); });
         busy = false;
-    });
+    };
+    arena.execute([&] { side_by_side(100, piece); });
     EXPECT_EQ(interrupted, 0);
 }
 
