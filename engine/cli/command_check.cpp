@@ -6,8 +6,6 @@
 #include "course/findings/findings_report.h"
 #include "course/findings/folder_check.h"
 #include "course/hand_ins/work_language.h"
-#include "documents/error.h"
-#include "documents/percent_script.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
 
@@ -32,15 +30,8 @@ std::shared_ptr<const SoughtNames> sought_by(const CheckArguments& words) {
 
 /// Findings of French work are told in French.
 SentenceCatalogue sentences_for(const fs::path& subject, const CheckResult& result) {
-    const bool folder = fs::is_directory(subject);
-    if ((folder ? language_of_work(subject) : result.language) != "fr") return {};
-    std::string lesson;
-    try {
-        if (folder) lesson = read_percent_script(subject / "analysis.lua").header.lesson;
-    } catch (const DocumentError&) {
-        // A script that cannot be read is a finding of its own.
-    }
-    return french_sentences(lesson);
+    const std::string language = fs::is_directory(subject) ? language_of_work(subject) : result.language;
+    return language == "fr" ? french_sentences(result.lesson) : SentenceCatalogue();
 }
 
 int check(const CheckArguments& words) {

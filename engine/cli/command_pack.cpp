@@ -26,12 +26,12 @@ struct PackArguments {
 
 /// Whether the PDF is a draft, in which ?? stands where something is missing.
 bool is_draft(const fs::path& pdf) {
-    static const std::regex kGap(
-        R"([(\[]?\?\?[)\],.;:]*)");  // nothing else than what may stand beside it in a sentence
+    // Beside signs and units, not behind a word as a doubled question mark is.
+    static const std::regex kGap(R"((^|[^A-Za-z?])\?\?([^?]|$))");
     try {
         for (const PdfPage& page : read_pdf_layout(pdf).pages)
             for (const PdfWord& word : page.words)
-                if (word.bold && std::regex_match(word.text, kGap)) return true;
+                if (!word.fixed_width && std::regex_search(word.text, kGap)) return true;
     } catch (const PdfRefusal&) {  // then it was not made here
     }
     return false;

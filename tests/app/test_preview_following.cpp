@@ -68,6 +68,19 @@ TEST_F(preview_following, follows_pictures_and_literature) {
     EXPECT_TRUE(browser.comes("document.body.innerText.includes('Circuits')"));
 }
 
+/// A picture that nobody can read is told of; the page goes on.
+TEST_F(preview_following, a_picture_that_cannot_be_read_does_not_end_the_page) {
+    fs::create_symlink("/proc/self/mem", file("rig.png"));  // a file whose reading fails, whoever reads
+    const std::string text = "-- ---\n-- title: A document\n-- ---\n\n-- %% [markdown]\n-- ![The rig](rig.png)\n--\n";
+    write(text + "-- Before.\n");
+    const Preview preview(file());
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(shows(browser, "Before."));
+    write(text + "-- After.\n");
+    EXPECT_TRUE(shows(browser, "After."));
+}
+
 /// While a run is on its way, what it has not given yet is no mistake of the text.
 TEST_F(preview_following, what_a_run_still_gives_is_not_complained_of) {
     const std::string slow = "local s = 0 for i = 1, 2e7 do s = s + i end\n";

@@ -208,6 +208,20 @@ TEST(check_command, a_folder_without_analysis_breaks_a_rule) {
     EXPECT_THAT(result.output, HasSubstr("report.md: "));
 }
 
+/// The language asks nothing of files that cannot be read.
+TEST(check_command, french_work_without_a_readable_analysis_is_told_of_it) {
+    const Workbench bench;
+    bench.write("mine/report.md", "---\ntitle: A\nlang: fr\n---\n\nLe gain.\n");
+    const ChildResult missing = bench.dynlab({"check", "mine"});
+    EXPECT_EQ(missing.exit_code, 1);
+    EXPECT_THAT(missing.output, HasSubstr("analysis.lua"));
+    EXPECT_THAT(missing.error_output, IsEmpty());
+    bench.shell("mkfifo mine/analysis.lua");
+    const ChildResult pipe = bench.shell("timeout 60 $DYNLAB check mine");
+    EXPECT_EQ(pipe.exit_code, 1) << pipe.error_output;
+    EXPECT_THAT(pipe.output, HasSubstr("analysis.lua"));
+}
+
 TEST(check_command, a_pdf_is_checked_by_itself_against_the_template_asked_for) {
     const Workbench bench;
     make_folder(bench);

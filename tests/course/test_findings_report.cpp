@@ -13,7 +13,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 CheckResult some_result() {
-    CheckResult result{"report.pdf", "lab_report", "en", 7, {"7 pages of at most 6", "unfilled slots"}, {}};
+    CheckResult result{"report.pdf", "lab_report", "en", "", 7, {"7 pages of at most 6", "unfilled slots"}, {}};
     result.findings = {{"language-mixed", Severity::kHint, 2, "", "A hint.", "Look at it."},
                        {"pages", Severity::kRule, 7, "", "It is long.", "Shorten it."},
                        {"answer-open", Severity::kRule, 9, "", "Another.", "Write."},

@@ -202,6 +202,14 @@ TEST(script_messages, a_reference_to_nothing_leaves_a_draft) {
     EXPECT_THAT(bench.shell("pdftotext A/report.pdf -").output, HasSubstr("As ?? shows, ?? s."));
     EXPECT_EQ(bench.dynlab({"report", "A"}).exit_code, 1) << "a draft is never up to date";
     EXPECT_THAT(bench.dynlab({"pack", "A"}).error_output, HasSubstr("report.pdf is a draft: ?? stands in it"));
+    bench.write("A/report.md", whole + "\nIt rose to k=`gain`{.value}m, or `gain`{.value}%.\n");
+    bench.dynlab({"report", "A"});
+    EXPECT_THAT(bench.dynlab({"pack", "A"}).error_output, HasSubstr("report.pdf is a draft: ?? stands in it"));
+    bench.write("A/report.md", whole + "\n**Why??** Who knows, and `a ?? b` is code.\n");
+    ASSERT_EQ(bench.dynlab({"report", "A"}).exit_code, 0);
+    EXPECT_THAT(bench.dynlab({"pack", "A"}).error_output, Not(HasSubstr("is a draft")));
+    bench.write("A/report.md", whole + "\nAs @fig:step shows, `gain`{.value} s.\n");
+    bench.dynlab({"report", "A"});
     const ChildResult checked = bench.dynlab({"check", "A"});
     EXPECT_EQ(checked.exit_code, 1);
     EXPECT_THAT(checked.output, HasSubstr("analysis-fails"));

@@ -62,6 +62,15 @@ TEST(shown_expressions, functions_of_the_script_s_own_are_not_taken_for_those_th
           "local a, sum = 1, print\nsum(2)", "function mean(x) return x end\nmean(2)"})
         EXPECT_EQ(with_shown_calls(code), code);
     EXPECT_EQ(printed("local r = {fit = 1, sum = 2}\nsum({1, 2})"), "3\n");
+    // Names of blocks that are closed, or not there yet, hide nothing.
+    EXPECT_EQ(printed("mean({1, 2, 3})\nfor _, mean in ipairs{1} do local a = mean end\nmean({3})"), "2\n3\n");
+    EXPECT_EQ(
+        printed("local function f(sum)\n  if sum then local std = 1 else return 2 end\n  return sum\nend\nsum({1, 2})"),
+        "3\n");
+    for (const char* code :
+         {"for _, fit in ipairs{print} do\n  fit(1)\nend", "local function g(fit)\n  fit(1)\nend",
+          "if true then\n  local sum = print\n  sum(1)\nend", "repeat\n  local mean = print\n  mean(1)\nuntil true"})
+        EXPECT_EQ(with_shown_calls(code), code);
 }
 
 TEST(shown_expressions, show_figures_too) {

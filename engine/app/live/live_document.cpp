@@ -36,7 +36,12 @@ fs::path place_of(const fs::path& file) {
 /// Empty where it cannot be read.
 std::string digest_of_picture(const fs::path& file) {
     std::error_code failure;
-    return fs::is_regular_file(file, failure) ? digest_of_file(file).hex() : std::string();
+    if (!fs::is_regular_file(file, failure)) return "";
+    try {
+        return digest_of_file(file).hex();
+    } catch (const EnvironmentError&) {
+        return "";
+    }
 }
 
 /// Entries of the run before stay until this one gives its own.

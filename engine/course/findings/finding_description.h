@@ -17,9 +17,10 @@ void describe(T& object, V& member) {
     member.null_if_empty("place", place), member("what", what), member("remedy", remedy);
 }
 
+/// Without the lesson, which programs know.
 template <Is<CheckResult> T, class V>
 void describe(T& object, V& member) {
-    auto& [subject, template_name, language, pages, checked, findings] = object;
+    auto& [subject, template_name, language, lesson, pages, checked, findings] = object;
     member("subject", subject), member.null_if_empty("template", template_name);
     member.null_if_empty("language", language), member.null_if_empty("pages", pages);
     member("checked", checked), member("findings", findings);

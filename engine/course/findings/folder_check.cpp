@@ -51,6 +51,7 @@ class FolderCheck {
         const std::optional<PercentScript> script = readable_script();
         const bool made = script && makes_report();
         if (script) {
+            result_.lesson = script->header.lesson;
             check_blanks(*script);
             if (made) {
                 const RunRecord run = record_from_json(read_file(record()));

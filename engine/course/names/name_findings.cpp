@@ -46,9 +46,8 @@ constexpr std::array<PlaceWords, 13> kPlaces = {{
     {"name-hidden", "where no reader sees it (outside of the page, in a hidden layer or in a part not shown)",
      "Take it out of the source; what is cut away or covered is still in the file."},
     {"name-in-metadata", "in the metadata",
-     "Make the PDF with dynlab report, or empty author, title and keywords in the properties of the document and of "
-     "its "
-     "figures."},
+     "Make the PDF with dynlab report, or empty author, title and keywords in the properties of the document "
+     "and of its figures."},
     {"name-in-attachment", "in an embedded file", "Save the PDF without embedded files."},
     {"name-in-annotation", "in a comment", "Delete the comments, or print them away into a new PDF."},
     {"name-in-form", "in a form's field", "Empty the field, or print the document into a new PDF."},

@@ -198,9 +198,9 @@ void Course::keep_files(const std::vector<fs::path>& files,
     };
     std::exception_ptr failure;
     {
-        const std::jthread keeper([&] {
+        const std::jthread keeper([&](const std::stop_token& stop) {
             try {
-                keep_in_batches(files, kept, tell);
+                keep_in_batches(files, kept, tell, stop);
             } catch (...) {
                 failure = std::current_exception();
                 tell(kGivenUp);
@@ -221,11 +221,11 @@ void Course::keep_files(const std::vector<fs::path>& files,
 
 /// So many at a time that they wait for the disk together.
 void Course::keep_in_batches(const std::vector<fs::path>& files, std::vector<KeptFile>& kept,
-                             const std::function<void(std::size_t)>& tell) const {
+                             const std::function<void(std::size_t)>& tell, const std::stop_token& stop) const {
     constexpr std::int64_t kMostTogether = 8 << 20;
     std::vector<std::string> contents;
     std::int64_t bytes = 0;
-    for (std::size_t i = 0; i < files.size(); ++i) {
+    for (std::size_t i = 0; i < files.size() && !stop.stop_requested(); ++i) {
         contents.push_back(read_file(files[i]));
         kept[i].bytes = static_cast<std::int64_t>(contents.back().size());
         bytes += kept[i].bytes;

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -60,7 +61,7 @@ class Course {
   private:
     std::string setting(const char* key);
     void keep_in_batches(const std::vector<std::filesystem::path>& files, std::vector<KeptFile>& kept,
-                         const std::function<void(std::size_t)>& tell) const;
+                         const std::function<void(std::size_t)>& tell, const std::stop_token& stop) const;
 
     std::filesystem::path folder_;
     Database database_;

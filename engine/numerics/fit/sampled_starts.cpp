@@ -91,7 +91,7 @@ bool follow_input(const FitErrors& errors, const IdData& data, double delay) {
         const auto own = errors.of(e);
         if (own.size() <= 2 * most) return false;
         const Vector u = data.experiments[e].u.col(0).array() - data.experiments[e].u.col(0).mean();
-        // Entry i pairs u(k + i - most) with the error at k.
+        // Entry i pairs u(k + L - i - most), L the entries' number, with the error at k; reversed, lags grow.
         with_errors += lagged_products(u, own, most).segment(1, lags).reverse();
         with_itself += lagged_products(u, u, lags).segment(lags, lags);
     }

@@ -46,8 +46,7 @@ Fit better_by_search(Fit estimate, const IdData& data, const FitOptions& options
     if (!(searched.loss < (settled ? 1 - kNoGain : 1) * estimate.loss)) return estimate;
     const std::string passes = std::to_string(estimate.trace.size()) + " passes";
     set_message(searched, (settled ? "SRIVC converged after " + passes +
-                                         " to a local minimum; the search from models with fewer "
-                                         "poles or zeros found this lower one: "
+                                         " to a local minimum; a further search found this lower one: "
                                    : "SRIVC had not settled after " + passes +
                                          "; this is the minimum of the output error, which they aim at: ") +
                               simulation_text(searched) + ".");

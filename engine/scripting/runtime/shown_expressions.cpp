@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "scripting/runtime/errors.h"
@@ -194,18 +195,41 @@ bool next_begins_statement(const std::string& code, const std::vector<LuaToken>&
     return word && begins_line(code, tokens, next) && !tokens[next].is("and") && !tokens[next].is("or");
 }
 
-/// Whether the script gives this name a meaning of its own.
-bool defines(const std::string& code, const std::vector<LuaToken>& tokens, std::string_view name) {
-    for (std::size_t i = 0; i < tokens.size(); ++i) {
-        if (tokens[i].text != name) continue;
-        if (i > 0 && tokens[i - 1].is("function")) return true;
+/// Whether the script has given this name a meaning of its own that holds at the token `place`: a local, a loop's
+/// variable or a parameter in a block that is still open there, or a global before it.
+bool has_own_meaning(const std::string& code, const std::vector<LuaToken>& tokens, std::string_view name,
+                     std::size_t place) {
+    std::vector<bool> blocks = {false};  // the open ones: whether they define the name
+    bool global = false, of_loop = false, in_parameters = false;
+    const auto close = [&] {
+        if (blocks.size() > 1) blocks.pop_back();
+    };
+    for (std::size_t i = 0; i < place; ++i) {
+        const LuaToken& token = tokens[i];
+        if (token.is("end") || token.is("until") || token.is("else") || token.is("elseif")) close();
+        if (token.is("do") || token.is("then") || token.is("repeat") || token.is("else") || token.is("function"))
+            blocks.push_back(std::exchange(of_loop, false));
+        if (token.is("function")) in_parameters = true;
+        if (token.is(")")) in_parameters = false;
+        if (token.text != name) continue;
         std::size_t first = i;  // of a list of names
         while (first > 1 && tokens[first - 1].is(",") && tokens[first - 2].kind == LuaToken::Kind::kName) first -= 2;
-        if (first > 0 && (tokens[first - 1].is("local") || tokens[first - 1].is("for"))) return true;
+        const auto behind = [&](const char* word) { return first > 0 && tokens[first - 1].is(word); };
         const bool assigned = i + 1 < tokens.size() && (tokens[i + 1].is("=") || tokens[i + 1].is(","));
-        if (assigned && begins_statement(code, tokens, first)) return true;
+        if (behind("function")) {
+            if (first > 1 && tokens[first - 2].is("local"))
+                blocks[blocks.size() - 2] = true;
+            else
+                global = true;
+        } else if (in_parameters || behind("local")) {
+            blocks.back() = true;
+        } else if (behind("for")) {
+            of_loop = true;
+        } else if (assigned && begins_statement(code, tokens, first)) {
+            global = true;
+        }
     }
-    return false;
+    return global || std::find(blocks.begin(), blocks.end(), true) != blocks.end();
 }
 
 }  // namespace
@@ -216,7 +240,7 @@ std::string with_shown_calls(const std::string& source) {
     for (std::size_t first = tokens.size(); first-- > 0;) {
         const auto names = kShownCalls.find(tokens[first].text);
         if (names == kShownCalls.end() || !begins_statement(source, tokens, first)) continue;
-        if (defines(source, tokens, names->first)) continue;
+        if (has_own_meaning(source, tokens, names->first, first)) continue;
         const std::optional<std::size_t> last = end_of_call(tokens, first);
         if (!last || !next_begins_statement(source, tokens, *last + 1)) continue;
         const std::size_t begin = tokens[first].begin, length = tokens[*last].end() - begin;
