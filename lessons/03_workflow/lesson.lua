@@ -200,8 +200,8 @@ report.value("linear_yic_fit", choice(V, "yic", -1).validation_fit, "%.1f")
 -- :::
 --
 -- The measures: the *fit* is $100\,(1 - \lVert y - \hat y\rVert/\lVert y - \bar y\rVert)$ % for the simulated output $\hat y$; $R_T^2 = 1 - \sigma_\varepsilon^2/\sigma_y^2$ is the
--- explained share of the variance; BIC is $\ln \sigma_\varepsilon^2 + n \ln(N)/N$ for $n$ parameters and $N$ samples, AIC the same with 2 in the place of $\ln N$; YIC (Young's
--- information criterion [@young2011]) is $\ln(\sigma_\varepsilon^2/\sigma_y^2) + \ln\bigl(\tfrac1n\sum_i \hat\sigma_i^2/\hat\theta_i^2\bigr)$: it grows with the relative variance of the parameters.
+-- explained share of the variance; BIC is $\ln V + d \ln(N)/N$ for the mean square $V$ of the errors, $d$ parameters and $N$ samples, AIC the same with 2 in the place of $\ln N$; YIC (Young's
+-- information criterion [@young2011]) is $\ln(\sigma_\varepsilon^2/\sigma_y^2) + \ln\bigl(\tfrac1d\sum_i \hat\sigma_i^2/\hat\theta_i^2\bigr)$: it grows with the relative variance of the parameters.
 --
 -- Read @tbl:linear_orders from simple to complicated and ask what each step gains. From one pole to two, and on to three poles and a zero,
 -- each new parameter adds points of fit on the record that the models have not seen. From there on nothing is gained: the best

@@ -67,6 +67,25 @@ TEST(handing_back, gives_platforms_what_they_import) {
     EXPECT_EQ(work.dynlab({"hand-back", "in"}).exit_code, 1);
 }
 
+// oracle: the French of the sentences that the program tells students, and the decimal comma
+TEST(handing_back, comments_are_in_the_language_of_the_feedback) {
+    const std::string unseen = "On a record that you have not seen, it falls short of full points.";
+    GradingBench bench(
+        kAnswers,
+        "check{id = 'x', points = 2.5, about = '" + unseen + "', test = function(a) return near(a.x, 42) end}\n",
+        kSolution);
+    Workbench& work = bench.bench();
+    bench.hand_in("Zoé_K_900002_assignsubmission_file_", "answer('x', 1)\n");
+    bench.hand_in("Anna_L_900003_assignsubmission_file_", "answer('x', 1)\n");
+    work.write("roster.csv", "id,name,moodle,language\n2,Zoé K,900002,fr\n3,Anna L,900003,en\n");
+    bench.grade({"--roster", "roster.csv"});
+    work.dynlab({"hand-back", "out", "--roster", "roster.csv"});
+    const std::string moodle = work.read("out/handed_back/moodle-grades.csv");
+    EXPECT_THAT(moodle, HasSubstr("\"0 points sur 2,5.\nSur un enregistrement que vous n'avez pas vu, cela n'atteint "
+                                  "pas tous les points. : 0 sur 2,5."));
+    EXPECT_THAT(moodle, HasSubstr("0 of 2.5 points.\n" + unseen + ": 0 of 2.5."));
+}
+
 // oracle: the text of the worked solution
 TEST(handing_back, model_answers_go_to_everybody_where_the_instructor_wants_it) {
     const std::string worked = std::string(kSolution) +

@@ -6,6 +6,8 @@ namespace {
 constexpr FeedbackWords kEnglishFeedback = {
     "Feedback for {}",
     "Lesson {}: **{} of {} points.**",
+    "{} of {} points.",
+    ": ",
     "{} of {}",
     "not graded yet",
     "Checks",
@@ -24,6 +26,8 @@ constexpr FeedbackWords kEnglishFeedback = {
 constexpr FeedbackWords kFrenchFeedback = {
     "Retour pour {}",
     "Leçon {} : **{} points sur {}.**",
+    "{} points sur {}.",
+    " : ",
     "{} sur {}",
     "pas encore noté",
     "Contrôles",

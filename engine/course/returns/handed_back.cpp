@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
+#include "course/findings/sentence_catalogue.h"
 #include "course/grading/feedback.h"
+#include "course/grading/feedback_words.h"
 #include "course/grading/grade.h"
 #include "course/grading/roster.h"
 #include "course/returns/mailing.h"
@@ -90,24 +92,49 @@ std::vector<MarkedStudent> marked_students(const HandBackRequest& request) {
     return all;
 }
 
+/// Numbers and sentences of a result in the language of its feedback.
+class ResultWords {
+  public:
+    explicit ResultWords(const nlohmann::json& result) {
+        const nlohmann::json& own = result.at("extra_data").at("dynlab");
+        french_ = own.value("language", "") == "fr";
+        if (french_) sentences_ = french_sentences(own.value("lesson", ""));
+    }
+
+    const FeedbackWords& words() const { return feedback_words(french_ ? "fr" : "en"); }
+    std::string told(const std::string& sentence) const { return sentences_.translated(sentence); }
+    std::string number(std::string points) const {
+        if (french_) std::replace(points.begin(), points.end(), '.', ',');
+        return points;
+    }
+    std::string share(const char* form, const std::string& points, const std::string& most) const {
+        return fmt::format(fmt::runtime(form), number(points), number(most));
+    }
+
+  private:
+    bool french_;
+    SentenceCatalogue sentences_;
+};
+
 /// What Moodle shows beside the grade: a line for each check that lacks points.
 std::string comments_on(const fs::path& marks, const MarkedStudent& student) {
     const fs::path file = marks / "results" / student.submission / "results.json";
     if (student.submission.empty() || !fs::exists(file)) return "";
-    std::string text = fmt::format("{} of {} points.", student.points, student.possible);
     try {
         const nlohmann::json result = parsed_json(read_file(file));
+        const ResultWords in(result);
+        std::string text = in.share(in.words().points, student.points, student.possible);
         for (const auto& test : result.at("tests")) {
             const double most = test.at("max_score"), earned = test.value("score", most);
             if (earned >= most) continue;
-            const std::string name = test.at("name"), said = test.at("output");
-            text += fmt::format("\n{}: {} of {}.{}{}", name, points_text(earned), points_text(most),
-                                said.empty() ? "" : " ", said);
+            const std::string name = in.told(test.at("name")), said = in.told(test.at("output"));
+            text += "\n" + name + in.words().colon + in.share(in.words().of, points_text(earned), points_text(most)) +
+                    "." + (said.empty() ? "" : " " + said);
         }
+        return text;
     } catch (const nlohmann::json::exception&) {
         throw EnvironmentError(fmt::format("{} is not a result that dynlab grade wrote", file.string()));
     }
-    return text;
 }
 
 /// What is written, into the folder handed_back.

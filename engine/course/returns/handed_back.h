@@ -21,8 +21,8 @@ struct HandedBack {
 /// Writes into `marks`/handed_back, from gradebook.csv and the feedback in `marks`:
 ///
 /// * moodle-grades.csv, a grading worksheet with what Moodle's import wants (Identifier, Grade, Last modified (grade)),
-///   the names, the maximum and comments; moodle-feedback.zip, see MoodleFeedback. The number of a participant is the
-///   roster's, or the one in the name of the submission's folder.
+///   the names, the maximum and comments, in the language of the feedback; moodle-feedback.zip, see MoodleFeedback. The
+///   number of a participant is the roster's, or the one in the name of the submission's folder.
 /// * canvas-grades.csv: Student, ID, SIS User ID (the roster's id), SIS Login ID (its mail), Section, the assignment.
 /// * mail.csv, see mailing_list, with points, possible and sha256 (of the feedback) besides; new is what changed since
 ///   the last time.
